@@ -27,11 +27,13 @@ pub(super) struct Reporter {
     clean: BTreeMap<String, [bool; SLOTS]>,
 }
 
-/// Mean heights in mm of each slot and, last, of the vehicle.
+/// Paint on a brush: mean heights in mm of each slot and, last, of the vehicle, on its whole head
+/// and at its tip, and the largest load that it can take besides.
 #[derive(Debug, Clone, Copy)]
 struct BrushLoad {
     head: [f64; SLOTS + 1],
     tip: [f64; SLOTS + 1],
+    most_load_mm: f64,
 }
 
 /// Share of the pigment at the tip, picked up from a surface, from which a brush is dirty: less
@@ -172,7 +174,7 @@ impl Reporter {
             session.brushes().map(|(name, spec)| (name.to_owned(), spec.clone())).collect();
         let mut states = Vec::with_capacity(specs.len());
         for (name, spec) in specs {
-            let BrushLoad { head, tip } = self.load(session, &name)?;
+            let BrushLoad { head, tip, most_load_mm } = self.load(session, &name)?;
             let amount_mm: f64 = head.iter().sum();
             let share = |whole: f64, part: f64| if whole > 0.0 { part / whole } else { 0.0 };
             let parts_of = |heights: &[f64; SLOTS + 1]| -> [f64; SLOTS] {
@@ -185,6 +187,7 @@ impl Reporter {
                 color: of_tip.or_else(|| self.colors.of_slots(&slots, &parts)),
                 tip_mm: tip.iter().sum(),
                 vehicle: share(amount_mm, head[SLOTS]),
+                most_load_mm,
                 name,
                 spec,
                 amount_mm,
@@ -195,24 +198,22 @@ impl Reporter {
     }
 }
 
-/// Paint on a brush, on its whole head and at its tip.
+/// Paint on a brush.
 fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, SessionError> {
-    let cell_mm = session.canvas().cell_mm();
-    let Some(paint) = session.brush_paint(name)? else {
-        return Ok(BrushLoad { head: [0.0; SLOTS + 1], tip: [0.0; SLOTS + 1] });
-    };
-    let (rows, cell_area) = paint_rows(session, name).unwrap_or((paint.height(), 1.0));
+    let clean =
+        BrushLoad { head: [0.0; SLOTS + 1], tip: [0.0; SLOTS + 1], most_load_mm: f64::INFINITY };
+    let Some(paint) = session.brush_paint(name)? else { return Ok(clean) };
+    // The head is the same on both surfaces.
+    let used = [SurfaceId::Canvas, SurfaceId::Palette].into_iter().find_map(|surface| {
+        Some((session.painting(surface)?, session.brush_id_on(name, surface)?))
+    });
+    let Some((painting, brush)) = used else { return Ok(clean) };
+    let (head, cell_mm) = (painting.head(brush), painting.cell_mm());
+    let (rows, cell_area) = (head.rows_with_paint().len(), head.paint_cell_area());
     let area = (paint.width() * rows).max(1) as f64 * cell_area;
-    let head = paint.totals().map(|total| total as f64 / area * mm_from_quanta(1, cell_mm));
-    Ok(BrushLoad { head, tip: TipLoad::of(&paint, rows, cell_mm, cell_area).amounts_mm })
-}
-
-/// Number of rows of a head that hold paint, and area of one of their cells in cells of the canvas,
-/// the same on both surfaces; `None` if it was never used.
-fn paint_rows(session: &PaintingSession, name: &str) -> Option<(usize, f64)> {
-    [SurfaceId::Canvas, SurfaceId::Palette].into_iter().find_map(|surface| {
-        let id = session.brush_id_on(name, surface)?;
-        let head = session.painting(surface)?.head(id);
-        Some((head.rows_with_paint().len(), head.paint_cell_area()))
+    Ok(BrushLoad {
+        head: paint.totals().map(|total| total as f64 / area * mm_from_quanta(1, cell_mm)),
+        tip: TipLoad::of(&paint, rows, cell_mm, cell_area).amounts_mm,
+        most_load_mm: painting.most_load_mm(brush, &paint),
     })
 }

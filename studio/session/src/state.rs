@@ -50,6 +50,8 @@ pub struct BrushState {
     pub parts: [f64; render::layer::SLOTS],
     /// Mean height of the paint at its tip, in mm: what it paints with now.
     pub tip_mm: f64,
+    /// Largest load that it can take besides, in mm; infinite for a brush that was never used.
+    pub most_load_mm: f64,
     /// sRGB of the mixture at its tip in an opaque film, or of the whole head if the tip is
     /// clean; `None` without pigment.
     pub color: Option<[u8; 3]>,

@@ -6,6 +6,9 @@ use super::tools::{Mode, Tools};
 use crate::files::FileRequest;
 use session::{Command, PaintingState};
 
+/// Height of paint, in mm, below which a brush is full: the smallest load that the panel offers.
+const LEAST_LOAD_MM: f64 = 0.02;
+
 /// Request of a panel.
 #[derive(Debug)]
 pub enum Request {
@@ -38,10 +41,18 @@ impl PanelContext<'_> {
     }
 
     /// Adds paint of a recipe with this share of medium to the selected brush, as high as set in
-    /// the tools, and selects the paint tool. What the brush holds stays on it until it is
-    /// washed.
+    /// the tools or as the brush can still take, and selects the paint tool. What the brush holds
+    /// stays on it until it is washed.
     pub fn load(&mut self, recipe: Recipe, vehicle: f64) {
-        let (brush, amount_mm) = (self.tools.brush.clone(), self.tools.load_mm);
+        let brush = self.tools.brush.clone();
+        let mut amount_mm = self.tools.load_mm;
+        let state = self.painting.brushes.iter().find(|state| state.name == brush);
+        // A full brush is sent the whole load, whose refusal names the way out.
+        if let Some(most_mm) = state.map(|state| state.most_load_mm)
+            && most_mm >= LEAST_LOAD_MM
+        {
+            amount_mm = amount_mm.min(most_mm);
+        }
         self.act(Action::Load(Load { brush, recipe, vehicle, amount_mm }));
         self.tools.mode = Mode::Paint;
     }

@@ -97,6 +97,8 @@ impl Outline {
             }
             painter.add(Shape::mesh(mesh));
         }
+        // The corners also covered the shadow there.
+        self.draw_shadow(painter, placement, cells);
         let line: Vec<Pos2> = edge.into_iter().map(point).collect();
         painter.add(Shape::closed_line(line, Stroke::new(1.5, Color32::from_gray(60))));
 

@@ -67,6 +67,21 @@ fn a_changed_shape_or_size_keeps_the_paint() {
 }
 
 #[test]
+fn the_label_follows_the_shape_but_not_a_name_of_the_painter() {
+    let mut harness = brushes();
+    click(&mut harness, "shape knife");
+    click(&mut harness, "knife 2");
+    click(&mut harness, "shape mop");
+    assert!(harness.query_by_label("round").is_none());
+    click(&mut harness, "Rename");
+    harness.event(Event::Text(" of hog".to_owned()));
+    harness.key_press(Key::Enter);
+    harness.run();
+    click(&mut harness, "shape fan");
+    assert_eq!(harness.query_all_by_label("mop of hog").count(), 1);
+}
+
+#[test]
 fn dragging_the_size_sends_one_request_at_the_end() {
     let mut harness = brushes();
     click(&mut harness, "knife");

@@ -90,6 +90,7 @@ fn brush(name: &str, shape: HeadShape, size_mm: f64, color: Option<[u8; 3]>) -> 
         spec: BrushSpec { shape, size_mm },
         amount_mm: if loaded { 0.4 } else { 0.0 },
         tip_mm: if loaded { 0.25 } else { 0.0 },
+        most_load_mm: if loaded { 1.5 } else { f64::INFINITY },
         vehicle: if loaded { 0.2 } else { 0.0 },
         parts: if loaded { parts } else { [0.0; SLOTS] },
         color,

@@ -26,9 +26,13 @@ fn pure(name: &str) -> Recipe {
     Recipe::from([(name.to_owned(), 1.0)])
 }
 
-fn load(name: &str) -> Request {
+fn of(name: &str) -> Load {
     let (brush, recipe) = ("round".to_owned(), pure(name));
-    act(Action::Load(Load { brush, recipe, vehicle: 0.15, amount_mm: 0.3 }))
+    Load { brush, recipe, vehicle: 0.15, amount_mm: 0.3 }
+}
+
+fn load(name: &str) -> Request {
+    act(Action::Load(of(name)))
 }
 
 #[test]
@@ -38,7 +42,7 @@ fn a_click_selects_a_tube_and_sends_nothing() {
     assert_eq!((harness.state().tools.tube, harness.state().tools.mode), (2, Mode::Squeeze));
     assert_requests(&mut harness, &[]);
     click(&mut harness, "Squeeze");
-    assert_eq!(harness.state().tools.mode, Mode::Paint, "a second click ends squeezing");
+    assert_eq!(harness.state().tools.mode, Mode::Squeeze, "the tube squeezes already");
 }
 
 #[test]
@@ -52,6 +56,16 @@ fn a_double_click_or_the_button_loads_the_selected_brush() {
     assert_eq!((harness.state().tools.tube, harness.state().tools.mode), (4, Mode::Paint));
     click(&mut harness, "Load brush");
     assert_requests(&mut harness, &[load("Ultramarine")]);
+}
+
+#[test]
+fn a_load_is_cut_to_what_the_brush_can_still_take() {
+    let mut harness = tubes();
+    harness.state_mut().tools.load_mm = 2.0;
+    click(&mut harness, "tube of Ultramarine");
+    click(&mut harness, "Load brush");
+    let sent = Load { amount_mm: 1.5, ..of("Ultramarine") };
+    assert_requests(&mut harness, &[act(Action::Load(sent))]);
 }
 
 #[test]

@@ -131,6 +131,11 @@ fn a_clean_brush_takes_up_wet_paint_and_no_dry() {
     }
 }
 
+fn most_load_mm(painting: &mut Painting, brush: BrushId) -> f64 {
+    let paint = painting.brush_paint(brush).unwrap();
+    painting.most_load_mm(brush, &paint)
+}
+
 #[test]
 fn a_brush_takes_what_it_can_hold_and_refuses_more() {
     let mut painting = on_cpu(bare(60, 60));
@@ -157,6 +162,11 @@ fn a_brush_takes_what_it_can_hold_and_refuses_more() {
         assert!(painting.load(brush, &recipe, vehicle, amount_mm).is_err(), "{recipe:?}");
     }
     assert_eq!(painting.brush_paint(brush).unwrap().totals(), clear, "a refused load changed it");
+    let most_mm = most_load_mm(&mut painting, brush);
+    assert!(painting.load(brush, &two, 0.0, most_mm * 1.001).is_err(), "more than {most_mm} mm");
+    painting.load(brush, &two, 0.0, most_mm * 0.999).unwrap();
+    let left_mm = most_load_mm(&mut painting, brush);
+    assert!(left_mm < 0.002 * most_mm, "{left_mm} of {most_mm} mm");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Brushes of a painting and the paint on them.
 
+use std::ops::Range;
+
 use super::failure::PaintingError;
 use super::state::{Brush, Painting};
 use crate::amount::{MAX_COLUMN, mm_from_quanta, quanta_from_mm};
@@ -47,19 +49,33 @@ impl Painting {
     ) -> Result<(), PaintingError> {
         let area = self.brushes[brush.0].head.paint_cell_area();
         let fresh = self.mixture(recipe, vehicle, amount_mm * area)?;
-        let Brush { id, cells, .. } = self.brushes[brush.0];
-        let mut paint = self.engine.brush_paint(id)?;
-        let rows = self.brushes[brush.0].head.rows_with_paint();
-        let filled = rows.start * cells.0..rows.end * cells.0;
-        let fullest = filled.clone().map(|index| paint.cell(index).volume()).max().unwrap_or(0);
-        let most_mm = mm_from_quanta(CAPACITY.saturating_sub(fullest), self.cell_mm) / area;
+        let mut paint = self.engine.brush_paint(self.brushes[brush.0].id)?;
+        let most_mm = self.most_load_mm(brush, &paint);
         if amount_mm > most_mm {
             return Err(PaintingError::Overloaded { amount_mm, most_mm });
         }
-        for index in filled {
+        for index in self.cells_with_paint(brush) {
             paint.set_cell(index, paint.cell(index).plus(&fresh));
         }
         self.change_brush(brush, &paint)
+    }
+
+    /// Largest amount, in mm, that [`Painting::load`] can add to a brush on which there is `paint`.
+    ///
+    /// # Panics
+    /// If there is no such brush, or `paint` does not have the cells of the head.
+    #[must_use]
+    pub fn most_load_mm(&self, brush: BrushId, paint: &Layer) -> f64 {
+        let volumes = self.cells_with_paint(brush).map(|index| paint.cell(index).volume());
+        let left = CAPACITY.saturating_sub(volumes.max().unwrap_or(0));
+        mm_from_quanta(left, self.cell_mm) / self.brushes[brush.0].head.paint_cell_area()
+    }
+
+    /// Indices of the cells of a head that hold paint.
+    fn cells_with_paint(&self, brush: BrushId) -> Range<usize> {
+        let Brush { head, cells, .. } = &self.brushes[brush.0];
+        let rows = head.rows_with_paint();
+        rows.start * cells.0..rows.end * cells.0
     }
 
     /// Fraction of each slot and, last, of vehicle in a mixture.

@@ -133,6 +133,7 @@ impl BrushList {
             return;
         }
         let name = cx.tools.brush.clone();
+        self.follow_shape(entry, spec.shape, cx.painting);
         // A second request before the worker reported: keep the paint of the first.
         let before = self.brushes[entry].requested.take();
         let paint = match before {
@@ -147,17 +148,32 @@ impl BrushList {
         }
     }
 
-    /// Returns a name that no brush of painting or list has: `flat`, `flat 2`, ..
+    /// Labels a brush by its new shape, unless it has a label of the painter's.
+    fn follow_shape(&mut self, entry: usize, shape: HeadShape, painting: &PaintingState) {
+        let label = stem(&self.brushes[entry].label);
+        let is_shape = HeadShape::ALL.iter().any(|known| known.name() == label);
+        if is_shape && label != shape.name() {
+            self.brushes[entry].label = self.free_name(shape.name(), painting);
+        }
+    }
+
+    /// Returns a name that no brush of painting or list has, and no label: `flat`, `flat 2`, ..
     fn free_name(&self, base: &str, painting: &PaintingState) -> String {
         let exists = |name: &str| {
-            self.position(name).is_some() || painting.brushes.iter().any(|brush| brush.name == name)
+            self.brushes.iter().any(|entry| entry.name == name || entry.label == name)
+                || painting.brushes.iter().any(|brush| brush.name == name)
         };
-        let stem = match base.rsplit_once(' ') {
-            Some((stem, number)) if number.parse::<u32>().is_ok() => stem,
-            _ => base,
-        };
+        let stem = stem(base);
         let numbered = (2..).map(|number| format!("{stem} {number}"));
         let mut names = std::iter::once(stem.to_owned()).chain(numbered);
         names.find(|name| !exists(name)).expect("there is always a free number")
+    }
+}
+
+/// A name without its number.
+fn stem(name: &str) -> &str {
+    match name.rsplit_once(' ') {
+        Some((stem, number)) if number.parse::<u32>().is_ok() => stem,
+        _ => name,
     }
 }

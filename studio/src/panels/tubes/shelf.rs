@@ -110,12 +110,13 @@ impl Tubes {
                 load(cx, slot);
             }
             let squeezing = cx.tools.mode == Mode::Squeeze;
-            let tip = "While on, a click on palette or canvas squeezes this tube";
+            let tip =
+                "A click on palette or canvas squeezes this tube, until another tool is chosen";
             ui.add_enabled_ui(empty.is_none(), |ui| {
-                let toggle = ui.add(Button::new("Squeeze").selected(squeezing));
-                let toggle = toggle.on_hover_text(tip);
-                if toggle.on_disabled_hover_text("the slot is empty").clicked() {
-                    cx.tools.mode = if squeezing { Mode::Paint } else { Mode::Squeeze };
+                let button = ui.add(Button::new("Squeeze").selected(squeezing));
+                let button = button.on_hover_text(tip);
+                if button.on_disabled_hover_text("the slot is empty").clicked() {
+                    cx.tools.mode = Mode::Squeeze;
                 }
             });
             if button(ui, "Tubes...", "Chooses which pigments are on the palette", None) {

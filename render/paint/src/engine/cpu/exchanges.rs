@@ -35,14 +35,15 @@ impl Exchanges {
         self.found.resize(columns.len(), Exchange { down: 0, up: 0 });
         let penetrations = step.penetration.row(y, columns.start, columns.len());
         let coats = step.penetration.coats(y, columns.start, columns.len());
+        // A copy, which the loop need not load again after each store.
+        let rates = step.contact.rates;
         let heads = penetrations.iter().zip(coats);
         let volumes = volumes.iter().zip(&self.brush_volumes).zip(&self.leaving);
         let inputs = touches.iter().zip(heads).zip(volumes);
         for (found, ((&touch, (&penetration, &coat)), volumes)) in self.found.iter_mut().zip(inputs)
         {
             let ((&canvas, &brush), &leaving) = volumes;
-            *found =
-                exchange(&step.contact.rates, touch, penetration, coat, canvas, brush, leaving);
+            *found = exchange(&rates, touch, penetration, coat, canvas, brush, leaving);
         }
     }
 }

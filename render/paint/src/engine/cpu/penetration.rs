@@ -105,7 +105,8 @@ impl PenetrationMap {
         (wet, bed): (&Columns, &Bed),
         head: &HeadPaint,
     ) {
-        let rect = contact.rect;
+        // A copy, which the loop need not load again after each store.
+        let (rect, rates) = (contact.rect, contact.rates);
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
             let below_head = |touch: &Touch| touch.height != Touch::NONE.height;
             let Some(from) = touches.iter().position(below_head) else { continue };
@@ -129,8 +130,8 @@ impl PenetrationMap {
             for ((here, covered), (((&touch, paint), &bed), &mean)) in
                 found.iter_mut().zip(coats).zip(inputs)
             {
-                *covered = coat(&contact.rates, touch, mean);
-                *here = penetration(&contact.rates, touch, paint, bed, *covered);
+                *covered = coat(&rates, touch, mean);
+                *here = penetration(&rates, touch, paint, bed, *covered);
             }
             let touching = |penetration: &i32| *penetration != NO_CONTACT;
             let Some(first) = found.iter().position(touching) else { continue };
@@ -295,7 +296,7 @@ impl PenetrationMap {
     /// Flows into the cells from `place` on, each from the cell `stride` before it.
     #[inline(always)]
     fn flows(&self, motion: &MotionConstants, place: usize, stride: usize, found: &mut [i32]) {
-        let count = found.len();
+        let (motion, count) = (*motion, found.len());
         let tops = |first: usize| &self.tops[first..][..count];
         let pressures = |first: usize| &self.pressures[first..][..count];
         let before = tops(place - 2 * stride).iter();
@@ -305,7 +306,7 @@ impl PenetrationMap {
         let columns = before.zip(here).zip(next).zip(beyond);
         for (found, (((&before, here), next), &beyond)) in found.iter_mut().zip(columns) {
             let column = |(&top, &pressure): (&i32, &i32)| Column { top, pressure };
-            *found = flow(motion, before, column(here), column(next), beyond);
+            *found = flow(&motion, before, column(here), column(next), beyond);
         }
     }
 }

@@ -68,6 +68,8 @@ impl Velocities {
         let Self { x, mobile, near, touches, in_x, in_y: [above, below], .. } = self;
         step.penetration.flows_in_x(step.motion, (columns.start, y), in_x);
         let depths = step.penetration.row(y, columns.start, columns.len());
+        // Copies, which the loop need not load again after each store.
+        let (rates, motion) = (step.contact.rates, *step.motion);
         let from = columns.start - step.reach.x;
         let in_y = above[from..].iter().zip(&below[from..]);
         let flows = in_x.iter().zip(&in_x[1..]).zip(in_y);
@@ -75,10 +77,10 @@ impl Velocities {
         let found = x.iter_mut().zip(&mut self.y).zip(mobile);
         for (((x, y), mobile), ((((&touch, &depth), &volume), flows), &near)) in found.zip(inputs) {
             let ((&left, &right), (&above, &below)) = flows;
-            let head = dragged(&step.contact.rates, touch, depth, volume);
+            let head = dragged(&rates, touch, depth, volume);
             *x = velocity(head.0, volume, left, right);
             *y = velocity(head.1, volume, above, below);
-            *mobile = mobile_share(step.motion, volume) & near;
+            *mobile = mobile_share(&motion, volume) & near;
         }
         self.in_y.swap(0, 1);
         self.keep_on_canvas(&columns, step.bounds, y);

@@ -1,6 +1,7 @@
 //! The buffers that hold paint on the device, and copies to and from them.
 
 use crate::layer::{Layer, SLOTS};
+use crate::motion::bed::{BLOCK, NO_BED};
 use graphics::field::Field;
 use graphics::gpu::{Buffer, Device, DeviceError, Rows};
 use graphics::tile::Rect;
@@ -120,4 +121,12 @@ impl SubStepBuffers {
             moved: buffer(48)?,
         })
     }
+}
+
+/// The buffer of the floor and of a bed that was never noted.
+pub(super) fn floor_buffer(device: &mut Device, floor: &Field<i32>) -> Result<Buffer, DeviceError> {
+    let blocks = floor.width().div_ceil(BLOCK) * floor.height().div_ceil(BLOCK);
+    let mut values = floor.values().to_vec();
+    values.resize(values.len() + blocks, NO_BED);
+    device.buffer_of("the ground", &values)
 }

@@ -1,15 +1,16 @@
 //! The state of a painting on a graphics device, and what changes it.
 
-use super::buffers::{BrushBuffers, PIGMENT_BYTES, PaintBuffers, SubStepBuffers};
+use super::buffers::{BrushBuffers, PIGMENT_BYTES, PaintBuffers, SubStepBuffers, floor_buffer};
 use super::drying::{self, DryParams};
 use super::render::{CanvasBuffers, ViewBuffers};
 use super::sub_step::{self, BedParams, SubStepParams, WickParams};
+use super::tops::Tops;
 use super::undo_tiles::{UNDO_TILE, UndoTileParams, UndoTiles};
 use crate::contact::{Contact, Touch, Wicking};
 use crate::engine::ids::{BrushId, UndoSlot, View};
 use crate::layer::Layer;
 use crate::motion::MotionConstants;
-use crate::motion::bed::{BLOCK, NO_BED};
+use crate::motion::bed::BLOCK;
 use crate::optics::Scene;
 use graphics::field::Field;
 use graphics::gpu::{Adapter, Buffer, Device, DeviceError, Kernel, Recording, Rows, groups};
@@ -40,6 +41,7 @@ pub struct GpuPaint {
     /// Dry layers, lowest first.
     dry: Vec<PaintBuffers>,
     undo_tiles: UndoTiles,
+    tops: Tops,
     /// By [`View`].
     views: [Option<ViewBuffers>; 2],
 }
@@ -67,6 +69,7 @@ impl GpuPaint {
             sub_step: SubStepBuffers::new(&device, 1)?,
             dry: Vec::new(),
             undo_tiles: UndoTiles::default(),
+            tops: Tops::new(bounds),
             views: [None, None],
             device,
         })
@@ -145,6 +148,7 @@ impl GpuPaint {
         let size = (paint.width(), paint.height());
         assert_eq!(size, (rect.width, rect.height), "paint must cover {rect:?}");
         let rows = self.canvas_rows(rect);
+        self.tops.change(rect);
         self.wet.upload(&mut self.device, rows, paint)
     }
 
@@ -229,8 +233,9 @@ impl GpuPaint {
         shown: &TileSet,
     ) -> Result<(), DeviceError> {
         let (view, size) = (self.view_buffers(view)?, self.canvas_size());
-        let Self { recording, wet, floor, dry, .. } = self;
-        view.record(recording, &CanvasBuffers { size, wet, floor, dry }, scene, baked, shown);
+        let Self { device, recording, wet, floor, dry, tops, .. } = self;
+        let tops = &tops.record(device, recording, wet, floor)?;
+        view.record(recording, &CanvasBuffers { size, wet, tops, dry }, scene, baked, shown);
         self.submit()
     }
 
@@ -284,6 +289,7 @@ impl GpuPaint {
         let head = &self.brushes[brush.0];
         check_contact(contact, self.bounds, head.cell_count());
         let region = contact.rect.grown(2, self.bounds);
+        self.tops.change(region);
         let cells = region.width * region.height;
         if self.sub_step.cells < cells {
             // 1.5 times what is needed, so that a growing contact seldom reallocates.
@@ -345,6 +351,9 @@ impl GpuPaint {
         };
         let buffers = [&self.wet.pigments, &self.wet.vehicle, &saved.pigments, &saved.vehicle];
         let over = [groups(TILE), groups(TILE), 1];
+        if swap {
+            self.tops.change(rect);
+        }
         self.recording.dispatch(&UNDO_TILE, &params, &buffers, over);
         self.submit_if_full()
     }
@@ -354,6 +363,7 @@ impl GpuPaint {
         let buffers =
             [&self.floor, &layer.pigments, &layer.vehicle, &self.wet.pigments, &self.wet.vehicle];
         let over = [groups(self.bounds.width), groups(self.bounds.height), 1];
+        self.tops.change_all();
         self.recording.dispatch(kernel, &params, &buffers, over);
     }
 
@@ -371,14 +381,6 @@ impl GpuPaint {
         self.views[view as usize] = Some(buffers.clone());
         Ok(buffers)
     }
-}
-
-/// The buffer of the floor and of a bed that was never noted.
-fn floor_buffer(device: &mut Device, floor: &Field<i32>) -> Result<Buffer, DeviceError> {
-    let blocks = floor.width().div_ceil(BLOCK) * floor.height().div_ceil(BLOCK);
-    let mut values = floor.values().to_vec();
-    values.resize(values.len() + blocks, NO_BED);
-    device.buffer_of("the ground", &values)
 }
 
 fn as_u32(rect: Rect) -> [u32; 4] {

@@ -1,6 +1,6 @@
 //! The list of all kernels of the paint engine.
 
-use super::{drying, render, sub_step, undo_tiles};
+use super::{drying, render, sub_step, tops, undo_tiles};
 use graphics::gpu::Kernel;
 
 /// Every kernel that painting on a device runs, for tests that validate them.
@@ -18,7 +18,7 @@ pub fn kernels() -> Vec<&'static Kernel> {
         &undo_tiles::UNDO_TILE,
         &render::PRIME,
         &render::BAKE,
-        &render::RAISE,
+        &tops::RAISE,
         &render::SHOW,
     ]
 }

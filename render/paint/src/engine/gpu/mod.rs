@@ -14,6 +14,8 @@ mod undo_tiles;
 
 mod render;
 
+mod tops;
+
 mod kernels;
 
 mod gpu_paint;

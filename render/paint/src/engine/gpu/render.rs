@@ -16,7 +16,7 @@ const CELLS_AT_ONCE: u32 = 4;
 
 /// Maximum number of tiles in one dispatch: the WebGPU limit of workgroups along an
 /// axis.
-const MAX_TILES: usize = 65535;
+pub(super) const MAX_TILES: usize = 65535;
 
 /// [`crate::optics::LayerOptics`] as a uniform.
 #[repr(C)]
@@ -67,17 +67,6 @@ struct LampParams {
     padding: [f32; 2],
 }
 
-/// Uniforms of [`RAISE`].
-#[repr(C)]
-#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct RaiseParams {
-    /// Width and height of the canvas in cells.
-    canvas: [u32; 2],
-    /// Index of the first tile in the batch.
-    first_tile: u32,
-    padding: u32,
-}
-
 /// Uniforms of [`SHOW`].
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -123,19 +112,6 @@ pub(super) static BAKE: Kernel = Kernel {
     parameters: BAKE_PARAMS,
     structs: &[LAYER_OPTICS],
     storage: BAKE_STORAGE,
-};
-
-/// Adds up the heights of floor and wet paint.
-pub(super) static RAISE: Kernel = Kernel {
-    name: "raise_tiles",
-    source: concat!(
-        include_str!("../../amount.wgsl"),
-        include_str!("../../layer.wgsl"),
-        include_str!("passes/raise_tiles.wgsl"),
-    ),
-    parameters: layout!(RaiseParams { canvas, first_tile, padding }),
-    structs: &[],
-    storage: &[Storage::Batch, Storage::Read, Storage::Read, Storage::Read, Storage::Write],
 };
 
 /// Composites the wet layer over the baked reflectance and shades it.
@@ -190,8 +166,8 @@ pub(super) struct CanvasBuffers<'a> {
     /// Width and height in cells.
     pub(super) size: [u32; 2],
     pub(super) wet: &'a PaintBuffers,
-    /// Height of ground and dry paint in quanta.
-    pub(super) floor: &'a Buffer,
+    /// Height of the surface of each cell in quanta.
+    pub(super) tops: &'a Buffer,
     /// Dry layers, lowest first.
     pub(super) dry: &'a [PaintBuffers],
 }
@@ -203,8 +179,6 @@ pub(super) struct ViewBuffers {
     baked: Buffer,
     /// Material below the wet paint: 1 dry paint, 2 bare ground.
     material: Buffer,
-    /// Height of the surface in quanta.
-    tops: Buffer,
     /// Linear sRGB, with 1 as the fourth component.
     pub(super) picture: Buffer,
 }
@@ -245,7 +219,6 @@ impl ViewBuffers {
         Ok(Self {
             baked: device.buffer("the light of dry layers", 4 * NODES as u64 * cells)?,
             material: device.buffer("the light of dry layers", 4 * cells)?,
-            tops: device.buffer("the surface of the paint", 4 * cells)?,
             picture: device.buffer("the picture", 16 * cells)?,
         })
     }
@@ -271,16 +244,7 @@ impl ViewBuffers {
         for tiles in columns_and_rows(baked).chunks(MAX_TILES) {
             self.record_bake(recording, canvas, scene, tiles);
         }
-        let shown = columns_and_rows(&shown);
-        // Cells look at their neighbours, so all heights come first.
-        for tiles in shown.chunks(MAX_TILES) {
-            let (canvas_size, first_tile) = (canvas.size, recording.batch(tiles));
-            let params = RaiseParams { canvas: canvas_size, first_tile, padding: 0 };
-            let PaintBuffers { pigments, vehicle } = canvas.wet;
-            let buffers = [pigments, vehicle, canvas.floor, &self.tops];
-            recording.dispatch(&RAISE, &params, &buffers, workgroups(tiles, 1));
-        }
-        for tiles in shown.chunks(MAX_TILES) {
+        for tiles in columns_and_rows(&shown).chunks(MAX_TILES) {
             self.record_show(recording, canvas, scene, tiles);
         }
     }
@@ -336,17 +300,17 @@ impl ViewBuffers {
             padding: 0,
         };
         let PaintBuffers { pigments, vehicle } = canvas.wet;
-        let buffers = [pigments, vehicle, &self.tops, &self.baked, &self.material, &self.picture];
+        let buffers = [pigments, vehicle, canvas.tops, &self.baked, &self.material, &self.picture];
         recording.dispatch(&SHOW, &params, &buffers, workgroups(tiles, CELLS_AT_ONCE));
     }
 }
 
-fn columns_and_rows(tiles: &TileSet) -> Vec<[u32; 2]> {
+pub(super) fn columns_and_rows(tiles: &TileSet) -> Vec<[u32; 2]> {
     tiles.iter().map(|tile| [tile.column as u32, tile.row as u32]).collect()
 }
 
 /// Workgroups that cover whole tiles, one tile per z, with `cells` cells of a column per
 /// invocation.
-fn workgroups(tiles: &[[u32; 2]], cells: u32) -> [u32; 3] {
+pub(super) fn workgroups(tiles: &[[u32; 2]], cells: u32) -> [u32; 3] {
     [1, TILE as u32 / cells, tiles.len() as u32]
 }
