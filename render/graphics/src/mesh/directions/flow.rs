@@ -34,8 +34,9 @@ impl DirectionField {
         let arrows = self.arrows();
         let singular: Vec<bool> =
             (0..arrows.len()).map(|place| self.is_singular(&arrows, place)).collect();
-        let steps = rings(&self.links, &singular, fade_rings + 1);
-        let strengths = steps.iter().map(|&ring| smooth(ring as f64 / (fade_rings + 1) as f64));
+        let full = fade_rings.saturating_add(1);
+        let steps = rings(&self.links, &singular, full);
+        let strengths = steps.iter().map(|&ring| smooth(ring as f64 / full as f64));
         FlowField {
             of_vertex: self.of_vertex.clone(),
             normals: self.planes.iter().map(|plane| plane.normal).collect(),
@@ -142,6 +143,9 @@ fn rings(links: &Links, singular: &[bool], most: usize) -> Vec<usize> {
                     next.push(link.to as usize);
                 }
             }
+        }
+        if next.is_empty() {
+            break;
         }
         edge = next;
     }

@@ -11,7 +11,7 @@ use crate::mesh::tangent_plane::TangentPlane;
 /// A link from one place to a neighbour.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Link {
-    /// The neighbour.
+    /// Place at the other end.
     pub(super) to: u32,
     /// Above 0, and the same in both directions.
     pub(super) stiffness: f64,

@@ -193,6 +193,7 @@ fn flow_fades_over_rings_of_edges() {
         found
     };
     assert_eq!(strengths(0), [0.0, 1.0]);
+    assert!(strengths(usize::MAX).into_iter().all(|strength| strength < 0.01), "endless rings");
     let smooth = |at: f32| at * at * (3.0 - 2.0 * at);
     let [first, second] = [smooth(1.0 / 3.0), smooth(2.0 / 3.0)];
     for (found, wanted) in strengths(2).into_iter().zip([0.0, first, second, 1.0]) {
