@@ -1,5 +1,5 @@
-//! Triangle meshes: the model, checks and normals, files (OBJ, glTF, PLY) and sample
-//! models made by code.
+//! Triangle meshes: the model, checks and normals, curvature and fields of directions, files (OBJ,
+//! glTF, PLY) and sample models made by code.
 
 mod model;
 
@@ -7,13 +7,30 @@ mod weld;
 
 mod check;
 
+mod neighbours;
+
 mod normals;
+
+mod places;
+
+mod tangent_plane;
+
+mod shape_tensor;
+
+mod curvature;
+
+mod directions;
 
 mod file;
 
 mod shapes;
 
+#[cfg(test)]
+mod test_shapes;
+
 pub use check::MeshFault;
+pub use curvature::Curvature;
+pub use directions::{Along, DirectionFault, DirectionField, DirectionSettings, FlowField, Guide};
 pub use file::MeshError;
 pub use model::{Material, Mesh, Texture, Triangle};
 pub use shapes::{GridSize, SampleModel};

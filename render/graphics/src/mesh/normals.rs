@@ -4,6 +4,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::model::Mesh;
+use super::neighbours::Neighbours;
 
 impl Mesh {
     /// Computes a normal for every vertex from the adjacent triangles, weighted by the angle
@@ -40,7 +41,9 @@ impl Mesh {
             return self.normals.clone();
         }
         let (welded, count) = self.weld();
-        let neighbours = Neighbours::new(self, &welded, count);
+        let place = |corner: u32| welded[corner as usize];
+        let triangles = self.triangles.iter().map(|triangle| triangle.corners.map(place));
+        let neighbours = Neighbours::of_triangles(triangles, count);
         let mut normals = vec![Vec3::ZERO; count];
         for (&vertex, &normal) in welded.iter().zip(&self.normals) {
             normals[vertex as usize] += Vec3::from(normal);
@@ -57,35 +60,5 @@ impl Mesh {
             std::mem::swap(&mut normals, &mut next);
         }
         welded.iter().map(|&vertex| normals[vertex as usize].into()).collect()
-    }
-}
-
-/// Adjacency of welded vertices along edges.
-struct Neighbours {
-    /// Index into `others` at which each vertex's neighbours start.
-    starts: Vec<u32>,
-    others: Vec<u32>,
-}
-
-impl Neighbours {
-    fn new(mesh: &Mesh, welded: &[u32], count: usize) -> Self {
-        let mut edges: Vec<[u32; 2]> = Vec::with_capacity(6 * mesh.triangles.len());
-        for triangle in &mesh.triangles {
-            let [a, b, c] = triangle.corners.map(|corner| welded[corner as usize]);
-            edges.extend([[a, b], [b, a], [b, c], [c, b], [c, a], [a, c]]);
-        }
-        edges.par_sort_unstable();
-        edges.dedup();
-        edges.retain(|[from, to]| from != to);
-        let mut starts = vec![0; count + 1];
-        edges.iter().for_each(|[from, _]| starts[*from as usize + 1] += 1);
-        for vertex in 0..count {
-            starts[vertex + 1] += starts[vertex];
-        }
-        Self { starts, others: edges.iter().map(|[_, to]| *to).collect() }
-    }
-
-    fn of(&self, vertex: usize) -> &[u32] {
-        &self.others[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
 }
