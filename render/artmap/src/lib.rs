@@ -15,3 +15,7 @@
 //! Modules are declared in order of dependence: each uses only those above it.
 
 pub mod sample;
+
+pub mod synthesis;
+
+pub mod measures;

@@ -2,4 +2,10 @@
 
 mod passage;
 
+#[cfg(test)]
+mod made_up;
+
 pub use passage::{PaintOfSamples, Sample, SampleSet, TexelPaint};
+
+#[cfg(test)]
+pub(crate) use made_up::strokes;
