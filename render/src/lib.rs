@@ -33,6 +33,7 @@
 //! meshes) and `paint` (paint, brushes, paintings), which are re-exported here, so that a
 //! program depends on `render` alone. `examples/` has a program for each entry point.
 
+pub use artmap;
 pub use graphics::kernels as graphics_kernels;
 pub use graphics::{
     self, camera, coherence, compute, distant_light, encoding, field, gpu, mesh, morphology,

@@ -1,7 +1,7 @@
-//! Conversion of colour pictures between linear light and encoded sRGB (IEC 61966-2-1).
+//! Conversion of colour pictures between linear light, encoded sRGB (IEC 61966-2-1) and CIELAB.
 
 use rayon::prelude::*;
-use spectra::color::Rgb;
+use spectra::color::{Lab, Rgb, RgbSpace};
 
 use crate::field::Field;
 
@@ -23,6 +23,19 @@ pub fn encoded_from_linear(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
         let [r, g, b] = Rgb(inside).encoded().0.map(|value| value as f32);
         [r, g, b, a]
     })
+}
+
+/// CIELAB, under the white of sRGB, of a picture of linear sRGB.
+#[must_use]
+pub fn lab_from_linear(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
+    let white = RgbSpace::Srgb.white();
+    let xyz_from_rgb = RgbSpace::Srgb.xyz_from_linear();
+    let lab = |rgb: &[f32; 3]| {
+        let xyz = xyz_from_rgb.apply(rgb.map(f64::from)).into();
+        Lab::from_xyz(xyz, white).to_array().map(|value| value as f32)
+    };
+    let values = picture.values().par_iter().with_min_len(1024).map(lab).collect();
+    Field::from_values(picture.width(), picture.height(), values)
 }
 
 /// Composites a picture with coverage on white, without linearising it. The coverage of the

@@ -1,10 +1,10 @@
 //! The target as the brush of one level can show it.
 
 use rayon::prelude::*;
-use spectra::color::{Lab, RgbSpace};
 
 use super::trace::distance;
 use graphics::blurred;
+use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
 use graphics::orientation::OrientationField;
 use graphics::picture::Picture;
@@ -43,13 +43,13 @@ impl LevelTarget {
     pub(super) fn new(target: &Picture, separation: &Separation, size: f64, level: usize) -> Self {
         let blur_cells = BLUR_SIZES * size;
         let picture = blurred(target, blur_cells);
-        let lab = lab_picture(&picture);
+        let lab = lab_from_linear(&picture);
         let flow = OrientationField::from_lab(&lab, blur_cells);
         let colors = picture.values().par_iter().with_min_len(1024);
         let reached = colors.map(|&rgb| separation.film().rgb(&separation.heights_mm(rgb)));
         let reached =
             Field::from_values(picture.width(), picture.height(), reached.collect::<Vec<_>>());
-        let reached = lab_picture(&reached);
+        let reached = lab_from_linear(&reached);
         Self { level, size, blur_cells, picture, lab, flow, reached }
     }
 
@@ -61,7 +61,7 @@ impl LevelTarget {
     /// If the pictures differ in size.
     pub(super) fn differences(&self, current: &Picture) -> Field<f32> {
         assert_eq!(self.picture.bounds(), current.bounds(), "pictures differ in size");
-        let painted = lab_picture(&blurred(current, self.blur_cells));
+        let painted = lab_from_linear(&blurred(current, self.blur_cells));
         let all = self.lab.values().iter().zip(self.reached.values()).zip(painted.values());
         let differences = all.map(|((&target, &reached), &painted)| {
             distance(target, painted).min(distance(reached, painted))
@@ -73,18 +73,6 @@ impl LevelTarget {
         }
         differences
     }
-}
-
-/// A picture in CIELAB under the white of sRGB.
-fn lab_picture(picture: &Picture) -> Field<[f32; 3]> {
-    let white = RgbSpace::Srgb.white();
-    let xyz_from_rgb = RgbSpace::Srgb.xyz_from_linear();
-    let lab = |rgb: &[f32; 3]| {
-        let xyz = xyz_from_rgb.apply(rgb.map(f64::from)).into();
-        Lab::from_xyz(xyz, white).to_array().map(|value| value as f32)
-    };
-    let values = picture.values().par_iter().with_min_len(1024).map(lab).collect();
-    Field::from_values(picture.width(), picture.height(), values)
 }
 
 /// Reduces the difference where the target is smooth at the scale of a brush `size` cells wide:

@@ -1,0 +1,131 @@
+//! Figures of how maps agree with each other, with themselves across their borders, and how often
+//! they repeat a place of their sample.
+
+use graphics::blurred;
+use graphics::field::Field;
+
+use super::texture::Texture;
+
+/// Deviation, in texels, of the blur of the lightness that is compared.
+const DETAIL: f64 = 2.0;
+
+/// Correlation of the detail of L* of two maps that tile, -1 to 1: whether their strokes stand at
+/// the same places. Detail is L* blurred by 2 texels, less L* blurred by `spacing`, the distance of
+/// strokes.
+///
+/// # Panics
+/// If the maps differ in size.
+#[must_use]
+pub fn coherence(first: &Texture, second: &Texture, spacing: f64) -> f64 {
+    assert_eq!(first.size(), second.size(), "maps must be of one size");
+    let (first, second) = (detail(first.lightness(), spacing), detail(second.lightness(), spacing));
+    let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let squares = sum(&first, &first) * sum(&second, &second);
+    if squares > 0.0 { sum(&first, &second) / squares.sqrt() } else { 0.0 }
+}
+
+/// Mean step of L* across the borders of a map that tiles, over the mean step within it: 1 where
+/// no seam shows.
+#[must_use]
+pub fn wrap_ratio(map: &Texture) -> f64 {
+    let (width, height) = map.size();
+    let lightness = map.lightness();
+    let (mut across, mut inside) = ((0.0, 0_u64), (0.0, 0_u64));
+    let mut note = |wraps: bool, a: f32, b: f32| {
+        let (sum, count) = if wraps { &mut across } else { &mut inside };
+        *sum += f64::from((a - b).abs());
+        *count += 1;
+    };
+    for y in 0..height {
+        for x in 0..width {
+            let (right, below) = ((x + 1) % width, (y + 1) % height);
+            note(right == 0, lightness[(x, y)], lightness[(right, y)]);
+            note(below == 0, lightness[(x, y)], lightness[(x, below)]);
+        }
+    }
+    let mean = |(sum, count): (f64, u64)| sum / count.max(1) as f64;
+    if mean(inside) > 0.0 { mean(across) / mean(inside) } else { 1.0 }
+}
+
+/// Use of the most used part of a sample over the mean use of its parts: 1 where all are used
+/// alike. Parts are squares of `block` texels that lie in the mask.
+#[must_use]
+pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) -> f64 {
+    let (width, height) = (mask.width().div_ceil(block), mask.height().div_ceil(block));
+    let (mut used, mut inside) = (vec![0_u64; width * height], vec![0_u64; width * height]);
+    let part = |x: usize, y: usize| y / block * width + x / block;
+    for &[x, y] in sources.values() {
+        used[part(usize::from(x), usize::from(y))] += 1;
+    }
+    for (index, &is_inside) in mask.values().iter().enumerate() {
+        inside[part(index % mask.width(), index / mask.width())] += u64::from(is_inside);
+    }
+    let all = inside.iter().sum::<u64>().max(1) as f64;
+    let mean = sources.values().len() as f64 / all;
+    let whole = |(_, inside): &(&u64, &u64)| **inside == (block * block) as u64;
+    let uses = used.iter().zip(&inside).filter(whole);
+    uses.map(|(&used, &inside)| used as f64 / inside as f64 / mean).fold(0.0, f64::max)
+}
+
+/// Detail of L* of a map that tiles, row by row.
+fn detail(lightness: &Field<f32>, spacing: f64) -> Vec<f64> {
+    let (width, height) = (lightness.width(), lightness.height());
+    let margin = (4.0 * spacing.max(DETAIL)).ceil() as usize;
+    let around = (height + 2 * margin, width + 2 * margin);
+    let at = |index: usize, margin: usize, size: usize| {
+        (index as isize - margin as isize).rem_euclid(size as isize) as usize
+    };
+    let mut values = Vec::with_capacity(around.0 * around.1);
+    for y in 0..around.0 {
+        for x in 0..around.1 {
+            values.push([lightness[(at(x, margin, width), at(y, margin, height))]]);
+        }
+    }
+    let repeated = Field::from_values(around.1, around.0, values);
+    let (fine, coarse) =
+        (blurred(&repeated, DETAIL), blurred(&repeated, spacing.max(2.0 * DETAIL)));
+    let mut detail = Vec::with_capacity(width * height);
+    for y in margin..margin + height {
+        for x in margin..margin + width {
+            detail.push(f64::from(fine[(x, y)][0] - coarse[(x, y)][0]));
+        }
+    }
+    detail
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn waves(size: usize, period: f32, phase: f32, offset: f32) -> Texture {
+        let value = |index: usize| {
+            let angle = ((index % size) as f32 / period + phase) * std::f32::consts::TAU;
+            [offset + 0.2 * angle.sin(); 3]
+        };
+        Texture::tiled(&Field::from_values(size, size, (0..size * size).map(value).collect()))
+    }
+
+    #[test]
+    fn strokes_at_the_same_places_are_coherent_whatever_their_tone() {
+        let map = waves(96, 12.0, 0.0, 0.3);
+        assert!(coherence(&map, &waves(96, 12.0, 0.0, 0.6), 12.0) > 0.95);
+        assert!(coherence(&map, &waves(96, 12.0, 0.25, 0.3), 12.0).abs() < 0.1);
+        assert!(coherence(&map, &waves(96, 12.0, 0.5, 0.3), 12.0) < -0.9);
+    }
+
+    #[test]
+    fn a_border_that_does_not_fit_shows() {
+        assert!(wrap_ratio(&waves(96, 12.0, 0.0, 0.3)) < 1.1);
+        assert!(wrap_ratio(&waves(90, 12.0, 0.0, 0.3)) > 1.3);
+    }
+
+    #[test]
+    fn a_place_used_for_everything_is_counted() {
+        let mask = Field::filled(64, 64, true);
+        let each = |index: usize| [(index % 64) as u16, (index / 64) as u16];
+        let evenly = Field::from_values(64, 64, (0..64 * 64).map(each).collect());
+        assert!((most_used(&evenly, &mask, 16) - 1.0).abs() < 1e-9);
+        let once = Field::filled(64, 64, [5, 5]);
+        assert!((most_used(&once, &mask, 16) - 16.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,202 @@
+//! One level of a sample's Gaussian pyramid, with what patches are compared by.
+
+use graphics::blurred;
+use graphics::encoding::lab_from_linear;
+use graphics::field::Field;
+
+use super::settings::Features;
+use crate::sample::Sample;
+
+/// Number of channels that patches of different samples are compared by.
+pub(crate) const FEATURES: usize = 5;
+/// Number of channels that overlaps within a sample are compared by.
+pub(crate) const LOOKS: usize = 4;
+/// Deviation of the blur before a level is halved, in texels.
+const BEFORE_HALVING: f64 = 0.8;
+/// Weight of height beside colour where overlaps are compared.
+const HEIGHT: f32 = 0.7;
+/// Deviation of a* or b* in CIELAB below which a sample counts as grey.
+const GREY: f64 = 1.0;
+
+/// L*, a*, b* and height in mm of a sample at one resolution.
+#[derive(Debug, Clone)]
+pub(crate) struct Channels {
+    values: Field<[f32; LOOKS]>,
+    mask: Field<bool>,
+}
+
+/// A level of the pyramid of a sample.
+#[derive(Debug, Clone)]
+pub(crate) struct Level {
+    /// Colour and height, scaled by their deviation, for comparing texels of this sample.
+    pub(crate) look: Field<[f32; LOOKS]>,
+    /// Channels of deviation 1, for comparing patches of different samples.
+    pub(crate) features: Field<[f32; FEATURES]>,
+    /// Weight of a texel in overlaps, 1 and up: more at edges.
+    pub(crate) weight: Field<f32>,
+    /// Texels that belong to the sample.
+    pub(crate) mask: Field<bool>,
+    /// Deviation of the detail of L*.
+    pub(crate) contrast: f64,
+}
+
+impl Channels {
+    pub(crate) fn of(sample: &Sample) -> Self {
+        let lab = lab_from_linear(&sample.color);
+        let (width, height) = sample.size();
+        let height_mm =
+            |index: usize| sample.height_mm.as_ref().map_or(0.0, |heights| heights.values()[index]);
+        let texel = |(index, &[l, a, b]): (usize, &[f32; 3])| [l, a, b, height_mm(index)];
+        let values = lab.values().iter().enumerate().map(texel).collect();
+        Self { values: Field::from_values(width, height, values), mask: sample.mask.clone() }
+    }
+
+    /// The next coarser level: texel `(x, y)` covers texels `2 x, 2 x + 1` and `2 y, 2 y + 1`.
+    pub(crate) fn halved(&self) -> Self {
+        let smooth = self.smooth(BEFORE_HALVING);
+        let (width, height) = (self.mask.width() / 2, self.mask.height() / 2);
+        let mut values = Vec::with_capacity(width * height);
+        let mut mask = Vec::with_capacity(width * height);
+        for y in 0..height {
+            for x in 0..width {
+                let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| (2 * x + i, 2 * y + j));
+                values.push(std::array::from_fn(|channel| {
+                    four.iter().map(|&at| smooth[at][channel]).sum::<f32>() / 4.0
+                }));
+                mask.push(four.iter().all(|&at| self.mask[at]));
+            }
+        }
+        let (values, mask) = (Field::from_values(width, height, values), mask);
+        Self { values, mask: Field::from_values(width, height, mask) }
+    }
+
+    /// Blurs the channels; texels outside the mask give nothing and take their neighbours'.
+    fn smooth(&self, sigma: f64) -> Field<[f32; LOOKS]> {
+        let weigh = |(value, &inside): (&[f32; LOOKS], &bool)| {
+            let [l, a, b, height] = if inside { *value } else { [0.0; LOOKS] };
+            [l, a, b, height, f32::from(inside)]
+        };
+        let weighed = self.values.values().iter().zip(self.mask.values()).map(weigh).collect();
+        let (width, height) = (self.mask.width(), self.mask.height());
+        let sums = blurred(&Field::from_values(width, height, weighed), sigma);
+        let mean = |&[l, a, b, height, weight]: &[f32; LOOKS + 1]| {
+            if weight > 1e-4 { [l, a, b, height].map(|sum| sum / weight) } else { [0.0; LOOKS] }
+        };
+        Field::from_values(width, height, sums.values().iter().map(mean).collect())
+    }
+
+    /// Mean and deviation of a channel over the mask, with its values given by `value`.
+    fn moments(&self, value: impl Fn(usize) -> f32) -> (f64, f64) {
+        let inside = || (0..self.mask.values().len()).filter(|&index| self.mask.values()[index]);
+        let count = inside().count().max(1) as f64;
+        let mean = inside().map(|index| f64::from(value(index))).sum::<f64>() / count;
+        let squares = inside().map(|index| (f64::from(value(index)) - mean).powi(2));
+        (mean, (squares.sum::<f64>() / count).sqrt())
+    }
+}
+
+impl Level {
+    /// The level of `channels`, whose strokes are `spacing` texels apart.
+    pub(crate) fn new(channels: &Channels, spacing: f64, features: Features) -> Self {
+        let values = &channels.values;
+        let (width, height) = (values.width(), values.height());
+        let fine = channels.smooth((spacing / 8.0).clamp(0.5, 1.0));
+        let coarse = channels.smooth(spacing);
+        let edges = edge_strength(&fine);
+        let detail = |index: usize, channel: usize| {
+            fine.values()[index][channel] - coarse.values()[index][channel]
+        };
+        let raw = |index: usize| {
+            let [_, a, b, _] = fine.values()[index];
+            [edges[index], detail(index, 0), a, b, detail(index, 3)]
+        };
+        let scales: [(f32, f32); FEATURES] = std::array::from_fn(|feature| {
+            let (mean, deviation) = channels.moments(|index| raw(index)[feature]);
+            let used = match feature {
+                0 => deviation > 0.0,
+                2 | 3 => deviation >= GREY,
+                _ => deviation > 0.0 && features == Features::Detail,
+            };
+            (mean as f32, if used { (1.0 / deviation) as f32 } else { 0.0 })
+        });
+        let scaled = |index: usize| {
+            let raw = raw(index);
+            std::array::from_fn(|feature| (raw[feature] - scales[feature].0) * scales[feature].1)
+        };
+        let deviation = |channel: usize| channels.moments(|i| values.values()[i][channel]).1;
+        let color = (deviation(0).powi(2) + deviation(1).powi(2) + deviation(2).powi(2)).sqrt();
+        let per = |deviation: f64| if deviation > 0.0 { (1.0 / deviation) as f32 } else { 0.0 };
+        let (per_color, per_height) = (per(color), HEIGHT * per(deviation(3)));
+        let look = |&[l, a, b, height]: &[f32; LOOKS]| {
+            [l * per_color, a * per_color, b * per_color, height * per_height]
+        };
+        let mean_edge = channels.moments(|index| edges[index]).0 as f32;
+        let weight = |edge: &f32| if mean_edge > 0.0 { 1.0 + 2.0 * edge / mean_edge } else { 1.0 };
+        let looks = values.values().iter().map(look).collect();
+        let scaled = (0..width * height).map(scaled).collect();
+        Self {
+            look: Field::from_values(width, height, looks),
+            features: Field::from_values(width, height, scaled),
+            weight: Field::from_values(width, height, edges.iter().map(weight).collect()),
+            mask: channels.mask.clone(),
+            contrast: channels.moments(|index| detail(index, 0)).1,
+        }
+    }
+
+    /// Whether the sample shows nothing to compare patches by.
+    pub(crate) fn is_flat(&self) -> bool {
+        self.features.values().iter().all(|features| features.iter().all(|value| *value == 0.0))
+    }
+
+    /// Places whose patch of `patch` x `patch` texels, from there to the right and down, lies in
+    /// the mask; row by row.
+    pub(crate) fn places(&self, patch: usize) -> Vec<[u16; 2]> {
+        let (width, height) = (self.mask.width(), self.mask.height());
+        // Number of texels to the left of and above each corner that lie outside the mask.
+        let mut outside = vec![0_u32; (width + 1) * (height + 1)];
+        for y in 0..height {
+            let mut row = 0;
+            for x in 0..width {
+                row += u32::from(!self.mask[(x, y)]);
+                outside[(y + 1) * (width + 1) + x + 1] = outside[y * (width + 1) + x + 1] + row;
+            }
+        }
+        let corner = |x: usize, y: usize| outside[y * (width + 1) + x];
+        let mut places = Vec::new();
+        for y in 0..(height + 1).saturating_sub(patch) {
+            for x in 0..(width + 1).saturating_sub(patch) {
+                let (right, below) = (x + patch, y + patch);
+                if corner(right, below) + corner(x, y) == corner(right, y) + corner(x, below) {
+                    places.push([x as u16, y as u16]);
+                }
+            }
+        }
+        places
+    }
+}
+
+/// Length of the gradient of L* at every texel.
+fn edge_strength(fine: &Field<[f32; LOOKS]>) -> Vec<f32> {
+    let (width, height) = (fine.width(), fine.height());
+    let mut edges = Vec::with_capacity(width * height);
+    for y in 0..height {
+        let (above, below) = (y.saturating_sub(1), (y + 1).min(height - 1));
+        for x in 0..width {
+            let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
+            let over_x = fine[(right, y)][0] - fine[(left, y)][0];
+            let over_y = fine[(x, below)][0] - fine[(x, above)][0];
+            edges.push((over_x * over_x + over_y * over_y).sqrt() / 2.0);
+        }
+    }
+    edges
+}
+
+/// Squared distance of two texels of a sample.
+#[inline]
+pub(crate) fn difference(a: &[f32; LOOKS], b: &[f32; LOOKS]) -> f32 {
+    let mut sum = 0.0;
+    for channel in 0..LOOKS {
+        sum += (a[channel] - b[channel]) * (a[channel] - b[channel]);
+    }
+    sum
+}

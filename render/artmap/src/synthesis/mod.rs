@@ -1,0 +1,31 @@
+//! Textures that tile, synthesised from samples: each texel is a place in its sample.
+
+mod settings;
+
+mod level;
+
+mod grid;
+
+mod cut;
+
+mod descriptors;
+
+mod canvas;
+
+mod usage;
+
+mod mending;
+
+mod candidates;
+
+mod first;
+
+mod following;
+
+mod key_maps;
+
+#[cfg(test)]
+mod tests;
+
+pub use key_maps::{KeyMaps, key_maps};
+pub use settings::{Features, SynthesisError, SynthesisSettings};
