@@ -2,4 +2,10 @@
 
 mod passage;
 
+pub mod from_painting;
+
+pub mod file;
+
+pub use file::SampleFileError;
+pub use from_painting::{FromPaintingError, WholePainting};
 pub use passage::{PaintOfSamples, Sample, SampleSet, TexelPaint};
