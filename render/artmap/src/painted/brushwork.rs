@@ -37,25 +37,11 @@ pub struct SwatchStroke {
     pub load_mm: f64,
 }
 
-/// Cells that lie beyond each side of a swatch on its canvas, across and along the strokes: two
-/// strokes across, and a whole stroke along, so that no stroke of the swatch ends at the edge.
-#[must_use]
-pub fn margins(style: &Style) -> (usize, usize) {
-    let across = 2.0 * style.brush.size_mm.max(style.strokes.spacing_mm);
-    let along = longest_mm(style) + 2.0 * style.brush.size_mm;
-    let cells = |mm: f64| (mm / style.canvas.cell_mm).ceil() as usize;
-    (cells(across), cells(along))
-}
-
-fn longest_mm(style: &Style) -> f64 {
-    style.strokes.length_mm * (1.0 + style.strokes.length_spread)
-}
-
 /// Strokes on the canvas of a swatch with its margins, in the order in which they are painted.
 #[must_use]
 pub fn strokes(style: &Style, seed: u64) -> Vec<SwatchStroke> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let (across, along) = margins(style);
+    let (across, along) = style.margins();
     let side = style.canvas.side_cells;
     let mm = |cells: usize| cells as f64 * style.canvas.cell_mm;
     let size = [mm(side + 2 * across), mm(side + 2 * along)];
@@ -185,7 +171,7 @@ mod tests {
         for name in Style::ALL {
             let style = style(name);
             let made = strokes(&style, 3);
-            let (across, _) = margins(&style);
+            let (across, _) = style.margins();
             let mm = (120 + 2 * across) as f64 * style.canvas.cell_mm;
             for stroke in &made {
                 let ends = [stroke.samples[0], stroke.samples[stroke.samples.len() - 1]];

@@ -22,7 +22,7 @@ mod swatch;
 
 mod set;
 
-pub use brushwork::{SwatchStroke, margins, strokes};
+pub use brushwork::{SwatchStroke, strokes};
 pub use plan::{CanvasPlan, Layout, PaintPlan, StrokePlan, Style, StyleError, ToneSource};
 pub use set::{PaintedError, PaintedSettings, painted_samples};
 pub use tones::{TONES, Tone, ToneLadder, TonesError};

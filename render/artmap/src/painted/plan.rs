@@ -116,6 +116,11 @@ pub struct Style {
     pub canvas: CanvasPlan,
 }
 
+/// Most cells of the canvas of a swatch: 4096 x 4096.
+const MOST_CELLS: f64 = 16_777_216.0;
+/// Most strokes of a swatch.
+const MOST_STROKES: f64 = 200_000.0;
+
 /// Names and TOML files of the styles that ship.
 const SHIPPED: [(&str, &str); 6] = [
     ("oil-flat", include_str!("styles/oil-flat.toml")),
@@ -198,7 +203,39 @@ impl Style {
                 return Err(StyleError::Number { style, key, value, least, most });
             }
         }
+        self.check_effort()
+    }
+
+    /// Refuses a canvas or a number of strokes that no machine paints in reasonable time.
+    fn check_effort(&self) -> Result<(), StyleError> {
+        let (across, along) = self.margins();
+        let [width, height] = [across, along].map(|margin| self.canvas.side_cells + 2 * margin);
+        let mm = |cells: usize| cells as f64 * self.canvas.cell_mm;
+        let columns = mm(width) / self.strokes.spacing_mm + 1.0;
+        let rows = mm(height) / self.strokes.advance_mm + 2.0;
+        let strokes = f64::from(self.strokes.coats) * columns * rows;
+        let cells = width as f64 * height as f64;
+        for (what, found, most) in
+            [("cells with its margins", cells, MOST_CELLS), ("strokes", strokes, MOST_STROKES)]
+        {
+            if found > most {
+                let style = self.name.clone();
+                return Err(StyleError::TooLarge { style, what, found, most });
+            }
+        }
         Ok(())
+    }
+
+    /// Cells that lie beyond each side of a swatch on its canvas, across and along the strokes:
+    /// two strokes across, and a whole stroke along, so that no stroke of the swatch ends at the
+    /// edge.
+    #[must_use]
+    pub fn margins(&self) -> (usize, usize) {
+        let Self { strokes, brush, .. } = self;
+        let across = 2.0 * brush.size_mm.max(strokes.spacing_mm);
+        let along = strokes.length_mm * (1.0 + strokes.length_spread) + 2.0 * brush.size_mm;
+        let cells = |mm: f64| (mm / self.canvas.cell_mm).ceil() as usize;
+        (cells(across), cells(along))
     }
 
     /// Distance of neighbouring strokes in cells.
@@ -249,6 +286,18 @@ pub enum StyleError {
         /// Greatest value allowed.
         most: f64,
     },
+    /// A swatch would take too much memory or time.
+    #[error("style {style}: a swatch has at most {most} {what}, found `{found:.0}`")]
+    TooLarge {
+        /// Name of the style.
+        style: String,
+        /// Items that are too many.
+        what: &'static str,
+        /// Number of the items.
+        found: f64,
+        /// Greatest number allowed.
+        most: f64,
+    },
 }
 
 impl Explain for StyleError {
@@ -261,6 +310,9 @@ impl Explain for StyleError {
                 Some(Hint::new("begin with a copy of a style that ships, which has all keys"))
             }
             Self::Number { .. } => None,
+            Self::TooLarge { .. } => {
+                Some(Hint::new("take larger cells, wider spacing or shorter strokes"))
+            }
         }
     }
 
@@ -309,6 +361,14 @@ mod tests {
         let unknown = text.replace("jitter = ", "gitter = ");
         let error = Style::from_toml("my.toml", &unknown).unwrap_err();
         assert!(error.to_string().starts_with("my.toml, line "), "{error}");
+        let fine = text.replace("cell_mm = 0.18", "cell_mm = 0.02");
+        let long = fine.replace("length_mm = 3.5", "length_mm = 1000.0");
+        let error = Style::from_toml("my.toml", &long).unwrap_err();
+        assert!(error.to_string().contains("cells with its margins"), "{error}");
+        let dense = text.replace("spacing_mm = 2.2", "spacing_mm = 0.05");
+        let dense = dense.replace("advance_mm = 4.0", "advance_mm = 0.1");
+        let error = Style::from_toml("my.toml", &dense).unwrap_err();
+        assert!(error.to_string().contains("at most 200000 strokes"), "{error}");
         let nan = text.replace("stiffness = ", "stiffness = nan # ");
         let error = Style::from_toml("my.toml", &nan).unwrap_err();
         assert!(matches!(error, StyleError::Number { key: "paint.stiffness", .. }), "{error}");

@@ -11,7 +11,7 @@ use paint::layer::{Cell, Layer, SLOTS};
 use paint::light::Light;
 use paint::painting::{Painting, PaintingError};
 
-use super::brushwork::{SwatchStroke, margins};
+use super::brushwork::SwatchStroke;
 use super::plan::{Style, ToneSource};
 use super::tones::{Tone, ToneLadder};
 use crate::sample::Sample;
@@ -54,7 +54,7 @@ impl Mixtures {
 
 /// Ground of the canvas of a swatch, with its margins.
 pub(super) fn ground(style: &Style, ladder: &ToneLadder) -> Result<Ground, GroundError> {
-    let (across, along) = margins(style);
+    let (across, along) = style.margins();
     let side = style.canvas.side_cells;
     let (width, height) = (side + 2 * across, side + 2 * along);
     style.canvas.ground.build(width, height, style.canvas.cell_mm, ladder.library())
@@ -147,7 +147,7 @@ impl Workplace<'_> {
 
     /// The middle of a painted canvas as a sample.
     fn sample(&self, at: usize, document: &Document) -> Sample {
-        let (across, along) = margins(self.style);
+        let (across, along) = self.style.margins();
         let side = self.style.canvas.side_cells;
         let middle = Rect { x: across, y: along, width: side, height: side };
         let place = |pigment| self.ladder.slots().iter().position(|slot| *slot == Some(pigment));

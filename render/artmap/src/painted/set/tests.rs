@@ -144,7 +144,7 @@ fn pigments_of_a_swatch_are_those_of_the_middle_of_its_canvas() {
     let style = small("oil-flat", 64);
     let (document, sample) = painted(&style);
     assert!(!document.dry.is_empty() || style.paint.wet_in_wet == 1.0, "coats dry");
-    let (across, along) = super::super::brushwork::margins(&style);
+    let (across, along) = style.margins();
     let mut exact = [0.0; SLOTS + 1];
     let layers = document.dry.iter().map(|layer| &layer.paint).chain([&document.wet]);
     for layer in layers {
