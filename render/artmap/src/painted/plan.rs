@@ -336,19 +336,6 @@ mod tests {
     }
 
     #[test]
-    fn no_two_styles_share_brush_order_and_tones() {
-        let styles = Style::ALL.map(|name| Style::named(name).unwrap());
-        for (at, one) in styles.iter().enumerate() {
-            for other in &styles[..at] {
-                let kind = |style: &Style| {
-                    (style.brush.clone(), style.strokes.layout, style.strokes.length_mm)
-                };
-                assert_ne!(kind(one), kind(other), "{} and {}", one.name, other.name);
-            }
-        }
-    }
-
-    #[test]
     fn bad_styles_are_refused_with_their_place() {
         let error = Style::named("oil-paint").unwrap_err();
         assert_eq!(error.to_string(), "there is no style called `oil-paint`");
