@@ -16,6 +16,10 @@
 
 pub mod sample;
 
+pub mod passages;
+
+pub mod painted;
+
 pub mod synthesis;
 
 pub mod measures;

@@ -5,6 +5,12 @@ mod passage;
 #[cfg(test)]
 mod made_up;
 
+pub mod from_painting;
+
+pub mod file;
+
+pub use file::SampleFileError;
+pub use from_painting::{FromPaintingError, WholePainting};
 pub use passage::{PaintOfSamples, Sample, SampleSet, TexelPaint};
 
 #[cfg(test)]
