@@ -15,3 +15,5 @@
 //! Modules are declared in order of dependence: each uses only those above it.
 
 pub mod sample;
+
+pub mod passages;
