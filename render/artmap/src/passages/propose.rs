@@ -130,6 +130,7 @@ fn scribble(regions: &Regions, label: usize, pixels: &[u32], depths: &Field<u32>
 #[cfg(test)]
 mod tests {
     use super::super::made_up::{Painting, textured};
+    use super::super::traits::traits_of;
     use super::*;
 
     #[test]
@@ -152,6 +153,20 @@ mod tests {
             assert_eq!(seen, (0..textures).collect::<Vec<_>>());
             assert!(marks.drawn(picture.width(), picture.height()).is_ok(), "lines do not cross");
         }
+    }
+
+    #[test]
+    fn an_unlike_passage_comes_before_a_larger_like_one() {
+        // Strips of 50, 40 and 10 columns, all with waves; the first two are nearly alike.
+        let strip = |x: usize| usize::from(x >= 50) + usize::from(x >= 90);
+        let tone = |i: usize| [0.5, 0.52, 0.8][strip(i % 100)] + 0.05 * ((i / 100) as f32).sin();
+        let intensity = Field::from_values(100, 40, (0..4000).map(tone).collect());
+        let labels = (0..4000).map(|i| strip(i % 100) as u32).collect();
+        let regions = Regions { labels: Field::from_values(100, 40, labels), count: 3 };
+        let traits = traits_of(&regions, &intensity, &gradient_of(&intensity));
+        assert_eq!(chosen(&traits, 4000, 2), [0, 2]);
+        assert_eq!(chosen(&traits, 4000, 9), [0, 2, 1], "no more than there are");
+        assert!(chosen(&traits, 500_000, 2).is_empty(), "too small a share of the picture");
     }
 
     #[test]

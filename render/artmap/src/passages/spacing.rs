@@ -29,8 +29,6 @@ pub(super) struct Estimate {
     pub(super) spacing_px: f64,
     /// Difference of the first maximum of the autocorrelation and the minimum before it, up to 2.
     pub(super) sharpness: f64,
-    /// Autocorrelation at the maximum.
-    peak: f64,
 }
 
 /// Distance of strokes among the true pixels of `mask`, which run along `along`. If `turned` is
@@ -52,7 +50,6 @@ pub(super) fn estimated(
         correlation.iter_mut().zip(other).for_each(|(one, other)| *one = (*one + other) / 2.0);
     }
     first_peak(&correlation)
-        .filter(|found| found.sharpness >= LEAST_SHARPNESS && found.peak >= LEAST_PEAK)
 }
 
 /// Autocorrelation across the strokes, at distances of 0, 1, .. pixels.
@@ -100,7 +97,8 @@ fn correlation(detail: &Field<[f32; 2]>, lag: usize) -> f64 {
     if norm > 1e-12 { product / norm } else { 0.0 }
 }
 
-/// The first maximum after the first minimum, each of which stands out by [`RIPPLE`].
+/// The first maximum after the first minimum, each of which stands out by [`RIPPLE`]; `None` if it
+/// is not clear.
 fn first_peak(correlation: &[f64]) -> Option<Estimate> {
     let mut valley = 0;
     let mut peak = None;
@@ -114,11 +112,10 @@ fn first_peak(correlation: &[f64]) -> Option<Estimate> {
                     [highest - 1, highest, highest + 1].map(|i| correlation[i]);
                 let bend = before - 2.0 * top + after;
                 let shift = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
-                return Some(Estimate {
-                    spacing_px: highest as f64 + shift.clamp(-0.5, 0.5),
-                    sharpness: top - correlation[valley],
-                    peak: top,
-                });
+                let sharpness = top - correlation[valley];
+                let spacing_px = highest as f64 + shift.clamp(-0.5, 0.5);
+                let clear = sharpness >= LEAST_SHARPNESS && top >= LEAST_PEAK;
+                return clear.then_some(Estimate { spacing_px, sharpness });
             }
             _ => {}
         }
@@ -162,6 +159,11 @@ mod tests {
         assert!(found.sharpness > 1.8, "{found:?}");
         let falling: Vec<f64> = (0..30).map(|lag| (-0.2 * f64::from(lag)).exp()).collect();
         assert_eq!(first_peak(&falling), None);
+        let faint = |height: f64| -> Vec<f64> {
+            (0..30).map(|lag| height * wave(lag) - if lag > 0 { 0.3 } else { 0.0 }).collect()
+        };
+        assert_eq!(first_peak(&faint(0.35)), None, "a maximum near 0 is none");
+        assert!(first_peak(&faint(0.6)).is_some(), "one of 0.3 is");
         let flat = Field::filled(80, 60, 0.5);
         assert_eq!(estimated(&flat, &Field::filled(80, 60, true), [0.0, 1.0], true), None);
     }

@@ -120,9 +120,30 @@ mod tests {
         (source, mask)
     }
 
+    /// Gives pixels the values that the disc has inside.
+    fn spur_like_disc(mut source: SourcePicture, pixels: &[usize]) -> SourcePicture {
+        let middle = 25 * 60 + 30;
+        for &pixel in pixels {
+            source.color.values_mut()[pixel] = source.color.values()[middle];
+            if let Some(height) = &mut source.height_mm {
+                height.values_mut()[pixel] = height.values()[middle];
+            }
+            if let Some((paint, _)) = &mut source.paint {
+                paint.values_mut()[pixel] = paint.values()[middle];
+            }
+        }
+        source
+    }
+
     #[test]
     fn nothing_bleeds_in_and_heights_stay_mm() {
-        let (source, mask) = disc();
+        let (source, mut mask) = disc();
+        // A thin spur of the passage, which is lost where the sample is made smaller.
+        let spur: Vec<usize> = (2..10).map(|x| 25 * 60 + x).collect();
+        for &pixel in &spur {
+            mask.values_mut()[pixel] = true;
+        }
+        let source = spur_like_disc(source, &spur);
         for (degrees, scale) in
             [(90.0, [1.0; 2]), (37.0, [1.0; 2]), (120.0, [0.4; 2]), (15.0, [2.5, 1.0])]
         {
@@ -147,8 +168,12 @@ mod tests {
                 }
             }
             let (width, rows) = (found.mask.width(), found.mask.height());
-            assert!((0..width).any(|x| found.mask[(x, 0)]), "cut to the extent");
-            assert!((0..rows).any(|y| found.mask[(width - 1, y)]), "cut to the extent");
+            for y in [0, rows - 1] {
+                assert!((0..width).any(|x| found.mask[(x, y)]), "row {y} should be cut off");
+            }
+            for x in [0, width - 1] {
+                assert!((0..rows).any(|y| found.mask[(x, y)]), "column {x} should be cut off");
+            }
         }
     }
 }

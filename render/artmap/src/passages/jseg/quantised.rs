@@ -158,6 +158,22 @@ mod tests {
     }
 
     #[test]
+    fn rounds_of_lloyd_bring_the_means_nearer_to_the_colors() {
+        // Lightness is dense in the dark and sparse in the light.
+        let bins: Vec<Bin> = (0..60)
+            .map(|i| Bin { pixels: 1.0, mean: Vector3::new(f64::from(i * i) / 36.0, 0.0, 0.0) })
+            .collect();
+        let error = |centers: &[Vector3<f64>]| -> f64 {
+            bins.iter()
+                .map(|bin| (centers[nearest(centers, bin.mean)] - bin.mean).norm_squared())
+                .sum()
+        };
+        let start = split(&bins, 6);
+        let end = lloyd(&bins, start.clone());
+        assert!(error(&end) < error(&start), "{} {}", error(&end), error(&start));
+    }
+
+    #[test]
     fn there_are_as_many_classes_as_asked_for() {
         let ramp = (0..200 * 4).map(|i| [(i % 200) as f32 / 2.0, 0.0, 0.0]).collect();
         let classes = quantised(&Field::from_values(200, 4, ramp), 12);

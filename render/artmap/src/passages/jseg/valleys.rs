@@ -98,8 +98,8 @@ mod tests {
 
     #[test]
     fn only_pixels_of_the_region_are_looked_at() {
-        let labels = Field::from_values(4, 1, vec![0, 1, 1, 0]);
-        let j = Field::from_values(4, 1, vec![0.0, 0.1, 0.5, 0.0]);
-        assert_eq!(valleys(&labels, 1, &[1, 2], &j, 1), [vec![1]]);
+        let labels = Field::from_values(4, 1, vec![1, 0, 1, 1]);
+        let j = Field::from_values(4, 1, vec![0.0, 0.0, 0.0, 9.0]);
+        assert_eq!(valleys(&labels, 1, &[0, 2, 3], &j, 1), [vec![0], vec![2]]);
     }
 }
