@@ -1,0 +1,218 @@
+//! Regions of a picture: the label of each pixel, neighbours, and the joining of neighbours.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap, VecDeque};
+
+use graphics::field::Field;
+
+/// Regions of a picture, from an over-segmentation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Regions {
+    /// Region of each pixel: 0 and up without gaps, in the order in which regions first appear
+    /// row by row.
+    pub labels: Field<u32>,
+    /// Number of regions.
+    pub count: usize,
+}
+
+/// Indices of the pixels above, below, left and right of a pixel.
+pub(super) fn beside(pixel: u32, width: usize, height: usize) -> impl Iterator<Item = u32> {
+    let across = width as u32;
+    let (x, y) = (pixel as usize % width, pixel as usize / width);
+    let around = [
+        (x > 0).then(|| pixel - 1),
+        (x + 1 < width).then(|| pixel + 1),
+        (y > 0).then(|| pixel - across),
+        (y + 1 < height).then(|| pixel + across),
+    ];
+    around.into_iter().flatten()
+}
+
+impl Regions {
+    /// Regions of arbitrary labels below `labels_below`, numbered anew.
+    pub(super) fn numbered(mut labels: Field<u32>, labels_below: usize) -> Self {
+        let mut numbers = vec![None; labels_below];
+        let mut count = 0;
+        for label in labels.values_mut() {
+            *label = *numbers[*label as usize].get_or_insert_with(|| {
+                count += 1;
+                count - 1
+            });
+        }
+        Self { labels, count: count as usize }
+    }
+
+    /// The pixels of each region, row by row.
+    pub(super) fn pixels(&self) -> Vec<Vec<u32>> {
+        let mut pixels = vec![Vec::new(); self.count];
+        for (pixel, &label) in (0..).zip(self.labels.values()) {
+            pixels[label as usize].push(pixel);
+        }
+        pixels
+    }
+
+    /// The labels of the neighbours of each region, by rows and columns.
+    pub(super) fn neighbours(&self) -> Vec<BTreeSet<u32>> {
+        let (width, height) = (self.labels.width(), self.labels.height());
+        let mut neighbours = vec![BTreeSet::new(); self.count];
+        let mut meet = |one: u32, other: u32| {
+            if one != other {
+                neighbours[one as usize].insert(other);
+                neighbours[other as usize].insert(one);
+            }
+        };
+        for y in 0..height {
+            for x in 0..width {
+                let own = self.labels[(x, y)];
+                if x + 1 < width {
+                    meet(own, self.labels[(x + 1, y)]);
+                }
+                if y + 1 < height {
+                    meet(own, self.labels[(x, y + 1)]);
+                }
+            }
+        }
+        neighbours
+    }
+
+    /// Distance of each pixel from the nearest pixel of another region, along rows and columns:
+    /// 1 at a border, more inside. The edge of the picture is no border.
+    pub(super) fn depths(&self) -> Field<u32> {
+        let (width, height) = (self.labels.width(), self.labels.height());
+        let mut depths = Field::filled(width, height, u32::MAX);
+        let labels = self.labels.values();
+        let mut queue = VecDeque::new();
+        for (pixel, &own) in (0..).zip(labels) {
+            if beside(pixel, width, height).any(|other| labels[other as usize] != own) {
+                depths.values_mut()[pixel as usize] = 1;
+                queue.push_back(pixel);
+            }
+        }
+        while let Some(pixel) = queue.pop_front() {
+            let deeper = depths.values()[pixel as usize] + 1;
+            for other in beside(pixel, width, height) {
+                let depth = &mut depths.values_mut()[other as usize];
+                if *depth == u32::MAX {
+                    *depth = deeper;
+                    queue.push_back(other);
+                }
+            }
+        }
+        depths
+    }
+}
+
+/// Joins neighbours, cheapest first, while their cost is below `limit`; of equal costs the pair
+/// of the smallest labels is first. A joined region has the summary that `unite` makes of both.
+///
+/// `summaries` and the returned ones stand in the order of the labels. Costs are at least 0.
+pub(super) fn joined<T>(
+    regions: &Regions,
+    summaries: Vec<T>,
+    limit: f64,
+    cost: impl Fn(&T, &T) -> f64,
+    unite: impl Fn(&mut T, T),
+) -> (Regions, Vec<T>) {
+    let mut summaries: Vec<Option<T>> = summaries.into_iter().map(Some).collect();
+    let mut neighbours = regions.neighbours();
+    let mut into: Vec<u32> = (0..regions.count as u32).collect();
+    let mut versions = vec![0u32; regions.count];
+    let mut queue = BinaryHeap::new();
+    let offer = |queue: &mut BinaryHeap<_>, versions: &[u32], summaries: &[Option<T>], a, b| {
+        let (one, other) = (u32::min(a, b), u32::max(a, b));
+        let [i, j] = [one, other].map(|label| label as usize);
+        if let (Some(first), Some(second)) = (&summaries[i], &summaries[j]) {
+            let cost = cost(first, second);
+            if cost < limit {
+                // Bits of numbers of at least 0 are in the order of the numbers.
+                queue.push(Reverse((cost.to_bits(), one, other, versions[i], versions[j])));
+            }
+        }
+    };
+    for (one, around) in (0u32..).zip(&neighbours) {
+        for &other in around.iter().filter(|&&other| other > one) {
+            offer(&mut queue, &versions, &summaries, one, other);
+        }
+    }
+    while let Some(Reverse((_, one, other, version, other_version))) = queue.pop() {
+        let (i, j) = (one as usize, other as usize);
+        if versions[i] != version || versions[j] != other_version {
+            continue;
+        }
+        let Some(part) = summaries[j].take() else { continue };
+        if let Some(whole) = &mut summaries[i] {
+            unite(whole, part);
+        }
+        versions[i] += 1;
+        versions[j] += 1;
+        into[j] = one;
+        for beyond in std::mem::take(&mut neighbours[j]) {
+            neighbours[beyond as usize].remove(&other);
+            if beyond != one {
+                neighbours[beyond as usize].insert(one);
+                neighbours[i].insert(beyond);
+            }
+        }
+        for &beyond in &neighbours[i] {
+            offer(&mut queue, &versions, &summaries, one, beyond);
+        }
+    }
+    relabelled(regions, &into, summaries)
+}
+
+/// Follows `into`, from each label to the smaller one that it was joined to, to its end.
+fn relabelled<T>(
+    regions: &Regions,
+    into: &[u32],
+    mut summaries: Vec<Option<T>>,
+) -> (Regions, Vec<T>) {
+    let mut ends = into.to_vec();
+    for label in 0..ends.len() {
+        ends[label] = ends[ends[label] as usize];
+    }
+    let values = regions.labels.values();
+    let labels = values.iter().map(|&label| ends[label as usize]).collect();
+    let (width, height) = (regions.labels.width(), regions.labels.height());
+    let found = Regions::numbered(Field::from_values(width, height, labels), regions.count);
+    // The order of first appearance, in which labels are numbered, is that of the least labels.
+    let kept = summaries.iter_mut().filter_map(Option::take).collect();
+    (found, kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(labels: &[u32]) -> Regions {
+        let below = labels.iter().max().map_or(0, |&most| most as usize + 1);
+        Regions::numbered(Field::from_values(labels.len(), 1, labels.to_vec()), below)
+    }
+
+    #[test]
+    fn neighbours_are_joined_cheapest_first_with_means_that_follow() {
+        let regions = row(&[0, 1, 2, 3]);
+        let sums = vec![(0.0, 1.0), (1.0, 1.0), (2.5, 1.0), (9.0, 1.0)];
+        let apart = |a: &(f64, f64), b: &(f64, f64)| (a.0 / a.1 - b.0 / b.1).abs();
+        let unite = |a: &mut (f64, f64), b: (f64, f64)| *a = (a.0 + b.0, a.1 + b.1);
+        // 0 and 1 are joined first; their mean 0.5 is then 2.0 from the third.
+        let (found, sums_found) = joined(&regions, sums.clone(), 1.8, apart, unite);
+        assert_eq!(found.labels.values(), [0, 0, 1, 2]);
+        assert_eq!(sums_found, [(1.0, 2.0), (2.5, 1.0), (9.0, 1.0)]);
+        let (found, _) = joined(&regions, sums, 2.1, apart, unite);
+        assert_eq!(found.labels.values(), [0, 0, 0, 1]);
+    }
+
+    #[test]
+    fn regions_that_do_not_touch_are_not_joined() {
+        let regions = row(&[0, 1, 2]);
+        let (found, _) =
+            joined(&regions, vec![1.0, 5.0, 1.0], 1.0, |a, b| f64::abs(a - b), |_, _| ());
+        assert_eq!(found.count, 3);
+    }
+
+    #[test]
+    fn depth_counts_from_the_border_of_the_region() {
+        let regions = row(&[0, 0, 0, 1, 1]);
+        assert_eq!(regions.depths().values(), [3, 2, 1, 1, 2]);
+    }
+}

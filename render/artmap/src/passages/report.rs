@@ -1,0 +1,39 @@
+//! Report of a sample that was taken.
+
+use graphics::field::Field;
+
+use super::direction::StrokeDirection;
+
+/// Origin of the distance of strokes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SpacingSource {
+    /// Two points that the painter marked.
+    Marked,
+    /// Estimated by autocorrelation across the strokes.
+    Estimated {
+        /// Difference of the first maximum of the autocorrelation and the minimum before it, 0.1
+        /// to 2. Larger is more reliable.
+        sharpness: f64,
+    },
+}
+
+/// How one sample was taken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassageReport {
+    /// Name of the sample.
+    pub name: String,
+    /// Pixels of the passage in the picture.
+    pub mask: Field<bool>,
+    /// Number of regions of the over-segmentation under the scribble; 0 for a rectangle.
+    pub regions_under: usize,
+    /// Direction of the strokes.
+    pub direction: StrokeDirection,
+    /// Distance of neighbouring strokes in pixels of the picture.
+    pub spacing_px: f64,
+    /// Origin of that distance.
+    pub spacing_source: SpacingSource,
+    /// Texels of the sample per pixel of the picture, across and along the strokes.
+    pub scale: [f64; 2],
+    /// Mean CIELAB lightness, 0 to 100.
+    pub lightness: f64,
+}
