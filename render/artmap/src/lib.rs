@@ -16,10 +16,14 @@
 
 pub mod sample;
 
+mod tiling;
+
 pub mod passages;
 
 pub mod painted;
 
 pub mod synthesis;
+
+pub mod map;
 
 pub mod measures;

@@ -38,6 +38,20 @@ pub fn lab_from_linear(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     Field::from_values(picture.width(), picture.height(), values)
 }
 
+/// Linear sRGB of a picture of CIELAB under the white of sRGB. Colours outside the gamut have
+/// values below 0 or above 1.
+#[must_use]
+pub fn linear_from_lab(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
+    let white = RgbSpace::Srgb.white();
+    let rgb_from_xyz = RgbSpace::Srgb.xyz_from_linear().inverse();
+    let rgb = |&[l, a, b]: &[f32; 3]| {
+        let lab = Lab { lightness: f64::from(l), a: f64::from(a), b: f64::from(b) };
+        rgb_from_xyz.apply(lab.to_xyz(white).to_array()).map(|value| value as f32)
+    };
+    let values = picture.values().par_iter().with_min_len(1024).map(rgb).collect();
+    Field::from_values(picture.width(), picture.height(), values)
+}
+
 /// Composites a picture with coverage on white, without linearising it. The coverage of the
 /// result is 1 everywhere.
 #[must_use]
@@ -69,6 +83,16 @@ mod tests {
             for (found, wanted) in found.iter().zip(wanted) {
                 assert!((found - wanted).abs() < 1e-6, "{found} {wanted}");
             }
+        }
+    }
+
+    #[test]
+    fn cielab_and_linear_light_are_inverse() {
+        let values = (0..64).map(|i| [i as f32 / 64.0, 0.3, 1.0 - i as f32 / 64.0]);
+        let picture = Field::from_values(8, 8, values.collect());
+        let back = linear_from_lab(&lab_from_linear(&picture));
+        for (found, wanted) in back.values().iter().zip(picture.values()) {
+            assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-5), "{found:?}");
         }
     }
 

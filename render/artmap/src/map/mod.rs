@@ -1,0 +1,16 @@
+//! Art maps: tiles of brushwork from dark to light, gathered from samples.
+
+mod tile;
+
+mod gathered;
+
+mod art_map;
+
+mod between;
+
+#[cfg(test)]
+mod tests;
+
+pub use art_map::{ArtMap, KeyMap};
+pub use between::{Between, Transition};
+pub use tile::Tile;
