@@ -10,17 +10,18 @@ use super::tile::Tile;
 use crate::sample::TexelPaint;
 use crate::tiling::blurred_tile;
 
-/// Share of the strokes that dissolve at a time.
-const BAND: f64 = 0.15;
+/// Share of the change that goes on at a time where strokes dissolve.
+const BAND: f32 = 0.15;
 /// Deviation of the smoothing of the difference of two tiles, in spacings of strokes.
 const SMOOTH: f64 = 0.25;
 
-/// How a tile between two key tiles is made.
+/// How a tile between two key tiles is made. In both ways tone, colour and amount of paint change
+/// evenly over the whole tile; they differ in what strokes show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Between {
-    /// Strokes of the lighter tile replace those of the darker one, first where they differ most.
-    /// Keeps the contrast of the strokes.
+    /// Each place shows the strokes of either tile and changes once: first where both tiles are
+    /// alike, last where they differ most. Keeps the contrast of the strokes.
     #[default]
     Dissolve,
     /// The weighted mean of both tiles (equation 8 of Yan and others 2008), in CIELAB.
@@ -33,7 +34,7 @@ pub struct Transition<'a> {
     darker: &'a Tile,
     lighter: &'a Tile,
     labs: [Field<[f32; 3]>; 2],
-    /// When each texel changes, 0 first to 1 last; NaN for texels that change all the way.
+    /// When each texel changes, 0 first to 1 last; `None` where all change all the way.
     ranks: Option<Vec<f32>>,
 }
 
@@ -54,100 +55,112 @@ impl ArtMap {
 
 impl Transition<'_> {
     /// The tile at `share` of the way: at 0 or less the darker, at 1 or more the lighter key tile.
-    /// In between the mean L* changes in proportion. Amounts of paint and heights are means of
-    /// amounts and heights with the weights of the colours.
+    /// In between the means of L*, a*, b*, of each pigment and of the height change in proportion.
     #[must_use]
-    pub fn at(&self, share: f64) -> Tile {
+    pub fn at(&self, share: f32) -> Tile {
         if share >= 1.0 {
             return self.lighter.clone();
         }
         if share.is_nan() || share <= 0.0 {
             return self.darker.clone();
         }
-        let even = vec![share as f32; self.labs[0].values().len()];
-        let weights = match &self.ranks {
-            None => even,
+        let weights: Vec<f32> = match &self.ranks {
+            None => vec![share; self.labs[0].values().len()],
             Some(ranks) => {
-                let threshold = threshold_of(share) as f32;
-                let weight = |rank: &f32| match rank {
-                    rank if rank.is_nan() => share as f32,
-                    rank => ((threshold - rank) / BAND as f32).clamp(0.0, 1.0),
-                };
-                ranks.iter().map(weight).collect()
+                let threshold = share * (1.0 + BAND);
+                ranks.iter().map(|rank| ((threshold - rank) / BAND).clamp(0.0, 1.0)).collect()
             }
         };
-        mixed(self.darker, self.lighter, &self.labs, &weights)
+        self.mixed(&Mixing { share, weights })
+    }
+
+    fn mixed(&self, mixing: &Mixing) -> Tile {
+        let (darker, lighter, size) = (self.darker, self.lighter, self.darker.size());
+        let [dark, light] = self.labs.each_ref().map(Field::values);
+        let [l, a, b] = [0, 1, 2].map(|i| mixing.level(dark, light, |lab| lab[i]));
+        let lab = l.into_iter().zip(a).zip(b).map(|((l, a), b)| [l, a, b]).collect();
+        let paint = darker.paint.as_ref().zip(lighter.paint.as_ref()).map(|(dark, light)| {
+            let (dark, light) = (dark.values(), light.values());
+            let vehicle = mixing.amount(dark, light, |texel| texel.vehicle_mm);
+            let mut texels: Vec<TexelPaint> = vehicle
+                .into_iter()
+                .map(|vehicle_mm| TexelPaint { vehicle_mm, ..TexelPaint::default() })
+                .collect();
+            for slot in 0..SLOTS {
+                let amounts = mixing.amount(dark, light, |texel| texel.pigments_mm[slot]);
+                texels.iter_mut().zip(amounts).for_each(|(texel, mm)| texel.pigments_mm[slot] = mm);
+            }
+            Field::from_values(size, size, texels)
+        });
+        let height_mm = darker.height_mm.as_ref().zip(lighter.height_mm.as_ref());
+        let height_mm = height_mm.map(|(dark, light)| {
+            Field::from_values(size, size, mixing.amount(dark.values(), light.values(), |mm| *mm))
+        });
+        Tile { color: linear_from_lab(&Field::from_values(size, size, lab)), paint, height_mm }
     }
 }
 
-/// When each texel changes to the lighter tile: texels in the order of the smoothed difference of
-/// L*, largest first. The place in that order is measured in difference, not in texels, so that
-/// the mean L* follows the share. Where the lighter tile is not lighter, nothing tells which
-/// stroke comes first: NaN.
+/// How the channels of two tiles are mixed: means by `share`, what differs from the mean by the
+/// weight of the lighter tile at each texel.
+struct Mixing {
+    share: f32,
+    weights: Vec<f32>,
+}
+
+impl Mixing {
+    /// Mixes a channel of any sign. The mean is that of both tiles by share.
+    fn level<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
+        let means = [dark, light].map(|texels| mean(texels.iter().map(&of)));
+        let wanted = means[0] + self.share * (means[1] - means[0]);
+        let texel = |((dark, light), weight): ((&T, &T), &f32)| {
+            let (dark, light) = (of(dark) - means[0], of(light) - means[1]);
+            wanted + dark + weight * (light - dark)
+        };
+        let mut mixed: Vec<f32> = dark.iter().zip(light).zip(&self.weights).map(texel).collect();
+        let shift = wanted - mean(mixed.iter().copied());
+        mixed.iter_mut().for_each(|value| *value += shift);
+        mixed
+    }
+
+    /// Mixes a channel of amounts, which are not negative. The mean is that of both tiles by share.
+    fn amount<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
+        let mut mixed = self.level(dark, light, of);
+        let wanted = mean(mixed.iter().copied());
+        mixed.iter_mut().for_each(|amount| *amount = amount.max(0.0));
+        let found = mean(mixed.iter().copied());
+        if found > 0.0 {
+            mixed.iter_mut().for_each(|amount| *amount *= wanted / found);
+        }
+        mixed
+    }
+}
+
+fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
+    let count = values.len().max(1) as f64;
+    (values.map(f64::from).sum::<f64>() / count) as f32
+}
+
+/// When each texel changes: texels in the order of the size of the smoothed difference of what
+/// differs from the mean L* in either tile. The place in that order is measured in difference, so
+/// that the tile changes evenly.
 fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], sigma: f64) -> Vec<f32> {
     let (width, height) = (darker.width(), darker.height());
+    let means = [darker, lighter].map(|lab| mean(lab.values().iter().map(|lab| lab[0])));
     let pairs = darker.values().iter().zip(lighter.values());
-    let difference = Field::from_values(width, height, pairs.map(|(a, b)| b[0] - a[0]).collect());
-    let smooth = blurred_tile(&difference, sigma);
+    let difference = pairs.map(|(a, b)| (b[0] - means[1]) - (a[0] - means[0])).collect();
+    let smooth = blurred_tile(&Field::from_values(width, height, difference), sigma);
+    let size = |index: usize| smooth.values()[index].abs();
     let mut order: Vec<usize> = (0..width * height).collect();
-    order.sort_by(|&a, &b| smooth.values()[b].total_cmp(&smooth.values()[a]).then(a.cmp(&b)));
-    let total: f64 = smooth.values().iter().map(|value| f64::from(value.max(0.0))).sum();
-    let mut ranks = vec![f32::NAN; width * height];
+    order.sort_by(|&a, &b| size(a).total_cmp(&size(b)).then(a.cmp(&b)));
+    let total: f64 = order.iter().map(|&index| f64::from(size(index))).sum();
+    let mut ranks = vec![0.5; width * height];
     let mut before = 0.0;
     for index in order {
-        let value = f64::from(smooth.values()[index]);
-        if value <= 0.0 {
-            break;
+        let size = f64::from(size(index));
+        if total > 0.0 {
+            ranks[index] = ((before + 0.5 * size) / total) as f32;
         }
-        ranks[index] = ((before + 0.5 * value) / total) as f32;
-        before += value;
+        before += size;
     }
     ranks
-}
-
-/// The threshold at which the mean over ranks 0..1 of `clamp((threshold - rank) / BAND, 0, 1)` is
-/// `share`.
-fn threshold_of(share: f64) -> f64 {
-    if share < 0.5 * BAND {
-        (2.0 * BAND * share).sqrt()
-    } else if share <= 1.0 - 0.5 * BAND {
-        share + 0.5 * BAND
-    } else {
-        1.0 + BAND - (2.0 * BAND * (1.0 - share)).sqrt()
-    }
-}
-
-/// The mean of two tiles with a weight of the lighter one for each texel.
-fn mixed(darker: &Tile, lighter: &Tile, labs: &[Field<[f32; 3]>; 2], weights: &[f32]) -> Tile {
-    let size = darker.size();
-    let mean = |a: f32, b: f32, weight: f32| a + weight * (b - a);
-    let pairs = labs[0].values().iter().zip(labs[1].values()).zip(weights);
-    let lab: Vec<[f32; 3]> =
-        pairs.map(|((a, b), &w)| std::array::from_fn(|i| mean(a[i], b[i], w))).collect();
-    let mut color = linear_from_lab(&Field::from_values(size, size, lab));
-    // A key tile's own texels keep their bits.
-    for (index, weight) in weights.iter().enumerate() {
-        if *weight == 0.0 {
-            color.values_mut()[index] = darker.color.values()[index];
-        } else if *weight == 1.0 {
-            color.values_mut()[index] = lighter.color.values()[index];
-        }
-    }
-    let paint = darker.paint.as_ref().zip(lighter.paint.as_ref()).map(|(a, b)| {
-        let texel = |((a, b), &w): ((&TexelPaint, &TexelPaint), &f32)| {
-            let amount = |slot: usize| mean(a.pigments_mm[slot], b.pigments_mm[slot], w);
-            let pigments_mm: [f32; SLOTS] = std::array::from_fn(amount);
-            TexelPaint { pigments_mm, vehicle_mm: mean(a.vehicle_mm, b.vehicle_mm, w) }
-        };
-        Field::from_values(
-            size,
-            size,
-            a.values().iter().zip(b.values()).zip(weights).map(texel).collect(),
-        )
-    });
-    let height_mm = darker.height_mm.as_ref().zip(lighter.height_mm.as_ref()).map(|(a, b)| {
-        let pairs = a.values().iter().zip(b.values()).zip(weights);
-        Field::from_values(size, size, pairs.map(|((a, b), &w)| mean(*a, *b, w)).collect())
-    });
-    Tile { color, paint, height_mm }
 }

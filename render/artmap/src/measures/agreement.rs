@@ -47,8 +47,9 @@ pub fn wrap_ratio(map: &Texture) -> f64 {
     if mean(inside) > 0.0 { mean(across) / mean(inside) } else { 1.0 }
 }
 
-/// Use of the most used part of a sample over the mean use of its parts: 1 where all are used
-/// alike. Parts are squares of `block` texels that lie in the mask.
+/// Use of the most used part of a sample over the mean use of its parts, or over a single use where
+/// the map is too small to show every part once: 1 where all are used alike. Parts are squares of
+/// `block` texels that lie in the mask.
 #[must_use]
 pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) -> f64 {
     let (width, height) = (mask.width().div_ceil(block), mask.height().div_ceil(block));
@@ -61,7 +62,7 @@ pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) ->
         inside[part(index % mask.width(), index / mask.width())] += u64::from(is_inside);
     }
     let all = inside.iter().sum::<u64>().max(1) as f64;
-    let mean = sources.values().len() as f64 / all;
+    let mean = (sources.values().len() as f64 / all).max(1.0);
     let whole = |(_, inside): &(&u64, &u64)| **inside == (block * block) as u64;
     let uses = used.iter().zip(&inside).filter(whole);
     uses.map(|(&used, &inside)| used as f64 / inside as f64 / mean).fold(0.0, f64::max)

@@ -103,7 +103,8 @@ mod tests {
         let value = |index: usize| {
             let (x, y) = (index % size, index / size);
             let column = x / spacing;
-            let on = (y + 7 * column * column) / length % 2 == 0 && x % spacing < spacing / 2;
+            let even = ((y + 7 * column * column) / length).is_multiple_of(2);
+            let on = even && x % spacing < spacing / 2;
             [if on { dark } else { 0.8 }; 3]
         };
         let values = (0..size * size).map(value).collect();

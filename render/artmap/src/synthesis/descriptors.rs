@@ -1,7 +1,7 @@
 //! Patches described by few numbers, and the patches most like a given one: the coherence search
 //! space of Yan and others (2008, section 4.2), kept as nearest neighbours.
 //!
-//! A patch is sampled at up to 6 x 6 places after smoothing, and projected onto the principal
+//! A patch is sampled at up to 7 x 7 places after smoothing, and projected onto the principal
 //! components of the patches of all samples. Neighbours are found by comparing all descriptors:
 //! with some 30 components that is exact and as fast as a tree.
 
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::level::{FEATURES, Level};
 
 /// Places along a side at which a patch is sampled.
-const SAMPLES: usize = 6;
+const SAMPLES: usize = 7;
 /// Numbers of a sampled patch.
 const NUMBERS: usize = SAMPLES * SAMPLES * FEATURES;
 /// Share of the variance that the components keep.

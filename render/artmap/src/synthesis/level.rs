@@ -101,7 +101,7 @@ impl Level {
         let values = &channels.values;
         let (width, height) = (values.width(), values.height());
         let fine = channels.smooth((spacing / 8.0).clamp(0.5, 1.0));
-        let coarse = channels.smooth(spacing);
+        let coarse = channels.smooth(2.0 * spacing);
         let edges = edge_strength(&fine);
         let detail = |index: usize, channel: usize| {
             fine.values()[index][channel] - coarse.values()[index][channel]

@@ -49,8 +49,8 @@ impl Default for SynthesisSettings {
             first: None,
             features: Features::default(),
             links: 32,
-            follow: 1.0,
-            uniformity: 0.5,
+            follow: 8.0,
+            uniformity: 1.0,
             seed: 1,
         }
     }
