@@ -61,7 +61,8 @@ pub fn contrast(texture: &Texture) -> f64 {
 }
 
 /// Length of strokes in texels along y: the integral of the autocorrelation of L* until it falls
-/// below 0.05.
+/// below 0.05. Unevenness over long distances counts as well: compare textures of different size
+/// after [`Texture::levelled`].
 #[must_use]
 pub fn stroke_length(texture: &Texture) -> f64 {
     let (mean, variance) = moments(texture);
@@ -128,6 +129,21 @@ mod tests {
         let ratio = stroke_length(&long) / stroke_length(&short);
         assert!((2.0..4.0).contains(&ratio), "{ratio}");
         assert!(contrast(&dashes(96, 8, 8, 0.4)) < 0.6 * contrast(&short));
+    }
+
+    #[test]
+    fn a_gradient_does_not_lengthen_the_strokes_of_a_levelled_texture() {
+        let short = dashes(96, 8, 8, 0.5);
+        let value = |index: usize| {
+            let on = short.lightness().values()[index] < 80.0;
+            [(if on { 0.5 } else { 0.8 }) * (0.1 + (index / 96) as f32 / 96.0); 3]
+        };
+        let mask = Field::filled(96, 96, true);
+        let uneven = Field::from_values(96, 96, (0..96 * 96).map(value).collect());
+        let uneven = Texture::masked(&uneven, &mask);
+        assert!(stroke_length(&uneven) > 1.5 * stroke_length(&short));
+        let ratio = stroke_length(&uneven.levelled(16.0)) / stroke_length(&short.levelled(16.0));
+        assert!((0.8..1.2).contains(&ratio), "{ratio}");
     }
 
     #[test]

@@ -1,8 +1,11 @@
 //! The lightness of a texture, as figures read it.
 
+use graphics::blurred;
 use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
 use graphics::picture::Picture;
+
+use crate::tiling::blurred_tile;
 
 /// L* of a texture that tiles, or of a sample with a mask.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +31,20 @@ impl Texture {
         let (size, covered) = ((color.width(), color.height()), (mask.width(), mask.height()));
         assert_eq!(size, covered, "a mask must cover its sample");
         Self { lightness: lightness(color), mask: Some(mask.clone()) }
+    }
+
+    /// The texture without its variation over distances much longer than `sigma` texels: L* less
+    /// its mean around each texel, weighted by a Gaussian of that deviation.
+    #[must_use]
+    pub fn levelled(&self, sigma: f64) -> Self {
+        let means = match &self.mask {
+            None => blurred_tile(&self.lightness, sigma),
+            Some(mask) => masked_blur(&self.lightness, mask, sigma),
+        };
+        let mut lightness = self.lightness.clone();
+        let pairs = lightness.values_mut().iter_mut().zip(means.values());
+        pairs.for_each(|(value, mean)| *value -= mean);
+        Self { lightness, mask: self.mask.clone() }
     }
 
     /// Width and height in texels.
@@ -69,6 +86,19 @@ impl Texture {
             }
         }
     }
+}
+
+/// Blur of the values inside a mask; values outside give nothing.
+fn masked_blur(values: &Field<f32>, mask: &Field<bool>, sigma: f64) -> Field<f32> {
+    let weigh = |(value, &inside): (&f32, &bool)| {
+        let weight = f32::from(inside);
+        [weight * value, weight]
+    };
+    let weighed = values.values().iter().zip(mask.values()).map(weigh).collect();
+    let (width, height) = (values.width(), values.height());
+    let sums = blurred(&Field::from_values(width, height, weighed), sigma);
+    let mean = |&[sum, weight]: &[f32; 2]| if weight > 1e-4 { sum / weight } else { 0.0 };
+    Field::from_values(width, height, sums.values().iter().map(mean).collect())
 }
 
 fn lightness(color: &Picture) -> Field<f32> {

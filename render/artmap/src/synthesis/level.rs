@@ -85,6 +85,17 @@ impl Channels {
         Field::from_values(width, height, sums.values().iter().map(mean).collect())
     }
 
+    /// Slope of a channel of `fine` over its L*, over the mask; 0 where L* is even.
+    fn slope_over_lightness(&self, fine: &Field<[f32; LOOKS]>, channel: usize) -> f32 {
+        let (mean, deviation) = self.moments(|index| fine.values()[index][0]);
+        let product = |index: usize| {
+            let value = fine.values()[index];
+            (value[0] - mean as f32) * value[channel]
+        };
+        let covariance = self.moments(product).0;
+        if deviation > 0.0 { (covariance / (deviation * deviation)) as f32 } else { 0.0 }
+    }
+
     /// Mean and deviation of a channel over the mask, with its values given by `value`.
     fn moments(&self, value: impl Fn(usize) -> f32) -> (f64, f64) {
         let inside = || (0..self.mask.values().len()).filter(|&index| self.mask.values()[index]);
@@ -106,8 +117,12 @@ impl Level {
         let detail = |index: usize, channel: usize| {
             fine.values()[index][channel] - coarse.values()[index][channel]
         };
+        // Across the tones of one paint, a* and b* may rise or fall with L*; what L* tells is left
+        // to L*.
+        let slopes = [1, 2].map(|channel| channels.slope_over_lightness(&fine, channel));
         let raw = |index: usize| {
-            let [_, a, b, _] = fine.values()[index];
+            let [l, a, b, _] = fine.values()[index];
+            let (a, b) = (a - slopes[0] * l, b - slopes[1] * l);
             [edges[index], detail(index, 0), a, b, detail(index, 3)]
         };
         let scales: [(f32, f32); FEATURES] = std::array::from_fn(|feature| {

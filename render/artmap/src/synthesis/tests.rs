@@ -91,7 +91,8 @@ fn maps_have_the_brushwork_of_their_samples_and_no_seams() {
             assert!((0.9..=1.1).contains(&ratio), "contrast {ratio}");
             let most = most_used(sources, &sample.mask, 16);
             assert!(most <= 4.0, "use {most}");
-            lengths.push(stroke_length(&map) / stroke_length(&whole));
+            let length = |texture: &Texture| stroke_length(&texture.levelled(4.0 * SPACING as f64));
+            lengths.push(length(&map) / length(&whole));
             seams.push(wrap_ratio(&map));
         }
     }
