@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release -p impasto-artmap --example art_map -- oil-flat tiles.png`
 
+#![expect(clippy::print_stdout, reason = "an example prints what it did")]
+
 use std::time::Instant;
 
 use artmap::map::{ArtMap, Between};

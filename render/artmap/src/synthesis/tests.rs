@@ -8,6 +8,7 @@ use super::*;
 use crate::measures::{
     Texture, co_occurrence_error, coherence, contrast, most_used, stroke_length, wrap_ratio,
 };
+use crate::painted::{PaintedSettings, Style, painted_samples};
 use crate::sample::{Sample, SampleSet, strokes};
 
 const SPACING: usize = 8;
@@ -67,6 +68,21 @@ fn maps_of_nested_samples_agree_almost_everywhere() {
     for texture in &shown {
         let found = coherence(&shown[maps.first], texture, SPACING as f64);
         assert!(found >= 0.9, "{found}");
+    }
+}
+
+#[test]
+fn maps_of_tones_painted_with_the_same_strokes_agree() {
+    let mut style = Style::named("oil-flat").unwrap();
+    style.canvas.cell_mm = 0.5;
+    style.canvas.side_cells = 128;
+    let settings = PaintedSettings { tones: 3, ..PaintedSettings::default() };
+    let samples = painted_samples(&style, &settings).unwrap();
+    let maps = key_maps(&samples, &SynthesisSettings { size: 96, ..small() }).unwrap();
+    let shown = textures(&samples, &maps);
+    for (index, texture) in shown.iter().enumerate() {
+        let found = coherence(&shown[maps.first], texture, samples.samples[0].spacing);
+        assert!(found >= 0.9, "map {index} to {}: {found}", maps.first);
     }
 }
 
