@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         start.elapsed().as_secs_f64()
     );
 
-    println!("tone      L*  coherence  error  floor  contrast  length  border  use");
+    println!("tone      L*  (sample)  coherence  error  floor  contrast  length  border  use");
     let first = Texture::tiled(&map.keys[map.first].tile.color);
     // Unevenness over more than some strokes is no stroke.
     let level = |texture: &Texture| texture.levelled(4.0 * map.spacing);
@@ -49,9 +49,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             Texture::masked(&sample.color, &mask)
         };
         println!(
-            "{:8} {:4.1} {:10.2} {:6.2} {:6.2} {:9.2} {:7.2} {:7.2} {:4.1}",
+            "{:8} {:4.1} {:9.1} {:10.2} {:6.2} {:6.2} {:9.2} {:7.2} {:7.2} {:4.1}",
             key.name,
             key.tone,
+            whole.tone(),
             coherence(&first, &tile, map.spacing),
             co_occurrence_error(&whole, &tile),
             co_occurrence_error(&half(false), &half(true)),

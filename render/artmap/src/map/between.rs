@@ -15,13 +15,17 @@ const BAND: f32 = 0.15;
 /// Deviation of the smoothing of the difference of two tiles, in spacings of strokes.
 const SMOOTH: f64 = 0.25;
 
-/// How a tile between two key tiles is made. In both ways tone, colour and amount of paint change
-/// evenly over the whole tile; they differ in what strokes show.
+/// Difference of tone over contrast of strokes up to which all of the difference is in the strokes,
+/// and from which on none is.
+const IN_STROKES: [f32; 2] = [0.5, 1.5];
+
+/// How a tile between two key tiles is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Between {
     /// Each place shows the strokes of either tile and changes once: first where both tiles are
-    /// alike, last where they differ most. Keeps the contrast of the strokes.
+    /// alike, last where they differ most. Keeps the contrast of the strokes. Where strokes differ
+    /// less from each other than the tones of the tiles do, the tone changes evenly besides.
     #[default]
     Dissolve,
     /// The weighted mean of both tiles (equation 8 of Yan and others 2008), in CIELAB.
@@ -36,6 +40,8 @@ pub struct Transition<'a> {
     labs: [Field<[f32; 3]>; 2],
     /// When each texel changes, 0 first to 1 last; `None` where all change all the way.
     ranks: Option<Vec<f32>>,
+    /// Share of the difference of tone that changes with the strokes; the rest changes evenly.
+    in_strokes: f32,
 }
 
 impl ArtMap {
@@ -45,11 +51,12 @@ impl ArtMap {
         let darker = &self.keys.get(lower)?.tile;
         let lighter = &self.keys.get(lower + 1)?.tile;
         let labs = [lab_from_linear(&darker.color), lab_from_linear(&lighter.color)];
+        let in_strokes = in_strokes(&labs);
         let ranks = match between {
             Between::Blend => None,
-            Between::Dissolve => Some(ranks(&labs, SMOOTH * self.spacing)),
+            Between::Dissolve => Some(ranks(&labs, in_strokes, SMOOTH * self.spacing)),
         };
-        Some(Transition { darker, lighter, labs, ranks })
+        Some(Transition { darker, lighter, labs, ranks, in_strokes })
     }
 }
 
@@ -71,7 +78,7 @@ impl Transition<'_> {
                 ranks.iter().map(|rank| ((threshold - rank) / BAND).clamp(0.0, 1.0)).collect()
             }
         };
-        self.mixed(&Mixing { share, weights })
+        self.mixed(&Mixing { share, weights, in_strokes: self.in_strokes })
     }
 
     fn mixed(&self, mixing: &Mixing) -> Tile {
@@ -100,21 +107,26 @@ impl Transition<'_> {
     }
 }
 
-/// How the channels of two tiles are mixed: means by `share`, what differs from the mean by the
-/// weight of the lighter tile at each texel.
+/// How the channels of two tiles are mixed.
 struct Mixing {
+    /// Share of the lighter tile in the mean.
     share: f32,
+    /// Weight of the lighter tile at each texel.
     weights: Vec<f32>,
+    /// Share of the difference of the means that changes with the weights.
+    in_strokes: f32,
 }
 
 impl Mixing {
     /// Mixes a channel of any sign. The mean is that of both tiles by share.
     fn level<T>(&self, dark: &[T], light: &[T], of: impl Fn(&T) -> f32) -> Vec<f32> {
         let means = [dark, light].map(|texels| mean(texels.iter().map(&of)));
-        let wanted = means[0] + self.share * (means[1] - means[0]);
+        let step = means[1] - means[0];
+        let wanted = means[0] + self.share * step;
+        let evenly = (1.0 - self.in_strokes) * step;
         let texel = |((dark, light), weight): ((&T, &T), &f32)| {
-            let (dark, light) = (of(dark) - means[0], of(light) - means[1]);
-            wanted + dark + weight * (light - dark)
+            let (dark, light) = (of(dark), of(light));
+            dark + self.share * evenly + weight * (light - dark - evenly)
         };
         let mut mixed: Vec<f32> = dark.iter().zip(light).zip(&self.weights).map(texel).collect();
         let shift = wanted - mean(mixed.iter().copied());
@@ -140,14 +152,29 @@ fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
     (values.map(f64::from).sum::<f64>() / count) as f32
 }
 
-/// When each texel changes: texels in the order of the size of the smoothed difference of what
-/// differs from the mean L* in either tile. The place in that order is measured in difference, so
-/// that the tile changes evenly.
-fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], sigma: f64) -> Vec<f32> {
+/// Share of the difference of tone that changes with the strokes.
+fn in_strokes(labs: &[Field<[f32; 3]>; 2]) -> f32 {
+    let lightness = |lab: &[f32; 3]| lab[0];
+    let means = labs.each_ref().map(|lab| mean(lab.values().iter().map(lightness)));
+    let deviations = [0, 1].map(|at: usize| {
+        let squares = labs[at].values().iter().map(|lab| (lab[0] - means[at]).powi(2));
+        mean(squares).sqrt()
+    });
+    let contrast = 0.5 * (deviations[0] + deviations[1]);
+    let [all, none] = IN_STROKES;
+    let ratio = (means[1] - means[0]).abs() / contrast.max(f32::MIN_POSITIVE);
+    ((none - ratio) / (none - all)).clamp(0.0, 1.0)
+}
+
+/// When each texel changes: texels in the order of the size of the smoothed difference of L* that
+/// changes with the strokes. The place in that order is measured in difference, so that the tile
+/// changes evenly.
+fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], in_strokes: f32, sigma: f64) -> Vec<f32> {
     let (width, height) = (darker.width(), darker.height());
     let means = [darker, lighter].map(|lab| mean(lab.values().iter().map(|lab| lab[0])));
+    let evenly = (1.0 - in_strokes) * (means[1] - means[0]);
     let pairs = darker.values().iter().zip(lighter.values());
-    let difference = pairs.map(|(a, b)| (b[0] - means[1]) - (a[0] - means[0])).collect();
+    let difference = pairs.map(|(a, b)| b[0] - a[0] - evenly).collect();
     let smooth = blurred_tile(&Field::from_values(width, height, difference), sigma);
     let size = |index: usize| smooth.values()[index].abs();
     let mut order: Vec<usize> = (0..width * height).collect();

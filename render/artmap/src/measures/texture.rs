@@ -53,6 +53,13 @@ impl Texture {
         (self.lightness.width(), self.lightness.height())
     }
 
+    /// Mean L* of the texels that belong to it.
+    #[must_use]
+    pub fn tone(&self) -> f64 {
+        let count = self.inside().count().max(1) as f64;
+        self.inside().map(f64::from).sum::<f64>() / count
+    }
+
     /// L* of every texel, those outside the mask too.
     #[must_use]
     pub fn lightness(&self) -> &Field<f32> {

@@ -11,6 +11,7 @@ use super::first::first_level;
 use super::following::Following;
 use super::grid::PatchGrid;
 use super::level::{Channels, Level};
+use super::nested::is_nested;
 use super::settings::{SynthesisError, SynthesisSettings};
 use crate::sample::{Sample, SampleSet};
 
@@ -44,8 +45,9 @@ pub struct KeyMaps {
 /// Synthesises a map of each sample (Yan and others 2008, section 4.3).
 ///
 /// The first map is made freely. The others take, patch by patch, what in their own sample is most
-/// like the first map there and agrees with their patches already laid. The same input gives the
-/// same maps with any number of threads.
+/// like the first map there and agrees with their patches already laid. A sample that has its
+/// strokes at the places of the first one shows the same places. The same input gives the same maps
+/// with any number of threads.
 ///
 /// # Errors
 /// [`SynthesisError`] for settings out of range, and for samples that are too small, flat, or of
@@ -82,11 +84,12 @@ pub fn key_maps(set: &SampleSet, settings: &SynthesisSettings) -> Result<KeyMaps
     let SynthesisSettings { links, follow, uniformity, .. } = *settings;
     let following = Following { links, follow, uniformity };
     let map_of = |sample: usize| {
+        let finest = grids.len() - 1;
+        if sample == first || is_nested(&pyramids[first][finest], &pyramids[sample][finest]) {
+            return first_maps[finest].sources.clone();
+        }
         let mut coarser: Option<LevelMap> = None;
         for (index, &grid) in grids.iter().enumerate() {
-            if sample == first {
-                return first_maps[grids.len() - 1].sources.clone();
-            }
             let here = (&pyramids[sample][index], &described[index][sample]);
             let there = (&first_maps[index], &described[index][first]);
             let map = following.level(index + 1, here, there, grid, coarser.as_ref());
@@ -199,7 +202,7 @@ fn named(samples: &[Sample], name: &str) -> Result<usize, SynthesisError> {
     })
 }
 
-/// Index of the sample whose detail has the largest contrast. Of equal ones the first.
+/// Index of the sample with the strongest contrast of lightness. Of equal ones the first.
 fn strongest(pyramids: &[Vec<Level>]) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
     for (index, pyramid) in pyramids.iter().enumerate() {

@@ -36,7 +36,7 @@ pub(crate) struct Level {
     pub(crate) weight: Field<f32>,
     /// Texels that belong to the sample.
     pub(crate) mask: Field<bool>,
-    /// Deviation of the detail of L*.
+    /// Deviation of L*.
     pub(crate) contrast: f64,
 }
 
@@ -112,25 +112,20 @@ impl Level {
         let values = &channels.values;
         let (width, height) = (values.width(), values.height());
         let fine = channels.smooth((spacing / 8.0).clamp(0.5, 1.0));
-        let coarse = channels.smooth(2.0 * spacing);
         let edges = edge_strength(&fine);
-        let detail = |index: usize, channel: usize| {
-            fine.values()[index][channel] - coarse.values()[index][channel]
-        };
         // Across the tones of one paint, a* and b* may rise or fall with L*; what L* tells is left
         // to L*.
         let slopes = [1, 2].map(|channel| channels.slope_over_lightness(&fine, channel));
         let raw = |index: usize| {
-            let [l, a, b, _] = fine.values()[index];
-            let (a, b) = (a - slopes[0] * l, b - slopes[1] * l);
-            [edges[index], detail(index, 0), a, b, detail(index, 3)]
+            let [l, a, b, height] = fine.values()[index];
+            [edges[index], l, a - slopes[0] * l, b - slopes[1] * l, height]
         };
         let scales: [(f32, f32); FEATURES] = std::array::from_fn(|feature| {
             let (mean, deviation) = channels.moments(|index| raw(index)[feature]);
             let used = match feature {
                 0 => deviation > 0.0,
                 2 | 3 => deviation >= GREY,
-                _ => deviation > 0.0 && features == Features::Detail,
+                _ => deviation > 0.0 && features == Features::Tone,
             };
             (mean as f32, if used { (1.0 / deviation) as f32 } else { 0.0 })
         });
@@ -154,7 +149,7 @@ impl Level {
             features: Field::from_values(width, height, scaled),
             weight: Field::from_values(width, height, edges.iter().map(weight).collect()),
             mask: channels.mask.clone(),
-            contrast: channels.moments(|index| detail(index, 0)).1,
+            contrast: channels.moments(|index| fine.values()[index][0]).1,
         }
     }
 

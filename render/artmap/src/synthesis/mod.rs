@@ -22,6 +22,8 @@ mod first;
 
 mod following;
 
+mod nested;
+
 mod key_maps;
 
 #[cfg(test)]

@@ -7,9 +7,9 @@ use spectra::hint::{Explain, Fault, Hint};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Features {
-    /// Strength of edges, detail of lightness and height, a* and b*.
+    /// Strength of edges, lightness, height, a* and b*.
     #[default]
-    Detail,
+    Tone,
     /// Strength of edges, a* and b*: equations 1 and 2 of Yan and others (2008), with a* and b*
     /// instead of the angle of hue, which means nothing in greys.
     Paper,
@@ -22,7 +22,7 @@ pub struct SynthesisSettings {
     /// Width and height of the maps in texels, [`SynthesisSettings::SIZES`].
     pub size: usize,
     /// Name of the sample whose map is made first and which the others follow; without it the
-    /// sample with the strongest detail.
+    /// sample with the strongest contrast of lightness.
     pub first: Option<String>,
     /// What patches are compared by.
     pub features: Features,
