@@ -16,6 +16,8 @@
 
 pub mod sample;
 
+pub mod sheet;
+
 pub mod passages;
 
 pub mod painted;
