@@ -9,6 +9,8 @@ use super::direction::StrokeDirection;
 pub enum SpacingSource {
     /// Two points that the painter marked.
     Marked,
+    /// Set for all samples whose marks give none.
+    Set,
     /// Estimated by autocorrelation across the strokes.
     Estimated {
         /// Difference of the first maximum of the autocorrelation and the minimum before it, 0.1
@@ -36,4 +38,25 @@ pub struct PassageReport {
     pub scale: [f64; 2],
     /// Mean CIELAB lightness, 0 to 100.
     pub lightness: f64,
+}
+
+impl PassageReport {
+    /// Number of pixels of the passage.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.mask.values().iter().filter(|inside| **inside).count()
+    }
+
+    /// Column and row of the upper left corner of the passage, its width and height, in pixels.
+    #[must_use]
+    pub fn bounds(&self) -> [usize; 4] {
+        let (width, height) = (self.mask.width(), self.mask.height());
+        let inside = (0..width * height).filter(|&pixel| self.mask.values()[pixel]);
+        let [mut left, mut top, mut right, mut below] = [width, height, 0, 0];
+        for (x, y) in inside.map(|pixel| (pixel % width, pixel / width)) {
+            (left, top) = (left.min(x), top.min(y));
+            (right, below) = (right.max(x + 1), below.max(y + 1));
+        }
+        [left, top, right.saturating_sub(left), below.saturating_sub(top)]
+    }
 }

@@ -46,7 +46,7 @@ pub fn samples_of_picture(
     let mut reports = Vec::new();
     let mut without = Vec::new();
     for (mark, (mask, regions_under)) in marks.samples.iter().zip(masks) {
-        match report(mark, mask, regions_under, &seen)? {
+        match report(mark, mask, regions_under, &seen, settings.spacing)? {
             Some(report) => reports.push(report),
             None => without.push(mark.name.clone()),
         }
@@ -115,6 +115,7 @@ fn report(
     mask: Field<bool>,
     regions_under: usize,
     seen: &Seen,
+    usual_px: Option<f64>,
 ) -> Result<Option<PassageReport>, PassageError> {
     let labels = mask.values().iter().map(|&inside| u32::from(!inside)).collect();
     let labels = Field::from_values(mask.width(), mask.height(), labels);
@@ -123,9 +124,10 @@ fn report(
         (0..).zip(mask.values()).filter(|(_, inside)| **inside).map(|(pixel, _)| pixel).collect();
     let direction = StrokeDirection::of(&pixels, &depth, &seen.intensity, &seen.gradient);
     let along = direction.along();
-    let found = match mark.spacing_px() {
-        Some(spacing_px) => Some((spacing_px, SpacingSource::Marked)),
-        None => estimated(&seen.intensity, &mask, along, direction.turned).map(|found| {
+    let found = match (mark.spacing_px(), usual_px) {
+        (Some(spacing_px), _) => Some((spacing_px, SpacingSource::Marked)),
+        (None, Some(spacing_px)) => Some((spacing_px, SpacingSource::Set)),
+        (None, None) => estimated(&seen.intensity, &mask, along, direction.turned).map(|found| {
             (found.spacing_px, SpacingSource::Estimated { sharpness: found.sharpness })
         }),
     };

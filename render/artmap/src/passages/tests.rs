@@ -216,3 +216,34 @@ fn specks_have_no_spacing_unless_marked() {
     assert!(matches!(error, PassageError::NoSpacing { .. }), "{error}");
     assert!(samples_of_picture(&picture, &whole(Some(10.0)), &settings).is_ok());
 }
+
+#[test]
+fn a_set_spacing_counts_where_the_marks_give_none() {
+    let settings = PassageSettings { spacing: Some(10.0), ..PassageSettings::default() };
+    let marks = both_rectangles([Some(8.0), None]);
+    let (_, reports) = samples_of_picture(&pair(), &marks, &settings).unwrap();
+    let found: Vec<_> = reports.iter().map(|r| (r.spacing_px, r.spacing_source)).collect();
+    assert_eq!(found, [(10.0, SpacingSource::Set), (8.0, SpacingSource::Marked)]);
+    for spacing in [0.0, -3.0, f64::NAN, 1001.0] {
+        let settings = PassageSettings { spacing: Some(spacing), ..settings };
+        let error = samples_of_picture(&pair(), &marks, &settings).unwrap_err();
+        assert!(error.to_string().starts_with("spacing takes 1 to 1000, found"), "{error}");
+        assert_eq!(error.fault(), spectra::hint::Fault::Setting);
+    }
+}
+
+#[test]
+fn reports_tell_where_the_passage_lies() {
+    let marks = marks(vec![rectangle("light", [30, 20, 60, 50], Some(8.0))]);
+    let (_, reports) = samples_of_picture(&pair(), &marks, &PassageSettings::default()).unwrap();
+    assert_eq!((reports[0].bounds(), reports[0].pixels()), ([30, 20, 60, 50], 3000));
+}
+
+#[test]
+fn the_whole_picture_is_one_sample_without_marks() {
+    let whole = Marks::of_whole("all", (240, 120));
+    let settings = PassageSettings { spacing: Some(8.0), ..PassageSettings::default() };
+    let (set, reports) = samples_of_picture(&pair(), &whole, &settings).unwrap();
+    assert_eq!((set.samples.len(), set.samples[0].name.as_str()), (1, "all"));
+    assert_eq!(reports[0].pixels(), 240 * 120);
+}

@@ -3,7 +3,7 @@
 use graphics::field::Field;
 use graphics::picture::Picture;
 
-use super::relief::raked;
+use super::relief::{raked, raking_tangent, slopes};
 use super::scale::{LARGEST_PX, Scale};
 use crate::sample::{Sample, SampleSet};
 
@@ -23,7 +23,8 @@ const LINE: usize = 2 * MARGIN + 6 * GAP + 7 * 330;
 type Shown = Vec<Field<Option<[f32; 3]>>>;
 
 /// A picture of all samples side by side, in their order, from dark to light; below each the relief
-/// of its paint under a raking light from the upper left, where height and size are known.
+/// of its paint under a raking light from the upper left, where height and size are known. The
+/// light stands the lower the flatter the paint of the set is, from 40 down to 2 degrees.
 ///
 /// In linear sRGB, as the samples. All samples have one scale, a whole number of pixels a texel or
 /// of texels a pixel; texels beyond a passage show the grey of the sheet.
@@ -31,7 +32,15 @@ type Shown = Vec<Field<Option<[f32; 3]>>>;
 pub fn sheet(set: &SampleSet) -> Picture {
     let largest = set.samples.iter().map(|sample| sample.size().0.max(sample.size().1)).max();
     let scale = Scale::fitting(largest.unwrap_or(LARGEST_PX));
-    let shown: Vec<Shown> = set.samples.iter().map(|sample| shown(sample, scale)).collect();
+    let reliefs: Vec<Option<Field<[f32; 2]>>> = set.samples.iter().map(relief).collect();
+    let tangent = raking_tangent(reliefs.iter().flatten());
+    let shown = set.samples.iter().zip(&reliefs).map(|(sample, relief)| {
+        let color = scale.scaled(&sample.color, &sample.mask);
+        let relief = relief.as_ref().map(|slopes| raked(slopes, tangent));
+        let relief = relief.map(|relief| scale.scaled(&relief, &sample.mask));
+        std::iter::once(color).chain(relief).collect()
+    });
+    let shown: Vec<Shown> = shown.collect();
     let lines = lines(&shown);
     let width = lines.iter().map(|line| line_width(line)).max().unwrap_or(0);
     let heights: Vec<Vec<usize>> = lines.iter().map(|line| strip_heights(line)).collect();
@@ -54,12 +63,10 @@ pub fn sheet(set: &SampleSet) -> Picture {
     sheet
 }
 
-fn shown(sample: &Sample, scale: Scale) -> Shown {
-    let color = scale.scaled(&sample.color, &sample.mask);
-    let relief = sample.height_mm.as_ref().zip(sample.mm_per_texel);
-    let relief = relief.map(|(height, mm)| raked(height, &sample.mask, mm));
-    let relief = relief.map(|relief| scale.scaled(&relief, &sample.mask));
-    std::iter::once(color).chain(relief).collect()
+/// Slopes of the paint of a sample, where they are known.
+fn relief(sample: &Sample) -> Option<Field<[f32; 2]>> {
+    let (height, mm) = sample.height_mm.as_ref().zip(sample.mm_per_texel)?;
+    Some(slopes(height, &sample.mask, mm))
 }
 
 /// The samples line by line.

@@ -7,4 +7,3 @@ mod scale;
 mod laid_out;
 
 pub use laid_out::sheet;
-pub use relief::raked;
