@@ -100,7 +100,8 @@ impl Explain for PassageError {
                  one distance in pixels for all samples with [spacing]"
             }
             Self::Narrow { .. } => {
-                "mark a wider passage, or a smaller distance with spacing = [[x, y], [x, y]]"
+                "mark a wider passage, let it grow further with a larger [reach], or mark a smaller \
+                 distance with spacing = [[x, y], [x, y]]"
             }
             Self::Unlike { .. } => {
                 "mark the distance with spacing = [[x, y], [x, y]], or leave this sample out"

@@ -21,6 +21,9 @@ const COLORS: [(&str, [f32; 3]); 7] = [
 /// Linear grey towards which everything beyond the passages fades, and its share.
 const FADED: (f32, f32) = (0.55, 0.7);
 
+/// Colour of the rim of a line.
+const RIM: [f32; 3] = [0.9; 3];
+
 /// Width of a line as a share of the longer side.
 const LINE: f64 = 1.0 / 400.0;
 
@@ -56,7 +59,11 @@ pub fn marked_picture(
             outline(&mut shown, &passage.mask, reach, color);
         }
         match area {
-            DrawnArea::Line(pixels) => thick(&mut shown, pixels, reach, color),
+            DrawnArea::Line(pixels) => {
+                // The rim keeps a line apart from paint of its own colour.
+                thick(&mut shown, pixels, reach + reach.div_ceil(2), RIM);
+                thick(&mut shown, pixels, reach, color);
+            }
             DrawnArea::Whole(pixels) => {
                 let mut mask = Field::filled(width, height, false);
                 pixels.iter().for_each(|&pixel| mask.values_mut()[pixel as usize] = true);
@@ -130,7 +137,8 @@ mod tests {
         let picture = Field::filled(60, 30, [0.1; 3]);
         let alone = marked_picture(&picture, &marks(), &[]).unwrap();
         let [orange, blue] = [COLORS[0].1, COLORS[1].1];
-        assert_eq!((alone[(15, 10)], alone[(15, 11)], alone[(15, 12)]), (orange, orange, [0.1; 3]));
+        assert_eq!((alone[(15, 10)], alone[(15, 11)], alone[(15, 12)]), (orange, orange, RIM));
+        assert_eq!((alone[(15, 13)], alone[(23, 10)]), ([0.1; 3], [0.1; 3]));
         assert_eq!((alone[(40, 5)], alone[(51, 12)], alone[(45, 10)]), (blue, blue, [0.1; 3]));
         assert_eq!(alone[(0, 29)], [0.1; 3], "nothing is faded without passages");
 
