@@ -14,6 +14,8 @@
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
+mod text_file;
+
 pub mod sample;
 
 pub mod sheet;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum, value_parser};
 use render::artmap::passages::{
-    Density, Marks, OverSegmentation, PassageReport, PassageSettings, SpacingSource,
+    Density, Marks, OverSegmentation, PassageReport, PassageSettings, SpacingSource, StrokesSeen,
     marked_picture, samples_of_picture,
 };
 use render::artmap::sample::SampleSet;
@@ -46,7 +46,8 @@ enum ResizedBy {
 /// writes marks to begin with.
 ///
 /// Each sample is turned until its strokes run from top to bottom, and resized until all have the
-/// distance of strokes of the median sample.
+/// distance of strokes of the median sample. Strokes should be at least 6 px apart in the picture,
+/// and a passage at least four of them wide. Look at --marked first: it shows the passages.
 #[derive(Debug, Args)]
 pub(super) struct Sample {
     /// A picture (.png, .jpg), or a painting (.exr, as `impasto paint --output` writes it), which
@@ -207,7 +208,9 @@ fn print(set: &SampleSet, reports: &[PassageReport], console: &mut Console<'_>) 
         let source = match report.spacing_source {
             SpacingSource::Marked => "marked".to_owned(),
             SpacingSource::Set => "set".to_owned(),
-            SpacingSource::Estimated { sharpness } => format!("sharpness {sharpness:.2}"),
+            SpacingSource::Estimated { sharpness, seen } => {
+                format!("sharpness {sharpness:.2}{}", in_relief(seen))
+            }
         };
         let [across, along] = report.scale;
         table.row(vec![
@@ -217,7 +220,7 @@ fn print(set: &SampleSet, reports: &[PassageReport], console: &mut Console<'_>) 
                 true => format!("{:.1} deg", direction.degrees),
                 false => "none".to_owned(),
             },
-            format!("{:.2}", direction.coherence),
+            format!("{:.2}{}", direction.coherence, in_relief(report.direction_seen)),
             format!("{:.1} px ({source})", report.spacing_px),
             if across == along {
                 format!("{across:.2}")
@@ -230,13 +233,28 @@ fn print(set: &SampleSet, reports: &[PassageReport], console: &mut Console<'_>) 
     table.print(console)
 }
 
+/// Remark on strokes that were seen in the relief.
+fn in_relief(seen: StrokesSeen) -> &'static str {
+    if seen == StrokesSeen::Relief { " in relief" } else { "" }
+}
+
+/// Name of a channel in JSON.
+fn channel(seen: StrokesSeen) -> &'static str {
+    match seen {
+        StrokesSeen::Color => "colour",
+        StrokesSeen::Relief => "relief",
+    }
+}
+
 /// Adds the report of a sample to its JSON.
 fn report_json(mut sample: Value, report: &PassageReport) -> Value {
     let direction = report.direction;
-    let (source, sharpness) = match report.spacing_source {
-        SpacingSource::Marked => ("marked", None),
-        SpacingSource::Set => ("set", None),
-        SpacingSource::Estimated { sharpness } => ("estimated", Some(sharpness)),
+    let (source, sharpness, seen) = match report.spacing_source {
+        SpacingSource::Marked => ("marked", None, None),
+        SpacingSource::Set => ("set", None, None),
+        SpacingSource::Estimated { sharpness, seen } => {
+            ("estimated", Some(sharpness), Some(channel(seen)))
+        }
     };
     let found = json!({
         "lightness": report.lightness,
@@ -247,10 +265,12 @@ fn report_json(mut sample: Value, report: &PassageReport) -> Value {
             "degrees": direction.degrees,
             "coherence": direction.coherence,
             "turned": direction.turned,
+            "seen_in": channel(report.direction_seen),
         },
         "spacing_px": report.spacing_px,
         "spacing_source": source,
         "sharpness": sharpness,
+        "spacing_seen_in": seen,
         "scale": report.scale,
     });
     if let (Value::Object(sample), Value::Object(found)) = (&mut sample, found) {

@@ -6,10 +6,10 @@ use std::str::FromStr;
 use paint::BrushSpec;
 use paint::ground::GroundSpec;
 use serde::{Deserialize, Serialize};
-use spectra::file::{FileAction, FileError, read};
 
 use super::shipped::{NAMES, SHIPPED};
 use super::style_error::StyleError;
+use crate::text_file::read_text;
 
 /// Order of the strokes of a coat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -151,12 +151,7 @@ impl Style {
     /// # Errors
     /// [`StyleError`] for a file that cannot be read, and those of [`Style::from_toml`].
     pub fn open(path: &Path) -> Result<Self, StyleError> {
-        let text = String::from_utf8(read(path)?).map_err(|_| FileError {
-            path: path.to_owned(),
-            action: FileAction::Read,
-            reason: std::io::Error::from(std::io::ErrorKind::InvalidData).into(),
-        })?;
-        Self::from_toml(&path.display().to_string(), &text)
+        Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }
 
     /// Parses and checks the TOML text of a style. Errors call the file `file`.

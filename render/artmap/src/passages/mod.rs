@@ -60,7 +60,7 @@ pub use marks::{Mark, MarkFault, MarkedArea, Marks, MarksError};
 pub use over::over_segmented;
 pub use propose::propose_marks;
 pub use regions::Regions;
-pub use report::{PassageReport, SpacingSource};
+pub use report::{PassageReport, SpacingSource, StrokesSeen};
 pub use settings::{Density, OverSegmentation, PassageSettings};
 pub use shown::{drawn_in, marked_picture};
 pub use source::SourcePicture;

@@ -4,6 +4,15 @@ use graphics::field::Field;
 
 use super::direction::StrokeDirection;
 
+/// Channel of the picture in which strokes were seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StrokesSeen {
+    /// In the lightness of the colours.
+    Color,
+    /// In the height of the paint, where that is known and not guessed.
+    Relief,
+}
+
 /// Origin of the distance of strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SpacingSource {
@@ -16,6 +25,8 @@ pub enum SpacingSource {
         /// Difference of the first maximum of the autocorrelation and the minimum before it, 0.1
         /// to 2. Larger is more reliable.
         sharpness: f64,
+        /// Channel with the sharper maximum.
+        seen: StrokesSeen,
     },
 }
 
@@ -30,6 +41,8 @@ pub struct PassageReport {
     pub regions_under: usize,
     /// Direction of the strokes.
     pub direction: StrokeDirection,
+    /// Channel in which more of the gradients agree in direction.
+    pub direction_seen: StrokesSeen,
     /// Distance of neighbouring strokes in pixels of the picture.
     pub spacing_px: f64,
     /// Origin of that distance.

@@ -120,7 +120,7 @@ fn thick(shown: &mut Picture, pixels: &[u32], reach: usize, color: [f32; 3]) {
 mod tests {
     use super::super::direction::StrokeDirection;
     use super::super::marks::{Mark, MarkedArea};
-    use super::super::report::SpacingSource;
+    use super::super::report::{SpacingSource, StrokesSeen};
     use super::*;
 
     fn marks() -> Marks {
@@ -148,6 +148,7 @@ mod tests {
             mask: Field::from_values(60, 30, mask),
             regions_under: 1,
             direction: StrokeDirection { degrees: 0.0, coherence: 0.0, turned: false },
+            direction_seen: StrokesSeen::Color,
             spacing_px: 5.0,
             spacing_source: SpacingSource::Marked,
             scale: [1.0; 2],

@@ -233,6 +233,32 @@ fn a_set_spacing_counts_where_the_marks_give_none() {
 }
 
 #[test]
+fn strokes_are_seen_in_the_relief_of_paint_of_one_color() {
+    let ridges = Texture { degrees: 40.0, spacing: 9.0, ..Texture::default() };
+    let ridges = textured(160, 120, 4, &[ridges], |_, _| 0);
+    let height = ridges.values().iter().map(|color| 0.1 * color[1]).collect();
+    let mut picture = SourcePicture {
+        height_mm: Some(Field::from_values(160, 120, height)),
+        ..SourcePicture::of_colors(Field::filled(160, 120, [0.2, 0.3, 0.4]), "ridges")
+    };
+    let marks = Marks::of_whole("ridges", (160, 120));
+    let settings = PassageSettings::default();
+    let (_, reports) = samples_of_picture(&picture, &marks, &settings).unwrap();
+    let PassageReport { direction, direction_seen, spacing_px, spacing_source, .. } = &reports[0];
+    assert!((direction.degrees - 40.0).abs() < 2.0 && direction.turned, "{direction:?}");
+    assert!((spacing_px / 9.0 - 1.0).abs() < 0.08, "{spacing_px}");
+    assert_eq!(*direction_seen, StrokesSeen::Relief);
+    let SpacingSource::Estimated { seen, .. } = spacing_source else {
+        panic!("{spacing_source:?}")
+    };
+    assert_eq!(*seen, StrokesSeen::Relief);
+    // A guess from the colours says nothing that these do not.
+    picture.guessed_relief = true;
+    let error = samples_of_picture(&picture, &marks, &settings).unwrap_err();
+    assert!(matches!(error, PassageError::NoSpacing { .. }), "{error}");
+}
+
+#[test]
 fn reports_tell_where_the_passage_lies() {
     let marks = marks(vec![rectangle("light", [30, 20, 60, 50], Some(8.0))]);
     let (_, reports) = samples_of_picture(&pair(), &marks, &PassageSettings::default()).unwrap();

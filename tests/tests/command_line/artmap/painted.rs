@@ -13,7 +13,8 @@ impl Folder {
             .replace("name = \"dabs\"", "name = \"small dabs\"")
             .replace("side_cells = 300", "side_cells = 36")
             .replace("cell_mm = 0.18", "cell_mm = 0.3");
-        assert!(small.contains("small dabs") && small.contains("= 36") && small.contains("= 0.3"));
+        let changed = ["small dabs", "= 36", "= 0.3"].iter().all(|word| small.contains(word));
+        assert!(changed, "{small}");
         self.write("small.toml", small)
     }
 }

@@ -68,7 +68,9 @@ fn samples_of_a_painting_carry_its_pigments_and_relief() {
     assert_eq!((&whole["name"], &whole["spacing_source"]), (&json!("p"), &json!("set")));
     assert_eq!((&whole["mm_per_texel"], &whole["guessed_relief"]), (&json!(0.5), &json!(false)));
     let degrees = whole["direction"]["degrees"].as_f64().unwrap();
-    assert!((degrees - 90.0).abs() < 10.0, "{degrees}");
+    assert!((degrees - 90.0).abs() < 3.0, "{degrees}");
+    let seen = whole["direction"]["seen_in"].as_str();
+    assert!([Some("colour"), Some("relief")].contains(&seen), "{seen:?}");
 
     // Marks on a painting count its cells.
     let marks = folder.write(
