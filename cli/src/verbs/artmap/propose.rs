@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use render::artmap::passages::{
-    Mark, MarkedArea, Marks, PassageSettings, SourcePicture, drawn_in, marked_picture,
-    propose_marks,
+    Mark, MarkedArea, Marks, PassageError, PassageSettings, SourcePicture, drawn_in,
+    marked_picture, propose_marks, samples_of_picture,
 };
 use serde_json::{Value, json};
 
@@ -61,6 +61,7 @@ impl Proposal<'_> {
     ) -> Result<()> {
         let waiting = Waiting::new("looking for passages", console.screen.progress);
         let mut marks = propose_marks(&source.color, self.count, &self.settings)?;
+        let without = without_spacing(source, &marks, &self.settings);
         drop(waiting);
         marks.painting = Some(file_name(self.painting));
         let path = files.marks.path().display().to_string();
@@ -82,14 +83,36 @@ impl Proposal<'_> {
         }
         if as_json {
             let samples: Vec<Value> = marks.samples.iter().map(mark_json).collect();
-            return console.json(&json!({"painting": marks.painting, "samples": samples}));
+            return console.json(&json!({
+                "painting": marks.painting,
+                "samples": samples,
+                "without_spacing": without,
+            }));
         }
         console.line(format!("{path}: {found} proposed samples"))?;
         print(&marks, drawn, console)?;
+        if !without.is_empty() {
+            console.remark(format!(
+                "the distance of strokes cannot be seen in {}: mark their spacing, or leave them out",
+                without.join(", ")
+            ))?;
+        }
         console.remark(format!(
             "next: edit {path}, then impasto artmap sample {} --marks {path} --output samples.exr",
             self.painting.display()
         ))
+    }
+}
+
+/// Names of the samples whose distance of strokes would have to be marked.
+fn without_spacing(
+    source: &SourcePicture,
+    marks: &Marks,
+    settings: &PassageSettings,
+) -> Vec<String> {
+    match samples_of_picture(source, marks, settings) {
+        Err(PassageError::NoSpacing { samples }) => samples,
+        _ => Vec::new(),
     }
 }
 

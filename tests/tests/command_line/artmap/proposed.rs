@@ -1,5 +1,8 @@
 //! Marks that `impasto artmap sample --propose` writes.
 
+use render::export::png8;
+use render::field::Field;
+
 use super::{Folder, artmap, done};
 
 #[test]
@@ -24,6 +27,25 @@ fn proposed_marks_can_be_sampled() {
     assert!(image::open(&marked).unwrap().width() == 200, "the picture with its marks");
     let told = done(&["sample", &picture, "--propose", "2", "--output", &marks, "--json"]).json();
     assert_eq!(told["samples"].as_array().unwrap().len(), 2, "{told}");
+    assert_eq!(told["without_spacing"], serde_json::json!([]));
+}
+
+#[test]
+fn passages_whose_spacing_must_be_marked_are_told() {
+    let folder = Folder::new();
+    // Blotches of 5 px without any order.
+    let color = |i: usize| {
+        let (column, row) = (i % 200 / 5, i / 200 / 5);
+        let mixed = (column * 7919 + row * 104_729) as u32;
+        let mixed = (mixed ^ (mixed >> 7)).wrapping_mul(0x9E37_79B1) >> 24;
+        let grey = 0.3 + 0.1 * mixed as f32 / 255.0;
+        [grey, grey, grey, 1.0]
+    };
+    let picture = Field::from_values(200, 120, (0..200 * 120).map(color).collect());
+    let picture = folder.write("blotches.png", png8(&picture, 1.0).unwrap().bytes);
+    let marks = folder.file("m.toml");
+    let run = done(&["sample", &picture, "--propose", "1", "--output", &marks]);
+    assert!(run.err.contains("cannot be seen in passage 1: mark their spacing"), "{}", run.err);
 }
 
 #[test]
