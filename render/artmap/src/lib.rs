@@ -18,11 +18,11 @@ mod text_file;
 
 pub mod sample;
 
-pub mod sheet;
-
 pub mod passages;
 
 pub mod painted;
+
+pub mod sheet;
 
 pub mod synthesis;
 

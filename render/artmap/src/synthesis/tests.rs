@@ -199,9 +199,7 @@ fn look() {
         let v = picture.values().iter().map(|c| [c[0], c[1], c[2], 1.0]).collect();
         let p = Field::from_values(picture.width(), picture.height(), v);
         let p = graphics::encoding::encoded_from_linear(&p);
-        let bytes = graphics::export::picture_file(&p, 0.1, graphics::export::PictureFormat::Png8)
-            .unwrap()
-            .bytes;
+        let bytes = graphics::export::picture_file(&p, 0.1, graphics::export::PictureFormat::Png8).unwrap().bytes;
         std::fs::write(format!("/tmp/look-{name}.png"), bytes).unwrap();
     };
     for (label, seeds) in [("unlike", [1, 2, 3]), ("nested", [4, 4, 4])] {
@@ -210,34 +208,19 @@ fn look() {
             let settings = SynthesisSettings { follow, uniformity, ..small() };
             let t = std::time::Instant::now();
             let maps = key_maps(&samples, &settings).unwrap();
-            eprintln!(
-                "{label} follow {follow} uniformity {uniformity}: {:.2?} patch {} levels {}",
-                t.elapsed(),
-                maps.patch,
-                maps.levels
-            );
+            eprintln!("{label} follow {follow} uniformity {uniformity}: {:.2?} patch {} levels {}", t.elapsed(), maps.patch, maps.levels);
             let shown = textures(&samples, &maps);
             for (i, t) in shown.iter().enumerate() {
                 let whole = Texture::masked(&samples.samples[i].color, &samples.samples[i].mask);
                 let half = |from: usize| {
-                    let mask = (0..240 * 240).map(|index| index % 240 / 120 == from).collect();
-                    Texture::masked(&samples.samples[i].color, &Field::from_values(240, 240, mask))
-                };
-                eprint!(" floor {:.3} ", co_occurrence_error(&half(0), &half(1)));
-                eprintln!(
-                    "  {i}: coherence {:.3} ace {:.3} contrast {:.3} length {:.3} ({:.1}) wrap {:.3} use {:.2}",
-                    coherence(&shown[maps.first], t, 8.0),
-                    co_occurrence_error(&whole, t),
-                    contrast(t) / contrast(&whole),
-                    stroke_length(t) / stroke_length(&whole),
-                    stroke_length(&whole),
-                    wrap_ratio(t),
-                    most_used(&maps.sources[i], &samples.samples[i].mask, 16)
-                );
-                save(
-                    &format!("{label}-{follow}-{i}"),
-                    &color(&samples.samples[i], &maps.sources[i]),
-                );
+            let mask = (0..240 * 240).map(|index| index % 240 / 120 == from).collect();
+            Texture::masked(&samples.samples[i].color, &Field::from_values(240, 240, mask))
+        };
+        eprint!(" floor {:.3} ", co_occurrence_error(&half(0), &half(1)));
+                eprintln!("  {i}: coherence {:.3} ace {:.3} contrast {:.3} length {:.3} ({:.1}) wrap {:.3} use {:.2}",
+                    coherence(&shown[maps.first], t, 8.0), co_occurrence_error(&whole, t), contrast(t) / contrast(&whole),
+                    stroke_length(t) / stroke_length(&whole), stroke_length(&whole), wrap_ratio(t), most_used(&maps.sources[i], &samples.samples[i].mask, 16));
+                save(&format!("{label}-{follow}-{i}"), &color(&samples.samples[i], &maps.sources[i]));
                 save(&format!("{label}-s{i}"), &samples.samples[i].color);
             }
         }
