@@ -47,6 +47,22 @@ impl Output {
         Ok(Self { path: path.to_owned(), target })
     }
 
+    /// Checks that `path` has one of `endings` and can be written, like [`Output::open`].
+    pub(crate) fn with_ending(path: &Path, endings: &[&str], inputs: &[PathBuf]) -> Result<Self> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        if !endings.iter().any(|ending| extension.as_deref() == Some(ending)) {
+            return Err(Failure::usage(
+                format!(
+                    "{}: expected a file name that ends in .{}",
+                    path.display(),
+                    endings.join(" or .")
+                ),
+                format!("try {}", path.with_extension(endings[0]).display()),
+            ));
+        }
+        Self::open(path, inputs)
+    }
+
     /// Path as the user gave it.
     pub(crate) fn path(&self) -> &Path {
         &self.path

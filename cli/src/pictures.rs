@@ -96,20 +96,8 @@ impl Exports {
 
     /// Checks, before the slow part of a verb, that all files can be written.
     pub(crate) fn open(self, inputs: &[PathBuf]) -> Result<OpenExports> {
-        let open = |path: &Option<PathBuf>, endings: &[&str]| -> Result<_> {
-            let Some(path) = path else { return Ok(None) };
-            let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-            if !endings.iter().any(|ending| extension.as_deref() == Some(ending)) {
-                return Err(Failure::usage(
-                    format!(
-                        "{}: expected a file name that ends in .{}",
-                        path.display(),
-                        endings.join(" or .")
-                    ),
-                    format!("try {}", path.with_extension(endings[0]).display()),
-                ));
-            }
-            Ok(Some(Output::open(path, inputs)?))
+        let open = |path: &Option<PathBuf>, endings: &[&str]| {
+            path.as_ref().map(|path| Output::with_ending(path, endings, inputs)).transpose()
         };
         let picture = open(&self.picture, &["png", "exr"])?;
         let spectral = open(&self.spectral, &["exr"])?;

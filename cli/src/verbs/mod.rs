@@ -36,6 +36,8 @@ mod relight;
 
 mod watercolor;
 
+mod artmap;
+
 mod gpu;
 
 use clap::Subcommand;
@@ -59,6 +61,7 @@ pub(crate) enum Verb {
     Paint(Box<paint::Paint>),
     Relight(Box<relight::Relight>),
     Watercolor(Box<watercolor::Watercolor>),
+    Artmap(artmap::Artmap),
     Gpu(gpu::Gpu),
 }
 
@@ -78,6 +81,7 @@ impl Verb {
             Self::Paint(verb) => verb.run(console),
             Self::Relight(verb) => verb.run(console),
             Self::Watercolor(verb) => verb.run(console),
+            Self::Artmap(verb) => verb.run(console),
             Self::Gpu(verb) => verb.run(console),
         }
     }

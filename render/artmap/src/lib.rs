@@ -14,6 +14,8 @@
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
+mod text_file;
+
 pub mod sample;
 
 mod tiling;
@@ -21,6 +23,8 @@ mod tiling;
 pub mod passages;
 
 pub mod painted;
+
+pub mod sheet;
 
 pub mod synthesis;
 

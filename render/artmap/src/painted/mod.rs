@@ -12,6 +12,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod shipped;
+
+mod style_error;
+
 mod plan;
 
 mod tones;
@@ -23,6 +27,7 @@ mod swatch;
 mod set;
 
 pub use brushwork::{SwatchStroke, strokes};
-pub use plan::{CanvasPlan, Layout, PaintPlan, StrokePlan, Style, StyleError, ToneSource};
+pub use plan::{CanvasPlan, Layout, PaintPlan, StrokePlan, Style, ToneSource};
 pub use set::{PaintedError, PaintedSettings, painted_samples};
+pub use style_error::StyleError;
 pub use tones::{TONES, Tone, ToneLadder, TonesError};

@@ -1,11 +1,15 @@
 //! A style of painting as data: brush, strokes, paint and canvas of a swatch.
 
+use std::path::Path;
 use std::str::FromStr;
 
 use paint::BrushSpec;
 use paint::ground::GroundSpec;
 use serde::{Deserialize, Serialize};
-use spectra::hint::{Explain, Fault, Hint};
+
+use super::shipped::{NAMES, SHIPPED};
+use super::style_error::StyleError;
+use crate::text_file::read_text;
 
 /// Order of the strokes of a coat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -121,36 +125,33 @@ const MOST_CELLS: f64 = 16_777_216.0;
 /// Most strokes of a swatch.
 const MOST_STROKES: f64 = 200_000.0;
 
-/// Names and TOML files of the styles that ship.
-const SHIPPED: [(&str, &str); 6] = [
-    ("oil-flat", include_str!("styles/oil-flat.toml")),
-    ("oil-long", include_str!("styles/oil-long.toml")),
-    ("dabs", include_str!("styles/dabs.toml")),
-    ("knife", include_str!("styles/knife.toml")),
-    ("hatching", include_str!("styles/hatching.toml")),
-    ("dry-brush", include_str!("styles/dry-brush.toml")),
-];
-
 impl Style {
     /// Names of the styles that ship, in the order in which programs list them.
-    pub const ALL: [&str; SHIPPED.len()] = {
-        let mut names = [""; SHIPPED.len()];
-        let mut at = 0;
-        while at < names.len() {
-            names[at] = SHIPPED[at].0;
-            at += 1;
-        }
-        names
-    };
+    pub const ALL: [&str; NAMES.len()] = NAMES;
 
     /// Shipped style with this name.
     ///
     /// # Errors
     /// [`StyleError::Unknown`] if there is none.
     pub fn named(name: &str) -> Result<Self, StyleError> {
+        Self::from_toml(name, Self::text(name)?)
+    }
+
+    /// TOML text of the shipped style with this name, to be copied and changed.
+    ///
+    /// # Errors
+    /// [`StyleError::Unknown`] if there is none.
+    pub fn text(name: &str) -> Result<&'static str, StyleError> {
         let found = SHIPPED.iter().find(|(known, _)| *known == name);
-        let (name, text) = found.ok_or_else(|| StyleError::Unknown { name: name.to_owned() })?;
-        Self::from_toml(name, text)
+        found.map(|(_, text)| *text).ok_or_else(|| StyleError::Unknown { name: name.to_owned() })
+    }
+
+    /// Reads the TOML file of a style and checks it.
+    ///
+    /// # Errors
+    /// [`StyleError`] for a file that cannot be read, and those of [`Style::from_toml`].
+    pub fn open(path: &Path) -> Result<Self, StyleError> {
+        Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }
 
     /// Parses and checks the TOML text of a style. Errors call the file `file`.
@@ -253,76 +254,10 @@ impl FromStr for Style {
     }
 }
 
-/// A style cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum StyleError {
-    /// No style that ships has this name.
-    #[error("there is no style called `{name}`")]
-    Unknown {
-        /// Name that was looked up.
-        name: String,
-    },
-    /// The text is no TOML, or has an unknown or missing key.
-    #[error("{file}, line {line}: {reason}")]
-    Line {
-        /// Name of the file.
-        file: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// Reason given by the parser.
-        reason: String,
-    },
-    /// A number is out of its range.
-    #[error("style {style}: {key} is {least} to {most}, found `{value}`")]
-    Number {
-        /// Name of the style.
-        style: String,
-        /// Group and key of the number.
-        key: &'static str,
-        /// Value of the number.
-        value: f64,
-        /// Least value allowed.
-        least: f64,
-        /// Greatest value allowed.
-        most: f64,
-    },
-    /// A swatch would take too much memory or time.
-    #[error("style {style}: a swatch has at most {most} {what}, found `{found:.0}`")]
-    TooLarge {
-        /// Name of the style.
-        style: String,
-        /// Items that are too many.
-        what: &'static str,
-        /// Number of the items.
-        found: f64,
-        /// Greatest number allowed.
-        most: f64,
-    },
-}
-
-impl Explain for StyleError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Unknown { .. } => {
-                Some(Hint::new(format!("choose [style] among {}", Style::ALL.join(", "))))
-            }
-            Self::Line { .. } => {
-                Some(Hint::new("begin with a copy of a style that ships, which has all keys"))
-            }
-            Self::Number { .. } => None,
-            Self::TooLarge { .. } => {
-                Some(Hint::new("take larger cells, wider spacing or shorter strokes"))
-            }
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use spectra::hint::Explain;
+
     use super::*;
 
     #[test]
@@ -333,6 +268,23 @@ mod tests {
             let text = toml::to_string(&style).unwrap();
             assert_eq!(Style::from_toml("back", &text), Ok(style));
         }
+    }
+
+    #[test]
+    fn a_copy_of_a_shipped_style_is_a_style_of_its_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("mine.toml");
+        let text =
+            Style::text("knife").unwrap().replace("\"knife\"\nseed = 1", "\"mine\"\nseed = 9");
+        std::fs::write(&path, text).unwrap();
+        let mine = Style { name: "mine".to_owned(), seed: 9, ..Style::named("knife").unwrap() };
+        assert_eq!(Style::open(&path), Ok(mine));
+        std::fs::write(&path, [0xff, 0xfe]).unwrap();
+        let error = Style::open(&path).unwrap_err();
+        assert!(error.to_string().contains("mine.toml"), "{error}");
+        let error = Style::open(&folder.path().join("no.toml")).unwrap_err();
+        assert!(error.to_string().contains("no.toml: cannot be read"), "{error}");
+        assert_eq!(error.fault(), spectra::hint::Fault::Environment);
     }
 
     #[test]

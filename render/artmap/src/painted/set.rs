@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use spectra::hint::{Explain, Fault, Hint};
 
 use super::brushwork::strokes;
-use super::plan::{Style, StyleError};
+use super::plan::Style;
+use super::style_error::StyleError;
 use super::swatch::{Workplace, ground, spread};
 use super::tones::{ToneLadder, TonesError};
 use crate::sample::{PaintOfSamples, SampleSet};

@@ -91,14 +91,17 @@ impl Explain for PassageError {
         let words = match self {
             Self::Marks(error) => return error.hint(),
             Self::Setting { key: "reach", .. } => "1 is usual; more joins more unlike regions",
+            Self::Setting { key: "spacing", .. } => "leave [spacing] out to estimate it",
             Self::Setting { .. } => "16 classes are usual",
             Self::ChannelSize { .. } => "give all channels the size of the picture",
             Self::NoColor { .. } => "colours are finite numbers; repair or leave out that pixel",
             Self::NoSpacing { .. } => {
-                "mark the middles of two neighbouring strokes: spacing = [[x, y], [x, y]]"
+                "mark the middles of two neighbouring strokes: spacing = [[x, y], [x, y]], or give \
+                 one distance in pixels for all samples with [spacing]"
             }
             Self::Narrow { .. } => {
-                "mark a wider passage, or a smaller distance with spacing = [[x, y], [x, y]]"
+                "mark a wider passage, let it grow further with a larger [reach], or mark a smaller \
+                 distance with spacing = [[x, y], [x, y]]"
             }
             Self::Unlike { .. } => {
                 "mark the distance with spacing = [[x, y], [x, y]], or leave this sample out"
@@ -107,7 +110,7 @@ impl Explain for PassageError {
                 "mark the samples yourself, or take a picture with more detail"
             }
         };
-        Some(Hint::verbatim(words))
+        Some(Hint::new(words))
     }
 
     fn fault(&self) -> Fault {

@@ -42,6 +42,8 @@ mod upright;
 
 mod report;
 
+mod shown;
+
 mod taking;
 
 mod propose;
@@ -58,7 +60,8 @@ pub use marks::{Mark, MarkFault, MarkedArea, Marks, MarksError};
 pub use over::over_segmented;
 pub use propose::propose_marks;
 pub use regions::Regions;
-pub use report::{PassageReport, SpacingSource};
+pub use report::{PassageReport, SpacingSource, StrokesSeen};
 pub use settings::{Density, OverSegmentation, PassageSettings};
+pub use shown::{drawn_in, marked_picture};
 pub use source::SourcePicture;
 pub use taking::samples_of_picture;

@@ -98,6 +98,7 @@ impl PassageSettings {
         let figures = [
             ("reach", self.reach, 0.0, 10.0),
             ("color_classes", self.color_classes as f64, 10.0, 20.0),
+            ("spacing", self.spacing.unwrap_or(1.0), 1.0, 1000.0),
         ];
         match figures.into_iter().find(|(_, found, least, most)| !(least..=most).contains(&found)) {
             Some((key, found, least, most)) => {

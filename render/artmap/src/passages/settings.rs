@@ -35,16 +35,20 @@ pub struct PassageSettings {
     pub reach: f64,
     /// Direction in which samples are resized.
     pub density: Density,
+    /// Distance of neighbouring strokes in pixels where the marks give none, 1 to 1000; `None`
+    /// estimates it.
+    pub spacing: Option<f64>,
 }
 
 impl Default for PassageSettings {
-    /// JSEG with 16 classes, reach 1, both directions alike.
+    /// JSEG with 16 classes, reach 1, both directions alike, spacings estimated.
     fn default() -> Self {
         Self {
             over: OverSegmentation::Jseg,
             color_classes: 16,
             reach: 1.0,
             density: Density::Uniform,
+            spacing: None,
         }
     }
 }

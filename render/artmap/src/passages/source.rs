@@ -3,7 +3,7 @@
 use graphics::field::Field;
 use graphics::picture::Picture;
 
-use crate::sample::{PaintOfSamples, TexelPaint};
+use crate::sample::{PaintOfSamples, TexelPaint, WholePainting};
 
 /// A painting or photograph with all its channels, which have one size.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,20 @@ impl SourcePicture {
             mm_per_pixel: None,
             guessed_relief: false,
             provenance: provenance.into(),
+        }
+    }
+
+    /// The picture of a painting of impasto, one pixel a cell, with its paint and relief.
+    #[must_use]
+    pub fn of_painting(painting: WholePainting) -> Self {
+        let WholePainting { title, color, paint, height_mm, mm_per_texel, pigments, .. } = painting;
+        Self {
+            color,
+            paint: Some((paint, pigments)),
+            height_mm: Some(height_mm),
+            mm_per_pixel: Some(mm_per_texel),
+            guessed_relief: false,
+            provenance: format!("painting `{title}`"),
         }
     }
 

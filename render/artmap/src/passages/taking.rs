@@ -10,10 +10,10 @@ use super::marks::{DrawnArea, Mark, Marks};
 use super::over::{check_colors, over_segmented};
 use super::perceived::{gradient_of, intensity_of, luv_of};
 use super::regions::Regions;
-use super::report::{PassageReport, SpacingSource};
+use super::report::{PassageReport, SpacingSource, StrokesSeen};
 use super::settings::{Density, PassageSettings};
 use super::source::SourcePicture;
-use super::spacing::estimated;
+use super::spacing::{Estimate, estimated};
 use super::upright::upright;
 use crate::sample::{Sample, SampleSet};
 
@@ -24,6 +24,9 @@ const LEAST_SPACINGS: f64 = 4.0;
 const MOST_SCALE: f64 = 8.0;
 
 /// The marked samples of a picture, upright, of one spacing, dark to light, and a report of each.
+///
+/// Direction and distance of strokes are measured in the lightness and, where the picture has a true
+/// relief, in the height of the paint; the clearer of both counts.
 ///
 /// The spacing is that of the sample of median spacing; of an even number, of the smaller one in
 /// the middle. With [`Density::Width`], `mm_per_texel` is the geometric mean of both directions.
@@ -46,7 +49,7 @@ pub fn samples_of_picture(
     let mut reports = Vec::new();
     let mut without = Vec::new();
     for (mark, (mask, regions_under)) in marks.samples.iter().zip(masks) {
-        match report(mark, mask, regions_under, &seen)? {
+        match report(mark, mask, regions_under, &seen, settings.spacing)? {
             Some(report) => reports.push(report),
             None => without.push(mark.name.clone()),
         }
@@ -61,18 +64,51 @@ pub fn samples_of_picture(
     Ok((SampleSet { samples, paint, provenance: picture.provenance.clone() }, reports))
 }
 
-/// Tones of the picture, by which passages are found and measured.
+/// Tones and relief of the picture, by which passages are found and measured.
 struct Seen {
     intensity: Field<f32>,
     gradient: Field<[f32; 2]>,
     luv: Field<[f32; 3]>,
+    /// Heights in mm and their gradient.
+    relief: Option<(Field<f32>, Field<[f32; 2]>)>,
 }
 
 impl Seen {
     fn of(picture: &SourcePicture) -> Self {
         let intensity = intensity_of(&picture.color);
         let gradient = gradient_of(&intensity);
-        Self { intensity, gradient, luv: luv_of(&picture.color) }
+        let height = picture.height_mm.as_ref().filter(|_| !picture.guessed_relief);
+        let relief = height.map(|height| (height.clone(), gradient_of(height)));
+        Self { intensity, gradient, luv: luv_of(&picture.color), relief }
+    }
+
+    /// Direction of the strokes of a passage, in the channel where it is clearest.
+    fn direction(&self, pixels: &[u32], depth: &Field<u32>) -> (StrokeDirection, StrokesSeen) {
+        let color = StrokeDirection::of(pixels, depth, &self.intensity, &self.gradient);
+        let relief = self.relief.as_ref();
+        let relief =
+            relief.map(|(height, slope)| StrokeDirection::of(pixels, depth, height, slope));
+        match relief {
+            Some(relief) if relief.coherence > color.coherence => (relief, StrokesSeen::Relief),
+            _ => (color, StrokesSeen::Color),
+        }
+    }
+
+    /// Distance of the strokes of a passage, in the channel where it is clearest.
+    fn spacing(
+        &self,
+        mask: &Field<bool>,
+        direction: &StrokeDirection,
+    ) -> Option<(Estimate, StrokesSeen)> {
+        let of = |values| estimated(values, mask, direction.along(), direction.turned);
+        let color = of(&self.intensity).map(|found| (found, StrokesSeen::Color));
+        let relief = self.relief.as_ref().and_then(|(height, _)| of(height));
+        match relief.map(|found| (found, StrokesSeen::Relief)) {
+            Some(relief) if color.is_none_or(|(c, _)| relief.0.sharpness > c.sharpness) => {
+                Some(relief)
+            }
+            _ => color,
+        }
     }
 }
 
@@ -115,22 +151,24 @@ fn report(
     mask: Field<bool>,
     regions_under: usize,
     seen: &Seen,
+    usual_px: Option<f64>,
 ) -> Result<Option<PassageReport>, PassageError> {
     let labels = mask.values().iter().map(|&inside| u32::from(!inside)).collect();
     let labels = Field::from_values(mask.width(), mask.height(), labels);
     let depth = Regions { labels, count: 2 }.depths();
     let pixels: Vec<u32> =
         (0..).zip(mask.values()).filter(|(_, inside)| **inside).map(|(pixel, _)| pixel).collect();
-    let direction = StrokeDirection::of(&pixels, &depth, &seen.intensity, &seen.gradient);
-    let along = direction.along();
-    let found = match mark.spacing_px() {
-        Some(spacing_px) => Some((spacing_px, SpacingSource::Marked)),
-        None => estimated(&seen.intensity, &mask, along, direction.turned).map(|found| {
-            (found.spacing_px, SpacingSource::Estimated { sharpness: found.sharpness })
+    let (direction, direction_seen) = seen.direction(&pixels, &depth);
+    let found = match (mark.spacing_px(), usual_px) {
+        (Some(spacing_px), _) => Some((spacing_px, SpacingSource::Marked)),
+        (None, Some(spacing_px)) => Some((spacing_px, SpacingSource::Set)),
+        (None, None) => seen.spacing(&mask, &direction).map(|(found, seen)| {
+            let source = SpacingSource::Estimated { sharpness: found.sharpness, seen };
+            (found.spacing_px, source)
         }),
     };
     let Some((spacing_px, spacing_source)) = found else { return Ok(None) };
-    let width_px = Frame::around(&mask, along, [1.0; 2]).size[0] as f64;
+    let width_px = Frame::around(&mask, direction.along(), [1.0; 2]).size[0] as f64;
     if width_px < LEAST_SPACINGS * spacing_px {
         return Err(PassageError::Narrow { sample: mark.name.clone(), width_px, spacing_px });
     }
@@ -141,6 +179,7 @@ fn report(
         mask,
         regions_under,
         direction,
+        direction_seen,
         spacing_px,
         spacing_source,
         scale: [1.0; 2],

@@ -216,3 +216,60 @@ fn specks_have_no_spacing_unless_marked() {
     assert!(matches!(error, PassageError::NoSpacing { .. }), "{error}");
     assert!(samples_of_picture(&picture, &whole(Some(10.0)), &settings).is_ok());
 }
+
+#[test]
+fn a_set_spacing_counts_where_the_marks_give_none() {
+    let settings = PassageSettings { spacing: Some(10.0), ..PassageSettings::default() };
+    let marks = both_rectangles([Some(8.0), None]);
+    let (_, reports) = samples_of_picture(&pair(), &marks, &settings).unwrap();
+    let found: Vec<_> = reports.iter().map(|r| (r.spacing_px, r.spacing_source)).collect();
+    assert_eq!(found, [(10.0, SpacingSource::Set), (8.0, SpacingSource::Marked)]);
+    for spacing in [0.0, -3.0, f64::NAN, 1001.0] {
+        let settings = PassageSettings { spacing: Some(spacing), ..settings };
+        let error = samples_of_picture(&pair(), &marks, &settings).unwrap_err();
+        assert!(error.to_string().starts_with("spacing takes 1 to 1000, found"), "{error}");
+        assert_eq!(error.fault(), spectra::hint::Fault::Setting);
+    }
+}
+
+#[test]
+fn strokes_are_seen_in_the_relief_of_paint_of_one_color() {
+    let ridges = Texture { degrees: 40.0, spacing: 9.0, ..Texture::default() };
+    let ridges = textured(160, 120, 4, &[ridges], |_, _| 0);
+    let height = ridges.values().iter().map(|color| 0.1 * color[1]).collect();
+    let mut picture = SourcePicture {
+        height_mm: Some(Field::from_values(160, 120, height)),
+        ..SourcePicture::of_colors(Field::filled(160, 120, [0.2, 0.3, 0.4]), "ridges")
+    };
+    let marks = Marks::of_whole("ridges", (160, 120));
+    let settings = PassageSettings::default();
+    let (_, reports) = samples_of_picture(&picture, &marks, &settings).unwrap();
+    let PassageReport { direction, direction_seen, spacing_px, spacing_source, .. } = &reports[0];
+    assert!((direction.degrees - 40.0).abs() < 2.0 && direction.turned, "{direction:?}");
+    assert!((spacing_px / 9.0 - 1.0).abs() < 0.08, "{spacing_px}");
+    assert_eq!(*direction_seen, StrokesSeen::Relief);
+    let SpacingSource::Estimated { seen, .. } = spacing_source else {
+        panic!("{spacing_source:?}")
+    };
+    assert_eq!(*seen, StrokesSeen::Relief);
+    // A guess from the colours says nothing that these do not.
+    picture.guessed_relief = true;
+    let error = samples_of_picture(&picture, &marks, &settings).unwrap_err();
+    assert!(matches!(error, PassageError::NoSpacing { .. }), "{error}");
+}
+
+#[test]
+fn reports_tell_where_the_passage_lies() {
+    let marks = marks(vec![rectangle("light", [30, 20, 60, 50], Some(8.0))]);
+    let (_, reports) = samples_of_picture(&pair(), &marks, &PassageSettings::default()).unwrap();
+    assert_eq!((reports[0].bounds(), reports[0].pixels()), ([30, 20, 60, 50], 3000));
+}
+
+#[test]
+fn the_whole_picture_is_one_sample_without_marks() {
+    let whole = Marks::of_whole("all", (240, 120));
+    let settings = PassageSettings { spacing: Some(8.0), ..PassageSettings::default() };
+    let (set, reports) = samples_of_picture(&pair(), &whole, &settings).unwrap();
+    assert_eq!((set.samples.len(), set.samples[0].name.as_str()), (1, "all"));
+    assert_eq!(reports[0].pixels(), 240 * 120);
+}

@@ -21,8 +21,6 @@ const PATCHES: std::ops::RangeInclusive<usize> = 16..=64;
 const LEAST_PATCH: usize = 8;
 /// Least size of the coarsest map.
 const LEAST_SIZE: usize = 32;
-/// Least distance of strokes in texels.
-const LEAST_SPACING: f64 = 6.0;
 /// Least number of strokes beside each other on a map.
 const LEAST_STROKES: f64 = 4.0;
 /// Largest ratio of the spacings of two samples.
@@ -122,8 +120,9 @@ fn common_spacing(samples: &[Sample], size: usize) -> Result<f64, SynthesisError
     let most = size as f64 / LEAST_STROKES;
     for sample in samples {
         let spacing = sample.spacing;
-        if !(LEAST_SPACING..=most).contains(&spacing) {
-            let (name, least) = (sample.name.clone(), LEAST_SPACING);
+        let least = SynthesisSettings::LEAST_SPACING;
+        if !(least..=most).contains(&spacing) {
+            let name = sample.name.clone();
             return Err(SynthesisError::Spacing { name, spacing, size, least, most });
         }
         if spacing.max(first.spacing) > UNLIKE * spacing.min(first.spacing) {

@@ -40,6 +40,9 @@ pub struct SynthesisSettings {
 impl SynthesisSettings {
     /// Range of [`SynthesisSettings::size`].
     pub const SIZES: std::ops::RangeInclusive<usize> = 64..=1024;
+
+    /// Least distance of neighbouring strokes in texels.
+    pub const LEAST_SPACING: f64 = 6.0;
 }
 
 impl Default for SynthesisSettings {

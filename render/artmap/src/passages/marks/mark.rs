@@ -42,6 +42,17 @@ pub enum MarkedArea {
     },
 }
 
+impl Marks {
+    /// Marks of one sample: all of a picture of `width` x `height` pixels.
+    #[must_use]
+    pub fn of_whole(name: &str, (width, height): (usize, usize)) -> Self {
+        let [width, height] = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
+        let area = MarkedArea::Rectangle { x: 0, y: 0, width, height };
+        let whole = Mark { name: name.to_owned(), area, spacing: None };
+        Self { file: "the whole picture".to_owned(), painting: None, samples: vec![whole] }
+    }
+}
+
 impl Mark {
     /// Distance of the two points of `spacing` in pixels.
     #[must_use]

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use spectra::file::{FileAction, FileError, read, write_whole};
+use spectra::file::write_whole;
 
 use super::error::{MarkFault, MarksError};
 use super::mark::{Mark, MarkedArea, Marks};
+use crate::text_file::read_text;
 
 /// The whole file.
 #[derive(Serialize, Deserialize)]
@@ -39,13 +40,7 @@ impl Marks {
     /// # Errors
     /// [`MarksError`] with file, line, sample and key.
     pub fn open(path: &Path) -> Result<Self, MarksError> {
-        let bytes = read(path)?;
-        let text = String::from_utf8(bytes).map_err(|_| FileError {
-            path: path.to_owned(),
-            action: FileAction::Read,
-            reason: std::io::Error::from(std::io::ErrorKind::InvalidData).into(),
-        })?;
-        Self::from_toml(&path.display().to_string(), &text)
+        Self::from_toml(&path.display().to_string(), &read_text(path)?)
     }
 
     /// Parses the text of a file of marks. Errors call the file `file`.

@@ -1,0 +1,49 @@
+//! `impasto artmap`: samples of brushwork, from pictures or painted by the engine.
+
+mod source;
+
+mod files;
+
+mod table;
+
+mod paint;
+
+mod propose;
+
+mod sample;
+
+mod show;
+
+use clap::{Args, Subcommand};
+
+use crate::console::Console;
+use crate::failure::Result;
+
+/// Take samples of brushwork from a painting, or let the engine paint some
+///
+/// A sample is a passage of a painting with the strokes of one tone. All samples of a file are
+/// upright (strokes run from top to bottom), of one distance of strokes, and sorted from dark to
+/// light, after Yan, Chi, Lee and Lin (2008). From an impasto painting they carry its pigments and
+/// its relief too.
+#[derive(Debug, Args)]
+pub(crate) struct Artmap {
+    #[command(subcommand)]
+    verb: ArtmapVerb,
+}
+
+#[derive(Debug, Subcommand)]
+enum ArtmapVerb {
+    Sample(Box<sample::Sample>),
+    Paint(paint::Paint),
+    Show(show::Show),
+}
+
+impl Artmap {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        match self.verb {
+            ArtmapVerb::Sample(verb) => verb.run(console),
+            ArtmapVerb::Paint(verb) => verb.run(console),
+            ArtmapVerb::Show(verb) => verb.run(console),
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Sheets: pictures on which all samples of a set can be seen at once.
+
+mod relief;
+
+mod scale;
+
+mod laid_out;
+
+pub use laid_out::sheet;
