@@ -14,6 +14,10 @@
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
+mod texel;
+
+pub mod texel_file;
+
 pub mod sample;
 
 mod tiling;

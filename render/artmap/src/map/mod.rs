@@ -8,6 +8,8 @@ mod art_map;
 
 mod between;
 
+pub mod file;
+
 #[cfg(test)]
 mod tests;
 

@@ -1,20 +1,9 @@
 //! One passage, and a set of passages of one painting.
 
-use std::sync::Arc;
-
 use graphics::field::Field;
 use graphics::picture::Picture;
-use paint::layer::{SLOTS, Slots};
-use pigment::library::PigmentLibrary;
 
-/// Paint in one texel, in mm of height.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TexelPaint {
-    /// Paint of each pigment, by slot of [`PaintOfSamples::slots`].
-    pub pigments_mm: [f32; SLOTS],
-    /// Transparent vehicle.
-    pub vehicle_mm: f32,
-}
+use crate::texel::{PaintOfSamples, TexelPaint};
 
 /// A passage of a painting.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,15 +32,6 @@ impl Sample {
     pub fn size(&self) -> (usize, usize) {
         (self.color.width(), self.color.height())
     }
-}
-
-/// Pigments that the samples of a set were painted with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PaintOfSamples {
-    /// Library of the pigments.
-    pub library: Arc<PigmentLibrary>,
-    /// Pigments of the samples by slot.
-    pub slots: Slots,
 }
 
 /// Samples of one painting, upright (strokes run along y) and of one spacing, dark to light.
