@@ -22,6 +22,8 @@ pub mod sample;
 
 mod tiling;
 
+pub mod measures;
+
 pub mod passages;
 
 pub mod painted;
@@ -29,5 +31,3 @@ pub mod painted;
 pub mod synthesis;
 
 pub mod map;
-
-pub mod measures;

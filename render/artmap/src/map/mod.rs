@@ -10,9 +10,16 @@ mod between;
 
 pub mod file;
 
+mod check;
+
+mod raking;
+
+mod sheet;
+
 #[cfg(test)]
 mod tests;
 
 pub use art_map::{ArtMap, KeyMap};
 pub use between::{Between, Transition};
+pub use check::{BetweenFigures, KeyFigures, MapFault, MapFigures};
 pub use tile::Tile;
