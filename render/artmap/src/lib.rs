@@ -16,9 +16,15 @@
 
 mod text_file;
 
+mod texel;
+
+pub mod texel_file;
+
 pub mod sample;
 
 mod tiling;
+
+pub mod measures;
 
 pub mod passages;
 
@@ -29,5 +35,3 @@ pub mod sheet;
 pub mod synthesis;
 
 pub mod map;
-
-pub mod measures;

@@ -8,9 +8,18 @@ mod art_map;
 
 mod between;
 
+pub mod file;
+
+mod check;
+
+mod raking;
+
+mod sheet;
+
 #[cfg(test)]
 mod tests;
 
 pub use art_map::{ArtMap, KeyMap};
 pub use between::{Between, Transition};
+pub use check::{BetweenFigures, KeyFigures, MapFault, MapFigures};
 pub use tile::Tile;

@@ -6,6 +6,6 @@ mod brushwork;
 
 mod agreement;
 
-pub use agreement::{coherence, most_used, wrap_ratio};
+pub use agreement::{coherence, most_used, usual_wrap_ratio, wrap_ratio};
 pub use brushwork::{co_occurrence_error, contrast, stroke_length};
 pub use texture::Texture;

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::hint::{Explain, Fault, Hint};
 
-use super::passage::{PaintOfSamples, TexelPaint};
+use crate::texel::{PaintOfSamples, TexelPaint};
 
 /// Share of a painting's pigment below which a pigment counts as minor.
 pub const MINOR: f64 = 0.01;

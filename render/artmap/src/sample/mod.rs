@@ -9,9 +9,9 @@ pub mod from_painting;
 
 pub mod file;
 
-pub use file::SampleFileError;
+pub use crate::texel::{PaintOfSamples, TexelPaint};
 pub use from_painting::{FromPaintingError, WholePainting};
-pub use passage::{PaintOfSamples, Sample, SampleSet, TexelPaint};
+pub use passage::{Sample, SampleSet};
 
 #[cfg(test)]
 pub(crate) use made_up::strokes;

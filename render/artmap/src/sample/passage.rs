@@ -1,21 +1,10 @@
 //! One passage, and a set of passages of one painting.
 
-use std::sync::Arc;
-
 use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
 use graphics::picture::Picture;
-use paint::layer::{SLOTS, Slots};
-use pigment::library::PigmentLibrary;
 
-/// Paint in one texel, in mm of height.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TexelPaint {
-    /// Paint of each pigment, by slot of [`PaintOfSamples::slots`].
-    pub pigments_mm: [f32; SLOTS],
-    /// Transparent vehicle.
-    pub vehicle_mm: f32,
-}
+use crate::texel::{PaintOfSamples, TexelPaint};
 
 /// A passage of a painting.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,15 +62,6 @@ impl Sample {
         let texels = self.texels().max(1) as f64;
         sum.map(|sum| sum / texels)
     }
-}
-
-/// Pigments that the samples of a set were painted with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PaintOfSamples {
-    /// Library of the pigments.
-    pub library: Arc<PigmentLibrary>,
-    /// Pigments of the samples by slot.
-    pub slots: Slots,
 }
 
 /// Samples of one painting, upright (strokes run along y) and of one spacing, dark to light.

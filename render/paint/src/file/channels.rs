@@ -1,8 +1,8 @@
 //! Channels of a part: their names and their content.
 
-use super::header::PigmentHeader;
 use super::millimetres::INEXACT_FROM;
 use super::names::{HEIGHT, THICKNESS, VEHICLE};
+use super::pigments::PigmentChannel;
 use crate::layer::{Layer, SLOTS};
 
 /// Suffix of channels that hold rounding residues.
@@ -49,7 +49,7 @@ pub(super) fn of_ground(inexact: bool) -> Vec<Channel> {
 
 /// Channels of a layer, sorted by name as OpenEXR requires. `inexact` says which slots need
 /// a residue channel.
-pub(super) fn of_layer(pigments: &[PigmentHeader], inexact: [bool; SLOTS + 1]) -> Vec<Channel> {
+pub(super) fn of_layer(pigments: &[PigmentChannel], inexact: [bool; SLOTS + 1]) -> Vec<Channel> {
     let mut channels = vec![Channel::new(THICKNESS, Content::Thickness)];
     let named = pigments.iter().map(|pigment| (pigment.channel.as_str(), pigment.slot));
     for (name, slot) in named.chain([(VEHICLE, SLOTS)]) {

@@ -1,17 +1,15 @@
 //! The description of a painting in its file: JSON in attribute `impasto`.
 
-use pigment::PigmentId;
 use pigment::library::PigmentLibrary;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::ascii::ascii_json;
 use super::error::PaintingFileError;
-use super::names::{ChannelNames, WET, dry_part};
+use super::names::{LAYER_CHANNELS, WET, dry_part};
+use super::pigments::{PigmentChannel, channels_of_slots, slots_of_channels};
 use crate::document::{Document, Lighting, Medium, Slots};
 use crate::optics::Gloss;
-
-/// Name of the attribute.
-pub(super) const ATTRIBUTE: &str = "impasto";
 
 const FORMAT: &str = "impasto-painting";
 const VERSION: u64 = 1;
@@ -50,16 +48,7 @@ pub(super) struct GroundHeader {
 pub(super) struct LayerHeader {
     pub(super) part: String,
     pub(super) opacity: f64,
-    pub(super) pigments: Vec<PigmentHeader>,
-}
-
-/// A slot that holds a pigment, with the names of the pigment and of its channel.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PigmentHeader {
-    pub(super) slot: usize,
-    pub(super) name: String,
-    pub(super) channel: String,
+    pub(super) pigments: Vec<PigmentChannel>,
 }
 
 impl FileHeader {
@@ -70,7 +59,7 @@ impl FileHeader {
         let dry = dry.map(|(index, layer)| (dry_part(index), layer.opacity, &layer.slots));
         let layers = std::iter::once((WET.to_owned(), 1.0, &document.slots)).chain(dry);
         let layers = layers.map(|(part, opacity, slots)| {
-            let pigments = pigments(&document.library, slots);
+            let pigments = channels_of_slots(&document.library, slots, &LAYER_CHANNELS);
             let pigments = pigments.ok_or_else(|| {
                 let count = document.library.pigments.len();
                 unwritable(format!("part `{part}` has a pigment beyond the library's {count}"))
@@ -107,20 +96,8 @@ impl FileHeader {
 
     /// Encodes the description as JSON in ASCII.
     pub(super) fn to_json(&self) -> Result<String, PaintingFileError> {
-        let text = serde_json::to_string(self);
-        let text =
-            text.map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })?;
-        let mut ascii = String::with_capacity(text.len());
-        for letter in text.chars() {
-            if letter.is_ascii() {
-                ascii.push(letter);
-            } else {
-                for unit in letter.encode_utf16(&mut [0; 2]) {
-                    ascii.push_str(&format!("\\u{unit:04x}"));
-                }
-            }
-        }
-        Ok(ascii)
+        ascii_json(self)
+            .map_err(|error| PaintingFileError::Unwritable { reason: error.to_string() })
     }
 
     /// Parses and checks a description; returns it with the library that it holds.
@@ -181,33 +158,7 @@ impl FileHeader {
 impl LayerHeader {
     /// Pigments of the layer by slot.
     pub(super) fn slots(&self, library: &PigmentLibrary) -> Result<Slots, String> {
-        let mut slots = Slots::default();
-        for PigmentHeader { slot, name, channel } in &self.pigments {
-            let part = &self.part;
-            let index = library.pigments.iter().position(|pigment| pigment.name == *name);
-            let index = index.ok_or_else(|| {
-                format!("channel `{channel}` of `{part}` names no pigment of the library: `{name}`")
-            })?;
-            match slots.get_mut(*slot) {
-                Some(place @ None) => *place = Some(PigmentId(index)),
-                Some(_) => return Err(format!("slot of `{part}` named twice: `{slot}`")),
-                None => return Err(format!("slots of `{part}` are 0 to 7, found `{slot}`")),
-            }
-            if self.pigments.iter().filter(|other| other.channel == *channel).count() > 1 {
-                return Err(format!("channel of `{part}` named twice: `{channel}`"));
-            }
-        }
-        Ok(slots)
+        slots_of_channels(&self.pigments, library, &LAYER_CHANNELS)
+            .map_err(|reason| format!("layer `{}`: {reason}", self.part))
     }
-}
-
-/// Slots in use with a channel for each; `None` if the library lacks a pigment.
-fn pigments(library: &PigmentLibrary, slots: &Slots) -> Option<Vec<PigmentHeader>> {
-    let mut names = ChannelNames::default();
-    let used = slots.iter().enumerate().filter_map(|(slot, pigment)| Some((slot, (*pigment)?)));
-    used.map(|(slot, pigment)| {
-        let name = &library.pigments.get(pigment.index())?.name;
-        Some(PigmentHeader { slot, name: name.clone(), channel: names.channel(name) })
-    })
-    .collect()
 }

@@ -11,9 +11,9 @@ use super::names::BASE;
 use crate::layer::SLOTS;
 use graphics::tile::Rect;
 
-/// Most bytes that one stored byte can expand to: 1032 by ZIP, less by PIZ, plus headers.
-/// A file that announces more is truncated or malicious.
-const EXPANSION: u64 = 1100;
+/// Most bytes that one stored byte of an OpenEXR file can expand to: 1032 by ZIP, less by
+/// PIZ, plus headers. A file that announces more is truncated or malicious.
+pub const EXPANSION: u64 = 1100;
 
 /// A part of the file that passed the checks.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -32,6 +32,10 @@ mod millimetres;
 
 mod names;
 
+mod ascii;
+
+mod pigments;
+
 mod header;
 
 mod channels;
@@ -46,6 +50,10 @@ mod write;
 
 mod saved;
 
+pub use ascii::{ATTRIBUTE, ascii_json};
 pub use error::PaintingFileError;
+pub use layout::EXPANSION;
+pub use names::ChannelNames;
+pub use pigments::{PigmentChannel, channels_of_slots, slots_of_channels};
 pub use read::{MEMORY_LIMIT, read, read_within};
 pub use write::write;

@@ -11,6 +11,9 @@ pub(super) const THICKNESS: &str = "thickness";
 /// Channel with the height of clear vehicle.
 pub(super) const VEHICLE: &str = "vehicle";
 
+/// Channels of a layer that no pigment's channel can be called.
+pub(super) const LAYER_CHANNELS: [&str; 3] = [HEIGHT, THICKNESS, VEHICLE];
+
 /// Longest channel name for a pigment, in bytes: it leaves room for a number and `.rest`
 /// within the 255 bytes that OpenEXR allows.
 const LONGEST: usize = 200;
@@ -20,25 +23,28 @@ pub(super) fn dry_part(index: usize) -> String {
     format!("dry.{index:03}")
 }
 
-/// Assigns a unique channel name to each pigment of a layer.
-#[derive(Debug, Default)]
-pub(super) struct ChannelNames {
+/// Names for the channels of the pigments of one part of an OpenEXR file. No name is given twice.
+#[derive(Debug, Clone)]
+pub struct ChannelNames {
     taken: Vec<String>,
 }
 
 impl ChannelNames {
+    /// Names for pigments beside the other channels of the part, `reserved`.
+    #[must_use]
+    pub fn beside(reserved: &[&str]) -> Self {
+        Self { taken: reserved.iter().map(|&name| name.to_owned()).collect() }
+    }
+
     /// Channel name for `pigment`: its name with characters replaced that OpenEXR does not
     /// allow, numbered if taken.
-    pub(super) fn channel(&mut self, pigment: &str) -> String {
+    pub fn channel(&mut self, pigment: &str) -> String {
         let legal = |letter: char| letter == ' ' || (letter.is_ascii_graphic() && letter != '.');
         let plain: String =
             pigment.chars().map(|l| if legal(l) { l } else { '_' }).take(LONGEST).collect();
         let plain = if plain.trim().is_empty() { "pigment".to_owned() } else { plain };
         let numbered = (2..).map(|number| format!("{plain} {number}"));
-        let free = |name: &String| {
-            let reserved = [HEIGHT, THICKNESS, VEHICLE].contains(&name.as_str());
-            !reserved && !self.taken.contains(name)
-        };
+        let free = |name: &String| !self.taken.contains(name);
         let name = std::iter::once(plain.clone()).chain(numbered).find(free).unwrap_or(plain);
         self.taken.push(name.clone());
         name
@@ -51,7 +57,7 @@ mod tests {
 
     #[test]
     fn channels_are_legal_and_differ() {
-        let mut names = ChannelNames::default();
+        let mut names = ChannelNames::beside(&LAYER_CHANNELS);
         let made = ["Zinc White", "Zinc White", "PB29 (r.s.)", "R\u{f6}tel", "thickness", " "]
             .map(|name| names.channel(name));
         let wanted =

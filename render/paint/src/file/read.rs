@@ -9,8 +9,9 @@ use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::Header;
 use rayon::prelude::*;
 
+use super::ascii::ATTRIBUTE;
 use super::error::PaintingFileError;
-use super::header::{ATTRIBUTE, FileHeader};
+use super::header::FileHeader;
 use super::layout::{PartLayout, Plane, layout};
 use super::millimetres::Millimetres;
 use super::names::BASE;

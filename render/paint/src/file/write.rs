@@ -11,8 +11,9 @@ use exr::meta::attribute::{
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use rayon::prelude::*;
 
+use super::ascii::ATTRIBUTE;
 use super::error::PaintingFileError;
-use super::header::{ATTRIBUTE, FileHeader};
+use super::header::FileHeader;
 use super::millimetres::Millimetres;
 use super::names::{BASE, WET, dry_part};
 use super::parts::{Part, parts};

@@ -97,7 +97,10 @@ fn a_header_that_contradicts_itself_is_refused() {
         (|json| json["cell_mm"] = 0.into(), "cell_mm is 0.0001 to 100, found `0`"),
         (|json| json["layers"] = serde_json::json!([]), "no layers"),
         (|json| json["layers"][1]["part"] = "dry.007".into(), "layer 1 is `dry.000`"),
-        (|json| json["layers"][0]["pigments"][0]["slot"] = 9.into(), "slots of `wet` are 0 to 7"),
+        (
+            |json| json["layers"][0]["pigments"][0]["slot"] = 9.into(),
+            "layer `wet`: slots are 0 to 7, found `9`",
+        ),
         (
             |json| json["layers"][0]["pigments"][0]["name"] = "Octarine".into(),
             "names no pigment of the library: `Octarine`",

@@ -14,8 +14,6 @@
 //! sizes and spacing of the samples, the channel of each pigment, and the pigment library.
 //! Everything comes back bit for bit.
 
-mod error;
-
 mod header;
 
 mod planes;
@@ -24,20 +22,20 @@ mod read;
 
 mod write;
 
-pub use error::SampleFileError;
 pub use read::read;
 pub use write::write;
 
 use std::path::Path;
 
 use super::passage::SampleSet;
+use crate::texel_file::TexelFileError;
 
 impl SampleSet {
     /// Reads samples from their file (OpenEXR, see [`crate::sample::file`]).
     ///
     /// # Errors
-    /// [`SampleFileError`] if the file cannot be read or holds no valid samples.
-    pub fn open(path: &Path) -> Result<Self, SampleFileError> {
+    /// [`TexelFileError`] if the file cannot be read or holds no valid samples.
+    pub fn open(path: &Path) -> Result<Self, TexelFileError> {
         read(&path.display().to_string(), &spectra::file::read(path)?)
     }
 
@@ -45,8 +43,8 @@ impl SampleSet {
     /// whole or not at all.
     ///
     /// # Errors
-    /// [`SampleFileError`] if the set is inconsistent or the file cannot be written.
-    pub fn save(&self, path: &Path) -> Result<(), SampleFileError> {
+    /// [`TexelFileError`] if the set is inconsistent or the file cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), TexelFileError> {
         Ok(spectra::file::write_whole(path, &write(self)?)?)
     }
 }

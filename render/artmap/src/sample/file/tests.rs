@@ -6,7 +6,8 @@ use pigment::{PigmentId, PigmentLibrary};
 use spectra::hint::Explain;
 
 use super::*;
-use crate::sample::passage::{PaintOfSamples, Sample, TexelPaint};
+use crate::sample::passage::Sample;
+use crate::texel::{PaintOfSamples, TexelPaint};
 
 /// Numbers that lose bits in anything but lossless storage.
 fn number(index: usize) -> f32 {
@@ -85,9 +86,9 @@ fn bad_files_are_refused_with_their_place_and_a_way_out() {
         error
     };
     let error = refused(&replaced(&bytes, "\"version\":1", "\"version\":9"));
-    assert!(matches!(error, SampleFileError::Version { ref found, newest: 1, .. } if found == "9"));
+    assert!(matches!(error, TexelFileError::Version { ref found, newest: 1, .. } if found == "9"));
     let error = refused(&replaced(&bytes, "impasto-samples", "impasto-simples"));
-    assert!(matches!(error, SampleFileError::Format { .. }), "{error}");
+    assert!(matches!(error, TexelFileError::Format { .. }), "{error}");
     let error = refused(&replaced(&bytes, "\"width\":33", "\"width\":32"));
     assert!(error.to_string().contains("part `sample.000` has `33 x 21` texels"), "{error}");
     let error = refused(&replaced(&bytes, "\"height\":40", "\"height\":99"));
@@ -95,9 +96,9 @@ fn bad_files_are_refused_with_their_place_and_a_way_out() {
     let error = refused(&replaced(&bytes, "\"spacing\":7.25", "\"spacing\":-7.2"));
     assert!(error.to_string().contains("spacing of sample `tone 1`"), "{error}");
     let error = refused(&replaced(&bytes, "mask\0", "masc\0"));
-    assert!(matches!(error, SampleFileError::Channel { .. }), "{error}");
+    assert!(matches!(error, TexelFileError::Channel { .. }), "{error}");
     let error = refused(&replaced(&bytes, "\"relief\":true,", "\"relief\":null,"));
-    assert!(matches!(error, SampleFileError::Header { .. }), "{error}");
+    assert!(matches!(error, TexelFileError::Header { .. }), "{error}");
 }
 
 #[test]
@@ -105,7 +106,7 @@ fn a_missing_channel_is_named() {
     let bytes = write(&set()).unwrap();
     let json = replaced(&bytes, "\"relief\":false", "\"relief\":true ");
     let error = read("a.exr", &json).unwrap_err();
-    let SampleFileError::Channel { part, channel, reason, .. } = &error else { panic!("{error}") };
+    let TexelFileError::Channel { part, channel, reason, .. } = &error else { panic!("{error}") };
     assert_eq!((&**part, &**channel, &**reason), ("sample.001", "height", "is missing"));
 }
 

@@ -1,12 +1,12 @@
-//! Errors of files of samples.
+//! Errors of files of texels.
 
 use pigment::LibraryError;
 use spectra::file::FileError;
 use spectra::hint::{Explain, Fault, Hint};
 
-/// A file of samples cannot be read, or samples cannot be written.
+/// A file of samples or an art map cannot be read or written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SampleFileError {
+pub enum TexelFileError {
     /// The file cannot be read from or written to the disk.
     #[error(transparent)]
     File(#[from] FileError),
@@ -15,22 +15,28 @@ pub enum SampleFileError {
     Container {
         /// Path of the file.
         file: String,
+        /// Content that was expected, in words.
+        content: &'static str,
         /// Reason given by the decoder.
         reason: String,
     },
-    /// The file is OpenEXR, but holds no samples of impasto.
-    #[error("{file}: no samples of impasto: {reason}")]
+    /// The file is OpenEXR, but holds something else.
+    #[error("{file}: no {content} of impasto: {reason}")]
     Format {
         /// Path of the file.
         file: String,
+        /// Content that was expected, in words.
+        content: &'static str,
         /// Reason, with the value found.
         reason: String,
     },
     /// The file has a version that this program does not know.
-    #[error("{file}: this program reads samples up to version {newest}, found `{found}`")]
+    #[error("{file}: {content} of version `{found}`, this program reads versions up to {newest}")]
     Version {
         /// Path of the file.
         file: String,
+        /// Content in words.
+        content: &'static str,
         /// Version of the file.
         found: String,
         /// Newest version that can be read.
@@ -41,6 +47,8 @@ pub enum SampleFileError {
     Header {
         /// Path of the file.
         file: String,
+        /// Content in words.
+        content: &'static str,
         /// Reason, with the key.
         reason: String,
     },
@@ -57,7 +65,7 @@ pub enum SampleFileError {
         /// Reason, continuing the sentence that starts with the part.
         reason: String,
     },
-    /// A channel is missing or malformed.
+    /// A channel is missing or malformed, or one of its values is impossible.
     #[error("{file}: part `{part}`, channel `{channel}` {reason}")]
     Channel {
         /// Path of the file.
@@ -69,27 +77,44 @@ pub enum SampleFileError {
         /// Reason, continuing the sentence that starts with the channel.
         reason: String,
     },
-    /// The samples are inconsistent, so no file can hold them.
-    #[error("the samples cannot be saved: {reason}")]
+    /// A part has possible values, but not those that were written.
+    #[error("{file}: part `{part}` does not hold the values that were written")]
+    Changed {
+        /// Path of the file.
+        file: String,
+        /// Content in words.
+        content: &'static str,
+        /// Name of the part.
+        part: String,
+    },
+    /// The content is inconsistent, so no file can hold it.
+    #[error("the {content} cannot be saved: {reason}")]
     Unwritable {
-        /// Reason, with the sample.
+        /// Content in words.
+        content: &'static str,
+        /// Reason, with the sample or tile.
         reason: String,
     },
 }
 
-impl Explain for SampleFileError {
+impl Explain for TexelFileError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
             Self::File(error) => return error.hint(),
             Self::Library(error) => return error.hint(),
-            Self::Container { .. } => {
-                "the file is truncated, damaged or not OpenEXR: make the samples again"
+            Self::Container { content, .. } => {
+                format!("the file is truncated, damaged or not OpenEXR: make the {content} again")
             }
-            Self::Format { .. } => "choose a file of samples that was made by impasto",
-            Self::Version { .. } => "a newer impasto may read it",
-            Self::Header { .. } => "make the samples again",
-            Self::Part { .. } | Self::Channel { .. } => {
-                "another program changed the file: keep parts, sizes and channels as they were"
+            Self::Format { content, .. } => {
+                format!("choose another file, which impasto wrote as {content}")
+            }
+            Self::Version { .. } => "a newer impasto may read it".to_owned(),
+            Self::Header { content, .. } => format!("make the {content} again"),
+            Self::Part { .. } | Self::Channel { .. } => "another program changed the file: keep \
+                parts, sizes and channels as they were"
+                .to_owned(),
+            Self::Changed { content, .. } => {
+                format!("the file is damaged or was changed: make the {content} again")
             }
             Self::Unwritable { .. } => return None,
         }))

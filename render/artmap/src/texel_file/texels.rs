@@ -1,0 +1,140 @@
+//! Colour, paint and height of texels as the channels of a part.
+
+use graphics::field::Field;
+use graphics::picture::Picture;
+use paint::file::PigmentChannel;
+
+use super::part::PartPlanes;
+use crate::texel::{PaintOfSamples, TexelPaint};
+
+/// Channels of the colour, linear sRGB.
+pub(crate) const COLOR: [&str; 3] = ["R", "G", "B"];
+/// Channel of the height above the ground in mm.
+pub(crate) const HEIGHT: &str = "height";
+/// Channel of the transparent vehicle in mm.
+pub(crate) const VEHICLE: &str = "vehicle";
+
+/// Texels of a part.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Texels<'a> {
+    pub(crate) color: &'a Picture,
+    pub(crate) paint: Option<&'a Field<TexelPaint>>,
+    pub(crate) height_mm: Option<&'a Field<f32>>,
+}
+
+impl Texels<'_> {
+    /// Channels of texels with and without relief and pigments.
+    pub(crate) fn channels(relief: bool, pigments: Option<&[PigmentChannel]>) -> Vec<&str> {
+        let mut names = COLOR.to_vec();
+        names.extend(relief.then_some(HEIGHT));
+        if let Some(pigments) = pigments {
+            names.push(VEHICLE);
+            names.extend(pigments.iter().map(|pigment| pigment.channel.as_str()));
+        }
+        names
+    }
+
+    /// Numbers of a channel, row by row; that of no colour, height or pigment is the vehicle.
+    pub(crate) fn plane(&self, channel: &str, pigments: Option<&[PigmentChannel]>) -> Vec<f32> {
+        if let Some(color) = COLOR.iter().position(|name| *name == channel) {
+            return self.color.values().iter().map(|rgb| rgb[color]).collect();
+        }
+        if channel == HEIGHT {
+            return self.height_mm.map_or_else(Vec::new, |height| height.values().to_vec());
+        }
+        let mut pigments = pigments.unwrap_or_default().iter();
+        let pigment = pigments.find(|pigment| pigment.channel == channel);
+        let amount = |texel: &TexelPaint| match pigment {
+            Some(pigment) => texel.pigments_mm[pigment.slot],
+            None => texel.vehicle_mm,
+        };
+        self.paint.map_or_else(Vec::new, |paint| paint.values().iter().map(amount).collect())
+    }
+
+    /// Checks that all fields have one size, that there is paint where there is a library, and
+    /// that each slot with paint has a pigment. `whose` names the sample or tile.
+    ///
+    /// # Errors
+    /// The reason in words.
+    pub(crate) fn check(&self, whose: &str, of: Option<&PaintOfSamples>) -> Result<(), String> {
+        let bounds = self.color.bounds();
+        let paint_fits = self.paint.is_none_or(|paint| paint.bounds() == bounds);
+        let height_fits = self.height_mm.is_none_or(|height| height.bounds() == bounds);
+        if !paint_fits || !height_fits {
+            return Err(format!("fields of {whose} differ in size"));
+        }
+        match (self.paint, of) {
+            (None, None) => Ok(()),
+            (Some(_), None) => Err(format!("{whose} has paint of no library")),
+            (None, Some(_)) => Err(format!("{whose} has no paint")),
+            (Some(paint), Some(of)) => {
+                let stray = |slot: &usize| {
+                    let mut amounts = paint.values().iter().map(|texel| texel.pigments_mm[*slot]);
+                    of.slots[*slot].is_none() && amounts.any(|amount| amount != 0.0)
+                };
+                match (0..of.slots.len()).find(stray) {
+                    Some(slot) => Err(format!("{whose} has paint of no pigment in slot {slot}")),
+                    None => Ok(()),
+                }
+            }
+        }
+    }
+}
+
+impl PartPlanes {
+    /// Checks that the numbers of colour, height and paint are possible where `inside` says so.
+    /// Colours outside the gamut of sRGB may be below 0; heights and amounts are not.
+    ///
+    /// # Errors
+    /// Channel and reason.
+    pub(crate) fn check_texels(
+        &self,
+        pigments: Option<&[PigmentChannel]>,
+        inside: impl Fn(usize) -> bool,
+    ) -> Result<(), (String, String)> {
+        for channel in &self.plan.channels {
+            let name = channel.as_str();
+            let color = COLOR.contains(&name);
+            let mut pigments = pigments.unwrap_or_default().iter();
+            let paint = name == VEHICLE || pigments.any(|pigment| pigment.channel == name);
+            if color || paint || name == HEIGHT {
+                let least = if color { f32::MIN } else { 0.0 };
+                self.check(name, "is impossible", |index, number| {
+                    !inside(index) || (number.is_finite() && number >= least)
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Colour of the texels.
+    pub(crate) fn color(&self) -> Picture {
+        let [red, green, blue] = COLOR.map(|name| self.of(name));
+        let texels = red.iter().zip(green).zip(blue);
+        self.field(texels.map(|((red, green), blue)| [*red, *green, *blue]).collect())
+    }
+
+    /// Paint of the texels.
+    pub(crate) fn paint(&self, pigments: &[PigmentChannel]) -> Field<TexelPaint> {
+        let vehicle = self.of(VEHICLE).iter();
+        let texel = |&vehicle_mm: &f32| TexelPaint { vehicle_mm, ..TexelPaint::default() };
+        let mut paint: Vec<TexelPaint> = vehicle.map(texel).collect();
+        for PigmentChannel { slot, channel, .. } in pigments {
+            for (texel, amount) in paint.iter_mut().zip(self.of(channel)) {
+                texel.pigments_mm[*slot] = *amount;
+            }
+        }
+        self.field(paint)
+    }
+
+    /// Height of the texels; `None` if the part has no channel of heights.
+    pub(crate) fn height_mm(&self) -> Option<Field<f32>> {
+        let relief = self.plan.channels.iter().any(|channel| channel == HEIGHT);
+        relief.then(|| self.field(self.of(HEIGHT).to_vec()))
+    }
+
+    /// A field of the size of the part.
+    pub(crate) fn field<T: Clone>(&self, values: Vec<T>) -> Field<T> {
+        Field::from_values(self.plan.width, self.plan.height, values)
+    }
+}
