@@ -30,6 +30,8 @@ pub mod passages;
 
 pub mod painted;
 
+mod relief;
+
 pub mod sheet;
 
 pub mod synthesis;

@@ -22,3 +22,12 @@ pub struct PaintOfSamples {
     /// Pigments of the samples by slot.
     pub slots: Slots,
 }
+
+impl PaintOfSamples {
+    /// Names of the pigments, in the order of their slots.
+    #[must_use]
+    pub fn pigment_names(&self) -> Vec<String> {
+        let used = self.slots.iter().flatten();
+        used.map(|&pigment| self.library[pigment].name.clone()).collect()
+    }
+}

@@ -1,9 +1,7 @@
-//! Output files: the samples, and pictures to look at.
+//! Output files: samples, maps, and pictures to look at.
 
 use std::path::{Path, PathBuf};
 
-use render::artmap::sample::{SampleSet, file};
-use render::artmap::sheet::sheet;
 use render::export::{PictureFormat, picture_file};
 use render::field::Field;
 use render::picture::Picture;
@@ -51,32 +49,40 @@ pub(super) fn picture_bytes(
     Ok(file.bytes)
 }
 
-/// The file of samples and their sheet, checked to be writable.
-pub(super) struct SampleFiles {
-    pub(super) samples: Output,
-    pub(super) sheet: Option<Output>,
+/// A file of samples or a map and its sheet, checked to be writable.
+pub(super) struct FileAndSheet {
+    file: Output,
+    sheet: Option<Output>,
 }
 
-impl SampleFiles {
+impl FileAndSheet {
     /// Checks, before the slow part of a verb, that both files can be written.
-    pub(super) fn open(samples: &Path, sheet: Option<&Path>, inputs: &[PathBuf]) -> Result<Self> {
-        let samples = Output::with_ending(samples, &["exr"], inputs)?;
+    pub(super) fn open(file: &Path, sheet: Option<&Path>, inputs: &[PathBuf]) -> Result<Self> {
+        let file = Output::with_ending(file, &["exr"], inputs)?;
         let sheet = picture_output(sheet, inputs)?;
-        refuse_same(&[Some(&samples), sheet.as_ref()])?;
-        Ok(Self { samples, sheet })
+        refuse_same(&[Some(&file), sheet.as_ref()])?;
+        Ok(Self { file, sheet })
     }
 
-    /// Writes both files, once both are encoded.
-    pub(super) fn write(self, set: &SampleSet, console: &mut Console<'_>) -> Result<()> {
-        let samples = file::write(set)?;
+    /// Writes both files, once both are encoded. `sheet` draws the sheet if one is wanted.
+    pub(super) fn write(
+        self,
+        bytes: Vec<u8>,
+        sheet: impl FnOnce() -> Picture,
+        console: &mut Console<'_>,
+    ) -> Result<()> {
         let sheet = match self.sheet {
-            Some(output) => Some((picture_bytes(&sheet(set), &output, console)?, output)),
+            Some(output) => Some((picture_bytes(&sheet(), &output, console)?, output)),
             None => None,
         };
-        self.samples.write(samples)?;
+        self.file.write(bytes)?;
         match sheet {
             Some((bytes, output)) => output.write(bytes),
             None => Ok(()),
         }
+    }
+
+    pub(super) fn outputs(&self) -> [Option<&Output>; 2] {
+        [Some(&self.file), self.sheet.as_ref()]
     }
 }

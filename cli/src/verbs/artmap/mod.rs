@@ -1,4 +1,5 @@
-//! `impasto artmap`: samples of brushwork, from pictures or painted by the engine.
+//! `impasto artmap`: samples of brushwork, from pictures or painted by the engine, and maps made of
+//! them.
 
 mod source;
 
@@ -12,6 +13,12 @@ mod propose;
 
 mod sample;
 
+mod map_table;
+
+mod build;
+
+mod check;
+
 mod show;
 
 use clap::{Args, Subcommand};
@@ -19,12 +26,13 @@ use clap::{Args, Subcommand};
 use crate::console::Console;
 use crate::failure::Result;
 
-/// Take samples of brushwork from a painting, or let the engine paint some
+/// Take samples of brushwork from a painting, or let the engine paint some, and make maps of them
 ///
 /// A sample is a passage of a painting with the strokes of one tone. All samples of a file are
 /// upright (strokes run from top to bottom), of one distance of strokes, and sorted from dark to
 /// light, after Yan, Chi, Lee and Lin (2008). From an impasto painting they carry its pigments and
-/// its relief too.
+/// its relief too. A map has a tile of each sample: it repeats
+/// without seams, and the strokes of all tiles stand at the same places.
 #[derive(Debug, Args)]
 pub(crate) struct Artmap {
     #[command(subcommand)]
@@ -35,6 +43,8 @@ pub(crate) struct Artmap {
 enum ArtmapVerb {
     Sample(Box<sample::Sample>),
     Paint(paint::Paint),
+    Build(build::Build),
+    Check(check::Check),
     Show(show::Show),
 }
 
@@ -43,6 +53,8 @@ impl Artmap {
         match self.verb {
             ArtmapVerb::Sample(verb) => verb.run(console),
             ArtmapVerb::Paint(verb) => verb.run(console),
+            ArtmapVerb::Build(verb) => verb.run(console),
+            ArtmapVerb::Check(verb) => verb.run(console),
             ArtmapVerb::Show(verb) => verb.run(console),
         }
     }

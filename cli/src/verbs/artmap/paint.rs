@@ -6,8 +6,10 @@ use std::sync::Arc;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use render::artmap::painted::{PaintedSettings, Style, painted_samples};
+use render::artmap::sample::file;
+use render::artmap::sheet::sheet;
 
-use super::files::SampleFiles;
+use super::files::FileAndSheet;
 use super::table::{pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
@@ -64,7 +66,7 @@ impl Paint {
         let (style, file) = style(&named)?;
         let inputs: Vec<PathBuf> = self.pigments.iter().cloned().chain(file).collect();
         let output = self.output.clone().unwrap_or_default();
-        let files = SampleFiles::open(&output, self.sheet.as_deref(), &inputs)?;
+        let files = FileAndSheet::open(&output, self.sheet.as_deref(), &inputs)?;
         let library = match &self.pigments {
             Some(path) => library(path)?,
             None => built_in_library(),
@@ -78,7 +80,7 @@ impl Paint {
         let waiting = Waiting::new("painting samples", console.screen.progress);
         let set = painted_samples(&style, &settings)?;
         drop(waiting);
-        files.write(&set, console)?;
+        files.write(file::write(&set)?, || sheet(&set), console)?;
         if self.json {
             return console.json(&set_json(&set, set.samples.iter().map(sample_json).collect()));
         }

@@ -7,11 +7,12 @@ use render::artmap::passages::{
     Density, Marks, OverSegmentation, PassageReport, PassageSettings, SpacingSource, StrokesSeen,
     marked_picture, samples_of_picture,
 };
-use render::artmap::sample::SampleSet;
+use render::artmap::sample::{SampleSet, file};
+use render::artmap::sheet::sheet;
 use render::artmap::synthesis::SynthesisSettings;
 use serde_json::{Value, json};
 
-use super::files::{SampleFiles, picture_bytes, picture_output, refuse_same};
+use super::files::{FileAndSheet, picture_bytes, picture_output, refuse_same};
 use super::propose::{Proposal, ProposalFiles};
 use super::source::{file_name, source};
 use super::table::{Table, sample_json, set_json, size, spacing};
@@ -104,9 +105,10 @@ impl Sample {
             let proposal = Proposal { painting: &self.painting, count: count as usize, settings };
             return proposal.write(&source, files, self.json, console);
         }
-        let files = SampleFiles::open(&self.output, self.sheet.as_deref(), &inputs)?;
+        let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &inputs)?;
         let marked = picture_output(self.marked.as_deref(), &inputs)?;
-        refuse_same(&[Some(&files.samples), files.sheet.as_ref(), marked.as_ref()])?;
+        let [samples, sheet_file] = files.outputs();
+        refuse_same(&[samples, sheet_file, marked.as_ref()])?;
         let source = source(&self.painting, self.merge_minor, console)?;
         let marks = self.marks(source.size(), console)?;
         let waiting = Waiting::new("finding passages", console.screen.progress);
@@ -120,7 +122,7 @@ impl Sample {
             }
             None => None,
         };
-        files.write(&set, console)?;
+        files.write(file::write(&set)?, || sheet(&set), console)?;
         if let Some((bytes, output)) = marked {
             output.write(bytes)?;
         }

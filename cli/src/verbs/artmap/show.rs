@@ -1,48 +1,102 @@
-//! `impasto artmap show`: lists the samples of a file.
+//! `impasto artmap show`: lists the samples of a file, or the tiles of a map.
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use render::artmap::map::{ArtMap, Between};
 use render::artmap::sample::SampleSet;
 use render::artmap::sheet::sheet;
+use render::artmap::texel_file::TexelFileError;
 
 use super::files::{picture_bytes, picture_output};
+use super::map_table::{map_json, print_tiles, summary};
 use super::table::{pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
 
-/// List the samples of a file, or draw them side by side
+/// List the samples or the tiles of a file, or draw them side by side
 #[derive(Debug, Args)]
 pub(super) struct Show {
-    /// The samples (.exr, as `artmap sample` and `artmap paint` write them)
-    samples: PathBuf,
-    /// Write a picture of all samples side by side, dark to light, the relief of the paint under a
-    /// raking light below (.png, .exr)
+    /// Samples or a map (.exr, as `artmap sample`, `artmap paint` and `artmap build` write them)
+    file: PathBuf,
+    /// Write a picture of all samples or tiles side by side, dark to light (.png, .exr)
     #[arg(long, value_name = "FILE")]
     sheet: Option<PathBuf>,
-    /// Print JSON: provenance, spacing, pigments, and of each sample name, size, texels, lightness,
-    /// colour, mm_per_texel, height_mm, guessed_relief
+    /// How the tones between the tiles of a map are made on the sheet
+    #[arg(long, value_enum, default_value = "dissolve")]
+    between: TonesBetween,
+    /// Print JSON. Samples: provenance, spacing, pigments, and of each name, size, texels,
+    /// lightness, colour, mm_per_texel, height_mm, guessed_relief. A map: as `artmap check`
     #[arg(long)]
     json: bool,
 }
 
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TonesBetween {
+    /// Strokes change one after the other
+    Dissolve,
+    /// Mean of both tiles, as published
+    Blend,
+}
+
+/// Content of a file.
+enum Content {
+    Samples(SampleSet),
+    Map(Box<ArtMap>),
+}
+
 impl Show {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let output = picture_output(self.sheet.as_deref(), std::slice::from_ref(&self.samples))?;
-        let set = SampleSet::open(&self.samples)?;
+        let output = picture_output(self.sheet.as_deref(), std::slice::from_ref(&self.file))?;
+        let content = self.content()?;
         if let Some(output) = output {
-            let bytes = picture_bytes(&sheet(&set), &output, console)?;
+            let picture = match &content {
+                Content::Samples(set) => sheet(set),
+                Content::Map(map) => map.sheet(match self.between {
+                    TonesBetween::Dissolve => Between::Dissolve,
+                    TonesBetween::Blend => Between::Blend,
+                }),
+            };
+            let bytes = picture_bytes(&picture, &output, console)?;
             output.write(bytes)?;
         }
-        if self.json {
-            return console.json(&set_json(&set, set.samples.iter().map(sample_json).collect()));
+        match content {
+            Content::Samples(set) => self.show_samples(&set, console),
+            Content::Map(map) => self.show_map(&map, console),
         }
-        let pigments = pigment_names(&set);
+    }
+
+    /// Reads the file. One of another format is told as one without samples.
+    fn content(&self) -> Result<Content> {
+        match SampleSet::open(&self.file) {
+            Ok(set) => Ok(Content::Samples(set)),
+            Err(error @ TexelFileError::Format { .. }) => match ArtMap::open(&self.file) {
+                Err(TexelFileError::Format { .. }) => Err(error.into()),
+                map => Ok(Content::Map(Box::new(map?))),
+            },
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    fn show_map(&self, map: &ArtMap, console: &mut Console<'_>) -> Result<()> {
+        let figures = map.figures();
+        if self.json {
+            return console.json(&map_json(map, &figures));
+        }
+        console.line(format!("{}; {}", map.provenance, summary(map)))?;
+        print_tiles(&figures, console)
+    }
+
+    fn show_samples(&self, set: &SampleSet, console: &mut Console<'_>) -> Result<()> {
+        if self.json {
+            return console.json(&set_json(set, set.samples.iter().map(sample_json).collect()));
+        }
+        let pigments = pigment_names(set);
         let pigments = match pigments.is_empty() {
             true => "colours only".to_owned(),
             false => pigments.join(", "),
         };
-        console.line(format!("{}, strokes {} apart; {pigments}", set.provenance, spacing(&set)))?;
-        print_samples(&set, console)
+        console.line(format!("{}, strokes {} apart; {pigments}", set.provenance, spacing(set)))?;
+        print_samples(set, console)
     }
 }

@@ -1,6 +1,6 @@
 //! Samples as a table and as JSON.
 
-use render::artmap::sample::{Sample, SampleSet};
+use render::artmap::sample::{PaintOfSamples, Sample, SampleSet};
 use serde_json::{Value, json};
 use spectra::color::Rgb;
 
@@ -58,11 +58,7 @@ pub(super) fn heights_mm(sample: &Sample) -> Option<[f64; 2]> {
 
 /// Names of the pigments of a set; empty without paint.
 pub(super) fn pigment_names(set: &SampleSet) -> Vec<String> {
-    let of = |paint: &render::artmap::sample::PaintOfSamples| -> Vec<String> {
-        let used = paint.slots.iter().flatten();
-        used.map(|&pigment| paint.library[pigment].name.clone()).collect()
-    };
-    set.paint.as_ref().map(of).unwrap_or_default()
+    set.paint.as_ref().map(PaintOfSamples::pigment_names).unwrap_or_default()
 }
 
 /// Distance of strokes in texels, and in mm where it is known: `16.0 texels (4.00 mm)`.

@@ -15,17 +15,17 @@ const BAND: f32 = 0.15;
 /// Deviation of the smoothing of the difference of two tiles, in spacings of strokes.
 const SMOOTH: f64 = 0.25;
 
-/// Difference of tone over contrast of strokes up to which all of the difference is in the strokes,
-/// and from which on none is.
-const IN_STROKES: [f32; 2] = [0.5, 1.5];
+/// Deviation over mean of the difference of L* of two tiles up to which the tone changes evenly,
+/// and from which on strokes alone change it, as where lines are added to lines.
+const IN_STROKES: [f32; 2] = [1.0, 2.0];
 
 /// How a tile between two key tiles is made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Between {
     /// Each place shows the strokes of either tile and changes once: first where both tiles are
-    /// alike, last where they differ most. Keeps the contrast of the strokes. Where strokes differ
-    /// less from each other than the tones of the tiles do, the tone changes evenly besides.
+    /// alike, last where they differ most. Keeps the contrast of the strokes. Where both tiles
+    /// differ by much the same everywhere, the tone changes evenly besides.
     #[default]
     Dissolve,
     /// The weighted mean of both tiles (equation 8 of Yan and others 2008), in CIELAB.
@@ -153,17 +153,13 @@ fn mean(values: impl ExactSizeIterator<Item = f32>) -> f32 {
 }
 
 /// Share of the difference of tone that changes with the strokes.
-fn in_strokes(labs: &[Field<[f32; 3]>; 2]) -> f32 {
-    let lightness = |lab: &[f32; 3]| lab[0];
-    let means = labs.each_ref().map(|lab| mean(lab.values().iter().map(lightness)));
-    let deviations = [0, 1].map(|at: usize| {
-        let squares = labs[at].values().iter().map(|lab| (lab[0] - means[at]).powi(2));
-        mean(squares).sqrt()
-    });
-    let contrast = 0.5 * (deviations[0] + deviations[1]);
-    let [all, none] = IN_STROKES;
-    let ratio = (means[1] - means[0]).abs() / contrast.max(f32::MIN_POSITIVE);
-    ((none - ratio) / (none - all)).clamp(0.0, 1.0)
+fn in_strokes([darker, lighter]: &[Field<[f32; 3]>; 2]) -> f32 {
+    let pairs = || darker.values().iter().zip(lighter.values()).map(|(a, b)| b[0] - a[0]);
+    let step = mean(pairs());
+    let deviation = mean(pairs().map(|difference| (difference - step).powi(2))).sqrt();
+    let [evenly, all] = IN_STROKES;
+    let ratio = deviation / step.abs().max(f32::MIN_POSITIVE);
+    ((ratio - evenly) / (all - evenly)).clamp(0.0, 1.0)
 }
 
 /// When each texel changes: texels in the order of the size of the smoothed difference of L* that

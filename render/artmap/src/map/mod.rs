@@ -12,8 +12,6 @@ pub mod file;
 
 mod check;
 
-mod raking;
-
 mod sheet;
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::art_map::ArtMap;
 use super::between::Between;
-use super::raking::raked;
+use crate::relief::{raked, raking_tangent, slopes};
 
 /// Largest side of a tile on the sheet in pixels.
 const SIDE: usize = 256;
@@ -22,8 +22,8 @@ const REPEATS: usize = 3;
 impl ArtMap {
     /// A picture of the map in linear sRGB, dark tones to the left. Rows from the top: the key
     /// tiles; the tiles at 25, 50 and 75 % of the way between two neighbours, in the gap below
-    /// both; each key tile repeated three times in both directions; where there is relief, the
-    /// surfaces of the key tiles in grey under a light from the upper left. Tiles above 256
+    /// both; each key tile repeated three times in both directions; where height and size are
+    /// known, the surfaces of the key tiles in grey under a light from the upper left. Tiles above 256
     /// texels are shown smaller.
     #[must_use]
     pub fn sheet(&self, between: Between) -> Picture {
@@ -41,14 +41,7 @@ impl ArtMap {
         let repeated = |color: &Picture| shrunk(color, side, REPEATS * step);
         let tiles = keys.par_iter().map(|key| repeated(&key.tile.color)).collect();
         rows.push(Row { left: GAP, tiles });
-        if keys.iter().any(|key| key.tile.height_mm.is_some()) {
-            let relief =
-                |height: &Field<f32>| shrunk(&raked(height, self.mm_per_texel), side, step);
-            let ground = || Field::filled(side, side, GROUND);
-            let tiles =
-                keys.par_iter().map(|key| key.tile.height_mm.as_ref().map_or_else(ground, relief));
-            rows.push(Row { left: GAP, tiles: tiles.collect() });
-        }
+        rows.extend(self.relief_row(side, step));
         let (width, height) = (GAP + column * keys.len(), GAP + column * rows.len());
         let mut sheet = Field::filled(width, height, GROUND);
         for (index, row) in rows.iter().enumerate() {
@@ -57,6 +50,23 @@ impl ArtMap {
             }
         }
         sheet
+    }
+
+    /// The surfaces of the key tiles under a raking light, where height and size are known.
+    fn relief_row(&self, side: usize, step: usize) -> Option<Row> {
+        let mm = self.mm_per_texel?;
+        let everywhere = Field::filled(self.size(), self.size(), true);
+        let heights = self.keys.iter().map(|key| key.tile.height_mm.as_ref());
+        let surfaces: Vec<Option<Field<[f32; 2]>>> =
+            heights.map(|height| Some(slopes(height?, &everywhere, mm))).collect();
+        if surfaces.iter().all(Option::is_none) {
+            return None;
+        }
+        let tangent = raking_tangent(surfaces.iter().flatten());
+        let ground = || Field::filled(side, side, GROUND);
+        let relief = |slopes: &Field<[f32; 2]>| shrunk(&raked(slopes, tangent), side, step);
+        let tiles = surfaces.par_iter().map(|surface| surface.as_ref().map_or_else(ground, relief));
+        Some(Row { left: GAP, tiles: tiles.collect() })
     }
 
     /// A row of in-betweens for each share; none for maps of one tile.
@@ -130,7 +140,7 @@ mod tests {
             first: 0,
             paint: None,
             spacing: 8.0,
-            mm_per_texel: None,
+            mm_per_texel: Some(0.2),
             guessed_relief: false,
             patch: 16,
             levels: 1,
@@ -166,7 +176,7 @@ mod tests {
         assert_eq!(sheet[(GAP - 1, GAP)], GROUND);
         // Only the first tile has relief, which is level.
         let relief = GAP + 5 * column + 15;
-        assert!((sheet[(GAP + 15, relief)][0] - 0.14).abs() < 1e-6);
+        assert!((sheet[(GAP + 15, relief)][0] - 0.25).abs() < 1e-6);
         assert_eq!(sheet[(GAP + column + 15, relief)], GROUND);
     }
 

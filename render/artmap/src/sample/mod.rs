@@ -5,12 +5,15 @@ mod passage;
 #[cfg(test)]
 mod made_up;
 
+mod joined;
+
 pub mod from_painting;
 
 pub mod file;
 
 pub use crate::texel::{PaintOfSamples, TexelPaint};
 pub use from_painting::{FromPaintingError, WholePainting};
+pub use joined::JoinError;
 pub use passage::{Sample, SampleSet};
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use graphics::field::Field;
 use graphics::picture::Picture;
 
-use super::relief::{raked, raking_tangent, slopes};
 use super::scale::{LARGEST_PX, Scale};
+use crate::relief::{raked, raking_tangent, slopes};
 use crate::sample::{Sample, SampleSet};
 
 /// Linear grey of the sheet, on which both dark and light samples stand out.

@@ -1,7 +1,5 @@
 //! Sheets: pictures on which all samples of a set can be seen at once.
 
-mod relief;
-
 mod scale;
 
 mod laid_out;

@@ -4,7 +4,8 @@ use spectra::hint::{Explain, Fault, Hint};
 
 use super::figures::{BetweenFigures, KeyFigures, MapFigures};
 
-/// Least coherence of a tile with the first one. Independent synthesis stays below 0.15.
+/// Least coherence of a tile with the first one or with its neighbour on the way there.
+/// Independent synthesis stays below 0.15.
 const COHERENCE: f64 = 0.60;
 /// Largest step across the borders over that within a tile, unless places within it vary more.
 const WRAP: f64 = 1.05;
@@ -158,7 +159,7 @@ impl MapFigures {
 
 fn of_key(key: &KeyFigures) -> Vec<MapFault> {
     let (name, mut faults) = (&key.name, Vec::new());
-    if key.coherence < COHERENCE {
+    if key.coherence.max(key.neighbour_coherence) < COHERENCE {
         let (name, found) = (name.clone(), key.coherence);
         faults.push(MapFault::Coherence { name, found, wanted: COHERENCE });
     }

@@ -1,5 +1,7 @@
 //! Figures of a map.
 
+use std::cmp::Ordering;
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -9,6 +11,9 @@ use crate::measures::{Texture, coherence, contrast, stroke_length, usual_wrap_ra
 
 /// Shares of the way to the lighter tile at which in-betweens are measured.
 const SHARES: [f32; 3] = [0.25, 0.5, 0.75];
+
+/// Distance in spacings above which unevenness is no stroke.
+const LEVELLED: f64 = 4.0;
 
 /// Figures of a map, as `ArtMap::figures` measures them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,10 +35,13 @@ pub struct KeyFigures {
     pub tone: f64,
     /// Standard deviation of L*.
     pub contrast: f64,
-    /// Length of the strokes along y in texels.
+    /// Length of the strokes along y in texels, of the tile levelled over four spacings.
     pub stroke_length: f64,
     /// Correlation of its detail with that of the first tile, -1 to 1; 1 for the first tile.
     pub coherence: f64,
+    /// The same with the next tile on the way to the first one. In line art strokes are added from
+    /// tone to tone, so that only neighbours agree.
+    pub neighbour_coherence: f64,
     /// Steps of L* across the borders over those within the tile; 1 where no seam shows.
     pub wrap_ratio: f64,
     /// The ratio that 95 of 100 places within the tile stay below.
@@ -64,15 +72,22 @@ impl ArtMap {
     pub fn figures(&self) -> MapFigures {
         let textures: Vec<Texture> =
             self.keys.par_iter().map(|key| Texture::tiled(&key.tile.color)).collect();
+        let agreement = |index: usize, other: usize| {
+            if index == other {
+                return 1.0;
+            }
+            coherence(&textures[other], &textures[index], self.spacing)
+        };
         let key = |index: usize| KeyFigures {
             name: self.keys[index].name.clone(),
             tone: self.keys[index].tone,
             contrast: contrast(&textures[index]),
-            stroke_length: stroke_length(&textures[index]),
-            coherence: if index == self.first {
-                1.0
-            } else {
-                coherence(&textures[self.first], &textures[index], self.spacing)
+            stroke_length: stroke_length(&textures[index].levelled(LEVELLED * self.spacing)),
+            coherence: agreement(index, self.first),
+            neighbour_coherence: match index.cmp(&self.first) {
+                Ordering::Less => agreement(index, index + 1),
+                Ordering::Equal => 1.0,
+                Ordering::Greater => agreement(index, index - 1),
             },
             wrap_ratio: wrap_ratio(&textures[index]),
             usual_wrap_ratio: usual_wrap_ratio(&textures[index]),

@@ -1,4 +1,4 @@
-//! Relief of a sample under a raking light, without its colours.
+//! Relief of paint under a raking light, without its colours.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
@@ -19,8 +19,7 @@ const LEVEL: f32 = 0.25;
 ///
 /// # Panics
 /// If heights and mask differ in size.
-#[must_use]
-pub(super) fn slopes(
+pub(crate) fn slopes(
     height_mm: &Field<f32>,
     mask: &Field<bool>,
     mm_per_texel: f64,
@@ -50,7 +49,7 @@ pub(super) fn slopes(
 
 /// Tangent of the elevation of a light that shows the relief of all surfaces: the flatter they are,
 /// the lower the light, from 40 down to 2 degrees.
-pub(super) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 2]>>) -> f32 {
+pub(crate) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 2]>>) -> f32 {
     let (mut sum, mut count) = (0.0, 0.0);
     for [across, down] in surfaces.flat_map(|surface| surface.values()) {
         sum += f64::from(across * across + down * down) / 2.0;
@@ -63,7 +62,7 @@ pub(super) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 
 /// A white surface under one distant light from the upper left, after Lambert: linear grey 0 to 1,
 /// a quarter where the surface is level. `tangent` is that of the light's elevation. Nothing casts
 /// shadows.
-pub(super) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
+pub(crate) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
     // Half of the light's way along the canvas is from the left, half from above.
     let along = 0.5_f32.sqrt() / tangent;
     let grey = |&[across, down]: &[f32; 2]| {
