@@ -12,7 +12,7 @@ use crate::tiling::blurred_tile;
 
 /// Share of the change that goes on at a time where strokes dissolve.
 const BAND: f32 = 0.15;
-/// Deviation of the smoothing of the difference of two tiles, in spacings of strokes.
+/// Deviation of the smoothing of two tiles, in spacings of strokes.
 const SMOOTH: f64 = 0.25;
 
 /// Deviation over mean of the difference of L* of two tiles up to which the tone changes evenly,
@@ -23,9 +23,9 @@ const IN_STROKES: [f32; 2] = [1.0, 2.0];
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Between {
-    /// Each place shows the strokes of either tile and changes once: first where both tiles are
-    /// alike, last where they differ most. Keeps the contrast of the strokes. Where both tiles
-    /// differ by much the same everywhere, the tone changes evenly besides.
+    /// Each place shows the strokes of either tile and changes once, light strokes first. Keeps
+    /// the contrast of the strokes. Where both tiles differ by much the same everywhere, the tone
+    /// changes evenly besides.
     #[default]
     Dissolve,
     /// The weighted mean of both tiles (equation 8 of Yan and others 2008), in CIELAB.
@@ -162,28 +162,31 @@ fn in_strokes([darker, lighter]: &[Field<[f32; 3]>; 2]) -> f32 {
     ((ratio - evenly) / (all - evenly)).clamp(0.0, 1.0)
 }
 
-/// When each texel changes: texels in the order of the size of the smoothed difference of L* that
-/// changes with the strokes. The place in that order is measured in difference, so that the tile
-/// changes evenly.
+/// When each texel changes: texels in the order of the smoothed mean of both tiles, lightest first.
+/// The place in that order is measured in the difference that changes with the strokes, so that the
+/// tile changes evenly. An order by the difference itself would keep the strongest strokes of one
+/// tile to the end, and lose contrast.
 fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], in_strokes: f32, sigma: f64) -> Vec<f32> {
     let (width, height) = (darker.width(), darker.height());
     let means = [darker, lighter].map(|lab| mean(lab.values().iter().map(|lab| lab[0])));
     let evenly = (1.0 - in_strokes) * (means[1] - means[0]);
-    let pairs = darker.values().iter().zip(lighter.values());
-    let difference = pairs.map(|(a, b)| b[0] - a[0] - evenly).collect();
-    let smooth = blurred_tile(&Field::from_values(width, height, difference), sigma);
-    let size = |index: usize| smooth.values()[index].abs();
+    let smoothed = |of: &dyn Fn(f32, f32) -> f32| {
+        let pairs = darker.values().iter().zip(lighter.values());
+        let values = pairs.map(|(dark, light)| of(dark[0], light[0])).collect();
+        blurred_tile(&Field::from_values(width, height, values), sigma)
+    };
+    let (light, change) = (smoothed(&|a, b| a + b), smoothed(&|a, b| b - a - evenly));
     let mut order: Vec<usize> = (0..width * height).collect();
-    order.sort_by(|&a, &b| size(a).total_cmp(&size(b)).then(a.cmp(&b)));
-    let total: f64 = order.iter().map(|&index| f64::from(size(index))).sum();
+    order.sort_by(|&a, &b| light.values()[b].total_cmp(&light.values()[a]).then(a.cmp(&b)));
+    let size = |index: usize| f64::from(change.values()[index].abs());
+    let total: f64 = order.iter().map(|&index| size(index)).sum();
     let mut ranks = vec![0.5; width * height];
     let mut before = 0.0;
     for index in order {
-        let size = f64::from(size(index));
         if total > 0.0 {
-            ranks[index] = ((before + 0.5 * size) / total) as f32;
+            ranks[index] = ((before + 0.5 * size(index)) / total) as f32;
         }
-        before += size;
+        before += size(index);
     }
     ranks
 }

@@ -6,6 +6,8 @@ mod proposed;
 
 mod painted;
 
+mod built;
+
 mod paintings;
 
 mod refusals;

@@ -129,5 +129,5 @@ fn files_that_hold_no_painting_are_refused() {
     let mut later = bytes;
     later[at + 10] = b'7';
     let run = artmap(&["show", &folder.write("later.exr", later)]);
-    assert!(run.status == 1 && run.err.contains("up to version 1, found `7`"), "{}", run.err);
+    assert!(run.status == 1 && run.err.contains("samples of version `7`"), "{}", run.err);
 }
