@@ -51,3 +51,5 @@ pub mod export {
 pub mod photograph;
 
 pub mod watercolor;
+
+pub mod painterly;
