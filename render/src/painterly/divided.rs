@@ -74,9 +74,9 @@ impl Divide<'_> {
         if weight <= 0.0 {
             return Vec4::ZERO;
         }
-        let bytes = sums.bytes[row][column] * (1.0 / (256.0 * weight));
-        let [x, y, z, height] = self.tones.values(bytes.into());
-        let color = Vec3::new(x, y, z) + sums.color[row][column].truncate() / weight;
+        let bytes = sums.bytes[row][column].map(|sum| sum * (1.0 / (256.0 * weight)));
+        let [x, y, z, height] = self.tones.values(bytes);
+        let color = Vec3::new(x, y, z) + Vec3::from(sums.color[row][column]) / weight;
         self.coloring.shown(color).extend(height)
     }
 }

@@ -3,7 +3,6 @@
 //! Weights are Gaussians to a power, so that the strongest stroke of a place shows most. A first
 //! round sums the weights alone; the second looks up the map only where a weight matters.
 
-use glam::Vec4;
 use graphics::lanes::{greater, lesser};
 use pulp::Simd;
 
@@ -13,8 +12,9 @@ use super::splat::StrokeSplat;
 use super::square::{Lie, Square, Values};
 use super::tones::Tones;
 
-/// Weights below this share of the sum are left out: less than a quarter of a step of 8 bits.
-const NEGLIGIBLE: f32 = 1e-3;
+/// This share of the sum is taken from each weight, and what has no more is left out: a step of 8
+/// bits. So splats come in without a step.
+const NEGLIGIBLE: f32 = 1.0 / 256.0;
 
 /// Weight of the lowest furrow, before it is squared, by that of the highest ridge: where strokes
 /// overlap, ridges lie above furrows, so that strokes end in bristles and not along a line.
@@ -24,9 +24,9 @@ const FURROW: f32 = 0.25;
 #[derive(Debug, Clone)]
 pub(super) struct Sums {
     /// Bytes of the map times 256, by channel, times weights.
-    pub(super) bytes: [[Vec4; SIDE]; SIDE],
+    pub(super) bytes: [[[f32; 4]; SIDE]; SIDE],
     /// Colours of the splats times weights.
-    pub(super) color: [[Vec4; SIDE]; SIDE],
+    pub(super) color: [[[f32; 3]; SIDE]; SIDE],
     /// Weights of what was summed.
     pub(super) weight: Values,
     /// Sum of the splats' parts in the cover.
@@ -63,8 +63,8 @@ pub(super) struct Gather<'a> {
 impl Sums {
     fn new() -> Self {
         Self {
-            bytes: [[Vec4::ZERO; SIDE]; SIDE],
-            color: [[Vec4::ZERO; SIDE]; SIDE],
+            bytes: [[[0.0; 4]; SIDE]; SIDE],
+            color: [[[0.0; 3]; SIDE]; SIDE],
             weight: [[0.0; SIDE]; SIDE],
             cover: [[0.0; SIDE]; SIDE],
             total: [[0.0; SIDE]; SIDE],
@@ -73,6 +73,9 @@ impl Sums {
     }
 
     fn clear(&mut self) {
+        if self.parts.is_empty() {
+            return;
+        }
         let parts = std::mem::take(&mut self.parts);
         *self = Self { parts, ..Self::new() };
         self.parts.clear();
@@ -167,7 +170,6 @@ fn sum(square: &Square, splats: &[StrokeSplat], tones: &Tones, colored: bool, in
     for (number, part) in parts {
         let splat = &splats[*number as usize];
         let texels = tones.texels(splat.slice as usize, splat.halvings as usize);
-        let own = Vec4::new(splat.color[0], splat.color[1], splat.color[2], 0.0);
         // In texels, from the centre of the first one.
         let size = texels.size as f32;
         let offset = splat.offset.map(|at| at - 0.5 / size);
@@ -197,18 +199,20 @@ fn sum(square: &Square, splats: &[StrokeSplat], tones: &Tones, colored: bool, in
                 }
             }
             for column in 0..SIDE {
-                let own_weight = weight[column];
-                if own_weight <= least[column] {
+                let own_weight = weight[column] - least[column];
+                if own_weight <= 0.0 {
                     continue;
                 }
                 let [u, v] = [place[0][column] as usize, place[1][column] as usize];
                 let [a, b] = [share[0][column] as u32, share[1][column] as u32];
-                let texel = Vec4::from(texels.between(u, v, a, b));
-                let high = FURROW + texel.w * ridges;
+                let texel = texels.between(u, v, a, b);
+                let high = FURROW + texel[3] * ridges;
                 let own_weight = own_weight * high * high;
-                bytes[row][column] += texel * own_weight;
+                let sums = bytes[row][column].iter_mut().zip(texel);
+                sums.for_each(|(sum, value)| *sum += value * own_weight);
                 if colored {
-                    color[row][column] += own * own_weight;
+                    let sums = color[row][column].iter_mut().zip(splat.color);
+                    sums.for_each(|(sum, value)| *sum += value * own_weight);
                 }
                 weights[row][column] += own_weight;
             }

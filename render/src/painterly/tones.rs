@@ -14,6 +14,9 @@ const STEP: f64 = 5.0;
 /// Sizes below this are not halved.
 const LEAST_SIZE: usize = 16;
 
+/// Heights further than this many standard deviations from the mean are cut.
+const DEVIATIONS: f64 = 2.0;
+
 /// Coordinates of colour, and height.
 const CHANNELS: usize = 4;
 
@@ -46,7 +49,8 @@ struct Slice {
 pub(super) struct Texels {
     /// Width and height.
     pub(super) size: usize,
-    /// Texels with a column and a row more, which repeat the first: a byte for each channel.
+    /// Texels with a column and a row more, which repeat the first: a byte for each channel, in the
+    /// order 0, 2, 1, 3.
     packed: Vec<u32>,
 }
 
@@ -79,7 +83,9 @@ impl Tones {
             (tile.tone() as f32, sizes(&tile, coloring))
         });
         let laid: Vec<(f32, Vec<(usize, Values)>)> = laid.collect();
-        let (low, step) = range(laid.iter().flat_map(|(_, sizes)| &sizes[0].1));
+        let whole = || laid.iter().flat_map(|(_, sizes)| &sizes[0].1);
+        let (mut low, mut step) = range(whole());
+        (low[3], step[3]) = usual_heights(whole().map(|value| value[3]), [low[3], step[3]]);
         let pack = |(tone, sizes): (f32, Vec<(usize, Values)>)| Slice {
             tone,
             sizes: sizes.iter().map(|(size, values)| packed(*size, values, low, step)).collect(),
@@ -146,11 +152,11 @@ impl Texels {
         let above = ((mix(spread(above[0]), spread(above[1]), left, right) + HALF) >> 8) & LANES;
         let below = ((mix(spread(below[0]), spread(below[1]), left, right) + HALF) >> 8) & LANES;
         let mixed = mix(above, below, upper, lower);
-        [mixed, mixed >> 32, mixed >> 16, mixed >> 48].map(|lane| f32::from(lane as u16))
+        [mixed, mixed >> 16, mixed >> 32, mixed >> 48].map(|lane| f32::from(lane as u16))
     }
 }
 
-/// The four bytes of a texel in lanes of 16 bits, in the order 0, 2, 1, 3.
+/// The four bytes of a texel in lanes of 16 bits, in the order 0, 2, 1, 3: that of the channels.
 #[inline(always)]
 fn spread(texel: u32) -> u64 {
     const EVEN: u64 = 0x00ff_00ff;
@@ -205,6 +211,20 @@ fn range<'a>(
     (low, std::array::from_fn(|i| (high[i] - low[i]).max(0.0) / 255.0))
 }
 
+/// Value of a byte of 0 and change from byte to byte for heights: a few lumps and pits are cut, so
+/// that bytes tell the ridges of strokes.
+fn usual_heights(heights: impl Iterator<Item = f32>, [low, step]: [f32; 2]) -> (f32, f32) {
+    let (count, sum, square) = heights.fold((0.0_f64, 0.0, 0.0), |(count, sum, square), height| {
+        let height = f64::from(height);
+        (count + 1.0, sum + height, square + height * height)
+    });
+    let mean = sum / count.max(1.0);
+    let deviation = (square / count.max(1.0) - mean * mean).max(0.0).sqrt();
+    let least = low.max((mean - DEVIATIONS * deviation) as f32);
+    let most = (low + 255.0 * step).min((mean + DEVIATIONS * deviation) as f32);
+    (least, (most - least).max(0.0) / 255.0)
+}
+
 fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNELS]) -> Texels {
     let byte = |value: f32, channel: usize| match step[channel] {
         0.0 => 0,
@@ -213,7 +233,7 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
     let texel = |index: usize| {
         let (x, y) = (index % (size + 1) % size, index / (size + 1) % size);
         let value = values[y * size + x];
-        u32::from_le_bytes(std::array::from_fn(|channel| byte(value[channel], channel)))
+        u32::from_le_bytes([0, 2, 1, 3].map(|channel| byte(value[channel], channel)))
     };
     Texels { size, packed: (0..(size + 1) * (size + 1)).map(texel).collect() }
 }
@@ -259,6 +279,8 @@ mod tests {
             assert!((found[0] - wanted.x).abs() <= 0.51 * tones.step[0] + 1e-6);
             assert!((found[1] - wanted.y).abs() <= 0.51 * tones.step[1] + 1e-6);
             let height = map.keys[0].tile.height_mm.as_ref().unwrap()[(x, y)];
+            let most = tones.low[3] + 255.0 * tones.step[3];
+            let height = height.clamp(tones.low[3], most);
             assert!((found[3] - height).abs() <= 0.51 * tones.step[3] + 1e-6);
         }
         let beyond = texels.between(size - 1, size - 1, 256, 256);

@@ -1,0 +1,132 @@
+//! Benchmarks of painterly rendering: frames of the sizes and numbers of strokes of table 1 of Yan,
+//! Chi, Lee and Lin (2008), and what a model costs once.
+
+#![expect(clippy::unwrap_used, reason = "a bench may panic")]
+
+use std::fmt;
+use std::sync::OnceLock;
+
+use divan::{Bencher, black_box};
+use render::artmap::map::ArtMap;
+use render::artmap::painted::{PaintedSettings, Style, painted_samples};
+use render::artmap::synthesis::SynthesisSettings;
+use render::camera::{Camera, Framing};
+use render::mesh::{Mesh, SampleModel};
+use render::painterly::{ModelPainter, Settings};
+
+/// A row of the table.
+#[derive(Clone, Copy)]
+struct Row {
+    name: &'static str,
+    shape: SampleModel,
+    splats: usize,
+    size: (usize, usize),
+    /// Frames per second of the paper, without silhouettes.
+    published: f64,
+}
+
+const LARGE: (usize, usize) = (1280, 1024);
+
+const ROWS: [Row; 5] = [
+    Row {
+        name: "ball",
+        shape: SampleModel::Sphere,
+        splats: 3311,
+        size: (640, 480),
+        published: 72.0,
+    },
+    Row {
+        name: "bunny, hatching",
+        shape: SampleModel::TorusKnot,
+        splats: 8549,
+        size: LARGE,
+        published: 28.1,
+    },
+    Row {
+        name: "bunny",
+        shape: SampleModel::TorusKnot,
+        splats: 9941,
+        size: LARGE,
+        published: 21.4,
+    },
+    Row {
+        name: "lion vase",
+        shape: SampleModel::StillLife,
+        splats: 17_972,
+        size: LARGE,
+        published: 15.6,
+    },
+    Row {
+        name: "gargoyle",
+        shape: SampleModel::Village,
+        splats: 22_248,
+        size: LARGE,
+        published: 9.7,
+    },
+];
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, splats, published, .. } = self;
+        let most = 1000.0 / published;
+        write!(f, "{name} ({splats} splats; published {published} fps, {most:.1} ms)")
+    }
+}
+
+fn map() -> &'static ArtMap {
+    static MAP: OnceLock<ArtMap> = OnceLock::new();
+    MAP.get_or_init(|| {
+        let mut style = Style::named("oil-flat").unwrap();
+        style.canvas.side_cells = 160;
+        let settings = PaintedSettings { tones: 4, ..PaintedSettings::default() };
+        let samples = painted_samples(&style, &settings).unwrap();
+        ArtMap::of(&samples, &SynthesisSettings::default()).unwrap()
+    })
+}
+
+fn camera(mesh: &Mesh, (width, height): (usize, usize)) -> Camera {
+    let framing = Framing { aspect: width as f32 / height as f32, ..Framing::default() };
+    framing.fit(&mesh.positions)
+}
+
+/// A painter whose strokes are so wide that as many splats are drawn as the row has.
+fn painter(row: Row) -> (ModelPainter, Camera) {
+    let mesh = row.shape.mesh(20_000);
+    let camera = camera(&mesh, row.size);
+    let mut settings = Settings::default();
+    loop {
+        let mut painter = ModelPainter::new(&mesh, map(), &settings).unwrap();
+        let (_, splats) = painter.splats(&camera, row.size, 0.0).unwrap();
+        let ratio = splats.len() as f32 / row.splats as f32;
+        if (ratio - 1.0).abs() < 0.02 {
+            return (painter, camera);
+        }
+        settings.strokes.width_px *= ratio.sqrt();
+    }
+}
+
+/// A whole frame: strokes of the sight and the three passes.
+#[divan::bench(args = ROWS, sample_count = 20)]
+fn frame(bencher: Bencher<'_, '_>, row: Row) {
+    let (mut painter, camera) = painter(row);
+    bencher.bench_local(|| painter.paint(black_box(&camera), row.size, 0.0).unwrap());
+}
+
+/// The mesh's depth and the strokes of a sight.
+#[divan::bench(args = ROWS, sample_count = 20)]
+fn strokes(bencher: Bencher<'_, '_>, row: Row) {
+    let (mut painter, camera) = painter(row);
+    bencher.bench_local(|| painter.splats(black_box(&camera), row.size, 0.0).unwrap());
+}
+
+/// What a model of 20,000 triangles costs once: directions, tones, matched offsets.
+#[divan::bench(args = ["torus-knot", "still-life"], sample_count = 3)]
+fn model(bencher: Bencher<'_, '_>, shape: &str) {
+    let mesh = SampleModel::from_name(shape).unwrap().mesh(20_000);
+    let map = map();
+    bencher.bench_local(|| ModelPainter::new(black_box(&mesh), map, &Settings::default()).unwrap());
+}
+
+fn main() {
+    divan::main();
+}
