@@ -8,6 +8,7 @@
 //! mesh ------> watercolor::ModelPainter -------+                       |
 //!                                              +-> wash -> GlazePainter+
 //!                                                          (painting)
+//! mesh + art map -> painterly::ModelPainter ---> picture
 //! ```
 //!
 //! A painting holds amounts of pigment and can be relit; a picture holds colours only.

@@ -3,12 +3,12 @@
 use glam::{Vec3, Vec4};
 
 use super::coloring::Coloring;
-use super::gather::{Gathered, Sums};
+use super::gather::{Gathered, LOST, Sums};
 use super::strokes::smooth;
 use super::tones::Tones;
 
-/// Sum of weights below which strokes on the mesh thin out.
-const THIN: f32 = 0.02;
+/// Cover below which strokes on the mesh thin out.
+const THIN: f32 = 1e-3;
 
 /// Sums of weights over which strokes beyond an outline come in, from none to full cover, at the
 /// least overhang; the first falls to 0 at the full overhang.
@@ -37,8 +37,12 @@ impl Divide<'_> {
         (row, column): (usize, usize),
     ) -> ([f32; 4], f32) {
         let on = self.surface(&gathered.on, row, column);
-        let under = (gathered.on.cover[row][column] * (1.0 / THIN)).min(1.0);
-        let out = gathered.before.cover[row][column];
+        let cover = |sums: &Sums| match sums.weight[row][column] > LOST {
+            true => sums.cover[row][column],
+            false => 0.0,
+        };
+        let under = (cover(&gathered.on) * (1.0 / THIN)).min(1.0);
+        let out = cover(&gathered.before);
         let over = if self.overhang > 0.0 && out > 0.0 {
             // The ridges of a stroke reach further than its furrows.
             let out = out * (1.0 + BRISTLES * (self.ridge(&gathered.before, row, column) - 0.5));
@@ -64,14 +68,14 @@ impl Divide<'_> {
     fn ridge(&self, sums: &Sums, row: usize, column: usize) -> f32 {
         let channel = if self.tones.step[3] > 0.0 { 3 } else { 0 };
         let weight = sums.weight[row][column];
-        if weight > 0.0 { sums.bytes[row][column][channel] / (65_280.0 * weight) } else { 0.0 }
+        if weight > LOST { sums.bytes[row][column][channel] / (65_280.0 * weight) } else { 0.0 }
     }
 
     /// Encoded sRGB and height of one surface; zeros where it has no stroke.
     #[inline(always)]
     fn surface(&self, sums: &Sums, row: usize, column: usize) -> Vec4 {
         let weight = sums.weight[row][column];
-        if weight <= 0.0 {
+        if weight <= LOST {
             return Vec4::ZERO;
         }
         let bytes = sums.bytes[row][column].map(|sum| sum * (1.0 / (256.0 * weight)));

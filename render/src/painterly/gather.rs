@@ -20,6 +20,13 @@ const NEGLIGIBLE: f32 = 1.0 / 256.0;
 /// overlap, ridges lie above furrows, so that strokes end in bristles and not along a line.
 const FURROW: f32 = 0.25;
 
+/// Factor of weights before they are raised to a power, so that those of a thin cover do not vanish
+/// among the numbers of f32.
+const SCALE: f32 = 8.0;
+
+/// Sums of weights below this are lost.
+pub(super) const LOST: f32 = 1e-30;
+
 /// What the strokes of one surface sum up to at each pixel of a square.
 #[derive(Debug, Clone)]
 pub(super) struct Sums {
@@ -220,9 +227,10 @@ fn sum(square: &Square, splats: &[StrokeSplat], tones: &Tones, colored: bool, in
     }
 }
 
-/// Weights squared so many times.
+/// Weights times [`SCALE`], squared so many times.
 #[inline(always)]
 fn powered(mut weights: Values, squarings: u32) -> Values {
+    weights.iter_mut().flatten().for_each(|weight| *weight *= SCALE);
     for _ in 0..squarings {
         weights = times(&weights, &weights);
     }

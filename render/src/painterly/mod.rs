@@ -37,6 +37,8 @@ mod offsets;
 
 mod strokes;
 
+mod silhouette;
+
 mod lists;
 
 mod square;
@@ -55,6 +57,7 @@ pub use model_painter::{ModelPainter, ModelPainterError};
 pub use passes::PaintedModel;
 pub use settings::{
     ColorSettings, ColorSource, ColorSpace, FlowSettings, LightSettings, LightWith, Offsets,
-    OverlapSettings, Preset, Settings, SettingsError, StrokeDirection, StrokeSettings, Zoom,
+    OverlapSettings, Preset, Settings, SettingsError, SilhouetteSettings, StrokeDirection,
+    StrokeSettings, Zoom,
 };
 pub use splat::StrokeSplat;

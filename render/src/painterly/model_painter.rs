@@ -18,9 +18,10 @@ use super::coloring::Coloring;
 use super::flow::phase;
 use super::offsets::Matching;
 use super::passes::{PaintedModel, painted};
-use super::places::{Directions, colors};
+use super::places::{Directions, NORMAL_ROUNDS, colors};
 use super::roots::Roots;
 use super::settings::{ColorSource, LightWith, Offsets, Settings, SettingsError};
+use super::silhouette::outlines;
 use super::splat::StrokeSplat;
 use super::strokes::{Sight, ranks, splats};
 use super::tones::Tones;
@@ -34,9 +35,6 @@ const MORE: f32 = 2.0;
 
 /// Most pixels of a picture.
 const MOST_PIXELS: usize = 1 << 28;
-
-/// Rounds of averaging normals before directions are found.
-const NORMAL_ROUNDS: usize = 1;
 
 /// Paints one mesh in the brushwork of an art map, from any camera.
 ///
@@ -86,7 +84,7 @@ impl ModelPainter {
             normal_rounds: NORMAL_ROUNDS,
             smoothing: f64::from(settings.strokes.smoothing),
         };
-        let directions = Directions::new(DirectionField::of_curvature(mesh, &lines, &[])?);
+        let directions = Directions::new(mesh, DirectionField::of_curvature(mesh, &lines, &[])?);
         let rounds = settings.light.smoothing_rounds as usize;
         let lit = Mesh { normals: mesh.smoothed_normals(rounds), ..mesh.clone() };
         let packed = PackedMesh::new(&lit);
@@ -167,8 +165,9 @@ impl ModelPainter {
             distance: self.distance(camera),
             closed: if self.holds(camera) { &[] } else { &self.closed },
         };
-        let splats = splats(&self.features, &self.roots, &self.tones, &sight);
-        Ok((depth, splats))
+        let mut drawn = splats(&self.features, &self.roots, &self.tones, &sight);
+        drawn.extend(outlines(&self.features, &self.roots, &self.tones, &sight));
+        Ok((depth, drawn))
     }
 
     /// Distance of the middle of the mesh in front of the eye, at least that of the near plane.

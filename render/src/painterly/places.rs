@@ -1,9 +1,12 @@
 //! What the model shows at a feature: normal, direction of strokes, colour.
 
-use glam::{Vec2, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 use graphics::coherence::Feature;
-use graphics::mesh::{DirectionField, FlowField, Mesh};
+use graphics::mesh::{Curvature, DirectionField, FlowField, Mesh};
 use graphics::surface::{Fragment, PackedMesh, SurfacePoint};
+
+/// Rounds of averaging normals before curvature is found.
+pub(super) const NORMAL_ROUNDS: usize = 1;
 
 /// Rings of edges over which flow rises beside singular places.
 const FADE_RINGS: usize = 2;
@@ -19,6 +22,8 @@ pub(super) struct Place {
     pub(super) flow: f32,
     /// Colour without light, encoded sRGB.
     pub(super) color: Vec3,
+    /// Curvature of the surface: `d . bend d` along a unit direction d, per unit of the model.
+    pub(super) bend: Mat3,
 }
 
 /// The directions of strokes on a mesh.
@@ -26,12 +31,24 @@ pub(super) struct Place {
 pub(super) struct Directions {
     lines: DirectionField,
     arrows: FlowField,
+    /// Curvature at each vertex.
+    bends: Vec<Mat3>,
 }
 
 impl Directions {
-    pub(super) fn new(lines: DirectionField) -> Self {
+    /// Strokes along `lines` of a mesh.
+    pub(super) fn new(mesh: &Mesh, lines: DirectionField) -> Self {
         let arrows = lines.oriented(FADE_RINGS);
-        Self { lines, arrows }
+        let curvatures = mesh.curvatures(NORMAL_ROUNDS);
+        let along = |direction: [f32; 3], curvature: f32| {
+            let direction = Vec3::from(direction);
+            Mat3::from_cols_array_2d(&[0, 1, 2].map(|i| (direction * direction[i]).to_array()))
+                * curvature
+        };
+        let bend = |own: &Curvature| {
+            along(own.along_least, own.least) + along(own.along_greatest, own.greatest)
+        };
+        Self { lines, arrows, bends: curvatures.iter().map(bend).collect() }
     }
 }
 
@@ -61,6 +78,9 @@ impl Place {
             along: along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector()),
             flow: arrow.length().min(1.0),
             color: point.albedo(),
+            bend: directions.bends[corners[0] as usize] * weights[0]
+                + directions.bends[corners[1] as usize] * weights[1]
+                + directions.bends[corners[2] as usize] * weights[2],
         }
     }
 
@@ -115,7 +135,7 @@ mod tests {
         }
         let field =
             DirectionField::of_curvature(&mesh, &DirectionSettings::default(), &[]).unwrap();
-        let directions = Directions::new(field);
+        let directions = Directions::new(&mesh, field);
         let packed = PackedMesh::new(&mesh);
         let features = Features::new(Arc::new(Hierarchy::new(&mesh)), 1).below(30.0);
         assert!(features.len() > 200, "{}", features.len());
@@ -125,6 +145,9 @@ mod tests {
             assert!(place.normal.dot(outward) > 0.999, "{feature:?} {place:?}");
             assert!(place.along.dot(place.normal).abs() < 1e-5);
             assert!((place.across().length() - 1.0).abs() < 1e-5);
+            for direction in [place.along, place.across()] {
+                assert!((direction.dot(place.bend * direction) - 1.0).abs() < 0.05, "{place:?}");
+            }
             let wanted = Vec3::from(mesh.materials[0].color) * (0.5 + 0.5 * feature.position);
             assert!(place.color.distance(wanted) < 0.02, "{place:?} {wanted}");
         }

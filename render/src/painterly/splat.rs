@@ -22,7 +22,7 @@ pub struct StrokeSplat {
     pub slope: [f32; 2],
     /// Depth within which surfaces count as the same.
     pub tolerance: f32,
-    /// Weight at the centre against other splats, above 0 to 1.
+    /// Weight at the centre against other splats, above 0: up to 1, and more for outlines.
     pub weight: f32,
     /// Part in the cover beyond outlines at the centre, above 0 to 1.
     pub cover: f32,

@@ -55,6 +55,7 @@ fn see(projection: &Projection, density: Density, feature: &Feature) -> Option<S
             let focal = projection.focal_px / at.distance;
             focal * focal * towards.abs() / at.distance
         }
+        Density::Facing => (projection.focal_px / at.distance).powi(2),
         Density::Surface { px_per_unit } => px_per_unit * px_per_unit,
     };
     Some(SeenFeature {
@@ -96,6 +97,8 @@ mod tests {
     fn the_rank_keeps_the_density_of_the_picture_or_of_the_surface() {
         let [near, far] = counts(Density::Screen);
         assert!(far < 0.5 * near, "on the screen: {near}, {far}");
+        let [near, far] = counts(Density::Facing);
+        assert!(far < 0.5 * near, "facing the eye: {near}, {far}");
         let [near, far] = counts(Density::Surface { px_per_unit: 80.0 });
         assert!((far / near - 1.0).abs() < 0.1, "on the surface: {near}, {far}");
     }

@@ -15,6 +15,8 @@ const MAX_HALVINGS: u32 = 40;
 pub enum Density {
     /// Features per pixel of the picture: their density there stays as the model moves away.
     Screen,
+    /// Features per pixel that the surface would cover if it faced the eye: dense towards outlines.
+    Facing,
     /// Features per square of this many pixels to a unit of the model: their density on the surface
     /// stays.
     Surface {
@@ -71,7 +73,7 @@ impl Select for InSight<'_> {
             && let Some(at) = projection.project(center)
         {
             let own = match self.density {
-                Density::Screen => self.margin_px,
+                Density::Screen | Density::Facing => self.margin_px,
                 Density::Surface { px_per_unit } => {
                     self.margin_px * projection.focal_px / (nearest * px_per_unit)
                 }
@@ -87,6 +89,7 @@ impl Select for InSight<'_> {
             Density::Screen => {
                 self.end * projection.focal_px * projection.focal_px * towards / nearest.powi(3)
             }
+            Density::Facing => self.end * (projection.focal_px / nearest).powi(2),
             Density::Surface { px_per_unit } => self.end * px_per_unit * px_per_unit,
         })
     }

@@ -1,3 +1,4 @@
+use artmap::map::Between;
 use artmap::measures::{Texture, co_occurrence_error, contrast, stroke_length};
 use glam::Vec2;
 use graphics::camera::Framing;
@@ -5,6 +6,7 @@ use graphics::coherence::{NoiseFrame, Popping};
 use graphics::encoding::lab_from_linear;
 use graphics::mesh::{GridSize, Material, SampleModel};
 use graphics::picture::Picture;
+use graphics::tile::Rect;
 use spectra::color::Rgb;
 
 use super::super::made_up::{SPACING, map};
@@ -272,4 +274,64 @@ fn bad_input_is_refused_and_strange_input_painted() {
         Camera { eye: Vec3::new(0.1, 0.1, 0.01), target: Vec3::ZERO, near: 1e-4, ..camera };
     let picture = painter.paint(&inside, (40, 30), 0.0).unwrap();
     assert!(picture.color.values().iter().flatten().all(|value| value.is_finite()));
+}
+
+#[test]
+fn strokes_change_no_more_than_the_light_that_turns() {
+    let mesh = Mesh::sphere(8000);
+    let camera = Framing::default().fit(&mesh.positions);
+    let (size, map) = ((240, 240), map(3));
+    let projection = Projection::new(&camera, size.0, size.1);
+    let range = map.keys[2].tone - map.keys[0].tone;
+    let lit = |azimuth_deg: f32| {
+        let mut settings = lit_with_the_model();
+        // Strokes that dissolve change one by one, and more at a time.
+        settings.light.between = Between::Blend;
+        settings.light.azimuth_deg = azimuth_deg;
+        let light = DistantLight::with_camera(azimuth_deg, settings.light.elevation_deg);
+        let DistantLight::WithCamera(light) = light else { unreachable!("made so") };
+        let mut painter = ModelPainter::new(&mesh, &map, &settings).unwrap();
+        let (depth, _) = painter.splats(&camera, size, 0.0).unwrap();
+        let lab = lab_from_linear(&linear(&painter.paint(&camera, size, 0.0).unwrap().color));
+        let shade = move |at: (usize, usize)| {
+            let normal = projection.unproject(at, depth[at]).normalize();
+            let wrap = settings.light.wrap;
+            let seen = (depth[at] < 1.0).then_some(normal)?;
+            Some(f64::from(((seen.dot(light) + wrap) / (1.0 + wrap)).clamp(0.0, 1.0)) * range)
+        };
+        (lab, shade)
+    };
+    let [(before, shade_before), (after, shade_after)] = [315.0, 321.0].map(lit);
+    let (mut strokes, mut shades) = (0.0, 0.0);
+    for at in (0..size.0 * size.1).map(|index| (index % size.0, index / size.0)) {
+        let (Some(was), Some(is)) = (shade_before(at), shade_after(at)) else { continue };
+        shades += (is - was).powi(2);
+        strokes += f64::from(after[at][0] - before[at][0]).powi(2);
+    }
+    let ratio = (strokes / shades).sqrt();
+    assert!((0.7..=1.15).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn outlines_are_dark_lines_of_even_width_that_come_in_smoothly() {
+    let mesh = Mesh::sphere(8000);
+    let camera = Framing::default().fit(&mesh.positions);
+    let mut settings = Settings::default();
+    // The map's lightest tone everywhere but on lines.
+    (settings.light.darkest, settings.light.lightest) = (1.0, 1.0);
+    let mut dark = |width_px: f32| {
+        settings.silhouette.width_px = width_px;
+        let mut painter = ModelPainter::new(&mesh, &map(2), &settings).unwrap();
+        let picture = painter.paint(&camera, (500, 500), 0.0).unwrap().color;
+        let is_dark = |pixel: &[f32; 4]| pixel[3] > 0.9 && pixel[1] < 0.35;
+        let middle = picture.part(Rect { x: 150, y: 150, width: 200, height: 200 });
+        let inside = middle.values().iter().filter(|pixel| is_dark(pixel)).count();
+        (picture.values().iter().filter(|pixel| is_dark(pixel)).count() - inside, inside)
+    };
+    let [(none, _), (thin, inside), (wide, _)] = [0.0, 10.0, 20.0].map(&mut dark);
+    // The outline has a circumference of 1445 px; lines are 5 and 10 px wide in this picture.
+    let [thin, wide] = [thin, wide].map(|count| (count - none) as f32 / 1445.0);
+    assert!((3.0..8.0).contains(&thin), "{thin} px for 5");
+    assert!((6.0..16.0).contains(&wide) && wide > 1.6 * thin, "{wide} px for 10, {thin} for 5");
+    assert!(inside < 100, "{inside} in the middle of the ball");
 }

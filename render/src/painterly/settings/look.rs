@@ -78,6 +78,16 @@ pub struct ColorSettings {
     pub statistics: f32,
 }
 
+/// Strokes along outlines.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SilhouetteSettings {
+    /// Width of lines along outlines in px, 0..=100; 0 draws none.
+    pub width_px: f32,
+    /// How much darker than the model the lines are where colours are the model's, 0..=1.
+    pub darkness: f32,
+}
+
 /// Strokes that flow along the surface (equation 11 of Yan and others 2008).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -118,6 +128,12 @@ impl Default for ColorSettings {
     }
 }
 
+impl Default for SilhouetteSettings {
+    fn default() -> Self {
+        Self { width_px: 0.0, darkness: 0.5 }
+    }
+}
+
 impl Default for FlowSettings {
     fn default() -> Self {
         Self { periods: 0, loop_seconds: 4.0, noise: 0.0 }
@@ -144,6 +160,19 @@ impl ColorSettings {
             Figure::new("colour.chroma", self.chroma, [0.0, 4.0]),
             Figure::new("colour.statistics", self.statistics, [0.0, 1.0]),
         ]
+    }
+}
+
+impl SilhouetteSettings {
+    pub(super) fn figures(&self) -> Vec<Figure> {
+        vec![
+            Figure::new("silhouette.width_px", self.width_px, [0.0, 100.0]),
+            Figure::new("silhouette.darkness", self.darkness, [0.0, 1.0]),
+        ]
+    }
+
+    pub(super) fn scale(&mut self, by: f32) {
+        self.width_px *= by;
     }
 }
 

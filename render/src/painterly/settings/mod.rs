@@ -15,7 +15,10 @@ mod file;
 mod change;
 
 pub use file::SettingsError;
-pub use look::{ColorSettings, ColorSource, ColorSpace, FlowSettings, LightSettings, LightWith};
+pub use look::{
+    ColorSettings, ColorSource, ColorSpace, FlowSettings, LightSettings, LightWith,
+    SilhouetteSettings,
+};
 pub use preset::Preset;
 pub use strokes::{Offsets, OverlapSettings, StrokeDirection, StrokeSettings, Zoom};
 pub use whole::Settings;

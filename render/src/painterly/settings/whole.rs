@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::figures::Figure;
-use super::look::{ColorSettings, FlowSettings, LightSettings};
+use super::look::{ColorSettings, FlowSettings, LightSettings, SilhouetteSettings};
 use super::strokes::{OverlapSettings, StrokeSettings};
 
 /// The style in which a map is painted on a model. Keys that a file leaves out have the defaults.
@@ -22,6 +22,8 @@ pub struct Settings {
     /// Colour of strokes.
     #[serde(rename = "colour")]
     pub color: ColorSettings,
+    /// Strokes along outlines.
+    pub silhouette: SilhouetteSettings,
     /// Strokes that flow along the surface.
     pub flow: FlowSettings,
 }
@@ -34,6 +36,7 @@ impl Default for Settings {
             overlap: OverlapSettings::default(),
             light: LightSettings::default(),
             color: ColorSettings::default(),
+            silhouette: SilhouetteSettings::default(),
             flow: FlowSettings::default(),
         }
     }
@@ -48,6 +51,7 @@ impl Settings {
         let longer = width.max(height).max(1) as f32;
         let mut own = self.clone();
         own.strokes.scale(longer / self.reference_px);
+        own.silhouette.scale(longer / self.reference_px);
         own.reference_px = longer;
         own
     }
@@ -60,6 +64,7 @@ impl Settings {
             self.overlap.figures(),
             self.light.figures(),
             self.color.figures(),
+            self.silhouette.figures(),
             self.flow.figures(),
         ]
         .concat()
