@@ -46,6 +46,19 @@ mod tests {
     }
 
     #[test]
+    fn strokes_of_weak_flow_go_on_over_the_end_of_a_loop() {
+        let settings = settings(3);
+        for strength in [0.1, 0.4, 0.6, 0.9] {
+            let step = |from: f32, to: f32| {
+                let [from, to] = [from, to].map(|phase| moved(strength, phase, &settings));
+                (from - to).rem_euclid(1.0)
+            };
+            let (inside, over) = (step(0.25, 0.5), step(0.75, 0.0));
+            assert!((inside - over).abs() < 1e-6, "{strength}: {inside}, {over}");
+        }
+    }
+
+    #[test]
     fn strokes_move_evenly_and_stand_where_there_is_no_flow() {
         let settings = settings(2);
         let step = |phase: f32| {

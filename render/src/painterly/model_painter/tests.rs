@@ -190,6 +190,22 @@ fn strokes_turn_little_from_frame_to_frame() {
 }
 
 #[test]
+fn faces_of_a_closed_model_that_turn_away_have_no_strokes() {
+    let closed = Mesh::sphere(2000);
+    let camera = Framing::default().fit(&closed.positions);
+    let mut open = closed.clone();
+    open.triangles.pop();
+    let count = |mesh: &Mesh, camera: &Camera| {
+        let mut painter = ModelPainter::new(mesh, &map(1), &Settings::default()).unwrap();
+        painter.splats(camera, (300, 300), 0.0).unwrap().1.len() as f32
+    };
+    let (front, both) = (count(&closed, &camera), count(&open, &camera));
+    assert!((0.35..0.6).contains(&(front / both)), "{front} of {both}");
+    let inside = Camera { eye: Vec3::ZERO, target: Vec3::Z, near: 0.01, ..camera };
+    assert!(count(&closed, &inside) > 50.0, "seen from inside");
+}
+
+#[test]
 fn size_and_density_of_strokes_stay_while_the_model_moves_away() {
     let mesh = Mesh::sphere(20_000);
     let mut painter = ModelPainter::new(&mesh, &map(2), &Settings::default()).unwrap();
