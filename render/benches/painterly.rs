@@ -20,18 +20,21 @@ struct Row {
     name: &'static str,
     shape: SampleModel,
     splats: usize,
+    /// Splats of outlines.
+    outlines: usize,
     size: (usize, usize),
-    /// Frames per second of the paper, without silhouettes.
+    /// Frames per second of the paper.
     published: f64,
 }
 
 const LARGE: (usize, usize) = (1280, 1024);
 
-const ROWS: [Row; 5] = [
+const ROWS: [Row; 8] = [
     Row {
         name: "ball",
         shape: SampleModel::Sphere,
         splats: 3311,
+        outlines: 0,
         size: (640, 480),
         published: 72.0,
     },
@@ -39,6 +42,7 @@ const ROWS: [Row; 5] = [
         name: "bunny, hatching",
         shape: SampleModel::TorusKnot,
         splats: 8549,
+        outlines: 0,
         size: LARGE,
         published: 28.1,
     },
@@ -46,6 +50,7 @@ const ROWS: [Row; 5] = [
         name: "bunny",
         shape: SampleModel::TorusKnot,
         splats: 9941,
+        outlines: 0,
         size: LARGE,
         published: 21.4,
     },
@@ -53,6 +58,7 @@ const ROWS: [Row; 5] = [
         name: "lion vase",
         shape: SampleModel::StillLife,
         splats: 17_972,
+        outlines: 0,
         size: LARGE,
         published: 15.6,
     },
@@ -60,16 +66,41 @@ const ROWS: [Row; 5] = [
         name: "gargoyle",
         shape: SampleModel::Village,
         splats: 22_248,
+        outlines: 0,
         size: LARGE,
         published: 9.7,
+    },
+    Row {
+        name: "lion vase with outlines",
+        shape: SampleModel::StillLife,
+        splats: 17_972,
+        outlines: 6848,
+        size: LARGE,
+        published: 10.0,
+    },
+    Row {
+        name: "David with outlines",
+        shape: SampleModel::TorusKnot,
+        splats: 9776,
+        outlines: 23_232,
+        size: LARGE,
+        published: 7.9,
+    },
+    Row {
+        name: "gargoyle with outlines",
+        shape: SampleModel::Village,
+        splats: 22_248,
+        outlines: 14_240,
+        size: LARGE,
+        published: 6.4,
     },
 ];
 
 impl fmt::Display for Row {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, splats, published, .. } = self;
+        let Self { name, splats, outlines, published, .. } = self;
         let most = 1000.0 / published;
-        write!(f, "{name} ({splats} splats; published {published} fps, {most:.1} ms)")
+        write!(f, "{name} ({splats} + {outlines} splats; published {published} fps, {most:.1} ms)")
     }
 }
 
@@ -89,20 +120,38 @@ fn camera(mesh: &Mesh, (width, height): (usize, usize)) -> Camera {
     framing.fit(&mesh.positions)
 }
 
-/// A painter whose strokes are so wide that as many splats are drawn as the row has.
+/// A painter whose strokes and outlines are so wide that as many splats are drawn as the row has.
 fn painter(row: Row) -> (ModelPainter, Camera) {
     let mesh = row.shape.mesh(20_000);
     let camera = camera(&mesh, row.size);
     let mut settings = Settings::default();
-    loop {
-        let mut painter = ModelPainter::new(&mesh, map(), &settings).unwrap();
-        let (_, splats) = painter.splats(&camera, row.size, 0.0).unwrap();
-        let ratio = splats.len() as f32 / row.splats as f32;
+    let count = |settings: &Settings| {
+        let mut painter = ModelPainter::new(&mesh, map(), settings).unwrap();
+        let splats = painter.splats(&camera, row.size, 0.0).unwrap().1.len();
+        (painter, splats as f32)
+    };
+    let (mut painter, strokes) = loop {
+        let (painter, found) = count(&settings);
+        let ratio = found / row.splats as f32;
         if (ratio - 1.0).abs() < 0.02 {
-            return (painter, camera);
+            break (painter, found);
         }
         settings.strokes.width_px *= ratio.sqrt();
+    };
+    if row.outlines > 0 {
+        settings.silhouette.width_px = 4.0;
+        loop {
+            let found;
+            (painter, found) = count(&settings);
+            let ratio = (found - strokes) / row.outlines as f32;
+            if (ratio - 1.0).abs() < 0.05 {
+                break;
+            }
+            // Of splats twice as wide and long a line of twice the width has fewer: 1 / 2^1.5.
+            settings.silhouette.width_px *= ratio.powf(2.0 / 3.0);
+        }
     }
+    (painter, camera)
 }
 
 /// A whole frame: strokes of the sight and the three passes.

@@ -119,6 +119,14 @@ impl Roots {
         }
     }
 
+    /// The stroke of a feature, which need not continue others.
+    pub(super) fn single(&self, feature: &Feature) -> Root {
+        match self.seeds.binary_search(&feature.seed) {
+            Ok(index) => self.kept[index],
+            Err(_) => self.made(feature),
+        }
+    }
+
     /// A stroke that goes on in the map from the nearest kept one on its side of the surface.
     fn continued(&self, feature: &Feature, own: Root) -> Root {
         let Some(grid) = &self.grid else { return own };

@@ -29,6 +29,9 @@ const BEHIND: f32 = 0.5;
 /// Greatest cosine at which a place belongs to an outline, however much the surface bends.
 const MOST: f32 = 0.6;
 
+/// How much the cosine of a triangle may differ from that of the smooth surface.
+const UNEVEN: f32 = 0.2;
+
 /// Weight against other strokes, after it is raised to the power of the sharpness.
 const STRENGTH: f32 = 256.0;
 
@@ -51,8 +54,8 @@ pub(super) fn outlines(
     let end = DENSITY / (radii[0] * radii[1]);
     let seen = features.seen(sight.projection, Density::Facing, end, radii[1]);
     let splat = |seen: &SeenFeature| {
-        let near = sight.may_see(seen) && seen.facing.abs() < 1.5 * MOST;
-        let root = near.then(|| roots.of(&seen.feature))?;
+        let near = sight.may_see(seen) && seen.facing.abs() < MOST + UNEVEN;
+        let root = near.then(|| roots.single(&seen.feature))?;
         outline(seen, &root, tones, sight, (radii, end))
     };
     seen.par_iter().with_min_len(256).filter_map(splat).collect()

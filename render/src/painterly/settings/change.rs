@@ -57,6 +57,25 @@ mod tests {
     }
 
     #[test]
+    fn presets_have_every_key_with_its_meaning() {
+        let all = toml::Table::try_from(super::Settings::default()).unwrap();
+        for preset in Preset::ALL {
+            let text = preset.text();
+            let table: toml::Table = text.parse().unwrap();
+            for (key, value) in &all {
+                assert!(table.contains_key(key), "{} has no {key}", preset.name());
+                let toml::Value::Table(group) = value else { continue };
+                for inner in group.keys() {
+                    let found = table[key].as_table().unwrap().contains_key(inner);
+                    assert!(found, "{} has no {key}.{inner}", preset.name());
+                }
+            }
+            assert_eq!(preset.settings(), super::Settings::from_toml("again", text).unwrap());
+            assert_eq!(preset.name().parse::<Preset>().unwrap(), preset);
+        }
+    }
+
+    #[test]
     fn errors_name_the_line_of_the_text() {
         let paper = Preset::Paper.settings();
         for (text, wanted) in [
