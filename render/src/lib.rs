@@ -8,6 +8,7 @@
 //! mesh ------> watercolor::ModelPainter -------+                       |
 //!                                              +-> wash -> GlazePainter+
 //!                                                          (painting)
+//! mesh + art map -> painterly::ModelPainter ---> picture
 //! ```
 //!
 //! A painting holds amounts of pigment and can be relit; a picture holds colours only.
@@ -51,3 +52,5 @@ pub mod export {
 pub mod photograph;
 
 pub mod watercolor;
+
+pub mod painterly;

@@ -20,6 +20,12 @@ mod splat;
 
 mod features;
 
+mod selection;
+
+mod feature_splats;
+
+mod seen;
+
 mod repeating_noise;
 
 mod particles;
@@ -30,11 +36,13 @@ mod popping;
 
 pub use anchored::{ANCHOR_TEXTURES, draw_anchored};
 pub use depths::{DEPTHS, depth_field, depths};
-pub use features::Features;
+pub use features::{Feature, Features};
 pub use hierarchy::Hierarchy;
 pub use octaves::{FeatureNoise, SPREAD};
 pub use particles::{Anchor, AnchoredNoise, Anchors, Particles};
 pub use popping::{NoiseFrame, Popping};
 pub use projection::Projection;
 pub use repeating_noise::repeating_noise;
+pub use seen::SeenFeature;
+pub use selection::Density;
 pub use splat::{GATHER_SPLATS, Splat, draw_splats};

@@ -117,8 +117,43 @@ impl Projection {
         self.model_from_clip
     }
 
+    /// Pixels in the picture for a unit of the model across the viewing direction, at a distance of
+    /// one unit in front of the eye.
+    #[must_use]
+    pub fn focal_px(&self) -> f32 {
+        self.focal_px
+    }
+
+    /// The camera.
+    #[must_use]
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// Width and height of the picture in pixels.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    /// Pixels to the right and downwards by which a point `distance` in front of the eye and at
+    /// (`x`, `y`) in the picture moves, per unit of the model moved along `direction`.
+    #[must_use]
+    pub fn moved(&self, [x, y]: [f32; 2], distance: f32, direction: Vec3) -> [f32; 2] {
+        let [right, up] = self.axes;
+        let forward = up.cross(right);
+        let away = direction.dot(forward);
+        let (from_x, from_y) = (x - self.width as f32 / 2.0, y - self.height as f32 / 2.0);
+        let [x, y] = [direction.dot(right), -direction.dot(up)];
+        [
+            (self.focal_px * x - from_x * away) / distance,
+            (self.focal_px * y - from_y * away) / distance,
+        ]
+    }
+
     /// `near far / (far - near)`. Depth is a constant minus this over distance.
-    pub(super) fn depth_scale(&self) -> f32 {
+    #[must_use]
+    pub fn depth_scale(&self) -> f32 {
         let Camera { near, far, .. } = self.camera;
         near * far / (far - near)
     }
@@ -126,7 +161,8 @@ impl Projection {
     /// How much depth grows per pixel to the right and downwards on a plane with this
     /// `normal`; `towards` is the dot product of the normal and a vector from the eye to
     /// the plane.
-    pub(super) fn slope(&self, normal: Vec3, towards: f32) -> [f32; 2] {
+    #[must_use]
+    pub fn slope(&self, normal: Vec3, towards: f32) -> [f32; 2] {
         let [right, up] = self.axes;
         let scale = -self.depth_scale() / (towards * self.focal_px);
         [scale * normal.dot(right), -scale * normal.dot(up)]
@@ -172,5 +208,20 @@ mod tests {
             }
         }
         assert!(slopes > 600, "{slopes}");
+    }
+
+    #[test]
+    fn a_direction_moves_a_point_as_its_projection_does() {
+        let camera = Camera::framing(Mesh::sphere(100).bounds(), 40.0, 25.0, 50.0);
+        let projection = Projection::new(&camera, 90, 60);
+        for direction in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::new(0.3, -0.5, 0.8)] {
+            let place = Vec3::new(0.5, -0.3, 0.4);
+            let before = projection.project(place - direction * 1e-2).unwrap();
+            let after = projection.project(place + direction * 1e-2).unwrap();
+            let at = projection.project(place).unwrap();
+            let [x, y] = projection.moved([at.x, at.y], at.distance, direction);
+            assert!(((after.x - before.x) / 2e-2 - x).abs() < 0.05, "{direction}: {x}");
+            assert!(((after.y - before.y) / 2e-2 - y).abs() < 0.05, "{direction}: {y}");
+        }
     }
 }

@@ -9,6 +9,8 @@ mod check;
 
 mod neighbours;
 
+mod closed_parts;
+
 mod normals;
 
 mod places;

@@ -1,0 +1,210 @@
+//! The features of a mesh that a sight or a density needs.
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::features::{Feature, Features, Half};
+use super::hierarchy::Face;
+use super::projection::Projection;
+
+/// Triangles are halved at most this often; f32 cannot represent smaller ones.
+const MAX_HALVINGS: u32 = 40;
+
+/// What the rank of a feature refers to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Density {
+    /// Features per pixel of the picture: their density there stays as the model moves away.
+    Screen,
+    /// Features per pixel that the surface would cover if it faced the eye: dense towards outlines.
+    Facing,
+    /// Features per square of this many pixels to a unit of the model: their density on the surface
+    /// stays.
+    Surface {
+        /// Pixels to a unit of the model, above 0.
+        px_per_unit: f32,
+    },
+}
+
+/// Selects features.
+pub(super) trait Select: Sync {
+    /// The highest priority that is needed within a sphere; `None` if nothing in it is.
+    fn needed(&self, center: Vec3, radius: f32) -> Option<f32>;
+}
+
+/// Selects the features that one projection needs.
+pub(super) struct InSight<'a> {
+    pub(super) projection: &'a Projection,
+    /// What ranks refer to.
+    pub(super) density: Density,
+    /// Features of this rank and above are not needed.
+    pub(super) end: f32,
+    /// Radius of the largest features in pixels; with a density on the surface, where a unit of
+    /// the model has as many pixels as the density says.
+    pub(super) margin_px: f32,
+    /// Viewing direction, of length 1.
+    forward: Vec3,
+}
+
+/// Selects all features below a priority.
+struct Below(f32);
+
+impl<'a> InSight<'a> {
+    pub(super) fn new(
+        projection: &'a Projection,
+        density: Density,
+        end: f32,
+        margin_px: f32,
+    ) -> Self {
+        let forward = (projection.camera.target - projection.camera.eye).normalize_or_zero();
+        Self { projection, density, end, margin_px, forward }
+    }
+}
+
+impl Select for InSight<'_> {
+    fn needed(&self, center: Vec3, radius: f32) -> Option<f32> {
+        let projection = self.projection;
+        let to = center - projection.camera.eye;
+        let (along, towards) = (to.dot(self.forward), to.length() + radius);
+        if along + radius < projection.camera.near || along - radius > projection.camera.far {
+            return None;
+        }
+        let nearest = (along - radius).max(projection.camera.near);
+        if along - radius > projection.camera.near
+            && let Some(at) = projection.project(center)
+        {
+            let own = match self.density {
+                Density::Screen | Density::Facing => self.margin_px,
+                Density::Surface { px_per_unit } => {
+                    self.margin_px * projection.focal_px / (nearest * px_per_unit)
+                }
+            };
+            // Off the viewing axis a sphere projects to more than its radius.
+            let margin = projection.focal_px * radius * towards / (nearest * nearest) + own;
+            let inside = |at: f32, size: usize| at > -margin && at < size as f32 + margin;
+            if !inside(at.x, projection.width) || !inside(at.y, projection.height) {
+                return None;
+            }
+        }
+        Some(match self.density {
+            Density::Screen => {
+                self.end * projection.focal_px * projection.focal_px * towards / nearest.powi(3)
+            }
+            Density::Facing => self.end * (projection.focal_px / nearest).powi(2),
+            Density::Surface { px_per_unit } => self.end * px_per_unit * px_per_unit,
+        })
+    }
+}
+
+impl Select for Below {
+    fn needed(&self, _: Vec3, _: f32) -> Option<f32> {
+        Some(self.0)
+    }
+}
+
+impl Features {
+    /// What `draw` makes of the features that `select` needs, and of some more. Their order does
+    /// not depend on the selection.
+    pub(super) fn selected<T: Send + Copy>(
+        &self,
+        select: &impl Select,
+        draw: impl Fn(&Feature, &mut Vec<T>) + Sync,
+    ) -> Vec<T> {
+        let subtrees = self.subtrees.par_iter().map(|&subtree| {
+            let mut drawn = Vec::new();
+            self.select(select, subtree, &mut |feature| draw(feature, &mut drawn));
+            drawn
+        });
+        let mut drawn = Vec::new();
+        for &patch in &self.above {
+            draw(&self.of_patches[patch], &mut drawn);
+        }
+        let subtrees: Vec<_> = subtrees.collect();
+        drawn.reserve(subtrees.iter().map(Vec::len).sum());
+        subtrees.iter().for_each(|subtree| drawn.extend_from_slice(subtree));
+        drawn
+    }
+
+    /// All features with a lower priority than this, in an order that does not depend on it.
+    #[must_use]
+    pub fn below(&self, priority: f32) -> Vec<Feature> {
+        self.selected(&Below(priority), |feature, all| {
+            if feature.priority < priority {
+                all.push(*feature);
+            }
+        })
+    }
+
+    fn select(&self, select: &impl Select, subtree: usize, draw: &mut impl FnMut(&Feature)) {
+        let end = self.hierarchy.patches[subtree].end;
+        let mut index = subtree;
+        while index < end {
+            let patch = &self.hierarchy.patches[index];
+            let needed = select.needed(patch.center, patch.radius);
+            if needed.is_none_or(|needed| f64::from(needed) * patch.area <= 1.0) {
+                index = patch.end;
+                continue;
+            }
+            draw(&self.of_patches[index]);
+            if patch.faces.len() == 1 {
+                let face = &self.hierarchy.faces[patch.faces.start];
+                for half in Half::whole(face, self.seed.child(index as u64)).halves() {
+                    halve(select, half, face, face.area / 2.0, draw);
+                }
+            }
+            index += 1;
+        }
+    }
+}
+
+fn halve(
+    select: &impl Select,
+    half: Half,
+    face: &Face,
+    area: f64,
+    draw: &mut impl FnMut(&Feature),
+) {
+    let [a, b, c] = half.corners;
+    let center = (a + b + c) / 3.0;
+    let radius = [a, b, c].map(|at| at.distance_squared(center)).into_iter();
+    let radius = radius.fold(0.0, f32::max).sqrt();
+    let needed = select.needed(center, radius);
+    if half.depth > MAX_HALVINGS || needed.is_none_or(|needed| f64::from(needed) * area <= 1.0) {
+        return;
+    }
+    let halves = half.halves();
+    draw(&half.feature(&halves, face, area));
+    for half in halves {
+        halve(select, half, face, area / 2.0, draw);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::coherence::hierarchy::Hierarchy;
+    use crate::mesh::Mesh;
+
+    #[test]
+    fn all_features_below_a_priority_are_found_in_one_order() {
+        for triangles in [20, 3000] {
+            let hierarchy = Arc::new(Hierarchy::new(&Mesh::sphere(triangles)));
+            let area = hierarchy.patches[0].area;
+            let features = Features::new(hierarchy, 7);
+            let [few, many] = [50.0, 400.0].map(|priority| features.below(priority));
+            for (found, priority) in [(&few, 50.0), (&many, 400.0)] {
+                let wanted = area * priority;
+                let error = (found.len() as f64 - wanted).abs();
+                assert!(error < 2.0 * wanted.sqrt(), "{triangles}: {}", found.len());
+            }
+            let of_many: Vec<u64> =
+                many.iter().filter(|own| own.priority < 50.0).map(|own| own.seed).collect();
+            let of_few: Vec<u64> = few.iter().map(|own| own.seed).collect();
+            assert_eq!(of_few, of_many);
+            let mut seeds: Vec<u64> = many.iter().map(|own| own.seed).collect();
+            seeds.sort_unstable();
+            assert!(seeds.windows(2).all(|pair| pair[0] != pair[1]), "two of one seed");
+        }
+    }
+}

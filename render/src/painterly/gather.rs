@@ -1,0 +1,254 @@
+//! Pass 2: weighted sums of the strokes at each pixel of a square.
+//!
+//! Weights are Gaussians to a power, so that the strongest stroke of a place shows most. A first
+//! round sums the weights alone; the second looks up the map only where a weight matters.
+
+use graphics::lanes::{greater, lesser};
+use pulp::Simd;
+
+use super::depths::{bowl, bring_forward, nearness};
+use super::lists::SIDE;
+use super::splat::StrokeSplat;
+use super::square::{Lie, Square, Values};
+use super::tones::Tones;
+
+/// This share of the sum is taken from each weight, and what has no more is left out: a step of 8
+/// bits. So splats come in without a step.
+const NEGLIGIBLE: f32 = 1.0 / 256.0;
+
+/// Weight of the lowest furrow, before it is squared, by that of the highest ridge: where strokes
+/// overlap, ridges lie above furrows, so that strokes end in bristles and not along a line.
+const FURROW: f32 = 0.25;
+
+/// Factor of weights before they are raised to a power, so that those of a thin cover do not vanish
+/// among the numbers of f32.
+const SCALE: f32 = 8.0;
+
+/// Sums of weights below this are lost.
+pub(super) const LOST: f32 = 1e-30;
+
+/// What the strokes of one surface sum up to at each pixel of a square.
+#[derive(Debug, Clone)]
+pub(super) struct Sums {
+    /// Bytes of the map times 256, by channel, times weights.
+    pub(super) bytes: [[[f32; 4]; SIDE]; SIDE],
+    /// Colours of the splats times weights.
+    pub(super) color: [[[f32; 3]; SIDE]; SIDE],
+    /// Weights of what was summed.
+    pub(super) weight: Values,
+    /// Sum of the splats' parts in the cover.
+    pub(super) cover: Values,
+    /// Weights of all splats.
+    total: Values,
+    /// The splats with their weights, in the order of the list.
+    parts: Vec<(u32, Values)>,
+}
+
+/// Strokes on the mesh, and those that reach out before it.
+#[derive(Debug, Clone)]
+pub(super) struct Gathered {
+    pub(super) on: Sums,
+    pub(super) before: Sums,
+    /// Splats of the list that lie before some pixels: their index, depth and weight.
+    raised: Vec<(u32, Values, Values)>,
+}
+
+/// What a square gathers from.
+pub(super) struct Gather<'a> {
+    pub(super) square: &'a Square,
+    /// Indices of splats.
+    pub(super) list: &'a [u32],
+    pub(super) splats: &'a [StrokeSplat],
+    pub(super) tones: &'a Tones,
+    /// How often weights are squared.
+    pub(super) squarings: u32,
+    /// Whether splats have colours of their own.
+    pub(super) colored: bool,
+    pub(super) into: &'a mut Gathered,
+}
+
+impl Sums {
+    fn new() -> Self {
+        Self {
+            bytes: [[[0.0; 4]; SIDE]; SIDE],
+            color: [[[0.0; 3]; SIDE]; SIDE],
+            weight: [[0.0; SIDE]; SIDE],
+            cover: [[0.0; SIDE]; SIDE],
+            total: [[0.0; SIDE]; SIDE],
+            parts: Vec::new(),
+        }
+    }
+
+    fn clear(&mut self) {
+        if self.parts.is_empty() {
+            return;
+        }
+        let parts = std::mem::take(&mut self.parts);
+        *self = Self { parts, ..Self::new() };
+        self.parts.clear();
+    }
+
+    /// Whether any splat has weight.
+    pub(super) fn any(&self) -> bool {
+        !self.parts.is_empty()
+    }
+
+    /// Adds a splat with its weights, and with its part in the cover for a weight of 1.
+    #[inline(always)]
+    fn add(&mut self, number: u32, weight: Values, shape: &Values, cover: f32) {
+        for row in 0..SIDE {
+            for column in 0..SIDE {
+                self.total[row][column] += weight[row][column];
+                self.cover[row][column] += shape[row][column] * cover;
+            }
+        }
+        self.parts.push((number, weight));
+    }
+}
+
+impl Gathered {
+    /// Memory for one square after the other.
+    pub(super) fn new() -> Self {
+        Self { on: Sums::new(), before: Sums::new(), raised: Vec::new() }
+    }
+}
+
+impl pulp::WithSimd for Gather<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { square, list, splats, tones, squarings, colored, into } = self;
+        into.on.clear();
+        into.before.clear();
+        into.raised.clear();
+        for &number in list {
+            let splat = &splats[number as usize];
+            let lie = square.lie(splat);
+            if lie == Lie::Hidden {
+                continue;
+            }
+            let shape = square.shape(splat);
+            let cover = splat.cover / splat.weight;
+            if lie == Lie::On {
+                into.on.add(number, powered(shape, squarings), &shape, cover);
+                continue;
+            }
+            let plane = square.plane(splat);
+            let [on, before] = square.shares(splat, &plane);
+            if any(&on) {
+                let weight = times(&powered(shape, squarings), &on);
+                into.on.add(number, weight, &times(&shape, &on), cover);
+            }
+            if any(&before) {
+                let raised = times(&shape, &before);
+                into.raised.push((number, bowl(splat, &plane, &raised), shape));
+            }
+        }
+        raise(square, splats, squarings, into);
+        sum(square, splats, tones, colored, &mut into.on);
+        sum(square, splats, tones, colored, &mut into.before);
+    }
+}
+
+/// Weighs the splats that reach out before the mesh: those of the nearest surface count.
+#[inline(always)]
+fn raise(square: &Square, splats: &[StrokeSplat], squarings: u32, into: &mut Gathered) {
+    let mut nearest = [[f32::INFINITY; SIDE]; SIDE];
+    into.raised.iter().for_each(|(_, bowl, _)| bring_forward(&mut nearest, bowl));
+    for (number, bowl, shape) in &into.raised {
+        let splat = &splats[*number as usize];
+        let [_, before] = square.shares(splat, &square.plane(splat));
+        let share = times(&before, &nearness(splat, &nearest, bowl));
+        let weight = times(&powered(*shape, squarings), &share);
+        let cover = splat.cover / splat.weight;
+        into.before.add(*number, weight, &times(shape, &share), cover);
+    }
+}
+
+/// Looks up the map and sums it.
+#[inline(always)]
+fn sum(square: &Square, splats: &[StrokeSplat], tones: &Tones, colored: bool, into: &mut Sums) {
+    let mut least = into.total;
+    least.iter_mut().flatten().for_each(|value| *value *= NEGLIGIBLE);
+    let Sums { bytes, color, weight: weights, parts, .. } = into;
+    // Maps without relief have a height of 0 everywhere.
+    let ridges = (1.0 - FURROW) / (256.0 * 255.0);
+    for (number, part) in parts {
+        let splat = &splats[*number as usize];
+        let texels = tones.texels(splat.slice as usize, splat.halvings as usize);
+        // In texels, from the centre of the first one.
+        let size = texels.size as f32;
+        let offset = splat.offset.map(|at| at - 0.5 / size);
+        let left = square.first[0] - splat.x;
+        for row in 0..SIDE {
+            let (weight, least) = (&part[row], &least[row]);
+            let mut matters = false;
+            for column in 0..SIDE {
+                matters |= weight[column] > least[column];
+            }
+            if !matters {
+                continue;
+            }
+            let down = square.first[1] - splat.y + row as f32;
+            let mut place = [[0_i32; SIDE]; 2];
+            let mut share = [[0_i32; SIDE]; 2];
+            for (axis, coordinate) in [splat.across, splat.along].into_iter().enumerate() {
+                let first = offset[axis]
+                    + splat.extent[axis] * (coordinate[0] * left + coordinate[1] * down);
+                let step = splat.extent[axis] * coordinate[0];
+                for column in 0..SIDE {
+                    let at = first + step * column as f32;
+                    let at = (at - at.floor()) * size;
+                    let texel = lesser(at.floor(), size - 1.0);
+                    place[axis][column] = texel as i32;
+                    share[axis][column] = (256.0 * lesser(at - texel, 1.0)) as i32;
+                }
+            }
+            for column in 0..SIDE {
+                let own_weight = weight[column] - least[column];
+                if own_weight <= 0.0 {
+                    continue;
+                }
+                let [u, v] = [place[0][column] as usize, place[1][column] as usize];
+                let [a, b] = [share[0][column] as u32, share[1][column] as u32];
+                let texel = texels.between(u, v, a, b);
+                let high = FURROW + texel[3] * ridges;
+                let own_weight = own_weight * high * high;
+                let sums = bytes[row][column].iter_mut().zip(texel);
+                sums.for_each(|(sum, value)| *sum += value * own_weight);
+                if colored {
+                    let sums = color[row][column].iter_mut().zip(splat.color);
+                    sums.for_each(|(sum, value)| *sum += value * own_weight);
+                }
+                weights[row][column] += own_weight;
+            }
+        }
+    }
+}
+
+/// Weights times [`SCALE`], squared so many times.
+#[inline(always)]
+fn powered(mut weights: Values, squarings: u32) -> Values {
+    weights.iter_mut().flatten().for_each(|weight| *weight *= SCALE);
+    for _ in 0..squarings {
+        weights = times(&weights, &weights);
+    }
+    weights
+}
+
+#[inline(always)]
+fn times(one: &Values, other: &Values) -> Values {
+    let mut product = [[0.0; SIDE]; SIDE];
+    for row in 0..SIDE {
+        for column in 0..SIDE {
+            product[row][column] = one[row][column] * other[row][column];
+        }
+    }
+    product
+}
+
+#[inline(always)]
+fn any(values: &Values) -> bool {
+    values.iter().flatten().fold(0.0, |most, &value| greater(value, most)) > 0.0
+}

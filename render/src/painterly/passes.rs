@@ -1,0 +1,75 @@
+//! The three passes over all squares of a picture.
+
+use graphics::field::Field;
+use rayon::prelude::*;
+
+use super::coloring::Coloring;
+use super::divided::Divide;
+use super::gather::{Gather, Gathered};
+use super::lists::{Lists, SIDE};
+use super::settings::OverlapSettings;
+use super::splat::StrokeSplat;
+use super::square::Square;
+use super::tones::Tones;
+
+/// A painted picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaintedModel {
+    /// Encoded sRGB in 0..1, with the share of each pixel that strokes cover.
+    pub color: Field<[f32; 4]>,
+    /// Height of the brushwork over the canvas in mm; 0 for maps without relief.
+    pub height_mm: Field<f32>,
+}
+
+/// Paints splats over a mesh of this depth (0 near to 1, nothing). Each pixel sums the splats that
+/// reach it in their order, so the picture does not depend on threads.
+pub(super) fn painted(
+    depth: &Field<f32>,
+    splats: &[StrokeSplat],
+    tones: &Tones,
+    coloring: &Coloring,
+    colored: bool,
+    overlap: &OverlapSettings,
+) -> PaintedModel {
+    let (width, height) = (depth.width(), depth.height());
+    let lists = Lists::new(width, height, splats);
+    let mut color = Field::filled(width, height, [0.0; 4]);
+    let mut relief = Field::filled(width, height, 0.0);
+    let divide = Divide { tones, coloring, overhang: overlap.overhang };
+    let band = (SIDE * width).max(1);
+    let bands =
+        color.values_mut().par_chunks_mut(band).zip(relief.values_mut().par_chunks_mut(band));
+    bands.enumerate().for_each_init(Gathered::new, |gathered, (band, (colors, heights))| {
+        for column in 0..lists.across {
+            let list = lists.of(band * lists.across + column);
+            if list.is_empty() {
+                continue;
+            }
+            let (x, y) = (column * SIDE, band * SIDE);
+            let square = Square::new(depth, x, y);
+            let squarings = overlap.sharpness.max(1).ilog2();
+            let into = &mut *gathered;
+            let gather = Gather { square: &square, list, splats, tones, squarings, colored, into };
+            pulp::Arch::new().dispatch(gather);
+            if !gathered.on.any() && !gathered.before.any() {
+                continue;
+            }
+            let columns = SIDE.min(width - x);
+            let rows = colors.chunks_mut(width).zip(heights.chunks_mut(width)).enumerate();
+            for (row, (colors, heights)) in rows {
+                for column in 0..columns {
+                    let (pixel, height) = {
+                        let covered = square.depths[row][column] < 1.0;
+                        divide.pixel(gathered, covered, (row, column))
+                    };
+                    colors[x + column] = pixel;
+                    heights[x + column] = height;
+                }
+            }
+        }
+    });
+    PaintedModel { color, height_mm: relief }
+}
+
+#[cfg(test)]
+mod tests;

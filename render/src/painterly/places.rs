@@ -1,0 +1,168 @@
+//! What the model shows at a feature: normal, direction of strokes, colour.
+
+use glam::{Mat3, Vec2, Vec3};
+use graphics::coherence::Feature;
+use graphics::mesh::{Curvature, DirectionField, FlowField, Mesh};
+use graphics::surface::{Fragment, PackedMesh, SurfacePoint};
+
+/// Rounds of averaging normals before curvature is found.
+pub(super) const NORMAL_ROUNDS: usize = 1;
+
+/// Rings of edges over which flow rises beside singular places.
+const FADE_RINGS: usize = 2;
+
+/// A point of the model that carries a stroke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Unit normal, interpolated.
+    pub(super) normal: Vec3,
+    /// Unit direction of strokes along the surface; it is the direction of flow too.
+    pub(super) along: Vec3,
+    /// Strength of the flow, 0 to 1.
+    pub(super) flow: f32,
+    /// Colour without light, encoded sRGB.
+    pub(super) color: Vec3,
+    /// Curvature of the surface: `d . bend d` along a unit direction d, per unit of the model.
+    pub(super) bend: Mat3,
+}
+
+/// The directions of strokes on a mesh.
+#[derive(Debug)]
+pub(super) struct Directions {
+    lines: DirectionField,
+    arrows: FlowField,
+    /// Curvature at each vertex.
+    bends: Vec<Mat3>,
+}
+
+impl Directions {
+    /// Strokes along `lines` of a mesh.
+    pub(super) fn new(mesh: &Mesh, lines: DirectionField) -> Self {
+        let arrows = lines.oriented(FADE_RINGS);
+        let curvatures = mesh.curvatures(NORMAL_ROUNDS);
+        let along = |direction: [f32; 3], curvature: f32| {
+            let direction = Vec3::from(direction);
+            Mat3::from_cols_array_2d(&[0, 1, 2].map(|i| (direction * direction[i]).to_array()))
+                * curvature
+        };
+        let bend = |own: &Curvature| {
+            along(own.along_least, own.least) + along(own.along_greatest, own.greatest)
+        };
+        Self { lines, arrows, bends: curvatures.iter().map(bend).collect() }
+    }
+}
+
+impl Place {
+    /// The place of a feature of `mesh`; `packed` is the same mesh with the normals that light
+    /// meets.
+    pub(super) fn of(
+        feature: &Feature,
+        mesh: &Mesh,
+        packed: &PackedMesh,
+        directions: &Directions,
+    ) -> Self {
+        let corners = mesh.triangles[feature.face as usize].corners;
+        let positions = corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
+        let weights = barycentric(positions, feature.position);
+        let [_, second, third] = weights;
+        let fragment = Fragment { triangle: feature.face, second, third, depth: 0.0 };
+        let point = SurfacePoint::new(packed, fragment);
+        let outward = point.normal(feature.position + feature.normal);
+        let normal = outward.try_normalize().unwrap_or(feature.normal);
+        let line = Vec3::from(directions.lines.within(corners, weights));
+        let arrow = Vec3::from(directions.arrows.within(corners, weights));
+        let line = if line.dot(arrow) < 0.0 { -line } else { line };
+        let along = line.reject_from_normalized(normal);
+        Self {
+            normal,
+            along: along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector()),
+            flow: arrow.length().min(1.0),
+            color: point.albedo(),
+            bend: directions.bends[corners[0] as usize] * weights[0]
+                + directions.bends[corners[1] as usize] * weights[1]
+                + directions.bends[corners[2] as usize] * weights[2],
+        }
+    }
+
+    /// Unit direction along the surface, to the right of strokes that run downwards.
+    pub(super) fn across(&self) -> Vec3 {
+        self.normal.cross(self.along)
+    }
+}
+
+/// Barycentric weights, not negative and of sum 1, of a point of a triangle.
+fn barycentric([a, b, c]: [Vec3; 3], point: Vec3) -> [f32; 3] {
+    let (second, third, to) = (b - a, c - a, point - a);
+    let normal = second.cross(third);
+    let square = normal.length_squared();
+    if square <= 0.0 {
+        return [1.0, 0.0, 0.0];
+    }
+    let weights = Vec2::new(to.cross(third).dot(normal), second.cross(to).dot(normal)) / square;
+    let [second, third] = weights.clamp(Vec2::ZERO, Vec2::ONE).to_array();
+    let third = third.min(1.0 - second);
+    [1.0 - second - third, second, third]
+}
+
+/// The colours of a mesh without light, encoded sRGB, each with its area.
+pub(super) fn colors(mesh: &Mesh, packed: &PackedMesh) -> Vec<(Vec3, f64)> {
+    let color = |(number, triangle): (usize, &graphics::mesh::Triangle)| {
+        let [a, b, c] = triangle.corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
+        let area = f64::from((b - a).cross(c - a).length()) / 2.0;
+        let third = 1.0 / 3.0;
+        let triangle = number as u32;
+        let middle = Fragment { triangle, second: third, third, depth: 0.0 };
+        (SurfacePoint::new(packed, middle).albedo(), area)
+    };
+    mesh.triangles.iter().enumerate().map(color).filter(|(_, area)| area.is_finite()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use graphics::coherence::{Features, Hierarchy};
+    use graphics::mesh::DirectionSettings;
+
+    use super::*;
+
+    #[test]
+    fn places_have_the_normals_directions_and_colours_of_the_mesh() {
+        let mut mesh = Mesh::sphere(4000);
+        let positions = mesh.positions.clone();
+        for (color, position) in mesh.colors.iter_mut().zip(&positions) {
+            *color = position.map(|value| 0.5 + 0.5 * value);
+        }
+        let field =
+            DirectionField::of_curvature(&mesh, &DirectionSettings::default(), &[]).unwrap();
+        let directions = Directions::new(&mesh, field);
+        let packed = PackedMesh::new(&mesh);
+        let features = Features::new(Arc::new(Hierarchy::new(&mesh)), 1).below(30.0);
+        assert!(features.len() > 200, "{}", features.len());
+        for feature in &features {
+            let place = Place::of(feature, &mesh, &packed, &directions);
+            let outward = feature.position.normalize();
+            assert!(place.normal.dot(outward) > 0.999, "{feature:?} {place:?}");
+            assert!(place.along.dot(place.normal).abs() < 1e-5);
+            assert!((place.across().length() - 1.0).abs() < 1e-5);
+            for direction in [place.along, place.across()] {
+                assert!((direction.dot(place.bend * direction) - 1.0).abs() < 0.05, "{place:?}");
+            }
+            let wanted = Vec3::from(mesh.materials[0].color) * (0.5 + 0.5 * feature.position);
+            assert!(place.color.distance(wanted) < 0.02, "{place:?} {wanted}");
+        }
+    }
+
+    #[test]
+    fn weights_of_a_point_give_the_point_back() {
+        let corners = [Vec3::ZERO, Vec3::new(2.0, 0.5, 0.0), Vec3::new(0.0, 1.0, 3.0)];
+        for [b, c] in [[0.2, 0.3], [0.0, 1.0], [0.5, 0.5], [0.0, 0.0]] {
+            let point = corners[0] + (corners[1] - corners[0]) * b + (corners[2] - corners[0]) * c;
+            let weights = barycentric(corners, point);
+            let back: Vec3 = (0..3).map(|i| corners[i] * weights[i]).sum();
+            assert!(back.distance(point) < 1e-5, "{weights:?}");
+            assert!(weights.iter().all(|weight| *weight >= 0.0));
+        }
+        assert_eq!(barycentric([Vec3::ONE; 3], Vec3::ONE), [1.0, 0.0, 0.0]);
+    }
+}

@@ -1,0 +1,24 @@
+//! The settings of painterly rendering, and their TOML files.
+
+mod figures;
+
+mod strokes;
+
+mod look;
+
+mod whole;
+
+mod preset;
+
+mod file;
+
+mod change;
+
+pub use file::SettingsError;
+pub use look::{
+    ColorSettings, ColorSource, ColorSpace, FlowSettings, LightSettings, LightWith,
+    SilhouetteSettings,
+};
+pub use preset::Preset;
+pub use strokes::{Offsets, OverlapSettings, StrokeDirection, StrokeSettings, Zoom};
+pub use whole::Settings;

@@ -1,0 +1,320 @@
+//! The map laid out for painting: a slice for each tone, packed, at several sizes.
+
+use artmap::map::{ArtMap, Between, Tile};
+use glam::Vec3;
+use graphics::field::Field;
+use graphics::picture::Picture;
+use rayon::prelude::*;
+
+use super::coloring::Coloring;
+
+/// Change of intensity between slices, of 255 (k of Yan and others 2008, equation 7).
+const STEP: f64 = 5.0;
+
+/// Sizes below this are not halved.
+const LEAST_SIZE: usize = 16;
+
+/// Heights further than this many standard deviations from the mean are cut.
+const DEVIATIONS: f64 = 2.0;
+
+/// Coordinates of colour, and height.
+const CHANNELS: usize = 4;
+
+/// All tones of a map.
+#[derive(Debug, Clone)]
+pub(super) struct Tones {
+    /// From dark to light.
+    slices: Vec<Slice>,
+    /// Value of a byte of 0, by channel.
+    pub(super) low: [f32; CHANNELS],
+    /// Change of value from byte to byte, by channel.
+    pub(super) step: [f32; CHANNELS],
+    /// Width and height of the largest size in texels.
+    pub(super) size: usize,
+    /// Distance of neighbouring strokes in texels of the largest size.
+    pub(super) spacing: f32,
+}
+
+/// One tone.
+#[derive(Debug, Clone)]
+struct Slice {
+    /// Mean L*.
+    tone: f32,
+    /// Each of half the size of the one before.
+    sizes: Vec<Texels>,
+}
+
+/// A tile of one tone at one size. A fifth of the memory of numbers.
+#[derive(Debug, Clone)]
+pub(super) struct Texels {
+    /// Width and height.
+    pub(super) size: usize,
+    /// Texels with a column and a row more, which repeat the first: a byte for each channel, in the
+    /// order 0, 2, 1, 3.
+    packed: Vec<u32>,
+}
+
+/// One size of one tone before it is packed.
+type Values = Vec<[f32; CHANNELS]>;
+
+impl Tones {
+    /// Lays out a map of at least one tile. Neighbouring slices differ by at most 5 of 255 levels of
+    /// intensity.
+    pub(super) fn new(map: &ArtMap, between: Between, coloring: &Coloring) -> Self {
+        let shares: Vec<(usize, f64)> = (0..map.keys.len())
+            .flat_map(|lower| {
+                let tone = |at: usize| map.keys.get(at).map(|key| key.tone);
+                let steps = match (tone(lower), tone(lower + 1)) {
+                    (Some(own), Some(next)) => ArtMap::steps(own, next, STEP),
+                    _ => 0,
+                };
+                (0..=steps).map(move |step| (lower, step as f64 / (steps + 1) as f64))
+            })
+            .collect();
+        let transitions: Vec<_> = (0..map.keys.len())
+            .into_par_iter()
+            .map(|lower| map.transition(lower, between))
+            .collect();
+        let laid = shares.into_par_iter().map(|(lower, share)| {
+            let tile = match &transitions[lower] {
+                Some(transition) if share > 0.0 => transition.at(share as f32),
+                _ => map.keys[lower].tile.clone(),
+            };
+            (tile.tone() as f32, sizes(&tile, coloring))
+        });
+        let laid: Vec<(f32, Vec<(usize, Values)>)> = laid.collect();
+        let whole = || laid.iter().flat_map(|(_, sizes)| &sizes[0].1);
+        let (mut low, mut step) = range(whole());
+        (low[3], step[3]) = usual_heights(whole().map(|value| value[3]), [low[3], step[3]]);
+        let pack = |(tone, sizes): (f32, Vec<(usize, Values)>)| Slice {
+            tone,
+            sizes: sizes.iter().map(|(size, values)| packed(*size, values, low, step)).collect(),
+        };
+        let slices = laid.into_par_iter().map(pack).collect();
+        Self { slices, low, step, size: map.size(), spacing: map.spacing as f32 }
+    }
+
+    /// Index of the slice of a tone: 0 the darkest to 1 the lightest tile, evenly in L*.
+    pub(super) fn slice(&self, tone: f32) -> usize {
+        let [first, last] = [self.slices.first(), self.slices.last()];
+        let [darkest, lightest] = [first, last].map(|slice| slice.map_or(0.0, |slice| slice.tone));
+        self.nearest(darkest + tone.clamp(0.0, 1.0) * (lightest - darkest))
+    }
+
+    /// Index of the slice whose mean L* is nearest.
+    pub(super) fn nearest(&self, wanted: f32) -> usize {
+        let above = self.slices.partition_point(|slice| slice.tone < wanted);
+        let below = above.saturating_sub(1);
+        let above = above.min(self.slices.len() - 1);
+        let off = |at: usize| (self.slices[at].tone - wanted).abs();
+        if off(below) <= off(above) { below } else { above }
+    }
+
+    /// How often the largest size is halved for this many of its texels to a pixel.
+    pub(super) fn halvings(&self, texels_per_px: f32) -> usize {
+        let sizes = self.slices[0].sizes.len();
+        let mut halvings = 0;
+        let mut left = texels_per_px;
+        while halvings + 1 < sizes && left > std::f32::consts::SQRT_2 {
+            left /= 2.0;
+            halvings += 1;
+        }
+        halvings
+    }
+
+    /// A tone at a size.
+    #[inline(always)]
+    pub(super) fn texels(&self, slice: usize, halvings: usize) -> &Texels {
+        &self.slices[slice].sizes[halvings]
+    }
+
+    /// The values of bytes.
+    #[inline(always)]
+    pub(super) fn values(&self, bytes: [f32; CHANNELS]) -> [f32; CHANNELS] {
+        std::array::from_fn(|i| self.low[i] + self.step[i] * bytes[i])
+    }
+}
+
+impl Texels {
+    /// The bytes of the four texels around a place, their weights in 256ths across and down.
+    /// Returns 256 times the interpolated bytes.
+    #[inline(always)]
+    pub(super) fn between(&self, column: usize, row: usize, across: u32, down: u32) -> [f32; 4] {
+        // Nothing of this wraps; said so, tests are as fast as programs.
+        let stride = self.size.wrapping_add(1);
+        let at = row.wrapping_mul(stride).wrapping_add(column);
+        let above = pair(&self.packed, at);
+        let below = pair(&self.packed, at.wrapping_add(stride));
+        let (right, lower) = (u64::from(across), u64::from(down));
+        let (left, upper) = (256_u64.wrapping_sub(right), 256_u64.wrapping_sub(lower));
+        // Two mixes of whole numbers in lanes of 16 bits; the first is rounded to 8 bits again.
+        let mix = |a: u64, b: u64, low: u64, high: u64| {
+            a.wrapping_mul(low).wrapping_add(b.wrapping_mul(high))
+        };
+        const LANES: u64 = 0x00ff_00ff_00ff_00ff;
+        const HALF: u64 = 0x0080_0080_0080_0080;
+        let row = |[a, b]: [u32; 2]| {
+            (mix(spread(a), spread(b), left, right).wrapping_add(HALF) >> 8) & LANES
+        };
+        let mixed = mix(row(above), row(below), upper, lower);
+        [mixed, mixed >> 16, mixed >> 32, mixed >> 48].map(|lane| f32::from(lane as u16))
+    }
+}
+
+/// Two neighbouring texels.
+#[inline(always)]
+fn pair(texels: &[u32], at: usize) -> [u32; 2] {
+    let pair = &texels[at..][..2];
+    [pair[0], pair[1]]
+}
+
+/// The four bytes of a texel in lanes of 16 bits, in the order 0, 2, 1, 3: that of the channels.
+#[inline(always)]
+fn spread(texel: u32) -> u64 {
+    const EVEN: u64 = 0x00ff_00ff;
+    let texel = u64::from(texel);
+    (texel & EVEN) | ((texel >> 8) & EVEN) << 32
+}
+
+/// The sizes of a tile: colours are averaged as light, heights as heights.
+fn sizes(tile: &Tile, coloring: &Coloring) -> Vec<(usize, Values)> {
+    let heights = tile
+        .height_mm
+        .as_ref()
+        .map_or_else(|| vec![0.0; tile.size() * tile.size()], |height| height.values().to_vec());
+    let mut laid = Vec::new();
+    let (mut color, mut heights) = (tile.color.clone(), heights);
+    loop {
+        let size = color.width();
+        let details = coloring.details(&color).into_iter().zip(&heights);
+        laid.push((size, details.map(|(detail, &height)| detail.extend(height).into()).collect()));
+        if !size.is_multiple_of(2) || size < 2 * LEAST_SIZE {
+            return laid;
+        }
+        (color, heights) = halved(&color, &heights);
+    }
+}
+
+fn halved(color: &Picture, heights: &[f32]) -> (Picture, Vec<f32>) {
+    let (size, half) = (color.width(), color.width() / 2);
+    let corners = |index: usize| {
+        let (x, y) = (2 * (index % half), 2 * (index / half));
+        [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)]
+    };
+    let mean_color = |index| {
+        let sum: Vec3 = corners(index).map(|at| Vec3::from(color[at])).iter().sum();
+        (sum / 4.0).to_array()
+    };
+    let mean_height =
+        |index| corners(index).map(|(x, y)| heights[y * size + x]).iter().sum::<f32>() / 4.0;
+    let colors = (0..half * half).map(mean_color).collect();
+    (Field::from_values(half, half, colors), (0..half * half).map(mean_height).collect())
+}
+
+/// Value of a byte of 0 and change from byte to byte, by channel.
+fn range<'a>(
+    values: impl Iterator<Item = &'a [f32; CHANNELS]>,
+) -> ([f32; CHANNELS], [f32; CHANNELS]) {
+    let start = ([f32::INFINITY; CHANNELS], [f32::NEG_INFINITY; CHANNELS]);
+    let (low, high) = values.fold(start, |(low, high), value| {
+        let low = std::array::from_fn(|i| low[i].min(value[i]));
+        (low, std::array::from_fn(|i| high[i].max(value[i])))
+    });
+    (low, std::array::from_fn(|i| (high[i] - low[i]).max(0.0) / 255.0))
+}
+
+/// Value of a byte of 0 and change from byte to byte for heights: a few lumps and pits are cut, so
+/// that bytes tell the ridges of strokes.
+fn usual_heights(heights: impl Iterator<Item = f32>, [low, step]: [f32; 2]) -> (f32, f32) {
+    let (count, sum, square) = heights.fold((0.0_f64, 0.0, 0.0), |(count, sum, square), height| {
+        let height = f64::from(height);
+        (count + 1.0, sum + height, square + height * height)
+    });
+    let mean = sum / count.max(1.0);
+    let deviation = (square / count.max(1.0) - mean * mean).max(0.0).sqrt();
+    let least = low.max((mean - DEVIATIONS * deviation) as f32);
+    let most = (low + 255.0 * step).min((mean + DEVIATIONS * deviation) as f32);
+    (least, (most - least).max(0.0) / 255.0)
+}
+
+fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNELS]) -> Texels {
+    let byte = |value: f32, channel: usize| match step[channel] {
+        0.0 => 0,
+        step => ((value - low[channel]) / step).round().clamp(0.0, 255.0) as u8,
+    };
+    let texel = |index: usize| {
+        let (x, y) = (index % (size + 1) % size, index / (size + 1) % size);
+        let value = values[y * size + x];
+        u32::from_le_bytes([0, 2, 1, 3].map(|channel| byte(value[channel], channel)))
+    };
+    Texels { size, packed: (0..(size + 1) * (size + 1)).map(texel).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::made_up::map;
+    use super::super::settings::ColorSettings;
+    use super::*;
+
+    fn tones() -> (ArtMap, Tones) {
+        let map = map(3);
+        let coloring = Coloring::new(&map, &[], &ColorSettings::default());
+        let tones = Tones::new(&map, Between::Dissolve, &coloring);
+        (map, tones)
+    }
+
+    #[test]
+    fn slices_go_evenly_from_the_darkest_to_the_lightest() {
+        let (map, tones) = tones();
+        assert_eq!((tones.slice(0.0), tones.slice(1.0)), (0, tones.slices.len() - 1));
+        let range = map.keys[2].tone - map.keys[0].tone;
+        for step in 0..=100 {
+            let share = step as f32 / 100.0;
+            let found = f64::from(tones.slices[tones.slice(share)].tone) - map.keys[0].tone;
+            assert!((found / range - f64::from(share)).abs() * range < 1.5, "{share}: {found}");
+        }
+        for pair in tones.slices.windows(2) {
+            assert!(pair[1].tone > pair[0].tone && pair[1].tone - pair[0].tone < 2.5, "{pair:?}");
+        }
+    }
+
+    #[test]
+    fn texels_are_those_of_the_tile_and_repeat() {
+        let (map, tones) = tones();
+        let texels = tones.texels(0, 0);
+        let size = map.size();
+        let coloring = Coloring::new(&map, &[], &ColorSettings::default());
+        let details = coloring.details(&map.keys[0].tile.color);
+        for (x, y) in [(0, 0), (5, 9), (size - 1, size - 1)] {
+            let found = tones.values(texels.between(x, y, 0, 0).map(|byte| byte / 256.0));
+            let wanted = details[y * size + x];
+            assert!((found[0] - wanted.x).abs() <= 0.51 * tones.step[0] + 1e-6);
+            assert!((found[1] - wanted.y).abs() <= 0.51 * tones.step[1] + 1e-6);
+            let height = map.keys[0].tile.height_mm.as_ref().unwrap()[(x, y)];
+            let most = tones.low[3] + 255.0 * tones.step[3];
+            let height = height.clamp(tones.low[3], most);
+            assert!((found[3] - height).abs() <= 0.51 * tones.step[3] + 1e-6);
+        }
+        let beyond = texels.between(size - 1, size - 1, 256, 256);
+        assert_eq!(beyond, texels.between(0, 0, 0, 0));
+        let middle = texels.between(3, 4, 128, 0);
+        let [left, right] = [3, 4].map(|column| texels.between(column, 4, 0, 0));
+        for channel in 0..4 {
+            let mean = (left[channel] + right[channel]) / 2.0;
+            assert!((middle[channel] - mean).abs() <= 128.0, "{middle:?}");
+        }
+    }
+
+    #[test]
+    fn smaller_sizes_keep_the_mean_and_suit_fewer_pixels() {
+        let (_, tones) = tones();
+        assert_eq!([0.5, 1.4, 1.5, 2.7, 2.9].map(|scale| tones.halvings(scale)), [0, 0, 1, 1, 2]);
+        let mean = |halvings: usize| {
+            let texels = tones.texels(4, halvings);
+            let size = texels.size;
+            let all = (0..size * size).map(|at| texels.between(at % size, at / size, 0, 0)[0]);
+            all.sum::<f32>() / 256.0 / (size * size) as f32
+        };
+        assert!((mean(0) - mean(2)).abs() < 6.0, "{} {}", mean(0), mean(2));
+    }
+}
