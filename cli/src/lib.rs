@@ -34,9 +34,17 @@ mod engine;
 
 mod pictures;
 
+mod plain_picture;
+
+mod setting_changes;
+
+mod subject;
+
 mod palette;
 
 mod progress;
+
+mod animation;
 
 mod verbs;
 

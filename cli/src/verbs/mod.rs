@@ -38,6 +38,8 @@ mod watercolor;
 
 mod artmap;
 
+mod painterly;
+
 mod gpu;
 
 use clap::Subcommand;
@@ -62,6 +64,7 @@ pub(crate) enum Verb {
     Relight(Box<relight::Relight>),
     Watercolor(Box<watercolor::Watercolor>),
     Artmap(artmap::Artmap),
+    Painterly(Box<painterly::Painterly>),
     Gpu(gpu::Gpu),
 }
 
@@ -82,6 +85,7 @@ impl Verb {
             Self::Relight(verb) => verb.run(console),
             Self::Watercolor(verb) => verb.run(console),
             Self::Artmap(verb) => verb.run(console),
+            Self::Painterly(verb) => verb.run(console),
             Self::Gpu(verb) => verb.run(console),
         }
     }

@@ -8,12 +8,12 @@ use render::artmap::passages::{
 };
 use serde_json::{Value, json};
 
-use super::files::{picture_bytes, picture_output, refuse_same};
 use super::source::file_name;
 use super::table::Table;
 use crate::console::Console;
 use crate::failure::Result;
 use crate::output::Output;
+use crate::plain_picture::{picture_bytes, picture_output, refuse_same};
 use crate::progress::Waiting;
 
 /// Head of a file of proposed marks, for whoever edits it.

@@ -12,12 +12,13 @@ use render::artmap::sheet::sheet;
 use render::artmap::synthesis::SynthesisSettings;
 use serde_json::{Value, json};
 
-use super::files::{FileAndSheet, picture_bytes, picture_output, refuse_same};
+use super::files::FileAndSheet;
 use super::propose::{Proposal, ProposalFiles};
 use super::source::{file_name, source};
 use super::table::{Table, sample_json, set_json, size, spacing};
 use crate::console::Console;
 use crate::failure::Result;
+use crate::plain_picture::{picture_bytes, picture_output, refuse_same};
 use crate::progress::Waiting;
 
 /// Most samples that are proposed.

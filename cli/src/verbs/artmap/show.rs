@@ -8,11 +8,11 @@ use render::artmap::sample::SampleSet;
 use render::artmap::sheet::sheet;
 use render::artmap::texel_file::TexelFileError;
 
-use super::files::{picture_bytes, picture_output};
 use super::map_table::{map_json, print_tiles, summary};
 use super::table::{pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
+use crate::plain_picture::{picture_bytes, picture_output};
 
 /// List the samples or the tiles of a file, or draw them side by side
 #[derive(Debug, Args)]

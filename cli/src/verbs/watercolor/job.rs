@@ -2,8 +2,8 @@
 
 use render::watercolor::{GlazePainter, Settings};
 
-use super::animation::Animation;
 use super::outputs::OpenOutputs;
+use crate::animation::Animation;
 
 /// Settings and outputs of one run.
 pub(super) struct Job {

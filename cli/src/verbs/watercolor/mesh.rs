@@ -7,10 +7,10 @@ use render::export::frame_of;
 use render::mesh::Mesh;
 use render::watercolor::{ModelPainter, Stage};
 
-use super::animation::FramesDigest;
 use super::job::{Job, Summary};
 use super::photograph::pigment_names;
 use super::pigments::open_painting;
+use crate::animation::FramesDigest;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 

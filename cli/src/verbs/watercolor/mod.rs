@@ -4,11 +4,7 @@ mod style;
 
 mod pigments;
 
-mod subject;
-
 mod outputs;
-
-mod animation;
 
 mod job;
 
@@ -22,15 +18,15 @@ use clap::Args;
 use render::watercolor::Preset;
 use serde_json::json;
 
+use crate::animation::{Animation, AnimationOptions};
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
-use animation::{Animation, AnimationOptions};
+use crate::subject::{Subject, SubjectOptions};
 use job::{Job, Summary};
 use outputs::OutputOptions;
 use pigments::PigmentOptions;
 use style::{StyleOptions, preset_names};
-use subject::{Subject, SubjectOptions};
 
 /// Paint a photograph or a 3D model as a watercolor
 ///

@@ -6,7 +6,8 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use render::watercolor::{Preset, Settings, SettingsError};
 
-use crate::failure::{Failure, Result};
+use crate::failure::Result;
+use crate::setting_changes::changes;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Style")]
@@ -44,15 +45,8 @@ impl StyleOptions {
             settings.toon.greys = beside(settings.toon.greys, before.toon.greys);
             inputs.push(path.clone());
         }
-        for change in &self.set {
-            let Some((key, value)) = change.split_once('=') else {
-                return Err(Failure::usage(
-                    format!("--set takes KEY=VALUE, found `{change}`"),
-                    "try --set edges.strength=2",
-                ));
-            };
-            let text = format!("{} = {}", key.trim(), as_toml(value.trim()));
-            settings = settings.changed(&format!("--set {change}"), &text)?;
+        for change in changes(&self.set, "edges.strength=2")? {
+            settings = settings.changed(&change.name, &change.toml)?;
         }
         let pictures = settings.paper.scan.iter().chain(&settings.toon.greys);
         inputs.extend(pictures.map(PathBuf::from));
@@ -64,16 +58,4 @@ impl StyleOptions {
 pub(super) fn preset_names() -> impl TypedValueParser<Value = Preset> {
     let names = PossibleValuesParser::new(Preset::ALL.map(Preset::name));
     names.try_map(|name| name.parse::<Preset>())
-}
-
-/// Converts an option's value to TOML: words need no quotes here, and `.5` is a number.
-fn as_toml(value: &str) -> String {
-    if let Ok(whole) = value.parse::<i64>() {
-        return whole.to_string();
-    }
-    if let Ok(number) = value.parse::<f64>() {
-        return format!("{number:?}").to_lowercase();
-    }
-    let bare = ["true", "false"].contains(&value) || value.starts_with(['"', '\'']);
-    if bare { value.to_owned() } else { format!("{value:?}") }
 }

@@ -21,7 +21,7 @@ const WIDTH: usize = 1000;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
-pub(super) struct SubjectOptions {
+pub(crate) struct SubjectOptions {
     /// Width of the picture in pixels [default: a photograph's own, its longer side at most 1600;
     /// of a mesh 1000]
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST..=MOST))]
@@ -39,7 +39,7 @@ pub(super) struct SubjectOptions {
 }
 
 /// Subject of a watercolor.
-pub(super) enum Subject {
+pub(crate) enum Subject {
     /// A photograph, and the width of the picture in pixels.
     Photograph(Photograph, usize),
     /// A mesh, its cameras, and the width and height of the pictures in pixels.
@@ -48,7 +48,7 @@ pub(super) enum Subject {
 
 impl SubjectOptions {
     /// Reads the subject. Returns it with the paths of the files that it was read from.
-    pub(super) fn subject(&self, path: &Path) -> Result<(Subject, Vec<PathBuf>)> {
+    pub(crate) fn subject(&self, path: &Path) -> Result<(Subject, Vec<PathBuf>)> {
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
             let Some(shape) = SampleModel::from_name(name) else {

@@ -14,7 +14,7 @@ use crate::progress::Progress;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Animation")]
-pub(super) struct AnimationOptions {
+pub(crate) struct AnimationOptions {
     /// Write the frames of a moving camera into one file: .gif, or .png (APNG, all colours)
     #[arg(long, value_name = "FILE")]
     animation: Option<PathBuf>,
@@ -34,14 +34,14 @@ enum Format {
 }
 
 /// Outputs of frames: a folder, and an animation file that was checked to be writable.
-pub(super) struct Animation {
+pub(crate) struct Animation {
     file: Option<(Output, Format)>,
     frames: PathBuf,
     rate: FrameRate,
 }
 
 /// A folder of frames that is being completed.
-pub(super) struct Recording {
+pub(crate) struct Recording {
     animation: Animation,
     sequence: Sequence,
     /// Number of frames.
@@ -52,12 +52,12 @@ pub(super) struct Recording {
 
 impl AnimationOptions {
     /// Whether frames are requested.
-    pub(super) fn any(&self) -> bool {
+    pub(crate) fn any(&self) -> bool {
         self.animation.is_some() || self.frames.is_some()
     }
 
     /// Checks that the animation can be written. Returns `None` if no frames are requested.
-    pub(super) fn open(&self, inputs: &[PathBuf]) -> Result<Option<Animation>> {
+    pub(crate) fn open(&self, inputs: &[PathBuf]) -> Result<Option<Animation>> {
         let rate = FrameRate::new(self.rate)?;
         let file = match &self.animation {
             None => None,
@@ -87,11 +87,11 @@ fn format(path: &Path) -> Result<Format> {
 
 /// SHA-256 digest of all inputs of the frames. Frames of another digest are painted again.
 #[derive(Default)]
-pub(super) struct FramesDigest(Sha256);
+pub(crate) struct FramesDigest(Sha256);
 
 impl FramesDigest {
     /// Adds an input of the frames to the digest.
-    pub(super) fn add(mut self, input: &impl std::fmt::Debug) -> Self {
+    pub(crate) fn add(mut self, input: &impl std::fmt::Debug) -> Self {
         // Writing to a digest cannot fail.
         let _ = write!(self, "{input:?}");
         self.0.update([0]);
@@ -108,12 +108,12 @@ impl std::fmt::Write for FramesDigest {
 
 impl Animation {
     /// The animation file, if one is requested.
-    pub(super) fn file(&self) -> Option<&Output> {
+    pub(crate) fn file(&self) -> Option<&Output> {
         self.file.as_ref().map(|(output, _)| output)
     }
 
     /// Opens the folder of frames. Frames of this digest are kept, all others are removed.
-    pub(super) fn begin(
+    pub(crate) fn begin(
         self,
         digest: FramesDigest,
         frames: usize,
@@ -131,7 +131,7 @@ impl Animation {
 impl Recording {
     /// Paints the missing frames with `picture`, then writes the animation. Returns how many
     /// frames existed already.
-    pub(super) fn paint(
+    pub(crate) fn paint(
         self,
         console: &Console<'_>,
         mut picture: impl FnMut(usize) -> Result<Frame>,
