@@ -3,8 +3,10 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod artmap;
+
 mod bad_files;
 mod demo;
 mod errors;
 mod matching;
+mod painterly;
 mod verbs;
