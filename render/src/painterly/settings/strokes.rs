@@ -99,7 +99,7 @@ impl Default for StrokeSettings {
             stretch: 1.6,
             along: StrokeDirection::default(),
             smoothing: 0.05,
-            tilt: 0.4,
+            tilt: 0.6,
             zoom: Zoom::default(),
             seed: 1,
         }
