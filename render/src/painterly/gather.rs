@@ -16,10 +16,6 @@ use super::tones::Tones;
 /// bits. So splats come in without a step.
 const NEGLIGIBLE: f32 = 1.0 / 256.0;
 
-/// Weight of the lowest furrow, before it is squared, by that of the highest ridge: where strokes
-/// overlap, ridges lie above furrows, so that strokes end in bristles and not along a line.
-const FURROW: f32 = 0.25;
-
 /// Factor of weights before they are raised to a power, so that those of a thin cover do not vanish
 /// among the numbers of f32.
 const SCALE: f32 = 8.0;
@@ -62,6 +58,8 @@ pub(super) struct Gather<'a> {
     pub(super) tones: &'a Tones,
     /// How often weights are squared.
     pub(super) squarings: u32,
+    /// Weight of the lowest furrow, before it is squared, by that of the highest ridge.
+    pub(super) furrow: f32,
     /// Whether splats have colours of their own.
     pub(super) colored: bool,
     pub(super) into: &'a mut Gathered,
@@ -118,7 +116,7 @@ impl pulp::WithSimd for Gather<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { square, list, splats, tones, squarings, colored, into } = self;
+        let Self { square, list, splats, tones, squarings, furrow, colored, into } = self;
         into.on.clear();
         into.before.clear();
         into.raised.clear();
@@ -146,8 +144,8 @@ impl pulp::WithSimd for Gather<'_> {
             }
         }
         raise(square, splats, squarings, into);
-        sum(square, splats, tones, colored, &mut into.on);
-        sum(square, splats, tones, colored, &mut into.before);
+        sum(square, splats, (tones, furrow), colored, &mut into.on);
+        sum(square, splats, (tones, furrow), colored, &mut into.before);
     }
 }
 
@@ -168,12 +166,19 @@ fn raise(square: &Square, splats: &[StrokeSplat], squarings: u32, into: &mut Gat
 
 /// Looks up the map and sums it.
 #[inline(always)]
-fn sum(square: &Square, splats: &[StrokeSplat], tones: &Tones, colored: bool, into: &mut Sums) {
+fn sum(
+    square: &Square,
+    splats: &[StrokeSplat],
+    (tones, furrow): (&Tones, f32),
+    colored: bool,
+    into: &mut Sums,
+) {
     let mut least = into.total;
     least.iter_mut().flatten().for_each(|value| *value *= NEGLIGIBLE);
     let Sums { bytes, color, weight: weights, parts, .. } = into;
     // Maps without relief have a height of 0 everywhere.
-    let ridges = (1.0 - FURROW) / (256.0 * 255.0);
+    let furrow = if tones.step[3] > 0.0 { furrow } else { 1.0 };
+    let ridges = (1.0 - furrow) / (256.0 * 255.0);
     for (number, part) in parts {
         let splat = &splats[*number as usize];
         let texels = tones.texels(splat.slice as usize, splat.halvings as usize);
@@ -213,7 +218,7 @@ fn sum(square: &Square, splats: &[StrokeSplat], tones: &Tones, colored: bool, in
                 let [u, v] = [place[0][column] as usize, place[1][column] as usize];
                 let [a, b] = [share[0][column] as u32, share[1][column] as u32];
                 let texel = texels.between(u, v, a, b);
-                let high = FURROW + texel[3] * ridges;
+                let high = furrow + texel[3] * ridges;
                 let own_weight = own_weight * high * high;
                 let sums = bytes[row][column].iter_mut().zip(texel);
                 sums.for_each(|(sum, value)| *sum += value * own_weight);

@@ -48,8 +48,10 @@ pub(super) fn painted(
             let (x, y) = (column * SIDE, band * SIDE);
             let square = Square::new(depth, x, y);
             let squarings = overlap.sharpness.max(1).ilog2();
+            let furrow = 1.0 - overlap.ridges;
             let into = &mut *gathered;
-            let gather = Gather { square: &square, list, splats, tones, squarings, colored, into };
+            let gather =
+                Gather { square: &square, list, splats, tones, squarings, furrow, colored, into };
             pulp::Arch::new().dispatch(gather);
             if !gathered.on.any() && !gathered.before.any() {
                 continue;

@@ -52,6 +52,18 @@ impl Directions {
     }
 }
 
+impl Directions {
+    /// A bound on the curvature in a triangle with these corners, in any direction.
+    pub(super) fn greatest_bend(&self, corners: [u32; 3]) -> f32 {
+        // The square root of the sum of squares is at least the greatest curvature.
+        let square = |corner: u32| {
+            let bend = &self.bends[corner as usize];
+            [bend.x_axis, bend.y_axis, bend.z_axis].map(Vec3::length_squared).iter().sum::<f32>()
+        };
+        corners.map(square).into_iter().fold(0.0, f32::max).sqrt()
+    }
+}
+
 impl Place {
     /// The place of a feature of `mesh`; `packed` is the same mesh with the normals that light
     /// meets.

@@ -119,6 +119,11 @@ impl Roots {
         }
     }
 
+    /// A bound on the curvature of the surface around a feature, per unit of the model.
+    pub(super) fn greatest_bend(&self, feature: &Feature) -> f32 {
+        self.directions.greatest_bend(self.mesh.triangles[feature.face as usize].corners)
+    }
+
     /// The stroke of a feature, which need not continue others.
     pub(super) fn single(&self, feature: &Feature) -> Root {
         match self.seeds.binary_search(&feature.seed) {

@@ -54,7 +54,10 @@ pub(super) fn outlines(
     let end = DENSITY / (radii[0] * radii[1]);
     let seen = features.seen(sight.projection, Density::Facing, end, radii[1]);
     let splat = |seen: &SeenFeature| {
-        let near = sight.may_see(seen) && seen.facing.abs() < MOST + UNEVEN;
+        let near = sight.may_see(seen) && {
+            let most = most(roots.greatest_bend(&seen.feature), seen, sight);
+            seen.facing.abs() < most + UNEVEN
+        };
         let root = near.then(|| roots.single(&seen.feature))?;
         outline(seen, &root, tones, sight, (radii, end))
     };
@@ -75,10 +78,8 @@ fn outline(
     // Curvature of the surface towards the eye decides how far the cosine grows behind the outline.
     let back = to_eye.reject_from_normalized(normal).try_normalize()?;
     let bend = back.dot(root.place.bend * back).abs();
-    let per_unit = projection.focal_px() / seen.distance;
     let silhouette = &sight.settings.silhouette;
-    let behind = 2.0 * BEHIND * silhouette.width_px * bend / per_unit;
-    let most = behind.sqrt().min(MOST);
+    let most = most(bend, seen, sight);
     let present = 1.0 - smooth(0.4 * end, end, seen.rank);
     let share = present * (1.0 - smooth(0.5 * most, most, cosine));
     if share <= 0.0 {
@@ -97,6 +98,13 @@ fn outline(
         color: root.color * (1.0 - silhouette.darkness),
     };
     brushed.splat(seen, root, tones, sight)
+}
+
+/// The cosine at which a line ends on a surface of this curvature towards the eye.
+fn most(bend: f32, seen: &SeenFeature, sight: &Sight<'_>) -> f32 {
+    let per_unit = sight.projection.focal_px() / seen.distance;
+    let behind = 2.0 * BEHIND * sight.settings.silhouette.width_px * bend / per_unit;
+    behind.sqrt().min(MOST)
 }
 
 /// The weight that gives [`STRENGTH`] at a power of `sharpness`.

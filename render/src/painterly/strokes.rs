@@ -25,7 +25,7 @@ const COVERING: [f32; 2] = [0.0, 0.2];
 const LENGTH: [f32; 2] = [0.05, 0.35];
 
 /// Weight of strokes that run towards the eye: they show where there are no others.
-const FORESHORTENED: f32 = 0.03;
+const FORESHORTENED: f32 = 0.01;
 
 /// Ratio of distances within which places are about as far as the middle of the model.
 const CALM: f32 = 1.25;

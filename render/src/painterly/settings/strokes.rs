@@ -70,6 +70,10 @@ pub struct OverlapSettings {
     /// Power of the weights: 1, 2, 4, 8 or 16. At 1 strokes blur into each other (Yan and others
     /// 2008), at 16 each ends at an edge.
     pub sharpness: u32,
+    /// How far ridges of strokes lie above furrows where strokes overlap, so that strokes end in
+    /// bristles, 0..=0.95: the weight of the lowest furrow is 1 less this, squared. Maps without relief
+    /// have no ridges.
+    pub ridges: f32,
     /// Share of the splats that are about to appear or vanish as the model moves, 0.05..=1.
     pub fade: f32,
     /// Where in the map a splat begins.
@@ -95,7 +99,7 @@ impl Default for StrokeSettings {
             stretch: 1.6,
             along: StrokeDirection::default(),
             smoothing: 0.05,
-            tilt: 0.4,
+            tilt: 0.6,
             zoom: Zoom::default(),
             seed: 1,
         }
@@ -104,7 +108,14 @@ impl Default for StrokeSettings {
 
 impl Default for OverlapSettings {
     fn default() -> Self {
-        Self { splats: 8.0, sharpness: 4, fade: 1.0, offsets: Offsets::default(), overhang: 0.5 }
+        Self {
+            splats: 8.0,
+            sharpness: 4,
+            ridges: 0.75,
+            fade: 1.0,
+            offsets: Offsets::default(),
+            overhang: 0.5,
+        }
     }
 }
 
@@ -135,6 +146,7 @@ impl OverlapSettings {
         vec![
             Figure::new("overlap.splats", self.splats, [2.0, 32.0]),
             Figure::new("overlap.sharpness", self.sharpness, [1.0, 16.0]),
+            Figure::new("overlap.ridges", self.ridges, [0.0, 0.95]),
             Figure::new("overlap.fade", self.fade, [0.05, 1.0]),
             Figure::new("overlap.overhang", self.overhang, [0.0, 1.0]),
         ]
