@@ -52,14 +52,15 @@ pub(super) fn outlines(
     }
     let radii = [RADIUS * width, RADIUS * STRETCH * width];
     let end = DENSITY / (radii[0] * radii[1]);
-    let seen = features.seen(sight.projection, Density::Facing, end, radii[1]);
-    let splat = |seen: &SeenFeature| {
-        let near = sight.may_see(seen) && {
+    let near = |seen: &SeenFeature| {
+        seen.facing.abs() < MOST + UNEVEN && sight.may_see(seen) && {
             let most = most(roots.greatest_bend(&seen.feature), seen, sight);
             seen.facing.abs() < most + UNEVEN
-        };
-        let root = near.then(|| roots.single(&seen.feature))?;
-        outline(seen, &root, tones, sight, (radii, end))
+        }
+    };
+    let seen = features.seen_where(sight.projection, Density::Facing, end, radii[1], near);
+    let splat = |seen: &SeenFeature| {
+        outline(seen, &roots.single(&seen.feature), tones, sight, (radii, end))
     };
     seen.par_iter().with_min_len(256).filter_map(splat).collect()
 }

@@ -36,11 +36,24 @@ impl Features {
         end: f32,
         margin_px: f32,
     ) -> Vec<SeenFeature> {
+        self.seen_where(projection, density, end, margin_px, |_| true)
+    }
+
+    /// Those of [`Features::seen`] for which `keep` is true, in the same order.
+    #[must_use]
+    pub fn seen_where(
+        &self,
+        projection: &Projection,
+        density: Density,
+        end: f32,
+        margin_px: f32,
+        keep: impl Fn(&SeenFeature) -> bool + Sync,
+    ) -> Vec<SeenFeature> {
         let in_sight = InSight::new(projection, density, end, margin_px);
         self.selected(&in_sight, |feature, seen| {
             seen.extend(see(projection, density, feature).filter(|seen| {
                 // False for features seen edge-on, whose rank is NaN or infinite.
-                seen.rank < end && seen.depth <= 1.0
+                seen.rank < end && seen.depth <= 1.0 && keep(seen)
             }));
         })
     }
