@@ -22,6 +22,8 @@ mod grid_option;
 
 mod ground;
 
+mod canvas;
+
 mod targets;
 
 mod costs;

@@ -12,7 +12,7 @@ use crate::output::Output;
 use crate::pictures::gamut_remark;
 
 /// Width of a pixel of a picture to look at, in mm: 96 to the inch.
-const PX_MM: f64 = 25.4 / 96.0;
+pub(crate) const PX_MM: f64 = 25.4 / 96.0;
 
 /// Opens the output of a picture to look at.
 pub(crate) fn picture_output(path: Option<&Path>, inputs: &[PathBuf]) -> Result<Option<Output>> {

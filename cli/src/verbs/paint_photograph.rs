@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use calibrate::library::PigmentLibrary;
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use render::export::save_files;
 use render::paint::ground::GroundKind;
 use render::photograph::{
@@ -14,6 +13,7 @@ use render::photograph::{
 use serde_json::json;
 use spectra::hint::Explain;
 
+use crate::canvas::grounds;
 use crate::console::Console;
 use crate::engine::EngineOptions;
 use crate::failure::{Failure, Result, with_options};
@@ -139,12 +139,6 @@ impl PhotographOptions {
             hides: !self.thin,
         }
     }
-}
-
-/// Names of the grounds to paint on.
-fn grounds() -> impl TypedValueParser<Value = GroundKind> {
-    let names = PossibleValuesParser::new(GroundKind::CANVASES.map(GroundKind::name));
-    names.try_map(|name| name.parse::<GroundKind>())
 }
 
 /// Converts an error of the painter, naming the option if a setting is out of range.

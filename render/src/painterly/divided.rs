@@ -36,7 +36,25 @@ impl Divide<'_> {
         covered: bool,
         (row, column): (usize, usize),
     ) -> ([f32; 4], f32) {
+        let [over, rest] = self.shares(gathered, covered, (row, column));
         let on = self.surface(&gathered.on, row, column);
+        if over <= 0.0 {
+            return ([on.x, on.y, on.z, rest], on.w * rest);
+        }
+        let before = self.surface(&gathered.before, row, column);
+        let cover = over + rest;
+        let mixed = (before * over + on * rest) / cover;
+        ([mixed.x, mixed.y, mixed.z, cover], before.w * over + on.w * rest)
+    }
+
+    /// Shares of a pixel that show strokes before the mesh, and strokes on it.
+    #[inline(always)]
+    pub(super) fn shares(
+        &self,
+        gathered: &Gathered,
+        covered: bool,
+        (row, column): (usize, usize),
+    ) -> [f32; 2] {
         let cover = |sums: &Sums| match sums.weight[row][column] > LOST {
             true => sums.cover[row][column],
             false => 0.0,
@@ -53,14 +71,7 @@ impl Divide<'_> {
         };
         let bare = if covered && out > 0.0 { (1.0 - over) * (1.0 - under) } else { 0.0 };
         let over = over + bare;
-        if over <= 0.0 {
-            return ([on.x, on.y, on.z, under], on.w * under);
-        }
-        let before = self.surface(&gathered.before, row, column);
-        let rest = (1.0 - over) * under;
-        let cover = over + rest;
-        let mixed = (before * over + on * rest) / cover;
-        ([mixed.x, mixed.y, mixed.z, cover], before.w * over + on.w * rest)
+        if over <= 0.0 { [0.0, under] } else { [over, (1.0 - over) * under] }
     }
 
     /// How high the brushwork stands, 0 to 1 of the map's heights; its lightness in maps without.

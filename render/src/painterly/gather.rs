@@ -35,9 +35,9 @@ pub(super) struct Sums {
     /// Sum of the splats' parts in the cover.
     pub(super) cover: Values,
     /// Weights of all splats.
-    total: Values,
+    pub(super) total: Values,
     /// The splats with their weights, in the order of the list.
-    parts: Vec<(u32, Values)>,
+    pub(super) parts: Vec<(u32, Values)>,
 }
 
 /// Strokes on the mesh, and those that reach out before it.
@@ -173,9 +173,45 @@ fn sum(
     colored: bool,
     into: &mut Sums,
 ) {
-    let mut least = into.total;
+    let Sums { bytes, color, weight: weights, total, parts, .. } = into;
+    shown(square, splats, (tones, furrow), (parts, total), |part| {
+        let Part { splat, pixel: [row, column], texel, weight, .. } = part;
+        let sums = bytes[row][column].iter_mut().zip(texel);
+        sums.for_each(|(sum, value)| *sum += value * weight);
+        if colored {
+            let sums = color[row][column].iter_mut().zip(splat.color);
+            sums.for_each(|(sum, value)| *sum += value * weight);
+        }
+        weights[row][column] += weight;
+    });
+}
+
+/// What a splat shows at a pixel of a square.
+pub(super) struct Part<'a> {
+    pub(super) splat: &'a StrokeSplat,
+    /// Row and column of the pixel.
+    pub(super) pixel: [usize; 2],
+    /// Column and row of the texel to the upper left.
+    pub(super) place: [usize; 2],
+    /// Weights of the next texels, to the right and below, in 256ths.
+    pub(super) share: [u32; 2],
+    /// Bytes of the map, times 256.
+    pub(super) texel: [f32; 4],
+    pub(super) weight: f32,
+}
+
+/// Calls `with` for all splats of a surface, in their order, and the pixels where their weights
+/// matter.
+#[inline(always)]
+pub(super) fn shown<'a>(
+    square: &Square,
+    splats: &'a [StrokeSplat],
+    (tones, furrow): (&Tones, f32),
+    (parts, total): (&[(u32, Values)], &Values),
+    mut with: impl FnMut(Part<'a>),
+) {
+    let mut least = *total;
     least.iter_mut().flatten().for_each(|value| *value *= NEGLIGIBLE);
-    let Sums { bytes, color, weight: weights, parts, .. } = into;
     // Maps without relief have a height of 0 everywhere.
     let furrow = if tones.step[3] > 0.0 { furrow } else { 1.0 };
     let ridges = (1.0 - furrow) / (256.0 * 255.0);
@@ -220,13 +256,8 @@ fn sum(
                 let texel = texels.between(u, v, a, b);
                 let high = furrow + texel[3] * ridges;
                 let own_weight = own_weight * high * high;
-                let sums = bytes[row][column].iter_mut().zip(texel);
-                sums.for_each(|(sum, value)| *sum += value * own_weight);
-                if colored {
-                    let sums = color[row][column].iter_mut().zip(splat.color);
-                    sums.for_each(|(sum, value)| *sum += value * own_weight);
-                }
-                weights[row][column] += own_weight;
+                let (pixel, place, share) = ([row, column], [u, v], [a, b]);
+                with(Part { splat, pixel, place, share, texel, weight: own_weight });
             }
         }
     }

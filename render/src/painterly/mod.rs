@@ -16,6 +16,8 @@
 
 mod settings;
 
+mod error;
+
 mod splat;
 
 mod flow;
@@ -26,6 +28,8 @@ mod made_up;
 mod coloring;
 
 mod tones;
+
+mod paint_tones;
 
 mod places;
 
@@ -49,11 +53,14 @@ mod gather;
 
 mod divided;
 
+mod amounts;
+
 mod passes;
 
 mod model_painter;
 
-pub use model_painter::{ModelPainter, ModelPainterError};
+pub use error::ModelPainterError;
+pub use model_painter::ModelPainter;
 pub use passes::PaintedModel;
 pub use settings::{
     ColorSettings, ColorSource, ColorSpace, FlowSettings, LightSettings, LightWith, Offsets,

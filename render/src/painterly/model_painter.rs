@@ -3,24 +3,31 @@
 use std::sync::Arc;
 
 use artmap::map::ArtMap;
+use artmap::sample::PaintOfSamples;
 use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{Features, Hierarchy, Projection, depth_field};
 use graphics::compute::Compute;
 use graphics::distant_light::DistantLight;
 use graphics::field::Field;
-use graphics::gpu::DeviceError;
-use graphics::mesh::{DirectionFault, DirectionField, DirectionSettings, Mesh, MeshFault};
+use graphics::mesh::{DirectionField, DirectionSettings, Mesh};
 use graphics::surface::{Model, PackedMesh};
-use spectra::hint::{Explain, Fault, Hint};
+use paint::amount::quanta_from_mm;
+use paint::document::{Document, DryLayer, Lighting, Medium};
+use paint::ground::GroundSpec;
+use paint::layer::{Cell, Layer, SLOTS};
 
+use super::amounts::amounts;
 use super::coloring::Coloring;
+use super::divided::Divide;
+use super::error::ModelPainterError;
 use super::flow::phase;
 use super::offsets::Matching;
+use super::paint_tones::PaintTones;
 use super::passes::{PaintedModel, painted};
 use super::places::{Directions, NORMAL_ROUNDS, colors};
 use super::roots::Roots;
-use super::settings::{ColorSource, LightWith, Offsets, Settings, SettingsError};
+use super::settings::{ColorSource, LightWith, Offsets, Settings};
 use super::silhouette::outlines;
 use super::splat::StrokeSplat;
 use super::strokes::{Sight, ranks, splats};
@@ -62,6 +69,10 @@ pub struct ModelPainter {
     roots: Roots,
     tones: Tones,
     settings: Settings,
+    /// The paint of the map, if it has any.
+    paint: Option<PaintTones>,
+    /// Width of a texel of the map in mm, where it is known.
+    mm_per_texel: Option<f64>,
     /// Radius of a sphere around the middle of the mesh that holds it.
     radius: f32,
     matched: f64,
@@ -102,7 +113,21 @@ impl ModelPainter {
         let first = tones.nearest(map.keys[map.first.min(map.keys.len() - 1)].tone as f32);
         let (roots, matched) = kept(roots, &features, (&tones, first), settings, radius);
         let settings = settings.clone();
-        Ok(Self { model, closed, bounds, features, roots, tones, settings, radius, matched })
+        let paint = PaintTones::new(map, settings.light.between);
+        let mm_per_texel = map.mm_per_texel;
+        Ok(Self {
+            model,
+            closed,
+            bounds,
+            features,
+            roots,
+            tones,
+            settings,
+            paint,
+            mm_per_texel,
+            radius,
+            matched,
+        })
     }
 
     /// Paints the mesh as `camera` sees it, in `width` x `height` pixels, at a time in seconds. The
@@ -121,6 +146,51 @@ impl ModelPainter {
         let coloring = self.roots.coloring();
         let colored = self.settings.color.from == ColorSource::Model;
         Ok(painted(&depth, &splats, &self.tones, coloring, colored, &self.settings.overlap))
+    }
+
+    /// Paints the mesh as [`Self::paint`] does, with the pigments of the map: a painting of one dry
+    /// layer, a cell for each pixel. Amounts are the weighted means of the amounts that strokes
+    /// show, so strokes that overlap do not pile up. The cells are as wide as the map's strokes
+    /// demand: `strokes.width_px` of them to the distance of its strokes in mm.
+    ///
+    /// # Errors
+    /// As [`Self::paint`]; [`ModelPainterError::NoPaint`] for a map without pigments,
+    /// [`ModelPainterError::ModelColors`] if colours are the model's,
+    /// [`ModelPainterError::Ground`] for a ground that cannot be made.
+    pub fn painting(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+        seconds: f64,
+        (title, ground): (&str, &GroundSpec),
+    ) -> Result<Document, ModelPainterError> {
+        if self.settings.color.from == ColorSource::Model {
+            return Err(ModelPainterError::ModelColors);
+        }
+        let (depth, splats) = self.splats(camera, size, seconds)?;
+        let (Some(paint), Some(mm_per_texel)) = (&self.paint, self.mm_per_texel) else {
+            return Err(ModelPainterError::NoPaint);
+        };
+        let overlap = &self.settings.overlap;
+        let coloring = self.roots.coloring();
+        let divide = Divide { tones: &self.tones, coloring, overhang: overlap.overhang };
+        let amounts = amounts(&depth, &splats, &divide, paint, overlap);
+        let width_px = self.settings.for_size(size.0, size.1).strokes.width_px;
+        let cell_mm = f64::from(self.tones.spacing) * mm_per_texel / f64::from(width_px);
+        let PaintOfSamples { library, slots } = &paint.of;
+        let ground = ground.build(size.0, size.1, cell_mm, library)?;
+        let mut layer = Layer::empty(size.0, size.1);
+        for (index, amounts) in amounts.values().iter().enumerate() {
+            let quanta = amounts.map(|mm| quanta_from_mm(f64::from(mm), cell_mm));
+            let pigments = std::array::from_fn(|slot| quanta[slot]);
+            layer.set_cell(index, Cell { pigments, vehicle: quanta[SLOTS] });
+        }
+        let medium = Medium::of(library);
+        let library = library.as_ref().clone();
+        let lighting = Lighting::default();
+        let bare = Document::bare(title, cell_mm, ground, library, medium, *slots, lighting);
+        let dry = vec![DryLayer { slots: *slots, opacity: 1.0, paint: layer }];
+        Ok(Document { dry, ..bare })
     }
 
     /// The depth of the mesh at each pixel (0 near to 1, nothing), and the strokes of a picture.
@@ -237,88 +307,8 @@ fn radius(mesh: &Mesh) -> f32 {
     squares.fold(0.0, f32::max).sqrt().max(f32::MIN_POSITIVE)
 }
 
-/// A mesh cannot be painted.
-#[derive(Debug, thiserror::Error)]
-pub enum ModelPainterError {
-    /// A setting is out of its range.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
-    /// The mesh cannot be drawn.
-    #[error(transparent)]
-    Mesh(#[from] MeshFault),
-    /// Directions cannot be found.
-    #[error(transparent)]
-    Directions(#[from] DirectionFault),
-    /// The mesh cannot be held in memory.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
-    /// No triangle of the mesh has an area.
-    #[error("no triangle of the mesh has an area")]
-    NoArea,
-    /// The map has no tile.
-    #[error("the art map has no tile")]
-    NoTile,
-    /// The picture has no pixel, or too many.
-    #[error("a picture of {width} x {height} pixels cannot be painted")]
-    Size {
-        /// Its width.
-        width: usize,
-        /// Its height.
-        height: usize,
-    },
-    /// The time is no number.
-    #[error("the time is `{seconds}` seconds")]
-    Time {
-        /// The time asked for.
-        seconds: f64,
-    },
-    /// The camera looks nowhere.
-    #[error("the camera at {eye} looks at {target}, with {up} upwards")]
-    Camera {
-        /// Its eye.
-        eye: Vec3,
-        /// Where it looks.
-        target: Vec3,
-        /// Its upwards direction.
-        up: Vec3,
-    },
-}
-
-impl ModelPainterError {
-    fn cause(&self) -> Option<&dyn Explain> {
-        Some(match self {
-            Self::Settings(error) => error,
-            Self::Mesh(error) => error,
-            Self::Directions(error) => error,
-            Self::Device(error) => error,
-            _ => return None,
-        })
-    }
-}
-
-impl Explain for ModelPainterError {
-    fn hint(&self) -> Option<Hint> {
-        let text = match self {
-            Self::NoArea => "the model is a line or a point: export it again",
-            Self::NoTile => "build the map again from at least one sample",
-            Self::Size { .. } => "pictures have 1 to 268435456 pixels",
-            Self::Time { .. } => "times are seconds from the start, for example 0.5",
-            Self::Camera { .. } => {
-                "place the eye away from its target, and let upwards point elsewhere than there"
-            }
-            _ => return self.cause()?.hint(),
-        };
-        Some(Hint::new(text))
-    }
-
-    fn fault(&self) -> Fault {
-        match (self.cause(), self) {
-            (Some(cause), _) => cause.fault(),
-            (None, Self::NoArea | Self::NoTile) => Fault::Input,
-            _ => Fault::Setting,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod painting_tests;

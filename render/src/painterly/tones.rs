@@ -12,7 +12,7 @@ use super::coloring::Coloring;
 const STEP: f64 = 5.0;
 
 /// Sizes below this are not halved.
-const LEAST_SIZE: usize = 16;
+pub(super) const LEAST_SIZE: usize = 16;
 
 /// Heights further than this many standard deviations from the mean are cut.
 const DEVIATIONS: f64 = 2.0;
@@ -58,30 +58,10 @@ pub(super) struct Texels {
 type Values = Vec<[f32; CHANNELS]>;
 
 impl Tones {
-    /// Lays out a map of at least one tile. Neighbouring slices differ by at most 5 of 255 levels of
-    /// intensity.
+    /// Lays out the tones of a map of at least one tile.
     pub(super) fn new(map: &ArtMap, between: Between, coloring: &Coloring) -> Self {
-        let shares: Vec<(usize, f64)> = (0..map.keys.len())
-            .flat_map(|lower| {
-                let tone = |at: usize| map.keys.get(at).map(|key| key.tone);
-                let steps = match (tone(lower), tone(lower + 1)) {
-                    (Some(own), Some(next)) => ArtMap::steps(own, next, STEP),
-                    _ => 0,
-                };
-                (0..=steps).map(move |step| (lower, step as f64 / (steps + 1) as f64))
-            })
-            .collect();
-        let transitions: Vec<_> = (0..map.keys.len())
-            .into_par_iter()
-            .map(|lower| map.transition(lower, between))
-            .collect();
-        let laid = shares.into_par_iter().map(|(lower, share)| {
-            let tile = match &transitions[lower] {
-                Some(transition) if share > 0.0 => transition.at(share as f32),
-                _ => map.keys[lower].tile.clone(),
-            };
-            (tile.tone() as f32, sizes(&tile, coloring))
-        });
+        let tiles = tone_tiles(map, between);
+        let laid = tiles.par_iter().map(|tile| (tile.tone() as f32, sizes(tile, coloring)));
         let laid: Vec<(f32, Vec<(usize, Values)>)> = laid.collect();
         let whole = || laid.iter().flat_map(|(_, sizes)| &sizes[0].1);
         let (mut low, mut step) = range(whole());
@@ -133,6 +113,28 @@ impl Tones {
     pub(super) fn values(&self, bytes: [f32; CHANNELS]) -> [f32; CHANNELS] {
         std::array::from_fn(|i| self.low[i] + self.step[i] * bytes[i])
     }
+}
+
+/// The tiles of all tones from dark to light, of a map of at least one tile. Neighbours differ by at
+/// most 5 of 255 levels of intensity.
+pub(super) fn tone_tiles(map: &ArtMap, between: Between) -> Vec<Tile> {
+    let shares: Vec<(usize, f64)> = (0..map.keys.len())
+        .flat_map(|lower| {
+            let tone = |at: usize| map.keys.get(at).map(|key| key.tone);
+            let steps = match (tone(lower), tone(lower + 1)) {
+                (Some(own), Some(next)) => ArtMap::steps(own, next, STEP),
+                _ => 0,
+            };
+            (0..=steps).map(move |step| (lower, step as f64 / (steps + 1) as f64))
+        })
+        .collect();
+    let transitions: Vec<_> =
+        (0..map.keys.len()).into_par_iter().map(|lower| map.transition(lower, between)).collect();
+    let tile = |(lower, share): (usize, f64)| match &transitions[lower] {
+        Some(transition) if share > 0.0 => transition.at(share as f32),
+        _ => map.keys[lower].tile.clone(),
+    };
+    shares.into_par_iter().map(tile).collect()
 }
 
 impl Texels {

@@ -70,6 +70,32 @@ fn a_sphere_is_painted_in_the_tones_of_the_light_on_white() {
 }
 
 #[test]
+fn a_painting_with_the_pigments_of_the_map_is_relit_like_any_other() {
+    let folder = folder();
+    let [map, painting] = ["m.exr", "painting.exr"].map(|name| path(&folder, name));
+    let [lit, raking] = ["lit.png", "raking.png"].map(|name| path(&folder, name));
+    let maps = path(&folder, "maps");
+    let model = ["shape:sphere", "--width", "120", "--map", &map];
+    let exports = ["--output", &painting, "--picture", &lit, "--pigment-maps", &maps];
+    done(&[&model[..], &exports].concat());
+    let relit =
+        ["relight", &painting, "--azimuth", "90", "--elevation", "12", "--picture", &raking];
+    let run = impasto(&relit);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let pixels = |name: &str| image::open(name).unwrap().to_rgb8();
+    let (lit, raking) = (pixels(&lit), pixels(&raking));
+    assert_eq!(lit.dimensions(), (120, 90));
+    // The light from the right changes the strokes, not only their brightness.
+    let ratio = |x: u32| f64::from(raking[(x, 45)].0[1]) / f64::from(lit[(x, 45)].0[1]);
+    let ratios: Vec<f64> = (45..75).map(ratio).collect();
+    let range = ratios.iter().fold([f64::MAX, 0.0_f64], |[a, b], &r| [a.min(r), b.max(r)]);
+    assert!(range[1] > 1.1 * range[0], "{range:?}");
+    assert!(std::fs::read_dir(&maps).unwrap().count() >= 3, "a map of each pigment");
+    let refused = painterly(&[&model[..], &exports, &["--set", "colour.from=model"]].concat());
+    assert!(refused.status == 2 && refused.err.contains("its own colours only"), "{}", refused.err);
+}
+
+#[test]
 fn strokes_flow_in_a_loop_and_around_a_turntable() {
     let folder = folder();
     let [map, looped, turning] = ["m.exr", "l.png", "t.gif"].map(|name| path(&folder, name));

@@ -11,17 +11,21 @@ use render::artmap::map::ArtMap;
 use render::camera::Camera;
 use render::encoding::{linear_from_encoded, over_white};
 use render::export::frame_of;
-use render::field::Field;
+use render::light::Light;
 use render::mesh::Mesh;
-use render::painterly::{ModelPainter, PaintedModel, Preset, Settings};
-use render::picture::Picture;
+use render::paint::engine::PaintEngine;
+use render::paint::ground::{GroundKind, GroundSpec};
+use render::paint::painting::Painting;
+use render::painterly::{ModelPainter, Preset, Settings};
 use serde_json::json;
+use spectra::Viewing;
 
 use crate::animation::{Animation, AnimationOptions, FramesDigest};
+use crate::canvas::grounds;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::output::Output;
-use crate::plain_picture::{picture_bytes, picture_output};
+use crate::pictures::{Exports, OpenExports};
+use crate::plain_picture::PX_MM;
 use crate::subject::{Subject, SubjectOptions};
 use brushwork::BrushworkOptions;
 use settings::{SettingsOptions, preset_names};
@@ -40,9 +44,15 @@ pub(crate) struct Painterly {
     /// Print the settings of a preset, each with its meaning, and do nothing else
     #[arg(long, value_name = "NAME", conflicts_with = "subject", value_parser = preset_names())]
     show_preset: Option<Preset>,
-    /// Write the picture from the first camera on white: .png (sRGB) or .exr (linear sRGB)
-    #[arg(long, value_name = "FILE")]
-    picture: Option<PathBuf>,
+    /// Paint the first picture with the pigments of the map, and show it as a painting, with relief
+    /// and gloss; exports other than --picture imply it
+    #[arg(long, help_heading = "Exports")]
+    with_pigments: bool,
+    /// Ground of a painting with pigments: linen, paper or panel
+    #[arg(long, value_name = "KIND", default_value = "panel", value_parser = grounds(), help_heading = "Exports")]
+    ground: GroundKind,
+    #[command(flatten)]
+    exports: Exports,
     /// Let strokes flow in a loop of this number of frames, seen from a camera that stands still
     /// (for --animation)
     #[arg(long = "loop", value_name = "FRAMES", value_parser = value_parser!(u64).range(1..=100_000),
@@ -66,7 +76,7 @@ impl Painterly {
         if let Some(preset) = self.show_preset {
             return console.line(preset.text().trim_end());
         }
-        if self.picture.is_none() && !self.animation.any() {
+        if !self.exports.any() && !self.animation.any() {
             return Err(Failure::usage(
                 "nothing would be written",
                 "add --picture painted.png, or --turntable 60 --animation turning.gif",
@@ -83,12 +93,12 @@ impl Painterly {
         };
         let cameras = self.frames(cameras, &settings)?;
         inputs.extend(self.brushwork.inputs().chain(self.settings.input().cloned()));
-        let picture = picture_output(self.picture.as_deref(), &inputs)?;
+        let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let painting = self.painting(&title.unwrap_or_default());
         let animation = self.animation.open(&inputs)?;
+        let exports = self.exports.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
-        if let (Some(picture), Some(file)) = (&picture, file)
-            && picture.is_same_as(file)
-        {
+        if let Some(file) = file.filter(|file| exports.writes(file)) {
             return Err(Failure::usage(
                 format!(
                     "{}: the picture and the animation have this file name",
@@ -98,9 +108,15 @@ impl Painterly {
             ));
         }
         let map = self.brushwork.map(console)?;
-        let job = Job { settings, cameras, size, picture, animation };
+        let job = Job { settings, cameras, size, painting, exports, animation };
         let summary = job.paint(&mesh, &map, console)?;
         summary.print(self.json, console)
+    }
+
+    /// Title and ground of a painting, if the picture is one.
+    fn painting(&self, title: &str) -> Option<(String, GroundSpec)> {
+        let wanted = self.with_pigments || self.exports.layer_option().is_some();
+        wanted.then(|| (title.to_owned(), self.ground.spec(1)))
     }
 
     /// The cameras of all frames.
@@ -138,13 +154,15 @@ struct Job {
     settings: Settings,
     cameras: Vec<Camera>,
     size: (usize, usize),
-    picture: Option<Output>,
+    /// Title and ground of a painting with pigments, if it is one.
+    painting: Option<(String, GroundSpec)>,
+    exports: OpenExports,
     animation: Option<Animation>,
 }
 
 impl Job {
     fn paint(self, mesh: &Mesh, map: &ArtMap, console: &mut Console<'_>) -> Result<Summary> {
-        let Self { settings, cameras, size, picture, animation } = self;
+        let Self { settings, cameras, size, painting, exports, animation } = self;
         let mut painter = ModelPainter::new(mesh, map, &settings)?;
         let recording = match animation {
             None => None,
@@ -159,10 +177,19 @@ impl Job {
             }
         };
         let strokes = painter.splats(&cameras[0], size, 0.0)?.1.len();
-        if let Some(output) = picture {
-            let painted = painter.paint(&cameras[0], size, 0.0)?;
-            let bytes = picture_bytes(&on_white(&painted), &output, console)?;
-            output.write(bytes)?;
+        match painting {
+            _ if !exports.any() => {}
+            Some((title, ground)) => {
+                let document = painter.painting(&cameras[0], size, 0.0, (&title, &ground))?;
+                let engine = PaintEngine::on_cpu(document.ground.height.clone());
+                let light = Light::new(&document.library, &Viewing::default())?;
+                exports.write(&mut Painting::open_under(document, light, engine, 0)?, console)?;
+            }
+            None => {
+                let painted = painter.paint(&cameras[0], size, 0.0)?;
+                let linear = linear_from_encoded(&over_white(&painted.color));
+                exports.write_picture(&linear, PX_MM, console)?;
+            }
         }
         let mut frames = None;
         if let Some(recording) = recording {
@@ -177,13 +204,6 @@ impl Job {
         }
         Ok(Summary { size, strokes, matched: painter.matched(), frames })
     }
-}
-
-/// The picture in linear sRGB, on white.
-fn on_white(painted: &PaintedModel) -> Picture {
-    let linear = linear_from_encoded(&over_white(&painted.color));
-    let pixels = linear.values().iter().map(|&[r, g, b, _]| [r, g, b]).collect();
-    Field::from_values(linear.width(), linear.height(), pixels)
 }
 
 /// Summary of a finished run.
