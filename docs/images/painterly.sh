@@ -20,7 +20,11 @@ map lines hatching "#7d6f5c"
     --picture "$scratch/1.png"
 "$impasto" painterly shape:village --map "$scratch/dabs.exr" --camera 40,16 --set colour.from=model \
     --set strokes.width_px=8 --picture "$scratch/2.png"
-"$impasto" painterly shape:still-life --map "$scratch/oil.exr" --camera 25,12 --picture "$scratch/3.png"
+# The pigments and the relief of the map, in raking light.
+"$impasto" painterly shape:still-life --map "$scratch/oil.exr" --camera 25,12 \
+    --output "$scratch/still-life.exr"
+"$impasto" relight "$scratch/still-life.exr" --backend cpu --azimuth 90 --elevation 15 \
+    --picture "$scratch/3.png"
 "$impasto" painterly shape:torus-knot --map "$scratch/lines.exr" --preset hatching \
     --picture "$scratch/4.png"
 
