@@ -1,4 +1,3 @@
-use artmap::map::Between;
 use artmap::measures::{Texture, co_occurrence_error, contrast, stroke_length};
 use glam::Vec2;
 use graphics::camera::Framing;
@@ -306,8 +305,6 @@ fn strokes_change_no_more_than_the_light_that_turns() {
     let range = map.keys[2].tone - map.keys[0].tone;
     let lit = |azimuth_deg: f32| {
         let mut settings = lit_with_the_model();
-        // Strokes that dissolve change one by one, and more at a time.
-        settings.light.between = Between::Blend;
         settings.light.azimuth_deg = azimuth_deg;
         let light = DistantLight::with_camera(azimuth_deg, settings.light.elevation_deg);
         let DistantLight::WithCamera(light) = light else { unreachable!("made so") };
