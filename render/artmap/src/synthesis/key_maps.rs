@@ -21,6 +21,8 @@ const PATCHES: std::ops::RangeInclusive<usize> = 16..=64;
 const LEAST_PATCH: usize = 8;
 /// Least size of the coarsest map.
 const LEAST_SIZE: usize = 32;
+/// Least number of places for patches in a sample at a level but the finest.
+const LEAST_PLACES: usize = 64;
 /// Least number of strokes beside each other on a map.
 const LEAST_STROKES: f64 = 4.0;
 /// Largest ratio of the spacings of two samples.
@@ -55,9 +57,10 @@ pub fn key_maps(set: &SampleSet, settings: &SynthesisSettings) -> Result<KeyMaps
     let samples = &set.samples;
     let spacing = common_spacing(samples, settings.size)?;
     let patch = ((1.25 * spacing).round() as usize).clamp(*PATCHES.start(), *PATCHES.end());
-    let grids = grids(settings.size, patch, samples);
-    let pyramids: Vec<Vec<Level>> =
+    let mut grids = grids(settings.size, patch, samples);
+    let mut pyramids: Vec<Vec<Level>> =
         samples.par_iter().map(|sample| pyramid(sample, spacing, grids.len(), settings)).collect();
+    leave_out_crowded(&mut grids, &mut pyramids);
     for (sample, pyramid) in samples.iter().zip(&pyramids) {
         check_sample(sample, pyramid, &grids)?;
     }
@@ -153,6 +156,18 @@ fn grids(size: usize, patch: usize, samples: &[Sample]) -> Vec<PatchGrid> {
     }
     grids.reverse();
     grids
+}
+
+/// Leaves out coarse levels at which some sample has too few places for patches, as a passage of
+/// irregular outline may have. The finest level stays.
+fn leave_out_crowded(grids: &mut Vec<PatchGrid>, pyramids: &mut [Vec<Level>]) {
+    let roomy = |index: &usize| {
+        let patch = grids[*index].patch;
+        pyramids.iter().all(|pyramid| pyramid[*index].places(patch).len() >= LEAST_PLACES)
+    };
+    let first = (0..grids.len() - 1).find(roomy).unwrap_or(grids.len() - 1);
+    grids.drain(..first);
+    pyramids.iter_mut().for_each(|pyramid| drop(pyramid.drain(..first)));
 }
 
 /// Levels of a sample, coarsest first.

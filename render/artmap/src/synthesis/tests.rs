@@ -188,6 +188,23 @@ fn masked_texels_are_never_shown() {
 }
 
 #[test]
+fn samples_of_narrow_outline_are_made_with_fewer_levels() {
+    let whole = key_maps(&tones([1, 2, 3]), &small()).unwrap();
+    let mut samples = tones([1, 2, 3]);
+    let mask = &mut samples.samples[1].mask;
+    for index in 0..240 * 240 {
+        let (x, y) = (index % 240, index / 240);
+        // Bars 26 texels wide.
+        mask[(x, y)] = (x + y / 3) % 60 < 26;
+    }
+    let maps = key_maps(&samples, &small()).unwrap();
+    assert!(maps.levels < whole.levels, "{} of {}", maps.levels, whole.levels);
+    let mask = &samples.samples[1].mask;
+    let inside = |&[x, y]: &[u16; 2]| mask[(usize::from(x), usize::from(y))];
+    assert!(maps.sources[1].values().iter().all(inside));
+}
+
+#[test]
 fn samples_that_cannot_be_used_are_refused_by_name() {
     let refused = |samples: Vec<Sample>, settings: &SynthesisSettings| {
         key_maps(&set(samples), settings).unwrap_err().to_string()
