@@ -16,6 +16,8 @@ const TRIANGLES: usize = 60_000;
 const LEAST: u64 = 16;
 /// Largest width or height of a picture, in pixels.
 const MOST: u64 = 16_384;
+/// Degrees by which the camera of a picture swings to both sides.
+const SWING_DEG: f32 = 8.0;
 /// Default width of a picture of a mesh, in pixels.
 const WIDTH: usize = 1000;
 
@@ -30,15 +32,16 @@ pub(crate) struct SubjectOptions {
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST..=MOST))]
     height: Option<u64>,
     /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
-    /// view, such as `30,20,30`; or a file of keyframes (.toml)
+    /// view, such as `30,20,30`; or a file of keyframes (.toml). Of a picture with --depth: degrees
+    /// to the right and upwards
     #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
     camera: Option<String>,
-    /// Turn the camera around a mesh in this number of frames
+    /// Turn the camera around a mesh in this number of frames; before a picture with --depth it swings
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     turntable: Option<u64>,
 }
 
-/// Subject of a watercolor.
+/// What is painted.
 pub(crate) enum Subject {
     /// A photograph, and the width of the picture in pixels.
     Photograph(Photograph, usize),
@@ -47,8 +50,9 @@ pub(crate) enum Subject {
 }
 
 impl SubjectOptions {
-    /// Reads the subject. Returns it with the paths of the files that it was read from.
-    pub(crate) fn subject(&self, path: &Path) -> Result<(Subject, Vec<PathBuf>)> {
+    /// Reads the subject. Returns it with the paths of the files that it was read from. `turned` says
+    /// that cameras may turn a picture too.
+    pub(crate) fn subject(&self, path: &Path, turned: bool) -> Result<(Subject, Vec<PathBuf>)> {
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
             let Some(shape) = SampleModel::from_name(name) else {
@@ -65,8 +69,8 @@ impl SubjectOptions {
             return self.mesh(Mesh::open(path)?, vec![path.to_owned()]);
         }
         for (option, present) in [
-            ("--camera", self.camera.is_some()),
-            ("--turntable", self.turntable.is_some()),
+            ("--camera", self.camera.is_some() && !turned),
+            ("--turntable", self.turntable.is_some() && !turned),
             ("--height", self.height.is_some()),
         ] {
             if present {
@@ -94,6 +98,36 @@ impl SubjectOptions {
             ));
         }
         Ok((Subject::Photograph(photograph, width), vec![path.to_owned()]))
+    }
+
+    /// Where cameras stand that turn a picture, in degrees to the right and upwards from straight
+    /// before it: one, or those of a swing around that place.
+    pub(crate) fn picture_turns(&self) -> Result<Vec<[f32; 2]>> {
+        let way = match &self.camera {
+            None if self.turntable.is_some() => [SWING_DEG, SWING_DEG / 2.0],
+            None => [0.0; 2],
+            Some(text) => {
+                let numbers: Result<Vec<f32>, _> =
+                    text.split(',').map(|number| number.trim().parse()).collect();
+                match numbers.as_deref() {
+                    Ok(&[right, up]) if right.abs() <= 80.0 && up.abs() <= 80.0 => [right, up],
+                    _ => {
+                        return Err(Failure::usage(
+                            format!(
+                                "--camera of a picture takes degrees to the right and upwards (-80 to 80), found `{text}`"
+                            ),
+                            "try --camera 8,4",
+                        ));
+                    }
+                }
+            }
+        };
+        let Some(frames) = self.turntable else { return Ok(vec![way]) };
+        let swung = |frame: u64| {
+            let (sin, cos) = (std::f32::consts::TAU * frame as f32 / frames as f32).sin_cos();
+            [way[0] * sin, way[1] * cos]
+        };
+        Ok((0..frames).map(swung).collect())
     }
 
     fn mesh(&self, mesh: Mesh, mut inputs: Vec<PathBuf>) -> Result<(Subject, Vec<PathBuf>)> {

@@ -12,7 +12,7 @@ use render::artmap::painted::{PaintedSettings, Style, painted_samples};
 use render::artmap::synthesis::SynthesisSettings;
 use render::camera::{Camera, Framing};
 use render::mesh::{Mesh, SampleModel};
-use render::painterly::{ModelPainter, Settings};
+use render::painterly::{Painter, Settings};
 
 /// A row of the table.
 #[derive(Clone, Copy)]
@@ -121,13 +121,13 @@ fn camera(mesh: &Mesh, (width, height): (usize, usize)) -> Camera {
 }
 
 /// A painter whose strokes and outlines are so wide that as many splats are drawn as the row has.
-fn painter(row: Row) -> (ModelPainter, Camera) {
+fn painter(row: Row) -> (Painter, Camera) {
     let mesh = row.shape.mesh(20_000);
     let camera = camera(&mesh, row.size);
     let mut settings = Settings::default();
     let count = |settings: &Settings| {
-        let mut painter = ModelPainter::new(&mesh, map(), settings).unwrap();
-        let splats = painter.splats(&camera, row.size, 0.0).unwrap().1.len();
+        let mut painter = Painter::of_model(&mesh, map(), settings).unwrap();
+        let splats = painter.splats(&camera, row.size, 0.0).unwrap().1.concat().len();
         (painter, splats as f32)
     };
     let (mut painter, strokes) = loop {
@@ -173,7 +173,7 @@ fn strokes(bencher: Bencher<'_, '_>, row: Row) {
 fn model(bencher: Bencher<'_, '_>, shape: &str) {
     let mesh = SampleModel::from_name(shape).unwrap().mesh(20_000);
     let map = map();
-    bencher.bench_local(|| ModelPainter::new(black_box(&mesh), map, &Settings::default()).unwrap());
+    bencher.bench_local(|| Painter::of_model(black_box(&mesh), map, &Settings::default()).unwrap());
 }
 
 fn main() {

@@ -17,7 +17,7 @@ use render::camera::Framing;
 use render::encoding::over_white;
 use render::export::{frame_of, frame_png};
 use render::mesh::{Mesh, SampleModel};
-use render::painterly::{ModelPainter, Settings};
+use render::painterly::{Painter, Settings};
 
 const SIZE: (usize, usize) = (1000, 750);
 
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let framing = Framing { aspect: SIZE.0 as f32 / SIZE.1 as f32, ..Framing::default() };
     let camera = framing.fit(&mesh.positions);
     let start = Instant::now();
-    let mut painter = ModelPainter::new(&mesh, &map, &settings)?;
+    let mut painter = Painter::of_model(&mesh, &map, &settings)?;
     println!("prepared in {:.2?}, {:.0} % matched", start.elapsed(), 100.0 * painter.matched());
     let start = Instant::now();
     let painted = painter.paint(&camera, SIZE, 0.0)?;

@@ -8,7 +8,7 @@
 //! mesh ------> watercolor::ModelPainter -------+                       |
 //!                                              +-> wash -> GlazePainter+
 //!                                                          (painting)
-//! mesh + art map -> painterly::ModelPainter ---> picture
+//! mesh + art map -> painterly::Painter --------> picture
 //! ```
 //!
 //! A painting holds amounts of pigment and can be relit; a picture holds colours only.

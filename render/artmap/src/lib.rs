@@ -14,7 +14,7 @@
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
-mod text_file;
+pub mod text_file;
 
 mod texel;
 

@@ -9,7 +9,7 @@ use spectra::file::{FileAction, FileError, read};
 ///
 /// # Errors
 /// [`FileError`] if the file cannot be read or holds other bytes.
-pub(crate) fn read_text(path: &Path) -> Result<String, FileError> {
+pub fn read_text(path: &Path) -> Result<String, FileError> {
     String::from_utf8(read(path)?).map_err(|_| FileError {
         path: path.to_owned(),
         action: FileAction::Read,

@@ -38,7 +38,7 @@ pub mod field;
 
 pub mod lanes;
 
-mod blur;
+pub mod blur;
 
 pub mod encoding;
 

@@ -18,6 +18,8 @@ const WIDER: f32 = 0.25;
 #[derive(Debug, Clone, PartialEq)]
 pub struct OrientationField {
     along: Field<[f32; 2]>,
+    /// How far gradients agree, 0 to 1.
+    agreement: Field<f32>,
 }
 
 impl OrientationField {
@@ -40,13 +42,23 @@ impl OrientationField {
             weight *= WIDER;
         }
         let along = sum.values().par_iter().map(weak_direction).collect();
-        Self { along: Field::from_values(width, height, along) }
+        let agreement = sum.values().par_iter().map(agreement).collect();
+        Self {
+            along: Field::from_values(width, height, along),
+            agreement: Field::from_values(width, height, agreement),
+        }
     }
 
     /// Unit vector along the edge at a cell: x to the right, y down.
     #[must_use]
     pub fn direction(&self, x: usize, y: usize) -> [f64; 2] {
         self.along[(x, y)].map(f64::from)
+    }
+
+    /// How far the gradients around a cell agree in direction: 0 not at all, 1 fully.
+    #[must_use]
+    pub fn agreement(&self, x: usize, y: usize) -> f32 {
+        self.agreement[(x, y)]
     }
 }
 
@@ -85,6 +97,15 @@ fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     tensor
 }
 
+/// Difference of the tensor's eigenvalues by their sum; 0 where there is no gradient.
+fn agreement(tensor: &[f32; 3]) -> f32 {
+    let [xx, xy, yy] = *tensor;
+    if xx + yy < 1e-12 {
+        return 0.0;
+    }
+    ((xx - yy).powi(2) + 4.0 * xy * xy).sqrt() / (xx + yy)
+}
+
 /// Minor eigenvector of the tensor; along x where there is no gradient.
 fn weak_direction(tensor: &[f32; 3]) -> [f32; 2] {
     let [xx, xy, yy] = tensor.map(f64::from);
@@ -115,6 +136,7 @@ mod tests {
             for (x, y) in [(48, 48), (40, 52), (56, 44)] {
                 let [u, v] = flow.direction(x, y);
                 let across = (v * cos - u * sin).abs();
+                assert!(flow.agreement(x, y) > 0.8, "{}", flow.agreement(x, y));
                 assert!(across < 5.0_f64.to_radians().sin(), "{degrees}: {u} {v} at {x}, {y}");
             }
         }
@@ -124,5 +146,6 @@ mod tests {
     fn an_even_picture_flows_along_x() {
         let flow = OrientationField::from_lab(&Field::filled(20, 10, [40.0, 1.0, 2.0]), 2.0);
         assert_eq!(flow.direction(5, 5), [1.0, 0.0]);
+        assert_eq!(flow.agreement(5, 5), 0.0);
     }
 }

@@ -29,14 +29,21 @@ enum Coordinates {
     Cielab,
 }
 
-/// How the map and the model make colours.
+/// What is painted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Subjects {
+    /// Models, whose colours are those without light: tones add the light.
+    Models,
+    /// Pictures, whose colours have their light already.
+    Pictures,
+}
+
+/// How the maps and the subject make colours.
 #[derive(Debug, Clone)]
 pub(super) struct Coloring {
     coordinates: Coordinates,
-    /// Taken from every texel.
-    mean: Vec3,
-    /// Share of the rest, by coordinate.
-    share: Vec3,
+    maps: Vec<MapColors>,
+    subjects: Subjects,
     /// Whether splats add the model's colour.
     of_model: bool,
     rgb_from_xyz: [[f32; 3]; 3],
@@ -45,13 +52,31 @@ pub(super) struct Coloring {
     encoded: Vec<f32>,
 }
 
+/// What is taken from the texels of a map.
+#[derive(Debug, Clone, Copy)]
+struct MapColors {
+    /// Mean of all texels.
+    mean: Vec3,
+    /// Share of what is left, by coordinate.
+    share: Vec3,
+}
+
 impl Coloring {
-    /// Colours of `map` on a model that shows `colors` (encoded sRGB, each with its area).
-    pub(super) fn new(map: &ArtMap, colors: &[(Vec3, f64)], settings: &ColorSettings) -> Self {
-        let coordinates = match (settings.from, settings.space) {
-            (ColorSource::Map, _) => Coordinates::Encoded,
-            (ColorSource::Model, ColorSpace::Cielab) => Coordinates::Cielab,
-            (ColorSource::Model, ColorSpace::Yuv) => Coordinates::Yuv,
+    /// Colours of `maps` on a subject that shows `colors` (encoded sRGB, each with its area).
+    pub(super) fn new(
+        maps: &[&ArtMap],
+        colors: &[(Vec3, f64)],
+        settings: &ColorSettings,
+        subjects: Subjects,
+    ) -> Self {
+        let of_model = match settings.from {
+            ColorSource::Auto => subjects == Subjects::Pictures,
+            from => from == ColorSource::Model,
+        };
+        let coordinates = match (of_model, settings.space) {
+            (false, _) => Coordinates::Encoded,
+            (true, ColorSpace::Cielab) => Coordinates::Cielab,
+            (true, ColorSpace::Yuv) => Coordinates::Yuv,
         };
         let rgb_from_xyz = RgbSpace::Srgb.xyz_from_linear().inverse();
         let column = |axis: usize| {
@@ -65,9 +90,9 @@ impl Coloring {
         };
         let mut own = Self {
             coordinates,
-            mean: Vec3::ZERO,
-            share: Vec3::ONE,
-            of_model: settings.from == ColorSource::Model,
+            maps: vec![MapColors { mean: Vec3::ZERO, share: Vec3::ONE }; maps.len()],
+            subjects,
+            of_model,
             rgb_from_xyz: [0, 1, 2].map(|row| [0, 1, 2].map(|axis| columns[axis][row])),
             white: Lab { lightness: 100.0, a: 0.0, b: 0.0 }
                 .to_xyz(RgbSpace::Srgb.white())
@@ -76,30 +101,54 @@ impl Coloring {
             encoded: (0..=STEPS + 1).map(|step| encoded(step.min(STEPS))).collect(),
         };
         if own.of_model {
-            let texels: Vec<(Vec3, f64)> = map
-                .keys
-                .iter()
-                .flat_map(|key| own.mapped(&key.tile.color))
-                .map(|color| (color, 1.0))
-                .collect();
             let shown: Vec<(Vec3, f64)> =
                 colors.iter().map(|&(color, area)| (own.of_encoded(color), area)).collect();
-            let (mean, of_map) = moments(&texels);
             let (_, of_model) = moments(&shown);
-            let chroma = |axis: usize| {
-                let like_model =
-                    if of_map[axis] > 0.0 { of_model[axis] / of_map[axis] } else { 1.0 };
-                settings.chroma * (1.0 + settings.statistics * (like_model.min(1.0) - 1.0))
+            let of_map = |map: &&ArtMap| {
+                let texels = map.keys.iter().flat_map(|key| own.mapped(&key.tile.color));
+                let (mean, of_map) = moments(&texels.map(|color| (color, 1.0)).collect::<Vec<_>>());
+                let chroma = |axis: usize| {
+                    let like_model =
+                        if of_map[axis] > 0.0 { of_model[axis] / of_map[axis] } else { 1.0 };
+                    settings.chroma * (1.0 + settings.statistics * (like_model.min(1.0) - 1.0))
+                };
+                MapColors { mean, share: Vec3::new(settings.lightness, chroma(1), chroma(2)) }
             };
-            own.mean = mean;
-            own.share = Vec3::new(settings.lightness, chroma(1), chroma(2));
+            own.maps = maps.iter().map(of_map).collect();
         }
         own
     }
 
-    /// What texels of linear sRGB add to a pixel.
-    pub(super) fn details(&self, texels: &Picture) -> Vec<Vec3> {
-        self.mapped(texels).into_iter().map(|color| (color - self.mean) * self.share).collect()
+    /// What is taken from the texels of a tile (linear sRGB) of a map: the mean of all its tiles, or
+    /// on pictures of this one, since they have their lightness already.
+    pub(super) fn mean(&self, map: usize, tile: &Picture) -> Vec3 {
+        if !self.of_model || self.subjects == Subjects::Models {
+            return self.maps[map].mean;
+        }
+        let texels: Vec<_> = self.mapped(tile).into_iter().map(|color| (color, 1.0)).collect();
+        moments(&texels).0
+    }
+
+    /// What texels of linear sRGB of a map add to a pixel, when `mean` is taken from them.
+    pub(super) fn details(&self, map: usize, mean: Vec3, texels: &Picture) -> Vec<Vec3> {
+        let share = self.maps[map].share;
+        self.mapped(texels).into_iter().map(|color| (color - mean) * share).collect()
+    }
+
+    /// Whether splats add colours of their own.
+    pub(super) fn of_model(&self) -> bool {
+        self.of_model
+    }
+
+    /// What a splat adds to be lighter by a share of the whole range of lightness.
+    pub(super) fn lighter(&self, share: f32) -> Vec3 {
+        let range = if self.coordinates == Coordinates::Cielab { 100.0 } else { 1.0 };
+        if self.of_model { Vec3::X * (share * range) } else { Vec3::ZERO }
+    }
+
+    /// L* of a colour of encoded sRGB.
+    pub(super) fn lightness(color: Vec3) -> f32 {
+        lab_of(color).x
     }
 
     /// What a splat adds where the model is of this encoded sRGB.
@@ -141,11 +190,7 @@ impl Coloring {
         match self.coordinates {
             Coordinates::Encoded => color,
             Coordinates::Yuv => yuv(color),
-            Coordinates::Cielab => {
-                let linear = Rgb(color.to_array().map(f64::from)).linear().0;
-                let one = Field::from_values(1, 1, vec![linear.map(|value| value as f32)]);
-                lab_from_linear(&one).values()[0].into()
-            }
+            Coordinates::Cielab => lab_of(color),
         }
     }
 
@@ -171,6 +216,13 @@ impl Coloring {
         };
         Vec3::from(self.rgb_from_xyz.map(value))
     }
+}
+
+/// CIELAB of encoded sRGB.
+fn lab_of(color: Vec3) -> Vec3 {
+    let linear = Rgb(color.to_array().map(f64::from)).linear().0;
+    let one = Field::from_values(1, 1, vec![linear.map(|value| value as f32)]);
+    lab_from_linear(&one).values()[0].into()
 }
 
 /// YUV (Rec. 601) of encoded sRGB.
@@ -208,16 +260,39 @@ mod tests {
         ColorSettings { from: ColorSource::Model, space, ..ColorSettings::default() }
     }
 
+    fn details(coloring: &Coloring, tile: &Picture) -> Vec<Vec3> {
+        coloring.details(0, coloring.mean(0, tile), tile)
+    }
+
+    #[test]
+    fn tones_do_not_change_the_lightness_of_a_picture() {
+        let map = map(3);
+        let settings = settings(ColorSpace::Cielab);
+        for (subjects, least) in [(Subjects::Models, 5.0), (Subjects::Pictures, 0.0)] {
+            let coloring = Coloring::new(&[&map], &[(Vec3::ONE, 1.0)], &settings, subjects);
+            let means = [0, 2].map(|tone: usize| {
+                let details = details(&coloring, &map.keys[tone].tile.color);
+                details.iter().map(|detail| detail.x).sum::<f32>() / details.len() as f32
+            });
+            let change = means[1] - means[0];
+            assert!(
+                change >= least && (least > 0.0 || change.abs() < 1e-2),
+                "{subjects:?}: {means:?}"
+            );
+        }
+    }
+
     #[test]
     fn a_mean_texel_shows_the_colour_of_the_model() {
         let map = map(3);
         let color = Vec3::new(0.7, 0.4, 0.2);
         for space in [ColorSpace::Cielab, ColorSpace::Yuv] {
-            let coloring = Coloring::new(&map, &[(color, 1.0)], &settings(space));
+            let coloring =
+                Coloring::new(&[&map], &[(color, 1.0)], &settings(space), Subjects::Models);
             let shown = coloring.shown(coloring.of_splat(color));
             assert!(shown.distance(color) < 2e-3, "{space:?}: {shown}");
             let details =
-                map.keys.iter().map(|key| coloring.details(&key.tile.color)).collect::<Vec<_>>();
+                map.keys.iter().map(|key| details(&coloring, &key.tile.color)).collect::<Vec<_>>();
             let all: Vec<Vec3> = details.concat();
             let mean = all.iter().sum::<Vec3>() / all.len() as f32;
             let most = all.iter().map(|detail| detail.length()).fold(0.0, f32::max);
@@ -230,8 +305,8 @@ mod tests {
         let map = map(2);
         let none = ColorSettings { lightness: 2.0, chroma: 0.0, ..settings(ColorSpace::Cielab) };
         let [usual, changed] = [&settings(ColorSpace::Cielab), &none].map(|settings| {
-            let coloring = Coloring::new(&map, &[(Vec3::ONE, 1.0)], settings);
-            coloring.details(&map.keys[0].tile.color)
+            let coloring = Coloring::new(&[&map], &[(Vec3::ONE, 1.0)], settings, Subjects::Models);
+            details(&coloring, &map.keys[0].tile.color)
         });
         for (usual, changed) in usual.iter().zip(&changed) {
             assert!((changed.x - 2.0 * usual.x).abs() < 1e-3);
@@ -244,17 +319,17 @@ mod tests {
         let map = map(2);
         let like = ColorSettings { statistics: 1.0, ..settings(ColorSpace::Cielab) };
         let grey = [(Vec3::splat(0.5), 1.0)];
-        let coloring = Coloring::new(&map, &grey, &like);
-        assert_eq!((coloring.share.y, coloring.share.z), (0.0, 0.0));
+        let coloring = Coloring::new(&[&map], &grey, &like, Subjects::Models);
+        assert_eq!((coloring.maps[0].share.y, coloring.maps[0].share.z), (0.0, 0.0));
         let mixed = [(Vec3::X, 1.0), (Vec3::Y, 1.0), (Vec3::Z, 1.0)];
-        let coloring = Coloring::new(&map, &mixed, &like);
-        assert_eq!(coloring.share.y, like.chroma, "never more than asked for");
+        let coloring = Coloring::new(&[&map], &mixed, &like, Subjects::Models);
+        assert_eq!(coloring.maps[0].share.y, like.chroma, "never more than asked for");
     }
 
     #[test]
     fn encoding_of_cielab_is_that_of_the_library() {
         let map = map(2);
-        let coloring = Coloring::new(&map, &[], &settings(ColorSpace::Cielab));
+        let coloring = Coloring::new(&[&map], &[], &settings(ColorSpace::Cielab), Subjects::Models);
         for color in [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [0.02, 0.3, 0.7], [0.9, 0.1, 0.4]] {
             let linear = Field::from_values(1, 1, vec![color]);
             let lab = lab_from_linear(&linear).values()[0];

@@ -7,8 +7,8 @@ use super::gather::{Gathered, LOST, Sums};
 use super::strokes::smooth;
 use super::tones::Tones;
 
-/// Cover below which strokes on the mesh thin out.
-const THIN: f32 = 1e-3;
+/// Cover below which the strokes of the lowest layer thin out.
+pub(super) const THIN: f32 = 1e-3;
 
 /// Sums of weights over which strokes beyond an outline come in, from none to full cover, at the
 /// least overhang; the first falls to 0 at the full overhang.
@@ -24,6 +24,8 @@ pub(super) struct Divide<'a> {
     pub(super) coloring: &'a Coloring,
     /// How far strokes reach beyond outlines, 0 to 1.
     pub(super) overhang: f32,
+    /// Cover around which strokes on the mesh end, above 0; up to [`THIN`] for the lowest layer.
+    pub(super) thin: f32,
 }
 
 impl Divide<'_> {
@@ -59,7 +61,15 @@ impl Divide<'_> {
             true => sums.cover[row][column],
             false => 0.0,
         };
-        let under = (cover(&gathered.on) * (1.0 / THIN)).min(1.0);
+        let under = match self.lowest() {
+            true => (cover(&gathered.on) * (1.0 / THIN)).min(1.0),
+            // Ridges of strokes on others reach further than furrows too.
+            false => {
+                let ridge = self.ridge(&gathered.on, row, column) - 0.5;
+                let on = cover(&gathered.on) * (1.0 + BRISTLES * ridge);
+                smooth(0.5 * self.thin, 1.5 * self.thin, on)
+            }
+        };
         let out = cover(&gathered.before);
         let over = if self.overhang > 0.0 && out > 0.0 {
             // The ridges of a stroke reach further than its furrows.
@@ -69,9 +79,16 @@ impl Divide<'_> {
         } else {
             0.0
         };
-        let bare = if covered && out > 0.0 { (1.0 - over) * (1.0 - under) } else { 0.0 };
+        let bare =
+            if covered && self.lowest() && out > 0.0 { (1.0 - over) * (1.0 - under) } else { 0.0 };
         let over = over + bare;
         if over <= 0.0 { [0.0, under] } else { [over, (1.0 - over) * under] }
+    }
+
+    /// Whether nothing lies below these strokes.
+    #[inline(always)]
+    fn lowest(&self) -> bool {
+        self.thin <= THIN
     }
 
     /// How high the brushwork stands, 0 to 1 of the map's heights; its lightness in maps without.

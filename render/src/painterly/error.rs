@@ -1,4 +1,4 @@
-//! Why a model cannot be painted.
+//! Why a subject cannot be painted.
 
 use glam::Vec3;
 use graphics::gpu::DeviceError;
@@ -6,11 +6,13 @@ use graphics::mesh::{DirectionFault, MeshFault};
 use paint::ground::GroundError;
 use spectra::hint::{Explain, Fault, Hint};
 
+use super::paint_tones::PaintOfMapsError;
+use super::regions::RegionsError;
 use super::settings::SettingsError;
 
-/// A mesh cannot be painted.
+/// A model or a picture cannot be painted.
 #[derive(Debug, thiserror::Error)]
-pub enum ModelPainterError {
+pub enum PainterError {
     /// A setting is out of its range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
@@ -23,6 +25,12 @@ pub enum ModelPainterError {
     /// The mesh cannot be held in memory.
     #[error(transparent)]
     Device(#[from] DeviceError),
+    /// Regions do not fit the subject.
+    #[error(transparent)]
+    Regions(#[from] RegionsError),
+    /// The paint of several maps cannot be joined.
+    #[error(transparent)]
+    Maps(#[from] PaintOfMapsError),
     /// No triangle of the mesh has an area.
     #[error("no triangle of the mesh has an area")]
     NoArea,
@@ -64,7 +72,7 @@ pub enum ModelPainterError {
     },
 }
 
-impl ModelPainterError {
+impl PainterError {
     fn cause(&self) -> Option<&dyn Explain> {
         Some(match self {
             Self::Settings(error) => error,
@@ -72,12 +80,14 @@ impl ModelPainterError {
             Self::Directions(error) => error,
             Self::Device(error) => error,
             Self::Ground(error) => error,
+            Self::Regions(error) => error,
+            Self::Maps(error) => error,
             _ => return None,
         })
     }
 }
 
-impl Explain for ModelPainterError {
+impl Explain for PainterError {
     fn hint(&self) -> Option<Hint> {
         let text = match self {
             Self::NoArea => "the model is a line or a point: export it again",

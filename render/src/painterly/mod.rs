@@ -1,13 +1,15 @@
-//! Models painted in the brushwork of an art map.
+//! Models and pictures painted in the brushwork of art maps.
 //!
 //! After Yan, Chi, Lee and Lin, "Stylized rendering using samples of a painted image" (IEEE TVCG
 //! 2008). A model is covered with splats that run along its curvature; each shows a part of the
-//! map ([`artmap::map::ArtMap`]), in the tone that the light asks for.
+//! map ([`artmap::map::ArtMap`]), in the tone that the light asks for. A picture is a plane, or a
+//! relief, whose strokes run along the edges of the picture and have its tones.
 //!
 //! ```text
-//! map -> tones -----------------------------------+
-//! mesh -> places, directions -> roots (offsets) --+-> strokes of a sight -> three passes -> picture
-//! camera, light, time ----------------------------+
+//! maps -> tones ---------------------------------------+
+//! mesh or picture -> subject -> places -> roots -------+-> strokes of a sight -> three passes
+//!                                         (offsets)    |   for each layer, one over the other
+//! camera, light, time ---------------------------------+
 //! ```
 //!
 //! The passes of surface splatting: the nearest splat (`depths`), weighted sums (`gather`), and
@@ -16,11 +18,11 @@
 
 mod settings;
 
-mod error;
-
 mod splat;
 
 mod flow;
+
+mod regions;
 
 #[cfg(test)]
 mod made_up;
@@ -30,6 +32,10 @@ mod coloring;
 mod tones;
 
 mod paint_tones;
+
+mod error;
+
+mod brushwork;
 
 mod places;
 
@@ -57,14 +63,33 @@ mod amounts;
 
 mod passes;
 
-mod model_painter;
+mod composed;
 
-pub use error::ModelPainterError;
-pub use model_painter::ModelPainter;
+mod subject;
+
+mod painter;
+
+mod model;
+
+mod picture_form;
+
+mod picture_view;
+
+mod picture_layers;
+
+mod picture;
+
+pub use brushwork::Brushwork;
+pub use error::PainterError;
+pub use paint_tones::PaintOfMapsError;
+pub use painter::Painter;
 pub use passes::PaintedModel;
+pub use picture_form::{FlowPicture, PictureForm};
+pub use picture_view::PictureView;
+pub use regions::{Region, RegionArea, Regions, RegionsError};
 pub use settings::{
-    ColorSettings, ColorSource, ColorSpace, FlowSettings, LightSettings, LightWith, Offsets,
-    OverlapSettings, Preset, Settings, SettingsError, SilhouetteSettings, StrokeDirection,
-    StrokeSettings, Zoom,
+    ColorSettings, ColorSource, ColorSpace, FlowSettings, LayerSettings, LightSettings, LightWith,
+    Offsets, OverlapSettings, PictureSettings, Preset, Settings, SettingsError, SilhouetteSettings,
+    StrokeDirection, StrokeSettings, ToneSource, Zoom,
 };
 pub use splat::StrokeSplat;

@@ -14,7 +14,8 @@ use graphics::coherence::Feature;
 use rayon::prelude::*;
 
 use super::grid::Grid;
-use super::roots::{ALIKE, Root, Start, way};
+use super::regions::Style;
+use super::roots::{Root, Start, alike, way};
 use super::tones::Tones;
 
 /// Random candidates beside the continuations.
@@ -65,12 +66,14 @@ pub(super) struct Matching<'a> {
     pub(super) features: &'a [Feature],
     pub(super) roots: &'a [Root],
     pub(super) tones: &'a Tones,
-    /// Index of the tone by which strokes are compared.
-    pub(super) slice: usize,
-    /// Half the width and length of a splat in units of the model.
+    /// Index of the tone of each map by which strokes are compared.
+    pub(super) slices: &'a [usize],
+    /// How strokes are painted, by region.
+    pub(super) styles: &'a [Style],
+    /// Half the width and length of a splat in units of the model, before the size of its region.
     pub(super) radii: [f32; 2],
-    /// Widths of the map to a unit of the model.
-    pub(super) widths_per_unit: f32,
+    /// Distance of neighbouring strokes in units of the model, before the size of the region.
+    pub(super) width: f32,
 }
 
 /// The brushwork that is compared.
@@ -82,8 +85,8 @@ struct Greys {
 }
 
 impl Greys {
-    fn of(tones: &Tones, slice: usize) -> Self {
-        let halvings = tones.halvings(tones.spacing / COMPARED_SPACING);
+    fn of(tones: &Tones, map: usize, slice: usize) -> Self {
+        let halvings = tones.halvings(map, tones.map(map).spacing / COMPARED_SPACING);
         let texels = tones.texels(slice, halvings);
         let size = texels.size;
         let bytes = (0..size * size).map(|at| texels.between(at % size, at / size, 0, 0));
@@ -117,9 +120,27 @@ struct Probe {
 }
 
 impl Matching<'_> {
+    fn style(&self, index: usize) -> &Style {
+        &self.styles[usize::from(self.roots[index].place.region)]
+    }
+
+    /// Half the width and length of a splat in units of the model.
+    fn radii(&self, index: usize) -> [f32; 2] {
+        self.radii.map(|radius| radius * self.style(index).size)
+    }
+
+    /// Widths of the map of a stroke to a unit of the model.
+    fn widths_per_unit(&self, index: usize) -> f32 {
+        let Style { map, size, .. } = *self.style(index);
+        let map = self.tones.map(map);
+        map.spacing / (self.width * size * map.size as f32)
+    }
+
     /// Where all strokes start in the map; and the share of strokes that continue a neighbour.
     pub(super) fn starts(&self) -> (Vec<Start>, f64) {
-        let greys = Greys::of(self.tones, self.slice);
+        let maps = self.slices.iter().enumerate();
+        let greys: Vec<Greys> =
+            maps.map(|(map, &slice)| Greys::of(self.tones, map, slice)).collect();
         let neighbours = self.neighbours();
         let mut placed: Vec<Option<Start>> = vec![None; self.roots.len()];
         let mut waiting = VecDeque::new();
@@ -132,7 +153,8 @@ impl Matching<'_> {
             seen[first] = true;
             waiting.push_back(first);
             while let Some(index) = waiting.pop_front() {
-                let (start, continues) = self.place(index, &neighbours[index], &placed, &greys);
+                let (start, continues) =
+                    self.place(index, &neighbours[index], &placed, &greys[self.style(index).map]);
                 placed[index] = Some(start);
                 continued += usize::from(continues);
                 for &next in &neighbours[index] {
@@ -155,13 +177,14 @@ impl Matching<'_> {
         greys: &Greys,
     ) -> (Start, bool) {
         let own = &self.roots[index];
+        let widths_per_unit = self.widths_per_unit(index);
         let beside: Vec<(usize, Start)> = neighbours
             .iter()
             .filter_map(|&other| Some((other as usize, placed[other as usize]?)))
             .collect();
         let probes = self.probes(index, &beside, greys);
         let cost = |start: &Start| -> f32 {
-            let offset = start.at(self.widths_per_unit);
+            let offset = start.at(widths_per_unit);
             let squares = probes
                 .iter()
                 .map(|probe| probe.weight * (greys.at(offset + probe.place) - probe.grey).powi(2));
@@ -177,7 +200,7 @@ impl Matching<'_> {
         };
         let good = GOOD * greys.unrelated * probes.iter().map(|probe| probe.weight).sum::<f32>();
         let mut beyond = Vec::new();
-        let reach = PATCH * self.radii[1];
+        let reach = PATCH * self.radii(index)[1];
         for &(other, start) in &beside {
             let from = (&self.features[other], &self.roots[other].place);
             let next = start.further(way(from, (&self.features[index], &own.place)));
@@ -185,7 +208,7 @@ impl Matching<'_> {
                 offer(next, true);
             } else {
                 // The same place in the map, as the origin of a new patch.
-                let origin = next.at(self.widths_per_unit);
+                let origin = next.at(widths_per_unit);
                 beyond.push(Start { origin, way: Vec2::ZERO });
             }
         }
@@ -207,29 +230,29 @@ impl Matching<'_> {
 
     /// What the placed neighbours show at the places of a stroke.
     fn probes(&self, index: usize, beside: &[(usize, Start)], greys: &Greys) -> Vec<Probe> {
+        let (radii, widths_per_unit) = (self.radii(index), self.widths_per_unit(index));
         let beside: Vec<(usize, Vec2)> =
-            beside.iter().map(|(other, start)| (*other, start.at(self.widths_per_unit))).collect();
+            beside.iter().map(|(other, start)| (*other, start.at(widths_per_unit))).collect();
         let place = &self.roots[index].place;
         let center = self.features[index].position;
         let probe = |[a, b]: [f32; 2]| {
-            let at =
-                center + place.across() * (a * self.radii[0]) + place.along * (b * self.radii[1]);
+            let at = center + place.across() * (a * radii[0]) + place.along * (b * radii[1]);
             let (mut sum, mut total) = (0.0, 0.0);
             for &(other, offset) in &beside {
                 let there = &self.roots[other].place;
                 let from = at - self.features[other].position;
                 let [x, y] = [from.dot(there.across()), from.dot(there.along)];
-                let square = (x / self.radii[0]).powi(2) + (y / self.radii[1]).powi(2);
+                let square = (x / radii[0]).powi(2) + (y / radii[1]).powi(2);
                 let weight = (1.0 - square).max(0.0).powi(8);
                 if weight > 0.0 {
-                    sum += weight * greys.at(offset + Vec2::new(x, y) * self.widths_per_unit);
+                    sum += weight * greys.at(offset + Vec2::new(x, y) * widths_per_unit);
                     total += weight;
                 }
             }
             // A place that neighbours hardly reach shows this stroke alone.
             let own = (1.0 - a * a - b * b).max(0.0).powi(2);
             (total > 1e-4).then(|| Probe {
-                place: Vec2::new(a * self.radii[0], b * self.radii[1]) * self.widths_per_unit,
+                place: Vec2::new(a * radii[0], b * radii[1]) * widths_per_unit,
                 grey: sum / total,
                 weight: own * (total / (total + 0.05)),
             })
@@ -239,23 +262,23 @@ impl Matching<'_> {
 
     /// For each stroke the nearest others that overlap it on the same side of the surface.
     fn neighbours(&self) -> Vec<Vec<u32>> {
-        let reach = self.radii[0].max(self.radii[1]);
+        let largest = self.styles.iter().map(|style| style.size).fold(0.0, f32::max);
+        let reach = largest * self.radii[0].max(self.radii[1]);
         let grid = Grid::new(self.features.iter().map(|feature| feature.position), reach);
         let near = |index: usize| {
             let own = self.features[index].position;
             let place = &self.roots[index].place;
+            let radii = self.radii(index);
             let off = |other: usize| {
                 let from = self.features[other].position - own;
-                let across = from.dot(place.across()) / self.radii[0];
-                let along = from.dot(place.along) / self.radii[1];
-                let above = from.dot(place.normal) / self.radii[0];
+                let across = from.dot(place.across()) / radii[0];
+                let along = from.dot(place.along) / radii[1];
+                let above = from.dot(place.normal) / radii[0];
                 across * across + along * along + above * above
             };
             let mut found: Vec<(f32, u32)> = grid
                 .near(own)
-                .filter(|&other| {
-                    other != index && self.roots[other].place.normal.dot(place.normal) > ALIKE
-                })
+                .filter(|&other| other != index && alike(&self.roots[other].place, place))
                 .map(|other| (off(other), other as u32))
                 .filter(|(square, _)| *square < 1.0)
                 .collect();

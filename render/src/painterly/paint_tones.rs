@@ -5,13 +5,14 @@ use artmap::sample::{PaintOfSamples, TexelPaint};
 use graphics::field::Field;
 use paint::layer::SLOTS;
 use rayon::prelude::*;
+use spectra::hint::{Explain, Fault, Hint};
 
 use super::tones::{LEAST_SIZE, tone_tiles};
 
 /// Pigments by slot, then vehicle, in mm.
 pub(super) type Amounts = [f32; SLOTS + 1];
 
-/// Paint of all tones of a map, in the order and sizes of `Tones`.
+/// Paint of all tones of some maps, in the order and sizes of `Tones`.
 #[derive(Debug, Clone)]
 pub(super) struct PaintTones {
     pub(super) of: PaintOfSamples,
@@ -20,12 +21,27 @@ pub(super) struct PaintTones {
 }
 
 impl PaintTones {
-    /// Lays out the paint of a map; `None` for maps without.
-    pub(super) fn new(map: &ArtMap, between: Between) -> Option<Self> {
-        let of = map.paint.clone()?;
-        let tiles = tone_tiles(map, between);
-        let slices = tiles.into_par_iter().map(|tile| Some(sizes(&tile.paint?)));
-        Some(Self { of, slices: slices.collect::<Option<_>>()? })
+    /// Lays out the paint of maps; `None` if one of them has none.
+    ///
+    /// # Errors
+    /// [`PaintOfMapsError`] for maps whose pigments are not of one library, or more than eight.
+    pub(super) fn new(
+        maps: &[&ArtMap],
+        between: Between,
+    ) -> Result<Option<Self>, PaintOfMapsError> {
+        let paints: Option<Vec<&PaintOfSamples>> =
+            maps.iter().map(|map| map.paint.as_ref()).collect();
+        let Some(paints) = paints else { return Ok(None) };
+        let (of, moves) = joined(&paints)?;
+        let mut slices = Vec::new();
+        for (map, moves) in maps.iter().zip(moves) {
+            let tiles = tone_tiles(map, between).into_par_iter();
+            let laid: Option<Vec<_>> =
+                tiles.map(|tile| Some(sizes(&tile.paint?, &moves))).collect();
+            let Some(laid) = laid else { return Ok(None) };
+            slices.extend(laid);
+        }
+        Ok(Some(Self { of, slices }))
     }
 
     /// Paint between four texels of a slice at a size: that to the upper left of `place`, with the
@@ -55,10 +71,63 @@ impl PaintTones {
     }
 }
 
+/// The pigments of all maps in common slots, and the common slot of each slot of each map.
+fn joined(
+    paints: &[&PaintOfSamples],
+) -> Result<(PaintOfSamples, Vec<[usize; SLOTS]>), PaintOfMapsError> {
+    let library = &paints[0].library;
+    let mut slots = paints[0].slots;
+    let mut moves = Vec::new();
+    for paint in paints {
+        if paint.library != *library {
+            return Err(PaintOfMapsError::Libraries);
+        }
+        let mut of = [0; SLOTS];
+        for (slot, pigment) in paint.slots.iter().enumerate() {
+            let Some(pigment) = pigment else { continue };
+            let found = slots.iter().position(|own| own.as_ref() == Some(pigment));
+            let free = || slots.iter().position(Option::is_none);
+            of[slot] = found.or_else(free).ok_or(PaintOfMapsError::Pigments)?;
+            slots[of[slot]] = Some(*pigment);
+        }
+        moves.push(of);
+    }
+    Ok((PaintOfSamples { library: library.clone(), slots }, moves))
+}
+
+/// Why maps cannot make one painting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum PaintOfMapsError {
+    /// Pigments are of several libraries.
+    #[error("the maps have pigments of different libraries")]
+    Libraries,
+    /// There are too many pigments.
+    #[error("the maps have more than {SLOTS} pigments together")]
+    Pigments,
+}
+
+impl Explain for PaintOfMapsError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Libraries => "make all maps of samples with the same pigment library",
+            Self::Pigments => "make all maps of samples with the same pigments",
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
+}
+
 /// The sizes of a tile, each texel the mean of four of the size before.
-fn sizes(paint: &Field<TexelPaint>) -> Vec<Field<Amounts>> {
+fn sizes(paint: &Field<TexelPaint>, moves: &[usize; SLOTS]) -> Vec<Field<Amounts>> {
     let amounts = |texel: &TexelPaint| {
-        std::array::from_fn(|at| texel.pigments_mm.get(at).copied().unwrap_or(texel.vehicle_mm))
+        let mut amounts = [0.0; SLOTS + 1];
+        for (slot, mm) in moves.iter().zip(texel.pigments_mm) {
+            amounts[*slot] += mm;
+        }
+        amounts[SLOTS] = texel.vehicle_mm;
+        amounts
     };
     let first = paint.values().iter().map(amounts).collect();
     let mut laid = vec![Field::from_values(paint.width(), paint.height(), first)];

@@ -3,14 +3,12 @@
 use graphics::field::Field;
 use rayon::prelude::*;
 
-use super::coloring::Coloring;
 use super::divided::Divide;
 use super::gather::{Gather, Gathered};
 use super::lists::{Lists, SIDE};
 use super::settings::OverlapSettings;
 use super::splat::StrokeSplat;
 use super::square::Square;
-use super::tones::Tones;
 
 /// A painted picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,21 +19,28 @@ pub struct PaintedModel {
     pub height_mm: Field<f32>,
 }
 
+impl PaintedModel {
+    /// A picture without strokes.
+    pub(super) fn bare((width, height): (usize, usize)) -> Self {
+        let color = Field::filled(width, height, [0.0; 4]);
+        Self { color, height_mm: Field::filled(width, height, 0.0) }
+    }
+}
+
 /// Paints splats over a mesh of this depth (0 near to 1, nothing). Each pixel sums the splats that
 /// reach it in their order, so the picture does not depend on threads.
 pub(super) fn painted(
     depth: &Field<f32>,
     splats: &[StrokeSplat],
-    tones: &Tones,
-    coloring: &Coloring,
-    colored: bool,
+    divide: &Divide<'_>,
     overlap: &OverlapSettings,
 ) -> PaintedModel {
+    let Divide { tones, coloring, .. } = *divide;
+    let colored = coloring.of_model();
     let (width, height) = (depth.width(), depth.height());
     let lists = Lists::new(width, height, splats);
     let mut color = Field::filled(width, height, [0.0; 4]);
     let mut relief = Field::filled(width, height, 0.0);
-    let divide = Divide { tones, coloring, overhang: overlap.overhang };
     let band = (SIDE * width).max(1);
     let bands =
         color.values_mut().par_chunks_mut(band).zip(relief.values_mut().par_chunks_mut(band));

@@ -1,9 +1,15 @@
-//! What the model shows at a feature: normal, direction of strokes, colour.
+//! What a subject shows at a feature: normal, direction of strokes, colour, detail, region.
+
+use std::sync::Arc;
 
 use glam::{Mat3, Vec2, Vec3};
 use graphics::coherence::Feature;
+use graphics::field::Field;
 use graphics::mesh::{Curvature, DirectionField, FlowField, Mesh};
 use graphics::surface::{Fragment, PackedMesh, SurfacePoint};
+
+use super::regions::RegionMap;
+use super::settings::LayerSettings;
 
 /// Rounds of averaging normals before curvature is found.
 pub(super) const NORMAL_ROUNDS: usize = 1;
@@ -11,7 +17,7 @@ pub(super) const NORMAL_ROUNDS: usize = 1;
 /// Rings of edges over which flow rises beside singular places.
 const FADE_RINGS: usize = 2;
 
-/// A point of the model that carries a stroke.
+/// A point of the subject that carries a stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     /// Unit normal, interpolated.
@@ -24,6 +30,34 @@ pub(super) struct Place {
     pub(super) color: Vec3,
     /// Curvature of the surface: `d . bend d` along a unit direction d, per unit of the model.
     pub(super) bend: Mat3,
+    /// How much strokes of this layer show here, 0 to 1.
+    pub(super) detail: f32,
+    /// Number of the region.
+    pub(super) region: u16,
+}
+
+/// Where strokes of a layer show.
+#[derive(Debug, Clone)]
+pub(super) enum Detail {
+    /// Everywhere.
+    Everywhere,
+    /// Where the surface bends more within this length, in units of the model, than settings let
+    /// pass (radians).
+    Bends(f32, LayerSettings),
+    /// As far as a picture says, 0 to 1, which is stretched over the texture coordinates.
+    Pictured(Field<f32>),
+}
+
+/// A subject as the strokes of one layer see it.
+#[derive(Debug, Clone)]
+pub(super) struct Surface {
+    /// The mesh with the normals that light meets.
+    pub(super) mesh: Arc<Mesh>,
+    /// The same mesh with the colours of this layer.
+    pub(super) packed: Arc<PackedMesh>,
+    pub(super) directions: Arc<Directions>,
+    pub(super) detail: Detail,
+    pub(super) regions: Arc<RegionMap>,
 }
 
 /// The directions of strokes on a mesh.
@@ -33,12 +67,18 @@ pub(super) struct Directions {
     arrows: FlowField,
     /// Curvature at each vertex.
     bends: Vec<Mat3>,
+    /// Factor of the flow's strength at each vertex.
+    strengths: Option<Vec<f32>>,
 }
 
 impl Directions {
-    /// Strokes along `lines` of a mesh.
-    pub(super) fn new(mesh: &Mesh, lines: DirectionField) -> Self {
-        let arrows = lines.oriented(FADE_RINGS);
+    /// Strokes along `lines` of a mesh. Flow has the signs and strengths, up to 1, of the arrows
+    /// that are given for its vertices, if any.
+    pub(super) fn new(mesh: &Mesh, lines: DirectionField, given: Option<&[[f32; 3]]>) -> Self {
+        let arrows = match given {
+            None => lines.oriented(FADE_RINGS),
+            Some(given) => lines.oriented_by(given, FADE_RINGS),
+        };
         let curvatures = mesh.curvatures(NORMAL_ROUNDS);
         let along = |direction: [f32; 3], curvature: f32| {
             let direction = Vec3::from(direction);
@@ -48,32 +88,34 @@ impl Directions {
         let bend = |own: &Curvature| {
             along(own.along_least, own.least) + along(own.along_greatest, own.greatest)
         };
-        Self { lines, arrows, bends: curvatures.iter().map(bend).collect() }
+        Self { lines, arrows, bends: curvatures.iter().map(bend).collect(), strengths: None }
+    }
+
+    /// The same directions with a factor of the flow's strength, 0 to 1, for each vertex.
+    pub(super) fn with_strengths(self, strengths: Vec<f32>) -> Self {
+        Self { strengths: Some(strengths), ..self }
+    }
+
+    /// The factor of the flow in a triangle.
+    fn strength(&self, corners: [u32; 3], weights: [f32; 3]) -> f32 {
+        let Some(strengths) = &self.strengths else { return 1.0 };
+        (0..3).map(|i| strengths[corners[i] as usize] * weights[i]).sum()
     }
 }
 
 impl Directions {
     /// A bound on the curvature in a triangle with these corners, in any direction.
-    pub(super) fn greatest_bend(&self, corners: [u32; 3]) -> f32 {
-        // The square root of the sum of squares is at least the greatest curvature.
-        let square = |corner: u32| {
-            let bend = &self.bends[corner as usize];
-            [bend.x_axis, bend.y_axis, bend.z_axis].map(Vec3::length_squared).iter().sum::<f32>()
-        };
-        corners.map(square).into_iter().fold(0.0, f32::max).sqrt()
+    fn greatest_bend(&self, corners: [u32; 3]) -> f32 {
+        corners.map(|corner| size_of(&self.bends[corner as usize])).into_iter().fold(0.0, f32::max)
     }
 }
 
-impl Place {
-    /// The place of a feature of `mesh`; `packed` is the same mesh with the normals that light
-    /// meets.
-    pub(super) fn of(
-        feature: &Feature,
-        mesh: &Mesh,
-        packed: &PackedMesh,
-        directions: &Directions,
-    ) -> Self {
-        let corners = mesh.triangles[feature.face as usize].corners;
+impl Surface {
+    /// The place of a feature.
+    pub(super) fn place(&self, feature: &Feature) -> Place {
+        let Self { mesh, packed, directions, .. } = self;
+        let triangle = mesh.triangles[feature.face as usize];
+        let corners = triangle.corners;
         let positions = corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
         let weights = barycentric(positions, feature.position);
         let [_, second, third] = weights;
@@ -85,17 +127,60 @@ impl Place {
         let arrow = Vec3::from(directions.arrows.within(corners, weights));
         let line = if line.dot(arrow) < 0.0 { -line } else { line };
         let along = line.reject_from_normalized(normal);
-        Self {
+        let share = |axis: usize| {
+            let at = corners.map(|corner| mesh.texture_coordinates[corner as usize][axis]);
+            (0..3).map(|i| at[i] * weights[i]).sum::<f32>()
+        };
+        let share = Vec2::new(share(0), share(1));
+        let bend = directions.bends[corners[0] as usize] * weights[0]
+            + directions.bends[corners[1] as usize] * weights[1]
+            + directions.bends[corners[2] as usize] * weights[2];
+        Place {
             normal,
             along: along.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector()),
-            flow: arrow.length().min(1.0),
+            flow: arrow.length().min(1.0) * directions.strength(corners, weights),
             color: point.albedo(),
-            bend: directions.bends[corners[0] as usize] * weights[0]
-                + directions.bends[corners[1] as usize] * weights[1]
-                + directions.bends[corners[2] as usize] * weights[2],
+            bend,
+            detail: self.detail.at(share, bend),
+            region: self.regions.at(triangle.material, share),
         }
     }
 
+    /// A bound on the curvature around a feature, in any direction.
+    pub(super) fn greatest_bend(&self, feature: &Feature) -> f32 {
+        self.directions.greatest_bend(self.mesh.triangles[feature.face as usize].corners)
+    }
+}
+
+impl Detail {
+    /// How much strokes show at texture coordinates, where the surface bends like this.
+    fn at(&self, share: Vec2, bend: Mat3) -> f32 {
+        match self {
+            Self::Everywhere => 1.0,
+            Self::Bends(length, layers) => layers.shown(size_of(&bend) * length),
+            Self::Pictured(field) => interpolated(field, share),
+        }
+    }
+}
+
+/// The root of the sum of squares of a curvature, at least the greatest.
+fn size_of(bend: &Mat3) -> f32 {
+    let squares = [bend.x_axis, bend.y_axis, bend.z_axis].map(Vec3::length_squared);
+    squares.iter().sum::<f32>().sqrt()
+}
+
+/// The value at a place, 0 to 1 over width and height, between the middles of cells.
+pub(super) fn interpolated(field: &Field<f32>, share: Vec2) -> f32 {
+    let last = Vec2::new(field.width() as f32 - 1.0, field.height() as f32 - 1.0);
+    let at = (share * (last + 1.0) - 0.5).clamp(Vec2::ZERO, last);
+    let (whole, part) = (at.floor(), at - at.floor());
+    let [x, y] = [whole.x as usize, whole.y as usize];
+    let [right, below] = [(x + 1).min(field.width() - 1), (y + 1).min(field.height() - 1)];
+    let row = |y: usize| field[(x, y)] + (field[(right, y)] - field[(x, y)]) * part.x;
+    row(y) + (row(below) - row(y)) * part.y
+}
+
+impl Place {
     /// Unit direction along the surface, to the right of strokes that run downwards.
     pub(super) fn across(&self) -> Vec3 {
         self.normal.cross(self.along)
@@ -136,6 +221,8 @@ mod tests {
     use graphics::coherence::{Features, Hierarchy};
     use graphics::mesh::DirectionSettings;
 
+    use super::super::regions::Regions;
+    use super::super::settings::Settings;
     use super::*;
 
     #[test]
@@ -147,12 +234,20 @@ mod tests {
         }
         let field =
             DirectionField::of_curvature(&mesh, &DirectionSettings::default(), &[]).unwrap();
-        let directions = Directions::new(&mesh, field);
-        let packed = PackedMesh::new(&mesh);
-        let features = Features::new(Arc::new(Hierarchy::new(&mesh)), 1).below(30.0);
+        let directions = Arc::new(Directions::new(&mesh, field, None));
+        let packed = Arc::new(PackedMesh::new(&mesh));
+        let settings = Settings::default();
+        let regions = RegionMap::of_mesh(&Regions::default(), &mesh, &["m"], &settings).unwrap();
+        let (mesh, regions) = (Arc::new(mesh), Arc::new(regions));
+        // Half of a radian, over which the ball turns within half a unit, is too little to show.
+        let detail = Detail::Bends(0.5, LayerSettings { detail: 0.3, ..settings.layers });
+        let surface = Surface { mesh: Arc::clone(&mesh), packed, directions, detail, regions };
+        let hierarchy = Hierarchy::new(&mesh);
+        let features = Features::new(Arc::new(hierarchy), 1).below(30.0);
         assert!(features.len() > 200, "{}", features.len());
         for feature in &features {
-            let place = Place::of(feature, &mesh, &packed, &directions);
+            let place = surface.place(feature);
+            assert_eq!((place.detail, place.region), (0.0, 0));
             let outward = feature.position.normalize();
             assert!(place.normal.dot(outward) > 0.999, "{feature:?} {place:?}");
             assert!(place.along.dot(place.normal).abs() < 1e-5);

@@ -1,17 +1,18 @@
 //! Strokes at rest: what each feature of the model carries, whatever the view.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 use graphics::coherence::{Feature, Features};
-use graphics::mesh::Mesh;
-use graphics::surface::PackedMesh;
 use rayon::prelude::*;
 
 use super::coloring::Coloring;
 use super::grid::Grid;
-use super::places::{Directions, Place};
+use super::places::{Place, Surface};
+use super::regions::Style;
 
 /// Least cosine between the normals of strokes that continue each other.
-pub(super) const ALIKE: f32 = 0.6;
+const ALIKE: f32 = 0.6;
 
 /// Numbers of a feature's random offsets.
 const RANDOM: [u64; 2] = [16, 17];
@@ -24,6 +25,8 @@ pub(super) struct Root {
     pub(super) start: Start,
     /// Colour that is added to the map's.
     pub(super) color: Vec3,
+    /// Tone, 0 to 1 of the map's, that does not depend on light; `None` if light decides.
+    pub(super) tone: Option<f32>,
 }
 
 /// The place in the map that the centre of a stroke shows. Strokes of one patch of the model go on
@@ -61,14 +64,20 @@ pub(super) fn way(from: (&Feature, &Place), to: (&Feature, &Place)) -> Vec2 {
     Vec2::new(part(from.1.across(), to.1.across()), part(from.1.along, to.1.along))
 }
 
-/// The strokes of a model. Those up to some density are kept; all others are made when they are
+/// Whether the strokes of two places continue each other: on one side of the surface, and of one
+/// region.
+pub(super) fn alike(one: &Place, other: &Place) -> bool {
+    one.normal.dot(other.normal) > ALIKE && one.region == other.region
+}
+
+/// The strokes of a subject. Those up to some density are kept; all others are made when they are
 /// asked for, and continue the nearest kept one.
 #[derive(Debug)]
 pub(super) struct Roots {
-    mesh: Mesh,
-    packed: PackedMesh,
-    directions: Directions,
-    coloring: Coloring,
+    surface: Surface,
+    coloring: Arc<Coloring>,
+    /// L* of the darkest and of the lightest tone, where the subject's lightness decides the tone.
+    lightness: Option<[f32; 2]>,
     /// Seeds of kept strokes, rising.
     seeds: Vec<u64>,
     /// Kept strokes and their features, in the order of the seeds.
@@ -79,15 +88,35 @@ pub(super) struct Roots {
 }
 
 impl Roots {
-    /// Strokes on `mesh`, none of them kept.
+    /// Strokes on a surface, none of them kept. Their tone follows the colour of the surface, from
+    /// the first L* to the last, or else light.
     pub(super) fn new(
-        mesh: Mesh,
-        packed: PackedMesh,
-        directions: Directions,
-        coloring: Coloring,
+        surface: Surface,
+        coloring: Arc<Coloring>,
+        lightness: Option<[f32; 2]>,
     ) -> Self {
         let (seeds, kept, features) = (Vec::new(), Vec::new(), Vec::new());
-        Self { mesh, packed, directions, coloring, seeds, kept, features, grid: None }
+        Self { surface, coloring, lightness, seeds, kept, features, grid: None }
+    }
+
+    /// How a stroke is painted.
+    pub(super) fn style(&self, root: &Root) -> &Style {
+        &self.surface.regions.styles[usize::from(root.place.region)]
+    }
+
+    /// How strokes are painted, by region.
+    pub(super) fn styles(&self) -> &[Style] {
+        &self.surface.regions.styles
+    }
+
+    /// Number of kept strokes.
+    pub(super) fn count(&self) -> usize {
+        self.kept.len()
+    }
+
+    /// Least and greatest size of strokes by that of the settings.
+    pub(super) fn sizes(&self) -> [f32; 2] {
+        self.surface.regions.sizes()
     }
 
     /// The same strokes; those of all features below a priority are kept, and start where `starts`
@@ -101,7 +130,9 @@ impl Roots {
     ) -> Self {
         let mut features = features.below(priority);
         features.sort_unstable_by_key(|feature| feature.seed);
-        let mut kept: Vec<Root> = features.par_iter().map(|feature| self.made(feature)).collect();
+        let kept = features.par_iter().map(|feature| (*feature, self.made(feature)));
+        let shown = kept.filter(|(_, root)| root.place.detail > 0.0);
+        let (features, mut kept): (Vec<Feature>, Vec<Root>) = shown.unzip();
         if let Some(starts) = starts(&features, &kept) {
             kept.iter_mut().zip(starts).for_each(|(root, start)| root.start = start);
             self.grid = Some(Grid::new(features.iter().map(|feature| feature.position), reach));
@@ -121,7 +152,7 @@ impl Roots {
 
     /// A bound on the curvature of the surface around a feature, per unit of the model.
     pub(super) fn greatest_bend(&self, feature: &Feature) -> f32 {
-        self.directions.greatest_bend(self.mesh.triangles[feature.face as usize].corners)
+        self.surface.greatest_bend(feature)
     }
 
     /// The stroke of a feature, which need not continue others.
@@ -135,9 +166,8 @@ impl Roots {
     /// A stroke that goes on in the map from the nearest kept one on its side of the surface.
     fn continued(&self, feature: &Feature, own: Root) -> Root {
         let Some(grid) = &self.grid else { return own };
-        let near = grid
-            .near(feature.position)
-            .filter(|&other| self.kept[other].place.normal.dot(own.place.normal) > ALIKE);
+        let near =
+            grid.near(feature.position).filter(|&other| alike(&self.kept[other].place, &own.place));
         let distance =
             |other: &usize| self.features[*other].position.distance_squared(feature.position);
         let nearest = near.min_by(|a, b| distance(a).total_cmp(&distance(b)).then(a.cmp(b)));
@@ -148,13 +178,18 @@ impl Roots {
     }
 
     /// How a pixel shows colours.
-    pub(super) fn coloring(&self) -> &Coloring {
+    pub(super) fn coloring(&self) -> &Arc<Coloring> {
         &self.coloring
     }
 
     fn made(&self, feature: &Feature) -> Root {
-        let place = Place::of(feature, &self.mesh, &self.packed, &self.directions);
+        let place = self.surface.place(feature);
+        let tone = self.lightness.map(|[darkest, lightest]| {
+            let share = (Coloring::lightness(place.color) - darkest) / (lightest - darkest);
+            share.clamp(0.0, 1.0)
+        });
         Root {
+            tone,
             start: Start {
                 origin: RANDOM.map(|number| feature.unit(number)).into(),
                 way: Vec2::ZERO,

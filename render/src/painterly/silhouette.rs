@@ -60,14 +60,14 @@ pub(super) fn outlines(
     };
     let seen = features.seen_where(sight.projection, Density::Facing, end, radii[1], near);
     let splat = |seen: &SeenFeature| {
-        outline(seen, &roots.single(&seen.feature), tones, sight, (radii, end))
+        outline(seen, (&roots.single(&seen.feature), roots), tones, sight, (radii, end))
     };
     seen.par_iter().with_min_len(256).filter_map(splat).collect()
 }
 
 fn outline(
     seen: &SeenFeature,
-    root: &Root,
+    (root, roots): (&Root, &Roots),
     tones: &Tones,
     sight: &Sight<'_>,
     (radii, end): ([f32; 2], f32),
@@ -98,7 +98,7 @@ fn outline(
         tone: 0.0,
         color: root.color * (1.0 - silhouette.darkness),
     };
-    brushed.splat(seen, root, tones, sight)
+    brushed.splat(seen, (root, roots.style(root)), tones, sight)
 }
 
 /// The cosine at which a line ends on a surface of this curvature towards the eye.

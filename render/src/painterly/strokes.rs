@@ -7,7 +7,8 @@ use glam::{Mat2, Vec2, Vec3};
 use graphics::coherence::{Density, Features, Projection, SeenFeature};
 use rayon::prelude::*;
 
-use super::flow::moved;
+use super::flow::{moved, twinkled};
+use super::regions::Style;
 use super::roots::{Root, Roots};
 use super::settings::{Settings, Zoom};
 use super::splat::StrokeSplat;
@@ -35,6 +36,9 @@ const STEEPEST: f32 = 2.0;
 
 /// Numbers of the random parts of a feature's place in the map.
 const NOISE: [u64; 2] = [18, 19];
+
+/// Number of the random time at which a stroke twinkles.
+const TWINKLE: u64 = 20;
 
 /// One picture to paint.
 #[derive(Debug, Clone, Copy)]
@@ -76,18 +80,24 @@ pub(super) fn splats(
     };
     let [_, along] = sight.settings.strokes.radii_px();
     let [_, end] = ranks(sight.settings);
-    let seen = features.seen(sight.projection, density, end, along);
+    let [least, most] = roots.sizes();
+    let seen = features.seen(sight.projection, density, end / (least * least), along * most);
     let splat = |seen: &SeenFeature| {
         let root = sight.may_see(seen).then(|| roots.of(&seen.feature))?;
-        splat(seen, &root, tones, sight)
+        splat(seen, (&root, roots), tones, sight)
     };
     seen.par_iter().with_min_len(256).filter_map(splat).collect()
 }
 
 /// The splat of one feature; `None` if it has no weight.
-fn splat(seen: &SeenFeature, root: &Root, tones: &Tones, sight: &Sight<'_>) -> Option<StrokeSplat> {
+fn splat(
+    seen: &SeenFeature,
+    (root, roots): (&Root, &Roots),
+    tones: &Tones,
+    sight: &Sight<'_>,
+) -> Option<StrokeSplat> {
     let Sight { projection, settings, .. } = sight;
-    let place = &root.place;
+    let (place, style) = (&root.place, roots.style(root));
     let (normal, across) = match seen.facing < 0.0 {
         true => (-place.normal, -place.across()),
         false => (place.normal, place.across()),
@@ -97,7 +107,8 @@ fn splat(seen: &SeenFeature, root: &Root, tones: &Tones, sight: &Sight<'_>) -> O
     let drawn = |along: Vec3| Vec2::from(projection.moved(at, seen.distance, along)) / per_unit;
     let [across, along] = [drawn(across), drawn(place.along)];
     let [full, end] = ranks(settings);
-    let present = 1.0 - smooth(full, end, seen.rank);
+    let rank = seen.rank * style.size * style.size;
+    let present = place.detail * (1.0 - smooth(full, end, rank));
     let drawn_out =
         FORESHORTENED + (1.0 - FORESHORTENED) * smooth(LENGTH[0], LENGTH[1], along.length());
     let weight = present * drawn_out * smooth(FACING[0], FACING[1], seen.facing.abs());
@@ -108,20 +119,25 @@ fn splat(seen: &SeenFeature, root: &Root, tones: &Tones, sight: &Sight<'_>) -> O
     let flat = along.try_normalize()?;
     let tilt = settings.strokes.tilt;
     let lean = |flat: Vec2, drawn: Vec2| flat + (drawn - flat) * tilt;
-    let zoom = sight.zoom(per_unit);
-    let radii = settings.strokes.radii_px().map(|radius| radius * zoom);
-    let light = &settings.light;
-    let lit = ((normal.dot(sight.light) + light.wrap) / (1.0 + light.wrap)).clamp(0.0, 1.0);
-    let tone = light.darkest + (light.lightest - light.darkest) * lit;
+    let size = style.size * sight.zoom(per_unit);
+    let radii = settings.strokes.radii_px().map(|radius| radius * size);
+    let wrap = settings.light.wrap;
+    let lit = ((normal.dot(sight.light) + wrap) / (1.0 + wrap)).clamp(0.0, 1.0);
+    let [darkest, lightest] = style.tones;
+    let twinkle = match style.twinkle {
+        0.0 => 0.0,
+        most => most * twinkled(style.twinkles, sight.phase, seen.feature.unit(TWINKLE)),
+    };
+    let tone = darkest + (lightest - darkest) * root.tone.unwrap_or(lit) + twinkle;
     let brushed = Brushed {
         axes: [lean(Vec2::new(flat.y, -flat.x), across), lean(flat, along)],
         radii,
         weight,
         cover,
         tone,
-        color: root.color,
+        color: root.color + roots.coloring().lighter(twinkle),
     };
-    brushed.splat(seen, root, tones, sight)
+    brushed.splat(seen, (root, style), tones, sight)
 }
 
 /// How a stroke is laid down in the picture.
@@ -144,7 +160,7 @@ impl Brushed {
     pub(super) fn splat(
         &self,
         seen: &SeenFeature,
-        root: &Root,
+        (root, style): (&Root, &Style),
         tones: &Tones,
         sight: &Sight<'_>,
     ) -> Option<StrokeSplat> {
@@ -161,8 +177,9 @@ impl Brushed {
         let towards = seen.feature.normal.dot(seen.feature.position - projection.camera().eye);
         let slope = Vec2::from(projection.slope(seen.feature.normal, towards));
         let per_unit = projection.focal_px() / seen.distance;
-        let width_px = settings.strokes.width_px * sight.zoom(per_unit);
-        let widths_per_px = tones.spacing / (width_px * tones.size as f32);
+        let width_px = settings.strokes.width_px * style.size * sight.zoom(per_unit);
+        let map = tones.map(style.map);
+        let widths_per_px = map.spacing / (width_px * map.size as f32);
         let widths_per_unit = match settings.strokes.zoom {
             Zoom::Screen => {
                 let distance = calm_distance(seen.distance, sight.distance);
@@ -173,9 +190,9 @@ impl Brushed {
         let [u, v] = root.start.at(widths_per_unit).to_array();
         let noise = NOISE.map(|number| {
             let random = seen.feature.unit(number) - 0.5;
-            2.0 * random * settings.flow.noise * tones.spacing / tones.size as f32
+            2.0 * random * settings.flow.noise * map.spacing / map.size as f32
         });
-        let flow = moved(root.place.flow, sight.phase, &settings.flow);
+        let flow = moved(root.place.flow, sight.phase, style.periods);
         Some(StrokeSplat {
             x: seen.x,
             y: seen.y,
@@ -189,8 +206,8 @@ impl Brushed {
             cover,
             offset: [u + noise[0], v + noise[1] + flow],
             extent: radii.map(|radius| radius * widths_per_px),
-            slice: tones.slice(tone) as u32,
-            halvings: tones.halvings(tones.spacing / width_px) as u32,
+            slice: tones.slice(style.map, tone) as u32,
+            halvings: tones.halvings(style.map, map.spacing / width_px) as u32,
             color: color.to_array(),
         })
     }

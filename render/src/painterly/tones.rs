@@ -1,4 +1,6 @@
-//! The map laid out for painting: a slice for each tone, packed, at several sizes.
+//! The maps laid out for painting: a slice for each tone, packed, at several sizes.
+
+use std::ops::Range;
 
 use artmap::map::{ArtMap, Between, Tile};
 use glam::Vec3;
@@ -20,15 +22,23 @@ const DEVIATIONS: f64 = 2.0;
 /// Coordinates of colour, and height.
 const CHANNELS: usize = 4;
 
-/// All tones of a map.
+/// All tones of some maps.
 #[derive(Debug, Clone)]
 pub(super) struct Tones {
-    /// From dark to light.
+    /// Map by map, from dark to light.
     slices: Vec<Slice>,
+    maps: Vec<LaidMap>,
     /// Value of a byte of 0, by channel.
     pub(super) low: [f32; CHANNELS],
     /// Change of value from byte to byte, by channel.
     pub(super) step: [f32; CHANNELS],
+}
+
+/// One map among the tones.
+#[derive(Debug, Clone)]
+pub(super) struct LaidMap {
+    /// Its slices.
+    slices: Range<usize>,
     /// Width and height of the largest size in texels.
     pub(super) size: usize,
     /// Distance of neighbouring strokes in texels of the largest size.
@@ -58,11 +68,17 @@ pub(super) struct Texels {
 type Values = Vec<[f32; CHANNELS]>;
 
 impl Tones {
-    /// Lays out the tones of a map of at least one tile.
-    pub(super) fn new(map: &ArtMap, between: Between, coloring: &Coloring) -> Self {
-        let tiles = tone_tiles(map, between);
-        let laid = tiles.par_iter().map(|tile| (tile.tone() as f32, sizes(tile, coloring)));
-        let laid: Vec<(f32, Vec<(usize, Values)>)> = laid.collect();
+    /// Lays out the tones of maps of at least one tile each.
+    pub(super) fn new(maps: &[&ArtMap], between: Between, coloring: &Coloring) -> Self {
+        let mut laid: Vec<(f32, Vec<(usize, Values)>)> = Vec::new();
+        let lay = |(number, map): (usize, &&ArtMap)| {
+            let tiles = tone_tiles(map, between);
+            let first = laid.len();
+            let tone = |tile: &Tile| (tile.tone() as f32, sizes(tile, coloring, number));
+            laid.par_extend(tiles.par_iter().map(tone));
+            LaidMap { slices: first..laid.len(), size: map.size(), spacing: map.spacing as f32 }
+        };
+        let maps = maps.iter().enumerate().map(lay).collect();
         let whole = || laid.iter().flat_map(|(_, sizes)| &sizes[0].1);
         let (mut low, mut step) = range(whole());
         (low[3], step[3]) = usual_heights(whole().map(|value| value[3]), [low[3], step[3]]);
@@ -71,28 +87,37 @@ impl Tones {
             sizes: sizes.iter().map(|(size, values)| packed(*size, values, low, step)).collect(),
         };
         let slices = laid.into_par_iter().map(pack).collect();
-        Self { slices, low, step, size: map.size(), spacing: map.spacing as f32 }
+        Self { slices, maps, low, step }
     }
 
-    /// Index of the slice of a tone: 0 the darkest to 1 the lightest tile, evenly in L*.
-    pub(super) fn slice(&self, tone: f32) -> usize {
-        let [first, last] = [self.slices.first(), self.slices.last()];
+    /// A map, in the order in which they were given.
+    #[inline(always)]
+    pub(super) fn map(&self, map: usize) -> &LaidMap {
+        &self.maps[map]
+    }
+
+    /// Index of the slice of a tone: 0 the darkest to 1 the lightest tile of a map, evenly in L*.
+    pub(super) fn slice(&self, map: usize, tone: f32) -> usize {
+        let slices = &self.slices[self.maps[map].slices.clone()];
+        let [first, last] = [slices.first(), slices.last()];
         let [darkest, lightest] = [first, last].map(|slice| slice.map_or(0.0, |slice| slice.tone));
-        self.nearest(darkest + tone.clamp(0.0, 1.0) * (lightest - darkest))
+        self.nearest(map, darkest + tone.clamp(0.0, 1.0) * (lightest - darkest))
     }
 
-    /// Index of the slice whose mean L* is nearest.
-    pub(super) fn nearest(&self, wanted: f32) -> usize {
-        let above = self.slices.partition_point(|slice| slice.tone < wanted);
+    /// Index of the slice of a map whose mean L* is nearest.
+    pub(super) fn nearest(&self, map: usize, wanted: f32) -> usize {
+        let first = self.maps[map].slices.start;
+        let slices = &self.slices[self.maps[map].slices.clone()];
+        let above = slices.partition_point(|slice| slice.tone < wanted);
         let below = above.saturating_sub(1);
-        let above = above.min(self.slices.len() - 1);
-        let off = |at: usize| (self.slices[at].tone - wanted).abs();
-        if off(below) <= off(above) { below } else { above }
+        let above = above.min(slices.len() - 1);
+        let off = |at: usize| (slices[at].tone - wanted).abs();
+        first + if off(below) <= off(above) { below } else { above }
     }
 
-    /// How often the largest size is halved for this many of its texels to a pixel.
-    pub(super) fn halvings(&self, texels_per_px: f32) -> usize {
-        let sizes = self.slices[0].sizes.len();
+    /// How often the largest size of a map is halved for this many of its texels to a pixel.
+    pub(super) fn halvings(&self, map: usize, texels_per_px: f32) -> usize {
+        let sizes = self.slices[self.maps[map].slices.start].sizes.len();
         let mut halvings = 0;
         let mut left = texels_per_px;
         while halvings + 1 < sizes && left > std::f32::consts::SQRT_2 {
@@ -179,16 +204,17 @@ fn spread(texel: u32) -> u64 {
 }
 
 /// The sizes of a tile: colours are averaged as light, heights as heights.
-fn sizes(tile: &Tile, coloring: &Coloring) -> Vec<(usize, Values)> {
+fn sizes(tile: &Tile, coloring: &Coloring, map: usize) -> Vec<(usize, Values)> {
     let heights = tile
         .height_mm
         .as_ref()
         .map_or_else(|| vec![0.0; tile.size() * tile.size()], |height| height.values().to_vec());
     let mut laid = Vec::new();
+    let mean = coloring.mean(map, &tile.color);
     let (mut color, mut heights) = (tile.color.clone(), heights);
     loop {
         let size = color.width();
-        let details = coloring.details(&color).into_iter().zip(&heights);
+        let details = coloring.details(map, mean, &color).into_iter().zip(&heights);
         laid.push((size, details.map(|(detail, &height)| detail.extend(height).into()).collect()));
         if !size.is_multiple_of(2) || size < 2 * LEAST_SIZE {
             return laid;
@@ -254,25 +280,26 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
 
 #[cfg(test)]
 mod tests {
+    use super::super::coloring::Subjects;
     use super::super::made_up::map;
     use super::super::settings::ColorSettings;
     use super::*;
 
     fn tones() -> (ArtMap, Tones) {
         let map = map(3);
-        let coloring = Coloring::new(&map, &[], &ColorSettings::default());
-        let tones = Tones::new(&map, Between::Dissolve, &coloring);
+        let coloring = Coloring::new(&[&map], &[], &ColorSettings::default(), Subjects::Models);
+        let tones = Tones::new(&[&map], Between::Dissolve, &coloring);
         (map, tones)
     }
 
     #[test]
     fn slices_go_evenly_from_the_darkest_to_the_lightest() {
         let (map, tones) = tones();
-        assert_eq!((tones.slice(0.0), tones.slice(1.0)), (0, tones.slices.len() - 1));
+        assert_eq!((tones.slice(0, 0.0), tones.slice(0, 1.0)), (0, tones.slices.len() - 1));
         let range = map.keys[2].tone - map.keys[0].tone;
         for step in 0..=100 {
             let share = step as f32 / 100.0;
-            let found = f64::from(tones.slices[tones.slice(share)].tone) - map.keys[0].tone;
+            let found = f64::from(tones.slices[tones.slice(0, share)].tone) - map.keys[0].tone;
             assert!((found / range - f64::from(share)).abs() * range < 1.5, "{share}: {found}");
         }
         for pair in tones.slices.windows(2) {
@@ -285,8 +312,9 @@ mod tests {
         let (map, tones) = tones();
         let texels = tones.texels(0, 0);
         let size = map.size();
-        let coloring = Coloring::new(&map, &[], &ColorSettings::default());
-        let details = coloring.details(&map.keys[0].tile.color);
+        let coloring = Coloring::new(&[&map], &[], &ColorSettings::default(), Subjects::Models);
+        let details =
+            coloring.details(0, coloring.mean(0, &map.keys[0].tile.color), &map.keys[0].tile.color);
         for (x, y) in [(0, 0), (5, 9), (size - 1, size - 1)] {
             let found = tones.values(texels.between(x, y, 0, 0).map(|byte| byte / 256.0));
             let wanted = details[y * size + x];
@@ -310,7 +338,10 @@ mod tests {
     #[test]
     fn smaller_sizes_keep_the_mean_and_suit_fewer_pixels() {
         let (_, tones) = tones();
-        assert_eq!([0.5, 1.4, 1.5, 2.7, 2.9].map(|scale| tones.halvings(scale)), [0, 0, 1, 1, 2]);
+        assert_eq!(
+            [0.5, 1.4, 1.5, 2.7, 2.9].map(|scale| tones.halvings(0, scale)),
+            [0, 0, 1, 1, 2]
+        );
         let mean = |halvings: usize| {
             let texels = tones.texels(4, halvings);
             let size = texels.size;

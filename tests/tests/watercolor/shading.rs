@@ -31,7 +31,7 @@ fn two() -> Mesh {
     for (color, i) in mesh.colors.iter_mut().zip(0u8..=255) {
         *color = [0.5 + f32::from(i) / 512.0, 1.0, 0.7];
     }
-    mesh.materials.push(Material { color: [0.9, 0.8, 1.0], texture: Some(checks()) });
+    mesh.materials.push(Material { texture: Some(checks()), ..Material::plain([0.9, 0.8, 1.0]) });
     let ball = Mesh::sphere(800);
     let first = mesh.positions.len() as u32;
     mesh.positions.extend(&ball.positions);

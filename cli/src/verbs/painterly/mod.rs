@@ -1,44 +1,41 @@
-//! `impasto painterly`: paints 3D models in the brushwork of an art map.
+//! `impasto painterly`: paints 3D models and pictures in the brushwork of art maps.
 
 mod brushwork;
 
+mod form;
+
 mod settings;
+
+mod job;
 
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
-use render::artmap::map::ArtMap;
 use render::camera::Camera;
-use render::encoding::{linear_from_encoded, over_white};
-use render::export::frame_of;
-use render::light::Light;
-use render::mesh::Mesh;
-use render::paint::engine::PaintEngine;
 use render::paint::ground::{GroundKind, GroundSpec};
-use render::paint::painting::Painting;
-use render::painterly::{ModelPainter, Preset, Settings};
-use serde_json::json;
-use spectra::Viewing;
+use render::painterly::{PictureView, Preset, Settings};
 
-use crate::animation::{Animation, AnimationOptions, FramesDigest};
+use crate::animation::{Animation, AnimationOptions};
 use crate::canvas::grounds;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::pictures::{Exports, OpenExports};
-use crate::plain_picture::PX_MM;
+use crate::pictures::Exports;
 use crate::subject::{Subject, SubjectOptions};
 use brushwork::BrushworkOptions;
+use form::FormOptions;
+use job::{Job, Scene, What};
 use settings::{SettingsOptions, preset_names};
 
-/// Paint a 3D model in the brushwork of a painting
+/// Paint a 3D model or a photograph in the brushwork of a painting
 ///
-/// The model is covered with strokes of an art map. They run along its form, their tone follows the
-/// light, and they stay on the surface while the camera moves (Yan, Chi, Lee and Lin 2008). Make a
-/// map of a painting with `impasto artmap`, or name a style.
+/// A model is covered with strokes of an art map. They run along its form, their tone follows the
+/// light, and they stay on the surface while the camera moves (Yan, Chi, Lee and Lin 2008). A
+/// photograph is painted in its own colours, with strokes along its edges. Make a map of a painting
+/// with `impasto artmap`, or name a style.
 #[derive(Debug, Args)]
 pub(crate) struct Painterly {
-    /// A mesh (.obj, .gltf, .glb, .ply), or a built-in shape (shape:still-life, shape:village,
-    /// shape:torus-knot, shape:sphere)
+    /// A photograph (.png, .jpg), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
+    /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
     #[arg(required_unless_present = "show_preset")]
     subject: Option<PathBuf>,
     /// Print the settings of a preset, each with its meaning, and do nothing else
@@ -58,7 +55,7 @@ pub(crate) struct Painterly {
     #[arg(long = "loop", value_name = "FRAMES", value_parser = value_parser!(u64).range(1..=100_000),
           conflicts_with = "turntable", help_heading = "Animation")]
     loop_frames: Option<u64>,
-    /// Print JSON: size, strokes, matched, frames, frames_found
+    /// Print JSON: size, strokes, layers, matched, maps, regions, frames, frames_found
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -67,6 +64,8 @@ pub(crate) struct Painterly {
     settings: SettingsOptions,
     #[command(flatten)]
     subject_options: SubjectOptions,
+    #[command(flatten)]
+    form: FormOptions,
     #[command(flatten)]
     animation: AnimationOptions,
 }
@@ -84,15 +83,13 @@ impl Painterly {
         }
         let settings = self.settings.settings()?;
         let path = self.subject.clone().unwrap_or_default();
-        let (subject, mut inputs) = self.subject_options.subject(&path)?;
-        let Subject::Mesh(mesh, cameras, size) = subject else {
-            return Err(Failure::usage(
-                format!("{}: only models are painted with a map", path.display()),
-                "give a mesh (.obj, .gltf, .glb, .ply), or shape:still-life",
-            ));
-        };
-        let cameras = self.frames(cameras, &settings)?;
-        inputs.extend(self.brushwork.inputs().chain(self.settings.input().cloned()));
+        let (subject, mut inputs) = self.subject_options.subject(&path, self.form.has_depth())?;
+        if matches!(subject, Subject::Mesh(..)) {
+            self.form.refuse_on_models(&path)?;
+        }
+        inputs.extend(self.brushwork.inputs());
+        inputs.extend(self.form.inputs().chain(self.settings.input().cloned()));
+        let scene = self.scene(subject, &settings)?;
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let painting = self.painting(&title.unwrap_or_default());
         let animation = self.animation.open(&inputs)?;
@@ -107,10 +104,28 @@ impl Painterly {
                 "give each its own file name",
             ));
         }
-        let map = self.brushwork.map(console)?;
-        let job = Job { settings, cameras, size, painting, exports, animation };
-        let summary = job.paint(&mesh, &map, console)?;
+        let maps = self.brushwork.maps(console)?;
+        let job = Job { settings, scene, painting, exports, animation };
+        let summary = job.paint(&maps, console)?;
         summary.print(self.json, console)
+    }
+
+    /// What is painted, with the cameras of all frames.
+    fn scene(&self, subject: Subject, settings: &Settings) -> Result<Scene> {
+        let (what, cameras, size) = match subject {
+            Subject::Mesh(mesh, cameras, size) => (What::Model(mesh), cameras, size),
+            Subject::Photograph(photograph, width) => {
+                let (own_width, own_height) = photograph.size();
+                let rows = (width as f64 * own_height as f64 / own_width as f64).round() as usize;
+                let size = (width, rows.max(1));
+                let form = self.form.of_picture()?;
+                let view = PictureView::of(photograph.size());
+                let turns = self.subject_options.picture_turns()?;
+                let cameras = turns.into_iter().map(|[right, up]| view.turned(right, up));
+                (What::Picture(photograph, form), cameras.collect(), size)
+            }
+        };
+        Ok(Scene { what, cameras: self.frames(cameras, settings)?, size })
     }
 
     /// Title and ground of a painting, if the picture is one.
@@ -139,107 +154,13 @@ impl Painterly {
                 "leave out --loop: strokes flow while the camera moves too",
             ));
         }
-        if settings.flow.periods == 0 {
+        let still = settings.flow.periods == 0 && settings.flow.twinkle == 0.0;
+        if still && !self.brushwork.has_regions() {
             return Err(Failure::usage(
                 "strokes do not flow with these settings",
-                "add --set flow.periods=1",
+                "add --set flow.periods=1, or --set flow.twinkle=0.2",
             ));
         }
         Ok(vec![first; frames as usize])
-    }
-}
-
-/// What is painted, and where it is written.
-struct Job {
-    settings: Settings,
-    cameras: Vec<Camera>,
-    size: (usize, usize),
-    /// Title and ground of a painting with pigments, if it is one.
-    painting: Option<(String, GroundSpec)>,
-    exports: OpenExports,
-    animation: Option<Animation>,
-}
-
-impl Job {
-    fn paint(self, mesh: &Mesh, map: &ArtMap, console: &mut Console<'_>) -> Result<Summary> {
-        let Self { settings, cameras, size, painting, exports, animation } = self;
-        let mut painter = ModelPainter::new(mesh, map, &settings)?;
-        let recording = match animation {
-            None => None,
-            Some(animation) => {
-                let digest = FramesDigest::default()
-                    .add(&env!("CARGO_PKG_VERSION"))
-                    .add(&settings)
-                    .add(&cameras)
-                    .add(&mesh)
-                    .add(map);
-                Some(animation.begin(digest, cameras.len(), size)?)
-            }
-        };
-        let strokes = painter.splats(&cameras[0], size, 0.0)?.1.len();
-        match painting {
-            _ if !exports.any() => {}
-            Some((title, ground)) => {
-                let document = painter.painting(&cameras[0], size, 0.0, (&title, &ground))?;
-                let engine = PaintEngine::on_cpu(document.ground.height.clone());
-                let light = Light::new(&document.library, &Viewing::default())?;
-                exports.write(&mut Painting::open_under(document, light, engine, 0)?, console)?;
-            }
-            None => {
-                let painted = painter.paint(&cameras[0], size, 0.0)?;
-                let linear = linear_from_encoded(&over_white(&painted.color));
-                exports.write_picture(&linear, PX_MM, console)?;
-            }
-        }
-        let mut frames = None;
-        if let Some(recording) = recording {
-            let count = cameras.len();
-            let found = recording.paint(console, |index| {
-                // One loop of the flow over all frames.
-                let seconds = f64::from(settings.flow.loop_seconds) * index as f64 / count as f64;
-                let painted = painter.paint(&cameras[index], size, seconds)?;
-                Ok(frame_of(&over_white(&painted.color)))
-            })?;
-            frames = Some((count, found));
-        }
-        Ok(Summary { size, strokes, matched: painter.matched(), frames })
-    }
-}
-
-/// Summary of a finished run.
-struct Summary {
-    /// Width and height in pixels.
-    size: (usize, usize),
-    /// Number of strokes of the first picture.
-    strokes: usize,
-    /// Share of strokes that continue a neighbour.
-    matched: f64,
-    /// Number of frames of an animation, and the number of these that existed already.
-    frames: Option<(usize, usize)>,
-}
-
-impl Summary {
-    fn print(&self, as_json: bool, console: &mut Console<'_>) -> Result<()> {
-        let Self { size: (width, height), strokes, matched, frames } = self;
-        if as_json {
-            return console.json(&json!({
-                "size": [width, height],
-                "strokes": strokes,
-                "matched": matched,
-                "frames": frames.map(|(frames, _)| frames),
-                "frames_found": frames.map(|(_, found)| found),
-            }));
-        }
-        let mut line = format!(
-            "{width} x {height} pixels, {strokes} strokes, {:.0} % continue a neighbour",
-            100.0 * matched
-        );
-        if let Some((frames, found)) = frames {
-            line += &format!(", {frames} frames");
-            if *found > 0 {
-                line += &format!(" ({found} of them existed already)");
-            }
-        }
-        console.line(line)
     }
 }

@@ -75,7 +75,7 @@ impl Watercolor {
         }
         let (settings, mut inputs) = self.style.settings()?;
         inputs.extend(self.pigments.input().cloned());
-        let (subject, files) = self.subject_options.subject(&path)?;
+        let (subject, files) = self.subject_options.subject(&path, false)?;
         inputs.extend(files);
         inputs.extend(self.outputs.inputs());
         let still = match &subject {

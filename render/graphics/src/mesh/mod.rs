@@ -32,7 +32,9 @@ mod test_shapes;
 
 pub use check::MeshFault;
 pub use curvature::Curvature;
-pub use directions::{Along, DirectionFault, DirectionField, DirectionSettings, FlowField, Guide};
+pub use directions::{
+    Along, DirectionFault, DirectionField, DirectionSettings, FlowField, Guide, Line,
+};
 pub use file::MeshError;
 pub use model::{Material, Mesh, Texture, Triangle};
 pub use shapes::{GridSize, SampleModel};

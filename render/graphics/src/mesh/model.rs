@@ -34,6 +34,8 @@ pub struct Triangle {
 /// Colour of a surface: a base colour, optionally times a texture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
+    /// Name in the file; empty where it has none. Several materials may share one.
+    pub name: String,
     /// Base colour, encoded sRGB in 0..1.
     pub color: [f32; 3],
     /// Texture that multiplies the base colour, if any.
@@ -53,10 +55,16 @@ pub struct Texture {
 }
 
 impl Material {
-    /// A material without texture; `color` is encoded sRGB in 0..1.
+    /// A material without name and texture; `color` is encoded sRGB in 0..1.
     #[must_use]
     pub fn plain(color: [f32; 3]) -> Self {
-        Self { color, texture: None }
+        Self::named("", color)
+    }
+
+    /// A material without texture; `color` is encoded sRGB in 0..1.
+    #[must_use]
+    pub fn named(name: &str, color: [f32; 3]) -> Self {
+        Self { name: name.to_owned(), color, texture: None }
     }
 }
 

@@ -1,12 +1,27 @@
+use super::super::coloring::{Coloring, Subjects};
+use super::super::divided::THIN;
 use super::super::made_up::{map, splat};
-use super::super::settings::ColorSettings;
+use super::super::settings::{ColorSettings, ColorSource};
+use super::super::tones::Tones;
 use super::*;
 use artmap::map::Between;
 
-fn laid_out() -> (Tones, Coloring) {
+fn laid_out(from: ColorSource) -> (Tones, Coloring) {
     let map = map(1);
-    let coloring = Coloring::new(&map, &[], &ColorSettings::default());
-    (Tones::new(&map, Between::Blend, &coloring), coloring)
+    let settings = ColorSettings { from, ..ColorSettings::default() };
+    let coloring = Coloring::new(&[&map], &[], &settings, Subjects::Models);
+    (Tones::new(&[&map], Between::Blend, &coloring), coloring)
+}
+
+/// A picture of the lowest layer.
+fn shown(
+    depth: &Field<f32>,
+    splats: &[StrokeSplat],
+    (tones, coloring): (&Tones, &Coloring),
+    overlap: &OverlapSettings,
+) -> PaintedModel {
+    let divide = Divide { tones, coloring, overhang: overlap.overhang, thin: THIN };
+    painted(depth, splats, &divide, overlap)
 }
 
 fn overlap(sharpness: u32) -> OverlapSettings {
@@ -55,7 +70,7 @@ fn summed(splats: &[StrokeSplat], tones: &Tones, sharpness: i32, at: [f32; 2]) -
 
 #[test]
 fn a_pixel_is_the_weighted_mean_of_all_splats() {
-    let (tones, coloring) = laid_out();
+    let (tones, coloring) = laid_out(ColorSource::Map);
     let splats: Vec<StrokeSplat> = (0..60_u8)
         .map(|i| {
             let at = [f32::from(i) * 7.3 % 45.0, f32::from(i) * 11.9 % 37.0];
@@ -67,7 +82,7 @@ fn a_pixel_is_the_weighted_mean_of_all_splats() {
     let depth = Field::filled(45, 37, 0.5);
     for sharpness in [1, 2, 4, 16] {
         let overlap = overlap(sharpness);
-        let picture = painted(&depth, &splats, &tones, &coloring, false, &overlap);
+        let picture = shown(&depth, &splats, (&tones, &coloring), &overlap);
         let mut compared = 0;
         for y in 0..37 {
             for x in 0..45 {
@@ -94,13 +109,13 @@ fn a_pixel_is_the_weighted_mean_of_all_splats() {
 
 #[test]
 fn splats_behind_the_mesh_do_not_show_and_those_before_it_reach_out() {
-    let (tones, coloring) = laid_out();
+    let (tones, coloring) = laid_out(ColorSource::Map);
     let own = splat([16.0, 16.0], [10.0, 10.0], 0.0);
     let at = |depth: f32| StrokeSplat { depth, ..own };
     let cover = |mesh: f32, splats: &[StrokeSplat], overhang: f32| {
         let depth = Field::filled(32, 32, mesh);
         let overlap = OverlapSettings { overhang, ..overlap(4) };
-        painted(&depth, splats, &tones, &coloring, false, &overlap).color[(16, 16)][3]
+        shown(&depth, splats, (&tones, &coloring), &overlap).color[(16, 16)][3]
     };
     assert_eq!(cover(0.3, &[at(0.5)], 0.5), 0.0, "hidden");
     assert_eq!(cover(0.5, &[at(0.5)], 0.5), 1.0, "on the mesh");
@@ -111,16 +126,16 @@ fn splats_behind_the_mesh_do_not_show_and_those_before_it_reach_out() {
 
 #[test]
 fn the_nearest_of_two_surfaces_shows_beyond_an_outline() {
-    let (tones, coloring) = laid_out();
+    let (tones, coloring) = laid_out(ColorSource::Model);
     let near = StrokeSplat {
         depth: 0.4,
-        color: [0.3, 0.0, 0.0],
+        color: [30.0, 40.0, 0.0],
         ..splat([16.0, 16.0], [10.0, 10.0], 0.0)
     };
-    let far = StrokeSplat { depth: 0.6, color: [0.0, 0.3, 0.0], ..near };
+    let far = StrokeSplat { depth: 0.6, color: [30.0, -40.0, 0.0], ..near };
     let depth = Field::filled(32, 32, 1.0);
     let paint = |splats: &[StrokeSplat]| {
-        painted(&depth, splats, &tones, &coloring, true, &overlap(4)).color[(15, 15)]
+        shown(&depth, splats, (&tones, &coloring), &overlap(4)).color[(15, 15)]
     };
     assert_eq!(paint(&[far, near]), paint(&[near]));
     assert_eq!(paint(&[near, far]), paint(&[near]));

@@ -16,10 +16,25 @@ pub enum LightWith {
     Model,
 }
 
+/// What decides the tone of a stroke.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToneSource {
+    /// Light on a model, the lightness of a picture.
+    #[default]
+    Auto,
+    /// Light.
+    Light,
+    /// The lightness of the subject's own colour.
+    Color,
+}
+
 /// Light, which chooses the tone of each stroke.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LightSettings {
+    /// What decides the tone of a stroke.
+    pub tone: ToneSource,
     /// What the light moves with.
     pub with: LightWith,
     /// Direction of the light in degrees clockwise from the top, -360..=360.
@@ -43,10 +58,12 @@ pub struct LightSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ColorSource {
-    /// The map's own colours.
+    /// Those of the map on a model; a picture's own.
     #[default]
+    Auto,
+    /// The map's own colours.
     Map,
-    /// The model's colours, with the brushwork of the map.
+    /// Colours of the model or picture, with the brushwork of the map.
     Model,
 }
 
@@ -99,11 +116,18 @@ pub struct FlowSettings {
     /// Random offset of each splat in distances of brush strokes, 0..=4: breaks strokes that
     /// continue in their neighbours.
     pub noise: f32,
+    /// How much lighter and darker strokes become by turns, each at its own time, by the range of
+    /// tones, 0..=1.
+    pub twinkle: f32,
+    /// Duration of one change to lighter and darker in seconds, 0.1..=3600; a loop has a whole
+    /// number of them.
+    pub twinkle_seconds: f32,
 }
 
 impl Default for LightSettings {
     fn default() -> Self {
         Self {
+            tone: ToneSource::default(),
             with: LightWith::default(),
             azimuth_deg: 315.0,
             elevation_deg: 35.0,
@@ -136,7 +160,7 @@ impl Default for SilhouetteSettings {
 
 impl Default for FlowSettings {
     fn default() -> Self {
-        Self { periods: 0, loop_seconds: 4.0, noise: 0.0 }
+        Self { periods: 0, loop_seconds: 4.0, noise: 0.0, twinkle: 0.0, twinkle_seconds: 2.0 }
     }
 }
 
@@ -182,6 +206,8 @@ impl FlowSettings {
             Figure::new("flow.periods", self.periods, [0.0, 16.0]),
             Figure::new("flow.loop_seconds", self.loop_seconds, [0.1, 3600.0]),
             Figure::new("flow.noise", self.noise, [0.0, 4.0]),
+            Figure::new("flow.twinkle", self.twinkle, [0.0, 1.0]),
+            Figure::new("flow.twinkle_seconds", self.twinkle_seconds, [0.1, 3600.0]),
         ]
     }
 }

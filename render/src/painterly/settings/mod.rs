@@ -4,7 +4,11 @@ mod figures;
 
 mod strokes;
 
+mod layers;
+
 mod look;
+
+mod picture;
 
 mod whole;
 
@@ -15,10 +19,12 @@ mod file;
 mod change;
 
 pub use file::SettingsError;
+pub use layers::LayerSettings;
 pub use look::{
     ColorSettings, ColorSource, ColorSpace, FlowSettings, LightSettings, LightWith,
-    SilhouetteSettings,
+    SilhouetteSettings, ToneSource,
 };
+pub use picture::PictureSettings;
 pub use preset::Preset;
 pub use strokes::{Offsets, OverlapSettings, StrokeDirection, StrokeSettings, Zoom};
 pub use whole::Settings;

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::figures::Figure;
+use super::layers::LayerSettings;
 use super::look::{ColorSettings, FlowSettings, LightSettings, SilhouetteSettings};
+use super::picture::PictureSettings;
 use super::strokes::{OverlapSettings, StrokeSettings};
 
 /// The style in which a map is painted on a model. Keys that a file leaves out have the defaults.
@@ -17,6 +19,8 @@ pub struct Settings {
     pub strokes: StrokeSettings,
     /// How strokes that cover a place share it.
     pub overlap: OverlapSettings,
+    /// Layers of strokes of several sizes.
+    pub layers: LayerSettings,
     /// Light, which chooses tones.
     pub light: LightSettings,
     /// Colour of strokes.
@@ -26,6 +30,8 @@ pub struct Settings {
     pub silhouette: SilhouetteSettings,
     /// Strokes that flow along the surface.
     pub flow: FlowSettings,
+    /// Pictures with a depth.
+    pub picture: PictureSettings,
 }
 
 impl Default for Settings {
@@ -34,10 +40,12 @@ impl Default for Settings {
             reference_px: 1000.0,
             strokes: StrokeSettings::default(),
             overlap: OverlapSettings::default(),
+            layers: LayerSettings::default(),
             light: LightSettings::default(),
             color: ColorSettings::default(),
             silhouette: SilhouetteSettings::default(),
             flow: FlowSettings::default(),
+            picture: PictureSettings::default(),
         }
     }
 }
@@ -56,16 +64,30 @@ impl Settings {
         own
     }
 
+    /// The settings of one layer, counted from the lowest: smaller strokes on each. Only the
+    /// uppermost has outlines.
+    pub(in crate::painterly) fn of_layer(&self, layer: u32) -> Self {
+        let mut own = self.clone();
+        own.strokes.scale(self.layers.ratio.powi(layer as i32));
+        own.strokes.seed = self.strokes.seed.wrapping_add(u64::from(layer) << 32);
+        if layer + 1 < self.layers.count {
+            own.silhouette.width_px = 0.0;
+        }
+        own
+    }
+
     pub(super) fn figures(&self) -> Vec<Figure> {
         let own = vec![Figure::new("reference_px", self.reference_px, [16.0, 65536.0])];
         [
             own,
             self.strokes.figures(),
             self.overlap.figures(),
+            self.layers.figures(),
             self.light.figures(),
             self.color.figures(),
             self.silhouette.figures(),
             self.flow.figures(),
+            self.picture.figures(),
         ]
         .concat()
     }

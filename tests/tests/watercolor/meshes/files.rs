@@ -45,7 +45,7 @@ f -4 -3 -2
     assert_eq!(corners(&mesh), [&square()[..], &[[a, b, c]]].concat());
     let materials: Vec<u32> = mesh.triangles.iter().map(|triangle| triangle.material).collect();
     assert_eq!(materials, [0, 0, 1]);
-    assert_eq!(mesh.materials[1], Material::plain([0.1, 0.2, 0.3]));
+    assert_eq!(mesh.materials[1], Material::named("plain one", [0.1, 0.2, 0.3]));
     let texture = mesh.materials[0].texture.as_ref().unwrap();
     assert_eq!((texture.width, texture.height), (2, 1));
     assert_eq!(texture.texels.map_bytes(), [[255, 0, 0, 255], [0, 0, 255, 255]]);
@@ -120,7 +120,7 @@ fn gltf_with_transforms_materials_and_textures() {
         { "mesh": 0, "translation": [0, 0, 99] }
     ]);
     document["meshes"][0]["primitives"][0]["material"] = json!(0);
-    document["materials"] = json!([{ "pbrMetallicRoughness": {
+    document["materials"] = json!([{ "name": "painted", "pbrMetallicRoughness": {
         "baseColorFactor": [0.21404114, 1, 0, 1], "baseColorTexture": { "index": 0 } } }]);
     document["textures"] = json!([{ "source": 0 }]);
     document["images"] = json!([{ "uri": "two%20texels.png" }]);
@@ -136,7 +136,8 @@ fn gltf_with_transforms_materials_and_textures() {
     // A mirrored triangle has two corners swapped, so that it runs counter-clockwise.
     assert_eq!(corners(&mesh), [[a, c, b], [a, d, c]]);
     assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);
-    let Material { color: [r, g, b], texture } = &mesh.materials[0];
+    let Material { name, color: [r, g, b], texture } = &mesh.materials[0];
+    assert_eq!(name, "painted");
     assert!((r - 0.5).abs() < 1e-4 && *g > 0.9999 && *b < 1e-6, "{r} {g} {b}");
     assert_eq!(texture.as_ref().unwrap().texels.map_bytes()[1], [0, 0, 255, 255]);
 }

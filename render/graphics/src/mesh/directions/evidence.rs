@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 
 use super::links::Links;
-use super::settings::Along;
+use super::settings::{Along, Line};
 use crate::mesh::shape_tensor::{PlaceShape, ShapeTensor};
 use crate::mesh::tangent_plane::TangentPlane;
 
@@ -40,6 +40,26 @@ impl Evidence {
         let squares =
             pairs.map(|(shape, weight)| principal_square(&shape.tensor, along) * *weight).collect();
         Self { weights, squares }
+    }
+
+    /// Lines of the vertices, weighted by the area of their places.
+    pub(super) fn of_lines(
+        of_vertex: &[u32],
+        planes: &[TangentPlane],
+        shapes: &[PlaceShape],
+        lines: &[Line],
+    ) -> Self {
+        let mut own =
+            Self { weights: vec![0.0; planes.len()], squares: vec![DVec2::ZERO; planes.len()] };
+        for (&place, line) in of_vertex.iter().zip(lines) {
+            let place = place as usize;
+            let flat = planes[place].projected(DVec3::from(line.along.map(f64::from)));
+            let Some(unit) = flat.try_normalize() else { continue };
+            let weight = f64::from(line.weight.clamp(0.0, 1.0)) * shapes[place].area;
+            own.weights[place] += weight;
+            own.squares[place] += weight * unit.rotate(unit);
+        }
+        own
     }
 
     /// Adds an axis of the model to every connected part whose curvature tells no direction, for

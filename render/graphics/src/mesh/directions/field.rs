@@ -5,12 +5,12 @@ use rayon::prelude::*;
 
 use super::evidence::Evidence;
 use super::links::Links;
-use super::settings::{DirectionFault, DirectionSettings, Guide};
+use super::settings::{DirectionFault, DirectionSettings, Guide, Line};
 use super::smoothing::smooth_squares;
 use super::within::line_within;
 use crate::mesh::model::Mesh;
 use crate::mesh::places::Places;
-use crate::mesh::shape_tensor::place_shapes;
+use crate::mesh::shape_tensor::{PlaceShape, place_shapes};
 use crate::mesh::tangent_plane::TangentPlane;
 
 /// Least smoothing length, as a share of the model's radius: places without curvature
@@ -36,6 +36,16 @@ pub struct DirectionField {
     pub(super) lines: Vec<DVec3>,
 }
 
+/// What evidence is found from.
+struct Base<'a> {
+    of_vertex: &'a [u32],
+    shapes: Vec<PlaceShape>,
+    radius: f64,
+    links: Links,
+    planes: Vec<TangentPlane>,
+    fixed: Vec<bool>,
+}
+
 impl DirectionField {
     /// The field along the principal directions of the mesh's curvature
     /// ([`Mesh::curvatures`]), smoothed over `settings.smoothing` as lines of two-fold
@@ -55,6 +65,42 @@ impl DirectionField {
         settings: &DirectionSettings,
         guides: &[Guide],
     ) -> Result<Self, DirectionFault> {
+        Self::found(mesh, settings, guides, |base| {
+            let mut evidence = Evidence::of_curvature(&base.shapes, base.radius, settings.along);
+            evidence.add_axes(&base.links, &base.planes, &base.shapes, &base.fixed);
+            evidence
+        })
+    }
+
+    /// The field through given lines, one for each vertex, smoothed over `settings.smoothing`. A
+    /// line counts by its weight and the area around its vertex; where weights are 0 the neighbours
+    /// decide. Vertices with a guide have its direction.
+    ///
+    /// # Errors
+    /// As [`Self::of_curvature`].
+    ///
+    /// # Panics
+    /// As [`Self::of_curvature`], or if there are fewer lines than vertices.
+    pub fn of_lines(
+        mesh: &Mesh,
+        lines: &[Line],
+        settings: &DirectionSettings,
+        guides: &[Guide],
+    ) -> Result<Self, DirectionFault> {
+        Self::found(mesh, settings, guides, |base| {
+            let mut evidence =
+                Evidence::of_lines(base.of_vertex, &base.planes, &base.shapes, lines);
+            evidence.add_axes(&base.links, &base.planes, &base.shapes, &base.fixed);
+            evidence
+        })
+    }
+
+    fn found(
+        mesh: &Mesh,
+        settings: &DirectionSettings,
+        guides: &[Guide],
+        evidence: impl FnOnce(&Base<'_>) -> Evidence,
+    ) -> Result<Self, DirectionFault> {
         if !(0.0..=1.0).contains(&settings.smoothing) {
             return Err(DirectionFault::Smoothing { found: settings.smoothing });
         }
@@ -65,8 +111,9 @@ impl DirectionField {
         let shapes = place_shapes(&places, &planes);
         let links = Links::new(&places, &planes);
         let radius = places.radius();
-        let mut evidence = Evidence::of_curvature(&shapes, radius, settings.along);
-        evidence.add_axes(&links, &planes, &shapes, &fixed);
+        let base = Base { of_vertex: &places.of_vertex, shapes, radius, links, planes, fixed };
+        let evidence = evidence(&base);
+        let Base { links, planes, fixed, .. } = base;
         let length = radius * settings.smoothing.max(LEAST_SMOOTHING);
         let squares = smooth_squares(&links, &evidence, length * length, &fixed, &given);
         let pairs = squares.par_iter().zip(&planes);

@@ -31,7 +31,37 @@ impl DirectionField {
     /// or 3 are usual; 0 leaves it at 1 beside singular vertices).
     #[must_use]
     pub fn oriented(&self, fade_rings: usize) -> FlowField {
-        let arrows = self.arrows();
+        self.signed(self.arrows(), fade_rings)
+    }
+
+    /// Gives the lines the signs of arrows of any length, one for each vertex; 0 leaves a vertex
+    /// without. A connected part takes those vertices' signs as [`Self::oriented`] does, turned over
+    /// if most given arrows say so.
+    ///
+    /// # Panics
+    /// If there are fewer arrows than vertices.
+    #[must_use]
+    pub fn oriented_by(&self, given: &[[f32; 3]], fade_rings: usize) -> FlowField {
+        let mut wanted = vec![DVec3::ZERO; self.lines.len()];
+        for (&place, arrow) in self.of_vertex.iter().zip(given) {
+            wanted[place as usize] += DVec3::from(arrow.map(f64::from));
+        }
+        let mut arrows = self.arrows();
+        let (order, parts) = self.links.parts();
+        for part in parts {
+            let places = || order[part.clone()].iter().map(|&place| place as usize);
+            let agreement: f64 = places().map(|place| arrows[place].dot(wanted[place])).sum();
+            for place in places() {
+                let own = arrows[place].dot(wanted[place]);
+                if own < 0.0 || (own == 0.0 && agreement < 0.0) {
+                    arrows[place] = -arrows[place];
+                }
+            }
+        }
+        self.signed(arrows, fade_rings)
+    }
+
+    fn signed(&self, arrows: Vec<DVec3>, fade_rings: usize) -> FlowField {
         let singular: Vec<bool> =
             (0..arrows.len()).map(|place| self.is_singular(&arrows, place)).collect();
         let full = fade_rings.saturating_add(1);

@@ -28,4 +28,4 @@ mod tests;
 
 pub use field::DirectionField;
 pub use flow::FlowField;
-pub use settings::{Along, DirectionFault, DirectionSettings, Guide};
+pub use settings::{Along, DirectionFault, DirectionSettings, Guide, Line};

@@ -32,6 +32,16 @@ impl Default for DirectionSettings {
     }
 }
 
+/// A direction that a vertex asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Line {
+    /// Direction of any length and sign in the model's axes; only its part along the surface
+    /// counts.
+    pub along: [f32; 3],
+    /// How much it counts, 0 to 1.
+    pub weight: f32,
+}
+
 /// A direction that the field must have at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guide {

@@ -1,6 +1,6 @@
 use glam::{Quat, Vec3};
 
-use super::{Along, DirectionFault, DirectionField, DirectionSettings, FlowField, Guide};
+use super::{Along, DirectionFault, DirectionField, DirectionSettings, FlowField, Guide, Line};
 use crate::mesh::model::Mesh;
 use crate::mesh::test_shapes::{
     bare, cylinder, degrees_between, ellipsoid, ragged, ridge, rough, square, torus, turned,
@@ -298,5 +298,44 @@ fn faults_of_settings_and_guides_are_named() {
     assert_eq!(of(0.1, 3, found), Some(DirectionFault::OffSurface { guide: 0, vertex: 3, found }));
     for along in [[0.0; 3], [f32::NAN, 1.0, 0.0], [f32::INFINITY, 1.0, 0.0]] {
         assert!(matches!(of(0.1, 3, along), Some(DirectionFault::OffSurface { .. })), "{along:?}");
+    }
+}
+
+#[test]
+fn given_lines_are_followed_and_spread_where_none_are_given() {
+    let mesh = square(400);
+    let wanted = Vec3::new(0.6, 0.8, 0.0);
+    let line = |at: &[f32; 3]| Line {
+        along: (wanted * if at[1] > 0.0 { 3.0 } else { -1.0 }).to_array(),
+        weight: if at[0] > 0.3 { 1.0 } else { 0.0 },
+    };
+    let lines: Vec<Line> = mesh.positions.iter().map(line).collect();
+    let field = DirectionField::of_lines(&mesh, &lines, &DirectionSettings::default(), &[]);
+    let worst = greatest_error(&mesh, &field.unwrap(), |_| true, |_| wanted);
+    assert!(worst < 0.5, "{worst}");
+}
+
+#[test]
+fn arrows_take_the_signs_that_are_given_and_others_follow_their_part() {
+    let mesh = square(400);
+    let field = field(&mesh);
+    let usual = field.oriented(0);
+    let up = Vec3::from(usual.arrow(0));
+    let given = |way: Vec3, chosen: &dyn Fn(Vec3) -> bool| -> Vec<[f32; 3]> {
+        let own = |at: &[f32; 3]| if chosen(Vec3::from(*at)) { way } else { Vec3::ZERO };
+        mesh.positions.iter().map(own).map(Vec3::into).collect()
+    };
+    let flipped = field.oriented_by(&given(-0.1 * up, &|at| at.x > 0.4), 0);
+    for vertex in 0..mesh.positions.len() {
+        assert!(Vec3::from(flipped.arrow(vertex)).dot(up) < -0.999, "{vertex}");
+    }
+    let mut both = given(up, &|at| at.x > 0.0);
+    for (both, other) in both.iter_mut().zip(given(-up, &|at| at.x <= 0.0)) {
+        *both = (Vec3::from(*both) + Vec3::from(other)).into();
+    }
+    let split = field.oriented_by(&both, 1);
+    for (vertex, at) in mesh.positions.iter().enumerate() {
+        assert!(Vec3::from(split.arrow(vertex)).dot(Vec3::from(both[vertex])) > 0.99);
+        assert!(at[0].abs() > 0.3 || split.strength(vertex) < 1.0, "{at:?}");
     }
 }

@@ -93,7 +93,8 @@ impl Reader<'_> {
         self.coordinates.push(texture.as_ref().map_or(0, |texture| texture.tex_coord()));
         let texture = texture.map(|texture| self.texture(&texture.texture().source()));
         let texture = texture.transpose()?;
-        self.mesh.materials.push(Material { color: encoded([r, g, b]), texture });
+        let name = material.name().unwrap_or_default().to_owned();
+        self.mesh.materials.push(Material { name, color: encoded([r, g, b]), texture });
         Ok(())
     }
 

@@ -126,7 +126,8 @@ fn painted(name: &str, folder: &Path, found: &tobj::Material) -> Result<Material
     };
     // A textured material without a colour shows its texture unchanged.
     let color = found.diffuse.unwrap_or(if texture.is_some() { [1.0; 3] } else { PLAIN.color });
-    Ok(Material { color: color.map(|value| value.clamp(0.0, 1.0)), texture })
+    let color = color.map(|value| value.clamp(0.0, 1.0));
+    Ok(Material { name: found.name.clone(), color, texture })
 }
 
 /// Strips the options in front of a texture's file name (`-s 1 1 1 wood.png`).

@@ -16,11 +16,13 @@ pub(super) struct Part {
 }
 
 /// Material of a model without materials and vertex colours: light grey.
-pub(super) const PLAIN: Material = Material { color: [0.8, 0.8, 0.8], texture: None };
+pub(super) const PLAIN: Material =
+    Material { name: String::new(), color: [0.8, 0.8, 0.8], texture: None };
 
 /// Material of a model without materials but with vertex colours: white, so that the
 /// vertex colours show unchanged.
-pub(super) const PAINTED: Material = Material { color: [1.0; 3], texture: None };
+pub(super) const PAINTED: Material =
+    Material { name: String::new(), color: [1.0; 3], texture: None };
 
 impl Mesh {
     /// Appends a part. Missing attributes are filled in; missing normals become zeros, to be

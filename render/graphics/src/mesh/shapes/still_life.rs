@@ -26,10 +26,10 @@ impl Mesh {
     #[must_use]
     pub fn still_life(triangles: usize) -> Self {
         let materials = vec![
-            Material { color: [1.0; 3], texture: Some(stripes()) },
-            Material::plain([1.0; 3]),
-            Material::plain([1.0; 3]),
-            Material::plain([0.42, 0.30, 0.20]),
+            Material { texture: Some(stripes()), ..Material::named("cloth", [1.0; 3]) },
+            Material::named("jug", [1.0; 3]),
+            Material::named("fruit", [1.0; 3]),
+            Material::named("wood", [0.42, 0.30, 0.20]),
         ];
         let mut mesh = Self { materials, ..Self::default() };
         let share = |percent: usize| triangles * percent / 100;

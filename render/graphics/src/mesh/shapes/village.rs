@@ -45,17 +45,17 @@ impl Mesh {
     #[must_use]
     pub fn village(triangles: usize) -> Self {
         let materials = [
-            [1.0, 1.0, 1.0],
-            [0.91, 0.86, 0.76],
-            [0.86, 0.76, 0.62],
-            [0.90, 0.82, 0.78],
-            [0.74, 0.42, 0.31],
-            [0.62, 0.37, 0.33],
-            [0.34, 0.36, 0.42],
-            [1.0, 1.0, 1.0],
-            [0.42, 0.33, 0.26],
+            ("land", [1.0, 1.0, 1.0]),
+            ("wall", [0.91, 0.86, 0.76]),
+            ("wall", [0.86, 0.76, 0.62]),
+            ("wall", [0.90, 0.82, 0.78]),
+            ("roof", [0.74, 0.42, 0.31]),
+            ("roof", [0.62, 0.37, 0.33]),
+            ("opening", [0.34, 0.36, 0.42]),
+            ("leaves", [1.0, 1.0, 1.0]),
+            ("wood", [0.42, 0.33, 0.26]),
         ]
-        .map(Material::plain);
+        .map(|(name, color)| Material::named(name, color));
         let mut mesh = Self { materials: materials.to_vec(), ..Self::default() };
         add_land(&mut mesh, triangles * 45 / 100);
         add_church(&mut mesh);

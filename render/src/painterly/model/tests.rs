@@ -1,6 +1,6 @@
 use artmap::measures::{Texture, co_occurrence_error, contrast, stroke_length};
 use glam::Vec2;
-use graphics::camera::Framing;
+use graphics::camera::{Camera, Framing};
 use graphics::coherence::{NoiseFrame, Popping};
 use graphics::encoding::lab_from_linear;
 use graphics::mesh::{GridSize, Material, SampleModel};
@@ -10,7 +10,14 @@ use spectra::color::Rgb;
 
 use spectra::hint::Explain;
 
+use graphics::coherence::Projection;
+use graphics::distant_light::DistantLight;
+use graphics::field::Field;
+
 use super::super::made_up::{SPACING, map};
+use super::super::passes::PaintedModel;
+use super::super::settings::{ColorSource, LightWith, Offsets};
+use super::super::splat::StrokeSplat;
 use super::*;
 
 /// A square of side 2 that faces +z, in many triangles.
@@ -38,7 +45,7 @@ fn front(settings: &Settings, size: usize) -> Field<[f32; 4]> {
     settings.strokes.width_px = width_px;
     // One tone: that of the middle tile.
     (settings.light.darkest, settings.light.lightest) = (0.5, 0.5);
-    let mut painter = ModelPainter::new(&mesh, &map(1), &settings).unwrap();
+    let mut painter = Painter::of_model(&mesh, &map(1), &settings).unwrap();
     painter.paint(&camera, (size, size), 0.0).unwrap().color
 }
 
@@ -87,7 +94,7 @@ fn the_published_way_blurs_strokes() {
 /// that of the same picture standing still; mean of `steps` turns.
 fn popping(mesh: &Mesh, settings: &Settings, degrees: f32, steps: usize) -> f64 {
     let size = (320, 240);
-    let mut painter = ModelPainter::new(mesh, &map(3), settings).unwrap();
+    let mut painter = Painter::of_model(mesh, &map(3), settings).unwrap();
     let framing = Framing { aspect: 4.0 / 3.0, ..Framing::default() };
     let frames = (360.0 / degrees).round() as usize;
     let cameras = framing.fit_turntable(&mesh.positions, frames);
@@ -145,7 +152,7 @@ fn a_picture_has_the_same_bits_on_any_number_of_threads_and_again() {
     let mut settings = Settings::default();
     settings.color.from = ColorSource::Model;
     let paint = || {
-        let mut painter = ModelPainter::new(&mesh, &map(3), &settings).unwrap();
+        let mut painter = Painter::of_model(&mesh, &map(3), &settings).unwrap();
         painter.paint(&camera, (161, 119), 0.0).unwrap()
     };
     let pictures = [1, 2, 5].map(|threads| {
@@ -163,9 +170,10 @@ fn a_picture_has_the_same_bits_on_any_number_of_threads_and_again() {
 /// Splats with weight of a knot, by seed's order, from two cameras.
 fn turns(settings: &Settings, degrees: f32) -> Vec<[StrokeSplat; 2]> {
     let mesh = Mesh::torus_knot(8000);
-    let mut painter = ModelPainter::new(&mesh, &map(2), settings).unwrap();
+    let mut painter = Painter::of_model(&mesh, &map(2), settings).unwrap();
     let cameras = Framing::default().fit_turntable(&mesh.positions, (360.0 / degrees) as usize);
-    let [before, after] = [0, 1].map(|at| painter.splats(&cameras[at], (300, 300), 0.0).unwrap().1);
+    let [before, after] =
+        [0, 1].map(|at| painter.splats(&cameras[at], (300, 300), 0.0).unwrap().1.concat());
     // Splats have no name; a start in the map that no other has serves as one.
     let key = |splat: &StrokeSplat| splat.offset.map(f32::to_bits);
     let mut after: Vec<_> = after.iter().map(|splat| (key(splat), *splat)).collect();
@@ -200,8 +208,8 @@ fn faces_of_a_closed_model_that_turn_away_have_no_strokes() {
     let mut open = closed.clone();
     open.triangles.pop();
     let count = |mesh: &Mesh, camera: &Camera| {
-        let mut painter = ModelPainter::new(mesh, &map(1), &Settings::default()).unwrap();
-        painter.splats(camera, (300, 300), 0.0).unwrap().1.len() as f32
+        let mut painter = Painter::of_model(mesh, &map(1), &Settings::default()).unwrap();
+        painter.splats(camera, (300, 300), 0.0).unwrap().1.concat().len() as f32
     };
     let (front, both) = (count(&closed, &camera), count(&open, &camera));
     assert!((0.35..0.6).contains(&(front / both)), "{front} of {both}");
@@ -212,7 +220,7 @@ fn faces_of_a_closed_model_that_turn_away_have_no_strokes() {
 #[test]
 fn size_and_density_of_strokes_stay_while_the_model_moves_away() {
     let mesh = Mesh::sphere(20_000);
-    let mut painter = ModelPainter::new(&mesh, &map(2), &Settings::default()).unwrap();
+    let mut painter = Painter::of_model(&mesh, &map(2), &Settings::default()).unwrap();
     let mut densities = Vec::new();
     for distance in [1.0, 1.5, 2.0, 3.0, 5.0, 8.0] {
         let mut camera = Framing::default().fit(&mesh.positions);
@@ -221,6 +229,7 @@ fn size_and_density_of_strokes_stay_while_the_model_moves_away() {
         camera.far += away.length() * (distance - 1.0);
         let (depth, splats) = painter.splats(&camera, (900, 900), 0.0).unwrap();
         let seen = depth.values().iter().filter(|depth| **depth < 1.0).count();
+        let splats = splats.concat();
         let weight: f32 = splats.iter().map(|splat| splat.cover).sum();
         densities.push(weight / seen as f32);
         let (expected, tilt) = (900.0 / 1000.0 * 15.0, painter.settings().strokes.tilt);
@@ -242,7 +251,7 @@ fn a_loop_of_flow_closes_to_the_bit_and_goes_on_evenly() {
     let mut settings = Settings::default();
     settings.strokes.width_px = 10.0;
     (settings.flow.periods, settings.flow.loop_seconds) = (1, 2.0);
-    let mut painter = ModelPainter::new(&mesh, &map(2), &settings).unwrap();
+    let mut painter = Painter::of_model(&mesh, &map(2), &settings).unwrap();
     let mut frame = |number: i32| {
         let seconds = f64::from(number) * 2.0 / 48.0;
         painter.paint(&camera, (200, 200), seconds).unwrap().color
@@ -261,8 +270,8 @@ fn a_loop_of_flow_closes_to_the_bit_and_goes_on_evenly() {
 #[test]
 fn bad_input_is_refused_and_strange_input_painted() {
     let map = map(1);
-    let painter = |mesh: &Mesh| ModelPainter::new(mesh, &map, &Settings::default());
-    let hint = |error: ModelPainterError| {
+    let painter = |mesh: &Mesh| Painter::of_model(mesh, &map, &Settings::default());
+    let hint = |error: PainterError| {
         assert!(error.hint().is_some(), "{error}");
         error.to_string()
     };
@@ -272,10 +281,10 @@ fn bad_input_is_refused_and_strange_input_painted() {
     assert_eq!(hint(painter(&line).unwrap_err()), "no triangle of the mesh has an area");
     let mut settings = Settings::default();
     settings.light.wrap = f32::NAN;
-    let error = ModelPainter::new(&Mesh::sphere(100), &map, &settings).unwrap_err();
+    let error = Painter::of_model(&Mesh::sphere(100), &map, &settings).unwrap_err();
     assert!(hint(error).contains("light.wrap takes 0 to 1"));
     let empty = ArtMap { keys: Vec::new(), ..map.clone() };
-    let error = ModelPainter::new(&Mesh::sphere(100), &empty, &Settings::default()).unwrap_err();
+    let error = Painter::of_model(&Mesh::sphere(100), &empty, &Settings::default()).unwrap_err();
     assert_eq!(hint(error), "the art map has no tile");
 
     let mut one = flat();
@@ -308,7 +317,7 @@ fn strokes_change_no_more_than_the_light_that_turns() {
         settings.light.azimuth_deg = azimuth_deg;
         let light = DistantLight::with_camera(azimuth_deg, settings.light.elevation_deg);
         let DistantLight::WithCamera(light) = light else { unreachable!("made so") };
-        let mut painter = ModelPainter::new(&mesh, &map, &settings).unwrap();
+        let mut painter = Painter::of_model(&mesh, &map, &settings).unwrap();
         let (depth, _) = painter.splats(&camera, size, 0.0).unwrap();
         let lab = lab_from_linear(&linear(&painter.paint(&camera, size, 0.0).unwrap().color));
         let shade = move |at: (usize, usize)| {
@@ -339,7 +348,7 @@ fn outlines_are_dark_lines_of_even_width_that_come_in_smoothly() {
     (settings.light.darkest, settings.light.lightest) = (1.0, 1.0);
     let mut dark = |width_px: f32| {
         settings.silhouette.width_px = width_px;
-        let mut painter = ModelPainter::new(&mesh, &map(2), &settings).unwrap();
+        let mut painter = Painter::of_model(&mesh, &map(2), &settings).unwrap();
         let picture = painter.paint(&camera, (500, 500), 0.0).unwrap().color;
         let is_dark = |pixel: &[f32; 4]| pixel[3] > 0.9 && pixel[1] < 0.35;
         let middle = picture.part(Rect { x: 150, y: 150, width: 200, height: 200 });

@@ -1,12 +1,16 @@
 use std::sync::Arc;
 
-use artmap::sample::TexelPaint;
+use artmap::sample::{PaintOfSamples, TexelPaint};
 use graphics::camera::Framing;
+use graphics::field::Field;
 use paint::amount::mm_from_quanta;
+use paint::document::Document;
 use paint::ground::GroundKind;
+use paint::layer::SLOTS;
 use pigment::{PigmentId, PigmentLibrary};
 use rayon::ThreadPoolBuilder;
 
+use super::super::amounts::amounts;
 use super::super::made_up::map;
 use super::*;
 
@@ -40,10 +44,10 @@ fn settings() -> Settings {
     Settings::default().changed("test", text).unwrap()
 }
 
-fn painting(map: &ArtMap, settings: &Settings) -> Result<Document, ModelPainterError> {
+fn painting(map: &ArtMap, settings: &Settings) -> Result<Document, PainterError> {
     let mesh = Mesh::torus_knot(4000);
     let camera = Framing::default().fit(&mesh.positions);
-    let mut painter = ModelPainter::new(&mesh, map, settings)?;
+    let mut painter = Painter::of_model(&mesh, map, settings)?;
     painter.painting(&camera, (96, 72), 0.0, ("knot", &GroundKind::Panel.spec(1)))
 }
 
@@ -56,7 +60,7 @@ fn a_painting_has_the_means_of_the_amounts_that_its_strokes_show() {
     assert!((document.cell_mm / wanted - 1.0).abs() < 1e-6, "{}", document.cell_mm);
     let mesh = Mesh::torus_knot(4000);
     let camera = Framing::default().fit(&mesh.positions);
-    let mut painter = ModelPainter::new(&mesh, &map, &settings()).unwrap();
+    let mut painter = Painter::of_model(&mesh, &map, &settings()).unwrap();
     let shown = painter.paint(&camera, (96, 72), 0.0).unwrap();
     let layer = &document.dry[0].paint;
     let mm = |quanta: u32| mm_from_quanta(quanta, document.cell_mm);
@@ -83,12 +87,11 @@ fn totals_of_a_painting_are_those_of_sums_in_double_precision() {
     let map = painted_map();
     let mesh = Mesh::torus_knot(4000);
     let camera = Framing::default().fit(&mesh.positions);
-    let mut painter = ModelPainter::new(&mesh, &map, &settings()).unwrap();
+    let mut painter = Painter::of_model(&mesh, &map, &settings()).unwrap();
     let (depth, splats) = painter.splats(&camera, (96, 72), 0.0).unwrap();
-    let overlap = &painter.settings.overlap;
-    let coloring = painter.roots.coloring();
-    let divide = Divide { tones: &painter.tones, coloring, overhang: overlap.overhang };
-    let sums = amounts(&depth, &splats, &divide, painter.paint.as_ref().unwrap(), overlap);
+    let overlap = &painter.settings().overlap;
+    let (divide, paint) = (painter.divide(0), painter.paint_tones().unwrap());
+    let sums = amounts(&depth, &splats[0], &divide, paint, overlap);
     let wanted: f64 = sums.values().iter().map(|amounts| f64::from(amounts[SLOT])).sum();
     let document = painting(&map, &settings()).unwrap();
     let quanta: f64 = document.dry[0].paint.totals()[SLOT] as f64;
@@ -109,8 +112,8 @@ fn paintings_do_not_depend_on_threads() {
 #[test]
 fn maps_without_pigments_and_colours_of_the_model_are_refused() {
     let error = painting(&map(2), &settings()).unwrap_err();
-    assert!(matches!(error, ModelPainterError::NoPaint), "{error}");
+    assert!(matches!(error, PainterError::NoPaint), "{error}");
     let of_model = Settings::default().changed("test", "colour.from = \"model\"").unwrap();
     let error = painting(&painted_map(), &of_model).unwrap_err();
-    assert!(matches!(error, ModelPainterError::ModelColors), "{error}");
+    assert!(matches!(error, PainterError::ModelColors), "{error}");
 }

@@ -1,0 +1,148 @@
+//! What is painted, and the files it is written to.
+
+use render::camera::Camera;
+use render::encoding::{linear_from_encoded, over_white};
+use render::export::frame_of;
+use render::light::Light;
+use render::mesh::Mesh;
+use render::paint::engine::PaintEngine;
+use render::paint::ground::GroundSpec;
+use render::paint::painting::Painting;
+use render::painterly::{Painter, PictureForm, Settings};
+use render::picture::Photograph;
+use serde_json::json;
+use spectra::Viewing;
+
+use super::brushwork::Maps;
+use crate::animation::{Animation, FramesDigest};
+use crate::console::Console;
+use crate::failure::Result;
+use crate::pictures::OpenExports;
+use crate::plain_picture::PX_MM;
+
+/// A subject, and the pictures of it.
+pub(super) struct Scene {
+    pub(super) what: What,
+    /// The cameras of all frames, at least one.
+    pub(super) cameras: Vec<Camera>,
+    /// Width and height of a picture in pixels.
+    pub(super) size: (usize, usize),
+}
+
+/// A subject.
+#[derive(Debug)]
+pub(super) enum What {
+    /// A mesh.
+    Model(Box<Mesh>),
+    /// A picture with its form.
+    Picture(Photograph, PictureForm),
+}
+
+/// What is painted, and where it is written.
+pub(super) struct Job {
+    pub(super) settings: Settings,
+    pub(super) scene: Scene,
+    /// Title and ground of a painting with pigments, if it is one.
+    pub(super) painting: Option<(String, GroundSpec)>,
+    pub(super) exports: OpenExports,
+    pub(super) animation: Option<Animation>,
+}
+
+impl Job {
+    pub(super) fn paint(self, maps: &Maps, console: &mut Console<'_>) -> Result<Summary> {
+        let Self { settings, scene, painting, exports, animation } = self;
+        let Scene { what, cameras, size } = scene;
+        let brushwork = maps.brushwork();
+        let mut painter = match &what {
+            What::Model(mesh) => Painter::of_model_with(mesh, &brushwork, &[], &settings)?,
+            What::Picture(photograph, form) => {
+                Painter::of_picture_with(photograph, &brushwork, form, &settings)?
+            }
+        };
+        let recording = match animation {
+            None => None,
+            Some(animation) => {
+                let digest = FramesDigest::default()
+                    .add(&env!("CARGO_PKG_VERSION"))
+                    .add(&settings)
+                    .add(&cameras)
+                    .add(&what)
+                    .add(&brushwork);
+                Some(animation.begin(digest, cameras.len(), size)?)
+            }
+        };
+        let layers = painter.splats(&cameras[0], size, 0.0)?.1.iter().map(Vec::len).collect();
+        match painting {
+            _ if !exports.any() => {}
+            Some((title, ground)) => {
+                let document = painter.painting(&cameras[0], size, 0.0, (&title, &ground))?;
+                let engine = PaintEngine::on_cpu(document.ground.height.clone());
+                let light = Light::new(&document.library, &Viewing::default())?;
+                exports.write(&mut Painting::open_under(document, light, engine, 0)?, console)?;
+            }
+            None => {
+                let painted = painter.paint(&cameras[0], size, 0.0)?;
+                let linear = linear_from_encoded(&over_white(&painted.color));
+                exports.write_picture(&linear, PX_MM, console)?;
+            }
+        }
+        let mut frames = None;
+        if let Some(recording) = recording {
+            let count = cameras.len();
+            let found = recording.paint(console, |index| {
+                // One loop of the flow over all frames.
+                let seconds = f64::from(settings.flow.loop_seconds) * index as f64 / count as f64;
+                let painted = painter.paint(&cameras[index], size, seconds)?;
+                Ok(frame_of(&over_white(&painted.color)))
+            })?;
+            frames = Some((count, found));
+        }
+        let (maps, regions) = (brushwork.maps.len(), brushwork.regions.list.len());
+        Ok(Summary { size, layers, matched: painter.matched(), maps, regions, frames })
+    }
+}
+
+/// Summary of a finished run.
+pub(super) struct Summary {
+    /// Width and height in pixels.
+    size: (usize, usize),
+    /// Number of strokes of each layer of the first picture.
+    layers: Vec<usize>,
+    /// Share of strokes that continue a neighbour.
+    matched: f64,
+    /// Numbers of maps and regions.
+    maps: usize,
+    regions: usize,
+    /// Number of frames of an animation, and the number of these that existed already.
+    frames: Option<(usize, usize)>,
+}
+
+impl Summary {
+    pub(super) fn print(&self, as_json: bool, console: &mut Console<'_>) -> Result<()> {
+        let Self { size: (width, height), layers, matched, maps, regions, frames } = self;
+        let strokes: usize = layers.iter().sum();
+        if as_json {
+            return console.json(&json!({
+                "size": [width, height],
+                "strokes": strokes,
+                "layers": layers,
+                "matched": matched,
+                "maps": maps,
+                "regions": regions,
+                "frames": frames.map(|(frames, _)| frames),
+                "frames_found": frames.map(|(_, found)| found),
+            }));
+        }
+        let mut line = format!(
+            "{width} x {height} pixels, {strokes} strokes, {:.0} % continue a neighbour",
+            100.0 * matched
+        );
+        if let Some((frames, found)) = frames {
+            line += &format!(", {frames} frames");
+            if *found > 0 {
+                line += &format!(" ({found} of them existed already)");
+            }
+        }
+        console.line(line)
+    }
+}

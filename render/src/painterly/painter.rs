@@ -1,0 +1,305 @@
+//! Strokes and pictures of a subject from any camera, layer by layer.
+
+use std::sync::Arc;
+
+use artmap::map::ArtMap;
+use artmap::sample::PaintOfSamples;
+use glam::Vec3;
+use graphics::camera::Camera;
+use graphics::coherence::{Features, Hierarchy, Projection, depth_field};
+use graphics::compute::Compute;
+use graphics::distant_light::DistantLight;
+use graphics::field::Field;
+use graphics::surface::Model;
+use paint::amount::quanta_from_mm;
+use paint::document::{Document, DryLayer, Lighting, Medium};
+use paint::ground::GroundSpec;
+use paint::layer::{Cell, Layer, SLOTS};
+
+use super::amounts::amounts;
+use super::composed::over;
+use super::divided::{Divide, THIN};
+use super::error::PainterError;
+use super::flow::phase;
+use super::offsets::Matching;
+use super::paint_tones::{Amounts, PaintTones};
+use super::passes::{PaintedModel, painted};
+use super::roots::Roots;
+use super::settings::{LightWith, Offsets, Settings};
+use super::silhouette::outlines;
+use super::splat::StrokeSplat;
+use super::strokes::{Sight, ranks, splats};
+use super::subject::Subject;
+use super::tones::Tones;
+
+/// Cover around which the strokes of upper layers end.
+const THIN_ABOVE: f32 = 0.7;
+
+/// Most pixels of a picture.
+const MOST_PIXELS: usize = 1 << 28;
+
+/// Paints one subject, a model ([`Painter::of_model`]) or a picture ([`Painter::of_picture`]), in
+/// the brushwork of art maps.
+#[derive(Debug)]
+pub struct Painter {
+    model: Model,
+    closed: Vec<bool>,
+    bounds: [Vec3; 2],
+    layers: Vec<Layered>,
+    tones: Tones,
+    settings: Settings,
+    /// The paint of the maps, if they have any.
+    paint: Option<PaintTones>,
+    /// Width of a texel of the first map in mm, where it is known.
+    mm_per_texel: Option<f64>,
+    /// Units of the subject along the longer side of the picture of the settings.
+    units: f32,
+    matched: f64,
+}
+
+/// The strokes of one layer.
+#[derive(Debug)]
+struct Layered {
+    features: Features,
+    roots: Roots,
+}
+
+impl Painter {
+    /// Lays the maps out and finds the strokes of a subject.
+    pub(super) fn new(
+        subject: Subject,
+        maps: &[&ArtMap],
+        settings: &Settings,
+    ) -> Result<Self, PainterError> {
+        let Subject { surfaces, packed, closed, coloring, lightness, units, more } = subject;
+        let tones = Tones::new(maps, settings.light.between, &coloring);
+        let hierarchy = Arc::new(Hierarchy::new(&surfaces[0].mesh));
+        if hierarchy.faces() == 0 {
+            return Err(PainterError::NoArea);
+        }
+        let first = |(number, map): (usize, &&ArtMap)| {
+            tones.nearest(number, map.keys[map.first.min(map.keys.len() - 1)].tone as f32)
+        };
+        let slices: Vec<usize> = maps.iter().enumerate().map(first).collect();
+        let (mut strokes, mut continued) = (0, 0.0);
+        let mut layers = Vec::new();
+        for (surface, number) in surfaces.into_iter().zip(0..) {
+            let own = settings.of_layer(number);
+            let features = Features::new(Arc::clone(&hierarchy), own.strokes.seed);
+            let roots = Roots::new(surface, Arc::clone(&coloring), lightness);
+            let density = (more, own.reference_px / units);
+            let (roots, matched) = kept(roots, &features, (&tones, &slices), &own, density);
+            strokes += roots.count();
+            continued += matched * roots.count() as f64;
+            layers.push(Layered { features, roots });
+        }
+        let bounds = packed.bounds;
+        let paint = PaintTones::new(maps, settings.light.between)?;
+        Ok(Self {
+            model: Model::new(&mut Compute::cpu(), packed.as_ref().clone())?,
+            closed,
+            bounds,
+            layers,
+            tones,
+            settings: settings.clone(),
+            paint,
+            mm_per_texel: maps[0].mm_per_texel,
+            units,
+            matched: continued / strokes.max(1) as f64,
+        })
+    }
+
+    /// Paints the subject as `camera` sees it, in `width` x `height` pixels, at a time in seconds. The
+    /// same input gives the same bits on any number of threads.
+    ///
+    /// # Errors
+    /// [`PainterError::Size`] for a picture without pixels or with more than 2^28,
+    /// [`PainterError::Time`] for a time that is no number.
+    pub fn paint(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+        seconds: f64,
+    ) -> Result<PaintedModel, PainterError> {
+        let (depth, layers) = self.splats(camera, size, seconds)?;
+        let overlap = &self.settings.overlap;
+        let pictures = layers.iter().enumerate();
+        let mut pictures =
+            pictures.map(|(layer, splats)| painted(&depth, splats, &self.divide(layer), overlap));
+        let lowest = pictures.next();
+        let lowest = lowest.unwrap_or_else(|| PaintedModel::bare(size));
+        Ok(pictures.fold(lowest, |lower, upper| over(lower, &upper)))
+    }
+
+    /// Paints the subject as [`Self::paint`] does, with the pigments of the maps: a painting with a
+    /// dry layer for each layer of strokes, a cell for each pixel. Amounts are the weighted means of
+    /// the amounts that strokes show, so strokes that overlap do not pile up within a layer. The
+    /// cells are as wide as the first map's strokes demand: `strokes.width_px` of them to the
+    /// distance of its strokes in mm.
+    ///
+    /// # Errors
+    /// As [`Self::paint`]; [`PainterError::NoPaint`] for maps without pigments,
+    /// [`PainterError::ModelColors`] if colours are the subject's,
+    /// [`PainterError::Ground`] for a ground that cannot be made.
+    pub fn painting(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+        seconds: f64,
+        (title, ground): (&str, &GroundSpec),
+    ) -> Result<Document, PainterError> {
+        if self.layers[0].roots.coloring().of_model() {
+            return Err(PainterError::ModelColors);
+        }
+        let (depth, layers) = self.splats(camera, size, seconds)?;
+        let (Some(paint), Some(mm_per_texel)) = (&self.paint, self.mm_per_texel) else {
+            return Err(PainterError::NoPaint);
+        };
+        let width_px = self.settings.for_size(size.0, size.1).strokes.width_px;
+        let spacing = f64::from(self.tones.map(0).spacing);
+        let cell_mm = spacing * mm_per_texel / f64::from(width_px);
+        let PaintOfSamples { library, slots } = &paint.of;
+        let ground = ground.build(size.0, size.1, cell_mm, library)?;
+        let dry = layers.iter().enumerate().map(|(layer, splats)| {
+            let overlap = &self.settings.overlap;
+            let amounts = amounts(&depth, splats, &self.divide(layer), paint, overlap);
+            DryLayer { slots: *slots, opacity: 1.0, paint: laid_down(&amounts, cell_mm) }
+        });
+        let dry = dry.collect();
+        let medium = Medium::of(library);
+        let library = library.as_ref().clone();
+        let lighting = Lighting::default();
+        let bare = Document::bare(title, cell_mm, ground, library, medium, *slots, lighting);
+        Ok(Document { dry, ..bare })
+    }
+
+    /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each layer,
+    /// the lowest first.
+    ///
+    /// # Errors
+    /// As [`Self::paint`].
+    pub fn splats(
+        &mut self,
+        camera: &Camera,
+        (width, height): (usize, usize),
+        seconds: f64,
+    ) -> Result<(Field<f32>, Vec<Vec<StrokeSplat>>), PainterError> {
+        if width == 0 || height == 0 || width.saturating_mul(height) > MOST_PIXELS {
+            return Err(PainterError::Size { width, height });
+        }
+        if !seconds.is_finite() {
+            return Err(PainterError::Time { seconds });
+        }
+        let clip_from_model = camera.clip_from_model(width as f32 / height as f32);
+        if !clip_from_model.is_finite() || clip_from_model.determinant() == 0.0 {
+            let Camera { eye, target, up, .. } = *camera;
+            return Err(PainterError::Camera { eye, target, up });
+        }
+        let visible = self.model.visible(&mut Compute::cpu(), camera, width, height)?;
+        let depth = depth_field(visible.host());
+        let projection = Projection::new(camera, width, height);
+        let light = &self.settings.light;
+        let above = DistantLight::with_camera(light.azimuth_deg, light.elevation_deg);
+        let light = match (light.with, above) {
+            (LightWith::Model, DistantLight::WithCamera(towards)) => {
+                DistantLight::WithModel(towards)
+            }
+            (_, light) => light,
+        };
+        let drawn = self.layers.iter().zip(0..).map(|(layer, number)| {
+            let settings = self.settings.of_layer(number).for_size(width, height);
+            let sight = Sight {
+                projection: &projection,
+                light: light.direction(camera),
+                phase: phase(seconds, &settings.flow),
+                px_per_unit: settings.reference_px / self.units,
+                settings: &settings,
+                distance: self.distance(camera),
+                closed: if self.holds(camera) { &[] } else { &self.closed },
+            };
+            let mut drawn = splats(&layer.features, &layer.roots, &self.tones, &sight);
+            drawn.extend(outlines(&layer.features, &layer.roots, &self.tones, &sight));
+            drawn
+        });
+        Ok((depth, drawn.collect()))
+    }
+
+    /// How the sums of a layer become pixels.
+    pub(super) fn divide(&self, layer: usize) -> Divide<'_> {
+        Divide {
+            tones: &self.tones,
+            coloring: self.layers[layer].roots.coloring(),
+            overhang: self.settings.overlap.overhang,
+            thin: if layer == 0 { THIN } else { THIN_ABOVE },
+        }
+    }
+
+    /// Distance of the middle of the subject in front of the eye, at least that of the near plane.
+    fn distance(&self, camera: &Camera) -> f32 {
+        let [low, high] = self.bounds;
+        let [_, _, back] = camera.axes();
+        (camera.eye - (low + high) / 2.0).dot(back).max(camera.near)
+    }
+
+    /// Whether the camera may see the subject from inside: it stands in the bounding box, or so
+    /// close that the near plane may cut it.
+    fn holds(&self, camera: &Camera) -> bool {
+        let [low, high] = self.bounds;
+        let (low, high) = (low - camera.near, high + camera.near);
+        camera.eye.cmpge(low).all() && camera.eye.cmple(high).all()
+    }
+
+    /// The settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Share of strokes that continue a neighbour, 0 to 1; 0 with random offsets.
+    #[must_use]
+    pub fn matched(&self) -> f64 {
+        self.matched
+    }
+
+    #[cfg(test)]
+    pub(super) fn paint_tones(&self) -> Option<&PaintTones> {
+        self.paint.as_ref()
+    }
+}
+
+/// Keeps the strokes that a picture of the settings needs, `more` times as many, at so many pixels
+/// to a unit of the subject. Returns the share of them that continue a neighbour.
+fn kept(
+    roots: Roots,
+    features: &Features,
+    (tones, slices): (&Tones, &[usize]),
+    settings: &Settings,
+    (more, per_unit): (f32, f32),
+) -> (Roots, f64) {
+    let [_, end] = ranks(settings);
+    let [least, most] = roots.sizes();
+    let priority = more * end * per_unit * per_unit / (least * least);
+    let radii = settings.strokes.radii_px().map(|radius| radius / per_unit);
+    let width = settings.strokes.width_px / per_unit;
+    let styles = roots.styles().to_vec();
+    let mut matched = 0.0;
+    let roots = roots.keeping(features, priority, radii[1] * most, |features, roots| {
+        let random = settings.overlap.offsets == Offsets::Random;
+        let matching = Matching { features, roots, tones, slices, styles: &styles, radii, width };
+        let (starts, share) = (!random).then(|| matching.starts())?;
+        matched = share;
+        Some(starts)
+    });
+    (roots, matched)
+}
+
+/// Amounts in whole quanta.
+fn laid_down(amounts: &Field<Amounts>, cell_mm: f64) -> Layer {
+    let mut layer = Layer::empty(amounts.width(), amounts.height());
+    for (index, amounts) in amounts.values().iter().enumerate() {
+        let quanta = amounts.map(|mm| quanta_from_mm(f64::from(mm), cell_mm));
+        let pigments = std::array::from_fn(|slot| quanta[slot]);
+        layer.set_cell(index, Cell { pigments, vehicle: quanta[SLOTS] });
+    }
+    layer
+}
