@@ -38,6 +38,8 @@ mod pictures;
 
 mod plain_picture;
 
+mod stages;
+
 mod setting_changes;
 
 mod subject;

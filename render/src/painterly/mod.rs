@@ -69,6 +69,10 @@ mod subject;
 
 mod painter;
 
+mod stages;
+
+mod compositing;
+
 mod model;
 
 mod picture_form;
@@ -80,6 +84,7 @@ mod picture_layers;
 mod picture;
 
 pub use brushwork::Brushwork;
+pub use compositing::CompositingError;
 pub use error::PainterError;
 pub use paint_tones::PaintOfMapsError;
 pub use painter::Painter;
@@ -93,3 +98,4 @@ pub use settings::{
     StrokeDirection, StrokeSettings, ToneSource, Zoom,
 };
 pub use splat::StrokeSplat;
+pub use stages::Stage;

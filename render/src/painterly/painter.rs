@@ -122,10 +122,8 @@ impl Painter {
         seconds: f64,
     ) -> Result<PaintedModel, PainterError> {
         let (depth, layers) = self.splats(camera, size, seconds)?;
-        let overlap = &self.settings.overlap;
         let pictures = layers.iter().enumerate();
-        let mut pictures =
-            pictures.map(|(layer, splats)| painted(&depth, splats, &self.divide(layer), overlap));
+        let mut pictures = pictures.map(|(layer, splats)| self.painted(&depth, splats, layer));
         let lowest = pictures.next();
         let lowest = lowest.unwrap_or_else(|| PaintedModel::bare(size));
         Ok(pictures.fold(lowest, |lower, upper| over(lower, &upper)))
@@ -222,6 +220,21 @@ impl Painter {
             drawn
         });
         Ok((depth, drawn.collect()))
+    }
+
+    /// The picture of the strokes of one layer.
+    pub(super) fn painted(
+        &self,
+        depth: &Field<f32>,
+        splats: &[StrokeSplat],
+        layer: usize,
+    ) -> PaintedModel {
+        painted(depth, splats, &self.divide(layer), &self.settings.overlap)
+    }
+
+    /// Mean L* of the map where a stroke shows it.
+    pub(super) fn tone_of(&self, splat: &StrokeSplat) -> f32 {
+        self.tones.tone(splat.slice as usize)
     }
 
     /// How the sums of a layer become pixels.

@@ -25,6 +25,9 @@ use super::subject::Subject;
 /// Most vertices along the longer side of a plane, and of a relief.
 const MOST_VERTICES: [f32; 2] = [160.0, 256.0];
 
+/// Widest margin beyond the edges, by the longer side.
+const MOST_MARGIN: f32 = 0.25;
+
 /// Standard deviation of the structure tensor, in distances of strokes.
 const TENSOR: f64 = 0.6;
 
@@ -87,7 +90,8 @@ fn subject(
     let size_px = [width as u32, height as u32];
     let regions = RegionMap::of_picture(&brushwork.regions, size_px, &brushwork.names(), settings)?;
     let layers = layer_colors(picture, settings);
-    let mut mesh = plane(PictureView::of((width, height)), form.depth.as_ref(), settings);
+    let [_, largest] = regions.sizes();
+    let mut mesh = plane(PictureView::of((width, height)), form.depth.as_ref(), settings, largest);
     mesh.normals = mesh.smoothed_normals(settings.light.smoothing_rounds as usize);
     let directions =
         directions(&mesh, &layers[0], (&brushwork.regions, &regions, size_px), form, settings)?;
@@ -123,20 +127,29 @@ fn subject(
     })
 }
 
-/// A plane of these sides, or a relief that looks the same from the camera of the picture.
-fn plane(view: PictureView, depth: Option<&Field<f32>>, settings: &Settings) -> Mesh {
+/// A plane, or a relief that looks the same from the camera of the picture. It goes on beyond the
+/// picture by a margin, so that strokes cover the edges too.
+fn plane(view: PictureView, depth: Option<&Field<f32>>, settings: &Settings, largest: f32) -> Mesh {
     let most = MOST_VERTICES[usize::from(depth.is_some())];
     let strokes = settings.reference_px / settings.strokes.width_px;
     let longer = if depth.is_some() { most } else { strokes.clamp(8.0, most) };
     let (sides, eye) = (view.sides(), view.distance());
-    let [columns, rows] = (sides * longer).round().to_array().map(|cells| (cells as usize).max(1));
+    let [_, length_px] = settings.strokes.radii_px();
+    let margin = (largest * length_px / settings.reference_px).min(MOST_MARGIN);
+    let [columns, rows] =
+        ((sides + 2.0 * margin) * longer).round().to_array().map(|cells| (cells as usize).max(1));
     let mut mesh = Mesh { materials: vec![Material::plain([1.0; 3])], ..Mesh::default() };
+    let share = |uv: Vec2| 0.5 + (uv - 0.5) * (1.0 + 2.0 * margin / sides);
     mesh.add_grid(GridSize { columns, rows }, 0, |uv| {
-        let near = depth.map_or(0.5, |depth| interpolated(depth, uv.clamp(Vec2::ZERO, Vec2::ONE)));
+        let inside = share(uv).clamp(Vec2::ZERO, Vec2::ONE);
+        let near = depth.map_or(0.5, |depth| interpolated(depth, inside));
         let height = settings.picture.relief * (near - 0.5);
-        let at = (uv - 0.5) * sides * (1.0 - height / eye);
+        let at = (share(uv) - 0.5) * sides * (1.0 - height / eye);
         Vec3::new(at.x, -at.y, height)
     });
+    for at in &mut mesh.texture_coordinates {
+        *at = share(Vec2::from(*at)).clamp(Vec2::ZERO, Vec2::ONE).to_array();
+    }
     mesh
 }
 

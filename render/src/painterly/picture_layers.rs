@@ -92,8 +92,9 @@ mod tests {
     #[test]
     fn small_strokes_show_where_large_ones_would_blur() {
         // An even half, and one of fine stripes.
-        let color =
-            |x: usize| if x >= 128 && x / 4 % 2 == 0 { [230, 220, 210] } else { [60, 70, 80] };
+        let color = |x: usize| {
+            if x >= 128 && (x / 4).is_multiple_of(2) { [230, 220, 210] } else { [60, 70, 80] }
+        };
         let values = (0..256 * 128).map(|index| color(index % 256)).collect();
         let png = frame_png(&Field::from_values(256, 128, values)).unwrap();
         let photograph = Photograph::from_bytes("stripes", &png).unwrap();

@@ -115,6 +115,11 @@ impl Tones {
         first + if off(below) <= off(above) { below } else { above }
     }
 
+    /// Mean L* of a slice.
+    pub(super) fn tone(&self, slice: usize) -> f32 {
+        self.slices[slice].tone
+    }
+
     /// How often the largest size of a map is halved for this many of its texels to a pixel.
     pub(super) fn halvings(&self, map: usize, texels_per_px: f32) -> usize {
         let sizes = self.slices[self.maps[map].slices.start].sizes.len();

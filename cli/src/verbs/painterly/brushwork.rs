@@ -21,7 +21,7 @@ pub(super) struct BrushworkOptions {
     map: Vec<String>,
     /// Paint samples in this style and make a map of them, with the defaults of `artmap paint` and
     /// `artmap build`: oil-flat, oil-long, dabs, knife, hatching, dry-brush, or a file (.toml)
-    /// [default: oil-flat]
+    /// [default: that of the preset, or oil-flat]
     #[arg(long, value_name = "NAME|FILE")]
     style: Option<String>,
     /// Regions with a map, direction, size, flow or tones of their own (.toml)
@@ -54,8 +54,8 @@ impl BrushworkOptions {
         self.regions.is_some()
     }
 
-    /// Reads the maps and regions, and makes the map of a style.
-    pub(super) fn maps(&self, console: &Console<'_>) -> Result<Maps> {
+    /// Reads the maps and regions, and makes the map of a style: of `usual` if none is named.
+    pub(super) fn maps(&self, usual: &str, console: &Console<'_>) -> Result<Maps> {
         let chosen = self.chosen()?;
         let mut regions = match &self.regions {
             Some(path) => Regions::open(path)?,
@@ -68,7 +68,7 @@ impl BrushworkOptions {
         }
         let base = match chosen.base {
             Some(file) => ArtMap::open(Path::new(file))?,
-            None => styled(self.style.as_deref().unwrap_or("oil-flat"), console)?,
+            None => styled(self.style.as_deref().unwrap_or(usual), console)?,
         };
         let mut named = vec![(String::new(), base)];
         for name in regions.list.iter().filter_map(|region| region.map.as_deref()) {

@@ -14,11 +14,13 @@ use serde_json::json;
 use spectra::Viewing;
 
 use super::brushwork::Maps;
+use super::exr_frames::ExrFrames;
 use crate::animation::{Animation, FramesDigest};
 use crate::console::Console;
 use crate::failure::Result;
 use crate::pictures::OpenExports;
 use crate::plain_picture::PX_MM;
+use crate::stages::StageFolder;
 
 /// A subject, and the pictures of it.
 pub(super) struct Scene {
@@ -45,12 +47,14 @@ pub(super) struct Job {
     /// Title and ground of a painting with pigments, if it is one.
     pub(super) painting: Option<(String, GroundSpec)>,
     pub(super) exports: OpenExports,
+    pub(super) stages: Option<StageFolder>,
+    pub(super) exr_frames: Option<ExrFrames>,
     pub(super) animation: Option<Animation>,
 }
 
 impl Job {
     pub(super) fn paint(self, maps: &Maps, console: &mut Console<'_>) -> Result<Summary> {
-        let Self { settings, scene, painting, exports, animation } = self;
+        let Self { settings, scene, painting, exports, stages, exr_frames, animation } = self;
         let Scene { what, cameras, size } = scene;
         let brushwork = maps.brushwork();
         let mut painter = match &what {
@@ -72,6 +76,11 @@ impl Job {
             }
         };
         let layers = painter.splats(&cameras[0], size, 0.0)?.1.iter().map(Vec::len).collect();
+        if let Some(folder) = stages {
+            let stages = painter.stages(&cameras[0], size, 0.0)?.into_iter();
+            let stages: Vec<_> = stages.map(|stage| (stage.name, stage.picture)).collect();
+            folder.write(&stages)?;
+        }
         match painting {
             _ if !exports.any() => {}
             Some((title, ground)) => {
@@ -86,13 +95,17 @@ impl Job {
                 exports.write_picture(&linear, PX_MM, console)?;
             }
         }
+        // One loop of the flow over all frames.
+        let count = cameras.len();
+        let time =
+            |index: usize| f64::from(settings.flow.loop_seconds) * index as f64 / count as f64;
+        if let Some(folder) = exr_frames {
+            folder.write(|index| Ok(painter.exr_frame(&cameras[index], size, time(index))?))?;
+        }
         let mut frames = None;
         if let Some(recording) = recording {
-            let count = cameras.len();
             let found = recording.paint(console, |index| {
-                // One loop of the flow over all frames.
-                let seconds = f64::from(settings.flow.loop_seconds) * index as f64 / count as f64;
-                let painted = painter.paint(&cameras[index], size, seconds)?;
+                let painted = painter.paint(&cameras[index], size, time(index))?;
                 Ok(frame_of(&over_white(&painted.color)))
             })?;
             frames = Some((count, found));

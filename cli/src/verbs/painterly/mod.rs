@@ -4,6 +4,8 @@ mod brushwork;
 
 mod form;
 
+mod exr_frames;
+
 mod settings;
 
 mod job;
@@ -20,8 +22,10 @@ use crate::canvas::grounds;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::pictures::Exports;
+use crate::stages::StageFolder;
 use crate::subject::{Subject, SubjectOptions};
 use brushwork::BrushworkOptions;
+use exr_frames::ExrFrames;
 use form::FormOptions;
 use job::{Job, Scene, What};
 use settings::{SettingsOptions, preset_names};
@@ -50,6 +54,14 @@ pub(crate) struct Painterly {
     ground: GroundKind,
     #[command(flatten)]
     exports: Exports,
+    /// Write each frame into this folder as OpenEXR, for compositing: colour and cover, depth, height
+    /// of the brushwork, direction of strokes
+    #[arg(long, value_name = "FOLDER", help_heading = "Animation")]
+    exr_frames: Option<PathBuf>,
+    /// Write every step to the picture into this folder, as PNG: depth, strokes, directions and tones
+    /// of each layer, and what it paints
+    #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
+    stages: Option<PathBuf>,
     /// Let strokes flow in a loop of this number of frames, seen from a camera that stands still
     /// (for --animation)
     #[arg(long = "loop", value_name = "FRAMES", value_parser = value_parser!(u64).range(1..=100_000),
@@ -75,7 +87,11 @@ impl Painterly {
         if let Some(preset) = self.show_preset {
             return console.line(preset.text().trim_end());
         }
-        if !self.exports.any() && !self.animation.any() {
+        if !self.exports.any()
+            && !self.animation.any()
+            && self.stages.is_none()
+            && self.exr_frames.is_none()
+        {
             return Err(Failure::usage(
                 "nothing would be written",
                 "add --picture painted.png, or --turntable 60 --animation turning.gif",
@@ -104,8 +120,14 @@ impl Painterly {
                 "give each its own file name",
             ));
         }
-        let maps = self.brushwork.maps(console)?;
-        let job = Job { settings, scene, painting, exports, animation };
+        let stages = self.stages.as_deref();
+        let stages = stages.map(|folder| StageFolder::open(folder, &inputs)).transpose()?;
+        let exr_frames = self.exr_frames.as_deref();
+        let exr_frames = exr_frames
+            .map(|folder| ExrFrames::open(folder, scene.cameras.len(), &inputs))
+            .transpose()?;
+        let maps = self.brushwork.maps(self.settings.style(), console)?;
+        let job = Job { settings, scene, painting, exports, stages, exr_frames, animation };
         let summary = job.paint(&maps, console)?;
         summary.print(self.json, console)
     }

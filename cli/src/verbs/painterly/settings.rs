@@ -29,6 +29,11 @@ impl SettingsOptions {
         self.settings.as_ref()
     }
 
+    /// Name of the style that suits the preset.
+    pub(super) fn style(&self) -> &'static str {
+        self.preset.unwrap_or(Preset::Impressionist).style()
+    }
+
     /// Reads the settings.
     pub(super) fn settings(&self) -> Result<Settings> {
         let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);

@@ -1,17 +1,15 @@
 //! Options and files of single pictures: the finished one, and the stages before it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use render::encoding::over_white;
-use render::export::{frame_of, frame_png};
-use render::field::Field;
 use render::picture::Photograph;
 use render::watercolor::Masks;
 
 use crate::failure::{Failure, Result};
-use crate::output::{Output, create_folder};
+use crate::output::Output;
 use crate::pictures::{Exports, OpenExports};
+use crate::stages::{NamedStage, StageFolder};
 
 #[derive(Debug, Args)]
 pub(super) struct OutputOptions {
@@ -28,16 +26,12 @@ pub(super) struct OutputOptions {
     density_mask: Option<PathBuf>,
 }
 
-/// The name of a stage and its picture, encoded sRGB with coverage.
-pub(super) type NamedStage = (String, Field<[f32; 4]>);
-
 /// Output files that were checked to be writable, and the masks.
 pub(super) struct OpenOutputs {
     pub(super) exports: OpenExports,
-    stages: Option<PathBuf>,
+    stages: Option<StageFolder>,
     dry_brush_mask: Option<PathBuf>,
     density_mask: Option<PathBuf>,
-    inputs: Vec<PathBuf>,
 }
 
 impl OutputOptions {
@@ -79,17 +73,9 @@ impl OutputOptions {
                 "give each its own file name",
             ));
         }
-        if let Some(folder) = &stages {
-            create_folder(folder)?;
-            Output::open(&stage_path(folder, 1, "stage"), &inputs)?;
-        }
-        Ok(OpenOutputs { exports, stages, dry_brush_mask, density_mask, inputs })
+        let stages = stages.map(|folder| StageFolder::open(&folder, &inputs)).transpose()?;
+        Ok(OpenOutputs { exports, stages, dry_brush_mask, density_mask })
     }
-}
-
-/// Path of a stage in its folder.
-fn stage_path(folder: &Path, number: usize, name: &str) -> PathBuf {
-    folder.join(format!("{number:02}-{name}.png"))
 }
 
 impl OpenOutputs {
@@ -106,14 +92,6 @@ impl OpenOutputs {
 
     /// Writes the stages, numbered from 1 in their order.
     pub(super) fn write_stages(&self, stages: &[NamedStage]) -> Result<()> {
-        let Some(folder) = &self.stages else { return Ok(()) };
-        let path = |(number, (name, _)): (usize, &NamedStage)| stage_path(folder, number, name);
-        let open = |path: PathBuf| Output::open(&path, &self.inputs);
-        // All are opened first, so that nothing is written if one cannot be.
-        let outputs: Vec<Output> = (1..).zip(stages).map(path).map(open).collect::<Result<_>>()?;
-        for (output, (_, picture)) in outputs.into_iter().zip(stages) {
-            output.write(frame_png(&frame_of(&over_white(picture)))?)?;
-        }
-        Ok(())
+        self.stages.as_ref().map_or(Ok(()), |folder| folder.write(stages))
     }
 }

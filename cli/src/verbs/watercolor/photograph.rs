@@ -6,11 +6,11 @@ use render::picture::Photograph;
 use render::watercolor::{GlazePainter, PhotographPainter};
 
 use super::job::{Job, Summary};
-use super::outputs::NamedStage;
 use super::pigments::open_painting;
 use crate::console::Console;
 use crate::failure::Result;
 use crate::progress::Waiting;
+use crate::stages::NamedStage;
 
 /// Paints a photograph, and writes the picture and the stages.
 pub(super) fn paint(

@@ -19,6 +19,20 @@ pub fn linear_exr(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Vec<u8>, Ex
     exr_file(size, cell_mm, channels, LayerAttributes::default())
 }
 
+/// Encodes named channels of 32-bit floats, row by row, as one OpenEXR part with the primaries of
+/// sRGB; a pixel is `cell_mm` wide.
+///
+/// # Errors
+/// [`ExportError`] for an empty picture and a pixel size out of range.
+pub fn float_exr(
+    size: (usize, usize),
+    cell_mm: f64,
+    channels: Vec<(String, Vec<f32>)>,
+) -> Result<Vec<u8>, ExportError> {
+    let channels = channels.into_iter().map(|(name, values)| (name, FlatSamples::F32(values)));
+    exr_file(size, cell_mm, channels.collect(), LayerAttributes::default())
+}
+
 /// The channels R, G and B of a picture as 32-bit floats, for [`exr_file`].
 ///
 /// # Errors

@@ -27,7 +27,7 @@ pub use color_table::ColorTable;
 pub use error::{ExportError, check_cell, check_size};
 pub use exr_part::exr_file;
 pub use frame::{Frame, FrameError, FrameRate, frame_of, frame_png, read_frame};
-pub use linear_exr::{linear_exr, rgb_channels};
+pub use linear_exr::{float_exr, linear_exr, rgb_channels};
 pub use picture_file::{OutsideGamut, PictureFile, PictureFormat, picture_file};
 pub use png::{Png, grey16, png8, png16};
 pub use sequence::{Sequence, SequenceError, SequenceSettings};

@@ -199,7 +199,7 @@ fn a_relief_looks_the_same_from_the_front_and_shifts_from_the_side() {
     assert!(flat.values().iter().all(|depth| *depth < 1.0), "it fills the picture");
     assert!(flat[(190, 60)] < flat[(10, 60)], "white is near");
     let turned = seen(&mut relief, side);
-    assert!(turned.values().iter().any(|depth| *depth == 1.0));
+    assert!(turned.values().contains(&1.0));
     // The camera of the picture sees every point of the relief at its own place.
     let painted = relief.paint(&front, size, 0.0).unwrap().color;
     let mut plane = Painter::of_picture(&picture, &map, &settings).unwrap();
@@ -212,7 +212,7 @@ fn a_relief_looks_the_same_from_the_front_and_shifts_from_the_side() {
 #[test]
 fn layers_show_detail_that_large_strokes_blur() {
     let picture = photograph(320, 240, |x, y| {
-        let fine = x > 160 && (x / 8 + y / 8) % 2 == 0;
+        let fine = x > 160 && (x / 8 + y / 8).is_multiple_of(2);
         if fine { [220, 200, 160] } else { [70, 60, 60] }
     });
     let error = |layers: u32| {

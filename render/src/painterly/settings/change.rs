@@ -72,6 +72,7 @@ mod tests {
             }
             assert_eq!(preset.settings(), super::Settings::from_toml("again", text).unwrap());
             assert_eq!(preset.name().parse::<Preset>().unwrap(), preset);
+            assert!(artmap::painted::Style::named(preset.style()).is_ok(), "{}", preset.style());
         }
     }
 

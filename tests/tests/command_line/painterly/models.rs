@@ -1,52 +1,9 @@
-//! The command `impasto painterly`: models in the brushwork of a map.
+//! Models in the brushwork of a map.
 
 use std::path::Path;
 
-use suite::program::{Run, impasto};
-use tempfile::TempDir;
-
-/// A folder with the map `m.exr` of three tones painted in small dabs.
-fn folder() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str| path(&folder, name);
-    let run = |arguments: &[&str]| {
-        let run = impasto(arguments);
-        assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
-        run
-    };
-    let text = run(&["artmap", "paint", "--show-style", "dabs"]).out;
-    let small = text
-        .replace("side_cells = 300", "side_cells = 64")
-        .replace("cell_mm = 0.18", "cell_mm = 0.36");
-    std::fs::write(folder.path().join("style.toml"), small).unwrap();
-    let (style, samples, map) = (file("style.toml"), file("s.exr"), file("m.exr"));
-    run(&["artmap", "paint", "--style", &style, "--tones", "3", "--output", &samples]);
-    run(&["artmap", "build", &samples, "--size", "64", "--output", &map]);
-    folder
-}
-
-fn path(folder: &TempDir, name: &str) -> String {
-    folder.path().join(name).display().to_string()
-}
-
-fn painterly(arguments: &[&str]) -> Run {
-    impasto(&[&["painterly"], arguments].concat())
-}
-
-#[track_caller]
-fn done(arguments: &[&str]) -> Run {
-    let run = painterly(arguments);
-    assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
-    run
-}
-
-/// Mean of the channels of the pixels of a picture in a rectangle.
-fn mean(picture: &str, [x, y, width, height]: [u32; 4]) -> f64 {
-    let picture = image::open(picture).unwrap().to_rgb8();
-    let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (x, y)));
-    let sum: f64 = pixels.map(|(x, y)| picture[(x, y)].0.map(f64::from).iter().sum::<f64>()).sum();
-    sum / f64::from(3 * width * height)
-}
+use super::{done, folder, mean, painterly, path};
+use suite::program::impasto;
 
 #[test]
 fn a_sphere_is_painted_in_the_tones_of_the_light_on_white() {
@@ -132,7 +89,11 @@ fn wrong_options_are_refused_before_anything_is_written() {
         (1, &["shape:sphere", "--map", &samples, "--picture", &picture], &["no art map"]),
         (2, &["shape:sphere", "--map", "none.exr", "--picture", &picture], &["none.exr"]),
         (2, &["shape:sphere", "--style", "oils", "--picture", &picture], &["style called `oils`"]),
-        (2, &[&sphere[..], &written, &["--style", "dabs"]].concat(), &["cannot be used with"]),
+        (
+            2,
+            &[&sphere[..], &written, &["--style", "dabs"]].concat(),
+            &["two maps are for the same parts"],
+        ),
         (1, &[&sphere[..], &written, &["--set", "gloss=1"]].concat(), &["unknown field `gloss`"]),
         (2, &[&sphere[..], &written, &["--set", "gloss"]].concat(), &["KEY=VALUE"]),
         (2, &[&sphere[..], &["--animation", &gif]].concat(), &["--turntable 60", "--loop 48"]),
@@ -152,4 +113,53 @@ fn wrong_options_are_refused_before_anything_is_written() {
     assert!(!Path::new(&picture).exists() && !Path::new(&gif).exists(), "nothing was written");
     let text = done(&["--show-preset", "hatching"]).out;
     assert!(text.contains("[strokes]"), "{text}");
+}
+
+#[test]
+fn parts_of_a_model_have_maps_of_their_own() {
+    let folder = folder();
+    let [map, picture] = ["m.exr", "p.png"].map(|name| path(&folder, name));
+    let leaves = format!("leaves={map}");
+    let village = ["shape:village", "--width", "96", "--picture", &picture];
+    let told = done(&[&village[..], &["--map", &map, "--map", &leaves, "--json"]].concat()).json();
+    assert_eq!((&told["maps"], &told["regions"]), (&2.into(), &1.into()), "{told}");
+    let doors = format!("door={map}");
+    let run = painterly(&[&village[..], &["--map", &map, "--map", &doors]].concat());
+    assert!(run.status == 1 && run.err.contains("no material `door`"), "{}", run.err);
+    assert!(run.err.contains("leaves"), "the names of materials: {}", run.err);
+}
+
+#[test]
+fn frames_for_compositing_hold_cover_depth_height_and_direction() {
+    use exr::prelude::{ReadChannels, ReadLayers, read};
+    let folder = folder();
+    let [map, frames] = ["m.exr", "frames"].map(|name| path(&folder, name));
+    let model = ["shape:sphere", "--width", "64", "--map", &map, "--exr-frames", &frames];
+    done(&[&model[..], &["--turntable", "2"]].concat());
+    let file = Path::new(&frames).join("frame-0002.exr");
+    let read = read().no_deep_data().largest_resolution_level().all_channels();
+    let image = read.first_valid_layer().all_attributes().from_file(&file).unwrap();
+    let channel = |name: &str| -> Vec<f32> {
+        let mut all = image.layer_data.channel_data.list.iter();
+        let found = all.find(|channel| channel.name.eq(name)).unwrap();
+        found.sample_data.values_as_f32().collect()
+    };
+    let middle = 24 * 64 + 32;
+    for (name, corner) in [("A", 0.0), ("height", 0.0), ("R", 0.0), ("direction.x", 0.0)] {
+        let values = channel(name);
+        assert_eq!(values.len(), 64 * 48, "{name}");
+        assert_eq!(values[0], corner, "{name}");
+    }
+    assert_eq!(channel("A")[middle], 1.0);
+    assert!(channel("R")[middle] > 0.02 && channel("height")[middle] > 0.0);
+    let depth = channel("Z");
+    // The ball has radius 1: its outline is farther away than its middle by less than that.
+    let edge = (0..64).filter(|x| depth[24 * 64 + x].is_finite()).min().unwrap();
+    let behind = depth[24 * 64 + edge] - depth[middle];
+    assert!(depth[0] == f32::INFINITY && depth[middle] > 1.0, "{}", depth[middle]);
+    assert!((0.3..1.0).contains(&behind), "{behind}");
+    let [x, y] = ["direction.x", "direction.y"].map(|name| channel(name)[middle]);
+    assert!((x.hypot(y) - 1.0).abs() < 1e-4, "{x} {y}");
+    let run = painterly(&[&model[..], &["--json"]].concat());
+    assert!(run.status == 2 && run.err.contains("another animation"), "{}", run.err);
 }
