@@ -31,6 +31,8 @@ mod tones;
 
 mod paint_tones;
 
+mod paint_layer;
+
 mod places;
 
 mod grid;
@@ -57,10 +59,15 @@ mod amounts;
 
 mod passes;
 
+mod color_paint;
+
 mod model_painter;
 
+pub use color_paint::{ColorPaint, ColorPaintError, ColorPaintSettings, FilmHeight};
 pub use error::ModelPainterError;
 pub use model_painter::ModelPainter;
+pub use paint_layer::paint_layer;
+pub use paint_tones::Amounts;
 pub use passes::PaintedModel;
 pub use settings::{
     ColorSettings, ColorSource, ColorSpace, FlowSettings, LightSettings, LightWith, Offsets,
@@ -68,3 +75,6 @@ pub use settings::{
     StrokeSettings, Zoom,
 };
 pub use splat::StrokeSplat;
+
+#[cfg(test)]
+mod exact_tests;

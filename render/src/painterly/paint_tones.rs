@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::tones::{LEAST_SIZE, tone_tiles};
 
 /// Pigments by slot, then vehicle, in mm.
-pub(super) type Amounts = [f32; SLOTS + 1];
+pub type Amounts = [f32; SLOTS + 1];
 
 /// Paint of all tones of a map, in the order and sizes of `Tones`.
 #[derive(Debug, Clone)]
