@@ -9,10 +9,17 @@ use std::sync::OnceLock;
 use divan::{Bencher, black_box};
 use render::artmap::map::ArtMap;
 use render::artmap::painted::{PaintedSettings, Style, painted_samples};
+use render::artmap::sample::PaintOfSamples;
 use render::artmap::synthesis::SynthesisSettings;
 use render::camera::{Camera, Framing};
 use render::mesh::{Mesh, SampleModel};
-use render::painterly::{Painter, Settings};
+use render::paint::document::{Document, Lighting};
+use render::paint::ground::GroundKind;
+use render::paint::light::Light;
+use render::paint::scene::{picture, scene};
+use render::painterly::{
+    ColorPaint, ColorPaintSettings, FilmHeight, Painter, Settings, paint_layer,
+};
 
 /// A row of the table.
 #[derive(Clone, Copy)]
@@ -166,6 +173,85 @@ fn frame(bencher: Bencher<'_, '_>, row: Row) {
 fn strokes(bencher: Bencher<'_, '_>, row: Row) {
     let (mut painter, camera) = painter(row);
     bencher.bench_local(|| painter.splats(black_box(&camera), row.size, 0.0).unwrap());
+}
+
+/// The row that pigments are measured with, about as many splats as the bunny of the paper.
+const PAINTED: Row = Row { splats: 10_000, ..ROWS[2] };
+
+/// A painting with the pigments of the map.
+fn document(painter: &mut Painter, camera: &Camera) -> Document {
+    let ground = GroundKind::Panel.spec(1);
+    painter.painting(camera, PAINTED.size, 0.0, ("bench", &ground)).unwrap()
+}
+
+/// From the camera to the lit picture of a painting with pigments and relief.
+#[divan::bench(sample_count = 10)]
+fn lit_painting(bencher: Bencher<'_, '_>) {
+    let (mut painter, camera) = painter(PAINTED);
+    let first = document(&mut painter, &camera);
+    let light = Light::named(&first.library, "D65", "1931-2").unwrap();
+    bencher.bench_local(|| {
+        let document = document(&mut painter, black_box(&camera));
+        picture(&document, &scene(&document, &light))
+    });
+}
+
+/// Its strokes alone.
+#[divan::bench(sample_count = 10)]
+fn lit_painting_strokes(bencher: Bencher<'_, '_>) {
+    let (mut painter, camera) = painter(PAINTED);
+    bencher.bench_local(|| painter.splats(black_box(&camera), PAINTED.size, 0.0).unwrap());
+}
+
+/// Its strokes, amounts and document.
+#[divan::bench(sample_count = 10)]
+fn lit_painting_document(bencher: Bencher<'_, '_>) {
+    let (mut painter, camera) = painter(PAINTED);
+    bencher.bench_local(|| document(&mut painter, black_box(&camera)));
+}
+
+/// Its ground alone.
+#[divan::bench(sample_count = 10)]
+fn lit_painting_ground(bencher: Bencher<'_, '_>) {
+    let (mut painter, camera) = painter(PAINTED);
+    let Document { library, cell_mm, .. } = document(&mut painter, &camera);
+    let spec = GroundKind::Panel.spec(1);
+    let (width, height) = PAINTED.size;
+    bencher.bench_local(|| spec.build(width, height, black_box(cell_mm), &library).unwrap());
+}
+
+/// Its light alone.
+#[divan::bench(sample_count = 10)]
+fn lit_painting_light(bencher: Bencher<'_, '_>) {
+    let (mut painter, camera) = painter(PAINTED);
+    let document = document(&mut painter, &camera);
+    let light = Light::named(&document.library, "D65", "1931-2").unwrap();
+    bencher.bench_local(|| {
+        let document = black_box(&document);
+        picture(document, &scene(document, &light))
+    });
+}
+
+/// Paint of a palette for the colours of a picture: amounts and their layer.
+#[divan::bench(sample_count = 10)]
+fn paint_of_colors(bencher: Bencher<'_, '_>) {
+    let (mut painter, camera) = painter(PAINTED);
+    let painted = painter.paint(&camera, PAINTED.size, 0.0).unwrap();
+    let (paint, film) = (color_paint(), FilmHeight::of(map()));
+    bencher.bench_local(|| paint_layer(&paint.amounts(black_box(&painted), film), 0.25));
+}
+
+/// What the mixtures of a palette cost once.
+#[divan::bench(sample_count = 3)]
+fn mixtures(bencher: Bencher<'_, '_>) {
+    bencher.bench_local(color_paint);
+}
+
+fn color_paint() -> ColorPaint {
+    let PaintOfSamples { library, slots } = map().paint.clone().unwrap();
+    let ground = GroundKind::Panel.spec(1);
+    let settings = ColorPaintSettings::default();
+    ColorPaint::new(library, slots, (&ground, &Lighting::default()), &settings).unwrap()
 }
 
 /// What a model of 20,000 triangles costs once: directions, tones, matched offsets.

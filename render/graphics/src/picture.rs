@@ -6,7 +6,7 @@ use std::path::Path;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageReader, Limits};
 use rayon::prelude::*;
 use spectra::color::Rgb;
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 use crate::field::Field;
 
@@ -254,5 +254,12 @@ impl Explain for PhotographError {
             Self::NoPicture { .. } => "save it as PNG or JPEG",
             Self::TooLarge { .. } => "make it smaller; a canvas has fewer cells",
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Unreadable { .. } => Fault::Environment,
+            _ => Fault::Input,
+        }
     }
 }

@@ -2,18 +2,20 @@
 
 use graphics::field::Field;
 use paint::layer::SLOTS;
+use pulp::Simd;
 use rayon::prelude::*;
 
 use super::divided::Divide;
 use super::gather::{Gather, Gathered, LOST, Sums, shown};
 use super::lists::{Lists, SIDE};
-use super::paint_tones::{Amounts, PaintTones};
+use super::paint_tones::{Amounts, PackedSums, PaintTones};
 use super::settings::OverlapSettings;
 use super::splat::StrokeSplat;
 use super::square::Square;
+use super::tones::Tones;
 
-/// Sums of amounts at the pixels of a square.
-type AmountSums = [[Amounts; SIDE]; SIDE];
+/// Sums of packed amounts at the pixels of a square, times weights.
+type SquareSums = [[PackedSums; SIDE]; SIDE];
 
 /// Paint at each pixel in mm, thinner where strokes cover a pixel in part. Splats, depth and overlap
 /// are those of the picture.
@@ -28,7 +30,8 @@ pub(super) fn amounts(
     let lists = Lists::new(width, height, splats);
     let mut found = Field::filled(width, height, [0.0; SLOTS + 1]);
     let bands = found.values_mut().par_chunks_mut((SIDE * width).max(1)).enumerate();
-    bands.for_each_init(Gathered::new, |gathered, (band, amounts)| {
+    let memory = || (Gathered::new(), [SquareSums::default(); 2]);
+    bands.for_each_init(memory, |(gathered, sums), (band, amounts)| {
         for column in 0..lists.across {
             let list = lists.of(band * lists.across + column);
             if list.is_empty() {
@@ -38,31 +41,41 @@ pub(super) fn amounts(
             let square = Square::new(depth, x, y);
             let (tones, furrow) = (divide.tones, 1.0 - overlap.ridges);
             let squarings = overlap.sharpness.max(1).ilog2();
-            let (colored, into) = (false, &mut *gathered);
-            let gather =
-                Gather { square: &square, list, splats, tones, squarings, furrow, colored, into };
-            pulp::Arch::new().dispatch(gather);
-            let of = |sums: &Sums| {
-                let mut found = [[[0.0; SLOTS + 1]; SIDE]; SIDE];
-                shown(&square, splats, (tones, furrow), (&sums.parts, &sums.total), |part| {
-                    let size = (part.splat.slice as usize, part.splat.halvings as usize);
-                    let texel = paint.between(size, part.place, part.share);
-                    let [row, column] = part.pixel;
-                    let sums = found[row][column].iter_mut().zip(texel);
-                    sums.for_each(|(sum, mm)| *sum += mm * part.weight);
-                });
-                found
-            };
-            let [on, before] = [of(&gathered.on), of(&gathered.before)];
+            pulp::Arch::new().dispatch(Gather {
+                square: &square,
+                list,
+                splats,
+                tones,
+                squarings,
+                furrow,
+                colored: false,
+                textured: false,
+                into: &mut *gathered,
+            });
+            let surfaces = [&mut gathered.on, &mut gathered.before];
+            for (surface, sums) in surfaces.into_iter().zip(&mut *sums) {
+                if surface.any() {
+                    let square = &square;
+                    let sum = Sum { square, splats, tones, furrow, paint, surface, sums };
+                    pulp::Arch::new().dispatch(sum);
+                }
+            }
             let columns = SIDE.min(width - x);
             for (row, amounts) in amounts.chunks_mut(width).enumerate() {
                 for column in 0..columns {
                     let (covered, at) = (square.depths[row][column] < 1.0, (row, column));
                     let [over, rest] = divide.shares(gathered, covered, at);
-                    let [on, before] =
-                        [mean(&on, &gathered.on, at), mean(&before, &gathered.before, at)];
-                    amounts[x + column] =
-                        std::array::from_fn(|slot| before[slot] * over + on[slot] * rest);
+                    let of = |share: f32, sums: &SquareSums, surface: &Sums| {
+                        let weight = surface.weight[row][column];
+                        (share > 0.0 && weight > LOST)
+                            .then(|| paint.amounts(&sums[row][column], weight / share))
+                    };
+                    let before = of(over, &sums[1], &gathered.before);
+                    let on = of(rest, &sums[0], &gathered.on);
+                    let own = &mut amounts[x + column];
+                    for part in [before, on].into_iter().flatten() {
+                        own.iter_mut().zip(part).for_each(|(own, mm)| *own += mm);
+                    }
                 }
             }
         }
@@ -70,11 +83,33 @@ pub(super) fn amounts(
     found
 }
 
-/// Sums of a surface at a pixel divided by their weight; zeros where it has no stroke.
-fn mean(sums: &AmountSums, of: &Sums, (row, column): (usize, usize)) -> Amounts {
-    let weight = of.weight[row][column];
-    if weight <= LOST {
-        return [0.0; SLOTS + 1];
+/// Sums what the strokes of one surface show in a square: paint, and the height that tells ridges
+/// from furrows.
+struct Sum<'a> {
+    square: &'a Square,
+    splats: &'a [StrokeSplat],
+    tones: &'a Tones,
+    furrow: f32,
+    paint: &'a PaintTones,
+    surface: &'a mut Sums,
+    sums: &'a mut SquareSums,
+}
+
+impl pulp::WithSimd for Sum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { square, splats, tones, furrow, paint, surface, sums } = self;
+        *sums = SquareSums::default();
+        let Sums { bytes, weight: weights, total, parts, .. } = surface;
+        shown(square, splats, (tones, furrow), (parts, total), |part| {
+            let size = (part.splat.slice as usize, part.splat.halvings as usize);
+            let [row, column] = part.pixel;
+            paint.add(&mut sums[row][column], size, part.place, part.share, part.weight);
+            let all = bytes[row][column].iter_mut().zip(part.texel);
+            all.for_each(|(sum, value)| *sum += value * part.weight);
+            weights[row][column] += part.weight;
+        });
     }
-    sums[row][column].map(|sum| sum / weight)
 }

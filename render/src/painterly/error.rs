@@ -6,7 +6,8 @@ use graphics::mesh::{DirectionFault, MeshFault};
 use paint::ground::GroundError;
 use spectra::hint::{Explain, Fault, Hint};
 
-use super::paint_tones::PaintOfMapsError;
+use super::color_paint::ColorPaintError;
+use super::joined_paint::PaintOfMapsError;
 use super::regions::RegionsError;
 use super::settings::SettingsError;
 
@@ -40,9 +41,9 @@ pub enum PainterError {
     /// The map has no pigments, or the width of its texels is unknown.
     #[error("the art map has colours only")]
     NoPaint,
-    /// Pigments of the map cannot show the model's colours.
-    #[error("the pigments of a map paint its own colours only, not those of the model")]
-    ModelColors,
+    /// The colours of the subject cannot be painted.
+    #[error(transparent)]
+    Colors(#[from] ColorPaintError),
     /// The ground cannot be made.
     #[error(transparent)]
     Ground(#[from] GroundError),
@@ -82,6 +83,7 @@ impl PainterError {
             Self::Ground(error) => error,
             Self::Regions(error) => error,
             Self::Maps(error) => error,
+            Self::Colors(error) => error,
             _ => return None,
         })
     }
@@ -93,7 +95,6 @@ impl Explain for PainterError {
             Self::NoArea => "the model is a line or a point: export it again",
             Self::NoTile => "build the map again from at least one sample",
             Self::NoPaint => "build a map of samples from an impasto painting or a painted style",
-            Self::ModelColors => "set colour.from to \"map\"",
             Self::Size { .. } => "pictures have 1 to 268435456 pixels",
             Self::Time { .. } => "times are seconds from the start, for example 0.5",
             Self::Camera { .. } => {

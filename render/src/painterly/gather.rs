@@ -62,6 +62,8 @@ pub(super) struct Gather<'a> {
     pub(super) furrow: f32,
     /// Whether splats have colours of their own.
     pub(super) colored: bool,
+    /// Whether the map is looked up; else only the weights of all splats are summed.
+    pub(super) textured: bool,
     pub(super) into: &'a mut Gathered,
 }
 
@@ -116,7 +118,7 @@ impl pulp::WithSimd for Gather<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { square, list, splats, tones, squarings, furrow, colored, into } = self;
+        let Self { square, list, splats, tones, squarings, furrow, colored, textured, into } = self;
         into.on.clear();
         into.before.clear();
         into.raised.clear();
@@ -144,8 +146,10 @@ impl pulp::WithSimd for Gather<'_> {
             }
         }
         raise(square, splats, squarings, into);
-        sum(square, splats, (tones, furrow), colored, &mut into.on);
-        sum(square, splats, (tones, furrow), colored, &mut into.before);
+        if textured {
+            sum(square, splats, (tones, furrow), colored, &mut into.on);
+            sum(square, splats, (tones, furrow), colored, &mut into.before);
+        }
     }
 }
 

@@ -31,11 +31,9 @@ mod coloring;
 
 mod tones;
 
+mod joined_paint;
+
 mod paint_tones;
-
-mod error;
-
-mod brushwork;
 
 mod places;
 
@@ -63,11 +61,21 @@ mod amounts;
 
 mod passes;
 
+mod paint_layer;
+
+mod color_paint;
+
+mod error;
+
+mod brushwork;
+
 mod composed;
 
 mod subject;
 
 mod painter;
+
+mod painting;
 
 mod stages;
 
@@ -84,9 +92,12 @@ mod picture_layers;
 mod picture;
 
 pub use brushwork::Brushwork;
+pub use color_paint::{ColorPaint, ColorPaintError, ColorPaintSettings, FilmHeight};
 pub use compositing::CompositingError;
 pub use error::PainterError;
-pub use paint_tones::PaintOfMapsError;
+pub use joined_paint::PaintOfMapsError;
+pub use paint_layer::paint_layer;
+pub use paint_tones::Amounts;
 pub use painter::Painter;
 pub use passes::PaintedModel;
 pub use picture_form::{FlowPicture, PictureForm};
@@ -99,3 +110,6 @@ pub use settings::{
 };
 pub use splat::StrokeSplat;
 pub use stages::Stage;
+
+#[cfg(test)]
+mod exact_tests;

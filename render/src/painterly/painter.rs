@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use artmap::map::ArtMap;
-use artmap::sample::PaintOfSamples;
 use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{Features, Hierarchy, Projection, depth_field};
@@ -11,18 +10,15 @@ use graphics::compute::Compute;
 use graphics::distant_light::DistantLight;
 use graphics::field::Field;
 use graphics::surface::Model;
-use paint::amount::quanta_from_mm;
-use paint::document::{Document, DryLayer, Lighting, Medium};
-use paint::ground::GroundSpec;
-use paint::layer::{Cell, Layer, SLOTS};
+use pigment::PigmentLibrary;
 
-use super::amounts::amounts;
+use super::color_paint::FilmHeight;
 use super::composed::over;
 use super::divided::{Divide, THIN};
 use super::error::PainterError;
 use super::flow::phase;
 use super::offsets::Matching;
-use super::paint_tones::{Amounts, PaintTones};
+use super::paint_tones::PaintTones;
 use super::passes::{PaintedModel, painted};
 use super::roots::Roots;
 use super::settings::{LightWith, Offsets, Settings};
@@ -34,6 +30,9 @@ use super::tones::Tones;
 
 /// Cover around which the strokes of upper layers end.
 const THIN_ABOVE: f32 = 0.7;
+
+/// Distance of strokes in mm where a map does not tell it: that of a small flat brush.
+const STROKE_MM: f64 = 3.0;
 
 /// Most pixels of a picture.
 const MOST_PIXELS: usize = 1 << 28;
@@ -50,8 +49,12 @@ pub struct Painter {
     settings: Settings,
     /// The paint of the maps, if they have any.
     paint: Option<PaintTones>,
-    /// Width of a texel of the first map in mm, where it is known.
-    mm_per_texel: Option<f64>,
+    /// Films of the subject's own colours.
+    film: FilmHeight,
+    /// Pigments for them, if not those of the maps' library.
+    library: Option<Arc<PigmentLibrary>>,
+    /// Distance of strokes of the first map in mm.
+    spacing_mm: f64,
     /// Units of the subject along the longer side of the picture of the settings.
     units: f32,
     matched: f64,
@@ -103,7 +106,9 @@ impl Painter {
             tones,
             settings: settings.clone(),
             paint,
-            mm_per_texel: maps[0].mm_per_texel,
+            film: FilmHeight::of(maps[0]),
+            library: None,
+            spacing_mm: maps[0].mm_per_texel.map_or(STROKE_MM, |mm| mm * maps[0].spacing),
             units,
             matched: continued / strokes.max(1) as f64,
         })
@@ -127,48 +132,6 @@ impl Painter {
         let lowest = pictures.next();
         let lowest = lowest.unwrap_or_else(|| PaintedModel::bare(size));
         Ok(pictures.fold(lowest, |lower, upper| over(lower, &upper)))
-    }
-
-    /// Paints the subject as [`Self::paint`] does, with the pigments of the maps: a painting with a
-    /// dry layer for each layer of strokes, a cell for each pixel. Amounts are the weighted means of
-    /// the amounts that strokes show, so strokes that overlap do not pile up within a layer. The
-    /// cells are as wide as the first map's strokes demand: `strokes.width_px` of them to the
-    /// distance of its strokes in mm.
-    ///
-    /// # Errors
-    /// As [`Self::paint`]; [`PainterError::NoPaint`] for maps without pigments,
-    /// [`PainterError::ModelColors`] if colours are the subject's,
-    /// [`PainterError::Ground`] for a ground that cannot be made.
-    pub fn painting(
-        &mut self,
-        camera: &Camera,
-        size: (usize, usize),
-        seconds: f64,
-        (title, ground): (&str, &GroundSpec),
-    ) -> Result<Document, PainterError> {
-        if self.layers[0].roots.coloring().of_model() {
-            return Err(PainterError::ModelColors);
-        }
-        let (depth, layers) = self.splats(camera, size, seconds)?;
-        let (Some(paint), Some(mm_per_texel)) = (&self.paint, self.mm_per_texel) else {
-            return Err(PainterError::NoPaint);
-        };
-        let width_px = self.settings.for_size(size.0, size.1).strokes.width_px;
-        let spacing = f64::from(self.tones.map(0).spacing);
-        let cell_mm = spacing * mm_per_texel / f64::from(width_px);
-        let PaintOfSamples { library, slots } = &paint.of;
-        let ground = ground.build(size.0, size.1, cell_mm, library)?;
-        let dry = layers.iter().enumerate().map(|(layer, splats)| {
-            let overlap = &self.settings.overlap;
-            let amounts = amounts(&depth, splats, &self.divide(layer), paint, overlap);
-            DryLayer { slots: *slots, opacity: 1.0, paint: laid_down(&amounts, cell_mm) }
-        });
-        let dry = dry.collect();
-        let medium = Medium::of(library);
-        let library = library.as_ref().clone();
-        let lighting = Lighting::default();
-        let bare = Document::bare(title, cell_mm, ground, library, medium, *slots, lighting);
-        Ok(Document { dry, ..bare })
     }
 
     /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each layer,
@@ -274,7 +237,35 @@ impl Painter {
         self.matched
     }
 
-    #[cfg(test)]
+    /// Takes pigments for the colours of the subject from this library, instead of that of the maps.
+    pub fn set_library(&mut self, library: Arc<PigmentLibrary>) {
+        self.library = Some(library);
+    }
+
+    /// The library of pigments for the colours of the subject: the one that was set, that of the
+    /// maps, or the Van Gogh oils.
+    pub(super) fn library(&self) -> Arc<PigmentLibrary> {
+        let of_maps = || self.paint.as_ref().map(|paint| Arc::clone(&paint.of.library));
+        let set = self.library.as_ref().map(Arc::clone);
+        set.or_else(of_maps).unwrap_or_else(|| Arc::new(PigmentLibrary::van_gogh_oils()))
+    }
+
+    /// Films of the subject's own colours.
+    pub(super) fn film(&self) -> FilmHeight {
+        self.film
+    }
+
+    /// Width of a cell in mm of a painting of so many cells: strokes have their size in mm.
+    pub(super) fn cell_mm(&self, size: (usize, usize)) -> f64 {
+        self.spacing_mm / f64::from(self.settings.for_size(size.0, size.1).strokes.width_px)
+    }
+
+    /// Whether strokes have the colours of the subject.
+    pub(super) fn of_subject(&self) -> bool {
+        self.layers[0].roots.coloring().of_model()
+    }
+
+    /// The paint of the maps.
     pub(super) fn paint_tones(&self) -> Option<&PaintTones> {
         self.paint.as_ref()
     }
@@ -304,15 +295,4 @@ fn kept(
         Some(starts)
     });
     (roots, matched)
-}
-
-/// Amounts in whole quanta.
-fn laid_down(amounts: &Field<Amounts>, cell_mm: f64) -> Layer {
-    let mut layer = Layer::empty(amounts.width(), amounts.height());
-    for (index, amounts) in amounts.values().iter().enumerate() {
-        let quanta = amounts.map(|mm| quanta_from_mm(f64::from(mm), cell_mm));
-        let pigments = std::array::from_fn(|slot| quanta[slot]);
-        layer.set_cell(index, Cell { pigments, vehicle: quanta[SLOTS] });
-    }
-    layer
 }

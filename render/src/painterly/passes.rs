@@ -55,8 +55,9 @@ pub(super) fn painted(
             let squarings = overlap.sharpness.max(1).ilog2();
             let furrow = 1.0 - overlap.ridges;
             let into = &mut *gathered;
+            let (square, textured) = (&square, true);
             let gather =
-                Gather { square: &square, list, splats, tones, squarings, furrow, colored, into };
+                Gather { square, list, splats, tones, squarings, furrow, colored, textured, into };
             pulp::Arch::new().dispatch(gather);
             if !gathered.on.any() && !gathered.before.any() {
                 continue;

@@ -8,6 +8,7 @@ use image::{
 };
 use render::photograph::{MOST_PIXELS, Photograph, PhotographError};
 use spectra::color::Rgb;
+use spectra::hint::{Explain, Fault};
 
 fn png(image: impl Into<DynamicImage>) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
@@ -122,9 +123,11 @@ fn a_broken_file_is_refused_by_its_name() {
         let error = Photograph::from_bytes("sky.png", bytes).unwrap_err();
         assert!(matches!(error, PhotographError::NoPicture { .. }), "{error}");
         assert!(error.to_string().starts_with("sky.png: "), "{error}");
+        assert_eq!(error.fault(), Fault::Input, "{error}");
     }
     let error = Photograph::open(std::path::Path::new("no/such/sky.png")).unwrap_err();
     assert!(error.to_string().starts_with("no/such/sky.png: "), "{error}");
+    assert_eq!(error.fault(), Fault::Environment, "{error}");
 }
 
 #[test]

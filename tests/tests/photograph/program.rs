@@ -42,7 +42,7 @@ fn what_cannot_be_painted_is_refused_with_a_way_out() {
     std::fs::write(&text, "no picture").unwrap();
     let with = |option, value| paint(&photo, &["--picture", &out, option, value]);
     let refused: [(Run, u8, &str, &str); 11] = [
-        (paint(&missing, &["--picture", &out]), 1, "none.png", "hint:"),
+        (paint(&missing, &["--picture", &out]), 2, "none.png", "hint:"),
         (paint(&text, &["--picture", &out]), 1, "text.png", "hint:"),
         (with("--palette", "Zinc White,Mauvein"), 1, "`Mauvein`", "hint:"),
         (with("--palette", "Zinc White,Zinc White"), 2, "once", "hint: leave"),

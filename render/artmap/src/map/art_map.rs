@@ -5,7 +5,9 @@ use rayon::prelude::*;
 use super::gathered;
 use super::tile::Tile;
 use crate::sample::{PaintOfSamples, SampleSet};
-use crate::synthesis::{SynthesisError, SynthesisSettings, key_maps};
+use crate::synthesis::{
+    KeyMaps, Stage, SynthesisError, SynthesisSettings, key_maps, key_maps_with_stages,
+};
 use graphics::field::Field;
 
 /// The brushwork of one sample as a tile.
@@ -54,7 +56,24 @@ impl ArtMap {
     /// # Errors
     /// [`SynthesisError`], as of [`key_maps`].
     pub fn of(set: &SampleSet, settings: &SynthesisSettings) -> Result<Self, SynthesisError> {
-        let maps = key_maps(set, settings)?;
+        Ok(Self::gathered(set, settings, key_maps(set, settings)?))
+    }
+
+    /// Synthesises a map as [`Self::of`] does, with pictures of the steps
+    /// ([`key_maps_with_stages`]).
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub fn with_stages(
+        set: &SampleSet,
+        settings: &SynthesisSettings,
+    ) -> Result<(Self, Vec<Stage>), SynthesisError> {
+        let (maps, stages) = key_maps_with_stages(set, settings)?;
+        Ok((Self::gathered(set, settings, maps), stages))
+    }
+
+    /// The map of synthesised places.
+    fn gathered(set: &SampleSet, settings: &SynthesisSettings, maps: KeyMaps) -> Self {
         let key = |(sample, sources): (&crate::sample::Sample, Field<[u16; 2]>)| {
             let tile = gathered::tile(sample, &sources);
             KeyMap { name: sample.name.clone(), tone: tile.tone(), tile, sources }
@@ -67,7 +86,7 @@ impl ArtMap {
         let mut keys: Vec<(usize, KeyMap)> = keys.into_iter().enumerate().collect();
         keys.sort_by_key(|(index, _)| order.iter().position(|at| at == index));
         let sample = &set.samples[maps.first];
-        Ok(Self {
+        Self {
             keys: keys.into_iter().map(|(_, key)| key).collect(),
             first,
             paint: set.paint.clone(),
@@ -78,7 +97,7 @@ impl ArtMap {
             levels: maps.levels,
             settings: settings.clone(),
             provenance: set.provenance.clone(),
-        })
+        }
     }
 
     /// Width and height of the tiles in texels.

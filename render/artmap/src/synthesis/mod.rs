@@ -24,10 +24,15 @@ mod following;
 
 mod nested;
 
+mod prepared;
+
 mod key_maps;
+
+mod stages;
 
 #[cfg(test)]
 mod tests;
 
 pub use key_maps::{KeyMaps, key_maps};
 pub use settings::{Features, SynthesisError, SynthesisSettings};
+pub use stages::{Stage, key_maps_with_stages};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use serde::Deserialize;
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 use super::perspective::Camera;
 
@@ -112,6 +112,13 @@ impl Explain for CameraPathError {
                  `up` and `field_of_view_deg`"
             }
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Unreadable { .. } => Fault::Environment,
+            _ => Fault::Input,
+        }
     }
 }
 

@@ -105,6 +105,11 @@ impl FilmSearch {
         Self { film, least_mm, most_mm, hiding, masstones }
     }
 
+    /// The search among films of one height. Preferences among pigments stay.
+    pub(super) fn at_height(&self, height_mm: f64) -> Self {
+        Self { least_mm: height_mm, most_mm: height_mm, ..self.clone() }
+    }
+
     /// Least and greatest height of a film, in mm.
     pub(super) fn heights_mm(&self) -> (f64, f64) {
         (self.least_mm, self.most_mm)

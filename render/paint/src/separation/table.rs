@@ -108,6 +108,22 @@ impl Separation {
         Ok(Self { search, refined: settings.refined, lattice: count, heights })
     }
 
+    /// The table of films of the given height, each as near to the recipe of this table's film as
+    /// its colour allows.
+    pub(super) fn at_height(&self, height_mm: f64) -> Self {
+        let search = self.search.at_height(height_mm);
+        let shifted = |(index, heights): (usize, &[f32; SLOTS])| {
+            let own = FilmMix::of(heights.map(f64::from), search.film.used()[0]);
+            let start = FilmMix { height_mm, ..own };
+            let anchor = Anchor { mixed: start, strength: NEIGHBOURS };
+            let target = search.target(color(&search, self.lattice, index));
+            search.minimize(&target, &start, Some(&anchor), STEPS).1
+        };
+        let films = self.heights.par_iter().enumerate().map(shifted);
+        let heights = films.map(|mixed| mixed.heights_mm().map(|height| height as f32)).collect();
+        Self { search, heights, ..*self }
+    }
+
     /// The films that the table was computed for.
     #[must_use]
     pub fn film(&self) -> &PaintFilm {

@@ -110,10 +110,27 @@ fn paintings_do_not_depend_on_threads() {
 }
 
 #[test]
-fn maps_without_pigments_and_colours_of_the_model_are_refused() {
+fn colours_of_maps_without_pigments_are_refused() {
     let error = painting(&map(2), &settings()).unwrap_err();
     assert!(matches!(error, PainterError::NoPaint), "{error}");
-    let of_model = Settings::default().changed("test", "colour.from = \"model\"").unwrap();
-    let error = painting(&painted_map(), &of_model).unwrap_err();
-    assert!(matches!(error, PainterError::ModelColors), "{error}");
+}
+
+#[test]
+fn colours_of_the_model_are_mixed_of_a_palette_that_suits_them_layer_by_layer() {
+    let text = "colour.from = \"model\"\nlayers.count = 2\nlayers.detail = 0.6";
+    let of_model = Settings::default().changed("test", text).unwrap();
+    // A map without pigments has the oils.
+    let document = painting(&map(2), &of_model).unwrap();
+    let [lower, upper] = &document.dry[..] else { panic!("{} layers", document.dry.len()) };
+    let names: Vec<&str> =
+        lower.slots.iter().flatten().map(|&id| &document.library[id].name[..]).collect();
+    // The knot is blue.
+    assert!(
+        names.iter().any(|name| ["Ultramarine", "Cobalt Blue", "Prussian Blue"].contains(name)),
+        "{names:?}"
+    );
+    let [below, above] = [lower, upper].map(|layer| layer.paint.totals().iter().sum::<u64>());
+    assert!(above > 0 && above < below, "{above} over {below}");
+    // Ten pixels of the reference to 3 mm, in a picture of a tenth of its size.
+    assert!((document.cell_mm / 3.125 - 1.0).abs() < 1e-6, "{}", document.cell_mm);
 }

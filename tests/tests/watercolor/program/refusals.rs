@@ -44,8 +44,8 @@ fn subjects_that_cannot_be_read() {
     let photo = folder.photograph();
     let none = |name: &str| folder.file(name);
     for (subject, options, status, what, hint) in [
-        (&none("none.png"), &[][..], 1, "none.png", "check the path"),
-        (&none("none.obj"), &[], 1, "none.obj", "check the path"),
+        (&none("none.png"), &[][..], 2, "none.png", "check the path"),
+        (&none("none.obj"), &[], 2, "none.obj", "check the path"),
         (&text, &[], 1, "text.png: not a PNG or JPEG picture", "save it as PNG or JPEG"),
         (&stl, &[], 1, "model.stl: not a PNG or JPEG picture", "save it as PNG or JPEG"),
         (&stl, &["--turntable", "4"], 2, "model.stl is not a mesh", "names of meshes end in .obj"),
@@ -203,7 +203,7 @@ fn cameras_that_see_nothing() {
     let shut = file("shut.toml", &format!("frames = 2\n{keyframe}field_of_view_deg = 0.0\n"));
     let sound = file("sound.toml", &format!("frames = 2\n{keyframe}"));
     let shape = "a path has `frames` and [[keyframe]] tables";
-    refused(&with(&[&folder.file("missing.toml")]), 1, "missing.toml: ", "check the path");
+    refused(&with(&[&folder.file("missing.toml")]), 2, "missing.toml: ", "check the path");
     refused(&with(&[&torn]), 1, "torn.toml: line 2: ", shape);
     refused(&with(&[&empty]), 1, "empty.toml: `keyframe`: 0, not 1 to", shape);
     refused(&with(&[&none]), 1, "none.toml: `frames`: 0, not 1 to", shape);
@@ -300,9 +300,9 @@ fn masks_and_pigments_where_they_do_not_belong() {
         (folder.file("out.png"), folder.file("out.exr"), folder.file("stages"));
     for option in ["--dry-brush-mask", "--density-mask"] {
         let run = watercolor(&mesh, &["--picture", &out, option, &folder.file("none.png")]);
-        refused(&run, 1, "none.png", "check the path");
+        refused(&run, 2, "none.png", "check the path");
         let run = watercolor(&photo, &["--picture", &out, option, &folder.file("none.png")]);
-        refused(&run, 1, "none.png", "check the path");
+        refused(&run, 2, "none.png", "check the path");
     }
     let folder_of_maps = folder.file("maps");
     for (option, value) in

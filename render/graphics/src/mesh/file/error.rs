@@ -1,6 +1,6 @@
 //! Errors of reading models.
 
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 
 use crate::mesh::check::MeshFault;
 
@@ -67,5 +67,26 @@ impl Explain for MeshError {
             }
             Self::Faulty { fault, .. } => return fault.hint(),
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Unreadable { .. } => Fault::Environment,
+            _ => Fault::Input,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_not_there_is_no_fault_of_the_data() {
+        let error = crate::mesh::Mesh::open("no/such/model.obj".as_ref()).unwrap_err();
+        assert_eq!(error.fault(), Fault::Environment, "{error}");
+        let (name, place) = ("model.obj".to_owned(), "line 1".to_owned());
+        let torn = MeshError::Malformed { name, place, reason: "torn".to_owned() };
+        assert_eq!(torn.fault(), Fault::Input);
     }
 }
