@@ -16,6 +16,8 @@
 
 mod settings;
 
+pub mod guides;
+
 mod error;
 
 mod splat;
