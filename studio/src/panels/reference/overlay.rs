@@ -76,8 +76,10 @@ impl Overlay<'_> {
         self.lines(&lines, GUIDE, selected);
         let Some(first) = first else { return };
         self.painter.circle(first, 2.5 * RIM, GUIDE, Stroke::new(RIM, Color32::BLACK));
-        for (shift, color) in [(1.0, Color32::BLACK), (0.0, GUIDE)] {
-            let (at, font) = (first + vec2(5.0 + shift, shift - 5.0), FontId::proportional(12.0));
+        let around = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
+        let shadows = around.map(|[x, y]| (vec2(x, y), Color32::BLACK));
+        for (shift, color) in shadows.into_iter().chain([(Vec2::ZERO, GUIDE)]) {
+            let (at, font) = (first + vec2(6.0, -6.0) + shift, FontId::proportional(13.0));
             self.painter.text(at, Align2::LEFT_BOTTOM, number, font, color);
         }
     }
@@ -108,7 +110,7 @@ fn arrows(points: &[Pos2]) -> Vec<(Pos2, Vec2)> {
         left -= from.distance(to);
         (left <= 0.0).then(|| (from + before * along, along))
     });
-    let last = pieces().last().map(|[from, to]| (to, (to - from).normalized()));
+    let last = pieces().next_back().map(|[from, to]| (to, (to - from).normalized()));
     middle.into_iter().chain(last).collect()
 }
 

@@ -134,7 +134,7 @@ fn unsaved_lines_are_asked_for_before_the_window_closes() {
     until(&mut window, "the guides", |_| file.is_file());
     let guides = Guides::open(&file).unwrap();
     assert_eq!((guides.size_px, guides.lines.len()), ([600, 400], 1));
-    until(&mut window, "the end", |window| closes(window));
+    until(&mut window, "the end", closes);
 }
 
 #[test]
