@@ -18,6 +18,8 @@
 
 mod settings;
 
+pub mod guides;
+
 mod splat;
 
 mod flow;

@@ -85,7 +85,7 @@ fn subject(
         smoothing: f64::from(settings.strokes.smoothing),
     };
     let field = DirectionField::of_curvature(mesh, &lines, guides)?;
-    let directions = Arc::new(Directions::new(mesh, field, arrows(mesh, guides).as_deref()));
+    let directions = Arc::new(Directions::new(mesh, field, None));
     let rounds = settings.light.smoothing_rounds as usize;
     let lit = Arc::new(Mesh { normals: mesh.smoothed_normals(rounds), ..mesh.clone() });
     let packed = Arc::new(PackedMesh::new(&lit));
@@ -121,15 +121,6 @@ fn subject(
         units,
         more: MORE,
     })
-}
-
-/// The arrows of guides at the vertices; `None` without guides.
-fn arrows(mesh: &Mesh, guides: &[Guide]) -> Option<Vec<[f32; 3]>> {
-    let mut arrows = vec![[0.0; 3]; mesh.positions.len()];
-    for guide in guides {
-        arrows[guide.vertex as usize] = guide.along;
-    }
-    (!guides.is_empty()).then_some(arrows)
 }
 
 /// Radius of the sphere around the middle of the bounding box that holds all vertices.

@@ -208,10 +208,6 @@ fn directions(
         lines.push(Line { along: [line.0.x, -line.0.y, 0.0], weight: line.1 });
     }
     let guides: Vec<Guide> = form.guides.iter().map(|guide| on_plane(mesh, guide)).collect();
-    for guide in &guides {
-        let [x, y, _] = guide.along;
-        arrows[guide.vertex as usize] = Vec2::new(x, -y);
-    }
     let settings = DirectionSettings {
         normal_rounds: NORMAL_ROUNDS,
         smoothing: f64::from(settings.strokes.smoothing),

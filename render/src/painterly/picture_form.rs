@@ -6,6 +6,8 @@ use glam::Vec2;
 use graphics::field::Field;
 use graphics::picture::{Photograph, PhotographError};
 
+use super::guides::{GuideSample, Guides, GuidesError};
+
 /// Values of red and green this near the middle are no direction: the middle of 8 bits is none.
 const STILL: f32 = 0.01;
 
@@ -29,6 +31,21 @@ pub struct FlowPicture {
 }
 
 impl PictureForm {
+    /// Reads guides drawn over the picture.
+    ///
+    /// # Errors
+    /// [`GuidesError`] with the path and the guide.
+    pub fn guides_of(path: &Path) -> Result<Vec<[[f32; 2]; 2]>, GuidesError> {
+        let guides = Guides::open(path)?;
+        let [width, height] = guides.size_px;
+        let samples = guides.on_picture(width as usize, height as usize)?;
+        let guide = |sample: GuideSample| {
+            let share = [sample.x / f64::from(width), sample.y / f64::from(height)];
+            [share, sample.along].map(|pair| pair.map(|value| value as f32))
+        };
+        Ok(samples.into_iter().map(guide).collect())
+    }
+
     /// Depth of a picture whose white is near and whose black is far.
     ///
     /// # Errors

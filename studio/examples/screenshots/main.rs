@@ -2,9 +2,9 @@
 //! worker, without a window system, painting a small study.
 //!
 //! `cargo run -p impasto-studio --example screenshots -- FOLDER` writes `studio.png`,
-//! `studio-lights.png`, `studio-colour.png` and `studio-layers.png` there;
-//! `docs/images/studio.sh` converts them to the JPEGs in `docs/images/`. It needs a
-//! graphics adapter; a software one will do.
+//! `studio-lights.png`, `studio-colour.png`, `studio-marks.png`, `studio-guides.png` and
+//! `studio-layers.png` there; `docs/images/studio.sh` converts them to the JPEGs in
+//! `docs/images/`. It needs a graphics adapter; a software one will do.
 
 #[expect(dead_code, reason = "the tests need more of it")]
 #[path = "../../tests/panels/harness.rs"]
@@ -13,6 +13,8 @@ mod harness;
 mod hand;
 
 mod study;
+
+mod drawing;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -56,6 +58,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     window.studio_mut().ask(Command::SetSecondLight(None));
     colors(&mut window)?;
     save(&mut window, &folder, "studio-colour")?;
+    window.studio_mut().panels.reference.close();
+    drawing::marks(&mut window)?;
+    save(&mut window, &folder, "studio-marks")?;
+    drawing::guides(&mut window, &folder)?;
+    save(&mut window, &folder, "studio-guides")?;
     window.studio_mut().panels.reference.close();
     layers(&mut window);
     save(&mut window, &folder, "studio-layers")

@@ -6,7 +6,6 @@ use eframe::egui::{Context, Ui};
 
 use super::help;
 use super::studio::Studio;
-use crate::files::ReferenceChange;
 use crate::panels::Request;
 
 impl Studio {
@@ -14,13 +13,14 @@ impl Studio {
     /// window is hidden.
     pub fn logic(&mut self, context: &Context) {
         self.handle_events();
+        self.files.note_drawings(self.panels.reference.unsaved_drawings());
         for command in self.files.update(context) {
             self.worker.ask(command);
         }
-        match self.files.take_reference() {
-            Some(ReferenceChange::Open(path)) => self.panels.reference.open(context, &path),
-            Some(ReferenceChange::Close) => self.panels.reference.close(),
-            None => {}
+        while let Some(change) = self.files.take_reference() {
+            if let Some(problem) = self.panels.reference.apply(change, context) {
+                self.files.report(problem);
+            }
         }
         self.pen.settings = self.files.preferences.pen;
         let scale = self.files.preferences.interface_scale;

@@ -15,6 +15,8 @@ const POINTER: &[(&str, &str)] = &[
     ("Two fingers", "Move, zoom and turn the view on a touch screen"),
     ("Alt + click", "Picks colour and paint"),
     ("Shift + stroke", "Starts with a straight line from the end of the last stroke"),
+    ("Ctrl+Z on the reference", "Undoes the last mark or guide while the picture is drawn on"),
+    ("Shift on the reference", "Marks the distance of strokes of the selected sample"),
     ("Held tool key", "Restores the previous tool on release"),
 ];
 

@@ -40,6 +40,8 @@ impl Studio {
             Intent::OpenLamp => self.file(FileRequest::OpenLamp),
             Intent::Preferences => self.file(FileRequest::Preferences),
             Intent::Quit => context.send_viewport_cmd(ViewportCommand::Close),
+            // Over a picture that is drawn on, its last line.
+            Intent::Undo if self.panels.reference.undo_under_pointer() => {}
             Intent::Undo => self.action(Action::Undo {}),
             Intent::Redo => self.action(Action::Redo {}),
             Intent::Dry => self.with_panels(|_, cx| dry(cx)),

@@ -1,6 +1,6 @@
 //! Opens and shows the dialogs, and carries out the painter's answers.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use eframe::egui::Ui;
 use pigment::library::PigmentLibrary;
@@ -10,18 +10,21 @@ use render::paint::strokes::PaletteSpec;
 
 use super::browser::{Answer, Browser, BrowserOptions, Filter};
 use super::dialogs::{self, Choice, NewPainting};
+use super::drawing::{DrawingKind, DrawnFile};
 use super::exporting::{Export, ExportKind};
 use super::notice::Notice;
 use super::open_dialog::{FilePurpose, OpenDialog};
 use super::pending::PendingAction;
+use super::reference_change::ReferenceChange;
 use super::revisions;
-use super::state::{Files, ReferenceChange};
+use super::state::Files;
 use super::work::{Purpose, file_name};
 use session::{Origin, PaintingState, blank_canvas};
 
 const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
 const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "jpg", "jpeg"] };
 const SCRIPTS: Filter = Filter { label: "Recordings and libraries", endings: &["json"] };
+const DRAWINGS: Filter = Filter { label: "Marks and guides", endings: &["toml"] };
 const LAMPS: Filter =
     Filter { label: "Spectra", endings: &["csv", "txt", "tsv", "cgats", "it8", "cxf", "json"] };
 const OPENABLE: Filter =
@@ -54,6 +57,24 @@ impl Files {
                         None => self.ask_where_to_save(Some(next), false),
                     },
                     (Some(Choice::No), OpenDialog::Unsaved(next)) => self.carry_out(next),
+                    (None, unanswered) => self.dialogs.insert(below, unanswered),
+                    _ => {}
+                }
+                return;
+            }
+            OpenDialog::UnsavedDrawings(action) => {
+                let lost = self.drawings_lost_by(action);
+                let choice = dialogs::unsaved_drawings(&ctx, &lost);
+                match (choice, dialog) {
+                    (Some(Choice::Yes), OpenDialog::UnsavedDrawings(next)) => {
+                        match lost.into_iter().next() {
+                            Some(drawn) => self.ask_where_to_draw(drawn, Some(next)),
+                            None => self.carry_out_safely(next),
+                        }
+                    }
+                    (Some(Choice::No), OpenDialog::UnsavedDrawings(next)) => {
+                        self.carry_out_without_drawings(next);
+                    }
                     (None, unanswered) => self.dialogs.insert(below, unanswered),
                     _ => {}
                 }
@@ -119,7 +140,9 @@ impl Files {
                 self.request_snapshot(Purpose::Export { export, path });
             }
             FilePurpose::Recording => self.request_recording(path),
-            FilePurpose::Reference => self.reference = Some(ReferenceChange::Open(path)),
+            FilePurpose::Reference => self.change_reference(ReferenceChange::Open(path)),
+            FilePurpose::SaveDrawing { drawing, next } => self.save_drawing(*drawing, path, next),
+            FilePurpose::OpenDrawing(kind) => self.read_drawing(kind, path),
         }
     }
 
@@ -135,7 +158,18 @@ impl Files {
     }
 
     fn browse(&mut self, options: BrowserOptions, purpose: FilePurpose) {
-        let beside = self.path.as_ref().and_then(|path| path.parent());
+        let beside = self.path.clone();
+        self.browse_beside(beside.as_deref(), options, purpose);
+    }
+
+    /// Asks for a file in the folder of another one.
+    fn browse_beside(
+        &mut self,
+        beside: Option<&Path>,
+        options: BrowserOptions,
+        purpose: FilePurpose,
+    ) {
+        let beside = beside.and_then(|path| path.parent());
         let folder = beside.or(self.preferences.last_folder.as_deref());
         let browser = Browser::new(options, folder, &self.preferences.recent, &self.ctx);
         self.dialogs.push(OpenDialog::Browser(Box::new(browser), purpose));
@@ -177,6 +211,35 @@ impl Files {
             name: format!("{}.json", self.title()),
         };
         self.browse(options, FilePurpose::Recording);
+    }
+
+    pub(super) fn ask_for_drawing(&mut self, kind: DrawingKind, picture: &Path) {
+        const KINDS: [Filter; 2] = [DRAWINGS, Filter::ALL];
+        let title = match kind {
+            DrawingKind::Marks => "Open marks",
+            DrawingKind::Guides => "Open guides",
+        };
+        let options = BrowserOptions::open(title, &KINDS);
+        self.browse_beside(Some(picture), options, FilePurpose::OpenDrawing(kind));
+    }
+
+    pub(super) fn ask_where_to_draw(
+        &mut self,
+        DrawnFile { drawing, path }: DrawnFile,
+        next: Option<PendingAction>,
+    ) {
+        let options = BrowserOptions {
+            title: match drawing.kind() {
+                DrawingKind::Marks => "Save the marks",
+                DrawingKind::Guides => "Save the guides",
+            },
+            saving: true,
+            filters: &[DRAWINGS, Filter::ALL],
+            ending: Some("toml"),
+            name: file_name(&path),
+        };
+        let purpose = FilePurpose::SaveDrawing { drawing: Box::new(drawing), next };
+        self.browse_beside(Some(&path), options, purpose);
     }
 
     pub(super) fn ask_what_to_export(&mut self) {

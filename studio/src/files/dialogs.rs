@@ -8,6 +8,7 @@ use render::paint::ground::GroundKind;
 use render::paint::scene::PixelsPerCell;
 use render::paint::strokes::Canvas;
 
+use super::drawing::DrawnFile;
 use super::exporting::{Export, ExportKind};
 use super::preferences::{Backend, Preferences};
 use crate::pen::PenSettings;
@@ -68,6 +69,17 @@ pub(super) fn unsaved(ctx: &Context, title: &str) -> Option<Choice> {
     let discard = ("Discard", "Continues; unsaved changes are lost");
     dialog(ctx, "Save the painting?", save, Some(discard), |ui| {
         ui.label(format!("{title} has unsaved changes."));
+    })
+}
+
+/// Asks if drawings should be saved before they are lost.
+pub(super) fn unsaved_drawings(ctx: &Context, lost: &[DrawnFile]) -> Option<Choice> {
+    let save = ("Save", "Asks where to save them, then continues (Enter)");
+    let discard = ("Discard", "Continues; unsaved lines are lost");
+    let names: Vec<&str> = lost.iter().map(|drawn| drawn.drawing.kind().name()).collect();
+    let names = names.join(" and ");
+    dialog(ctx, "Save the drawing?", save, Some(discard), |ui| {
+        ui.label(format!("The {names} on the reference picture are in no file."));
     })
 }
 

@@ -9,7 +9,8 @@ use super::notice::Notice;
 use super::opened::Opened;
 use super::pending::{FileOrigin, PendingAction, Replacement};
 use super::problem::Problem;
-use super::state::{Files, ReferenceChange};
+use super::reference_change::ReferenceChange;
+use super::state::Files;
 use super::work::{Finished, JobKind, Purpose, file_name};
 use session::{Command, Origin, Pace, blank_canvas};
 
@@ -81,6 +82,10 @@ impl Files {
                 self.notices.push(Notice::done(&format!("saved {}", path.display())));
                 self.preferences.remember(&path);
             }
+            Finished::DrawingSaved { drawn, next } => self.drawing_saved(drawn, next),
+            Finished::DrawingRead(drawn) => {
+                self.change_reference(ReferenceChange::Draw(drawn));
+            }
             Finished::Listed { epoch, revisions } => {
                 if epoch == self.epoch {
                     self.revisions.set(&self.ctx, self.path.clone(), revisions);
@@ -137,7 +142,7 @@ impl Files {
                 let commands = vec![Command::Replay { script, library, pace: self.replay_pace() }];
                 self.replace(Replacement { commands, origin: FileOrigin::default() });
             }
-            Opened::Picture => self.reference = Some(ReferenceChange::Open(path)),
+            Opened::Picture => self.change_reference(ReferenceChange::Open(path)),
             Opened::Lamp => self.light_with_lamp(&path),
         }
     }

@@ -8,8 +8,9 @@ use eframe::egui::{Context, Ui, ViewportCommand};
 
 use super::open_dialog::OpenDialog;
 use super::pending::{FileOrigin, PendingAction};
+use super::reference_change::ReferenceChange;
 use super::request::FileRequest;
-use super::state::{Files, ReferenceChange};
+use super::state::Files;
 use super::work::Purpose;
 use session::{Command, Event, PaintingState};
 
@@ -75,15 +76,20 @@ impl Files {
     }
 
     /// Whether the window may close now. If changes would be lost, the painter is asked,
-    /// unless the painting is already being saved.
+    /// unless they are already being saved.
     fn may_close(&mut self) -> bool {
-        if self.closing || !self.has_unsaved_changes() {
+        let nothing_lost = !self.has_unsaved_changes() && self.unsaved_drawings.is_empty();
+        if self.closing || nothing_lost {
             return true;
         }
-        let asks =
-            |dialog: &OpenDialog| matches!(dialog, OpenDialog::Unsaved(PendingAction::Close));
+        let asks = |dialog: &OpenDialog| match dialog {
+            OpenDialog::Unsaved(action) | OpenDialog::UnsavedDrawings(action) => {
+                matches!(action, PendingAction::Close { .. })
+            }
+            _ => false,
+        };
         if !self.dialogs.iter().any(asks) && !self.is_saving() {
-            self.dialogs.push(OpenDialog::Unsaved(PendingAction::Close));
+            self.carry_out_safely(PendingAction::Close { drawings_given_up: false });
         }
         false
     }
@@ -116,10 +122,12 @@ impl Files {
             FileRequest::Export => self.ask_what_to_export(),
             FileRequest::SaveRecording => self.ask_where_to_record(),
             FileRequest::OpenReference(Some(path)) => {
-                self.reference = Some(ReferenceChange::Open(path));
+                self.change_reference(ReferenceChange::Open(path));
             }
             FileRequest::OpenReference(None) => self.ask_for_reference(),
-            FileRequest::CloseReference => self.reference = Some(ReferenceChange::Close),
+            FileRequest::CloseReference => self.change_reference(ReferenceChange::Close),
+            FileRequest::SaveDrawing(drawn) => self.ask_where_to_draw(drawn, None),
+            FileRequest::OpenDrawing(kind, picture) => self.ask_for_drawing(kind, &picture),
             FileRequest::OpenLamp => self.ask_for_lamp(),
             FileRequest::New => self.ask_for_new(state),
             FileRequest::Preferences => self.dialogs.push(OpenDialog::Preferences),

@@ -5,6 +5,10 @@ mod problem;
 
 mod age;
 
+mod drawing;
+
+mod reference_change;
+
 mod request;
 
 mod job;
@@ -39,6 +43,8 @@ mod state;
 
 mod tasks;
 
+mod drawings;
+
 mod asking;
 
 mod finished;
@@ -48,11 +54,13 @@ mod notices;
 mod frame;
 
 pub use age::{ago, size};
+pub use drawing::{Drawing, DrawingKind, DrawnFile};
 pub use figures_log::{FiguresLog, FrameFigures};
 pub use home::Home;
 pub use preferences::{Backend, Preferences, ToolPreferences};
 pub use problem::Problem;
+pub use reference_change::ReferenceChange;
 pub use request::FileRequest;
 pub use revision_list::{ListedRevision, RevisionList};
 pub use revisions::Revision;
-pub use state::{Files, ReferenceChange};
+pub use state::Files;

@@ -7,6 +7,7 @@ use render::paint::strokes::PaletteSpec;
 
 use super::browser::Browser;
 use super::dialogs::NewPainting;
+use super::drawing::{Drawing, DrawingKind};
 use super::exporting::Export;
 use super::pending::PendingAction;
 
@@ -17,6 +18,8 @@ pub(super) enum OpenDialog {
     Browser(Box<Browser>, FilePurpose),
     /// Asks if unsaved changes should be saved before the action is carried out.
     Unsaved(PendingAction),
+    /// Asks if drawings should be saved before the action is carried out.
+    UnsavedDrawings(PendingAction),
     /// Asks if the revision in this file should be deleted.
     DeleteRevision(PathBuf),
     /// Asks what to export.
@@ -43,4 +46,8 @@ pub(super) enum FilePurpose {
     Reference,
     /// Lights the painting with the lamp measured in it.
     Lamp,
+    /// Saves the drawing in it, then carries out `next`.
+    SaveDrawing { drawing: Box<Drawing>, next: Option<PendingAction> },
+    /// Reads a drawing from it.
+    OpenDrawing(DrawingKind),
 }

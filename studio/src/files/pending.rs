@@ -3,15 +3,21 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::reference_change::ReferenceChange;
 use session::{Command, LostSession};
 
 /// An action that would lose unsaved changes, kept until they are saved or given up.
 #[derive(Debug)]
 pub(super) enum PendingAction {
     /// Closes the window.
-    Close,
+    Close {
+        /// Whether the painter gave up drawings that are in no file.
+        drawings_given_up: bool,
+    },
     /// Opens another painting in place of the current one.
     Replace(Replacement),
+    /// Changes the picture beside the canvas or the lines on it.
+    Reference(ReferenceChange),
 }
 
 /// Another painting, to be opened in place of the current one.

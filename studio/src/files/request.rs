@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::drawing::{DrawingKind, DrawnFile};
+
 /// A file action. Long work runs in the background.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FileRequest {
@@ -26,6 +28,10 @@ pub enum FileRequest {
     OpenReference(Option<PathBuf>),
     /// Removes the picture beside the canvas.
     CloseReference,
+    /// Saves lines drawn on that picture to a file that the painter is asked for.
+    SaveDrawing(DrawnFile),
+    /// Opens lines for the picture in this file; asks for theirs.
+    OpenDrawing(DrawingKind, PathBuf),
     /// Lights the painting with a lamp measured in a file that the painter is asked for.
     OpenLamp,
     /// Begins a new painting; asks for its canvas.

@@ -1,11 +1,13 @@
 //! State of the files of the painting, and the basic steps on it.
 
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use eframe::egui::{Context, ViewportCommand};
 
+use super::drawing::DrawnFile;
 use super::home::Home;
 use super::job::{Job, JobError, Progress};
 use super::notice::Notice;
@@ -13,18 +15,10 @@ use super::open_dialog::OpenDialog;
 use super::pending::{FileOrigin, PendingAction, Replacement};
 use super::preferences::Preferences;
 use super::problem::Problem;
+use super::reference_change::ReferenceChange;
 use super::revision_list::RevisionList;
 use super::work::{Finished, JobKind, Purpose, RunningJob};
 use session::{Autosave, Command, LostSession, Pace, PaintingState};
-
-/// A change of the picture beside the canvas.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ReferenceChange {
-    /// Pins the picture in this file.
-    Open(PathBuf),
-    /// Removes the picture.
-    Close,
-}
 
 /// The files of the painting: opening, saving, exports, autosave, preferences and their
 /// dialogs.
@@ -68,7 +62,10 @@ pub struct Files {
     pub(super) replay: Option<(usize, usize)>,
     /// The revisions of the painting.
     pub revisions: RevisionList,
-    pub(super) reference: Option<ReferenceChange>,
+    /// Changes of the picture beside the canvas, the oldest first.
+    pub(super) reference: VecDeque<ReferenceChange>,
+    /// Drawings on that picture that are in no file.
+    pub(super) unsaved_drawings: Vec<DrawnFile>,
     /// Commands for the worker.
     pub(super) commands: Vec<Command>,
     /// Whether the window closes although changes may be lost.
@@ -114,7 +111,8 @@ impl Files {
             autosave_failed: false,
             replay: None,
             revisions: RevisionList::default(),
-            reference: None,
+            reference: VecDeque::new(),
+            unsaved_drawings: Vec::new(),
             commands: Vec::new(),
             closing: false,
         }
@@ -157,9 +155,9 @@ impl Files {
         !self.dialogs.is_empty()
     }
 
-    /// Removes and returns the change of the picture beside the canvas, if there is one.
+    /// Removes and returns the oldest change of the picture beside the canvas, if there is one.
     pub fn take_reference(&mut self) -> Option<ReferenceChange> {
-        self.reference.take()
+        self.reference.pop_front()
     }
 
     /// Whether a painting is being saved.
@@ -211,7 +209,10 @@ impl Files {
 
     /// Carries out an action, after asking about unsaved changes if there are any.
     pub(super) fn carry_out_safely(&mut self, action: PendingAction) {
-        if self.has_unsaved_changes() {
+        let loses_painting = !matches!(action, PendingAction::Reference(_));
+        if !self.drawings_lost_by(&action).is_empty() {
+            self.dialogs.push(OpenDialog::UnsavedDrawings(action));
+        } else if loses_painting && self.has_unsaved_changes() {
             self.dialogs.push(OpenDialog::Unsaved(action));
         } else {
             self.carry_out(action);
@@ -221,7 +222,7 @@ impl Files {
     /// Carries out an action, even if unsaved changes are lost by it.
     pub(super) fn carry_out(&mut self, action: PendingAction) {
         match action {
-            PendingAction::Close => {
+            PendingAction::Close { .. } => {
                 self.closing = true;
                 self.ctx.send_viewport_cmd(ViewportCommand::Close);
             }
@@ -233,6 +234,7 @@ impl Files {
                 self.opening = Some(origin);
                 self.commands.extend(commands);
             }
+            PendingAction::Reference(change) => self.reference.push_back(change),
         }
     }
 }

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use render::paint::document::Document;
 
+use super::drawing::DrawnFile;
 use super::exporting::Export;
 use super::job::Job;
 use super::opened::Opened;
@@ -54,6 +55,10 @@ pub(super) enum Finished {
     Exported { path: PathBuf, remark: Option<Problem> },
     /// A recording was written to this file.
     Recorded(PathBuf),
+    /// A drawing was saved; `next` is to be carried out.
+    DrawingSaved { drawn: DrawnFile, next: Option<PendingAction> },
+    /// A drawing was read.
+    DrawingRead(DrawnFile),
     /// The revisions of the painting were listed.
     Listed { epoch: u64, revisions: Vec<Revision> },
     /// An autosave was written. `revision` is the painting's counter of changes at that

@@ -5,3 +5,5 @@ mod bench;
 mod saving;
 
 mod output;
+
+mod drawings;

@@ -15,6 +15,8 @@ mod brushes;
 
 mod canvas;
 
+mod drawing;
+
 mod eyedropper;
 
 mod files;

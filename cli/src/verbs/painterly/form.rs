@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use render::mesh::{Guide, Mesh};
+use render::painterly::guides::Guides;
 use render::painterly::{FlowPicture, PictureForm};
 
 use crate::failure::{Failure, Result};
@@ -10,8 +12,8 @@ use crate::failure::{Failure, Result};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
 pub(super) struct FormOptions {
-    /// Directions and flow of strokes on a picture: a PNG whose red (to the right) and green
-    /// (upwards) point about one half, and whose blue is the strength
+    /// Directions of strokes: guides drawn as lines (.toml); or of a picture a PNG whose red (to the
+    /// right) and green (upwards) point about one half, and whose blue is the strength of flow
     #[arg(long, value_name = "FILE")]
     directions: Option<PathBuf>,
     /// Depth of a picture, which makes a relief of it: white is near, black is far (.png, .jpg)
@@ -33,19 +35,41 @@ impl FormOptions {
     /// The form of a picture.
     pub(super) fn of_picture(&self) -> Result<PictureForm> {
         let depth = self.depth.as_deref().map(PictureForm::depth_of).transpose()?;
-        let flow = self.directions.as_deref().map(FlowPicture::open).transpose()?;
-        Ok(PictureForm { depth, flow, ..PictureForm::default() })
+        let mut form = PictureForm { depth, ..PictureForm::default() };
+        match &self.directions {
+            Some(path) if is_toml(path) => form.guides = PictureForm::guides_of(path)?,
+            Some(path) => form.flow = Some(FlowPicture::open(path)?),
+            None => {}
+        }
+        Ok(form)
     }
 
-    /// Refuses what only a picture can have.
-    pub(super) fn refuse_on_models(&self, subject: &Path) -> Result<()> {
-        let options = [("--directions", &self.directions), ("--depth", &self.depth)];
-        match options.into_iter().find(|(_, file)| file.is_some()) {
-            Some((option, _)) => Err(Failure::usage(
-                format!("{option} is for pictures, and {} is a model", subject.display()),
-                format!("leave out {option}: a model has its own form"),
-            )),
-            None => Ok(()),
+    /// The guides of a model.
+    pub(super) fn of_model(&self, mesh: &Mesh) -> Result<Vec<Guide>> {
+        if let Some(path) = &self.depth {
+            return Err(Failure::usage(
+                format!("--depth {} is for pictures, and this is a model", path.display()),
+                "leave out --depth: a model has its own",
+            ));
         }
+        let Some(path) = &self.directions else { return Ok(Vec::new()) };
+        if !is_toml(path) {
+            return Err(Failure::usage(
+                format!("--directions {} is for pictures, and this is a model", path.display()),
+                "draw guides over a view of the model: guides.toml",
+            ));
+        }
+        let guides = Guides::open(path)?;
+        let Some(camera) = guides.camera_around(&mesh.positions) else {
+            return Err(Failure::data(
+                format!("{}: the guides do not tell the camera of their view", path.display()),
+                "add camera = [30.0, 20.0, 30.0] with the degrees of --camera",
+            ));
+        };
+        Ok(guides.on_mesh(mesh, &camera)?)
     }
+}
+
+fn is_toml(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }

@@ -4,7 +4,7 @@ use render::camera::Camera;
 use render::encoding::{linear_from_encoded, over_white};
 use render::export::frame_of;
 use render::light::Light;
-use render::mesh::Mesh;
+use render::mesh::{Guide, Mesh};
 use render::paint::engine::PaintEngine;
 use render::paint::ground::GroundSpec;
 use render::paint::painting::Painting;
@@ -34,8 +34,8 @@ pub(super) struct Scene {
 /// A subject.
 #[derive(Debug)]
 pub(super) enum What {
-    /// A mesh.
-    Model(Box<Mesh>),
+    /// A mesh with its guides.
+    Model(Box<Mesh>, Vec<Guide>),
     /// A picture with its form.
     Picture(Photograph, PictureForm),
 }
@@ -58,7 +58,9 @@ impl Job {
         let Scene { what, cameras, size } = scene;
         let brushwork = maps.brushwork();
         let mut painter = match &what {
-            What::Model(mesh) => Painter::of_model_with(mesh, &brushwork, &[], &settings)?,
+            What::Model(mesh, guides) => {
+                Painter::of_model_with(mesh, &brushwork, guides, &settings)?
+            }
             What::Picture(photograph, form) => {
                 Painter::of_picture_with(photograph, &brushwork, form, &settings)?
             }

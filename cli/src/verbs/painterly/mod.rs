@@ -100,9 +100,6 @@ impl Painterly {
         let settings = self.settings.settings()?;
         let path = self.subject.clone().unwrap_or_default();
         let (subject, mut inputs) = self.subject_options.subject(&path, self.form.has_depth())?;
-        if matches!(subject, Subject::Mesh(..)) {
-            self.form.refuse_on_models(&path)?;
-        }
         inputs.extend(self.brushwork.inputs());
         inputs.extend(self.form.inputs().chain(self.settings.input().cloned()));
         let scene = self.scene(subject, &settings)?;
@@ -135,7 +132,10 @@ impl Painterly {
     /// What is painted, with the cameras of all frames.
     fn scene(&self, subject: Subject, settings: &Settings) -> Result<Scene> {
         let (what, cameras, size) = match subject {
-            Subject::Mesh(mesh, cameras, size) => (What::Model(mesh), cameras, size),
+            Subject::Mesh(mesh, cameras, size) => {
+                let guides = self.form.of_model(&mesh)?;
+                (What::Model(mesh, guides), cameras, size)
+            }
             Subject::Photograph(photograph, width) => {
                 let (own_width, own_height) = photograph.size();
                 let rows = (width as f64 * own_height as f64 / own_width as f64).round() as usize;

@@ -62,6 +62,6 @@ pub use propose::propose_marks;
 pub use regions::Regions;
 pub use report::{PassageReport, SpacingSource, StrokesSeen};
 pub use settings::{Density, OverSegmentation, PassageSettings};
-pub use shown::{drawn_in, marked_picture};
+pub use shown::{color_of_mark, drawn_in, marked_picture};
 pub use source::SourcePicture;
 pub use taking::samples_of_picture;

@@ -33,6 +33,12 @@ pub fn drawn_in(index: usize) -> &'static str {
     COLORS[index % COLORS.len()].0
 }
 
+/// Linear sRGB of the colour of the mark number `index`, from 0, see [`drawn_in`].
+#[must_use]
+pub fn color_of_mark(index: usize) -> [f32; 3] {
+    COLORS[index % COLORS.len()].1
+}
+
 /// The picture with each mark drawn on it in a colour of its own, and, if there are any, the
 /// outlines of the `passages` that were taken by them; everything beyond the passages is faded.
 ///
@@ -54,7 +60,7 @@ pub fn marked_picture(
     }
     let reach = (LINE * width.max(height) as f64 / 2.0).round().max(1.0) as usize;
     for (index, (mark, area)) in marks.samples.iter().zip(&areas).enumerate() {
-        let color = COLORS[index % COLORS.len()].1;
+        let color = color_of_mark(index);
         if let Some(passage) = passages.iter().find(|passage| passage.name == mark.name) {
             outline(&mut shown, &passage.mask, reach, color);
         }
@@ -165,5 +171,6 @@ mod tests {
         let error = marked_picture(&Field::filled(30, 30, [0.1; 3]), &marks(), &[]).unwrap_err();
         assert!(error.to_string().contains("`rectangle`"), "{error}");
         assert_eq!((drawn_in(0), drawn_in(8)), ("orange", "sky blue"));
+        assert_eq!(color_of_mark(8), COLORS[1].1);
     }
 }

@@ -1,9 +1,38 @@
-//! The reference picture beside the canvas.
+//! The reference picture beside the canvas: its colours, marks of samples and guides of strokes on
+//! it.
 
 mod picture;
 
 mod picture_view;
 
+mod traced;
+
+mod edited;
+
+mod samples;
+
+mod combing;
+
+mod pointer_line;
+
+mod overlay;
+
+mod command;
+
+mod mode;
+
+mod state;
+
+mod controls;
+
+mod picking;
+
+mod sketching;
+
+mod sample_list;
+
+mod guide_list;
+
 mod panel;
 
-pub use panel::Reference;
+pub use state::Reference;

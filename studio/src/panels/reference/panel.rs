@@ -1,96 +1,67 @@
-//! Draws the reference picture and picks colours from it.
+//! The picture with its buttons, and its view.
 
-use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use eframe::egui::{
-    Button, Color32, Context, CursorIcon, DragValue, Key, PointerButton, Pos2, Rect, Response,
-    Role, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, vec2,
+    Color32, CursorIcon, Frame, Key, Panel, PointerButton, Rect, Response, Role, Sense,
+    TextureOptions, Ui, Vec2, WidgetInfo, vec2,
 };
-use spectra::color::Rgb;
 
 use super::super::context::PanelContext;
-use super::picture::{PendingPicture, Picture};
+use super::mode::ReferenceMode;
+use super::picture::PendingPicture;
 use super::picture_view::PictureView;
-use crate::files::FileRequest;
+use super::state::Reference;
 use crate::theme;
 
-/// Default radius of the averaged disc, in pixels of the picture.
-const RADIUS: f32 = 2.0;
-
-/// State of the reference panel: the picture and its view.
-pub struct Reference {
-    path: Option<PathBuf>,
-    reading: Option<PendingPicture>,
-    picture: Option<Picture>,
-    texture: Option<TextureHandle>,
-    view: Option<PictureView>,
-    error: Option<String>,
-    grey: bool,
-    flipped: bool,
-    radius: f32,
-}
-
-impl fmt::Debug for Reference {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("Reference").field("path", &self.path).finish_non_exhaustive()
-    }
-}
-
-impl Default for Reference {
-    fn default() -> Self {
-        Self {
-            path: None,
-            reading: None,
-            picture: None,
-            texture: None,
-            view: None,
-            error: None,
-            grey: false,
-            flipped: false,
-            radius: RADIUS,
-        }
-    }
-}
+/// Usual height of the list of what is drawn, in points.
+const LIST_HEIGHT: f32 = 190.0;
 
 impl Reference {
-    /// Starts to read a PNG or JPEG on another thread, replacing the current picture.
-    /// An error is shown in the panel.
-    pub fn open(&mut self, context: &Context, path: &Path) {
-        let context = context.clone();
-        let reading = PendingPicture::start(path, move || context.request_repaint());
-        let (grey, flipped, radius) = (self.grey, false, self.radius);
-        let path = Some(path.to_owned());
-        *self = Self { path, reading: Some(reading), grey, flipped, radius, ..Self::default() };
-    }
-
-    /// Closes the picture.
-    pub fn close(&mut self) {
-        *self = Self { radius: self.radius, ..Self::default() };
-    }
-
-    /// Whether a picture is shown, being read, or failed to be read.
-    #[must_use]
-    pub fn is_open(&self) -> bool {
-        self.path.is_some()
-    }
-
-    /// Draws the panel in the available space. A click stores the picked colour in the
-    /// tools.
+    /// Draws the panel in the available space. A click stores the picked colour in the tools, or
+    /// draws, as the mode says.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         self.update();
         self.controls(ui, cx);
+        if self.mode != ReferenceMode::Pick && self.picture.is_some() {
+            self.list(ui, cx);
+        }
         let area = ui.available_size().max(vec2(40.0, 40.0));
         let (rect, response) = ui.allocate_exact_size(area, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Reference picture"));
         ui.painter().rect_filled(rect, 0.0, theme::SURROUND);
+        self.hovered = response.contains_pointer();
         if self.picture.is_none() {
             return self.placeholder(ui, rect);
         }
         self.navigate(ui, &response);
-        self.draw(ui, rect);
-        self.pick(ui, &response, cx);
+        let Some(view) = self.current_view(rect) else { return };
+        self.draw(ui, rect, view);
+        if space_held(ui) {
+            self.line.clear();
+        } else if self.mode == ReferenceMode::Pick {
+            self.pick(ui, &response, view, cx);
+        } else {
+            self.sketch(ui, &response, view);
+        }
+        self.draw_sketches(ui, rect, view);
         response.on_hover_cursor(CursorIcon::Crosshair);
+    }
+
+    /// Draws the list of what is drawn. Its height stays while lines are added, so that the picture
+    /// does not move.
+    fn list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        let room = ui.available_height();
+        Panel::bottom("reference drawing")
+            .frame(Frame::NONE)
+            .resizable(true)
+            .show_separator_line(false)
+            .default_size((0.4 * room).min(LIST_HEIGHT))
+            .size_range(60.0..=(0.7 * room).max(60.0))
+            .show(ui, |ui| match self.mode {
+                ReferenceMode::Comb => self.guide_list(ui, cx),
+                _ => self.sample_list(ui, cx),
+            });
     }
 
     fn update(&mut self) {
@@ -100,49 +71,6 @@ impl Reference {
             Ok(picture) => self.picture = Some(picture),
             Err(error) => self.error = Some(error),
         }
-    }
-
-    fn controls(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
-        ui.horizontal_wrapped(|ui| {
-            let open = ui.button("Open\u{2026}").accessible_name("Open picture");
-            if open.on_hover_text("Opens another picture, PNG or JPEG").clicked() {
-                cx.file(FileRequest::OpenReference(None));
-            }
-            let loaded = self.picture.is_some();
-            let fit = ui.add_enabled(loaded, Button::new("Fit"));
-            if fit.on_hover_text("Fits the whole picture into the panel").clicked() {
-                self.view = None;
-            }
-            let full = ui.add_enabled(loaded, Button::new("100 %"));
-            if full.on_hover_text("Shows one picture pixel as one screen pixel").clicked()
-                && let Some(view) = &mut self.view
-            {
-                view.zoom = 1.0 / ui.pixels_per_point();
-            }
-            let grey = ui.add_enabled(loaded, Button::selectable(self.grey, "Grey"));
-            if grey.on_hover_text("Shows lightness only").clicked() {
-                self.grey ^= true;
-                self.texture = None;
-            }
-            let flip = ui.add_enabled(loaded, Button::selectable(self.flipped, "Flip"));
-            if flip.on_hover_text("Mirrors the picture").clicked() {
-                self.flipped ^= true;
-            }
-            let radius = DragValue::new(&mut self.radius)
-                .range(0.0..=100.0)
-                .speed(0.1)
-                .fixed_decimals(0)
-                .prefix("radius ")
-                .suffix(" px");
-            let radius = ui.add(radius).accessible_name("Radius of the mean");
-            radius.on_hover_text("A click picks the mean within this radius; 0 is one pixel");
-            let close = ui.add_enabled(self.is_open(), Button::new("Close"));
-            let close = close.accessible_name("Close picture");
-            if close.on_hover_text("Closes the picture").clicked() {
-                self.close();
-                cx.file(FileRequest::CloseReference);
-            }
-        });
     }
 
     fn placeholder(&self, ui: &mut Ui, rect: Rect) {
@@ -179,7 +107,9 @@ impl Reference {
         if other || (response.dragged() && space_held(ui)) {
             view = view.panned(response.drag_delta());
         }
-        if let Some(about) = response.hover_pos() {
+        // A line that is being drawn stays where it is.
+        let drawing = !self.line.points().is_empty();
+        if let Some(about) = response.hover_pos().filter(|_| !drawing) {
             let (scroll, pinch) =
                 ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
             let factor = pinch * (scroll / 200.0).exp();
@@ -193,7 +123,7 @@ impl Reference {
     }
 
     fn size(&self) -> Option<Vec2> {
-        let [width, height] = self.picture.as_ref()?.size();
+        let [width, height] = self.picture.as_ref()?.file_size();
         Some(vec2(width as f32, height as f32))
     }
 
@@ -202,9 +132,8 @@ impl Reference {
         Some(self.view.unwrap_or(fitted))
     }
 
-    fn draw(&mut self, ui: &Ui, panel: Rect) {
-        let (Some(view), Some(size)) = (self.current_view(panel), self.size()) else { return };
-        let Some(picture) = &self.picture else { return };
+    fn draw(&mut self, ui: &Ui, panel: Rect, view: PictureView) {
+        let (Some(size), Some(picture)) = (self.size(), &self.picture) else { return };
         let texture = self.texture.get_or_insert_with(|| {
             let image = picture.on_screen(self.grey);
             ui.ctx().load_texture("reference picture", image, TextureOptions::LINEAR)
@@ -212,43 +141,8 @@ impl Reference {
         let (rect, uv) = view.rects(panel, size);
         ui.painter_at(panel).image(texture.id(), rect, uv, Color32::WHITE);
     }
-
-    /// Picks the colour at the pointer when the primary button is released, and shows
-    /// it beside the pointer until then.
-    fn pick(&self, ui: &Ui, response: &Response, cx: &mut PanelContext<'_>) {
-        let first = ui.input(|input| {
-            input.pointer.button_down(PointerButton::Primary)
-                || input.pointer.button_released(PointerButton::Primary)
-        });
-        let Some(pointer) = response.interact_pointer_pos().filter(|_| first && !space_held(ui))
-        else {
-            return;
-        };
-        let (Some(view), Some(picture)) = (self.current_view(response.rect), &self.picture) else {
-            return;
-        };
-        let place = view.place(response.rect, pointer);
-        let Some(color) = picture.mean([place.x, place.y], self.radius) else { return };
-        if response.drag_stopped() || response.clicked() {
-            cx.tools.reference_color = Some(color);
-        } else {
-            let reach = view.zoom * self.radius.max(0.5);
-            loupe(ui, response.rect, pointer, reach, Rgb(color));
-        }
-    }
 }
 
 fn space_held(ui: &Ui) -> bool {
     ui.input(|input| input.key_down(Key::Space))
-}
-
-/// Draws the colour beside the pointer, and the disc that is averaged.
-fn loupe(ui: &Ui, panel: Rect, pointer: Pos2, reach: f32, linear: Rgb) {
-    let [red, green, blue] = linear.encoded().to_bytes();
-    let painter = ui.painter_at(panel);
-    painter.circle_stroke(pointer, reach.max(3.0), Stroke::new(1.5, Color32::WHITE));
-    painter.circle_stroke(pointer, reach.max(3.0) + 1.0, Stroke::new(1.0, Color32::BLACK));
-    let patch = Rect::from_center_size(pointer - vec2(0.0, 44.0), vec2(44.0, 44.0));
-    painter.rect_filled(patch.expand(1.0), 0.0, Color32::BLACK);
-    painter.rect_filled(patch, 0.0, Color32::from_rgb(red, green, blue));
 }

@@ -15,10 +15,11 @@ const LONGEST: usize = 2048;
 /// Steps of the table from linear light to sRGB.
 const SHADES: usize = 4096;
 
-/// A picture in linear sRGB.
+/// A picture in linear sRGB, reduced if it is large. All places are in pixels of its file.
 #[derive(Debug, Clone)]
 pub(super) struct Picture {
     linear: Linear,
+    file_size: [usize; 2],
 }
 
 impl Picture {
@@ -28,12 +29,19 @@ impl Picture {
             Some(hint) => format!("{error}; {hint}"),
             None => error.to_string(),
         })?;
-        let (width, height) = reduced(photograph.size());
-        Ok(Self { linear: photograph.on_canvas(width, height) })
+        let (own_width, own_height) = photograph.size();
+        let (width, height) = reduced((own_width, own_height));
+        let linear = photograph.on_canvas(width, height);
+        Ok(Self { linear, file_size: [own_width, own_height] })
     }
 
-    /// Width and height in pixels.
-    pub(super) fn size(&self) -> [usize; 2] {
+    /// Width and height of the file in pixels.
+    pub(super) fn file_size(&self) -> [usize; 2] {
+        self.file_size
+    }
+
+    /// Width and height after reduction.
+    fn size(&self) -> [usize; 2] {
         [self.linear.width(), self.linear.height()]
     }
 
@@ -59,6 +67,10 @@ impl Picture {
     /// outside the picture.
     pub(super) fn mean(&self, [x, y]: [f32; 2], radius: f32) -> Option<[f64; 3]> {
         let [width, height] = self.size();
+        let reduction = |side: usize, own: usize| side as f32 / own as f32;
+        let (x, y) =
+            (x * reduction(width, self.file_size[0]), y * reduction(height, self.file_size[1]));
+        let radius = radius * reduction(width, self.file_size[0]);
         if !(0.0..width as f32).contains(&x) || !(0.0..height as f32).contains(&y) {
             return None;
         }
@@ -126,7 +138,7 @@ mod tests {
         let values = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.2, 0.2, 0.2]];
         let mut linear = Linear::filled(2, 2, [0.0; 3]);
         linear.values_mut().copy_from_slice(&values);
-        Picture { linear }
+        Picture { linear, file_size: [2, 2] }
     }
 
     #[test]
@@ -154,11 +166,19 @@ mod tests {
     fn the_mean_includes_only_pixels_within_the_radius() {
         let mut linear = Linear::filled(7, 7, [0.0; 3]);
         linear.values_mut()[3 * 7 + 5] = [1.0; 3];
-        let picture = Picture { linear };
+        let picture = Picture { linear, file_size: [7, 7] };
         let green = |radius: f32| picture.mean([3.5, 3.5], radius).unwrap()[1];
         assert_eq!(green(1.9), 0.0, "the white pixel is two pixels away");
         // 13 pixel centres lie within a distance of 2 from a pixel centre.
         assert!((green(2.0) - 1.0 / 13.0).abs() < 1e-9, "{}", green(2.0));
+    }
+
+    #[test]
+    fn places_of_a_reduced_picture_are_those_of_its_file() {
+        let picture = Picture { file_size: [20, 20], ..two_by_two() };
+        assert_eq!(picture.mean([9.9, 5.0], 0.0), Some([1.0, 0.0, 0.0]));
+        assert_eq!(picture.mean([10.1, 5.0], 4.0), Some([0.0, 1.0, 0.0]));
+        assert_eq!(picture.mean([10.0, 20.1], 0.0), None);
     }
 
     #[test]

@@ -1,7 +1,5 @@
 //! Marks drawn on a picture: the pixels under each line.
 
-use graphics::field::Field;
-
 use super::error::{MarkFault, MarksError};
 use super::mark::{Mark, MarkedArea, Marks};
 
@@ -15,41 +13,60 @@ pub(crate) enum DrawnArea {
 }
 
 impl Marks {
+    /// Checks that all marks lie on a picture of `width` x `height` pixels, and that no lines of two
+    /// samples cross. No samples at all are no fault.
+    ///
+    /// # Errors
+    /// [`MarksError`] with sample and place.
+    pub fn check(&self, width: usize, height: usize) -> Result<(), MarksError> {
+        self.lines(width, height).map(|_| ())
+    }
+
     /// The pixels of each mark on a picture of `width` x `height` pixels.
     ///
     /// # Errors
-    /// [`MarksError`] if a place lies off the picture or two lines cross.
+    /// [`MarksError`] if there are no samples, a place lies off the picture or two lines cross.
     pub(crate) fn drawn(&self, width: usize, height: usize) -> Result<Vec<DrawnArea>, MarksError> {
+        if self.samples.is_empty() {
+            return Err(MarksError::NoSamples { file: self.file.clone() });
+        }
+        let lines = self.lines(width, height)?.into_iter();
+        let areas = lines.zip(&self.samples).map(|(line, mark)| match line {
+            Some(pixels) => DrawnArea::Line(pixels),
+            None => DrawnArea::Whole(mark.area.rectangle_pixels(width)),
+        });
+        Ok(areas.collect())
+    }
+
+    /// The pixels of each line; `None` for rectangles, which only have to lie on the picture.
+    fn lines(&self, width: usize, height: usize) -> Result<Vec<Option<Vec<u32>>>, MarksError> {
         let fault = |mark: &Mark, key: &'static str, fault: MarkFault| MarksError::Sample {
             file: self.file.clone(),
             sample: mark.name.clone(),
             key,
             fault,
         };
-        if self.samples.is_empty() {
-            return Err(MarksError::NoSamples { file: self.file.clone() });
-        }
-        let mut owners: Field<Option<usize>> = Field::filled(width, height, None);
-        let mut areas = Vec::new();
+        // Pixels of the lines so far and the numbers of their samples, by pixel.
+        let mut owners: Vec<(u32, usize)> = Vec::new();
+        let mut lines = Vec::new();
         for (number, mark) in self.samples.iter().enumerate() {
             let key = mark.area.key();
-            let area = mark.area.drawn(width, height).map_err(|found| fault(mark, key, found))?;
+            let line = mark.area.line(width, height).map_err(|found| fault(mark, key, found))?;
             for &[x, y] in mark.spacing.iter().flatten() {
                 inside(x, y, width, height).map_err(|found| fault(mark, "spacing", found))?;
             }
-            if let DrawnArea::Line(pixels) = &area {
-                for &pixel in pixels {
-                    let owner = &mut owners.values_mut()[pixel as usize];
-                    if let Some(other) = owner.replace(number) {
-                        let other = self.samples[other].name.clone();
-                        let (x, y) = (pixel as usize % width, pixel as usize / width);
-                        return Err(fault(mark, key, MarkFault::Crossing { other, x, y }));
-                    }
+            for &pixel in line.iter().flatten() {
+                if let Ok(at) = owners.binary_search_by_key(&pixel, |&(taken, _)| taken) {
+                    let other = self.samples[owners[at].1].name.clone();
+                    let (x, y) = (pixel as usize % width, pixel as usize / width);
+                    return Err(fault(mark, key, MarkFault::Crossing { other, x, y }));
                 }
             }
-            areas.push(area);
+            owners.extend(line.iter().flatten().map(|&pixel| (pixel, number)));
+            owners.sort_unstable();
+            lines.push(line);
         }
-        Ok(areas)
+        Ok(lines)
     }
 }
 
@@ -63,7 +80,8 @@ fn inside(x: f64, y: f64, width: usize, height: usize) -> Result<(), MarkFault> 
 }
 
 impl MarkedArea {
-    fn drawn(&self, width: usize, height: usize) -> Result<DrawnArea, MarkFault> {
+    /// The pixels of a line, in order and each once; `None` for a rectangle.
+    fn line(&self, width: usize, height: usize) -> Result<Option<Vec<u32>>, MarkFault> {
         let mut pixels = Vec::new();
         let index = |x: usize, y: usize| (y * width + x) as u32;
         match self {
@@ -85,15 +103,22 @@ impl MarkedArea {
                 let (right, below) =
                     (f64::from(x) + f64::from(across) - 1.0, f64::from(y) + f64::from(down) - 1.0);
                 inside(right, below, width, height)?;
-                let rows = y as usize..(y + down) as usize;
-                let columns = x as usize..(x + across) as usize;
-                pixels.extend(rows.flat_map(|y| columns.clone().map(move |x| index(x, y))));
-                return Ok(DrawnArea::Whole(pixels));
+                return Ok(None);
             }
         }
         pixels.sort_unstable();
         pixels.dedup();
-        Ok(DrawnArea::Line(pixels))
+        Ok(Some(pixels))
+    }
+
+    /// The pixels of a rectangle on a picture of this width; none of other areas.
+    fn rectangle_pixels(&self, width: usize) -> Vec<u32> {
+        let &Self::Rectangle { x, y, width: across, height: down } = self else {
+            return Vec::new();
+        };
+        let rows = (y..y + down).map(|y| y as usize * width);
+        let columns = (x..x + across).map(|x| x as usize);
+        rows.flat_map(|row| columns.clone().map(move |x| (row + x) as u32)).collect()
     }
 }
 
@@ -170,6 +195,9 @@ mod tests {
             let error = marks.drawn(10, 10).unwrap_err();
             assert_eq!(error.to_string(), message);
             assert!(spectra::hint::Explain::hint(&error).is_some(), "{message}");
+            let checked = marks.check(10, 10).map_err(|error| error.to_string());
+            let wanted = if marks.samples.is_empty() { Ok(()) } else { Err(message.to_owned()) };
+            assert_eq!(checked, wanted, "{marks:?}");
         }
         let mut far = marks(vec![MarkedArea::Scribble(vec![[1.0, 1.0]])]);
         far.samples[0].spacing = Some([[1.0, 1.0], [1.0, -3.0]]);

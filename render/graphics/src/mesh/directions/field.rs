@@ -34,6 +34,8 @@ pub struct DirectionField {
     pub(super) squares: Vec<DVec2>,
     /// Unit lines at all places.
     pub(super) lines: Vec<DVec3>,
+    /// Unit arrows of guides, at the places that have one.
+    pub(super) guided: Vec<Option<DVec3>>,
 }
 
 /// What evidence is found from.
@@ -107,7 +109,8 @@ impl DirectionField {
         let places = Places::of(mesh, settings.normal_rounds);
         let normals = places.normals.par_iter();
         let planes: Vec<_> = normals.map(|&normal| TangentPlane::of_normal(normal)).collect();
-        let (fixed, given) = fixed_squares(guides, &places.of_vertex, &planes)?;
+        let (guided, given) = fixed_squares(guides, &places.of_vertex, &planes)?;
+        let fixed: Vec<bool> = guided.iter().map(Option::is_some).collect();
         let shapes = place_shapes(&places, &planes);
         let links = Links::new(&places, &planes);
         let radius = places.radius();
@@ -118,7 +121,7 @@ impl DirectionField {
         let squares = smooth_squares(&links, &evidence, length * length, &fixed, &given);
         let pairs = squares.par_iter().zip(&planes);
         let lines = pairs.map(|(&square, plane)| line(plane, square)).collect();
-        Ok(Self { of_vertex: places.of_vertex, links, planes, squares, lines })
+        Ok(Self { of_vertex: places.of_vertex, links, planes, squares, lines, guided })
     }
 
     /// Unit direction at a vertex, of arbitrary sign, perpendicular to its smoothed normal.
@@ -161,13 +164,13 @@ fn line(plane: &TangentPlane, square: DVec2) -> DVec3 {
     plane.along(if square == DVec2::ZERO { axis.rotate(axis) } else { square })
 }
 
-/// The places that guides fix, and their unit squares.
+/// The unit arrows of guides at the places that they fix, and their unit squares.
 fn fixed_squares(
     guides: &[Guide],
     of_vertex: &[u32],
     planes: &[TangentPlane],
-) -> Result<(Vec<bool>, Vec<DVec2>), DirectionFault> {
-    let mut fixed = vec![false; planes.len()];
+) -> Result<(Vec<Option<DVec3>>, Vec<DVec2>), DirectionFault> {
+    let mut fixed = vec![None; planes.len()];
     let mut given = vec![DVec2::ZERO; planes.len()];
     for (index, guide) in guides.iter().enumerate() {
         let Some(&place) = of_vertex.get(guide.vertex as usize) else {
@@ -186,7 +189,7 @@ fn fixed_squares(
             return Err(off);
         }
         let unit = flat.normalize();
-        fixed[place as usize] = true;
+        fixed[place as usize] = Some(along);
         given[place as usize] = unit.rotate(unit);
     }
     Ok((fixed, given))

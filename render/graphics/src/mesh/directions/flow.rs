@@ -25,7 +25,8 @@ pub struct FlowField {
 }
 
 impl DirectionField {
-    /// Gives the lines signs along the spanning tree of greatest reliability. Where signs cannot
+    /// Gives the lines signs along the spanning tree of greatest reliability, which grows from all
+    /// places with a guide at once, so that flow runs along guides and not against them. Where signs cannot
     /// agree, around singular places and across the cuts that half turns force, vertices are
     /// marked as singular and the strength is 0; it rises to 1 over `fade_rings` rings of edges (2
     /// or 3 are usual; 0 leaves it at 1 beside singular vertices).
@@ -79,15 +80,18 @@ impl DirectionField {
     /// Unit arrows at all places, signed along the tree.
     fn arrows(&self) -> Vec<DVec3> {
         let reliabilities: Vec<f64> = self.squares.iter().map(|square| square.length()).collect();
-        let tree = spanning_tree(&self.links, &reliabilities, |place, link| {
+        let guided = (0..).zip(&self.guided).filter(|(_, guide)| guide.is_some());
+        let seeds: Vec<u32> = guided.map(|(place, _)| place).collect();
+        let tree = spanning_tree(&self.links, &reliabilities, &seeds, |place, link| {
             self.squares[place].dot(link.turn.rotate(self.squares[link.to as usize]))
         });
         let mut arrows = self.lines.clone();
         for step in tree {
             let place = step.place as usize;
-            let against = match step.from {
-                Some(from) => self.cosine(&arrows, place, from as usize) < 0.0,
-                None => points_back(arrows[place]),
+            let against = match (step.from, self.guided[place]) {
+                (_, Some(guide)) => arrows[place].dot(guide) < 0.0,
+                (Some(from), None) => self.cosine(&arrows, place, from as usize) < 0.0,
+                (None, None) => points_back(arrows[place]),
             };
             if against {
                 arrows[place] = -arrows[place];

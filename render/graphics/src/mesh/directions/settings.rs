@@ -48,8 +48,9 @@ pub struct Guide {
     /// Index of the vertex. All vertices at the same position follow; of several guides at
     /// one position the last one counts.
     pub vertex: u32,
-    /// Direction of any length and sign in the model's axes; only its part along the surface
-    /// counts.
+    /// Direction of any length in the model's axes; only its part along the surface counts. Lines
+    /// have no sign, but flow has that of the guide
+    /// ([`DirectionField::oriented`](super::DirectionField::oriented)).
     pub along: [f32; 3],
 }
 

@@ -47,10 +47,12 @@ impl Eq for Candidate {}
 /// All places in the order in which the spanning tree of greatest reliability reaches them, grown
 /// from the most reliable place of each connected part (Prim, "Shortest connection networks and
 /// some generalizations", 1957; over surfaces: Hoppe et al., "Surface reconstruction from
-/// unorganized points", 1992). Ties go to the lower index.
+/// unorganized points", 1992). Parts with places among `seeds` grow from all of these at once.
+/// Ties go to the lower index.
 pub(super) fn spanning_tree(
     links: &Links,
     of_place: &[f64],
+    seeds: &[u32],
     of_link: impl Fn(usize, &Link) -> f64,
 ) -> Vec<Step> {
     let mut roots: Vec<u32> = (0..links.count() as u32).collect();
@@ -60,19 +62,29 @@ pub(super) fn spanning_tree(
     let mut reached = vec![false; links.count()];
     let mut steps = Vec::with_capacity(links.count());
     let mut candidates = BinaryHeap::new();
-    for root in roots {
-        let mut next = (!reached[root as usize]).then_some(Step { place: root, from: None });
-        while let Some(step) = next {
-            reached[step.place as usize] = true;
-            steps.push(step);
-            for link in links.of(step.place as usize) {
-                if !reached[link.to as usize] {
-                    let reliability = of_link(step.place as usize, link);
-                    candidates.push(Candidate { reliability, place: link.to, from: step.place });
-                }
+    let mut reach = |step: Step, reached: &mut [bool], candidates: &mut BinaryHeap<Candidate>| {
+        reached[step.place as usize] = true;
+        steps.push(step);
+        for link in links.of(step.place as usize) {
+            if !reached[link.to as usize] {
+                let reliability = of_link(step.place as usize, link);
+                candidates.push(Candidate { reliability, place: link.to, from: step.place });
             }
-            next = unreached(&mut candidates, &reached);
         }
+    };
+    for &place in seeds {
+        reach(Step { place, from: None }, &mut reached, &mut candidates);
+    }
+    for root in roots {
+        while let Some(step) = unreached(&mut candidates, &reached) {
+            reach(step, &mut reached, &mut candidates);
+        }
+        if !reached[root as usize] {
+            reach(Step { place: root, from: None }, &mut reached, &mut candidates);
+        }
+    }
+    while let Some(step) = unreached(&mut candidates, &reached) {
+        reach(step, &mut reached, &mut candidates);
     }
     steps
 }

@@ -339,3 +339,30 @@ fn arrows_take_the_signs_that_are_given_and_others_follow_their_part() {
         assert!(at[0].abs() > 0.3 || split.strength(vertex) < 1.0, "{at:?}");
     }
 }
+
+#[test]
+fn flow_runs_along_every_guide_and_stops_where_guides_meet() {
+    let mesh = square(1000);
+    let settings = DirectionSettings::default();
+    let flow = |guides: &[Guide]| {
+        DirectionField::of_curvature(&mesh, &settings, guides).unwrap().oriented(1)
+    };
+    let guide =
+        |vertex: usize, along: Vec3| Guide { vertex: vertex as u32, along: along.to_array() };
+    let most = |side: f32| {
+        let places = mesh.positions.iter().map(|&[x, ..]| side * x).enumerate();
+        places.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0
+    };
+    let (left, right) = (most(-1.0), most(1.0));
+    for along in [Vec3::Y, -Vec3::Y, Vec3::X, -Vec3::X] {
+        let one = flow(&[guide(left, along)]);
+        for vertex in 0..mesh.positions.len() {
+            assert!(Vec3::from(one.arrow(vertex)).dot(along) > 0.9, "vertex {vertex} of {along}");
+            assert!(!one.is_singular(vertex), "vertex {vertex} of {along}");
+        }
+    }
+    let two = flow(&[guide(left, Vec3::Y), guide(right, -Vec3::Y)]);
+    assert!(two.arrow(left)[1] > 0.9 && two.arrow(right)[1] < -0.9, "both have their sign");
+    assert!(two.strength(left) > 0.0 && two.strength(right) > 0.0, "both flow");
+    assert!((0..mesh.positions.len()).any(|vertex| two.is_singular(vertex)), "they meet");
+}

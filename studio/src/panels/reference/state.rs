@@ -1,0 +1,182 @@
+//! State of the reference panel.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use eframe::egui::{Context, TextureHandle};
+
+use super::combing::{Combed, Combing};
+use super::mode::ReferenceMode;
+use super::picture::{PendingPicture, Picture};
+use super::picture_view::PictureView;
+use super::pointer_line::PointerLine;
+use super::samples::SampleMarks;
+use crate::files::{Drawing, DrawnFile, Problem, ReferenceChange};
+
+/// Default radius of the averaged disc, in pixels of the picture.
+const RADIUS: f32 = 2.0;
+
+/// State of the reference panel: the picture, its view, and what is drawn on it.
+pub struct Reference {
+    pub(super) path: Option<PathBuf>,
+    pub(super) reading: Option<PendingPicture>,
+    pub(super) picture: Option<Picture>,
+    pub(super) texture: Option<TextureHandle>,
+    pub(super) view: Option<PictureView>,
+    pub(super) error: Option<String>,
+    pub(super) grey: bool,
+    pub(super) flipped: bool,
+    pub(super) radius: f32,
+    pub(super) mode: ReferenceMode,
+    pub(super) samples: SampleMarks,
+    pub(super) combing: Combing,
+    /// Whether the pointer marks the distance of strokes, not a sample.
+    pub(super) spacing: bool,
+    /// First of the two places that are clicked for a distance of strokes.
+    pub(super) first_place: Option<[f64; 2]>,
+    pub(super) line: PointerLine,
+    /// Index and new name of a sample while it is typed.
+    pub(super) renaming: Option<(usize, String)>,
+    /// Whether the pointer is over the picture.
+    pub(super) hovered: bool,
+}
+
+impl fmt::Debug for Reference {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Reference").field("path", &self.path).finish_non_exhaustive()
+    }
+}
+
+impl Default for Reference {
+    fn default() -> Self {
+        Self {
+            path: None,
+            reading: None,
+            picture: None,
+            texture: None,
+            view: None,
+            error: None,
+            grey: false,
+            flipped: false,
+            radius: RADIUS,
+            mode: ReferenceMode::default(),
+            samples: SampleMarks::default(),
+            combing: Combing::default(),
+            spacing: false,
+            first_place: None,
+            line: PointerLine::default(),
+            renaming: None,
+            hovered: false,
+        }
+    }
+}
+
+impl Reference {
+    /// Starts to read a PNG or JPEG on another thread, replacing the current picture and what is
+    /// drawn on it. An error is shown in the panel.
+    pub fn open(&mut self, context: &Context, path: &Path) {
+        let context = context.clone();
+        let reading = PendingPicture::start(path, move || context.request_repaint());
+        let (grey, radius, mode) = (self.grey, self.radius, self.mode);
+        let path = Some(path.to_owned());
+        *self = Self { path, reading: Some(reading), grey, radius, mode, ..Self::default() };
+    }
+
+    /// Closes the picture.
+    pub fn close(&mut self) {
+        *self = Self { radius: self.radius, ..Self::default() };
+    }
+
+    /// Whether a picture is shown, being read, or failed to be read.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.path.is_some()
+    }
+
+    /// Carries out a change. Returns what the painter should know of it.
+    pub fn apply(&mut self, change: ReferenceChange, context: &Context) -> Option<Problem> {
+        match change {
+            ReferenceChange::Open(path) => self.open(context, &path),
+            ReferenceChange::Close => self.close(),
+            ReferenceChange::Draw(drawn) => return self.show_drawing(drawn),
+            ReferenceChange::Saved(DrawnFile { drawing, path }) => match drawing {
+                Drawing::Marks(marks) => self.samples.saved(marks.samples, path),
+                Drawing::Guides(guides) => {
+                    let combed = Combed { lines: guides.lines, camera: guides.camera };
+                    self.combing.saved(combed, path);
+                }
+            },
+        }
+        None
+    }
+
+    /// Shows lines from a file.
+    fn show_drawing(&mut self, DrawnFile { drawing, path }: DrawnFile) -> Option<Problem> {
+        let size = self.picture.as_ref()?.file_size();
+        let own = self.path.as_deref().and_then(Path::file_name)?.to_string_lossy().into_owned();
+        let file = path.display().to_string();
+        match drawing {
+            Drawing::Marks(marks) => {
+                self.mode = ReferenceMode::Mark;
+                self.renaming = None;
+                self.samples.open(marks.samples, path, size);
+                let other = marks.painting.filter(|painting| !is_named(painting, &own))?;
+                let text = format!("{file} marks the picture {other}, not {own}");
+                Some(Problem::new(text, "look whether the lines are where they should be"))
+            }
+            Drawing::Guides(guides) => {
+                let wanted = guides.size_px.map(|side| side as usize);
+                if wanted != size {
+                    let [[width, height], [own_width, own_height]] = [wanted, size];
+                    let text = format!(
+                        "{file}: guides of a picture of {width} x {height} pixels, but {own} has \
+                         {own_width} x {own_height}"
+                    );
+                    return Some(Problem::new(text, "open the picture that they were drawn on"));
+                }
+                self.mode = ReferenceMode::Comb;
+                let combed = Combed { lines: guides.lines, camera: guides.camera };
+                self.combing.open(combed, path);
+                None
+            }
+        }
+    }
+
+    /// The drawings that are in no file.
+    #[must_use]
+    pub fn unsaved_drawings(&self) -> Vec<DrawnFile> {
+        let (Some(path), Some(picture)) = (&self.path, &self.picture) else { return Vec::new() };
+        let marks = self.samples.unsaved(path);
+        marks.into_iter().chain(self.combing.unsaved(path, picture.file_size())).collect()
+    }
+
+    /// Undoes the last line if the pointer is over a picture that is drawn on. Returns whether it
+    /// is.
+    pub fn undo_under_pointer(&mut self) -> bool {
+        let draws = self.hovered && self.mode != ReferenceMode::Pick;
+        if draws {
+            self.undo();
+        }
+        draws
+    }
+
+    /// Undoes the last change of the drawing that the mode is for.
+    pub(super) fn undo(&mut self) {
+        (self.renaming, self.first_place) = (None, None);
+        let Some(size) = self.picture.as_ref().map(Picture::file_size) else { return };
+        match self.mode {
+            ReferenceMode::Pick => {}
+            ReferenceMode::Mark => {
+                self.samples.undo(size);
+            }
+            ReferenceMode::Comb => {
+                self.combing.undo();
+            }
+        }
+    }
+}
+
+/// Whether a path ends with this file name.
+fn is_named(path: &str, name: &str) -> bool {
+    Path::new(path).file_name().is_some_and(|own| own.to_string_lossy() == name)
+}
