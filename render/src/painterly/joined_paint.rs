@@ -82,7 +82,7 @@ mod tests {
         let (many, more) = (paint(&[0, 1, 2, 3, 4]), paint(&[5, 6, 7, 8]));
         assert_eq!(joined(&[&many, &more]).unwrap_err(), PaintOfMapsError::Pigments);
         let mut other = PigmentLibrary::van_gogh_oils();
-        other.name = "another".to_owned();
+        other.title = "another".into();
         let other = PaintOfSamples { library: Arc::new(other), ..paint(&[0]) };
         let error = joined(&[&many, &other]).unwrap_err();
         assert!(error == PaintOfMapsError::Libraries && error.hint().is_some());

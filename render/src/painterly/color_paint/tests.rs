@@ -69,7 +69,7 @@ fn painted(texture: Texture) -> PaintedModel {
         texture_coordinates: (0..side * side).map(at).collect(),
         colors: vec![[1.0; 3]; side * side],
         triangles: squares.flat_map(pair).collect(),
-        materials: vec![Material { color: [1.0; 3], texture: Some(texture) }],
+        materials: vec![Material { texture: Some(texture), ..Material::plain([1.0; 3]) }],
         ..Mesh::default()
     };
     mesh.normals = mesh.vertex_normals();

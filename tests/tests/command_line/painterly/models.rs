@@ -161,3 +161,39 @@ fn frames_for_compositing_hold_cover_depth_height_and_direction() {
     let run = painterly(&[&model[..], &["--json"]].concat());
     assert!(run.status == 2 && run.err.contains("another animation"), "{}", run.err);
 }
+
+#[test]
+fn colours_of_a_model_are_painted_with_pigments_of_their_own() {
+    let folder = folder();
+    let [map, painting, picture] = ["m.exr", "o.exr", "p.png"].map(|name| path(&folder, name));
+    let maps = path(&folder, "maps");
+    let model = ["shape:torus-knot", "--width", "80", "--map", &map];
+    let exports = ["--output", &painting, "--picture", &picture, "--pigment-maps", &maps];
+    done(&[&model[..], &exports, &["--set", "colour.from=model"]].concat());
+    let read = image::open(&picture).unwrap().to_rgb8();
+    // The knot is blue, the pigments of the map are not.
+    let blue = read.pixels().filter(|pixel| pixel.0[2] > pixel.0[0].saturating_add(15)).count();
+    assert!(blue > 500, "{blue} blue pixels");
+    let table = std::fs::read_to_string(Path::new(&maps).join("painting.csv")).unwrap();
+    assert!(table.to_lowercase().contains("blue") || table.contains("Ultramarine"), "{table}");
+}
+
+#[test]
+fn guides_turn_the_strokes_of_a_model() {
+    let folder = folder();
+    let [map, picture, guides] = ["m.exr", "p.png", "g.toml"].map(|name| path(&folder, name));
+    let model = ["shape:sphere", "--width", "80", "--map", &map, "--picture", &picture];
+    done(&model);
+    let plain = std::fs::read(&picture).unwrap();
+    let text =
+        "size_px = [80, 60]\ncamera = [30, 20, 30]\n[[guide]]\npoints = [[20, 30], [60, 30]]\n";
+    std::fs::write(&guides, text).unwrap();
+    done(&[&model[..], &["--directions", &guides]].concat());
+    assert!(plain != std::fs::read(&picture).unwrap(), "strokes follow the guide");
+    std::fs::write(&guides, text.replace("camera = [30, 20, 30]\n", "")).unwrap();
+    let run = painterly(&[&model[..], &["--directions", &guides]].concat());
+    assert!(run.status == 1 && run.err.contains("do not tell the camera"), "{}", run.err);
+    std::fs::write(&guides, text.replace("[60, 30]", "[90, 30]")).unwrap();
+    let run = painterly(&[&model[..], &["--directions", &guides]].concat());
+    assert!(run.status == 1 && run.err.contains("g.toml"), "{}", run.err);
+}
