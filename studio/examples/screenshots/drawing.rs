@@ -11,8 +11,7 @@ use render::export::{frame_of, frame_png};
 use render::mesh::SampleModel;
 use render::watercolor::{ModelPainter, Preset};
 
-use crate::harness::Window;
-use crate::wait_for;
+use crate::window::{Window, wait_for};
 
 /// Width of the reference picture in the window, in points.
 const WIDTH: f32 = 620.0;

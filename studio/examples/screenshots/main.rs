@@ -6,9 +6,7 @@
 //! `studio-layers.png` there; `docs/images/studio.sh` converts them to the JPEGs in
 //! `docs/images/`. It needs a graphics adapter; a software one will do.
 
-#[expect(dead_code, reason = "the tests need more of it")]
-#[path = "../../tests/panels/harness.rs"]
-mod harness;
+mod window;
 
 mod hand;
 
@@ -18,7 +16,7 @@ mod drawing;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use eframe::egui::{Event, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -30,7 +28,7 @@ use studio::app::Tab;
 use studio::panels::Mode;
 
 use hand::{Hand, samples};
-use harness::{Window, has_adapter};
+use window::{Window, has_adapter, wait_for};
 
 const SIZE: Vec2 = vec2(1440.0, 900.0);
 
@@ -145,18 +143,6 @@ fn layers(window: &mut Window) {
     window.studio_mut().panels.select(Tab::History);
     window.studio_mut().tools.brush = "mop".to_owned();
     window.settle();
-}
-
-/// Draws frames until a control with this label exists.
-fn wait_for(window: &mut Window, label: &str) -> Result<(), Box<dyn Error>> {
-    for _ in 0..6000 {
-        if window.harness().query_by_label(label).is_some() {
-            return Ok(());
-        }
-        std::thread::sleep(Duration::from_millis(5));
-        window.harness().step();
-    }
-    Err(format!("the window shows no \"{label}\"").into())
 }
 
 fn save(window: &mut Window, folder: &Path, name: &str) -> Result<(), Box<dyn Error>> {

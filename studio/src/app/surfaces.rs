@@ -54,6 +54,8 @@ impl Studio {
                         self.panels.select(Tab::Color);
                     }
                 });
+        } else {
+            self.panels.reference.hide();
         }
         let area = ui.available_rect_before_wrap();
         let painting = self.painting.clone();

@@ -231,6 +231,13 @@ fn combed_lines_are_guides_from_their_start_to_their_end() {
     assert_eq!(drawn.path, path.with_file_name("combed.guides.toml"));
     let Drawing::Guides(found) = drawn.drawing else { panic!("guides") };
     assert!(found.lines.len() == 1 && near(found.lines[0][0], [700.0, 300.0]), "{found:?}");
+    let saved = DrawnFile { drawing: Drawing::Guides(found), path: drawn.path };
+    let context = stage.harness.ctx.clone();
+    assert!(!shows(&stage, "impasto painterly"), "nothing to go on with yet");
+    stage.state().panel.apply(ReferenceChange::Saved(saved), &context);
+    stage.run();
+    assert!(shows(&stage, "impasto painterly MODEL --camera 30,20,30"), "the next command");
+    stage.click("Copy command");
     stage.click("Open guides\u{2026}");
     assert_eq!(stage.requests(), [FileRequest::OpenDrawing(DrawingKind::Guides, path)]);
 }

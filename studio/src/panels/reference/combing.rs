@@ -36,6 +36,11 @@ impl Combing {
         self.combed.now()
     }
 
+    /// The file of the guides as they are; `None` before they are saved.
+    pub(super) fn file(&self) -> Option<&Path> {
+        self.path.as_deref().filter(|_| !self.combed.is_unsaved())
+    }
+
     /// Whether there is a change to undo.
     pub(super) fn can_undo(&self) -> bool {
         self.combed.can_undo()

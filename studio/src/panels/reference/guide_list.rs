@@ -4,6 +4,8 @@ use eframe::egui::{Button, DragValue, RichText, ScrollArea, Ui};
 
 use super::super::context::PanelContext;
 use super::super::controls::{button, named_button};
+use super::command::paint_command;
+use super::next_step::next_step;
 use super::state::Reference;
 use crate::files::{DrawingKind, FileRequest};
 
@@ -32,6 +34,10 @@ impl Reference {
         if self.combing.combed().lines.is_empty() {
             let words = "Draw lines as strokes should run, from their start to their end";
             ui.label(RichText::new(words).weak());
+        }
+        if let Some(file) = self.combing.file() {
+            let command = paint_command(&path, self.combing.combed().camera, file);
+            next_step(ui, "Paints along the guides", &command);
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let mut removed = None;

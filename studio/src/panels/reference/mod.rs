@@ -19,6 +19,8 @@ mod overlay;
 
 mod command;
 
+mod next_step;
+
 mod mode;
 
 mod state;

@@ -8,6 +8,7 @@ use eframe::egui::{
 use super::super::context::PanelContext;
 use super::super::controls::{button, named_button};
 use super::command::sample_command;
+use super::next_step::next_step;
 use super::overlay::screen_color;
 use super::state::Reference;
 use crate::files::{DrawingKind, FileRequest};
@@ -57,7 +58,7 @@ impl Reference {
             ui.label(RichText::new(&fault.text).color(theme::STRONG));
             ui.label(RichText::new(fault.hint.as_deref().unwrap_or_default()).weak());
         } else if let Some(file) = self.samples.file() {
-            next_step(ui, &sample_command(&path, file));
+            next_step(ui, "Takes the samples", &sample_command(&path, file));
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let mut removed = None;
@@ -122,16 +123,4 @@ fn patch(ui: &mut Ui, name: &str, index: usize, selected: bool) -> bool {
     let edge = Stroke::new(width, theme::STRONG);
     ui.painter().rect(rect.shrink(2.0), 2, screen_color(index), edge, StrokeKind::Outside);
     response.on_hover_text("Selects the sample; Spacing is for the selected one").clicked()
-}
-
-/// Draws the command that goes on, with a button to copy it.
-fn next_step(ui: &mut Ui, command: &str) {
-    ui.horizontal(|ui| {
-        let copy = named_button(ui, "Copy", "Copy command", "Copies the command", None);
-        if copy {
-            ui.ctx().copy_text(command.to_owned());
-        }
-        let text = RichText::new(command).monospace().size(11.0);
-        ui.add(Label::new(text).truncate()).on_hover_text(format!("Takes the samples: {command}"));
-    });
 }

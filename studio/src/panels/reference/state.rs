@@ -93,6 +93,12 @@ impl Reference {
         self.path.is_some()
     }
 
+    /// Takes note that the panel is not shown in this frame.
+    pub fn hide(&mut self) {
+        self.hovered = false;
+        self.line.clear();
+    }
+
     /// Carries out a change. Returns what the painter should know of it.
     pub fn apply(&mut self, change: ReferenceChange, context: &Context) -> Option<Problem> {
         match change {

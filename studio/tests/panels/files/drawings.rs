@@ -6,7 +6,9 @@ use std::time::{Duration, Instant};
 use eframe::egui::{Key, Modifiers, Pos2, ViewportCommand, ViewportEvent, ViewportId, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use render::artmap::passages::{MarkedArea, Marks};
+use render::paint::strokes::{Action, Squeeze, SurfaceId};
 use render::painterly::guides::Guides;
+use session::Command;
 
 use crate::harness::Window;
 
@@ -111,6 +113,12 @@ fn undo_over_the_picture_takes_the_last_mark_away() {
     assert!(shows(&mut window, "Delete sample 2"));
     window.key(Modifiers::COMMAND, Key::Z);
     assert!(!shows(&mut window, "Delete sample 2") && shows(&mut window, "Delete sample 1"));
+    // Undo is for the painting again while the picture is hidden.
+    for key in [Key::Tab, Key::Z, Key::Tab] {
+        let modifiers = if key == Key::Z { Modifiers::COMMAND } else { Modifiers::NONE };
+        window.key(modifiers, key);
+    }
+    assert!(shows(&mut window, "Delete sample 1"), "it is not undone");
 }
 
 #[test]
@@ -135,6 +143,28 @@ fn unsaved_lines_are_asked_for_before_the_window_closes() {
     let guides = Guides::open(&file).unwrap();
     assert_eq!((guides.size_px, guides.lines.len()), ([600, 400], 1));
     until(&mut window, "the end", closes);
+}
+
+#[test]
+fn a_painting_is_asked_for_after_drawings_were_given_up() {
+    let (mut window, ..) = window("marks-given-up");
+    window.click("Mark samples");
+    draw(&mut window, &[[100.0, 200.0], [300.0, 200.0]]);
+    let recipe = [("Vermilion".to_owned(), 1.0)].into();
+    let (x_mm, y_mm, volume_mm3) = (10.0, 10.0, 1.0);
+    let heap = Squeeze { on: SurfaceId::Canvas, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3 };
+    window.studio_mut().ask(Command::Apply(Action::Squeeze(heap)));
+    window.settle();
+    assert!(!closes(&mut window), "both are unsaved");
+    click_last(&mut window, "Discard");
+    assert!(shows(&mut window, "Save the painting?"), "the painting is left");
+    click_last(&mut window, "Cancel");
+    assert!(shows(&mut window, "Delete sample 1"), "nothing was given up after all");
+    assert!(!closes(&mut window), "it asks again");
+    assert!(shows(&mut window, "The marks on the reference picture are in no file"));
+    click_last(&mut window, "Discard");
+    click_last(&mut window, "Discard");
+    assert!(closes(&mut window), "both were given up");
 }
 
 #[test]
