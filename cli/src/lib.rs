@@ -32,6 +32,8 @@ mod surface;
 
 mod output;
 
+mod stages;
+
 mod engine;
 
 mod pictures;

@@ -1,6 +1,6 @@
 //! Options and files of single pictures: the finished one, and the stages before it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use render::encoding::over_white;
@@ -10,8 +10,9 @@ use render::picture::Photograph;
 use render::watercolor::Masks;
 
 use crate::failure::{Failure, Result};
-use crate::output::{Output, create_folder};
+use crate::output::Output;
 use crate::pictures::{Exports, OpenExports};
+use crate::stages::StageFolder;
 
 #[derive(Debug, Args)]
 pub(super) struct OutputOptions {
@@ -34,10 +35,9 @@ pub(super) type NamedStage = (String, Field<[f32; 4]>);
 /// Output files that were checked to be writable, and the masks.
 pub(super) struct OpenOutputs {
     pub(super) exports: OpenExports,
-    stages: Option<PathBuf>,
+    stages: Option<StageFolder>,
     dry_brush_mask: Option<PathBuf>,
     density_mask: Option<PathBuf>,
-    inputs: Vec<PathBuf>,
 }
 
 impl OutputOptions {
@@ -79,17 +79,9 @@ impl OutputOptions {
                 "give each its own file name",
             ));
         }
-        if let Some(folder) = &stages {
-            create_folder(folder)?;
-            Output::open(&stage_path(folder, 1, "stage"), &inputs)?;
-        }
-        Ok(OpenOutputs { exports, stages, dry_brush_mask, density_mask, inputs })
+        let stages = stages.map(|folder| StageFolder::open(&folder, &inputs)).transpose()?;
+        Ok(OpenOutputs { exports, stages, dry_brush_mask, density_mask })
     }
-}
-
-/// Path of a stage in its folder.
-fn stage_path(folder: &Path, number: usize, name: &str) -> PathBuf {
-    folder.join(format!("{number:02}-{name}.png"))
 }
 
 impl OpenOutputs {
@@ -107,10 +99,7 @@ impl OpenOutputs {
     /// Writes the stages, numbered from 1 in their order.
     pub(super) fn write_stages(&self, stages: &[NamedStage]) -> Result<()> {
         let Some(folder) = &self.stages else { return Ok(()) };
-        let path = |(number, (name, _)): (usize, &NamedStage)| stage_path(folder, number, name);
-        let open = |path: PathBuf| Output::open(&path, &self.inputs);
-        // All are opened first, so that nothing is written if one cannot be.
-        let outputs: Vec<Output> = (1..).zip(stages).map(path).map(open).collect::<Result<_>>()?;
+        let outputs = folder.outputs(stages.iter().map(|(name, _)| name.as_str()))?;
         for (output, (_, picture)) in outputs.into_iter().zip(stages) {
             output.write(frame_png(&frame_of(&over_white(picture)))?)?;
         }
