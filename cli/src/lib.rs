@@ -32,13 +32,13 @@ mod surface;
 
 mod output;
 
+mod stages;
+
 mod engine;
 
 mod pictures;
 
 mod plain_picture;
-
-mod stages;
 
 mod setting_changes;
 

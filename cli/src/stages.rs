@@ -27,11 +27,15 @@ impl StageFolder {
         Ok(own)
     }
 
-    /// Writes the stages, numbered from 1 in their order.
+    /// Outputs of stages of these names, numbered from 1. All are opened first, so that nothing is
+    /// written if one cannot be.
+    pub(crate) fn outputs<'a>(&self, names: impl Iterator<Item = &'a str>) -> Result<Vec<Output>> {
+        (1..).zip(names).map(|(number, name)| self.output(number, name)).collect()
+    }
+
+    /// Writes the stages.
     pub(crate) fn write(&self, stages: &[NamedStage]) -> Result<()> {
-        // All are opened first, so that nothing is written if one cannot be.
-        let outputs = (1..).zip(stages).map(|(number, (name, _))| self.output(number, name));
-        let outputs: Vec<Output> = outputs.collect::<Result<_>>()?;
+        let outputs = self.outputs(stages.iter().map(|(name, _)| name.as_str()))?;
         for (output, (_, picture)) in outputs.into_iter().zip(stages) {
             output.write(frame_png(&frame_of(&over_white(picture)))?)?;
         }

@@ -5,13 +5,15 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use render::artmap::map::{ArtMap, Between, file};
 use render::artmap::sample::SampleSet;
-use render::artmap::synthesis::{Features, SynthesisSettings};
+use render::artmap::synthesis::{Features, Stage, SynthesisSettings};
 
 use super::files::FileAndSheet;
 use super::map_table::{map_json, print_tiles, summary};
 use crate::console::Console;
 use crate::failure::Result;
+use crate::plain_picture::picture_bytes;
 use crate::progress::Waiting;
+use crate::stages::StageFolder;
 
 /// What patches are compared by.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -62,6 +64,10 @@ pub(super) struct Build {
     /// (.png, .exr)
     #[arg(long, value_name = "FILE")]
     sheet: Option<PathBuf>,
+    /// Write the steps into this folder, as PNG: samples; what patches are compared by (edges,
+    /// lightness, a*, b*, height); most similar patches; the levels of each tile
+    #[arg(long, value_name = "FOLDER")]
+    stages: Option<PathBuf>,
     /// Print JSON: provenance, size, spacing, pigments, settings, and of each tile name, lightness,
     /// contrast, stroke_length, coherence, neighbour_coherence, border; faults
     #[arg(long)]
@@ -71,12 +77,20 @@ pub(super) struct Build {
 impl Build {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &self.samples)?;
+        let folder = self.stages.as_ref();
+        let folder = folder.map(|folder| StageFolder::open(folder, &self.samples)).transpose()?;
         let sets = self.samples.iter().map(|path| SampleSet::open(path));
         let set = SampleSet::joined(sets.collect::<std::result::Result<Vec<_>, _>>()?)?;
         let waiting = Waiting::new("building the map", console.screen.progress);
-        let map = ArtMap::of(&set, &self.settings())?;
+        let (map, stages) = match folder {
+            Some(_) => ArtMap::with_stages(&set, &self.settings())?,
+            None => (ArtMap::of(&set, &self.settings())?, Vec::new()),
+        };
         let figures = map.figures();
         drop(waiting);
+        if let Some(folder) = folder {
+            write_stages(&folder, &stages, console)?;
+        }
         files.write(file::write(&map)?, || map.sheet(Between::default()), console)?;
         if self.json {
             return console.json(&map_json(&map, &figures));
@@ -103,4 +117,14 @@ impl Build {
             seed: self.seed,
         }
     }
+}
+
+/// Writes the steps of a synthesis, numbered from 1.
+fn write_stages(folder: &StageFolder, stages: &[Stage], console: &mut Console<'_>) -> Result<()> {
+    let outputs = folder.outputs(stages.iter().map(|stage| stage.name.as_str()))?;
+    for (output, stage) in outputs.into_iter().zip(stages) {
+        let bytes = picture_bytes(&stage.picture, &output, console)?;
+        output.write(bytes)?;
+    }
+    Ok(())
 }

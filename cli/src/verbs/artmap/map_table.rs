@@ -13,8 +13,9 @@ pub(super) fn summary(map: &ArtMap) -> String {
     let mm = map.mm_per_texel.map(|mm| format!(" ({:.2} mm)", mm * map.spacing));
     let names = pigment_names(map);
     let pigments = if names.is_empty() { "colours only".to_owned() } else { names.join(", ") };
+    let guessed = if map.guessed_relief { "; relief guessed" } else { "" };
     format!(
-        "{} tiles of {size} x {size} texels, strokes {:.1} texels{} apart; {pigments}",
+        "{} tiles of {size} x {size} texels, strokes {:.1} texels{} apart; {pigments}{guessed}",
         map.keys.len(),
         map.spacing,
         mm.unwrap_or_default(),

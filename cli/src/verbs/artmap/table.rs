@@ -82,8 +82,10 @@ pub(super) fn print_samples(set: &SampleSet, console: &mut Console<'_>) -> Resul
             mean_color(sample).to_hex(),
         ];
         let heights = heights_mm(sample);
+        let guessed = if sample.guessed_relief { " (guessed)" } else { "" };
         cells.extend(
-            heights.map(|[mean, most]| format!("mean {mean:.3} mm, greatest {most:.3} mm")),
+            heights
+                .map(|[mean, most]| format!("mean {mean:.3} mm, greatest {most:.3} mm{guessed}")),
         );
         table.row(cells);
     }

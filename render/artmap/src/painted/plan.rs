@@ -70,6 +70,10 @@ pub struct StrokePlan {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PaintPlan {
+    /// Height of an even film of the tone below the first coat in mm, so that gaps between strokes
+    /// show no bare ground, 0 to 1; absent is 0, none.
+    #[serde(default)]
+    pub underpainting_mm: f64,
     /// Height of the paint on the head of the loaded brush in mm, 0.001 to 5.
     pub load_mm: f64,
     /// Greatest deviation from the load as a share of it, 0 to 0.9.
@@ -195,6 +199,7 @@ impl Style {
             ("paint.lightness_spread", paint.lightness_spread, 0.0, 20.0),
             ("paint.streaks", paint.streaks, 0.0, 20.0),
             ("paint.wet_in_wet", paint.wet_in_wet, 0.0, 1.0),
+            ("paint.underpainting_mm", paint.underpainting_mm, 0.0, 1.0),
             ("paint.lightest_share", paint.lightest_share, 0.01, 1.0),
             ("canvas.cell_mm", canvas.cell_mm, 0.02, 2.0),
             ("canvas.side_cells", canvas.side_cells as f64, 16.0, 2048.0),

@@ -7,12 +7,15 @@ mod made_up;
 
 mod joined;
 
+mod guessed_relief;
+
 pub mod from_painting;
 
 pub mod file;
 
 pub use crate::texel::{PaintOfSamples, TexelPaint};
 pub use from_painting::{FromPaintingError, WholePainting};
+pub use guessed_relief::GuessError;
 pub use joined::JoinError;
 pub use passage::{Sample, SampleSet};
 

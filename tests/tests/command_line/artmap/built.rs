@@ -51,6 +51,33 @@ fn a_map_has_a_tile_of_every_sample_that_agrees_with_the_first() {
 }
 
 #[test]
+fn steps_of_a_map_are_pictures_in_order() {
+    let folder = Folder::new();
+    let samples = folder.painted("s.exr", "2", "1");
+    let (map, stages) = (folder.file("m.exr"), folder.file("stages"));
+    let build = ["build", &samples, "--size", "64", "--output", &map];
+    done(&build);
+    let plain = folder.bytes("m.exr");
+    done(&[&build[..], &["--stages", &stages]].concat());
+    assert!(folder.bytes("m.exr") == plain, "the same map");
+    let names = std::fs::read_dir(&stages).unwrap().map(|entry| entry.unwrap().file_name());
+    let mut names: Vec<String> = names.map(|name| name.into_string().unwrap()).collect();
+    names.sort();
+    let steps: Vec<&str> = names.iter().map(|name| &name[3..]).collect();
+    assert_eq!(names[0], "01-sample-1.png");
+    assert_eq!(steps[..4], ["sample-1.png", "sample-2.png", "features-1.png", "features-2.png"]);
+    assert!(steps[4].starts_with("links-1-level-1"), "{names:?}");
+    let last = format!("{stages}/{}", names[names.len() - 1]);
+    assert!(last.contains("map-2-level-"), "{names:?}");
+    let last = image::open(last).unwrap();
+    assert_eq!((last.width(), last.height()), (64, 64));
+    // A file in the place of the folder.
+    let run = artmap(&[&build[..], &["--stages", &samples]].concat());
+    assert_eq!(run.status, 2, "{}", run.err);
+    assert!(run.err.contains("this folder cannot be created"), "{}", run.err);
+}
+
+#[test]
 fn samples_of_several_files_make_one_map_and_faults_are_told() {
     let folder = Folder::new();
     let samples = folder.painted("s.exr", "2", "1");

@@ -4,7 +4,7 @@ use render::export::png8;
 use render::field::Field;
 use serde_json::{Value, json};
 
-use super::{Folder, MARKS, done};
+use super::{Folder, MARKS, artmap, done};
 
 /// Number of a JSON value.
 #[track_caller]
@@ -64,6 +64,28 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
     let [r, g, b] = marked.get_pixel(45, 60).0;
     assert!(r > 220 && (120..200).contains(&g) && b < 30, "{r} {g} {b}");
     assert!(image::open(&sheet).unwrap().width() > 100, "a sheet");
+}
+
+#[test]
+fn relief_is_guessed_only_if_asked_for_and_that_is_told() {
+    let folder = Folder::new();
+    let (picture, marks) = (folder.strokes(), folder.write("marks.toml", MARKS));
+    let output = folder.file("s.exr");
+    let arguments = ["sample", &picture, "--marks", &marks, "--output", &output];
+    let plain = done(&[&arguments[..], &["--json"]].concat()).json();
+    assert_eq!(plain["samples"][0]["height_mm"], Value::Null, "{plain}");
+    done(&[&arguments[..], &["--guess-relief", "0.2"]].concat());
+    let told = done(&["show", &output, "--json"]).json();
+    for sample in told["samples"].as_array().unwrap() {
+        assert_eq!(sample["guessed_relief"], json!(true), "{told}");
+        let greatest = number(&sample["height_mm"]["greatest"]);
+        assert!((0.15..=0.2001).contains(&greatest), "{told}");
+    }
+    let table = done(&["show", &output]).out;
+    assert!(table.contains("mm (guessed)"), "{table}");
+    let run = artmap(&[&arguments[..], &["--guess-relief", "0"]].concat());
+    assert_eq!(run.status, 2, "{}", run.err);
+    assert!(run.err.contains("--guess-relief 0.2 is usual for oil"), "{}", run.err);
 }
 
 #[test]

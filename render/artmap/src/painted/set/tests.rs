@@ -126,6 +126,23 @@ fn light_tones_of_hatching_are_parts_of_dark_ones() {
     assert!(cells(&covers[2]) > 0, "the lightest tone has lines");
 }
 
+#[test]
+fn gaps_between_strokes_show_the_underpainting_and_not_the_ground() {
+    let darkest = |underpainting_mm: f64| {
+        let mut style = small("oil-flat", 48);
+        (style.strokes.coats, style.strokes.spacing_mm) = (1, 9.0);
+        style.paint.underpainting_mm = underpainting_mm;
+        let sample = painted_samples(&style, &settings(2)).unwrap().samples.pop().unwrap();
+        let least = heights(&sample).into_iter().fold(f64::INFINITY, f64::min);
+        let tones = sample.color.values().iter().map(|rgb| lightness(*rgb));
+        (mean_lightness(&sample), f64::from(tones.fold(f32::INFINITY, f32::min)), least)
+    };
+    let (_, bare, no_paint) = darkest(0.0);
+    let (mean, covered, least) = darkest(0.05);
+    assert!(no_paint < 1e-6 && (least - 0.05).abs() < 1e-4, "{no_paint} {least}");
+    assert!(covered > mean - 16.0 && bare < mean - 20.0, "{mean}: {covered} {bare}");
+}
+
 /// The style's shared tools, for looking at a whole canvas.
 fn painted(style: &Style) -> (Document, Sample) {
     let ladder =
