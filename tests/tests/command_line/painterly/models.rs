@@ -174,8 +174,12 @@ fn colours_of_a_model_are_painted_with_pigments_of_their_own() {
     // The knot is blue, the pigments of the map are not.
     let blue = read.pixels().filter(|pixel| pixel.0[2] > pixel.0[0].saturating_add(15)).count();
     assert!(blue > 500, "{blue} blue pixels");
-    let table = std::fs::read_to_string(Path::new(&maps).join("painting.csv")).unwrap();
-    assert!(table.to_lowercase().contains("blue") || table.contains("Ultramarine"), "{table}");
+    let names = std::fs::read_dir(&maps).unwrap().map(|entry| entry.unwrap().file_name());
+    let blues = names.filter(|name| {
+        let name = name.to_string_lossy().into_owned();
+        name.contains("blue") || name.contains("ultramarine")
+    });
+    assert!(blues.count() > 0, "a map of a blue pigment");
 }
 
 #[test]
