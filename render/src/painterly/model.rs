@@ -136,3 +136,6 @@ mod tests;
 
 #[cfg(test)]
 mod painting_tests;
+
+#[cfg(test)]
+mod device_tests;
