@@ -138,4 +138,10 @@ mod tests;
 mod painting_tests;
 
 #[cfg(test)]
+mod baseline_tests;
+
+#[cfg(test)]
+mod strange_tests;
+
+#[cfg(test)]
 mod device_tests;
