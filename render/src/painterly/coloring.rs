@@ -20,13 +20,14 @@ const STEPS: usize = 4096;
 
 /// Coordinates of colours while they are mixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Coordinates {
+#[repr(u32)]
+pub(super) enum Coordinates {
     /// Encoded sRGB.
-    Encoded,
+    Encoded = 0,
     /// YUV (Rec. 601) of encoded sRGB.
-    Yuv,
+    Yuv = 1,
     /// CIELAB under the white of sRGB.
-    Cielab,
+    Cielab = 2,
 }
 
 /// What is painted.
@@ -41,15 +42,15 @@ pub(super) enum Subjects {
 /// How the maps and the subject make colours.
 #[derive(Debug, Clone)]
 pub(super) struct Coloring {
-    coordinates: Coordinates,
+    pub(super) coordinates: Coordinates,
     maps: Vec<MapColors>,
     subjects: Subjects,
     /// Whether splats add the model's colour.
     of_model: bool,
-    rgb_from_xyz: [[f32; 3]; 3],
-    white: [f32; 3],
+    pub(super) rgb_from_xyz: [[f32; 3]; 3],
+    pub(super) white: [f32; 3],
     /// Encoded values of linear ones in even steps.
-    encoded: Vec<f32>,
+    pub(super) encoded: Vec<f32>,
 }
 
 /// What is taken from the texels of a map.

@@ -49,6 +49,16 @@ impl Lists {
     pub(super) fn of(&self, square: usize) -> &[u32] {
         &self.splats[self.starts[square] as usize..self.starts[square + 1] as usize]
     }
+
+    /// For each square where its list begins in [`Self::numbers`], then the end of the last.
+    pub(super) fn starts(&self) -> &[u32] {
+        &self.starts
+    }
+
+    /// Indices of splats, list after list.
+    pub(super) fn numbers(&self) -> &[u32] {
+        &self.splats
+    }
 }
 
 /// The squares, out of `count`, that a range of pixels touches.

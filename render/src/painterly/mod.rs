@@ -14,7 +14,8 @@
 //!
 //! The passes of surface splatting: the nearest splat (`depths`), weighted sums (`gather`), and
 //! division by the weights (`divided`). They work square by square from lists of splats, so a
-//! picture has the same bits on any number of threads.
+//! picture has the same bits on any number of threads. On a graphics device one kernel does all three
+//! (`passes_on_device`) and agrees to rounding.
 
 mod settings;
 
@@ -28,6 +29,9 @@ mod regions;
 
 #[cfg(test)]
 mod made_up;
+
+#[cfg(test)]
+mod test_device;
 
 mod coloring;
 
@@ -58,6 +62,10 @@ mod depths;
 mod gather;
 
 mod divided;
+
+mod device_tones;
+
+mod passes_on_device;
 
 mod amounts;
 
@@ -93,11 +101,14 @@ mod picture_layers;
 
 mod picture;
 
+mod kernels;
+
 pub use brushwork::Brushwork;
 pub use color_paint::{ColorPaint, ColorPaintError, ColorPaintSettings, FilmHeight};
 pub use compositing::CompositingError;
 pub use error::PainterError;
 pub use joined_paint::PaintOfMapsError;
+pub use kernels::kernels;
 pub use paint_layer::paint_layer;
 pub use paint_tones::Amounts;
 pub use painter::Painter;

@@ -136,3 +136,12 @@ mod tests;
 
 #[cfg(test)]
 mod painting_tests;
+
+#[cfg(test)]
+mod baseline_tests;
+
+#[cfg(test)]
+mod strange_tests;
+
+#[cfg(test)]
+mod device_tests;

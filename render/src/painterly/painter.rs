@@ -6,14 +6,16 @@ use artmap::map::ArtMap;
 use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{Features, Hierarchy, Projection, depth_field};
-use graphics::compute::Compute;
+use graphics::compute::{Compute, GreyImage};
 use graphics::distant_light::DistantLight;
 use graphics::field::Field;
+use graphics::gpu::DeviceError;
 use graphics::surface::Model;
 use pigment::PigmentLibrary;
 
 use super::color_paint::FilmHeight;
 use super::composed::over;
+use super::device_tones::ToneMemory;
 use super::divided::{Divide, THIN};
 use super::error::PainterError;
 use super::flow::phase;
@@ -127,11 +129,11 @@ impl Painter {
         seconds: f64,
     ) -> Result<PaintedModel, PainterError> {
         let (depth, layers) = self.splats(camera, size, seconds)?;
+        let depth = depth.into();
         let pictures = layers.iter().enumerate();
         let mut pictures = pictures.map(|(layer, splats)| self.painted(&depth, splats, layer));
-        let lowest = pictures.next();
-        let lowest = lowest.unwrap_or_else(|| PaintedModel::bare(size));
-        Ok(pictures.fold(lowest, |lower, upper| over(lower, &upper)))
+        let lowest = pictures.next().unwrap_or_else(|| Ok(PaintedModel::bare(size)))?;
+        pictures.try_fold(lowest, |lower, upper| Ok(over(lower, &upper?)))
     }
 
     /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each layer,
@@ -188,11 +190,13 @@ impl Painter {
     /// The picture of the strokes of one layer.
     pub(super) fn painted(
         &self,
-        depth: &Field<f32>,
+        depth: &GreyImage,
         splats: &[StrokeSplat],
         layer: usize,
-    ) -> PaintedModel {
-        painted(depth, splats, &self.divide(layer), &self.settings.overlap)
+    ) -> Result<PaintedModel, DeviceError> {
+        let (mut compute, divide) = (Compute::cpu(), self.divide(layer));
+        let memory = ToneMemory::new(&mut compute, &self.tones, divide.coloring)?;
+        painted(&mut compute, (depth, splats), &divide, &memory, &self.settings.overlap)
     }
 
     /// Mean L* of the map where a stroke shows it.

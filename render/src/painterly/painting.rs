@@ -13,7 +13,6 @@ use super::error::PainterError;
 use super::paint_layer::paint_layer;
 use super::paint_tones::Amounts;
 use super::painter::Painter;
-use super::passes::PaintedModel;
 
 /// Amounts of all layers, and what they are amounts of.
 struct Mixed {
@@ -89,9 +88,10 @@ impl Painter {
         ground: &GroundSpec,
     ) -> Result<Mixed, PainterError> {
         let (depth, layers) = self.splats(camera, size, seconds)?;
+        let depth = depth.into();
         let layers = layers.iter().enumerate();
-        let layers: Vec<PaintedModel> =
-            layers.map(|(layer, splats)| self.painted(&depth, splats, layer)).collect();
+        let layers = layers.map(|(layer, splats)| self.painted(&depth, splats, layer));
+        let layers = layers.collect::<Result<Vec<_>, _>>()?;
         let whole = layers[1..].iter().fold(layers[0].clone(), over);
         let (library, lighting) = (self.library(), Lighting::default());
         let (under, settings) = ((ground, &lighting), ColorPaintSettings::default());

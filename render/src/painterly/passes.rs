@@ -1,11 +1,15 @@
 //! The three passes over all squares of a picture.
 
+use graphics::compute::{Compute, GreyImage};
 use graphics::field::Field;
+use graphics::gpu::DeviceError;
 use rayon::prelude::*;
 
+use super::device_tones::ToneMemory;
 use super::divided::Divide;
 use super::gather::{Gather, Gathered};
 use super::lists::{Lists, SIDE};
+use super::passes_on_device::painted_on_device;
 use super::settings::OverlapSettings;
 use super::splat::StrokeSplat;
 use super::square::Square;
@@ -29,7 +33,31 @@ impl PaintedModel {
 
 /// Paints splats over a mesh of this depth (0 near to 1, nothing). Each pixel sums the splats that
 /// reach it in their order, so the picture does not depend on threads.
+///
+/// # Errors
+/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+///
+/// # Panics
+/// If another form of [`Compute`] made `depth` or `memory`.
 pub(super) fn painted(
+    compute: &mut Compute,
+    (depth, splats): (&GreyImage, &[StrokeSplat]),
+    divide: &Divide<'_>,
+    memory: &ToneMemory,
+    overlap: &OverlapSettings,
+) -> Result<PaintedModel, DeviceError> {
+    match compute {
+        Compute::Cpu => Ok(painted_on_cpu(depth.host(), splats, divide, overlap)),
+        Compute::Gpu(gpu) => {
+            let seen = (depth.plane(), splats);
+            let (color, height) = painted_on_device(gpu, memory.device(), seen, divide, overlap)?;
+            Ok(PaintedModel { color: gpu.download(&color)?, height_mm: gpu.download(&height)? })
+        }
+    }
+}
+
+/// The specification of the passes.
+fn painted_on_cpu(
     depth: &Field<f32>,
     splats: &[StrokeSplat],
     divide: &Divide<'_>,
@@ -81,3 +109,6 @@ pub(super) fn painted(
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod device_tests;

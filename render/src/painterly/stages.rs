@@ -2,6 +2,7 @@
 
 use glam::{Vec2, Vec3};
 use graphics::camera::Camera;
+use graphics::compute::GreyImage;
 use graphics::field::Field;
 
 use super::composed::over;
@@ -38,8 +39,9 @@ impl Painter {
         let (depth, layers) = self.splats(camera, size, seconds)?;
         let mut named: Vec<(String, Field<[f32; 4]>)> = vec![("depth".to_owned(), greys(&depth))];
         let mut whole = None;
+        let depth = GreyImage::from(depth);
         for (number, splats) in layers.iter().enumerate() {
-            let strongest = strongest(&depth, splats);
+            let strongest = strongest(depth.host(), splats);
             let mut shown = |name: &str, color: &dyn Fn(&StrokeSplat) -> Vec3| {
                 let pixel = |index: &Option<u32>| match index {
                     Some(index) => color(&splats[*index as usize]).extend(1.0).to_array(),
@@ -52,7 +54,7 @@ impl Painter {
             shown("strokes", &|splat| own_color(splat));
             shown("directions", &|splat| hue(2.0 * splat.turn()));
             shown("tones", &|splat| Vec3::splat(self.tone_of(splat) / 100.0));
-            let painted = self.painted(&depth, splats, number);
+            let painted = self.painted(&depth, splats, number)?;
             named.push((format!("layer-{}-painted", number + 1), painted.color.clone()));
             whole = Some(match whole {
                 None => painted,

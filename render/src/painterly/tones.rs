@@ -132,6 +132,11 @@ impl Tones {
         halvings
     }
 
+    /// The sizes of each slice.
+    pub(super) fn sizes(&self) -> impl Iterator<Item = &[Texels]> {
+        self.slices.iter().map(|slice| slice.sizes.as_slice())
+    }
+
     /// A tone at a size.
     #[inline(always)]
     pub(super) fn texels(&self, slice: usize, halvings: usize) -> &Texels {
@@ -168,6 +173,12 @@ pub(super) fn tone_tiles(map: &ArtMap, between: Between) -> Vec<Tile> {
 }
 
 impl Texels {
+    /// Texels row by row, a column and a row more than the size: a byte for each channel, in the
+    /// order 0, 2, 1, 3.
+    pub(super) fn packed(&self) -> &[u32] {
+        &self.packed
+    }
+
     /// The bytes of the four texels around a place, their weights in 256ths across and down.
     /// Returns 256 times the interpolated bytes.
     #[inline(always)]

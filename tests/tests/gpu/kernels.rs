@@ -3,11 +3,12 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use render::gpu::{Kernel, Layout, Storage};
-use render::{graphics_kernels, paint, watercolor};
+use render::{graphics_kernels, paint, painterly, watercolor};
 
-/// The kernels of graphics, paint and watercolour.
+/// The kernels of graphics, paint, watercolour and models in brushwork.
 fn kernels() -> Vec<&'static Kernel> {
-    [graphics_kernels(), paint::engine::kernels(), watercolor::kernels()].concat()
+    let own = [graphics_kernels(), paint::engine::kernels()];
+    [own.concat(), watercolor::kernels(), painterly::kernels()].concat()
 }
 
 fn parsed(kernel: &Kernel) -> naga::Module {

@@ -101,6 +101,11 @@ impl Projection {
         model.truncate() / model.w
     }
 
+    /// Unit vectors to the right and upwards in the picture, in model coordinates.
+    pub(super) fn axes(&self) -> [Vec3; 2] {
+        self.axes
+    }
+
     /// The contribution of a row of pixels to [`Self::unproject`] before the division by w.
     pub(super) fn row(&self, y: usize) -> Vec4 {
         let up = 1.0 - (2 * y + 1) as f32 / self.height as f32;

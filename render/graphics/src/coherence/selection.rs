@@ -38,17 +38,20 @@ pub(super) struct InSight<'a> {
     pub(super) density: Density,
     /// Features of this rank and above are not needed.
     pub(super) end: f32,
-    /// Radius of the largest features in pixels; with a density on the surface, where a unit of
-    /// the model has as many pixels as the density says.
-    pub(super) margin_px: f32,
     /// Viewing direction, of length 1.
     forward: Vec3,
+    /// Unit normals, inwards, of the planes through the eye that bound what reaches the picture.
+    sides: [Vec3; 4],
+    /// How far beyond these planes features may lie, in the unit of the model.
+    beyond: f32,
 }
 
 /// Selects all features below a priority.
 struct Below(f32);
 
 impl<'a> InSight<'a> {
+    /// Features of at most this radius in pixels; with a density on the surface, where a unit of
+    /// the model has as many pixels as the density says.
     pub(super) fn new(
         projection: &'a Projection,
         density: Density,
@@ -56,7 +59,16 @@ impl<'a> InSight<'a> {
         margin_px: f32,
     ) -> Self {
         let forward = (projection.camera.target - projection.camera.eye).normalize_or_zero();
-        Self { projection, density, end, margin_px, forward }
+        let [margin_px, beyond] = match density {
+            Density::Screen | Density::Facing => [margin_px, 0.0],
+            Density::Surface { px_per_unit } => [0.0, margin_px / px_per_unit],
+        };
+        let [right, up] = projection.axes();
+        let slope = |size: usize| (size as f32 / 2.0 + margin_px) / projection.focal_px;
+        let [across, down] = [slope(projection.width), slope(projection.height)];
+        let side = |axis: Vec3, slope: f32| (forward * slope - axis).normalize_or_zero();
+        let sides = [side(right, across), side(-right, across), side(up, down), side(-up, down)];
+        Self { projection, density, end, forward, sides, beyond }
     }
 }
 
@@ -68,23 +80,10 @@ impl Select for InSight<'_> {
         if along + radius < projection.camera.near || along - radius > projection.camera.far {
             return None;
         }
-        let nearest = (along - radius).max(projection.camera.near);
-        if along - radius > projection.camera.near
-            && let Some(at) = projection.project(center)
-        {
-            let own = match self.density {
-                Density::Screen | Density::Facing => self.margin_px,
-                Density::Surface { px_per_unit } => {
-                    self.margin_px * projection.focal_px / (nearest * px_per_unit)
-                }
-            };
-            // Off the viewing axis a sphere projects to more than its radius.
-            let margin = projection.focal_px * radius * towards / (nearest * nearest) + own;
-            let inside = |at: f32, size: usize| at > -margin && at < size as f32 + margin;
-            if !inside(at.x, projection.width) || !inside(at.y, projection.height) {
-                return None;
-            }
+        if self.sides.iter().any(|side| side.dot(to) < -radius - self.beyond) {
+            return None;
         }
+        let nearest = (along - radius).max(projection.camera.near);
         Some(match self.density {
             Density::Screen => {
                 self.end * projection.focal_px * projection.focal_px * towards / nearest.powi(3)
@@ -183,6 +182,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::camera::Camera;
     use crate::coherence::hierarchy::Hierarchy;
     use crate::mesh::Mesh;
 
@@ -205,6 +205,59 @@ mod tests {
             let mut seeds: Vec<u64> = many.iter().map(|own| own.seed).collect();
             seeds.sort_unstable();
             assert!(seeds.windows(2).all(|pair| pair[0] != pair[1]), "two of one seed");
+        }
+    }
+
+    #[test]
+    fn an_eye_inside_a_mesh_finds_all_features_of_the_picture_and_few_others() {
+        let mesh = Mesh::sphere(3000);
+        let features = Features::new(Arc::new(Hierarchy::new(&mesh)), 7);
+        let eye = Vec3::new(0.1, 0.2, -0.1);
+        let camera = Camera {
+            eye,
+            target: eye + Vec3::new(0.3, 0.1, 1.0),
+            near: 0.01,
+            ..Camera::framing(mesh.bounds(), 0.0, 0.0, 40.0)
+        };
+        let (size, margin_px, end) = ([160, 120], 6.0, 0.02);
+        let projection = Projection::new(&camera, size[0], size[1]);
+        for density in [Density::Screen, Density::Facing, Density::Surface { px_per_unit: 90.0 }] {
+            let reaches = |position: Vec3| {
+                projection.project(position).is_some_and(|at| {
+                    let own = match density {
+                        Density::Surface { px_per_unit } => {
+                            margin_px * projection.focal_px / (at.distance * px_per_unit)
+                        }
+                        _ => margin_px,
+                    };
+                    let inside = |at: f32, size: usize| at > -own && at < size as f32 + own;
+                    inside(at.x, size[0]) && inside(at.y, size[1])
+                })
+            };
+            let seen = features.seen(&projection, density, end, margin_px);
+            let mut found: Vec<u64> = Vec::new();
+            for own in seen.iter().filter(|own| reaches(own.feature.position)) {
+                found.push(own.feature.seed);
+            }
+            // The surface is at least 0.7 in front of the eye where it shows.
+            let most = end * (projection.focal_px / 0.7).powi(2) * 1.5;
+            let rank = |own: &Feature| {
+                let at = projection.project(own.position)?;
+                let focal = projection.focal_px / at.distance;
+                let towards = own.normal.dot(camera.eye - own.position).abs();
+                Some(match density {
+                    Density::Screen => own.priority * at.distance / (focal * focal * towards),
+                    Density::Facing => own.priority / (focal * focal),
+                    Density::Surface { px_per_unit } => own.priority / (px_per_unit * px_per_unit),
+                })
+            };
+            let all = features.below(most);
+            let wanted = all.iter().filter(|own| reaches(own.position));
+            let wanted = wanted.filter(|own| rank(own).is_some_and(|rank| rank < end));
+            let wanted: Vec<u64> = wanted.map(|own| own.seed).collect();
+            assert_eq!(found, wanted, "{density:?}");
+            assert!(wanted.len() > 100, "{density:?}: {}", wanted.len());
+            assert!(seen.len() < 2 * wanted.len(), "{density:?}: {} seen", seen.len());
         }
     }
 }

@@ -21,7 +21,7 @@ fn shown(
     overlap: &OverlapSettings,
 ) -> PaintedModel {
     let divide = Divide { tones, coloring, overhang: overlap.overhang, thin: THIN };
-    painted(depth, splats, &divide, overlap)
+    painted_on_cpu(depth, splats, &divide, overlap)
 }
 
 fn overlap(sharpness: u32) -> OverlapSettings {
