@@ -41,7 +41,7 @@ pub(crate) struct SubjectOptions {
     turntable: Option<u64>,
 }
 
-/// What is painted.
+/// A model or picture to paint.
 pub(crate) enum Subject {
     /// A photograph, and the width of the picture in pixels.
     Photograph(Photograph, usize),

@@ -1,4 +1,4 @@
-//! What a subject is painted with.
+//! Maps and regions, with which a subject is painted.
 
 use artmap::map::ArtMap;
 

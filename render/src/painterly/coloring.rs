@@ -30,7 +30,7 @@ pub(super) enum Coordinates {
     Cielab = 2,
 }
 
-/// What is painted.
+/// Kind of subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Subjects {
     /// Models, whose colours are those without light: tones add the light.
@@ -53,7 +53,7 @@ pub(super) struct Coloring {
     pub(super) encoded: Vec<f32>,
 }
 
-/// What is taken from the texels of a map.
+/// Amounts that are taken from the texels of a map.
 #[derive(Debug, Clone, Copy)]
 struct MapColors {
     /// Mean of all texels.
@@ -120,7 +120,7 @@ impl Coloring {
         own
     }
 
-    /// What is taken from the texels of a tile (linear sRGB) of a map: the mean of all its tiles, or
+    /// Colour that is taken from the texels of a tile (linear sRGB) of a map: the mean of all its tiles, or
     /// on pictures of this one, since they have their lightness already.
     pub(super) fn mean(&self, map: usize, tile: &Picture) -> Vec3 {
         if !self.of_model || self.subjects == Subjects::Models {
@@ -130,7 +130,7 @@ impl Coloring {
         moments(&texels).0
     }
 
-    /// What texels of linear sRGB of a map add to a pixel, when `mean` is taken from them.
+    /// Colours that texels of linear sRGB of a map add to a pixel, when `mean` is taken from them.
     pub(super) fn details(&self, map: usize, mean: Vec3, texels: &Picture) -> Vec<Vec3> {
         let share = self.maps[map].share;
         self.mapped(texels).into_iter().map(|color| (color - mean) * share).collect()
@@ -141,7 +141,7 @@ impl Coloring {
         self.of_model
     }
 
-    /// What a splat adds to be lighter by a share of the whole range of lightness.
+    /// Colour that a splat adds to be lighter by a share of the whole range of lightness.
     pub(super) fn lighter(&self, share: f32) -> Vec3 {
         let range = if self.coordinates == Coordinates::Cielab { 100.0 } else { 1.0 };
         if self.of_model { Vec3::X * (share * range) } else { Vec3::ZERO }

@@ -51,7 +51,7 @@ impl Painter {
         Self::of_model_with(mesh, &Brushwork::of(map), &[], settings)
     }
 
-    /// As [`Self::of_model`], with several maps, each for some materials of the mesh, and with
+    /// Paints a mesh with several maps, each for some materials of the mesh, and with
     /// directions that strokes must have.
     ///
     /// # Errors

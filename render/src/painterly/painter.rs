@@ -11,6 +11,7 @@ use graphics::distant_light::DistantLight;
 use graphics::field::Field;
 use graphics::gpu::DeviceError;
 use graphics::surface::Model;
+use paint::document::Slots;
 use pigment::PigmentLibrary;
 
 use super::color_paint::FilmHeight;
@@ -23,7 +24,7 @@ use super::offsets::Matching;
 use super::paint_tones::PaintTones;
 use super::passes::{PaintedModel, painted};
 use super::roots::Roots;
-use super::settings::{LightWith, Offsets, Settings};
+use super::settings::{LightWith, Offsets, OverlapSettings, Settings};
 use super::silhouette::outlines;
 use super::splat::StrokeSplat;
 use super::strokes::{Sight, ranks, splats};
@@ -43,6 +44,9 @@ const MOST_PIXELS: usize = 1 << 28;
 /// the brushwork of art maps.
 #[derive(Debug)]
 pub struct Painter {
+    /// Where pictures are made. Paintings, and what decides on strokes, stay on the processor.
+    compute: Compute,
+    memory: ToneMemory,
     model: Model,
     closed: Vec<bool>,
     bounds: [Vec3; 2],
@@ -54,7 +58,7 @@ pub struct Painter {
     /// Films of the subject's own colours.
     film: FilmHeight,
     /// Pigments for them, if not those of the maps' library.
-    library: Option<Arc<PigmentLibrary>>,
+    pigments: Option<(Arc<PigmentLibrary>, Option<Slots>)>,
     /// Distance of strokes of the first map in mm.
     spacing_mm: f64,
     /// Units of the subject along the longer side of the picture of the settings.
@@ -101,6 +105,8 @@ impl Painter {
         let bounds = packed.bounds;
         let paint = PaintTones::new(maps, settings.light.between)?;
         Ok(Self {
+            compute: Compute::cpu(),
+            memory: ToneMemory::Host,
             model: Model::new(&mut Compute::cpu(), packed.as_ref().clone())?,
             closed,
             bounds,
@@ -109,11 +115,23 @@ impl Painter {
             settings: settings.clone(),
             paint,
             film: FilmHeight::of(maps[0]),
-            library: None,
+            pigments: None,
             spacing_mm: maps[0].mm_per_texel.map_or(STROKE_MM, |mm| mm * maps[0].spacing),
             units,
             matched: continued / strokes.max(1) as f64,
         })
+    }
+
+    /// Makes pictures on another device. They agree with those of the processor to rounding; strokes,
+    /// stages and paintings are the same to the bit.
+    ///
+    /// # Errors
+    /// [`PainterError::Device`] for maps that the device cannot hold.
+    pub fn on(mut self, mut compute: Compute) -> Result<Self, PainterError> {
+        let coloring = self.layers[0].roots.coloring();
+        self.memory = ToneMemory::new(&mut compute, &self.tones, coloring)?;
+        self.compute = compute;
+        Ok(self)
     }
 
     /// Paints the subject as `camera` sees it, in `width` x `height` pixels, at a time in seconds. The
@@ -129,11 +147,15 @@ impl Painter {
         seconds: f64,
     ) -> Result<PaintedModel, PainterError> {
         let (depth, layers) = self.splats(camera, size, seconds)?;
-        let depth = depth.into();
-        let pictures = layers.iter().enumerate();
-        let mut pictures = pictures.map(|(layer, splats)| self.painted(&depth, splats, layer));
-        let lowest = pictures.next().unwrap_or_else(|| Ok(PaintedModel::bare(size)))?;
-        pictures.try_fold(lowest, |lower, upper| Ok(over(lower, &upper?)))
+        let depth = self.compute.upload(&depth)?;
+        let mut whole = PaintedModel::bare(size);
+        for (layer, splats) in layers.iter().enumerate() {
+            let (overlap, seen) = (&self.settings.overlap, (&depth, splats.as_slice()));
+            let divide = divide(&self.tones, &self.layers[layer], layer, overlap);
+            let own = painted(&mut self.compute, seen, &divide, &self.memory, overlap)?;
+            whole = if layer == 0 { own } else { over(whole, &own) };
+        }
+        Ok(whole)
     }
 
     /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each layer,
@@ -187,16 +209,15 @@ impl Painter {
         Ok((depth, drawn.collect()))
     }
 
-    /// The picture of the strokes of one layer.
+    /// The picture of the strokes of one layer, made on the processor.
     pub(super) fn painted(
         &self,
         depth: &GreyImage,
         splats: &[StrokeSplat],
         layer: usize,
     ) -> Result<PaintedModel, DeviceError> {
-        let (mut compute, divide) = (Compute::cpu(), self.divide(layer));
-        let memory = ToneMemory::new(&mut compute, &self.tones, divide.coloring)?;
-        painted(&mut compute, (depth, splats), &divide, &memory, &self.settings.overlap)
+        let (seen, divide) = ((depth, splats), self.divide(layer));
+        painted(&mut Compute::cpu(), seen, &divide, &ToneMemory::Host, &self.settings.overlap)
     }
 
     /// Mean L* of the map where a stroke shows it.
@@ -206,12 +227,7 @@ impl Painter {
 
     /// How the sums of a layer become pixels.
     pub(super) fn divide(&self, layer: usize) -> Divide<'_> {
-        Divide {
-            tones: &self.tones,
-            coloring: self.layers[layer].roots.coloring(),
-            overhang: self.settings.overlap.overhang,
-            thin: if layer == 0 { THIN } else { THIN_ABOVE },
-        }
+        divide(&self.tones, &self.layers[layer], layer, &self.settings.overlap)
     }
 
     /// Distance of the middle of the subject in front of the eye, at least that of the near plane.
@@ -241,17 +257,18 @@ impl Painter {
         self.matched
     }
 
-    /// Takes pigments for the colours of the subject from this library, instead of that of the maps.
-    pub fn set_library(&mut self, library: Arc<PigmentLibrary>) {
-        self.library = Some(library);
+    /// Takes pigments for the colours of the subject from this library, instead of that of the maps:
+    /// those of a palette, or up to eight that suit the picture.
+    pub fn set_pigments(&mut self, library: Arc<PigmentLibrary>, palette: Option<Slots>) {
+        self.pigments = Some((library, palette));
     }
 
     /// The library of pigments for the colours of the subject: the one that was set, that of the
-    /// maps, or the Van Gogh oils.
-    pub(super) fn library(&self) -> Arc<PigmentLibrary> {
-        let of_maps = || self.paint.as_ref().map(|paint| Arc::clone(&paint.of.library));
-        let set = self.library.as_ref().map(Arc::clone);
-        set.or_else(of_maps).unwrap_or_else(|| Arc::new(PigmentLibrary::van_gogh_oils()))
+    /// maps, or the Van Gogh oils; and the palette, if one was set.
+    pub(super) fn pigments(&self) -> (Arc<PigmentLibrary>, Option<Slots>) {
+        let of_maps = || Some((Arc::clone(&self.paint.as_ref()?.of.library), None));
+        let oils = || (Arc::new(PigmentLibrary::van_gogh_oils()), None);
+        self.pigments.clone().or_else(of_maps).unwrap_or_else(oils)
     }
 
     /// Films of the subject's own colours.
@@ -273,6 +290,17 @@ impl Painter {
     pub(super) fn paint_tones(&self) -> Option<&PaintTones> {
         self.paint.as_ref()
     }
+}
+
+/// How the sums of a layer become pixels.
+fn divide<'a>(
+    tones: &'a Tones,
+    layer: &'a Layered,
+    number: usize,
+    overlap: &OverlapSettings,
+) -> Divide<'a> {
+    let thin = if number == 0 { THIN } else { THIN_ABOVE };
+    Divide { tones, coloring: layer.roots.coloring(), overhang: overlap.overhang, thin }
 }
 
 /// Keeps the strokes that a picture of the settings needs, `more` times as many, at so many pixels

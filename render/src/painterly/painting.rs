@@ -27,7 +27,7 @@ impl Painter {
     /// Where colours are the maps', amounts are the weighted means of the amounts that strokes show,
     /// so strokes that overlap do not pile up within a layer. Where they are the subject's, each cell
     /// is a film of the mixture that shows its colour, as high as the brushwork: of up to eight
-    /// pigments of the library ([`Self::set_library`]) that suit the picture.
+    /// pigments of the library ([`Self::set_pigments`]) that suit the picture.
     ///
     /// Cells are as wide as the first map's strokes demand: `strokes.width_px` of them to the
     /// distance of its strokes in mm (3 mm where the map does not tell).
@@ -93,9 +93,12 @@ impl Painter {
         let layers = layers.map(|(layer, splats)| self.painted(&depth, splats, layer));
         let layers = layers.collect::<Result<Vec<_>, _>>()?;
         let whole = layers[1..].iter().fold(layers[0].clone(), over);
-        let (library, lighting) = (self.library(), Lighting::default());
+        let ((library, palette), lighting) = (self.pigments(), Lighting::default());
         let (under, settings) = ((ground, &lighting), ColorPaintSettings::default());
-        let slots = ColorPaint::palette(&whole, &library, under, &settings)?;
+        let slots = match palette {
+            Some(slots) => slots,
+            None => ColorPaint::palette(&whole, &library, under, &settings)?,
+        };
         let paint = ColorPaint::new(library.clone(), slots, under, &settings)?;
         let layers = layers.iter().map(|layer| paint.amounts(layer, self.film())).collect();
         Ok(Mixed { of: PaintOfSamples { library, slots }, layers })

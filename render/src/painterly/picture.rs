@@ -61,7 +61,7 @@ impl Painter {
         Self::of_picture_with(picture, &Brushwork::of(map), &PictureForm::default(), settings)
     }
 
-    /// As [`Self::of_picture`], with several maps, each for some regions of the picture, and with a
+    /// Paints a picture with several maps, each for some regions of the picture, and with a
     /// form: depth, flow, guides.
     ///
     /// # Errors
@@ -229,3 +229,6 @@ fn on_plane(mesh: &Mesh, &[at, [x, y]]: &[[f32; 2]; 2]) -> Guide {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod flow_tests;

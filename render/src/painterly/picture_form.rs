@@ -1,4 +1,4 @@
-//! What a picture may have beside its colours: depth, flow, guides.
+//! Form of a picture beside its colours: depth, flow, guides.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What a subject shows at a feature: normal, direction of strokes, colour, detail, region.
+//! Attributes of a subject at a feature: normal, direction of strokes, colour, detail, region.
 
 use std::sync::Arc;
 
@@ -44,7 +44,7 @@ pub(super) enum Detail {
     /// Where the surface bends more within this length, in units of the model, than settings let
     /// pass (radians).
     Bends(f32, LayerSettings),
-    /// As far as a picture says, 0 to 1, which is stretched over the texture coordinates.
+    /// By a picture of 0 to 1, which is stretched over the texture coordinates.
     Pictured(Field<f32>),
 }
 
@@ -53,7 +53,7 @@ pub(super) enum Detail {
 pub(super) struct Surface {
     /// The mesh with the normals that light meets.
     pub(super) mesh: Arc<Mesh>,
-    /// The same mesh with the colours of this layer.
+    /// That mesh with the colours of this layer.
     pub(super) packed: Arc<PackedMesh>,
     pub(super) directions: Arc<Directions>,
     pub(super) detail: Detail,
@@ -91,7 +91,7 @@ impl Directions {
         Self { lines, arrows, bends: curvatures.iter().map(bend).collect(), strengths: None }
     }
 
-    /// The same directions with a factor of the flow's strength, 0 to 1, for each vertex.
+    /// These directions with a factor of the flow's strength, 0 to 1, for each vertex.
     pub(super) fn with_strengths(self, strengths: Vec<f32>) -> Self {
         Self { strengths: Some(strengths), ..self }
     }

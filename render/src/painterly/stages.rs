@@ -17,7 +17,7 @@ const FAR: f32 = 0.15;
 /// A picture of a step, encoded sRGB with cover.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// What it shows, in lower case with hyphens.
+    /// Its content, in lower case with hyphens.
     pub name: String,
     /// The picture.
     pub picture: Field<[f32; 4]>,

@@ -10,7 +10,7 @@ use super::places::Surface;
 /// A subject.
 #[derive(Debug)]
 pub(super) struct Subject {
-    /// As the strokes of each layer see it, the lowest first; at least one.
+    /// Its surface for the strokes of each layer, the lowest first; at least one.
     pub(super) surfaces: Vec<Surface>,
     /// The mesh that hides what lies behind it.
     pub(super) packed: Arc<PackedMesh>,

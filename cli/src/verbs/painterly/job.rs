@@ -1,12 +1,12 @@
-//! What is painted, and the files it is written to.
+//! A subject, and the files that it is painted into.
 
 use render::camera::Camera;
+use render::compute::Compute;
 use render::encoding::{linear_from_encoded, over_white};
 use render::export::frame_of;
 use render::light::Light;
 use render::mesh::{Guide, Mesh};
 use render::paint::engine::PaintEngine;
-use render::paint::ground::GroundSpec;
 use render::paint::painting::Painting;
 use render::painterly::{Painter, PictureForm, Settings};
 use render::picture::Photograph;
@@ -15,6 +15,7 @@ use spectra::Viewing;
 
 use super::brushwork::Maps;
 use super::exr_frames::ExrFrames;
+use super::pigments::Materials;
 use crate::animation::{Animation, FramesDigest};
 use crate::console::Console;
 use crate::failure::Result;
@@ -40,12 +41,14 @@ pub(super) enum What {
     Picture(Photograph, PictureForm),
 }
 
-/// What is painted, and where it is written.
+/// A subject, and its outputs.
 pub(super) struct Job {
     pub(super) settings: Settings,
     pub(super) scene: Scene,
-    /// Title and ground of a painting with pigments, if it is one.
-    pub(super) painting: Option<(String, GroundSpec)>,
+    /// Where pictures are made.
+    pub(super) compute: Compute,
+    /// Title, ground and pigments, if it is a painting.
+    pub(super) painting: Option<Materials>,
     pub(super) exports: OpenExports,
     pub(super) stages: Option<StageFolder>,
     pub(super) exr_frames: Option<ExrFrames>,
@@ -54,10 +57,11 @@ pub(super) struct Job {
 
 impl Job {
     pub(super) fn paint(self, maps: &Maps, console: &mut Console<'_>) -> Result<Summary> {
-        let Self { settings, scene, painting, exports, stages, exr_frames, animation } = self;
+        let Self { compute, settings, scene, painting, exports, stages, exr_frames, animation } =
+            self;
         let Scene { what, cameras, size } = scene;
         let brushwork = maps.brushwork();
-        let mut painter = match &what {
+        let painter = match &what {
             What::Model(mesh, guides) => {
                 Painter::of_model_with(mesh, &brushwork, guides, &settings)?
             }
@@ -65,6 +69,7 @@ impl Job {
                 Painter::of_picture_with(photograph, &brushwork, form, &settings)?
             }
         };
+        let mut painter = painter.on(compute)?;
         let recording = match animation {
             None => None,
             Some(animation) => {
@@ -85,7 +90,10 @@ impl Job {
         }
         match painting {
             _ if !exports.any() => {}
-            Some((title, ground)) => {
+            Some(Materials { title, ground, pigments }) => {
+                if let Some((library, palette)) = pigments {
+                    painter.set_pigments(library, palette);
+                }
                 let document = painter.painting(&cameras[0], size, 0.0, (&title, &ground))?;
                 let engine = PaintEngine::on_cpu(document.ground.height.clone());
                 let light = Light::new(&document.library, &Viewing::default())?;

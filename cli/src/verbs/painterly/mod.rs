@@ -8,18 +8,19 @@ mod exr_frames;
 
 mod settings;
 
+mod pigments;
+
 mod job;
 
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
 use render::camera::Camera;
-use render::paint::ground::{GroundKind, GroundSpec};
 use render::painterly::{PictureView, Preset, Settings};
 
 use crate::animation::{Animation, AnimationOptions};
-use crate::canvas::grounds;
 use crate::console::Console;
+use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
 use crate::pictures::Exports;
 use crate::stages::StageFolder;
@@ -28,6 +29,7 @@ use brushwork::BrushworkOptions;
 use exr_frames::ExrFrames;
 use form::FormOptions;
 use job::{Job, Scene, What};
+use pigments::PigmentOptions;
 use settings::{SettingsOptions, preset_names};
 
 /// Paint a 3D model or a photograph in the brushwork of a painting
@@ -45,13 +47,6 @@ pub(crate) struct Painterly {
     /// Print the settings of a preset, each with its meaning, and do nothing else
     #[arg(long, value_name = "NAME", conflicts_with = "subject", value_parser = preset_names())]
     show_preset: Option<Preset>,
-    /// Paint the first picture with the pigments of the map, and show it as a painting, with relief
-    /// and gloss; exports other than --picture imply it
-    #[arg(long, help_heading = "Exports")]
-    with_pigments: bool,
-    /// Ground of a painting with pigments: linen, paper or panel
-    #[arg(long, value_name = "KIND", default_value = "panel", value_parser = grounds(), help_heading = "Exports")]
-    ground: GroundKind,
     #[command(flatten)]
     exports: Exports,
     /// Write each frame into this folder as OpenEXR, for compositing: colour and cover, depth, height
@@ -71,6 +66,8 @@ pub(crate) struct Painterly {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
+    backend: BackendOption,
+    #[command(flatten)]
     brushwork: BrushworkOptions,
     #[command(flatten)]
     settings: SettingsOptions,
@@ -80,6 +77,8 @@ pub(crate) struct Painterly {
     form: FormOptions,
     #[command(flatten)]
     animation: AnimationOptions,
+    #[command(flatten)]
+    pigments: PigmentOptions,
 }
 
 impl Painterly {
@@ -102,9 +101,11 @@ impl Painterly {
         let (subject, mut inputs) = self.subject_options.subject(&path, self.form.has_depth())?;
         inputs.extend(self.brushwork.inputs());
         inputs.extend(self.form.inputs().chain(self.settings.input().cloned()));
+        inputs.extend(self.pigments.input());
         let scene = self.scene(subject, &settings)?;
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let painting = self.painting(&title.unwrap_or_default());
+        let layers = self.exports.layer_option().is_some();
+        let painting = self.pigments.materials(&title.unwrap_or_default(), layers)?;
         let animation = self.animation.open(&inputs)?;
         let exports = self.exports.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
@@ -124,12 +125,14 @@ impl Painterly {
             .map(|folder| ExrFrames::open(folder, scene.cameras.len(), &inputs))
             .transpose()?;
         let maps = self.brushwork.maps(self.settings.style(), console)?;
-        let job = Job { settings, scene, painting, exports, stages, exr_frames, animation };
+        let compute = self.backend.compute()?;
+        let job =
+            Job { compute, settings, scene, painting, exports, stages, exr_frames, animation };
         let summary = job.paint(&maps, console)?;
         summary.print(self.json, console)
     }
 
-    /// What is painted, with the cameras of all frames.
+    /// The subject with the cameras of all frames.
     fn scene(&self, subject: Subject, settings: &Settings) -> Result<Scene> {
         let (what, cameras, size) = match subject {
             Subject::Mesh(mesh, cameras, size) => {
@@ -148,12 +151,6 @@ impl Painterly {
             }
         };
         Ok(Scene { what, cameras: self.frames(cameras, settings)?, size })
-    }
-
-    /// Title and ground of a painting, if the picture is one.
-    fn painting(&self, title: &str) -> Option<(String, GroundSpec)> {
-        let wanted = self.with_pigments || self.exports.layer_option().is_some();
-        wanted.then(|| (title.to_owned(), self.ground.spec(1)))
     }
 
     /// The cameras of all frames.

@@ -49,8 +49,7 @@ fn texels_move_along_the_flow() {
         (settings.flow.periods, settings.flow.loop_seconds) = (1, 100.0);
         let map = map(1);
         let brushwork = Brushwork::of(&map);
-        let mut painter =
-            Painter::of_picture_with(&even, &brushwork, &form, &settings).unwrap();
+        let mut painter = Painter::of_picture_with(&even, &brushwork, &form, &settings).unwrap();
         let mut frame = |seconds: f64| {
             let color = painter.paint(&view(&even), (320, 240), seconds).unwrap().color;
             let greens = color.values().iter().map(|pixel| pixel[1]).collect();

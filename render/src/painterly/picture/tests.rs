@@ -11,7 +11,11 @@ use super::super::settings::{ColorSource, Offsets};
 use super::*;
 
 /// A photograph from encoded bytes.
-fn photograph(width: usize, height: usize, color: impl Fn(usize, usize) -> [u8; 3]) -> Photograph {
+pub(super) fn photograph(
+    width: usize,
+    height: usize,
+    color: impl Fn(usize, usize) -> [u8; 3],
+) -> Photograph {
     let values = (0..width * height).map(|at| color(at % width, at / width)).collect();
     let png = frame_png(&Field::from_values(width, height, values)).unwrap();
     Photograph::from_bytes("made up", &png).unwrap()
@@ -26,7 +30,7 @@ fn stripes() -> Photograph {
 }
 
 /// The camera that sees exactly a picture.
-fn view(picture: &Photograph) -> Camera {
+pub(super) fn view(picture: &Photograph) -> Camera {
     PictureView::of(picture.size()).camera()
 }
 

@@ -5,7 +5,7 @@ use graphics::field::Field;
 /// The regions of a subject. A later region lies over earlier ones.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Regions {
-    /// What messages call them: the file that they were read from.
+    /// Name for messages: the file that they were read from.
     pub name: String,
     /// The regions.
     pub list: Vec<Region>,

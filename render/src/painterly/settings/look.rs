@@ -16,7 +16,7 @@ pub enum LightWith {
     Model,
 }
 
-/// What decides the tone of a stroke.
+/// Source of the tone of a stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ToneSource {
@@ -33,7 +33,7 @@ pub enum ToneSource {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LightSettings {
-    /// What decides the tone of a stroke.
+    /// Source of the tone of a stroke.
     pub tone: ToneSource,
     /// What the light moves with.
     pub with: LightWith,

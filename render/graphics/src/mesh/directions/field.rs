@@ -38,7 +38,7 @@ pub struct DirectionField {
     pub(super) guided: Vec<Option<DVec3>>,
 }
 
-/// What evidence is found from.
+/// A surface, from which evidence is found.
 struct Base<'a> {
     of_vertex: &'a [u32],
     shapes: Vec<PlaceShape>,
