@@ -12,14 +12,17 @@ use render::artmap::painted::{PaintedSettings, Style, painted_samples};
 use render::artmap::sample::PaintOfSamples;
 use render::artmap::synthesis::SynthesisSettings;
 use render::camera::{Camera, Framing};
+use render::export::frame_png;
+use render::field::Field;
 use render::mesh::{Mesh, SampleModel};
 use render::paint::document::{Document, Lighting};
 use render::paint::ground::GroundKind;
 use render::paint::light::Light;
 use render::paint::scene::{picture, scene};
 use render::painterly::{
-    ColorPaint, ColorPaintSettings, FilmHeight, Painter, Settings, paint_layer,
+    ColorPaint, ColorPaintSettings, FilmHeight, Painter, PictureView, Settings, paint_layer,
 };
+use render::picture::Photograph;
 
 /// A row of the table.
 #[derive(Clone, Copy)]
@@ -252,6 +255,25 @@ fn color_paint() -> ColorPaint {
     let ground = GroundKind::Panel.spec(1);
     let settings = ColorPaintSettings::default();
     ColorPaint::new(library, slots, (&ground, &Lighting::default()), &settings).unwrap()
+}
+
+/// A photograph of one megapixel, from its pixels to the painted picture; the map is laid out each
+/// time too. Published: nothing.
+#[divan::bench(sample_count = 5)]
+fn photograph(bencher: Bencher<'_, '_>) {
+    let pixel = |at: usize| {
+        let (x, y) = (at % 1224, at / 1224);
+        let wave = (x as f32 * 0.02).sin() * (y as f32 * 0.013).cos();
+        [128.0 + 90.0 * wave, 120.0 - 70.0 * wave, (x % 97) as f32 + 60.0].map(|value| value as u8)
+    };
+    let pixels = Field::from_values(1224, 817, (0..1224 * 817).map(pixel).collect());
+    let photograph = Photograph::from_bytes("bench", &frame_png(&pixels).unwrap()).unwrap();
+    let camera = PictureView::of(photograph.size()).camera();
+    bencher.bench_local(|| {
+        let mut painter =
+            Painter::of_picture(black_box(&photograph), map(), &Settings::default()).unwrap();
+        painter.paint(&camera, (1224, 817), 0.0).unwrap()
+    });
 }
 
 /// What a model of 20,000 triangles costs once: directions, tones, matched offsets.

@@ -81,6 +81,8 @@ mod brushwork;
 
 mod composed;
 
+mod built_ground;
+
 mod subject;
 
 mod painter;

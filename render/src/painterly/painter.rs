@@ -14,6 +14,7 @@ use graphics::surface::Model;
 use paint::document::Slots;
 use pigment::PigmentLibrary;
 
+use super::built_ground::BuiltGround;
 use super::color_paint::FilmHeight;
 use super::composed::over;
 use super::device_tones::ToneMemory;
@@ -59,6 +60,8 @@ pub struct Painter {
     film: FilmHeight,
     /// Pigments for them, if not those of the maps' library.
     pigments: Option<(Arc<PigmentLibrary>, Option<Slots>)>,
+    /// The ground of the last painting.
+    pub(super) ground: Option<BuiltGround>,
     /// Distance of strokes of the first map in mm.
     spacing_mm: f64,
     /// Units of the subject along the longer side of the picture of the settings.
@@ -116,6 +119,7 @@ impl Painter {
             paint,
             film: FilmHeight::of(maps[0]),
             pigments: None,
+            ground: None,
             spacing_mm: maps[0].mm_per_texel.map_or(STROKE_MM, |mm| mm * maps[0].spacing),
             units,
             matched: continued / strokes.max(1) as f64,
@@ -261,6 +265,7 @@ impl Painter {
     /// those of a palette, or up to eight that suit the picture.
     pub fn set_pigments(&mut self, library: Arc<PigmentLibrary>, palette: Option<Slots>) {
         self.pigments = Some((library, palette));
+        self.ground = None;
     }
 
     /// The library of pigments for the colours of the subject: the one that was set, that of the

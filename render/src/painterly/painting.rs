@@ -7,6 +7,7 @@ use paint::document::{Document, DryLayer, Lighting, Medium};
 use paint::ground::GroundSpec;
 
 use super::amounts::amounts;
+use super::built_ground::BuiltGround;
 use super::color_paint::{ColorPaint, ColorPaintSettings};
 use super::composed::over;
 use super::error::PainterError;
@@ -49,7 +50,7 @@ impl Painter {
         };
         let Mixed { of: PaintOfSamples { library, slots }, layers } = mixed;
         let cell_mm = self.cell_mm(size);
-        let ground = ground.build(size.0, size.1, cell_mm, &library)?;
+        let ground = BuiltGround::kept(&mut self.ground, ground, (size, cell_mm), &library)?;
         let layer = |amounts: &Field<Amounts>| DryLayer {
             slots,
             opacity: 1.0,

@@ -142,8 +142,10 @@ impl Descriptors {
             all.truncate(count);
         }
         all.sort_unstable_by(order);
-        let link = |(distance, index)| Link { place: self.places[index as usize], distance };
-        all.into_iter().map(link).collect()
+        let link =
+            |&(distance, index): &(f32, u32)| Link { place: self.places[index as usize], distance };
+        // By reference: collected from the list itself, links would keep the memory of all patches.
+        all.iter().map(link).collect()
     }
 
     fn of(&self, index: usize) -> &[f32] {

@@ -56,12 +56,12 @@ impl KeyMaps {
 
 /// All levels of the map of each sample, coarsest first.
 pub(crate) fn level_maps(prepared: &Prepared, settings: &SynthesisSettings) -> Vec<Vec<LevelMap>> {
-    let Prepared { grids, pyramids, described, first, .. } = prepared;
+    let Prepared { grids, pyramids, first, of_first, .. } = prepared;
     let first = *first;
     let mut random = ChaCha8Rng::seed_from_u64(settings.seed);
     let mut first_maps: Vec<LevelMap> = Vec::with_capacity(grids.len());
     for (index, &grid) in grids.iter().enumerate() {
-        let here = (&pyramids[first][index], &described[index][first]);
+        let here = (&pyramids[first][index], &of_first[index]);
         let coarser = first_maps.last().map(|map| (&pyramids[first][index - 1], map));
         first_maps.push(first_level(here, grid, coarser, settings.uniformity, &mut random));
     }
@@ -74,8 +74,9 @@ pub(crate) fn level_maps(prepared: &Prepared, settings: &SynthesisSettings) -> V
         }
         let mut maps: Vec<LevelMap> = Vec::with_capacity(grids.len());
         for (index, &grid) in grids.iter().enumerate() {
-            let here = (&pyramids[sample][index], &described[index][sample]);
-            let there = (&first_maps[index], &described[index][first]);
+            let described = prepared.described(sample, index);
+            let here = (&pyramids[sample][index], &described);
+            let there = (&first_maps[index], &of_first[index]);
             maps.push(following.level(index + 1, here, there, grid, maps.last()));
         }
         maps

@@ -29,10 +29,13 @@ pub(crate) struct Prepared {
     pub(crate) grids: Vec<PatchGrid>,
     /// Levels of each sample.
     pub(crate) pyramids: Vec<Vec<Level>>,
-    /// Patches of each sample, by level, then by sample.
-    pub(crate) described: Vec<Vec<Descriptors>>,
     /// Index of the sample whose map is made first.
     pub(crate) first: usize,
+    /// Its described patches, by level. Those of the others are described as they are needed: they
+    /// take the most memory.
+    pub(crate) of_first: Vec<Descriptors>,
+    /// What patches are described by, by level.
+    spaces: Vec<PatchSpace>,
     /// Width and height of a patch at the finest level, in texels.
     pub(crate) patch: usize,
 }
@@ -60,14 +63,20 @@ impl Prepared {
             Some(name) => named(samples, name)?,
             None => strongest(&pyramids),
         };
-        let described = (0..grids.len())
-            .map(|index| {
-                let levels: Vec<&Level> = pyramids.iter().map(|pyramid| &pyramid[index]).collect();
-                let space = PatchSpace::of(&levels, grids[index].patch);
-                levels.iter().map(|level| space.describe(level)).collect()
-            })
-            .collect();
-        Ok(Self { grids, pyramids, described, first, patch })
+        let space = |index: usize| {
+            let levels: Vec<&Level> = pyramids.iter().map(|pyramid| &pyramid[index]).collect();
+            PatchSpace::of(&levels, grids[index].patch)
+        };
+        let spaces: Vec<PatchSpace> = (0..grids.len()).map(space).collect();
+        let of_first =
+            spaces.iter().zip(&pyramids[first]).map(|(space, level)| space.describe(level));
+        let of_first = of_first.collect();
+        Ok(Self { grids, pyramids, first, of_first, spaces, patch })
+    }
+
+    /// Describes the patches of a sample at a level.
+    pub(crate) fn described(&self, sample: usize, level: usize) -> Descriptors {
+        self.spaces[level].describe(&self.pyramids[sample][level])
     }
 
     /// What patches of a sample are compared by at the finest level.

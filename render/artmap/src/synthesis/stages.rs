@@ -66,7 +66,8 @@ pub fn key_maps_with_stages(
         let shown = shown(&set.samples[at], levels - 1 - level, &sources);
         stage(format!("links-{}-level-{}", at + 1, level + 1), shown)
     };
-    stages.extend(all.par_iter().map(linked).collect::<Vec<_>>());
+    // One after the other, so that the patches of one sample are in memory at a time.
+    stages.extend(all.iter().map(linked));
     let map = |&(at, level): &(usize, usize)| {
         let shown = shown(&set.samples[at], levels - 1 - level, &maps[at][level].sources);
         stage(format!("map-{}-level-{}", at + 1, level + 1), shown)
@@ -115,14 +116,14 @@ fn linked(
     (sample, level): (usize, usize),
 ) -> Field<[u16; 2]> {
     let grid = prepared.grids[level];
-    let described = &prepared.described[level];
+    let described = prepared.described(sample, level);
     let mut sources = Field::filled(grid.size, grid.size, [0; 2]);
     let links: Vec<Option<[u16; 2]>> = first
         .places
         .par_iter()
         .map(|&place| {
-            let wanted = described[prepared.first].at(place)?;
-            described[sample].nearest(wanted, 1).first().map(|link| link.place)
+            let wanted = prepared.of_first[level].at(place)?;
+            described.nearest(wanted, 1).first().map(|link| link.place)
         })
         .collect();
     for ([column, row], link) in grid.cells().zip(links) {
