@@ -68,7 +68,7 @@ small="--width 240 --set strokes.width_px=24"
 "${PYTHON:-python3}" - "$scratch" <<'END'
 import sys
 from pathlib import Path
-from PIL import Image
+from PIL import Image, ImageChops
 
 scratch = Path(sys.argv[1])
 
@@ -77,11 +77,21 @@ def picture(name):
     return Image.open(scratch / f"{name}.png").convert("RGB")
 
 
+def without_margins(pictures):
+    """Pictures of one size without the white rows that all have above and below."""
+    white = Image.new("RGB", pictures[0].size, "white")
+    boxes = [ImageChops.difference(one, white).getbbox() or (0, 0, *one.size) for one in pictures
+             if one.size == white.size]
+    top = max(min(box[1] for box in boxes) - 15, 0)
+    bottom = min(max(box[3] for box in boxes) + 15, white.height)
+    return [one.crop((0, top, one.width, bottom)) for one in pictures]
+
+
 def sheet(file, rows, width):
     """Pictures in rows, each row as wide as the sheet."""
     drawn = []
     for row in rows:
-        pictures = [picture(name) for name in row]
+        pictures = without_margins([picture(name) for name in row])
         scale = width / sum(one.width / one.height for one in pictures)
         line = Image.new("RGB", (width, round(scale)), "white")
         left = 0.0
