@@ -151,15 +151,22 @@ impl Painter {
         seconds: f64,
     ) -> Result<PaintedModel, PainterError> {
         let (depth, layers) = self.splats(camera, size, seconds)?;
-        let depth = self.compute.upload(&depth)?;
-        let mut whole = PaintedModel::bare(size);
+        // The processor takes the depth as it is: copies of this size cost milliseconds.
+        let depth = match &mut self.compute {
+            Compute::Cpu => depth.into(),
+            device => device.upload(&depth)?,
+        };
+        let mut whole = None;
         for (layer, splats) in layers.iter().enumerate() {
             let (overlap, seen) = (&self.settings.overlap, (&depth, splats.as_slice()));
             let divide = divide(&self.tones, &self.layers[layer], layer, overlap);
             let own = painted(&mut self.compute, seen, &divide, &self.memory, overlap)?;
-            whole = if layer == 0 { own } else { over(whole, &own) };
+            whole = Some(match whole {
+                None => own,
+                Some(lower) => over(lower, &own),
+            });
         }
-        Ok(whole)
+        Ok(whole.unwrap_or_else(|| PaintedModel::bare(size)))
     }
 
     /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each layer,

@@ -69,6 +69,7 @@ impl Job {
                 Painter::of_picture_with(photograph, &brushwork, form, &settings)?
             }
         };
+        let backend = compute.name().to_owned();
         let mut painter = painter.on(compute)?;
         let recording = match animation {
             None => None,
@@ -78,7 +79,8 @@ impl Job {
                     .add(&settings)
                     .add(&cameras)
                     .add(&what)
-                    .add(&brushwork);
+                    .add(&brushwork)
+                    .add(&backend);
                 Some(animation.begin(digest, cameras.len(), size)?)
             }
         };
@@ -121,7 +123,7 @@ impl Job {
             frames = Some((count, found));
         }
         let (maps, regions) = (brushwork.maps.len(), brushwork.regions.list.len());
-        Ok(Summary { size, layers, matched: painter.matched(), maps, regions, frames })
+        Ok(Summary { size, backend, layers, matched: painter.matched(), maps, regions, frames })
     }
 }
 
@@ -129,6 +131,8 @@ impl Job {
 pub(super) struct Summary {
     /// Width and height in pixels.
     size: (usize, usize),
+    /// Device of the pictures.
+    backend: String,
     /// Number of strokes of each layer of the first picture.
     layers: Vec<usize>,
     /// Share of strokes that continue a neighbour.
@@ -142,11 +146,12 @@ pub(super) struct Summary {
 
 impl Summary {
     pub(super) fn print(&self, as_json: bool, console: &mut Console<'_>) -> Result<()> {
-        let Self { size: (width, height), layers, matched, maps, regions, frames } = self;
+        let Self { size: (width, height), backend, layers, matched, maps, regions, frames } = self;
         let strokes: usize = layers.iter().sum();
         if as_json {
             return console.json(&json!({
                 "size": [width, height],
+                "backend": backend,
                 "strokes": strokes,
                 "layers": layers,
                 "matched": matched,

@@ -62,7 +62,7 @@ pub(crate) struct Painterly {
     #[arg(long = "loop", value_name = "FRAMES", value_parser = value_parser!(u64).range(1..=100_000),
           conflicts_with = "turntable", help_heading = "Animation")]
     loop_frames: Option<u64>,
-    /// Print JSON: size, strokes, layers, matched, maps, regions, frames, frames_found
+    /// Print JSON: size, backend, strokes, layers, matched, maps, regions, frames, frames_found
     #[arg(long)]
     json: bool,
     #[command(flatten)]
