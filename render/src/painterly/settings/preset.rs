@@ -13,7 +13,7 @@ pub enum Preset {
     Pointillist,
     /// Broad slabs with hard edges.
     Knife,
-    /// Thin long strokes that stand out beyond the form.
+    /// Thin long strokes that lie along the form.
     Fur,
     /// Long strokes that swirl, flow and twinkle.
     Night,
