@@ -305,9 +305,11 @@ fn faults_of_settings_and_guides_are_named() {
 fn given_lines_are_followed_and_spread_where_none_are_given() {
     let mesh = square(400);
     let wanted = Vec3::new(0.6, 0.8, 0.0);
-    let line = |at: &[f32; 3]| Line {
-        along: (wanted * if at[1] > 0.0 { 3.0 } else { -1.0 }).to_array(),
-        weight: if at[0] > 0.3 { 1.0 } else { 0.0 },
+    let line = |at: &[f32; 3]| match at[0] > 0.3 {
+        true => {
+            Line { along: (wanted * if at[1] > 0.0 { 3.0 } else { -1.0 }).to_array(), weight: 1.0 }
+        }
+        false => Line { along: [0.8, -0.6, 0.0], weight: 0.0 },
     };
     let lines: Vec<Line> = mesh.positions.iter().map(line).collect();
     let field = DirectionField::of_lines(&mesh, &lines, &DirectionSettings::default(), &[]);
@@ -336,7 +338,9 @@ fn arrows_take_the_signs_that_are_given_and_others_follow_their_part() {
     let split = field.oriented_by(&both, 1);
     for (vertex, at) in mesh.positions.iter().enumerate() {
         assert!(Vec3::from(split.arrow(vertex)).dot(Vec3::from(both[vertex])) > 0.99);
-        assert!(at[0].abs() > 0.3 || split.strength(vertex) < 1.0, "{at:?}");
+        // Columns are 1/7 apart; one ring of edges on both sides of the cut is weak.
+        let near = (at[0] - 0.07).abs() < 0.25;
+        assert!(!near || split.strength(vertex) < 1.0, "{at:?}");
     }
 }
 
