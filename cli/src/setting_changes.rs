@@ -4,7 +4,7 @@ use crate::failure::{Failure, Result};
 
 /// A change of one setting.
 pub(crate) struct SettingChange {
-    /// What messages call it: the option as it was written.
+    /// Name in messages: the option as it was written.
     pub(crate) name: String,
     /// A line of TOML.
     pub(crate) toml: String,

@@ -20,7 +20,7 @@ use spectra::color::Rgb;
 use spectra::hint::{Explain, Fault, Hint};
 
 use super::paint_tones::Amounts;
-use super::passes::PaintedModel;
+use super::passes::PaintedPicture;
 
 /// Height of a film without relief in mm (as the strokes of a painted photograph).
 const PLAIN_MM: f32 = 0.12;
@@ -126,9 +126,9 @@ impl ColorPaint {
     /// Takes seconds.
     ///
     /// # Errors
-    /// As [`Self::new`]; [`SeparationError::NoPigment`] if the library has no pigment to use.
+    /// Those of [`Self::new`]; [`SeparationError::NoPigment`] if the library has no pigment to use.
     pub fn palette(
-        painted: &PaintedModel,
+        painted: &PaintedPicture,
         library: &PigmentLibrary,
         (ground, lighting): (&GroundSpec, &Lighting),
         settings: &ColorPaintSettings,
@@ -180,8 +180,8 @@ impl ColorPaint {
     /// # Panics
     /// If the colours and heights of `painted` differ in size.
     #[must_use]
-    pub fn amounts(&self, painted: &PaintedModel, film: FilmHeight) -> Field<Amounts> {
-        let PaintedModel { color, height_mm } = painted;
+    pub fn amounts(&self, painted: &PaintedPicture, film: FilmHeight) -> Field<Amounts> {
+        let PaintedPicture { color, height_mm } = painted;
         assert_eq!(color.bounds(), height_mm.bounds(), "colours and heights differ in size");
         let pixels = color.values().par_iter().zip(height_mm.values()).with_min_len(PIXELS);
         let paint = |(&color, &height_mm): (&[f32; 4], &f32)| {

@@ -32,11 +32,11 @@ pub(super) enum Coordinates {
 
 /// Kind of subject.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Subjects {
-    /// Models, whose colours are those without light: tones add the light.
-    Models,
-    /// Pictures, whose colours have their light already.
-    Pictures,
+pub(super) enum SubjectKind {
+    /// A model, whose colours are those without light: tones add the light.
+    Model,
+    /// A picture, whose colours have their light already.
+    Picture,
 }
 
 /// How the maps and the subject make colours.
@@ -44,7 +44,7 @@ pub(super) enum Subjects {
 pub(super) struct Coloring {
     pub(super) coordinates: Coordinates,
     maps: Vec<MapColors>,
-    subjects: Subjects,
+    kind: SubjectKind,
     /// Whether splats add the model's colour.
     of_model: bool,
     pub(super) rgb_from_xyz: [[f32; 3]; 3],
@@ -68,10 +68,10 @@ impl Coloring {
         maps: &[&ArtMap],
         colors: &[(Vec3, f64)],
         settings: &ColorSettings,
-        subjects: Subjects,
+        kind: SubjectKind,
     ) -> Self {
         let of_model = match settings.from {
-            ColorSource::Auto => subjects == Subjects::Pictures,
+            ColorSource::Auto => kind == SubjectKind::Picture,
             from => from == ColorSource::Model,
         };
         let coordinates = match (of_model, settings.space) {
@@ -92,7 +92,7 @@ impl Coloring {
         let mut own = Self {
             coordinates,
             maps: vec![MapColors { mean: Vec3::ZERO, share: Vec3::ONE }; maps.len()],
-            subjects,
+            kind,
             of_model,
             rgb_from_xyz: [0, 1, 2].map(|row| [0, 1, 2].map(|axis| columns[axis][row])),
             white: Lab { lightness: 100.0, a: 0.0, b: 0.0 }
@@ -123,7 +123,7 @@ impl Coloring {
     /// Colour that is taken from the texels of a tile (linear sRGB) of a map: the mean of all its tiles, or
     /// on pictures of this one, since they have their lightness already.
     pub(super) fn mean(&self, map: usize, tile: &Picture) -> Vec3 {
-        if !self.of_model || self.subjects == Subjects::Models {
+        if !self.of_model || self.kind == SubjectKind::Model {
             return self.maps[map].mean;
         }
         let texels: Vec<_> = self.mapped(tile).into_iter().map(|color| (color, 1.0)).collect();
@@ -269,7 +269,7 @@ mod tests {
     fn tones_do_not_change_the_lightness_of_a_picture() {
         let map = map(3);
         let settings = settings(ColorSpace::Cielab);
-        for (subjects, least) in [(Subjects::Models, 5.0), (Subjects::Pictures, 0.0)] {
+        for (subjects, least) in [(SubjectKind::Model, 5.0), (SubjectKind::Picture, 0.0)] {
             let coloring = Coloring::new(&[&map], &[(Vec3::ONE, 1.0)], &settings, subjects);
             let means = [0, 2].map(|tone: usize| {
                 let details = details(&coloring, &map.keys[tone].tile.color);
@@ -289,7 +289,7 @@ mod tests {
         let color = Vec3::new(0.7, 0.4, 0.2);
         for space in [ColorSpace::Cielab, ColorSpace::Yuv] {
             let coloring =
-                Coloring::new(&[&map], &[(color, 1.0)], &settings(space), Subjects::Models);
+                Coloring::new(&[&map], &[(color, 1.0)], &settings(space), SubjectKind::Model);
             let shown = coloring.shown(coloring.of_splat(color));
             assert!(shown.distance(color) < 2e-3, "{space:?}: {shown}");
             let details =
@@ -306,7 +306,8 @@ mod tests {
         let map = map(2);
         let none = ColorSettings { lightness: 2.0, chroma: 0.0, ..settings(ColorSpace::Cielab) };
         let [usual, changed] = [&settings(ColorSpace::Cielab), &none].map(|settings| {
-            let coloring = Coloring::new(&[&map], &[(Vec3::ONE, 1.0)], settings, Subjects::Models);
+            let coloring =
+                Coloring::new(&[&map], &[(Vec3::ONE, 1.0)], settings, SubjectKind::Model);
             details(&coloring, &map.keys[0].tile.color)
         });
         for (usual, changed) in usual.iter().zip(&changed) {
@@ -320,17 +321,18 @@ mod tests {
         let map = map(2);
         let like = ColorSettings { statistics: 1.0, ..settings(ColorSpace::Cielab) };
         let grey = [(Vec3::splat(0.5), 1.0)];
-        let coloring = Coloring::new(&[&map], &grey, &like, Subjects::Models);
+        let coloring = Coloring::new(&[&map], &grey, &like, SubjectKind::Model);
         assert_eq!((coloring.maps[0].share.y, coloring.maps[0].share.z), (0.0, 0.0));
         let mixed = [(Vec3::X, 1.0), (Vec3::Y, 1.0), (Vec3::Z, 1.0)];
-        let coloring = Coloring::new(&[&map], &mixed, &like, Subjects::Models);
+        let coloring = Coloring::new(&[&map], &mixed, &like, SubjectKind::Model);
         assert_eq!(coloring.maps[0].share.y, like.chroma, "never more than asked for");
     }
 
     #[test]
     fn encoding_of_cielab_is_that_of_the_library() {
         let map = map(2);
-        let coloring = Coloring::new(&[&map], &[], &settings(ColorSpace::Cielab), Subjects::Models);
+        let coloring =
+            Coloring::new(&[&map], &[], &settings(ColorSpace::Cielab), SubjectKind::Model);
         for color in [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [0.02, 0.3, 0.7], [0.9, 0.1, 0.4]] {
             let linear = Field::from_values(1, 1, vec![color]);
             let lab = lab_from_linear(&linear).values()[0];

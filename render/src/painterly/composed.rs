@@ -3,11 +3,11 @@
 use graphics::field::Field;
 use rayon::prelude::*;
 
-use super::passes::PaintedModel;
+use super::passes::PaintedPicture;
 
 /// Paints one layer over another of the same size. Heights add up, as a dry layer lies on the one
 /// below.
-pub(super) fn over(mut lower: PaintedModel, upper: &PaintedModel) -> PaintedModel {
+pub(super) fn over(mut lower: PaintedPicture, upper: &PaintedPicture) -> PaintedPicture {
     let colors = lower.color.values_mut().par_iter_mut().zip(upper.color.values());
     colors.for_each(|(lower, upper)| {
         let (share, rest) = (upper[3], lower[3] * (1.0 - upper[3]));
@@ -33,7 +33,7 @@ mod tests {
 
     #[test]
     fn a_layer_covers_what_lies_below_by_its_share() {
-        let one = |color: [f32; 4], height| PaintedModel {
+        let one = |color: [f32; 4], height| PaintedPicture {
             color: Field::filled(1, 1, color),
             height_mm: Field::filled(1, 1, height),
         };

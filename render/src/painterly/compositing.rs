@@ -48,15 +48,15 @@ impl Painter {
     /// (x to the right, y downwards; 0 where there is none).
     ///
     /// # Errors
-    /// As [`Self::paint`]; [`CompositingError::Export`] for pictures that OpenEXR cannot hold.
+    /// Those of [`Self::paint`]; [`CompositingError::Export`] for pictures that OpenEXR cannot hold.
     pub fn exr_frame(
         &mut self,
         camera: &Camera,
         size: (usize, usize),
         seconds: f64,
     ) -> Result<Vec<u8>, CompositingError> {
-        let painted = self.paint(camera, size, seconds)?;
         let (depth, layers) = self.splats(camera, size, seconds)?;
+        let painted = self.picture(depth.clone(), &layers)?;
         let projection = Projection::new(camera, size.0, size.1);
         let [_, _, back] = camera.axes();
         let distance = |index: usize| {

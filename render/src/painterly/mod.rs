@@ -114,7 +114,7 @@ pub use kernels::kernels;
 pub use paint_layer::paint_layer;
 pub use paint_tones::Amounts;
 pub use painter::Painter;
-pub use passes::PaintedModel;
+pub use passes::PaintedPicture;
 pub use picture_form::{FlowPicture, PictureForm};
 pub use picture_view::PictureView;
 pub use regions::{Region, RegionArea, Regions, RegionsError};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::brushwork::Brushwork;
-use super::coloring::{Coloring, Subjects};
+use super::coloring::{Coloring, SubjectKind};
 use super::error::PainterError;
 use super::painter::Painter;
 use super::places::{Detail, Directions, NORMAL_ROUNDS, Surface, colors};
@@ -55,7 +55,7 @@ impl Painter {
     /// directions that strokes must have.
     ///
     /// # Errors
-    /// As [`Self::of_model`]; [`PainterError::Regions`] for regions that the mesh does not have,
+    /// Those of [`Self::of_model`]; [`PainterError::Regions`] for regions that the mesh does not have,
     /// [`PainterError::Directions`] for guides that do not lie on the mesh.
     pub fn of_model_with(
         mesh: &Mesh,
@@ -91,7 +91,7 @@ fn subject(
     let packed = Arc::new(PackedMesh::new(&lit));
     let colors = colors(mesh, &packed);
     let maps = brushwork.art_maps();
-    let coloring = Coloring::new(&maps, &colors, &settings.color, Subjects::Models);
+    let coloring = Coloring::new(&maps, &colors, &settings.color, SubjectKind::Model);
     let lightness = (settings.light.tone == ToneSource::Color).then_some([0.0, 100.0]);
     let (regions, units) = (Arc::new(regions), 2.0 * radius(mesh) / FILLED);
     let surface = |layer: u32| {

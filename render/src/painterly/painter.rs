@@ -21,9 +21,10 @@ use super::device_tones::ToneMemory;
 use super::divided::{Divide, THIN};
 use super::error::PainterError;
 use super::flow::phase;
+use super::joined_paint::PaintOfMapsError;
 use super::offsets::Matching;
 use super::paint_tones::PaintTones;
-use super::passes::{PaintedModel, painted};
+use super::passes::{PaintedPicture, painted};
 use super::roots::Roots;
 use super::settings::{LightWith, Offsets, OverlapSettings, Settings};
 use super::silhouette::outlines;
@@ -54,8 +55,8 @@ pub struct Painter {
     layers: Vec<Layered>,
     tones: Tones,
     settings: Settings,
-    /// The paint of the maps, if they have any.
-    paint: Option<PaintTones>,
+    /// The paint of the maps, if they have any; maps whose paint cannot be joined still have colours.
+    paint: Result<Option<PaintTones>, PaintOfMapsError>,
     /// Films of the subject's own colours.
     film: FilmHeight,
     /// Pigments for them, if not those of the maps' library.
@@ -106,7 +107,7 @@ impl Painter {
             layers.push(Layered { features, roots });
         }
         let bounds = packed.bounds;
-        let paint = PaintTones::new(maps, settings.light.between)?;
+        let paint = PaintTones::new(maps, settings.light.between);
         Ok(Self {
             compute: Compute::cpu(),
             memory: ToneMemory::Host,
@@ -149,8 +150,18 @@ impl Painter {
         camera: &Camera,
         size: (usize, usize),
         seconds: f64,
-    ) -> Result<PaintedModel, PainterError> {
+    ) -> Result<PaintedPicture, PainterError> {
         let (depth, layers) = self.splats(camera, size, seconds)?;
+        self.picture(depth, &layers)
+    }
+
+    /// The picture of these strokes on a subject of this depth.
+    pub(super) fn picture(
+        &mut self,
+        depth: Field<f32>,
+        layers: &[Vec<StrokeSplat>],
+    ) -> Result<PaintedPicture, PainterError> {
+        let size = (depth.width(), depth.height());
         // The processor takes the depth as it is: copies of this size cost milliseconds.
         let depth = match &mut self.compute {
             Compute::Cpu => depth.into(),
@@ -166,14 +177,14 @@ impl Painter {
                 Some(lower) => over(lower, &own),
             });
         }
-        Ok(whole.unwrap_or_else(|| PaintedModel::bare(size)))
+        Ok(whole.unwrap_or_else(|| PaintedPicture::bare(size)))
     }
 
     /// The depth of the subject at each pixel (0 near to 1, nothing), and the strokes of each layer,
     /// the lowest first.
     ///
     /// # Errors
-    /// As [`Self::paint`].
+    /// Those of [`Self::paint`].
     pub fn splats(
         &mut self,
         camera: &Camera,
@@ -226,7 +237,7 @@ impl Painter {
         depth: &GreyImage,
         splats: &[StrokeSplat],
         layer: usize,
-    ) -> Result<PaintedModel, DeviceError> {
+    ) -> Result<PaintedPicture, DeviceError> {
         let (seen, divide) = ((depth, splats), self.divide(layer));
         painted(&mut Compute::cpu(), seen, &divide, &ToneMemory::Host, &self.settings.overlap)
     }
@@ -278,7 +289,7 @@ impl Painter {
     /// The library of pigments for the colours of the subject: the one that was set, that of the
     /// maps, or the Van Gogh oils; and the palette, if one was set.
     pub(super) fn pigments(&self) -> (Arc<PigmentLibrary>, Option<Slots>) {
-        let of_maps = || Some((Arc::clone(&self.paint.as_ref()?.of.library), None));
+        let of_maps = || Some((Arc::clone(&self.paint.as_ref().ok()?.as_ref()?.of.library), None));
         let oils = || (Arc::new(PigmentLibrary::van_gogh_oils()), None);
         self.pigments.clone().or_else(of_maps).unwrap_or_else(oils)
     }
@@ -298,9 +309,9 @@ impl Painter {
         self.layers[0].roots.coloring().of_model()
     }
 
-    /// The paint of the maps.
-    pub(super) fn paint_tones(&self) -> Option<&PaintTones> {
-        self.paint.as_ref()
+    /// The paint of the maps, if they have any.
+    pub(super) fn paint_tones(&self) -> Result<Option<&PaintTones>, PaintOfMapsError> {
+        self.paint.as_ref().map(Option::as_ref).map_err(|error| *error)
     }
 }
 

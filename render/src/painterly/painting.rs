@@ -34,7 +34,8 @@ impl Painter {
     /// distance of its strokes in mm (3 mm where the map does not tell).
     ///
     /// # Errors
-    /// As [`Self::paint`]; [`PainterError::NoPaint`] for the colours of maps without pigments,
+    /// Those of [`Self::paint`]; [`PainterError::NoPaint`] for the colours of maps without pigments,
+    /// [`PainterError::Maps`] for those of maps whose pigments do not go together,
     /// [`PainterError::Colors`] for a library that cannot paint colours,
     /// [`PainterError::Ground`] for a ground that cannot be made.
     pub fn painting(
@@ -72,7 +73,7 @@ impl Painter {
         seconds: f64,
     ) -> Result<Mixed, PainterError> {
         let (depth, layers) = self.splats(camera, size, seconds)?;
-        let Some(paint) = self.paint_tones() else { return Err(PainterError::NoPaint) };
+        let Some(paint) = self.paint_tones()? else { return Err(PainterError::NoPaint) };
         let overlap = &self.settings().overlap;
         let layers = layers.iter().enumerate();
         let layers = layers

@@ -16,14 +16,14 @@ use super::square::Square;
 
 /// A painted picture.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PaintedModel {
+pub struct PaintedPicture {
     /// Encoded sRGB in 0..1, with the share of each pixel that strokes cover.
     pub color: Field<[f32; 4]>,
     /// Height of the brushwork over the canvas in mm; 0 for maps without relief.
     pub height_mm: Field<f32>,
 }
 
-impl PaintedModel {
+impl PaintedPicture {
     /// A picture without strokes.
     pub(super) fn bare((width, height): (usize, usize)) -> Self {
         let color = Field::filled(width, height, [0.0; 4]);
@@ -45,13 +45,13 @@ pub(super) fn painted(
     divide: &Divide<'_>,
     memory: &ToneMemory,
     overlap: &OverlapSettings,
-) -> Result<PaintedModel, DeviceError> {
+) -> Result<PaintedPicture, DeviceError> {
     match compute {
         Compute::Cpu => Ok(painted_on_cpu(depth.host(), splats, divide, overlap)),
         Compute::Gpu(gpu) => {
             let seen = (depth.plane(), splats);
             let (color, height) = painted_on_device(gpu, memory.device(), seen, divide, overlap)?;
-            Ok(PaintedModel { color: gpu.download(&color)?, height_mm: gpu.download(&height)? })
+            Ok(PaintedPicture { color: gpu.download(&color)?, height_mm: gpu.download(&height)? })
         }
     }
 }
@@ -62,7 +62,7 @@ fn painted_on_cpu(
     splats: &[StrokeSplat],
     divide: &Divide<'_>,
     overlap: &OverlapSettings,
-) -> PaintedModel {
+) -> PaintedPicture {
     let Divide { tones, coloring, .. } = *divide;
     let colored = coloring.of_model();
     let (width, height) = (depth.width(), depth.height());
@@ -104,7 +104,7 @@ fn painted_on_cpu(
             }
         }
     });
-    PaintedModel { color, height_mm: relief }
+    PaintedPicture { color, height_mm: relief }
 }
 
 #[cfg(test)]

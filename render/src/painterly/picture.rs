@@ -11,7 +11,7 @@ use graphics::picture::Photograph;
 use graphics::surface::PackedMesh;
 
 use super::brushwork::Brushwork;
-use super::coloring::{Coloring, Subjects};
+use super::coloring::{Coloring, SubjectKind};
 use super::error::PainterError;
 use super::painter::Painter;
 use super::picture_form::PictureForm;
@@ -65,7 +65,7 @@ impl Painter {
     /// form: depth, flow, guides.
     ///
     /// # Errors
-    /// As [`Self::of_picture`]; [`PainterError::Regions`] for regions that pictures cannot have.
+    /// Those of [`Self::of_picture`]; [`PainterError::Regions`] for regions that pictures cannot have.
     pub fn of_picture_with(
         picture: &Photograph,
         brushwork: &Brushwork<'_>,
@@ -107,7 +107,7 @@ fn subject(
         texture.texels.iter().map(color).collect()
     };
     let maps = brushwork.art_maps();
-    let coloring = Coloring::new(&maps, &colors, &settings.color, Subjects::Pictures);
+    let coloring = Coloring::new(&maps, &colors, &settings.color, SubjectKind::Picture);
     let surface = |layer: LayerColors| Surface {
         mesh: Arc::clone(&mesh),
         packed: Arc::new(packed(&mesh, &layer)),

@@ -29,7 +29,7 @@ impl Painter {
     /// upright), their tones and what they paint; the height of the brushwork; and the picture.
     ///
     /// # Errors
-    /// As [`Self::paint`].
+    /// Those of [`Self::paint`].
     pub fn stages(
         &mut self,
         camera: &Camera,

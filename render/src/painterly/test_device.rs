@@ -5,7 +5,7 @@ use std::io::Write;
 use graphics::compute::Compute;
 use graphics::gpu::{BackendChoice, choose};
 
-use super::passes::PaintedModel;
+use super::passes::PaintedPicture;
 
 /// Cover below which a pixel shows nothing in 8 bits, whatever its colour.
 const INVISIBLE: f32 = 1.0 / 255.0;
@@ -28,8 +28,8 @@ pub(super) fn device() -> Option<Compute> {
 
 /// Greatest differences of two pictures: of cover, of encoded colour where it can be seen, and of
 /// height; then the number of pixels whose colour was compared.
-pub(super) fn differences(one: &PaintedModel, other: &PaintedModel) -> ([f32; 3], usize) {
-    let size = |picture: &PaintedModel| (picture.color.width(), picture.color.height());
+pub(super) fn differences(one: &PaintedPicture, other: &PaintedPicture) -> ([f32; 3], usize) {
+    let size = |picture: &PaintedPicture| (picture.color.width(), picture.color.height());
     assert_eq!(size(one), size(other));
     let (mut most, mut compared) = ([0.0_f32; 3], 0);
     for (a, b) in one.color.values().iter().zip(other.color.values()) {

@@ -296,14 +296,14 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
 
 #[cfg(test)]
 mod tests {
-    use super::super::coloring::Subjects;
+    use super::super::coloring::SubjectKind;
     use super::super::made_up::map;
     use super::super::settings::ColorSettings;
     use super::*;
 
     fn tones() -> (ArtMap, Tones) {
         let map = map(3);
-        let coloring = Coloring::new(&[&map], &[], &ColorSettings::default(), Subjects::Models);
+        let coloring = Coloring::new(&[&map], &[], &ColorSettings::default(), SubjectKind::Model);
         let tones = Tones::new(&[&map], Between::Dissolve, &coloring);
         (map, tones)
     }
@@ -328,7 +328,7 @@ mod tests {
         let (map, tones) = tones();
         let texels = tones.texels(0, 0);
         let size = map.size();
-        let coloring = Coloring::new(&[&map], &[], &ColorSettings::default(), Subjects::Models);
+        let coloring = Coloring::new(&[&map], &[], &ColorSettings::default(), SubjectKind::Model);
         let details =
             coloring.details(0, coloring.mean(0, &map.keys[0].tile.color), &map.keys[0].tile.color);
         for (x, y) in [(0, 0), (5, 9), (size - 1, size - 1)] {

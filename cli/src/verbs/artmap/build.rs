@@ -15,7 +15,7 @@ use crate::plain_picture::picture_bytes;
 use crate::progress::Waiting;
 use crate::stages::StageFolder;
 
-/// What patches are compared by.
+/// Properties by which patches are compared.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum ComparedBy {
     /// Strength of edges, lightness, height, a* and b*
@@ -42,7 +42,7 @@ pub(super) struct Build {
     /// strongest contrast]
     #[arg(long, value_name = "NAME")]
     first: Option<String>,
-    /// What patches of different samples are compared by
+    /// Properties by which patches of different samples are compared
     #[arg(long, value_enum, default_value = "tone")]
     features: ComparedBy,
     /// Number of patches of each sample that a patch of the first tile is linked to, 1 to 512

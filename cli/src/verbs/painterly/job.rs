@@ -25,7 +25,7 @@ use crate::stages::StageFolder;
 
 /// A subject, and the pictures of it.
 pub(super) struct Scene {
-    pub(super) what: What,
+    pub(super) subject: SceneSubject,
     /// The cameras of all frames, at least one.
     pub(super) cameras: Vec<Camera>,
     /// Width and height of a picture in pixels.
@@ -34,7 +34,7 @@ pub(super) struct Scene {
 
 /// A subject.
 #[derive(Debug)]
-pub(super) enum What {
+pub(super) enum SceneSubject {
     /// A mesh with its guides.
     Model(Box<Mesh>, Vec<Guide>),
     /// A picture with its form.
@@ -59,13 +59,13 @@ impl Job {
     pub(super) fn paint(self, maps: &Maps, console: &mut Console<'_>) -> Result<Summary> {
         let Self { compute, settings, scene, painting, exports, stages, exr_frames, animation } =
             self;
-        let Scene { what, cameras, size } = scene;
+        let Scene { subject, cameras, size } = scene;
         let brushwork = maps.brushwork();
-        let painter = match &what {
-            What::Model(mesh, guides) => {
+        let painter = match &subject {
+            SceneSubject::Model(mesh, guides) => {
                 Painter::of_model_with(mesh, &brushwork, guides, &settings)?
             }
-            What::Picture(photograph, form) => {
+            SceneSubject::Picture(photograph, form) => {
                 Painter::of_picture_with(photograph, &brushwork, form, &settings)?
             }
         };
@@ -78,7 +78,7 @@ impl Job {
                     .add(&env!("CARGO_PKG_VERSION"))
                     .add(&settings)
                     .add(&cameras)
-                    .add(&what)
+                    .add(&subject)
                     .add(&brushwork)
                     .add(&backend);
                 Some(animation.begin(digest, cameras.len(), size)?)

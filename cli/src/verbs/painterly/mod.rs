@@ -28,7 +28,7 @@ use crate::subject::{Subject, SubjectOptions};
 use brushwork::BrushworkOptions;
 use exr_frames::ExrFrames;
 use form::FormOptions;
-use job::{Job, Scene, What};
+use job::{Job, Scene, SceneSubject};
 use pigments::PigmentOptions;
 use settings::{SettingsOptions, preset_names};
 
@@ -134,10 +134,10 @@ impl Painterly {
 
     /// The subject with the cameras of all frames.
     fn scene(&self, subject: Subject, settings: &Settings) -> Result<Scene> {
-        let (what, cameras, size) = match subject {
+        let (subject, cameras, size) = match subject {
             Subject::Mesh(mesh, cameras, size) => {
                 let guides = self.form.of_model(&mesh)?;
-                (What::Model(mesh, guides), cameras, size)
+                (SceneSubject::Model(mesh, guides), cameras, size)
             }
             Subject::Photograph(photograph, width) => {
                 let (own_width, own_height) = photograph.size();
@@ -147,10 +147,10 @@ impl Painterly {
                 let view = PictureView::of(photograph.size());
                 let turns = self.subject_options.picture_turns()?;
                 let cameras = turns.into_iter().map(|[right, up]| view.turned(right, up));
-                (What::Picture(photograph, form), cameras.collect(), size)
+                (SceneSubject::Picture(photograph, form), cameras.collect(), size)
             }
         };
-        Ok(Scene { what, cameras: self.frames(cameras, settings)?, size })
+        Ok(Scene { subject, cameras: self.frames(cameras, settings)?, size })
     }
 
     /// The cameras of all frames.

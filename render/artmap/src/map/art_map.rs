@@ -63,7 +63,7 @@ impl ArtMap {
     /// ([`key_maps_with_stages`]).
     ///
     /// # Errors
-    /// As [`Self::of`].
+    /// Those of [`Self::of`].
     pub fn with_stages(
         set: &SampleSet,
         settings: &SynthesisSettings,

@@ -34,7 +34,7 @@ pub(crate) struct Prepared {
     /// Its described patches, by level. Those of the others are described as they are needed: they
     /// take the most memory.
     pub(crate) of_first: Vec<Descriptors>,
-    /// What patches are described by, by level.
+    /// Channels that describe patches, for each level.
     spaces: Vec<PatchSpace>,
     /// Width and height of a patch at the finest level, in texels.
     pub(crate) patch: usize,
@@ -79,7 +79,7 @@ impl Prepared {
         self.spaces[level].describe(&self.pyramids[sample][level])
     }
 
-    /// What patches of a sample are compared by at the finest level.
+    /// Channels by which patches of a sample are compared, at the finest level.
     pub(crate) fn features(&self, sample: usize) -> Option<&Field<[f32; FEATURES]>> {
         self.pyramids[sample].last().map(|level| &level.features)
     }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use spectra::hint::{Explain, Fault, Hint};
 
-/// What patches of two samples are compared by.
+/// Properties by which patches of two samples are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Features {
@@ -24,7 +24,7 @@ pub struct SynthesisSettings {
     /// Name of the sample whose map is made first and which the others follow; without it the
     /// sample with the strongest contrast of lightness.
     pub first: Option<String>,
-    /// What patches are compared by.
+    /// Properties by which patches are compared.
     pub features: Features,
     /// Number of links of a patch to each other sample, 1..=512.
     pub links: usize,

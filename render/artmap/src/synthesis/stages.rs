@@ -41,7 +41,7 @@ pub struct Stage {
 /// - `map-1-level-1` and on: the map of the sample at each level.
 ///
 /// # Errors
-/// As [`key_maps`](super::key_maps).
+/// Those of [`key_maps`](super::key_maps).
 pub fn key_maps_with_stages(
     set: &SampleSet,
     settings: &SynthesisSettings,

@@ -51,7 +51,7 @@ fn settings() -> Settings {
 }
 
 /// A wavy sheet with a picture on it, in the brushwork of the made-up map.
-fn painted(texture: Texture) -> PaintedModel {
+fn painted(texture: Texture) -> PaintedPicture {
     let side = 25;
     let at = |index: usize| [index % side, index / side].map(|at| at as f32 / (side - 1) as f32);
     let position = |index| {
@@ -92,14 +92,14 @@ fn texture(width: usize, height: usize, color: impl Fn(f32, f32) -> [f32; 3]) ->
 }
 
 /// Warm and cool colours from dark to light.
-fn made_up() -> PaintedModel {
+fn made_up() -> PaintedPicture {
     painted(texture(64, 48, |u, v| {
         let turn = Vec3::new(0.0, 2.1, 4.2) + 5.0 * u;
         (Vec3::splat(0.15 + 0.65 * v) + 0.12 * turn.map(f32::sin)).to_array()
     }))
 }
 
-fn coffee() -> PaintedModel {
+fn coffee() -> PaintedPicture {
     let picture = Photograph::from_bytes("coffee.jpg", COFFEE).unwrap().on_canvas(160, 120);
     painted(texture(160, 120, |u, v| {
         let linear = picture[((u * 160.0) as usize, (v * 120.0) as usize)];
@@ -130,7 +130,7 @@ fn lab(rgb: [f32; 3]) -> Lab {
 
 /// Mean CIEDE2000 of the document's picture against the colours over the pixels that strokes cover
 /// and whose colour is in gamut, with their number and that of all covered pixels.
-fn difference(painted: &PaintedModel) -> (f64, usize, usize) {
+fn difference(painted: &PaintedPicture) -> (f64, usize, usize) {
     let film = FilmHeight::of(&map(4));
     let document = document(&PAINT.amounts(painted, film));
     let light = Light::named(PAINT.library(), "D65", "1931-2").unwrap();
@@ -225,7 +225,7 @@ fn furrows_keep_the_least_film_and_part_of_a_pixel_has_part_of_the_paint() {
         Field::from_values(3, 1, vec![[0.6, 0.5, 0.3, 1.0], [0.6, 0.5, 0.3, 0.25], [0.0; 4]]);
     let height_mm = Field::from_values(3, 1, vec![0.0, 0.05, 0.0]);
     let film = FilmHeight { mean_mm: 0.1, brushwork_mm: 0.2 };
-    let amounts = PAINT.amounts(&PaintedModel { color, height_mm }, film);
+    let amounts = PAINT.amounts(&PaintedPicture { color, height_mm }, film);
     let total = |x: usize| amounts[(x, 0)].iter().sum::<f32>();
     let [furrow, part, none] = [0, 1, 2].map(total);
     assert!((furrow - 0.03).abs() < 1e-6 && (part - 0.25 * 0.1).abs() < 1e-6, "{furrow} {part}");
@@ -247,7 +247,7 @@ fn a_palette_is_chosen_for_the_colours_of_the_picture() {
     let library = PigmentLibrary::van_gogh_oils();
     let color = |at: usize| [0.75, 0.2 + 0.01 * at as f32, 0.1, 1.0];
     let colors: Vec<[f32; 4]> = (0..30).map(color).chain([[0.0; 4]; 30]).collect();
-    let painted = PaintedModel {
+    let painted = PaintedPicture {
         color: Field::from_values(60, 1, colors),
         height_mm: Field::filled(60, 1, 0.0),
     };

@@ -12,6 +12,7 @@ use rayon::ThreadPoolBuilder;
 
 use super::super::amounts::amounts;
 use super::super::made_up::map;
+use super::super::regions::{Region, RegionArea, Regions};
 use super::*;
 
 /// Slot of the pigment of the map.
@@ -90,7 +91,7 @@ fn totals_of_a_painting_are_those_of_sums_in_double_precision() {
     let mut painter = Painter::of_model(&mesh, &map, &settings()).unwrap();
     let (depth, splats) = painter.splats(&camera, (96, 72), 0.0).unwrap();
     let overlap = &painter.settings().overlap;
-    let (divide, paint) = (painter.divide(0), painter.paint_tones().unwrap());
+    let (divide, paint) = (painter.divide(0), painter.paint_tones().unwrap().unwrap());
     let sums = amounts(&depth, &splats[0], &divide, paint, overlap);
     let wanted: f64 = sums.values().iter().map(|amounts| f64::from(amounts[SLOT])).sum();
     let document = painting(&map, &settings()).unwrap();
@@ -133,4 +134,23 @@ fn colours_of_the_model_are_mixed_of_a_palette_that_suits_them_layer_by_layer() 
     assert!(above > 0 && above < below, "{above} over {below}");
     // Ten pixels of the reference to 3 mm, in a picture of a tenth of its size.
     assert!((document.cell_mm / 3.125 - 1.0).abs() < 1e-6, "{}", document.cell_mm);
+}
+
+#[test]
+fn maps_of_different_libraries_paint_pictures_but_not_with_their_pigments() {
+    let (first, mut second) = (painted_map(), painted_map());
+    let mut other = PigmentLibrary::van_gogh_oils();
+    other.title = "another".into();
+    second.paint.as_mut().unwrap().library = Arc::new(other);
+    let area = RegionArea::Material("fruit".to_owned());
+    let region = Region { map: Some("b".to_owned()), ..Region::new("fruit", area) };
+    let regions = Regions { list: vec![region], ..Regions::default() };
+    let brushwork = Brushwork { maps: vec![("a", &first), ("b", &second)], regions };
+    let mesh = Mesh::still_life(3000);
+    let camera = Framing::default().fit(&mesh.positions);
+    let mut painter = Painter::of_model_with(&mesh, &brushwork, &[], &settings()).unwrap();
+    assert!(painter.paint(&camera, (40, 30), 0.0).is_ok());
+    let ground = GroundKind::Panel.spec(1);
+    let error = painter.painting(&camera, (40, 30), 0.0, ("a", &ground)).unwrap_err();
+    assert!(matches!(error, PainterError::Maps(_)), "{error}");
 }

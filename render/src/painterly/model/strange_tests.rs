@@ -7,7 +7,7 @@ use graphics::mesh::{GridSize, Material, SampleModel, Triangle};
 use spectra::hint::Explain;
 
 use super::super::made_up::map;
-use super::super::passes::PaintedModel;
+use super::super::passes::PaintedPicture;
 use super::tests::flat;
 use super::*;
 
@@ -29,7 +29,7 @@ fn camera(mesh: &Mesh) -> Camera {
 fn covered(mesh: &Mesh, camera: &Camera) -> [usize; 2] {
     let mut painter = painter(mesh).unwrap();
     let (depth, _) = painter.splats(camera, SIZE, 0.0).unwrap();
-    let PaintedModel { color, height_mm } = painter.paint(camera, SIZE, 0.0).unwrap();
+    let PaintedPicture { color, height_mm } = painter.paint(camera, SIZE, 0.0).unwrap();
     assert!(color.values().iter().flatten().all(|value| (0.0..=1.0).contains(value)));
     assert!(height_mm.values().iter().all(|height| height.is_finite()));
     let seen: Vec<bool> = depth.values().iter().map(|depth| *depth < 1.0).collect();

@@ -17,7 +17,7 @@ use graphics::field::Field;
 use graphics::surface::Model;
 
 use super::super::made_up::{SPACING, map};
-use super::super::passes::PaintedModel;
+use super::super::passes::PaintedPicture;
 use super::super::settings::{ColorSource, LightWith, Offsets};
 use super::super::splat::StrokeSplat;
 use super::*;
@@ -176,7 +176,7 @@ fn a_picture_has_the_same_bits_on_any_number_of_threads_and_again() {
     let pictures = [1, 2, 5].map(|threads| {
         rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(paint)
     });
-    let bits = |picture: &PaintedModel| -> Vec<u32> {
+    let bits = |picture: &PaintedPicture| -> Vec<u32> {
         let color = picture.color.values().iter().flatten();
         color.chain(picture.height_mm.values()).map(|value| value.to_bits()).collect()
     };

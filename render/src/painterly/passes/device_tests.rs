@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::hint::Explain;
 
-use super::super::coloring::{Coloring, Subjects};
+use super::super::coloring::{Coloring, SubjectKind};
 use super::super::divided::THIN;
 use super::super::made_up::{map, splat};
 use super::super::settings::{ColorSettings, ColorSource, ColorSpace};
@@ -25,7 +25,7 @@ impl Laid {
     fn new(map: &ArtMap, from: ColorSource, space: ColorSpace) -> Self {
         let colors = [(Vec3::new(0.6, 0.3, 0.2), 1.0), (Vec3::new(0.1, 0.4, 0.7), 2.0)];
         let settings = ColorSettings { from, space, ..ColorSettings::default() };
-        let coloring = Coloring::new(&[map], &colors, &settings, Subjects::Models);
+        let coloring = Coloring::new(&[map], &colors, &settings, SubjectKind::Model);
         Self { tones: Tones::new(&[map], Between::Blend, &coloring), coloring }
     }
 
@@ -39,7 +39,7 @@ impl Laid {
         (depth, splats): (&Field<f32>, &[StrokeSplat]),
         thin: f32,
         overlap: &OverlapSettings,
-    ) -> PaintedModel {
+    ) -> PaintedPicture {
         let Self { tones, coloring } = self;
         let divide = Divide { tones, coloring, overhang: overlap.overhang, thin };
         let memory = ToneMemory::new(compute, tones, coloring).unwrap();
@@ -54,7 +54,7 @@ impl Laid {
         seen: (&Field<f32>, &[StrokeSplat]),
         thin: f32,
         overlap: &OverlapSettings,
-    ) -> PaintedModel {
+    ) -> PaintedPicture {
         let own = self.paint(&mut Compute::cpu(), seen, thin, overlap);
         let others = self.paint(gpu, seen, thin, overlap);
         let ([cover, color, height], compared) = differences(&own, &others);

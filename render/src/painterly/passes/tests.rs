@@ -1,4 +1,4 @@
-use super::super::coloring::{Coloring, Subjects};
+use super::super::coloring::{Coloring, SubjectKind};
 use super::super::divided::THIN;
 use super::super::made_up::{map, splat};
 use super::super::settings::{ColorSettings, ColorSource};
@@ -9,7 +9,7 @@ use artmap::map::Between;
 fn laid_out(from: ColorSource) -> (Tones, Coloring) {
     let map = map(1);
     let settings = ColorSettings { from, ..ColorSettings::default() };
-    let coloring = Coloring::new(&[&map], &[], &settings, Subjects::Models);
+    let coloring = Coloring::new(&[&map], &[], &settings, SubjectKind::Model);
     (Tones::new(&[&map], Between::Blend, &coloring), coloring)
 }
 
@@ -19,7 +19,7 @@ fn shown(
     splats: &[StrokeSplat],
     (tones, coloring): (&Tones, &Coloring),
     overlap: &OverlapSettings,
-) -> PaintedModel {
+) -> PaintedPicture {
     let divide = Divide { tones, coloring, overhang: overlap.overhang, thin: THIN };
     painted_on_cpu(depth, splats, &divide, overlap)
 }

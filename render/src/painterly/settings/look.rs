@@ -26,6 +26,7 @@ pub enum ToneSource {
     /// Light.
     Light,
     /// The lightness of the subject's own colour.
+    #[serde(rename = "colour")]
     Color,
 }
 

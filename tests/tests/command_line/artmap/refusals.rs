@@ -1,4 +1,4 @@
-//! What `impasto artmap sample` refuses: exit status, place and way out.
+//! Refusals of `impasto artmap sample`: exit status, place and way out.
 
 use render::export::png8;
 use render::field::Field;

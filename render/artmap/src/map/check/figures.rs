@@ -39,8 +39,8 @@ pub struct KeyFigures {
     pub stroke_length: f64,
     /// Correlation of its detail with that of the first tile, -1 to 1; 1 for the first tile.
     pub coherence: f64,
-    /// The same with the next tile on the way to the first one. In line art strokes are added from
-    /// tone to tone, so that only neighbours agree.
+    /// Correlation of its detail with that of the neighbouring tile on the side of the first one,
+    /// -1 to 1. In line art strokes are added from tone to tone, so that only neighbours agree.
     pub neighbour_coherence: f64,
     /// Steps of L* across the borders over those within the tile; 1 where no seam shows.
     pub wrap_ratio: f64,

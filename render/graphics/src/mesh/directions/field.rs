@@ -79,10 +79,10 @@ impl DirectionField {
     /// decide. Vertices with a guide have its direction.
     ///
     /// # Errors
-    /// As [`Self::of_curvature`].
+    /// Those of [`Self::of_curvature`].
     ///
     /// # Panics
-    /// As [`Self::of_curvature`], or if there are fewer lines than vertices.
+    /// Those of [`Self::of_curvature`], or if there are fewer lines than vertices.
     pub fn of_lines(
         mesh: &Mesh,
         lines: &[Line],
