@@ -259,12 +259,14 @@ impl Painter {
         (camera.eye - (low + high) / 2.0).dot(back).max(camera.near)
     }
 
-    /// Whether the camera may see the subject from inside: it stands in the bounding box, or so
-    /// close that the near plane may cut it.
-    fn holds(&self, camera: &Camera) -> bool {
+    /// Whether the camera may see the subject from inside: a corner of the bounding box lies before
+    /// its near plane, or behind the eye.
+    pub(super) fn holds(&self, camera: &Camera) -> bool {
         let [low, high] = self.bounds;
-        let (low, high) = (low - camera.near, high + camera.near);
-        camera.eye.cmpge(low).all() && camera.eye.cmple(high).all()
+        let [_, _, back] = camera.axes();
+        // The corner nearest along the viewing direction.
+        let nearest = Vec3::select(back.cmpge(Vec3::ZERO), high, low);
+        (camera.eye - nearest).dot(back) <= camera.near
     }
 
     /// The settings.

@@ -155,3 +155,20 @@ fn a_large_mesh_is_painted() {
     assert!(mesh.triangles.len() > triangles * 9 / 10);
     assert_covered(&mesh, &camera(&mesh), 1000);
 }
+
+#[test]
+fn cameras_around_a_model_see_it_from_outside() {
+    for shape in [SampleModel::TorusKnot, SampleModel::StillLife] {
+        let mesh = shape.mesh(3000);
+        let painter = Painter::of_model(&mesh, &map(1), &Settings::default()).unwrap();
+        let framing = Framing::default();
+        for camera in framing.fit_turntable(&mesh.positions, 24) {
+            assert!(!painter.holds(&camera), "{}: {camera:?}", shape.name());
+        }
+        let camera = framing.fit(&mesh.positions);
+        let near = Camera { near: (camera.eye - camera.target).length(), ..camera };
+        assert!(painter.holds(&near), "the near plane cuts it");
+        let inside = Camera { eye: camera.target + 0.01 * (camera.eye - camera.target), ..camera };
+        assert!(painter.holds(&inside), "the eye is inside");
+    }
+}
