@@ -42,6 +42,7 @@ pub use graphics::{
 };
 pub use paint::{self, amount, composite, layer, light, node_pigments, optics, separation, shade};
 pub use paint::{BrushSpec, Canvas, HeadShape, OpenStroke, PaintingSession, Sample, StrokeScript};
+pub use volumes;
 
 /// Files of pictures, animations and paintings for other programs.
 pub mod export {
