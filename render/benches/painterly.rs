@@ -11,7 +11,7 @@ use render::artmap::map::ArtMap;
 use render::artmap::painted::{PaintedSettings, Style, painted_samples};
 use render::artmap::sample::PaintOfSamples;
 use render::artmap::synthesis::SynthesisSettings;
-use render::camera::{Camera, Framing};
+use render::camera::{Camera, Framing, PictureView};
 use render::export::frame_png;
 use render::field::Field;
 use render::mesh::{Mesh, SampleModel};
@@ -20,7 +20,7 @@ use render::paint::ground::GroundKind;
 use render::paint::light::Light;
 use render::paint::scene::{picture, scene};
 use render::painterly::{
-    ColorPaint, ColorPaintSettings, FilmHeight, Painter, PictureView, Settings, paint_layer,
+    ColorPaint, ColorPaintSettings, FilmHeight, Painter, Settings, paint_layer,
 };
 use render::picture::Photograph;
 

@@ -97,8 +97,6 @@ mod model;
 
 mod picture_form;
 
-mod picture_view;
-
 mod picture_layers;
 
 mod picture;
@@ -116,7 +114,6 @@ pub use paint_tones::Amounts;
 pub use painter::Painter;
 pub use passes::PaintedPicture;
 pub use picture_form::{FlowPicture, PictureForm};
-pub use picture_view::PictureView;
 pub use regions::{Region, RegionArea, Regions, RegionsError};
 pub use settings::{
     ColorSettings, ColorSource, ColorSpace, FlowSettings, LayerSettings, LightSettings, LightWith,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use artmap::map::ArtMap;
 use glam::{Vec2, Vec3};
+use graphics::camera::PictureView;
 use graphics::field::Field;
 use graphics::mesh::{DirectionField, DirectionSettings, GridSize, Guide, Line, Material, Mesh};
 use graphics::orientation::OrientationField;
@@ -16,7 +17,6 @@ use super::error::PainterError;
 use super::painter::Painter;
 use super::picture_form::PictureForm;
 use super::picture_layers::{LayerColors, layer_colors};
-use super::picture_view::PictureView;
 use super::places::{Detail, Directions, NORMAL_ROUNDS, Surface, interpolated};
 use super::regions::{RegionMap, Regions};
 use super::settings::{Settings, ToneSource};
@@ -40,7 +40,8 @@ impl Painter {
     ///
     /// ```
     /// use render::artmap::map::ArtMap;
-    /// use render::painterly::{Painter, PictureView, Settings};
+    /// use render::camera::PictureView;
+    /// use render::painterly::{Painter, Settings};
     /// use render::picture::Photograph;
     /// # fn example(map: &ArtMap, photograph: &Photograph) -> Result<(), Box<dyn std::error::Error>> {
     /// let mut painter = Painter::of_picture(photograph, map, &Settings::default())?;

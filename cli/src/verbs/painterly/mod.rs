@@ -15,8 +15,8 @@ mod job;
 use std::path::PathBuf;
 
 use clap::{Args, value_parser};
-use render::camera::Camera;
-use render::painterly::{PictureView, Preset, Settings};
+use render::camera::{Camera, PictureView};
+use render::painterly::{Preset, Settings};
 
 use crate::animation::{Animation, AnimationOptions};
 use crate::console::Console;

@@ -1,4 +1,4 @@
-use graphics::camera::Camera;
+use graphics::camera::{Camera, PictureView};
 use graphics::encoding::lab_from_linear;
 use graphics::export::frame_png;
 use graphics::picture::Picture;

@@ -13,5 +13,7 @@ mod village;
 
 mod named;
 
+mod photograph;
+
 pub use grid::GridSize;
 pub use named::SampleModel;

@@ -1,7 +1,7 @@
 //! Cameras that see a picture.
 
+use super::perspective::Camera;
 use glam::{Vec2, Vec3};
-use graphics::camera::Camera;
 
 /// Vertical angle of view of the camera that sees exactly the picture.
 const VIEW_DEG: f32 = 25.0;
@@ -44,13 +44,15 @@ impl PictureView {
         }
     }
 
-    /// Width and height in units.
-    pub(super) fn sides(&self) -> Vec2 {
+    /// Width and height in units; the longer is 1.
+    #[must_use]
+    pub fn sides(&self) -> Vec2 {
         self.sides
     }
 
     /// Distance of the eye from the plane.
-    pub(super) fn distance(&self) -> f32 {
+    #[must_use]
+    pub fn distance(&self) -> f32 {
         0.5 * self.sides.y / (0.5 * VIEW_DEG).to_radians().tan()
     }
 }
