@@ -1,35 +1,67 @@
-//! OpenEXR files of a single part, made from planes of values.
+//! OpenEXR files of one or several parts, made from planes of values.
 
 use std::io::Cursor;
 
 use exr::image::write::WritableImage;
-use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
+use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, Layers};
 use exr::math::Vec2;
 use exr::meta::attribute::Chromaticities;
-use exr::meta::header::LayerAttributes;
+use exr::meta::attribute::IntegerBounds;
+use exr::meta::header::{ImageAttributes, LayerAttributes};
 use spectra::color::RgbSpace;
 
 use super::error::{ExportError, check_cell, check_size};
 
+/// A part of an OpenEXR file: its name, and channels with their samples row by row.
+pub type ExrPart = (String, Vec<(String, FlatSamples)>);
+
 /// Encodes named channels (samples row by row) with the primaries of sRGB; a pixel is
 /// `cell_mm` wide.
 pub fn exr_file(
-    (width, height): (usize, usize),
+    size: (usize, usize),
     cell_mm: f64,
     channels: Vec<(String, FlatSamples)>,
     attributes: LayerAttributes,
 ) -> Result<Vec<u8>, ExportError> {
+    encoded(size, cell_mm, vec![(attributes, channels)])
+}
+
+/// Encodes parts of one size, each with named channels, as one OpenEXR file with the primaries of
+/// sRGB; a pixel is `cell_mm` wide.
+///
+/// # Errors
+/// [`ExportError`] for an empty picture, a pixel size out of range, and parts that have no name of
+/// their own.
+pub fn exr_parts(
+    size: (usize, usize),
+    cell_mm: f64,
+    parts: Vec<ExrPart>,
+) -> Result<Vec<u8>, ExportError> {
+    let named = |(name, channels): ExrPart| (LayerAttributes::named(name.as_str()), channels);
+    encoded(size, cell_mm, parts.into_iter().map(named).collect())
+}
+
+fn encoded(
+    (width, height): (usize, usize),
+    cell_mm: f64,
+    parts: Vec<(LayerAttributes, Vec<(String, FlatSamples)>)>,
+) -> Result<Vec<u8>, ExportError> {
     check_size(width, height)?;
     check_cell(cell_mm)?;
-    let channels =
-        channels.into_iter().map(|(name, samples)| AnyChannel::new(name.as_str(), samples));
-    let attributes =
-        LayerAttributes { horizontal_density: Some((25.4 / cell_mm) as f32), ..attributes };
-    let channels = AnyChannels::sort(channels.collect());
-    let layer = Layer::new((width, height), attributes, Encoding::SMALL_LOSSLESS, channels);
-    let mut image = Image::from_layer(layer);
-    image.attributes.chromaticities = Some(chromaticities());
+    let layer = |(attributes, channels): (LayerAttributes, Vec<(String, FlatSamples)>)| {
+        let channels =
+            channels.into_iter().map(|(name, samples)| AnyChannel::new(name.as_str(), samples));
+        let attributes =
+            LayerAttributes { horizontal_density: Some((25.4 / cell_mm) as f32), ..attributes };
+        let channels = AnyChannels::sort(channels.collect());
+        Layer::new((width, height), attributes, Encoding::SMALL_LOSSLESS, channels)
+    };
+    let layers: Layers<_> = parts.into_iter().map(layer).collect();
+    let window = IntegerBounds::from_dimensions((width, height));
+    let mut attributes = ImageAttributes::new(window);
+    attributes.chromaticities = Some(chromaticities());
     let mut bytes = Vec::new();
+    let image = Image::from_layers(attributes, layers);
     let written = image.write().to_buffered(Cursor::new(&mut bytes));
     written
         .map_err(|error| ExportError::Encoder { format: "OpenEXR", reason: error.to_string() })?;
@@ -47,4 +79,37 @@ fn chromaticities() -> Chromaticities {
     let column = |j: usize| at([columns[0][j], columns[1][j], columns[2][j]]);
     let white = at(space.white().to_array());
     Chromaticities { red: column(0), green: column(1), blue: column(2), white }
+}
+
+#[cfg(test)]
+mod tests {
+    use exr::prelude::{ReadChannels, ReadLayers, read};
+
+    use super::*;
+
+    #[test]
+    fn parts_keep_their_names_channels_and_values() {
+        let plane = |value: f32| FlatSamples::F32(vec![value; 6]);
+        let parts = vec![
+            ("color".to_owned(), vec![("R".to_owned(), plane(0.25)), ("B".to_owned(), plane(2.0))]),
+            ("count".to_owned(), vec![("sky".to_owned(), plane(300.0))]),
+        ];
+        let bytes = exr_parts((3, 2), 0.5, parts).unwrap();
+        let image = read().no_deep_data().largest_resolution_level().all_channels().all_layers();
+        let image = image.all_attributes().from_buffered(Cursor::new(bytes)).unwrap();
+        let names: Vec<String> = image
+            .layer_data
+            .iter()
+            .map(|layer| layer.attributes.layer_name.as_ref().unwrap().to_string())
+            .collect();
+        assert_eq!(names, ["color", "count"]);
+        let channel = |part: usize, index: usize| {
+            let channel = &image.layer_data[part].channel_data.list[index];
+            (channel.name.to_string(), channel.sample_data.values_as_f32().next().unwrap())
+        };
+        assert_eq!([channel(0, 0), channel(0, 1)], [("B".into(), 2.0), ("R".into(), 0.25)]);
+        assert_eq!(channel(1, 0), ("sky".into(), 300.0));
+        let twice = vec![("a".to_owned(), vec![]), ("a".to_owned(), vec![])];
+        assert!(exr_parts((3, 2), 0.5, twice).is_err());
+    }
 }

@@ -1,5 +1,5 @@
-//! Picture files for other programs: PNG, linear OpenEXR, frames and animations (GIF,
-//! APNG).
+//! Picture files for other programs: PNG, linear OpenEXR and OpenEXR of several
+//! parts, PLY, frames and animations (GIF, APNG).
 //!
 //! The functions take plain data and return bytes, the same bytes for the same data; the
 //! caller writes the files. Only [`Sequence`] works on a folder.
@@ -11,6 +11,8 @@ mod exr_part;
 mod linear_exr;
 
 mod png;
+
+mod ply;
 
 mod picture_file;
 
@@ -25,9 +27,10 @@ mod sequence;
 pub use animation::{Apng, Gif};
 pub use color_table::ColorTable;
 pub use error::{ExportError, check_cell, check_size};
-pub use exr_part::exr_file;
+pub use exr_part::{ExrPart, exr_file, exr_parts};
 pub use frame::{Frame, FrameError, FrameRate, frame_of, frame_png, read_frame};
 pub use linear_exr::{float_exr, linear_exr, rgb_channels};
 pub use picture_file::{OutsideGamut, PictureFile, PictureFormat, picture_file};
+pub use ply::ply;
 pub use png::{Png, grey16, png8, png16};
 pub use sequence::{Sequence, SequenceError, SequenceSettings};
