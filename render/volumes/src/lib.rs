@@ -12,3 +12,8 @@
 pub mod sphere_mesh;
 
 pub mod volume;
+
+#[cfg(test)]
+mod test_volumes;
+
+pub mod containing;
