@@ -17,3 +17,5 @@ pub mod volume;
 mod test_volumes;
 
 pub mod containing;
+
+pub mod pigments;
