@@ -1,5 +1,11 @@
 //! Volumes as films of measured pigments: how high each pigment stands at a visible point, and the
 //! painting that these films make over a drawing of the scene.
+//!
+//! ```text
+//! volumes, samples of the surface -> films -> heights of pigments at each pixel --+
+//!                                                                                 |
+//! grey or colour of the scene, ink -> grisaille or own colours, hatching ---------+-> painting, picture
+//! ```
 
 mod lattice;
 
@@ -9,7 +15,30 @@ mod wetted;
 
 mod film;
 
+mod materials;
+
+mod tones;
+
+mod grisaille;
+
+mod pencil;
+
+mod own_colors;
+
+mod drawing;
+
+mod painter;
+
+mod view;
+
+pub use drawing::{Drawing, InsidePaint, UnderPainting};
 pub use film::{Film, FilmHeights, FilmScale, FilmSum};
 pub use film_profile::FilmProfile;
+pub use grisaille::Grisaille;
 pub use lattice::{SampleLattice, SampledSurface};
+pub use materials::{FilmMaterial, FilmPaintError};
+pub use own_colors::OwnColors;
+pub use painter::{FilmPainter, FilmPainterSettings};
+pub use pencil::Pencil;
+pub use view::FilmView;
 pub use wetted::Wetted;
