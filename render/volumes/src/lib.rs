@@ -18,4 +18,6 @@ mod test_volumes;
 
 pub mod containing;
 
+pub mod wetting;
+
 pub mod pigments;
