@@ -18,6 +18,8 @@ mod test_volumes;
 
 pub mod containing;
 
+pub mod surfaces;
+
 pub mod wetting;
 
 pub mod pigments;

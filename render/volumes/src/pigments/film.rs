@@ -78,12 +78,14 @@ impl Film {
     }
 
     /// Heights at a place on a surface with this normal, if the volume holds the place: a function
-    /// of volume and place alone.
+    /// of volume and place alone. None beyond the reach of the volume, and on surfaces that face
+    /// away.
     #[must_use]
     #[inline]
-    pub fn at(&self, place: Vec3, normal: Vec3) -> FilmHeights {
+    pub fn at(&self, place: Vec3, normal: Vec3) -> Option<FilmHeights> {
         let share = self.wetted.relative_height(&self.profile, place, normal);
-        FilmHeights(self.heights.map(|height| (height * share + 0.5) as i32))
+        let heights = || self.heights.map(|height| (height * share + 0.5) as i32);
+        (share > 0.0).then(|| FilmHeights(heights()))
     }
 }
 
@@ -154,8 +156,9 @@ impl FilmSum<'_> {
     pub fn at(&self, place: Vec3, normal: Vec3) -> FilmHeights {
         let mut sum = FilmHeights::default();
         for (film, inside) in self.films.iter().zip(self.insides) {
-            let heights = film.at(place, normal);
-            if heights != FilmHeights::default() && inside.holds(place) {
+            if let Some(heights) = film.at(place, normal)
+                && inside.holds(place)
+            {
                 sum.add(&heights, 1);
             }
         }

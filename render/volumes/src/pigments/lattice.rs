@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::wetting::SurfaceSamples;
+
 /// Even samples of the surface of a scene. All slices have the same length.
 #[derive(Debug, Clone, Copy)]
 pub struct SampledSurface<'a> {
@@ -11,6 +13,13 @@ pub struct SampledSurface<'a> {
     pub normals: &'a [Vec3],
     /// Area that each sample stands for, in the unit of the scene squared.
     pub areas: &'a [f32],
+}
+
+impl<'a> From<&'a SurfaceSamples> for SampledSurface<'a> {
+    fn from(samples: &'a SurfaceSamples) -> Self {
+        let SurfaceSamples { places, normals, areas, .. } = samples;
+        Self { places, normals, areas }
+    }
 }
 
 /// The samples of a surface sorted into cubes, so that those near a place are found quickly.

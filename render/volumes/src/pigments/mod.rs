@@ -15,6 +15,12 @@ mod wetted;
 
 mod film;
 
+mod seen;
+
+mod on_surface;
+
+mod through;
+
 mod materials;
 
 mod tones;
@@ -37,8 +43,11 @@ pub use film_profile::FilmProfile;
 pub use grisaille::Grisaille;
 pub use lattice::{SampleLattice, SampledSurface};
 pub use materials::{FilmMaterial, FilmPaintError};
+pub use on_surface::FilmOnSurface;
 pub use own_colors::OwnColors;
 pub use painter::{FilmPainter, FilmPainterSettings};
 pub use pencil::Pencil;
+pub use seen::{Facets, SeenPlaces};
+pub use through::{Density, FilmThrough, enclosed};
 pub use view::FilmView;
 pub use wetted::Wetted;
