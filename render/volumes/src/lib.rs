@@ -13,6 +13,17 @@ pub mod sphere_mesh;
 
 pub mod volume;
 
+#[cfg(test)]
+mod test_volumes;
+
+pub mod containing;
+
+pub mod surfaces;
+
+pub mod wetting;
+
+pub mod pigments;
+
 pub mod toml_text;
 
 pub mod settings;
