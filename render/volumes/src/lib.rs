@@ -16,3 +16,5 @@ pub mod volume;
 pub mod toml_text;
 
 pub mod settings;
+
+pub mod script;
