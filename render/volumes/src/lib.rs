@@ -27,3 +27,5 @@ pub mod pigments;
 pub mod toml_text;
 
 pub mod settings;
+
+pub mod script;

@@ -69,12 +69,12 @@ impl<'t> Source<'t> {
     }
 
     fn explained(&self, error: &toml::de::Error) -> TextError {
-        let offset = error.span().map_or(0, |span| span.start);
+        let bytes = error.span().unwrap_or(0..self.text.len());
         let (reason, hint) = explained(error.message());
         TextError::Syntax {
             file: self.file.to_owned(),
-            line: line_of(self.text, offset),
-            key: path_at(&self.table, offset),
+            line: line_of(self.text, bytes.start),
+            key: path_at(&self.table, &bytes),
             reason,
             hint,
         }

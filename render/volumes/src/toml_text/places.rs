@@ -37,34 +37,33 @@ pub(super) fn offset_of(table: &Spanned<DeTable<'_>>, path: &KeyPath) -> usize {
     offset
 }
 
-/// The path of the innermost key or value whose text holds the byte `offset`.
-pub(super) fn path_at(table: &Spanned<DeTable<'_>>, offset: usize) -> Option<KeyPath> {
-    in_table(table.get_ref(), &KeyPath::default(), offset)
+/// The path of the innermost key or value whose text holds these bytes.
+pub(super) fn path_at(table: &Spanned<DeTable<'_>>, bytes: &Range<usize>) -> Option<KeyPath> {
+    in_table(table.get_ref(), &KeyPath::default(), bytes)
 }
 
-fn in_table(table: &DeTable<'_>, path: &KeyPath, offset: usize) -> Option<KeyPath> {
+fn in_table(table: &DeTable<'_>, path: &KeyPath, bytes: &Range<usize>) -> Option<KeyPath> {
     // A table may reach over lines outside of its own span, so every value is searched.
-    let inner = table.iter().find_map(|(key, value)| {
-        in_value(value, &path.key(key.get_ref()), offset)
-            .or_else(|| holds(&key.span(), offset).then(|| path.key(key.get_ref())))
-    });
-    inner
+    table.iter().find_map(|(key, value)| {
+        in_value(value, &path.key(key.get_ref()), bytes)
+            .or_else(|| holds(&key.span(), bytes).then(|| path.key(key.get_ref())))
+    })
 }
 
-fn in_value(value: &Spanned<DeValue<'_>>, path: &KeyPath, offset: usize) -> Option<KeyPath> {
+fn in_value(value: &Spanned<DeValue<'_>>, path: &KeyPath, bytes: &Range<usize>) -> Option<KeyPath> {
     let inner = match value.get_ref() {
-        DeValue::Table(table) => in_table(table, path, offset),
+        DeValue::Table(table) => in_table(table, path, bytes),
         DeValue::Array(list) => {
             let mut values = list.iter().enumerate();
-            values.find_map(|(index, value)| in_value(value, &path.index(index), offset))
+            values.find_map(|(index, value)| in_value(value, &path.index(index), bytes))
         }
         _ => None,
     };
-    inner.or_else(|| holds(&value.span(), offset).then(|| path.clone()))
+    inner.or_else(|| holds(&value.span(), bytes).then(|| path.clone()))
 }
 
-fn holds(span: &Range<usize>, offset: usize) -> bool {
-    span.contains(&offset)
+fn holds(span: &Range<usize>, bytes: &Range<usize>) -> bool {
+    !bytes.is_empty() && span.start <= bytes.start && bytes.end <= span.end
 }
 
 #[cfg(test)]
@@ -86,7 +85,7 @@ mod tests {
         ] {
             let offset = offset_of(&table, &path);
             assert_eq!(line_of(TEXT, offset), line, "{path}");
-            assert_eq!(path_at(&table, offset), Some(path.clone()), "{path}");
+            assert_eq!(path_at(&table, &(offset..offset + 1)), Some(path.clone()), "{path}");
         }
         let missing = offset_of(&table, &pour.index(1).key("radius"));
         assert_eq!(line_of(TEXT, missing), 5);
