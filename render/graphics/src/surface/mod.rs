@@ -23,7 +23,10 @@ mod model;
 mod inside;
 
 pub use bands::Sides;
-pub use inside::{Count, Crossing, CrossingSum, Crossings, WeighedCount};
+pub use inside::{
+    ADD_STENCIL, ClosedSurfaces, Count, Crossing, CrossingSum, Crossings, InsideCounter,
+    STENCIL_FACES, WEIGHED_FACES, WeighedCount,
+};
 pub use model::{DeviceModel, HostModel, Model};
 pub use packed::{PackedMaterial, PackedMesh, Positioned, Vertex};
 pub use raster::{RASTER, RasterParams, Rasteriser, visible};

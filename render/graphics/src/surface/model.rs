@@ -157,7 +157,7 @@ pub struct DeviceModel {
     pub materials: Buffer,
     /// Texels of all textures, one after the other.
     pub texels: Buffer,
-    count: usize,
+    pub(super) count: usize,
     closed: bool,
     bounds: [glam::Vec3; 2],
     target: Option<Target>,

@@ -11,12 +11,21 @@
 //! no cracks. Surfaces may overlap; each must be closed, without self-intersections, its
 //! faces counter-clockwise seen from outside.
 
+mod surfaces;
+
 mod crossing;
 
 mod sum;
 
+mod on_device;
+
+mod counter;
+
 #[cfg(test)]
 mod tests;
 
+pub use counter::InsideCounter;
 pub use crossing::{Count, Crossing, CrossingSum, WeighedCount};
+pub use on_device::{ADD_STENCIL, STENCIL_FACES, WEIGHED_FACES};
 pub use sum::Crossings;
+pub use surfaces::ClosedSurfaces;

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::crossing::{Crossing, CrossingSum};
+use super::surfaces::ClosedSurfaces;
 use crate::camera::Camera;
 use crate::field::Field;
-use crate::mesh::Triangle;
 use crate::surface::bands::{BAND, Bands, Sides};
 use crate::surface::fill::{Shape, cover};
 use crate::surface::packed::Positioned;
@@ -29,8 +29,7 @@ pub struct Crossings {
 impl Crossings {
     /// The sum of each pixel of `visible`, which `camera` sees.
     ///
-    /// A triangle belongs to the closed surface whose index is [`Triangle::material`]. The
-    /// same bits for any number of threads.
+    /// The bits are the same for any number of threads.
     ///
     /// # Panics
     /// If a triangle has a corner that `vertices` does not have, or there are 2^31
@@ -39,11 +38,11 @@ impl Crossings {
     pub fn sum<S: CrossingSum>(
         &mut self,
         summed: &S,
-        vertices: &[impl Positioned],
-        triangles: &[Triangle],
+        surfaces: ClosedSurfaces<'_, impl Positioned>,
         camera: &Camera,
         visible: &VisibilityBuffer,
     ) -> Field<S::Sum> {
+        let ClosedSurfaces { vertices, triangles } = surfaces;
         let (width, height) = (visible.width(), visible.height());
         let mut sums = Field::filled(width, height, S::Sum::default());
         if width * height == 0 {

@@ -11,3 +11,5 @@ mod random_scenes;
 mod cases;
 
 mod sums;
+
+mod device;

@@ -38,8 +38,7 @@ impl Scene {
     }
 
     pub(crate) fn counts(&self) -> Field<i32> {
-        let Surfaces { vertices, triangles, .. } = &self.surfaces;
-        Crossings::default().sum(&Count, vertices, triangles, &self.camera, &self.visible())
+        Crossings::default().sum(&Count, self.surfaces.closed(), &self.camera, &self.visible())
     }
 
     fn view(&self) -> View {

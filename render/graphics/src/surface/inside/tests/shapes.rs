@@ -6,6 +6,7 @@ use glam::Vec3;
 use rand::{Rng, RngExt};
 
 use crate::mesh::Triangle;
+use crate::surface::ClosedSurfaces;
 
 /// Closed surfaces in one list, as counting takes them.
 #[derive(Debug, Clone, Default)]
@@ -90,6 +91,10 @@ impl Surfaces {
             }
         }
         self.count += 1;
+    }
+
+    pub(crate) fn closed(&self) -> ClosedSurfaces<'_, [f32; 3]> {
+        ClosedSurfaces { vertices: &self.vertices, triangles: &self.triangles }
     }
 
     /// The triangles of one surface.

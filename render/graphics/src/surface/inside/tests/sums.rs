@@ -10,7 +10,7 @@ use super::random_scenes::random_scene;
 use super::scene::{Scene, camera, mesh_of};
 use super::shapes::Surfaces;
 use crate::field::Field;
-use crate::mesh::{Mesh, Triangle};
+use crate::mesh::Mesh;
 use crate::surface::{Count, Crossing, CrossingSum, Crossings, WeighedCount};
 
 /// Any weight of a surface at a pixel, of either sign.
@@ -18,9 +18,10 @@ fn weight(surface: u32, pixel: usize) -> i32 {
     (surface.wrapping_mul(2_654_435_761) ^ (pixel as u32).wrapping_mul(40_503)) as i32 >> 12
 }
 
-fn weighed(scene: &Scene, triangles: &[Triangle]) -> Field<i32> {
-    let (visible, vertices) = (scene.visible(), &scene.surfaces.vertices);
-    Crossings::default().sum(&WeighedCount(weight), vertices, triangles, &scene.camera, &visible)
+fn weighed(scene: &Scene) -> Field<i32> {
+    let Scene { surfaces, camera, .. } = scene;
+    let visible = scene.visible();
+    Crossings::default().sum(&WeighedCount(weight), surfaces.closed(), camera, &visible)
 }
 
 #[test]
@@ -29,7 +30,7 @@ fn order_and_threads_do_not_change_a_bit() {
         let mut scene = random_scene(seed);
         scene.size = (160, 203);
         let counts = scene.counts();
-        let sums = weighed(&scene, &scene.surfaces.triangles);
+        let sums = weighed(&scene);
         for threads in [1, 2, 8] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let again = pool.install(|| scene.counts());
@@ -38,7 +39,7 @@ fn order_and_threads_do_not_change_a_bit() {
         let random = &mut ChaCha8Rng::seed_from_u64(seed);
         scene.surfaces.triangles.shuffle(random);
         assert_eq!(counts, scene.counts(), "shuffled");
-        assert_eq!(sums, weighed(&scene, &scene.surfaces.triangles), "weighed and shuffled");
+        assert_eq!(sums, weighed(&scene), "weighed and shuffled");
         assert!(counts.values().iter().any(|&count| count > 1));
     }
 }
@@ -48,8 +49,8 @@ fn memory_of_an_earlier_picture_leaves_no_trace() {
     let mut crossings = Crossings::default();
     for seed in [31, 32, 33] {
         let scene = random_scene(seed);
-        let Surfaces { vertices, triangles, .. } = &scene.surfaces;
-        let found = crossings.sum(&Count, vertices, triangles, &scene.camera, &scene.visible());
+        let Scene { surfaces, camera, .. } = &scene;
+        let found = crossings.sum(&Count, surfaces.closed(), camera, &scene.visible());
         assert_eq!(found, scene.counts());
     }
 }
@@ -58,7 +59,7 @@ fn memory_of_an_earlier_picture_leaves_no_trace() {
 fn weights_are_summed_over_the_surfaces_that_hold_a_point() {
     let scene = random_scene(41);
     let Surfaces { triangles, count, .. } = &scene.surfaces;
-    let sums = weighed(&scene, triangles);
+    let sums = weighed(&scene);
     let mut expected = Field::filled(scene.size.0, scene.size.1, 0_i32);
     for surface in 0..*count {
         let own: Vec<_> = triangles.iter().filter(|one| one.material == surface).copied().collect();
@@ -100,10 +101,9 @@ fn every_crossing_gives_the_length_inside_a_ball() {
     let nothing = mesh_of(&[]);
     let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
     let scene = Scene { mesh: nothing, surfaces, camera, size: (121, 121) };
-    let Surfaces { vertices, triangles, .. } = &scene.surfaces;
     let length = |up_to: f32| {
         let visible = scene.visible();
-        Crossings::default().sum(&Length { up_to }, vertices, triangles, &camera, &visible)
+        Crossings::default().sum(&Length { up_to }, scene.surfaces.closed(), &camera, &visible)
     };
     // Faces of the balls lie up to 5 % inside of them.
     for (up_to, expected) in [(f32::INFINITY, 2.5), (3.0, 1.5), (1.5, 0.5), (0.2, 0.2)] {
