@@ -115,11 +115,16 @@ impl FilmHeights {
 
     /// The paint of a cell with these heights.
     #[must_use]
+    #[inline]
     pub fn cell(&self) -> Cell {
         let amount = |slot: usize| self.0[slot].max(0) as u32;
         let cell = Cell { pigments: std::array::from_fn(amount), vehicle: amount(SLOTS) };
-        let whole =
-            u64::from(cell.vehicle) + cell.pigments.iter().map(|&q| u64::from(q)).sum::<u64>();
+        let bits = cell.pigments.iter().fold(cell.vehicle, |bits, amount| bits | amount);
+        if bits < MAX_COLUMN / (SLOTS as u32 + 1) {
+            return cell;
+        }
+        let pigments = cell.pigments.iter().map(|&amount| u64::from(amount)).sum::<u64>();
+        let whole = u64::from(cell.vehicle) + pigments;
         if whole <= u64::from(MAX_COLUMN) {
             return cell;
         }

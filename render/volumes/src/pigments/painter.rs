@@ -9,6 +9,7 @@ use paint::separation::SeparationSettings;
 use rayon::prelude::*;
 
 use super::drawing::{Drawing, InsidePaint, UnderPainting};
+use super::film::FilmHeights;
 use super::grisaille::{Grisaille, level};
 use super::materials::{FilmMaterial, FilmPaintError};
 use super::own_colors::OwnColors;
@@ -180,15 +181,24 @@ impl FilmPainter {
         &self.greys
     }
 
-    /// The level of grey of a cell that has a whole film of grisaille.
-    #[inline]
-    pub(super) fn whole_grey(&self, drawing: &Drawing<'_>, index: usize) -> Option<usize> {
-        let whole = self.settings.under == UnderPainting::Grisaille
-            && self.share(Coat::Grisaille, drawing, index) == 1.0;
-        whole.then(|| level(drawing.color.values()[index][3]))
+    /// Levels of grey of the cells of row `y` that have a whole film of grisaille; none for the
+    /// others.
+    pub(super) fn whole_greys<'a>(
+        &self,
+        drawing: &'a Drawing<'_>,
+        y: usize,
+    ) -> impl Iterator<Item = Option<usize>> + use<'a> {
+        let row = Row::of(drawing, y);
+        let everywhere = self.settings.under == UnderPainting::OwnColors;
+        let tinted = self.own_colors.is_some();
+        row.color.iter().enumerate().map(move |(x, color)| {
+            let own = if tinted { row.tint_at(x) } else { 0.0 };
+            let whole = !everywhere && own <= 0.0 && row.cover_at(x) >= 1.0;
+            whole.then(|| level(color[3]))
+        })
     }
 
-    /// Quanta of a coat in row `y`.
+    /// Quanta of a coat in the cells of row `y`.
     pub(super) fn row(
         &self,
         coat: Coat,
@@ -196,58 +206,91 @@ impl FilmPainter {
         y: usize,
         out: &mut [[u32; SLOTS]],
     ) {
-        let first = y * drawing.color.width();
-        for (amounts, index) in out.iter_mut().zip(first..) {
-            *amounts = self.cell(coat, drawing, index);
-        }
-    }
-
-    /// Quanta of a coat in a cell.
-    pub(super) fn cell(&self, coat: Coat, drawing: &Drawing<'_>, index: usize) -> [u32; SLOTS] {
-        let color = drawing.color.values()[index];
-        let share = self.share(coat, drawing, index);
-        if share <= 0.0 {
-            return [0; SLOTS];
-        }
-        let part = |quanta: u32| (f64::from(quanta) * f64::from(share)).round() as u32;
+        let row = Row::of(drawing, y);
         match coat {
-            Coat::Grisaille if share == 1.0 => self.greys[level(color[3])],
-            Coat::Grisaille => self.greys[level(color[3])].map(part),
-            Coat::OwnColors => self.own_colors.as_ref().map_or([0; SLOTS], |own| {
-                let heights = own.heights_mm([color[0], color[1], color[2]]);
-                let cell_mm = self.settings.cell_mm;
-                heights.map(|mm| quanta_from_mm(f64::from(mm * share), cell_mm))
-            }),
+            Coat::Grisaille => {
+                for (x, (amounts, color)) in out.iter_mut().zip(row.color).enumerate() {
+                    let share = row.cover_at(x) * (1.0 - self.own_share(&row, x));
+                    *amounts = self.greys[level(color[3])].map(|quanta| part(quanta, share));
+                }
+            }
+            Coat::OwnColors => {
+                for (x, (amounts, &color)) in out.iter_mut().zip(row.color).enumerate() {
+                    *amounts = self.own(color, row.cover_at(x) * self.own_share(&row, x));
+                }
+            }
             Coat::Hatching => {
-                let ink = drawing.ink.map_or(0.0, |ink| ink.values()[index]);
-                let mut amounts = [0; SLOTS];
-                amounts[1] = part(self.inks[step(ink)]);
-                amounts
+                out.fill([0; SLOTS]);
+                for (x, (amounts, &ink)) in out.iter_mut().zip(row.ink).enumerate() {
+                    amounts[1] = part(self.inks[step(ink)], row.cover_at(x));
+                }
             }
             Coat::Films => {
-                drawing.films.map_or([0; SLOTS], |films| films.values()[index].cell().pigments)
+                out.fill([0; SLOTS]);
+                for (amounts, heights) in out.iter_mut().zip(row.films) {
+                    *amounts = heights.cell().pigments;
+                }
             }
         }
     }
 
-    /// The part of a cell, 0 to 1, that has a coat.
-    #[inline]
-    fn share(&self, coat: Coat, drawing: &Drawing<'_>, index: usize) -> f32 {
-        let at = |field: Option<&Field<f32>>, none: f32| {
-            field.map_or(none, |field| within_one(field.values()[index]))
-        };
-        let cover = at(drawing.cover, 1.0);
-        let everywhere = self.settings.under == UnderPainting::OwnColors;
-        let own = match self.own_colors {
-            Some(_) if everywhere => 1.0,
-            Some(_) => at(drawing.tint, 0.0),
+    /// The share of a cell's surface that is painted in its own colours, 0 to 1.
+    fn own_share(&self, row: &Row<'_>, x: usize) -> f32 {
+        match self.own_colors {
+            Some(_) if self.settings.under == UnderPainting::OwnColors => 1.0,
+            Some(_) => row.tint_at(x),
             None => 0.0,
-        };
-        match coat {
-            Coat::Grisaille => cover * (1.0 - own),
-            Coat::OwnColors => cover * own,
-            Coat::Hatching => cover,
-            Coat::Films => 1.0,
         }
+    }
+
+    /// Quanta of the film of an encoded colour over a share of a cell.
+    fn own(&self, [r, g, b, _]: [f32; 4], share: f32) -> [u32; SLOTS] {
+        let Some(own) = self.own_colors.as_ref().filter(|_| share > 0.0) else {
+            return [0; SLOTS];
+        };
+        let cell_mm = self.settings.cell_mm;
+        own.heights_mm([r, g, b]).map(|mm| quanta_from_mm(f64::from(mm * share), cell_mm))
+    }
+}
+
+/// A share of an amount, rounded to the nearest quantum.
+#[inline]
+fn part(quanta: u32, share: f32) -> u32 {
+    if share >= 1.0 { quanta } else { (f64::from(quanta) * f64::from(share) + 0.5) as u32 }
+}
+
+/// One row of a drawing. What it leaves out is empty.
+struct Row<'a> {
+    color: &'a [[f32; 4]],
+    cover: &'a [f32],
+    ink: &'a [f32],
+    tint: &'a [f32],
+    films: &'a [FilmHeights],
+}
+
+impl<'a> Row<'a> {
+    fn of(drawing: &'a Drawing<'_>, y: usize) -> Self {
+        let width = drawing.color.width();
+        let grey =
+            |field: Option<&'a Field<f32>>| field.map_or(&[][..], |one| one.row(y, 0, width));
+        Self {
+            color: drawing.color.row(y, 0, width),
+            cover: grey(drawing.cover),
+            ink: grey(drawing.ink),
+            tint: grey(drawing.tint),
+            films: drawing.films.map_or(&[][..], |films| films.row(y, 0, width)),
+        }
+    }
+
+    /// The share of a cell that shows the scene.
+    #[inline]
+    fn cover_at(&self, x: usize) -> f32 {
+        self.cover.get(x).map_or(1.0, |&cover| within_one(cover))
+    }
+
+    /// The share of a cell that shows the inside of volumes.
+    #[inline]
+    fn tint_at(&self, x: usize) -> f32 {
+        self.tint.get(x).map_or(0.0, |&tint| within_one(tint))
     }
 }

@@ -110,7 +110,10 @@ impl CrossingSum for FilmThrough<'_> {
         let length = self.distance(crossing).min(end);
         let density = &self.densities[crossing.surface as usize];
         // Partial sums may leave the range; sums are modulo 2^32.
-        let heights = density.0.map(|density| (length * density).round() as i64 as i32);
+        let heights = density.0.map(|density| match density > 0.0 {
+            true => (length * density + 0.5) as i64 as i32,
+            false => 0,
+        });
         sum.add(&FilmHeights(heights), crossing.sign);
     }
 }

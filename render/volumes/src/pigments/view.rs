@@ -108,20 +108,26 @@ impl FilmView {
         y: usize,
         (internal, amounts): (&mut [[f32; NODES]], &mut [[u32; SLOTS]]),
     ) {
-        let first = y * drawing.color.width();
         internal.fill(self.scene.ground);
         for (&coat, optics) in self.coats.iter().zip(&self.scene.dry) {
+            let mut all_whole = coat == Coat::Grisaille;
             if coat == Coat::Grisaille {
-                let cells = internal.iter_mut().zip(&mut *amounts).zip(first..);
-                for ((internal, amounts), index) in cells {
-                    *amounts = [0; SLOTS];
-                    match painter.whole_grey(drawing, index) {
+                let cells = internal.iter_mut().zip(painter.whole_greys(drawing, y));
+                for (internal, level) in cells {
+                    match level {
                         Some(level) => *internal = self.greys[level],
-                        None => *amounts = painter.cell(coat, drawing, index),
+                        None => all_whole = false,
                     }
                 }
-            } else {
-                painter.row(coat, drawing, y, amounts);
+            }
+            if all_whole {
+                continue;
+            }
+            painter.row(coat, drawing, y, amounts);
+            if coat == Coat::Grisaille {
+                // The films that are whole are there already.
+                let cells = amounts.iter_mut().zip(painter.whole_greys(drawing, y));
+                cells.filter(|(_, level)| level.is_some()).for_each(|(cell, _)| *cell = [0; SLOTS]);
             }
             for (amounts, internal) in amounts.chunks(RUN).zip(internal.chunks_mut(RUN)) {
                 composite_row(optics, amounts, internal);
