@@ -12,3 +12,5 @@
 pub mod sphere_mesh;
 
 pub mod volume;
+
+pub mod motion;
