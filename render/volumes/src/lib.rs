@@ -20,6 +20,8 @@ pub mod containing;
 
 pub mod surfaces;
 
+pub mod motion;
+
 pub mod wetting;
 
 pub mod pigments;
