@@ -12,3 +12,11 @@
 pub mod sphere_mesh;
 
 pub mod volume;
+
+pub mod hatching;
+
+pub mod drawing;
+
+mod kernels;
+
+pub use kernels::kernels;
