@@ -24,6 +24,10 @@ pub mod motion;
 
 pub mod wetting;
 
+pub mod hatching;
+
+pub mod drawing;
+
 pub mod pigments;
 
 pub mod toml_text;
@@ -31,3 +35,7 @@ pub mod toml_text;
 pub mod settings;
 
 pub mod script;
+
+mod kernels;
+
+pub use kernels::kernels;
