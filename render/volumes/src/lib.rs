@@ -14,3 +14,6 @@ pub mod sphere_mesh;
 pub mod volume;
 
 pub mod wetting;
+
+#[cfg(test)]
+mod test_surfaces;
