@@ -16,6 +16,9 @@ pub mod volume;
 #[cfg(test)]
 mod test_volumes;
 
+#[cfg(test)]
+mod test_surfaces;
+
 pub mod containing;
 
 pub mod surfaces;

@@ -1,0 +1,70 @@
+//! The grid of a scene: samples of its surface, cells, links between them and the reach of paint.
+
+use glam::Vec3;
+use graphics::mesh::Mesh;
+
+use super::cells::Cells;
+use super::fault::WettingError;
+use super::graph::Graph;
+use super::reach::Reach;
+use super::samples::SurfaceSamples;
+
+/// Everything that is known of the surface before paint lies on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// The surface in samples.
+    pub samples: SurfaceSamples,
+    /// The cells that hold them.
+    pub cells: Cells,
+    /// The cells joined by surface.
+    pub graph: Graph,
+    /// Radii of volumes by their amount of paint.
+    pub reach: Reach,
+}
+
+impl Grid {
+    /// The grid of a mesh with cells of width `cell`, in the unit of the scene. Places are
+    /// drawn from `seed`.
+    ///
+    /// # Errors
+    /// If the mesh has no surface, or the cells have no size or are too many.
+    pub fn of(mesh: &Mesh, cell: f32, seed: u64) -> Result<Self, WettingError> {
+        let samples = SurfaceSamples::of(mesh, cell, seed)?;
+        let cells = Cells::of(&samples, |_| true);
+        let graph = Graph::of(mesh, &samples)?;
+        let reach = Reach::of(&samples, &cells, |_| true);
+        Ok(Self { samples, cells, graph, reach })
+    }
+
+    /// The grid of the surface where `kept` is true. The numbers of cells stay; cells without
+    /// such surface have no capacity and no links.
+    #[must_use]
+    pub fn within(&self, kept: impl Fn(Vec3) -> bool + Copy) -> Self {
+        let cells = Cells::of(&self.samples, kept);
+        let graph = self.graph.cut(|cell| cells.capacities[cell] > 0);
+        let reach = Reach::of(&self.samples, &cells, kept);
+        Self { samples: self.samples.clone(), cells, graph, reach }
+    }
+
+    /// The sample nearest to `place` within a distance, in the unit of the scene; the first of
+    /// several.
+    #[must_use]
+    pub fn nearest(&self, place: Vec3) -> Option<(usize, f32)> {
+        let kept = (0..self.cells.len()).filter(|&cell| self.cells.capacities[cell] > 0);
+        let samples = kept.flat_map(|cell| self.samples.of_cell(cell));
+        let distances =
+            samples.map(|sample| (sample, self.samples.places[sample].distance_squared(place)));
+        let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map(|(sample, squared)| (sample, squared.sqrt()))
+    }
+
+    /// The place on the surface of `cell` that is nearest to the middle of its neighbour `giver`.
+    #[must_use]
+    pub fn entrance(&self, cell: usize, giver: usize) -> Vec3 {
+        let from = self.cells.centers[giver];
+        let own = self.samples.places[self.samples.of_cell(cell)].iter().copied();
+        let nearest =
+            own.min_by(|a, b| a.distance_squared(from).total_cmp(&b.distance_squared(from)));
+        nearest.unwrap_or(self.cells.centers[cell])
+    }
+}
