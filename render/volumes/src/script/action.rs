@@ -1,4 +1,4 @@
-//! What is done to a world of volumes.
+//! Actions on a world of volumes.
 
 use std::collections::BTreeMap;
 
@@ -19,8 +19,8 @@ pub enum Action {
     Lift(Lift),
     /// Single volumes become volumes of the grid.
     Split(Split),
-    /// Paint dries.
-    Dry(Dry),
+    /// All paint on the scene dries.
+    Dry,
 }
 
 /// Where paint is poured or lifted.
@@ -43,7 +43,7 @@ pub struct PathPoint {
     pub at: [f64; 3],
 }
 
-/// How much paint is poured or lifted.
+/// How much paint is poured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Quantity {
     /// In mm3, evenly over the duration.
@@ -57,9 +57,9 @@ pub enum Quantity {
 pub struct Pour {
     /// Where it is poured.
     pub place: Place,
-    /// How much.
+    /// How much is poured.
     pub quantity: Quantity,
-    /// Its pigments.
+    /// Pigments of its paint.
     pub recipe: Recipe,
     /// Index of the region of its volumes.
     pub region: usize,
@@ -74,7 +74,7 @@ pub struct NewVolume {
     pub radius: f64,
     /// Level of detail of its mesh.
     pub detail: u8,
-    /// Its pigments.
+    /// Pigments of its paint.
     pub recipe: Recipe,
     /// Index of its region.
     pub region: usize,
@@ -100,8 +100,8 @@ pub struct Lift {
     pub place: Place,
     /// Its radius in the unit of the scene.
     pub radius: f64,
-    /// How much it takes up.
-    pub quantity: Quantity,
+    /// Share of the paint below it that it takes up in a second, 0 to 120.
+    pub rate: f64,
 }
 
 /// Single volumes become volumes of the grid.
@@ -109,13 +109,6 @@ pub struct Lift {
 pub struct Split {
     /// Index of the single volume in the order of the script; all of them without it.
     pub volume: Option<usize>,
-}
-
-/// Paint dries.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Dry {
-    /// Centre and radius of the ball that dries, in the unit of the scene; all paint without it.
-    pub within: Option<([f64; 3], f64)>,
 }
 
 impl Action {
@@ -127,7 +120,7 @@ impl Action {
             Self::Push(_) => 2,
             Self::Lift(_) => 3,
             Self::Split(_) => 4,
-            Self::Dry(_) => 5,
+            Self::Dry => 5,
         }
     }
 }
@@ -162,6 +155,15 @@ impl Quantity {
             Self::Rate(rate) => rate * seconds,
         }
     }
+
+    /// The amount a second in mm3/s, if paint is poured for `seconds`, above 0.
+    #[must_use]
+    pub fn rate_mm3_s(self, seconds: f64) -> f64 {
+        match self {
+            Self::Amount(amount) => amount / seconds,
+            Self::Rate(rate) => rate,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -177,5 +179,6 @@ mod tests {
         }
         assert_eq!(Place::Picked([0.5; 2]).at(1.0), None);
         assert_eq!(Quantity::Rate(40.0).amount_mm3(2.0), 80.0);
+        assert_eq!(Quantity::Amount(40.0).rate_mm3_s(2.0), 20.0);
     }
 }

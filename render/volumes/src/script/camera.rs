@@ -7,7 +7,7 @@ use super::ranges::check_range;
 use super::rows::Row;
 use crate::toml_text::{Checked, Fault, KeyPath};
 
-/// Most keyframes.
+/// Most keyframes of a path.
 const MOST_KEYFRAMES: usize = 10_000;
 
 /// `[camera]`: degrees of a camera that shows all of the subject, or keyframes.
@@ -52,7 +52,7 @@ pub struct KeyframeTable {
 pub enum ScriptCamera {
     /// A camera that shows all of the subject, in a square picture.
     Framing(Framing),
-    /// Keyframes.
+    /// A path through keyframes.
     Path(CameraPath),
 }
 

@@ -7,9 +7,7 @@ use super::ranges::{
     MOST_LENGTH, check_direction, check_place, check_positive, check_range, check_time,
 };
 use super::rows::{Ball, Pair, Row};
-use super::tables::{
-    DryTable, KeepTable, LiftTable, PourTable, PushTable, SplitTable, VolumeTable,
-};
+use super::tables::{KeepTable, LiftTable, PourTable, PushTable, SplitTable, VolumeTable};
 use crate::sphere_mesh::MOST_DETAIL;
 use crate::toml_text::{Checked, Fault, KeyPath};
 
@@ -42,7 +40,7 @@ impl Script {
             self.check_split(&each("split", index), split)?;
         }
         for (index, dry) in self.dries.iter().enumerate() {
-            check_dry(&each("dry", index), dry)?;
+            check_time(&each("dry", index).key("at_s"), dry.at_s)?;
         }
         Ok(())
     }
@@ -122,23 +120,7 @@ fn check_lift(key: &KeyPath, lift: &LiftTable) -> Checked {
     check_source(key, lift.at, lift.picked, &lift.path)?;
     check_positive(&key.key("radius"), lift.radius, MOST_LENGTH)?;
     check_span(key, [lift.from_s, lift.for_s])?;
-    check_quantity(key, lift.amount_mm3, lift.rate_mm3_s, lift.for_s)
-}
-
-fn check_dry(key: &KeyPath, dry: &DryTable) -> Checked {
-    check_time(&key.key("at_s"), dry.at_s)?;
-    match (dry.at, dry.radius) {
-        (None, None) => Ok(()),
-        (Some(Row(at)), Some(radius)) => {
-            check_place(&key.key("at"), at)?;
-            check_positive(&key.key("radius"), radius, MOST_LENGTH)
-        }
-        (at, _) => {
-            let missing = if at.is_some() { "radius" } else { "at" };
-            let hint = "give both to dry a ball, neither to dry all paint";
-            Err(Fault::new(&key.key(missing), "a value beside the other", "nothing", hint))
-        }
-    }
+    check_range(&key.key("rate"), lift.rate, [0.0, 120.0])
 }
 
 fn check_keep(key: &KeyPath, keep: &KeepTable) -> Checked {

@@ -1,6 +1,6 @@
 //! A script as actions in time.
 
-use super::action::{Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
+use super::action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
 use super::file::Script;
 use super::rows::Row;
 use crate::toml_text::KeyPath;
@@ -15,7 +15,7 @@ pub struct Event {
     pub start: u32,
     /// Step before which it ends, above `start`; actions of a moment last one step.
     pub end: u32,
-    /// What is done.
+    /// The action itself.
     pub action: Action,
     /// Path of its table in the script, for faults.
     pub table: KeyPath,
@@ -73,7 +73,7 @@ impl Script {
             let lift = Lift {
                 place: place(table.at, table.picked, &table.path),
                 radius: table.radius,
-                quantity: quantity(table.amount_mm3, table.rate_mm3_s),
+                rate: table.rate,
             };
             add("lift", index, [table.from_s, table.for_s], Action::Lift(lift));
         }
@@ -82,8 +82,7 @@ impl Script {
             add("split", index, [table.at_s, 0.0], Action::Split(Split { volume }));
         }
         for (index, table) in self.dries.iter().enumerate() {
-            let within = table.at.map(|Row(at)| at).zip(table.radius);
-            add("dry", index, [table.at_s, 0.0], Action::Dry(Dry { within }));
+            add("dry", index, [table.at_s, 0.0], Action::Dry);
         }
         events.sort_by_key(|event| (event.start, event.action.rank()));
         events

@@ -52,7 +52,7 @@ pub struct Script {
     /// Regions that volumes are kept in.
     #[serde(default, rename = "keep", skip_serializing_if = "Vec::is_empty")]
     pub keeps: Vec<KeepTable>,
-    /// Single volumes.
+    /// Single volumes, outside of the grid.
     #[serde(default, rename = "volume", skip_serializing_if = "Vec::is_empty")]
     pub volumes: Vec<VolumeTable>,
     /// Paint that is poured.

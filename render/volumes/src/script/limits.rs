@@ -18,7 +18,7 @@ pub const MOST_FRAMES: u64 = 100_000;
 /// Most tables that do something: pours, volumes, pushes, walls, lifts, splits and dryings.
 pub const MOST_EVENTS: usize = 10_000;
 
-/// Most regions.
+/// Most regions of a script.
 pub const MOST_REGIONS: usize = 64;
 
 /// Longest script in seconds.
@@ -78,8 +78,8 @@ pub(super) fn check_particles(details: &[u8]) -> Checked {
     for (index, &detail) in details.iter().enumerate() {
         total += of(detail);
         if total > MOST_PARTICLES {
-            let fits = (0..=MOST_DETAIL).rev();
-            let fits = fits.filter(|&detail| of(detail) * details.len() <= MOST_PARTICLES).next();
+            let mut finest = (0..=MOST_DETAIL).rev();
+            let fits = finest.find(|&detail| of(detail) * details.len() <= MOST_PARTICLES);
             let hint = match fits {
                 Some(fits) => format!("detail = {fits} fits for all {}", details.len()),
                 None => format!("{index} volumes fit"),

@@ -58,8 +58,9 @@
 //! [[lift]]                          # a sponge that takes paint up
 //! picked = [0.42, 0.55]
 //! radius = 0.1
-//! amount_mm3 = 5.0
+//! rate = 0.5                        # of the paint below it, a second
 //! from_s = 4.0
+//! for_s = 1.0
 //!
 //! [[keep]]                          # volumes stay in a box, a sphere or above a plane
 //! above = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
@@ -68,7 +69,7 @@
 //! at_s = 4.5
 //! volume = 1
 //!
-//! [[dry]]                           # all paint, or that within `radius` of `at`
+//! [[dry]]                           # all paint on the scene
 //! at_s = 5.0
 //! ```
 //!
@@ -122,9 +123,7 @@ mod fault_tests;
 #[cfg(test)]
 mod fuzz_tests;
 
-pub use action::{
-    Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Recipe, Split,
-};
+pub use action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Recipe, Split};
 pub use camera::{CameraTable, KeyframeTable, ScriptCamera};
 pub use error::ScriptError;
 pub use events::{Event, STEPS_A_SECOND, seconds_of, steps_of};

@@ -1,6 +1,6 @@
 //! Recording of what a session does as a script.
 
-use super::action::{Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
+use super::action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
 use super::events::seconds_of;
 use super::file::Script;
 use super::rounded::{point, recipe, six, time};
@@ -43,13 +43,10 @@ impl Action {
             Self::Lift(own) => Self::Lift(Lift {
                 place: own.place.rounded(),
                 radius: six(own.radius),
-                quantity: own.quantity.rounded(),
+                rate: six(own.rate),
             }),
             Self::Split(own) => Self::Split(own.clone()),
-            Self::Dry(own) => {
-                let within = own.within.map(|(at, radius)| (row(at), six(radius)));
-                Self::Dry(Dry { within })
-            }
+            Self::Dry => Self::Dry,
         }
     }
 }
@@ -135,27 +132,14 @@ impl Recorder {
             }
             Action::Lift(own) => {
                 let (at, picked, path) = rows(own.place);
-                let (amount_mm3, rate_mm3_s) = keys(own.quantity);
-                let radius = own.radius;
-                script.lifts.push(LiftTable {
-                    at,
-                    picked,
-                    path,
-                    radius,
-                    from_s,
-                    for_s,
-                    amount_mm3,
-                    rate_mm3_s,
-                });
+                let (radius, rate) = (own.radius, own.rate);
+                script.lifts.push(LiftTable { at, picked, path, radius, from_s, for_s, rate });
             }
             Action::Split(Split { volume }) => {
                 let volume = volume.and_then(|index| u32::try_from(index + 1).ok());
                 script.splits.push(SplitTable { at_s, volume });
             }
-            Action::Dry(Dry { within }) => {
-                let (at, radius) = within.map(|(at, radius)| (Row(at), radius)).unzip();
-                script.dries.push(DryTable { at_s, at, radius });
-            }
+            Action::Dry => script.dries.push(DryTable { at_s }),
         }
     }
 

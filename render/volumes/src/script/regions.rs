@@ -13,7 +13,7 @@ use crate::toml_text::{Checked, Fault, KeyPath};
 pub struct RegionStyle {
     /// Its name; empty for the only region of a script that lists none.
     pub name: String,
-    /// What its volumes show.
+    /// Appearance of the scene inside of its volumes.
     pub inside: Inside,
     /// Sizes of the shells, falling from 1.
     pub shells: Vec<f32>,

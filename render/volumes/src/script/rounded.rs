@@ -62,7 +62,7 @@ impl Script {
                 .iter()
                 .map(|split| SplitTable { at_s: time(split.at_s), volume: split.volume })
                 .collect(),
-            dries: self.dries.iter().map(dry).collect(),
+            dries: self.dries.iter().map(|dry| DryTable { at_s: time(dry.at_s) }).collect(),
             ..self.clone()
         }
     }
@@ -160,11 +160,6 @@ fn lift(lift: &LiftTable) -> LiftTable {
         radius: six(lift.radius),
         from_s: time(lift.from_s),
         for_s: time(lift.for_s),
-        amount_mm3: lift.amount_mm3.map(six),
-        rate_mm3_s: lift.rate_mm3_s.map(six),
+        rate: six(lift.rate),
     }
-}
-
-fn dry(dry: &DryTable) -> DryTable {
-    DryTable { at_s: time(dry.at_s), at: dry.at.map(row), radius: dry.radius.map(six) }
 }

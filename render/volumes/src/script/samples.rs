@@ -85,7 +85,8 @@ for_s = 0.5
 at = [0.1, 0.6, 0.3]
 radius = 0.1
 from_s = 4.0
-amount_mm3 = 2.0
+for_s = 0.5
+rate = 0.75
 
 [[split]]
 at_s = 4.5
@@ -96,8 +97,6 @@ at_s = 5.0
 
 [[dry]]
 at_s = 5.5
-at = [0.0, 0.0, 0.0]
-radius = 0.4
 "#;
 
 /// The shortest script.

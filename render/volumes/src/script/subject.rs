@@ -11,7 +11,7 @@ use crate::toml_text::{Checked, Fault, KeyPath};
 /// Longest path in bytes.
 const LONGEST: usize = 1024;
 
-/// What a script paints.
+/// The model or photograph that a script paints.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Subject {
     /// A model that is made, written `shape:NAME`.

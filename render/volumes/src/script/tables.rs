@@ -13,7 +13,7 @@ use crate::settings::Inside;
 pub struct RegionTable {
     /// Its name, which other tables use.
     pub name: String,
-    /// What its volumes show; the settings' own without it.
+    /// Appearance of the scene inside of its volumes; the settings' own without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inside: Option<Inside>,
     /// Sizes of the shells, falling; the settings' own without it.
@@ -32,7 +32,7 @@ pub struct KeepTable {
     /// Lower and upper corner of a box.
     #[serde(default, rename = "box", skip_serializing_if = "Option::is_none")]
     pub cuboid: Option<Pair>,
-    /// A sphere.
+    /// A sphere that volumes stay in.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<Ball>,
     /// A point and the normal of a plane that volumes stay above.
@@ -116,8 +116,9 @@ pub struct PushTable {
     pub for_s: f64,
 }
 
-/// `[[lift]]`: a sponge that takes paint up; keys as of `[[pour]]`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+/// `[[lift]]`: a sponge that takes paint up; one of `at`, `picked` and `path`, as of
+/// [`PourTable`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LiftTable {
     /// Place in the unit of the scene.
@@ -137,12 +138,10 @@ pub struct LiftTable {
     /// Duration in seconds, 0 to 3600.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub for_s: f64,
-    /// Amount of paint in mm3, above 0 up to 1e9.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub amount_mm3: Option<f64>,
-    /// Amount of paint a second in mm3/s, above 0 up to 1e9, instead of the amount.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rate_mm3_s: Option<f64>,
+    /// Share of the paint below it that it takes up in a second, 0 to 120; 120, which takes all at
+    /// once, without it.
+    #[serde(default = "all_at_once")]
+    pub rate: f64,
 }
 
 /// `[[split]]`: a single volume becomes volumes of the grid.
@@ -156,25 +155,22 @@ pub struct SplitTable {
     pub volume: Option<u32>,
 }
 
-/// `[[dry]]`: paint dries; all of it, or that within a ball.
+/// `[[dry]]`: all paint on the scene dries.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DryTable {
     /// Time in seconds, 0 to 3600.
     pub at_s: f64,
-    /// Centre of the ball in the unit of the scene.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub at: Option<Row<3>>,
-    /// Radius of the ball in the unit of the scene, above 0 up to 1e6.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub radius: Option<f64>,
+}
+
+fn all_at_once() -> f64 {
+    120.0
 }
 
 fn usual_detail() -> u8 {
     3
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
 fn is_zero(seconds: &f64) -> bool {
     *seconds == 0.0
 }

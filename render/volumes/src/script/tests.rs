@@ -41,18 +41,19 @@ fn every_documented_key_is_read() {
 fn odd_figures_are_rounded_once() {
     let mut own = script(SHORT);
     own.seconds = 1.0 / 3.0;
-    own.unit_mm = Some(1234.567_89);
+    own.unit_mm = Some(1_234.567_89);
     own.settings = "motion.kick = 0.12345678\nseed = 1234567\ngrid.film_mm = 1e-3".parse().unwrap();
-    own.dries.push(DryTable {
-        at_s: 0.1234567,
-        at: Some(Row([-0.0, 1e-9, 1.0 / 7.0])),
-        radius: Some(2.0 / 3.0),
+    own.dries.push(DryTable { at_s: 0.1234567 });
+    own.keeps.push(KeepTable {
+        sphere: Some(Ball { center: [-0.0, 1e-9, 1.0 / 7.0], radius: 2.0 / 3.0 }),
+        ..KeepTable::default()
     });
     let read = script(&own.to_text().unwrap());
     assert_eq!(read, own.rounded());
     assert_ne!(read, own);
     assert_eq!((read.seconds, read.unit_mm), (0.3333, Some(1234.57)));
-    assert_eq!((read.dries[0].at_s, read.dries[0].radius), (0.1235, Some(0.666667)));
+    let ball = Ball { center: [0.0, 1e-9, 0.142857], radius: 0.666667 };
+    assert_eq!((read.dries[0].at_s, read.keeps[0].sphere), (0.1235, Some(ball)));
     let settings = read.settings().unwrap();
     assert_eq!((settings.motion.kick, settings.seed), (0.123457, 1_234_567));
 }
@@ -104,7 +105,7 @@ fn events_are_sorted_by_steps_of_a_hundred_and_twentieth_second() {
         (30, 31, "[[pour]] 2"),
         (60, 300, "[[pour]] 1"),
         (360, 420, "[[push]] 1"),
-        (480, 481, "[[lift]] 1"),
+        (480, 540, "[[lift]] 1"),
         (540, 541, "[[split]] 1"),
         (600, 601, "[[dry]] 1"),
         (660, 661, "[[dry]] 2"),
@@ -113,7 +114,7 @@ fn events_are_sorted_by_steps_of_a_hundred_and_twentieth_second() {
     let Action::Pour(pour) = &events[2].action else { panic!("{:?}", events[2]) };
     assert_eq!((pour.region, pour.quantity), (1, Quantity::Rate(40.0)));
     assert_eq!(pour.place.at(0.5), Some([0.2, 0.6, 0.275]));
-    assert_eq!(events[7].action, Action::Dry(Dry { within: Some(([0.0; 3], 0.4)) }));
+    assert_eq!(events[7].action, Action::Dry);
 }
 
 #[test]

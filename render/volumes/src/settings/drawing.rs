@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::setting::{
     Setting,
-    Takes::{Number, Numbers, Whole, Words},
+    Takes::{Number, Numbers, Words},
 };
 
-/// What volumes show of the scene that they hold.
+/// Appearance of the scene inside of volumes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Inside {
@@ -21,7 +21,7 @@ pub enum Inside {
     Both,
 }
 
-/// What lies under a film of pigments.
+/// Layer under a film of pigments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Under {
@@ -59,9 +59,9 @@ pub struct DrawingTable {
     /// Cosine between the normals of a place and of its cell below which it is not painted,
     /// -1..=1.
     pub gate: f32,
-    /// What volumes show.
+    /// Appearance of the scene inside of volumes.
     pub inside: Inside,
-    /// What lies under a film of pigments.
+    /// Layer under a film of pigments.
     pub under: Under,
     /// Where the film of pigments lies.
     pub film: Film,
@@ -96,14 +96,14 @@ pub struct HatchingTable {
     pub outside: f32,
     /// Grey of the pencil, 0 (black) to 1 (white).
     pub pencil: f32,
-    /// Least width of a stroke in px; it is below twice that; 0.5..=32.
-    pub width: f32,
-    /// Share of the tones over which a stroke fades in, 0..=0.5.
+    /// Width of a stroke in px, 1..=16; it varies by a third either way.
+    pub width_px: f32,
+    /// Half the range of tone over which a stroke fades in, 0.01..=0.15.
     pub softness: f32,
-    /// Number of tones of hatching, 2..=16.
-    pub tones: u32,
-    /// Direction of strokes in degrees from the surface's own, -360..=360.
-    pub direction: f32,
+    /// Tone of the darkest shade, 0 (no paper between strokes) to 1 (bare paper).
+    pub darkest: f32,
+    /// Direction of strokes in degrees from the horizontal, -360..=360.
+    pub angle_deg: f32,
 }
 
 impl Default for HatchingTable {
@@ -112,10 +112,10 @@ impl Default for HatchingTable {
             inside: 1.0,
             outside: 1.0,
             pencil: 0.15,
-            width: 2.0,
-            softness: 0.06,
-            tones: 6,
-            direction: 0.0,
+            width_px: 2.8,
+            softness: 0.12,
+            darkest: 0.15,
+            angle_deg: 32.0,
         }
     }
 }
@@ -181,22 +181,27 @@ pub(super) const SETTINGS: [Setting; 15] = [
         "Grey of the pencil: 0 is black, 1 is white.",
     ),
     Setting::new(
-        "hatching.width",
-        Number(0.5, 32.0),
+        "hatching.width_px",
+        Number(1.0, 16.0),
         "px",
-        "Least width of a stroke; strokes are up to twice as wide.",
+        "Width of a stroke, which varies by a third either way.",
     ),
     Setting::new(
         "hatching.softness",
-        Number(0.0, 0.5),
-        "tones from black to white",
-        "Change of tone over which a stroke fades in.",
+        Number(0.01, 0.15),
+        "",
+        "Change of tone over which a stroke fades in: little draws a hard pencil.",
     ),
-    Setting::new("hatching.tones", Whole(2, 16), "", "Number of tones of hatching."),
     Setting::new(
-        "hatching.direction",
+        "hatching.darkest",
+        Number(0.0, 1.0),
+        "",
+        "Tone of the darkest shade; 0 leaves no paper between strokes.",
+    ),
+    Setting::new(
+        "hatching.angle_deg",
         Number(-360.0, 360.0),
         "degrees",
-        "Turn of the strokes from the surface's own direction.",
+        "Slant of the strokes, from the horizontal.",
     ),
 ];

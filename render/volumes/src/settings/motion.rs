@@ -22,11 +22,11 @@ pub struct MotionTable {
     pub microstructure: f32,
     /// Width of the microstructure in cells, 0.01..=100.
     pub grain: f32,
-    /// Greatest speed of a radius in cells a second, 0..=1000.
+    /// Greatest speed of a radius in cells a second, 0.001..=1000.
     pub fastest: f32,
     /// Stiffness towards the nearest surface within a cell in 1/s^2, 0..=1e6.
     pub surface_pull: f32,
-    /// Acceleration down along the surface in cells a square second, 0..=1e4.
+    /// Acceleration down along the surface in cells a square second, 0..=1e6.
     pub gravity: f32,
     /// Stiffness of the walls of keep-in regions in 1/s^2, 0..=1e6.
     pub keep: f32,
@@ -42,7 +42,7 @@ impl Default for MotionTable {
             kick: 0.3,
             microstructure: 0.18,
             grain: 0.35,
-            fastest: 4.0,
+            fastest: 1.0,
             surface_pull: 50.0,
             gravity: 0.0,
             keep: 2000.0,
@@ -87,7 +87,7 @@ pub(super) const SETTINGS: [Setting; 11] = [
     Setting::new("motion.grain", Number(0.01, 100.0), "cells", "Width of the microstructure."),
     Setting::new(
         "motion.fastest",
-        Number(0.0, 1000.0),
+        Number(0.001, 1000.0),
         "cells a second",
         "Greatest speed at which a volume grows or shrinks.",
     ),
@@ -99,7 +99,7 @@ pub(super) const SETTINGS: [Setting; 11] = [
     ),
     Setting::new(
         "motion.gravity",
-        Number(0.0, 1e4),
+        Number(0.0, 1e6),
         "cells/s^2",
         "Pull downwards along the surface.",
     ),

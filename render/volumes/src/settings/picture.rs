@@ -7,7 +7,7 @@ use super::setting::{
     Takes::{Color, Number, Switch, Whole, Words},
 };
 
-/// What the light moves with.
+/// Whether the light moves with the camera or the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LightWith {
@@ -24,7 +24,7 @@ pub enum LightWith {
 pub struct LightTable {
     /// Whether the scene is lit; a photograph may have light of its own.
     pub lit: bool,
-    /// What the light moves with.
+    /// Whether the light moves with the camera or the model.
     pub with: LightWith,
     /// Direction of the light in degrees clockwise from the top, -360..=360.
     pub azimuth_deg: f32,
@@ -34,6 +34,8 @@ pub struct LightTable {
     pub levels: u32,
     /// Share of a step over which it blends into the next, 0..=1.
     pub softness: f32,
+    /// Share of its colour that a surface loses in full shade, beside the hatching, 0..=1.
+    pub shade: f32,
 }
 
 impl Default for LightTable {
@@ -42,9 +44,10 @@ impl Default for LightTable {
             lit: true,
             with: LightWith::default(),
             azimuth_deg: 315.0,
-            elevation_deg: 40.0,
-            levels: 4,
+            elevation_deg: 45.0,
+            levels: 6,
             softness: 0.5,
+            shade: 0.3,
         }
     }
 }
@@ -66,13 +69,16 @@ pub enum GreyWeights {
 pub struct GreyTable {
     /// How colours weigh in it.
     pub weights: GreyWeights,
+    /// Share by which greys are lifted towards white before they are hatched, 0..=1; at 0 grey is
+    /// as light as the colour.
+    pub pale: f32,
 }
 
-/// The picture.
+/// Samples and paper of the picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PictureTable {
-    /// Samples along each side of a pixel, 1..=4.
+    /// Samples along each side of a pixel, 1..=8.
     pub samples: u32,
     /// Colour of the paper where nothing is seen, written `#rrggbb`.
     pub paper: String,
@@ -84,7 +90,7 @@ impl Default for PictureTable {
     }
 }
 
-pub(super) const SETTINGS: [Setting; 9] = [
+pub(super) const SETTINGS: [Setting; 11] = [
     Setting::new("light.lit", Switch, "", "Whether light falls on the scene."),
     Setting::new(
         "light.with",
@@ -112,14 +118,26 @@ pub(super) const SETTINGS: [Setting; 9] = [
         "Share of a step over which it blends into the next.",
     ),
     Setting::new(
+        "light.shade",
+        Number(0.0, 1.0),
+        "",
+        "Share of its colour that a surface loses in full shade, beside the hatching.",
+    ),
+    Setting::new(
         "grey.weights",
         Words(&["luminance", "rec601"]),
         "",
         "Grey is the luminance of a colour, or the weighted sum of Rec. 601.",
     ),
     Setting::new(
+        "grey.pale",
+        Number(0.0, 1.0),
+        "",
+        "Share by which greys are lifted towards white paper; 0 is as light as the colour.",
+    ),
+    Setting::new(
         "picture.samples",
-        Whole(1, 4),
+        Whole(1, 8),
         "",
         "Samples along each side of a pixel: more smooth the rims of colour.",
     ),

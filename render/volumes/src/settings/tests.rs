@@ -30,7 +30,7 @@ fn every_key_has_one_row_with_a_sentence() {
 
 #[test]
 fn defaults_are_those_of_the_literature() {
-    let Settings { motion, grid, drawing, hatching, .. } = Settings::default();
+    let Settings { motion, grid, drawing, hatching, light, .. } = Settings::default();
     let forces = [motion.pressure, motion.elastic, motion.cohesion, motion.friction];
     assert_eq!(forces, [400.0, 100.0, 200.0, 40.0]);
     assert_eq!([motion.kick, motion.microstructure, motion.grain], [0.3, 0.18, 0.35]);
@@ -39,7 +39,7 @@ fn defaults_are_those_of_the_literature() {
     assert_eq!([grid.film_mm, grid.rate, grid.slope], [0.02, 0.04, 0.0]);
     assert_eq!(drawing.shells, [1.0, 0.93, 0.86, 0.79]);
     assert_eq!([drawing.rim, drawing.edge, drawing.gate], [0.15, 0.5, -0.2]);
-    assert_eq!((hatching.pencil, hatching.tones, grid.samples), (0.15, 6, 64));
+    assert_eq!((hatching.pencil, light.levels, grid.samples), (0.15, 6, 64));
     Settings::default().valid().unwrap();
 }
 

@@ -28,13 +28,13 @@ pub struct Settings {
     pub grid: GridTable,
     /// Colour inside of volumes.
     pub drawing: DrawingTable,
-    /// Pencil strokes.
+    /// Pencil strokes of light and shade.
     pub hatching: HatchingTable,
     /// The light on the scene.
     pub light: LightTable,
     /// Grey outside of volumes.
     pub grey: GreyTable,
-    /// The picture.
+    /// Samples and paper of the picture.
     pub picture: PictureTable,
 }
 
