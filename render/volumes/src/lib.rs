@@ -13,6 +13,8 @@ pub mod sphere_mesh;
 
 pub mod volume;
 
+pub mod motion;
+
 pub mod wetting;
 
 #[cfg(test)]
