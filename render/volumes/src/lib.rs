@@ -13,6 +13,11 @@ pub mod sphere_mesh;
 
 pub mod volume;
 
+#[cfg(test)]
+mod test_volumes;
+
+pub mod containing;
+
 pub mod motion;
 
 pub mod wetting;
