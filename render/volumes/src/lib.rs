@@ -22,5 +22,7 @@ pub mod motion;
 
 pub mod wetting;
 
+pub mod world;
+
 #[cfg(test)]
 mod test_surfaces;
