@@ -27,6 +27,8 @@ pub mod motion;
 
 pub mod wetting;
 
+pub mod world;
+
 pub mod hatching;
 
 pub mod drawing;

@@ -39,7 +39,7 @@ pub struct Volume {
     pub paint: Cell,
     /// Its particles.
     pub particles: Particles,
-    /// The forces under which it came to rest, as [`crate::motion`] tells them apart; 0 if it moves.
+    /// The forces under which it came to rest, as a number that tells forces apart; 0 if it moves.
     pub(crate) rests_under: u64,
 }
 

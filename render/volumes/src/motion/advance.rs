@@ -1,5 +1,7 @@
 //! All volumes over one step.
 
+use std::ops::RangeInclusive;
+
 use rayon::prelude::*;
 
 use super::error::MotionError;
@@ -69,8 +71,9 @@ fn sub_steps(stiffness: f32, seconds: f32) -> Result<u32, MotionError> {
 }
 
 fn check_volume(index: usize, volume: &Volume) -> Result<(), MotionError> {
+    const FINITE: RangeInclusive<f32> = -1e15..=1e15;
     let fault = |what, value, must| Err(MotionError::Volume { index, what, value, must });
-    let far = volume.center.to_array().into_iter().find(|along| !(along.abs() <= 1e15));
+    let far = volume.center.to_array().into_iter().find(|along| !FINITE.contains(along));
     if let Some(value) = far {
         return fault("centre", value, "finite, at most 1e15");
     }

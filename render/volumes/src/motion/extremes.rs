@@ -116,9 +116,8 @@ fn survives(steps: usize) -> usize {
             let places = &volume.particles.places;
             let numbers = places.iter().chain(&volume.particles.velocities).flatten();
             assert!(numbers.copied().all(f32::is_finite), "step {step}: {settings:?}");
-            for i in 0..places[0].len() {
-                let distance = Vec3::new(places[0][i], places[1][i], places[2][i]).length();
-                let share = distance / volume.radius;
+            for place in volume.vertices().map(Vec3::from) {
+                let share = place.distance(volume.center) / volume.radius;
                 assert!(share > 0.0 && share < 10.0, "step {step}: {share}, {settings:?}");
             }
             assert!(least_cone(volume) > 0.0, "step {step}: {settings:?}");

@@ -16,7 +16,7 @@ impl Microstructure {
     #[must_use]
     pub fn of_seed(seed: u64) -> Self {
         // A stream of its own among the random numbers of a seed.
-        const STREAM: u64 = 0x6772_6169_6e;
+        const STREAM: u64 = 0x6772_6169;
         Self { hills: SolidHills::new(&mut random(seed, STREAM)) }
     }
 

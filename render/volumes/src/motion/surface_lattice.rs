@@ -1,5 +1,7 @@
 //! Which sample of the surface is nearest, looked up in constant time.
 
+use std::ops::Range;
+
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -7,7 +9,7 @@ use super::error::MotionError;
 use super::settings::in_range;
 
 /// Boxes along each side of a cell.
-const BOXES: usize = 8;
+const BOXES: usize = 4;
 
 /// Boxes in a cell.
 const BOXES_OF_CELL: usize = BOXES * BOXES * BOXES;
@@ -18,11 +20,11 @@ const MOST_CELLS: usize = 1 << 24;
 /// No cell of the look-up, or no sample near a box.
 const NONE: u32 = u32::MAX;
 
-/// Samples of the scene's surface, with the nearest one for every box of an eighth of a cell that is
+/// Samples of the scene's surface, with the nearest one for every box of a quarter of a cell that is
 /// less than a cell from the surface.
 ///
 /// The sample of a place is the one nearest to the middle of its box: it is farther from the place
-/// than the nearest of all by at most the diagonal of a box, 0.22 cells.
+/// than the nearest of all by at most the diagonal of a box, 0.43 cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceLattice {
     cell: f32,
@@ -123,39 +125,40 @@ impl SurfaceLattice {
             sorted[next[cell] as usize] = sample as u32;
             next[cell] += 1;
         }
-        let near: Vec<(usize, Vec<u32>)> = (0..cells)
-            .map(|cell| (cell, self.around(cell, &first, &sorted)))
-            .filter(|(_, samples)| !samples.is_empty())
-            .collect();
+        let is_near =
+            |cell: &usize| self.rows_around(*cell).any(|row| first[row.start] < first[row.end]);
+        let near: Vec<usize> = (0..cells).filter(is_near).collect();
         self.tables = vec![NONE; cells];
-        for ((cell, _), table) in near.iter().zip(0..) {
-            self.tables[*cell] = table;
+        for (&cell, table) in near.iter().zip(0..) {
+            self.tables[cell] = table;
         }
-        let boxes = near.par_iter().flat_map_iter(|(cell, samples)| self.boxes_of(*cell, samples));
+        let boxes = near.par_iter().flat_map_iter(|&cell| {
+            let ranges = self.rows_around(cell).map(|row| first[row.start]..first[row.end]);
+            let samples =
+                ranges.flat_map(|range| &sorted[range.start as usize..range.end as usize]);
+            let samples: Vec<_> = samples.map(|&s| (s, self.places[s as usize])).collect();
+            self.boxes_of(cell, &samples)
+        });
         self.boxes = boxes.collect();
     }
 
-    /// Samples of a cell and the 26 around it, in ascending order.
-    fn around(&self, cell: usize, first: &[u32], sorted: &[u32]) -> Vec<u32> {
+    /// A cell and the 26 around it, as up to nine rows of cells that lie one after another.
+    fn rows_around(&self, cell: usize) -> impl Iterator<Item = Range<usize>> + use<> {
         let [columns, rows, layers] = self.counts;
         let [x, y, z] = [cell % columns, cell / columns % rows, cell / columns / rows];
         let side = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
-        let mut found = Vec::new();
-        for layer in side(z, layers) {
-            for row in side(y, rows) {
-                // Cells of one row lie one after another.
+        let (along, across) = (side(x, columns), side(y, rows));
+        side(z, layers).flat_map(move |layer| {
+            let along = along.clone();
+            across.clone().map(move |row| {
                 let start = (layer * rows + row) * columns;
-                let along = side(x, columns);
-                let range = first[start + along.start]..first[start + along.end];
-                found.extend_from_slice(&sorted[range.start as usize..range.end as usize]);
-            }
-        }
-        found.sort_unstable();
-        found
+                start + along.start..start + along.end
+            })
+        })
     }
 
     /// The nearest of `samples` for every box of a cell.
-    fn boxes_of(&self, cell: usize, samples: &[u32]) -> Vec<u32> {
+    fn boxes_of(&self, cell: usize, samples: &[(u32, Vec3)]) -> Vec<u32> {
         const HALF: usize = BOXES / 2;
         let [columns, rows, _] = self.counts;
         let at = [cell % columns, cell / columns % rows, cell / columns / rows];
@@ -163,16 +166,19 @@ impl SurfaceLattice {
         let side = self.cell / BOXES as f32;
         let diagonal = side * 3.0_f32.sqrt();
         let mut found = vec![NONE; BOXES_OF_CELL];
+        let (mut few, mut squares) = (Vec::new(), Vec::new());
         // An eighth of the cell at a time: few samples can be nearest to any of its boxes.
         for eighth in 0..8 {
             let from = [eighth % 2, eighth / 2 % 2, eighth / 4].map(|half| half * HALF);
-            let offset = Vec3::from(from.map(|along| (along + HALF / 2) as f32)) * side;
-            let middle = corner + offset;
-            let to = |sample: u32| (self.places[sample as usize] - middle).length_squared();
-            let least = samples.iter().map(|&sample| to(sample)).fold(f32::MAX, f32::min);
-            let far = least.sqrt() + (HALF as f32 + 0.1) * diagonal;
-            let few = samples.iter().copied().filter(|&sample| to(sample) <= far * far);
-            let few: Vec<(u32, Vec3)> = few.map(|s| (s, self.places[s as usize])).collect();
+            let middle = corner + Vec3::from(from.map(|along| (along + HALF / 2) as f32)) * side;
+            squares.clear();
+            squares.extend(samples.iter().map(|(_, place)| (*place - middle).length_squared()));
+            let least = squares.iter().copied().fold(f32::MAX, f32::min);
+            // Middles of boxes are at most half of this from the middle of the eighth.
+            let far = least.sqrt() + ((HALF - 1) as f32 + 0.01) * diagonal;
+            let near = samples.iter().zip(&squares).filter(|(_, square)| **square <= far * far);
+            few.clear();
+            few.extend(near.map(|(sample, _)| *sample));
             for inside in 0..HALF * HALF * HALF {
                 let [x, y, z] = [inside % HALF, inside / HALF % HALF, inside / HALF / HALF];
                 let at = [from[0] + x, from[1] + y, from[2] + z];
@@ -181,7 +187,8 @@ impl SurfaceLattice {
                 let mut nearest = (reach * reach, NONE);
                 for &(sample, place) in &few {
                     let square = (place - middle).length_squared();
-                    if square < nearest.0 {
+                    // Of equally near samples the first one is taken.
+                    if square < nearest.0 || (square == nearest.0 && sample < nearest.1) {
                         nearest = (square, sample);
                     }
                 }
@@ -224,11 +231,11 @@ mod tests {
                 assert!(to(nearest) > 0.99, "{place} is {} from a sample", to(nearest));
                 continue;
             };
-            assert!(to(sample) <= to(nearest) + 0.217, "{place}: {sample}, {nearest}");
+            assert!(to(sample) <= to(nearest) + 0.434, "{place}: {sample}, {nearest}");
             found += 1;
             exact += usize::from(sample == nearest);
         }
-        assert!(found > 1000 && exact * 10 > found * 6, "{exact} of {found}");
+        assert!(found > 1000 && exact * 10 > found * 3, "{exact} of {found}");
     }
 
     #[test]

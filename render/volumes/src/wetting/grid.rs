@@ -46,16 +46,25 @@ impl Grid {
         Self { samples: self.samples.clone(), cells, graph, reach }
     }
 
-    /// The sample nearest to `place` within a distance, in the unit of the scene; the first of
-    /// several.
+    /// The sample nearest to `place`, the first of several, and its distance in the unit of the
+    /// scene; none if no cell takes paint.
     #[must_use]
     pub fn nearest(&self, place: Vec3) -> Option<(usize, f32)> {
-        let kept = (0..self.cells.len()).filter(|&cell| self.cells.capacities[cell] > 0);
-        let samples = kept.flat_map(|cell| self.samples.of_cell(cell));
-        let distances =
-            samples.map(|sample| (sample, self.samples.places[sample].distance_squared(place)));
-        let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map(|(sample, squared)| (sample, squared.sqrt()))
+        // No place in a cell is farther from the middle of its surface than this.
+        let diagonal = 1.75 * self.samples.lattice.cell;
+        let (mut found, mut least) = (None, f32::INFINITY);
+        for (cell, center) in self.cells.centers.iter().enumerate() {
+            let near = center.distance(place) <= least + diagonal;
+            if near && self.cells.capacities[cell] > 0 {
+                for sample in self.samples.of_cell(cell) {
+                    let distance = self.samples.places[sample].distance(place);
+                    if distance < least {
+                        (found, least) = (Some(sample), distance);
+                    }
+                }
+            }
+        }
+        found.map(|sample| (sample, least))
     }
 
     /// The place on the surface of `cell` that is nearest to the middle of its neighbour `giver`.

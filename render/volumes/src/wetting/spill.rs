@@ -111,19 +111,20 @@ impl Spilling {
     }
 
     fn measure(&mut self, cells: &Cells, paint: &[Cell]) {
-        let amounts = self.volumes.par_iter_mut().zip(&mut self.heads).with_min_len(BLOCK);
-        let known = paint.par_iter().zip(&cells.capacities).zip(&self.lifts);
-        amounts.zip(known).for_each(|((volume, head), ((own, &capacity), lift))| {
-            *volume = own.volume();
-            let films = (u64::from(*volume) << 16) / u64::from(capacity.max(1));
-            *head = lift + films as u32;
+        let blocks = self.volumes.chunks_mut(BLOCK).zip(self.heads.chunks_mut(BLOCK));
+        each(blocks.enumerate().collect(), |(block, (volumes, heads))| {
+            for (cell, (volume, head)) in (block * BLOCK..).zip(volumes.iter_mut().zip(heads)) {
+                *volume = paint[cell].volume();
+                let films = (u64::from(*volume) << 16) / u64::from(cells.capacities[cell].max(1));
+                *head = self.lifts[cell] + films as u32;
+            }
         });
     }
 
     /// Fills `shares`.
     fn offer(&mut self, graph: &Graph, cells: &Cells, births: bool) {
         let (volumes, heads, rates) = (&self.volumes, &self.heads, self.rates);
-        blocks_of(graph, &mut self.shares).into_par_iter().for_each(|(first, shares)| {
+        each(blocks_of(graph, &mut self.shares), |(first, shares)| {
             let offset = graph.starts[first] as usize;
             for cell in first..(first + BLOCK).min(graph.len()) {
                 let links = graph.links(cell);
@@ -159,8 +160,9 @@ impl Spilling {
     /// Fills `accepted`.
     fn accept(&mut self, graph: &Graph, cells: &Cells) {
         let (volumes, shares) = (&self.volumes, &self.shares);
-        self.accepted.par_iter_mut().with_min_len(BLOCK).enumerate().for_each(
-            |(cell, accepted)| {
+        let blocks = self.accepted.chunks_mut(BLOCK).enumerate().collect();
+        each(blocks, |(block, all)| {
+            for (cell, accepted) in (block * BLOCK..).zip(all) {
                 let offers = graph.links(cell).map(|link| {
                     let share = shares[graph.back[link] as usize];
                     // Rounded up.
@@ -170,15 +172,16 @@ impl Spilling {
                 let offered: u64 = offers.sum();
                 let free = u64::from(room(cells.capacities[cell]).saturating_sub(volumes[cell]));
                 *accepted = if offered > free { free * ONE / offered } else { ONE } as u32;
-            },
-        );
+            }
+        });
     }
 
     /// Fills `next`.
     fn gather(&mut self, graph: &Graph, paint: &[Cell]) -> Vec<Birth> {
         let (volumes, shares, accepted) = (&self.volumes, &self.shares, &self.accepted);
         let given = |link: usize, taker: usize| share_of_65536(shares[link], accepted[taker]);
-        let blocks = self.next.par_chunks_mut(BLOCK).enumerate().map(|(block, next)| {
+        let blocks = self.next.chunks_mut(BLOCK).enumerate().collect();
+        let births = each(blocks, |(block, next)| {
             let mut births = Vec::new();
             for (cell, next) in (block * BLOCK..).zip(next) {
                 *next = paint[cell];
@@ -202,7 +205,15 @@ impl Spilling {
             }
             births
         });
-        blocks.collect::<Vec<_>>().concat()
+        births.concat()
+    }
+}
+
+/// The results of `act` for all blocks, in their order; a single block needs no other thread.
+fn each<T: Send, R: Send>(blocks: Vec<T>, act: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
+    match blocks.len() {
+        0 | 1 => blocks.into_iter().map(act).collect(),
+        _ => blocks.into_par_iter().map(act).collect(),
     }
 }
 
