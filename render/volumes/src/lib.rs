@@ -41,6 +41,10 @@ pub mod settings;
 
 pub mod script;
 
+pub mod performance;
+
+pub mod painter;
+
 mod kernels;
 
 pub use kernels::kernels;
