@@ -49,8 +49,6 @@ impl Hills {
             let [x, y] = self.slopes[usize::from(index)];
             x * (a - right as f32) + y * (b - down as f32)
         };
-        let blend = |t: f32| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-        let mix = |from: f32, to: f32, share: f32| from + (to - from) * share;
         let upper = mix(corner(0, 0), corner(1, 0), blend(a));
         let lower = mix(corner(0, 1), corner(1, 1), blend(a));
         mix(upper, lower, blend(b))
@@ -72,6 +70,9 @@ pub struct SolidHills {
 /// add three components of variance `STEEPEST^2 / 3`, times the blends as for [`Hills`].
 const STEEPEST: f32 = 1.746;
 
+/// Odd factors (those of xxHash32, Collet 2012) that keep the axes of the lattice apart.
+const FACTORS: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
+
 impl SolidHills {
     /// Frequency at which a plane through the hills has most of its variance, in waves a unit
     /// (the peak of frequency times spectral density, from the Fourier transform of the blend).
@@ -86,29 +87,58 @@ impl SolidHills {
     #[inline(always)]
     #[must_use]
     pub fn at(self, place: [f32; 3]) -> f32 {
-        let low = place.map(f32::floor);
-        let [a, b, c] = [0, 1, 2].map(|axis| place[axis] - low[axis]);
-        // Odd factors of the finaliser of xxHash32 (Collet 2012) keep the axes apart.
-        const FACTORS: [u32; 3] = [0x9e37_79b1, 0x85eb_ca77, 0xc2b2_ae3d];
-        let [x, y, z] = [0, 1, 2].map(|axis| (low[axis] as i32 as u32).wrapping_mul(FACTORS[axis]));
-        let corner = |right: u32, down: u32, back: u32| {
-            let x = x.wrapping_add(right.wrapping_mul(FACTORS[0]));
-            let y = y.wrapping_add(down.wrapping_mul(FACTORS[1]));
-            let z = z.wrapping_add(back.wrapping_mul(FACTORS[2]));
-            let from = [a - right as f32, b - down as f32, c - back as f32];
-            slope(mixed(x ^ y ^ z ^ self.seed), from)
-        };
-        let blend = |t: f32| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-        let (right, down, back) = (blend(a), blend(b), blend(c));
-        let mix = |from: f32, to: f32, share: f32| from + (to - from) * share;
-        let side = |back: u32| {
-            let upper = mix(corner(0, 0, back), corner(1, 0, back), right);
-            mix(upper, mix(corner(0, 1, back), corner(1, 1, back), right), down)
-        };
-        let height = mix(side(0), side(1), back) * STEEPEST;
+        let low = [place[0].floor(), place[1].floor(), place[2].floor()];
+        let from = [place[0] - low[0], place[1] - low[1], place[2] - low[2]];
+        let hashes = [
+            (low[0] as i32 as u32).wrapping_mul(FACTORS[0]),
+            (low[1] as i32 as u32).wrapping_mul(FACTORS[1]),
+            (low[2] as i32 as u32).wrapping_mul(FACTORS[2]),
+        ];
+        let shares = [blend(from[0]), blend(from[1]), blend(from[2])];
+        let near = self.side(0, hashes, from, shares);
+        let height = mix(near, self.side(1, hashes, from, shares), shares[2]) * STEEPEST;
         let height = if height > 1.0 { 1.0 } else { height };
         if height < -1.0 { -1.0 } else { height }
     }
+
+    /// The height between the four corners at the near or far side along z, by the slopes there.
+    #[inline(always)]
+    fn side(self, back: u32, hashes: [u32; 3], from: [f32; 3], shares: [f32; 3]) -> f32 {
+        let upper = mix(
+            self.corner([0, 0, back], hashes, from),
+            self.corner([1, 0, back], hashes, from),
+            shares[0],
+        );
+        let lower = mix(
+            self.corner([0, 1, back], hashes, from),
+            self.corner([1, 1, back], hashes, from),
+            shares[0],
+        );
+        mix(upper, lower, shares[1])
+    }
+
+    /// The height by the slope at one of the eight corners.
+    #[inline(always)]
+    fn corner(self, corner: [u32; 3], hashes: [u32; 3], from: [f32; 3]) -> f32 {
+        let x = hashes[0].wrapping_add(corner[0].wrapping_mul(FACTORS[0]));
+        let y = hashes[1].wrapping_add(corner[1].wrapping_mul(FACTORS[1]));
+        let z = hashes[2].wrapping_add(corner[2].wrapping_mul(FACTORS[2]));
+        let x_from = from[0] - corner[0] as f32;
+        let y_from = from[1] - corner[1] as f32;
+        let z_from = from[2] - corner[2] as f32;
+        slope(mixed(x ^ y ^ z ^ self.seed), [x_from, y_from, z_from])
+    }
+}
+
+/// The quintic blend between corners.
+#[inline(always)]
+fn blend(t: f32) -> f32 {
+    t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+}
+
+#[inline(always)]
+fn mix(from: f32, to: f32, share: f32) -> f32 {
+    from + (to - from) * share
 }
 
 /// A hash in which every bit of `bits` counts (the finaliser of MurmurHash3, Appleby 2011).
@@ -122,7 +152,9 @@ fn mixed(bits: u32) -> u32 {
 /// The scalar product of `from` and a gradient in the cube -1..1, three times ten bits.
 #[inline(always)]
 fn slope(bits: u32, [x, y, z]: [f32; 3]) -> f32 {
-    let [a, b, c] = [22, 12, 2].map(|first| ((bits >> first) & 1023) as i32 as f32);
+    let a = (bits >> 22) as i32 as f32;
+    let b = ((bits >> 12) & 1023) as i32 as f32;
+    let c = ((bits >> 2) & 1023) as i32 as f32;
     (a * x + b * y + c * z) * (2.0 / 1023.0) - (x + y + z)
 }
 

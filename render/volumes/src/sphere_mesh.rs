@@ -16,7 +16,7 @@ pub const MOST_DETAIL: u8 = 5;
 pub struct SphereMesh {
     /// Unit vectors from the centre to the vertices.
     pub directions: Vec<[f32; 3]>,
-    /// The same unit vectors, their components along x, y and z one array each.
+    /// Components of the unit vectors along x, y and z, one array each.
     pub axes: [Vec<f32>; 3],
     /// Corners of the faces, counter-clockwise seen from outside.
     pub faces: Vec<[u32; 3]>,

@@ -145,6 +145,13 @@ fn volumes_at_one_place_share_the_microstructure() {
     let [a, b] = volumes.each_ref().map(places);
     let farthest = a.iter().zip(b).map(|(a, b)| a.distance(b)).fold(0.0, f64::max);
     assert!(farthest < 1e-4, "{farthest}");
+    // Away from there along any axis it is another.
+    for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+        let mut other = [Volume::ball(Vec3::X + axis * 5.1, 0.7, 3, 1)];
+        advance(&mut other, &MotionSettings::default(), &surroundings, 10.0).unwrap();
+        let apart = a.iter().zip(places(&other[0])).map(|(a, b)| a.distance(b));
+        assert!(apart.fold(0.0, f64::max) > 0.05, "{axis}");
+    }
 }
 
 /// Energy of each degree of the spherical harmonics of values on a sphere, by their addition

@@ -10,7 +10,7 @@ pub enum MotionError {
     OutOfRange {
         /// Name of the setting, for example `pressure`.
         key: &'static str,
-        /// Its value.
+        /// Value that was found.
         value: f32,
         /// Least value allowed.
         least: f32,
@@ -42,7 +42,7 @@ pub enum MotionError {
         index: usize,
         /// The quantity: centre, radius or target radius.
         what: &'static str,
-        /// Its value.
+        /// Value that was found.
         value: f32,
         /// Its range in words.
         must: &'static str,

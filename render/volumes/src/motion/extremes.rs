@@ -169,6 +169,24 @@ fn explicit_euler(settings: &MotionSettings, seconds: f32, steps: usize) -> f32 
 }
 
 #[test]
+fn particles_without_a_direction_go_to_their_places_of_rest() {
+    let mut ball = [Volume::ball(Vec3::X, 0.5, 2, 1)];
+    let still = ball.clone();
+    ball[0].particles.places[0][5] = f32::NAN;
+    ball[0].particles.velocities[1][6] = f32::INFINITY;
+    for along in &mut ball[0].particles.places {
+        along[20] = 0.0;
+    }
+    let settings = MotionSettings { microstructure: 0.0, ..MotionSettings::default() };
+    advance(&mut ball, &settings, &Surroundings::new(1.0, 1), STEP).unwrap();
+    assert!(ball[0].particles.velocities.iter().flatten().all(|along| along.is_finite()));
+    for (place, rest) in ball[0].vertices().zip(still[0].vertices()) {
+        // Cohesion draws the neighbours of the one at the centre a little.
+        assert!(Vec3::from(place).distance(rest.into()) < 0.005, "{place:?} {rest:?}");
+    }
+}
+
+#[test]
 fn explicit_euler_diverges_where_the_step_does_not() {
     for (friction, seconds) in [(0.0, STEP), (4.0, 1.0 / 30.0), (10.0, 1.0 / 30.0)] {
         let settings =

@@ -12,11 +12,11 @@ pub enum KeepIn {
         /// Its greatest corner.
         high: Vec3,
     },
-    /// A ball.
+    /// A ball, with its inside.
     Ball {
-        /// Its centre.
+        /// Centre in the unit of the scene.
         center: Vec3,
-        /// Its radius.
+        /// Radius, above 0, in the unit of the scene.
         radius: f32,
     },
     /// The half of space above a plane.

@@ -65,8 +65,11 @@ impl RestingRadii {
         }
         let [from_x, from_y, from_z] = self.center;
         for i in 0..out.len() {
-            let place = [from_x + radius * x[i], from_y + radius * y[i], from_z + radius * z[i]];
-            let hill = self.hills.at(place.map(|along| along * self.units));
+            let hill = self.hills.at([
+                (from_x + radius * x[i]) * self.units,
+                (from_y + radius * y[i]) * self.units,
+                (from_z + radius * z[i]) * self.units,
+            ]);
             out[i] = scaled * (1.0 + self.height * hill);
         }
     }
