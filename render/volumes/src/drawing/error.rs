@@ -1,4 +1,4 @@
-//! What can go wrong while a picture is drawn.
+//! Reasons why a picture cannot be drawn.
 
 use graphics::gpu::DeviceError;
 use spectra::hint::{Explain, Fault, Hint};

@@ -8,7 +8,7 @@ use super::shells::TintTable;
 /// Most regions of a picture.
 pub const MOST_REGIONS: usize = 64;
 
-/// What is seen inside of the volumes of a region.
+/// Colours that are seen inside of the volumes of a region.
 #[derive(Debug, Clone)]
 pub enum Inside {
     /// The surface's own colour.
@@ -28,7 +28,7 @@ pub struct Region {
     pub counts: Image<i32>,
     /// Share of the colour inside, by count.
     pub table: TintTable,
-    /// What is seen inside.
+    /// Colours inside.
     pub inside: Inside,
 }
 

@@ -192,12 +192,8 @@ fn reveal_on_gpu(
     samples: usize,
 ) -> Result<Plane<[f32; 4]>, DeviceError> {
     let (width, height) = shaded.size();
-    let composed = match regions {
-        [] => None,
-        _ => Some(gpu.plane::<[f32; 4]>(width, height)?),
-    };
+    let composed = gpu.plane::<[f32; 4]>(width, height)?;
     for (index, region) in regions.iter().enumerate() {
-        let Some(composed) = &composed else { break };
         let (factor, inside) = match &region.inside {
             Inside::OwnColors => ([1.0; 3], None),
             Inside::Multiplied(factor) => (*factor, None),
@@ -223,9 +219,9 @@ fn reveal_on_gpu(
         has_paper: paper.is_some().into(),
         size: [columns as u32, rows as u32],
         samples: samples as u32,
-        only_grey: composed.is_none().into(),
+        only_grey: regions.is_empty().into(),
     };
-    let colors = composed.as_ref().unwrap_or(shaded).buffer();
+    let colors = if regions.is_empty() { shaded } else { &composed }.buffer();
     let buffers = [colors, visible.buffer(), picture.buffer()];
     gpu.dispatch(&FINISH, &params, &buffers, (columns, rows));
     Ok(picture)

@@ -122,11 +122,11 @@ impl<'a> Shader<'a> {
         let (width, height) = (visible.width(), visible.height());
         let mut shaded = Field::filled(width, height, [1.0; 4]);
         shaded.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
-            pulp::Arch::new().dispatch(Row {
-                shader: self,
-                fragments: visible.row(y, 0, width),
-                row,
-            });
+            for (shaded, fragment) in row.iter_mut().zip(visible.row(y, 0, width)) {
+                if fragment.triangle != NO_TRIANGLE {
+                    *shaded = self.shaded(*fragment);
+                }
+            }
         });
         shaded
     }
@@ -190,26 +190,6 @@ impl<'a> Shader<'a> {
             }
         }
         ink.min(1.0)
-    }
-}
-
-/// One row of the result.
-struct Row<'a> {
-    shader: &'a Shader<'a>,
-    fragments: &'a [Fragment],
-    row: &'a mut [[f32; 4]],
-}
-
-impl pulp::WithSimd for Row<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        for (shaded, fragment) in self.row.iter_mut().zip(self.fragments) {
-            if fragment.triangle != NO_TRIANGLE {
-                *shaded = self.shader.shaded(*fragment);
-            }
-        }
     }
 }
 

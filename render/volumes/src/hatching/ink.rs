@@ -31,7 +31,7 @@ pub fn crossed_tones(tone: f32) -> [f32; 2] {
     [(tone * DIRECTIONS_MEET).sqrt(), (tone / DIRECTIONS_MEET).sqrt()]
 }
 
-/// What is needed to ink a point.
+/// Strokes and figures that ink a point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Inking<'a> {
     /// [`super::ThresholdTexture::quads`].

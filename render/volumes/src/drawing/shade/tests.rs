@@ -194,6 +194,41 @@ fn strokes_stay_on_a_turning_model() {
 }
 
 #[test]
+fn a_picture_has_the_same_bits_on_any_number_of_threads() {
+    let mesh = SampleModel::StillLife.mesh(4000);
+    let camera = camera(&mesh, 1.5);
+    let draw =
+        || Scene::new(Compute::cpu(), &mesh).grey(&camera, (75, 50), &DrawingLook::default());
+    let pictures = [1, 2, 5].map(|threads| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(draw)
+    });
+    let bits = |picture: &Field<[f32; 4]>| -> Vec<u32> {
+        picture.values().iter().flatten().map(|value| value.to_bits()).collect()
+    };
+    assert!(pictures.iter().all(|picture| bits(picture) == bits(&pictures[0])));
+}
+
+#[test]
+fn a_pale_drawing_is_lighter_outside_and_unchanged_inside() {
+    let mesh = SampleModel::StillLife.mesh(4000);
+    let mut scene = Scene::new(Compute::cpu(), &mesh);
+    let camera = camera(&mesh, 1.5);
+    let mut shaded = |pale| {
+        let look = DrawingLook { pale, ..DrawingLook::default() };
+        scene.shade(&camera, (75, 50), &look).0
+    };
+    let (plain, pale) = (shaded(0.0), shaded(0.6));
+    for (plain, pale) in plain.values().iter().zip(pale.values()) {
+        assert_eq!(plain[..3], pale[..3]);
+        assert!((0.0..=1.0).contains(&pale[3]), "{pale:?}");
+    }
+    let dark = |field: &Field<[f32; 4]>| -> f32 {
+        field.values().iter().map(|pixel| 1.0 - pixel[3]).sum()
+    };
+    assert!(dark(&pale) < 0.8 * dark(&plain), "{} {}", dark(&pale), dark(&plain));
+}
+
+#[test]
 fn a_device_draws_the_same_picture() {
     let Some(gpu) = device() else { return };
     let mesh = SampleModel::StillLife.mesh(4000);
@@ -203,6 +238,7 @@ fn a_device_draws_the_same_picture() {
             let mut look = DrawingLook { lit, ..DrawingLook::default() };
             look.hatching.coordinates = Some(coordinates);
             look.hatching.outside = 0.7;
+            look.pale = if lit { 0.5 } else { 0.0 };
             let camera = camera(&mesh, width as f32 / height as f32);
             // One visibility buffer for both, since rasterisers differ at edges.
             let [cpu, gpu] = &mut scenes;
