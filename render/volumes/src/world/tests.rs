@@ -185,6 +185,13 @@ fn what_a_full_cell_has_no_room_for_stays_in_the_tube() {
     assert!(is_exact(&world) && tally.in_tube[0] > 0);
     let asked = tally.poured[0] + tally.in_tube[0];
     assert_eq!(asked, (2.0 / world.quantum_mm3()).round() as u64);
+    // No surface is left to pour on or to split to.
+    let mut bare = world.clone();
+    bare.keep(KeepIn::Ball { center: Vec3::splat(5.0), radius: 0.1 }).unwrap();
+    assert!(bare.pour(Pour::at(Vec3::ZERO, 2.0, 1.0, Recipe::of_slot(0))).is_err());
+    bare.add_volume(&single(Vec3::ZERO, 1.0)).unwrap();
+    run(&mut bare, 20);
+    assert!(is_exact(&bare) && bare.grid().samples.is_empty());
     // Walls hold the volumes back, but for the rounding of a wall.
     for volume in world.volumes() {
         assert!(volume.vertices().all(|at| at[0].abs() < 0.6001 && at[2].abs() < 0.6001));
@@ -301,4 +308,29 @@ fn worlds_and_volumes_out_of_range_are_refused() {
     let full = world.add_volume(&good);
     assert_eq!(full, Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES }));
     assert_eq!(world.tally(), Tally::default());
+}
+
+#[test]
+fn a_full_world_keeps_paint_where_it_is_or_in_the_tube() {
+    let mut world = flat();
+    let dot = Single { recipe: None, detail: 0, ..single(Vec3::splat(9.0), 0.1) };
+    for _ in 0..MOST_VOLUMES - 3 {
+        world.add_volume(&dot).unwrap();
+    }
+    world.pour(Pour::at(Vec3::ZERO, 1.0, 1.0, Recipe::of_slot(0))).unwrap();
+    let far = Vec3::new(4.0, 0.0, 4.0);
+    for _ in 0..60 {
+        world.move_paint().unwrap();
+    }
+    world.add_volume(&dot).unwrap();
+    world.add_volume(&dot).unwrap();
+    world.pour(Pour::at(far, 1.0, 0.5, Recipe::of_slot(1))).unwrap();
+    for _ in 0..60 {
+        world.move_paint().unwrap();
+    }
+    assert_eq!(world.volumes().len(), MOST_VOLUMES);
+    assert!(is_exact(&world));
+    let tally = world.tally();
+    assert_eq!(tally.in_tube[1], (0.5 / world.quantum_mm3()).round() as u64);
+    assert!(tally.on_scene[0] > 0 && tally.on_scene[1] == 0);
 }
