@@ -24,14 +24,13 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// The cells of `samples`, of which only those for which `kept` is true count.
+    /// The cells of `samples`.
     #[must_use]
-    pub fn of(samples: &SurfaceSamples, kept: impl Fn(Vec3) -> bool) -> Self {
+    pub fn of(samples: &SurfaceSamples) -> Self {
         let mut cells = Self::default();
         for cell in 0..samples.cell_count() {
-            let own = samples.of_cell(cell).filter(|&sample| kept(samples.places[sample]));
             let (mut count, mut place, mut normal) = (0_u32, Vec3::ZERO, Vec3::ZERO);
-            for sample in own {
+            for sample in samples.of_cell(cell) {
                 count += 1;
                 place += samples.places[sample];
                 normal += samples.normals[sample];

@@ -30,20 +30,21 @@ impl Grid {
     /// If the mesh has no surface, or the cells have no size or are too many.
     pub fn of(mesh: &Mesh, cell: f32, seed: u64) -> Result<Self, WettingError> {
         let samples = SurfaceSamples::of(mesh, cell, seed)?;
-        let cells = Cells::of(&samples, |_| true);
+        let cells = Cells::of(&samples);
         let graph = Graph::of(mesh, &samples)?;
-        let reach = Reach::of(&samples, &cells, |_| true);
+        let reach = Reach::of(&samples, &cells);
         Ok(Self { samples, cells, graph, reach })
     }
 
     /// The grid of the surface where `kept` is true. The numbers of cells stay; cells without
     /// such surface have no capacity and no links.
     #[must_use]
-    pub fn within(&self, kept: impl Fn(Vec3) -> bool + Copy) -> Self {
-        let cells = Cells::of(&self.samples, kept);
+    pub fn within(&self, kept: impl Fn(Vec3) -> bool) -> Self {
+        let samples = self.samples.within(kept);
+        let cells = Cells::of(&samples);
         let graph = self.graph.cut(|cell| cells.capacities[cell] > 0);
-        let reach = Reach::of(&self.samples, &cells, kept);
-        Self { samples: self.samples.clone(), cells, graph, reach }
+        let reach = Reach::of(&samples, &cells);
+        Self { samples, cells, graph, reach }
     }
 
     /// The sample nearest to `place`, the first of several, and its distance in the unit of the

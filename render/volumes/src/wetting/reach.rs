@@ -1,7 +1,5 @@
 //! How large a volume is that holds an amount of paint: its film is as thick as any other.
 
-use glam::Vec3;
-
 use super::cells::{Cells, quanta_per_sample};
 use super::samples::SurfaceSamples;
 
@@ -19,15 +17,15 @@ pub struct Reach {
 }
 
 impl Reach {
-    /// The reach over the samples for which `kept` is true, around the middles of `cells`.
+    /// The reach over the samples around the middles of `cells`.
     #[must_use]
-    pub fn of(samples: &SurfaceSamples, cells: &Cells, kept: impl Fn(Vec3) -> bool) -> Self {
+    pub fn of(samples: &SurfaceSamples, cells: &Cells) -> Self {
         let mut distances = Vec::with_capacity(samples.len());
         let mut starts = vec![0];
         for cell in 0..samples.cell_count() {
             let first = distances.len();
-            let own = samples.places[samples.of_cell(cell)].iter().filter(|place| kept(**place));
-            distances.extend(own.map(|place| place.distance(cells.centers[cell])));
+            let own = &samples.places[samples.of_cell(cell)];
+            distances.extend(own.iter().map(|place| place.distance(cells.centers[cell])));
             distances[first..].sort_unstable_by(f32::total_cmp);
             starts.push(distances.len() as u32);
         }

@@ -90,19 +90,35 @@ impl SurfaceSamples {
         }
     }
 
+    /// The samples whose place is `kept`. The numbers of cells stay, so that some may be empty.
+    #[must_use]
+    pub fn within(&self, kept: impl Fn(Vec3) -> bool) -> Self {
+        let all: Vec<usize> = (0..self.len()).filter(|&sample| kept(self.places[sample])).collect();
+        let before = |&start: &u32| all.partition_point(|&sample| sample < start as usize) as u32;
+        Self {
+            lattice: self.lattice,
+            places: all.iter().map(|&sample| self.places[sample]).collect(),
+            normals: all.iter().map(|&sample| self.normals[sample]).collect(),
+            areas: all.iter().map(|&sample| self.areas[sample]).collect(),
+            triangles: all.iter().map(|&sample| self.triangles[sample]).collect(),
+            cells: all.iter().map(|&sample| self.cells[sample]).collect(),
+            starts: self.starts.iter().map(before).collect(),
+        }
+    }
+
     /// Number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
         self.places.len()
     }
 
-    /// Whether there is no sample; a surface with an area has at least one.
+    /// Whether there is no sample.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.places.is_empty()
     }
 
-    /// Number of cells that hold a sample.
+    /// Number of cells; each held a sample before [`Self::within`].
     #[must_use]
     pub fn cell_count(&self) -> usize {
         self.starts.len() - 1

@@ -4,7 +4,7 @@ use paint::amount::{ratio_of_65536, share_of_65536};
 use paint::layer::Cell;
 use rayon::prelude::*;
 
-use super::cells::{Cells, room};
+use super::cells::{Cells, MOST_FILMS, room};
 use super::fault::WettingError;
 use super::graph::Graph;
 
@@ -38,6 +38,8 @@ pub struct Spilling {
     rates: [u64; 3],
     /// Height of each cell as a head, in parts of 65536.
     lifts: Vec<u32>,
+    /// Whether cells lie at different heights, or hold less than 16 films.
+    uneven: bool,
     volumes: Vec<u32>,
     heads: Vec<u32>,
     /// What each cell gives along each of its links, as a share of its paint.
@@ -68,9 +70,12 @@ impl Spilling {
             (slope * height / cell * ONE as f32).clamp(0.0, (1 << 30) as f32) as u32
         };
         let rate = |axes: f32| (rate * ONE as f32 / axes) as u64;
+        let lifts: Vec<u32> = (0..cells.len()).map(lift).collect();
+        let tight = |&capacity: &u32| room(capacity) < capacity.saturating_mul(MOST_FILMS);
         Ok(Self {
             rates: [rate(1.0), rate(2.0), rate(3.0)],
-            lifts: (0..cells.len()).map(lift).collect(),
+            uneven: lifts.iter().any(|lift| *lift > 0) || cells.capacities.iter().any(tight),
+            lifts,
             volumes: Vec::new(),
             heads: Vec::new(),
             shares: Vec::new(),
@@ -102,23 +107,33 @@ impl Spilling {
         self.accepted.resize(count, 0);
         self.shares.resize(graph.others.len(), 0);
         self.next.resize(count, Cell::default());
-        self.measure(cells, paint);
+        let most = self.measure(cells, paint);
         self.offer(graph, cells, births);
-        self.accept(graph, cells);
+        // A level cell never rises above its highest neighbour, but for rounding.
+        match self.uneven || u64::from(most) >= u64::from(MOST_FILMS - 1) * ONE {
+            true => self.accept(graph, cells),
+            false => self.accepted.fill(ONE as u32),
+        }
         let found = self.gather(graph, paint);
         std::mem::swap(paint, &mut self.next);
         found
     }
 
-    fn measure(&mut self, cells: &Cells, paint: &[Cell]) {
+    /// Fills `volumes` and `heads`, and returns the highest head.
+    fn measure(&mut self, cells: &Cells, paint: &[Cell]) -> u32 {
         let blocks = self.volumes.chunks_mut(BLOCK).zip(self.heads.chunks_mut(BLOCK));
-        each(blocks.enumerate().collect(), |(block, (volumes, heads))| {
+        let most = each(blocks.enumerate().collect(), |(block, (volumes, heads))| {
+            let mut most = 0;
             for (cell, (volume, head)) in (block * BLOCK..).zip(volumes.iter_mut().zip(heads)) {
                 *volume = paint[cell].volume();
                 let films = (u64::from(*volume) << 16) / u64::from(cells.capacities[cell].max(1));
-                *head = self.lifts[cell] + films as u32;
+                // Cells that were cut may hold more than they could now.
+                *head = self.lifts[cell] + films.min(1 << 30) as u32;
+                most = most.max(*head);
             }
+            most
         });
+        most.into_iter().max().unwrap_or(0)
     }
 
     /// Fills `shares`.
@@ -179,33 +194,60 @@ impl Spilling {
     /// Fills `next`.
     fn gather(&mut self, graph: &Graph, paint: &[Cell]) -> Vec<Birth> {
         let (volumes, shares, accepted) = (&self.volumes, &self.shares, &self.accepted);
-        let given = |link: usize, taker: usize| share_of_65536(shares[link], accepted[taker]);
         let blocks = self.next.chunks_mut(BLOCK).enumerate().collect();
         let births = each(blocks, |(block, next)| {
-            let mut births = Vec::new();
-            for (cell, next) in (block * BLOCK..).zip(next) {
-                *next = paint[cell];
-                let (mut most, mut giver) = (0, None);
-                for link in graph.links(cell) {
-                    let other = graph.others[link] as usize;
-                    let out = given(link, other);
-                    if out > 0 {
-                        *next = next.minus(&paint[cell].share_of_65536(out));
-                    }
-                    let back = graph.back[link] as usize;
-                    if shares[back] > 0 {
-                        let part = paint[other].share_of_65536(given(back, cell));
-                        *next = next.plus(&part);
-                        if volumes[cell] == 0 && part.volume() > most {
-                            (most, giver) = (part.volume(), Some(other as u32));
-                        }
-                    }
-                }
-                births.extend(giver.map(|giver| Birth { cell: cell as u32, giver }));
-            }
-            births
+            let first = block * BLOCK;
+            let gathering = Gathering { graph, paint, volumes, shares, accepted, first, next };
+            pulp::Arch::new().dispatch(gathering)
         });
         births.concat()
+    }
+}
+
+/// The cells of a block that gather what their neighbours give; compiled for every instruction
+/// set.
+struct Gathering<'a> {
+    graph: &'a Graph,
+    paint: &'a [Cell],
+    volumes: &'a [u32],
+    shares: &'a [u32],
+    accepted: &'a [u32],
+    /// The first cell of the block.
+    first: usize,
+    next: &'a mut [Cell],
+}
+
+impl pulp::WithSimd for Gathering<'_> {
+    type Output = Vec<Birth>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Birth> {
+        let Self { graph, paint, volumes, shares, accepted, first, next } = self;
+        let mut births = Vec::new();
+        for (cell, next) in (first..).zip(next) {
+            let own = paint[cell];
+            let mut sum = own;
+            let (mut most, mut giver) = (0, None);
+            for link in graph.links(cell) {
+                let other = graph.others[link] as usize;
+                let back = graph.back[link] as usize;
+                // Paint flows one way, from the higher head to the lower.
+                if shares[link] > 0 {
+                    let share = share_of_65536(shares[link], accepted[other]);
+                    sum = sum.minus(&own.share_of_65536(share));
+                } else if shares[back] > 0 {
+                    let share = share_of_65536(shares[back], accepted[cell]);
+                    let part = paint[other].share_of_65536(share);
+                    sum = sum.plus(&part);
+                    if volumes[cell] == 0 && part.volume() > most {
+                        (most, giver) = (part.volume(), Some(other as u32));
+                    }
+                }
+            }
+            *next = sum;
+            births.extend(giver.map(|giver| Birth { cell: cell as u32, giver }));
+        }
+        births
     }
 }
 

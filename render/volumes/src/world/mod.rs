@@ -25,6 +25,8 @@ mod state;
 
 mod spreading;
 
+mod keeping;
+
 mod single;
 
 mod pouring;

@@ -5,7 +5,7 @@ use paint::amount::MAX_COLUMN;
 
 use super::actions::{Pour, Source, Timed};
 use super::error::{WorldError, in_range};
-use super::recipe::{Measured, amounts_of, as_cell, fitting};
+use super::recipe::{Measured, as_cell, fitting};
 use super::settings::STEPS_PER_SECOND;
 use super::state::World;
 use super::tally::add;
@@ -86,7 +86,15 @@ impl World {
         };
         let due = pour.rate_mm3_s * seconds / self.scale.quantum_mm3;
         let added = measured.up_to(&pour.recipe, due, ends);
-        let index = self.volume_under(sample, pour.region)?;
+        let wet = self.volumes.len();
+        let index = match self.volume_under(sample, pour.region) {
+            // No room for another volume.
+            Err(WorldError::Full { .. }) => {
+                add(&mut self.in_tube, added);
+                return Ok(());
+            }
+            found => found?,
+        };
         let volume = &self.volumes[index];
         let room = match volume.cell {
             Some(cell) => self.grid.cells.room(cell as usize),
@@ -96,8 +104,8 @@ impl World {
         let paint = volume.paint.plus(&as_cell(taken));
         add(&mut self.poured, taken);
         add(&mut self.in_tube, std::array::from_fn(|i| added[i] - taken[i]));
-        debug_assert_eq!(amounts_of(&as_cell(taken)), taken, "what fits is a cell's");
-        if into.replace(volume.seed) != Some(volume.seed) {
+        // Volumes have a kick at birth.
+        if into.replace(volume.seed) != Some(volume.seed) && index < wet {
             kick(&mut self.volumes[index], self.settings.motion.kick, self.steps);
         }
         match self.volumes[index].cell {

@@ -54,6 +54,9 @@ impl World {
         let places = &self.grid.samples.places;
         let mut squares: Vec<f32> =
             places.iter().map(|place| place.distance_squared(center)).collect();
+        if squares.is_empty() {
+            return 0.0;
+        }
         let covered = f64::from(amount) / self.quanta_per_sample();
         let last = squares.len() - 1;
         let (_, nth, _) =

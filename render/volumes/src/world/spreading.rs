@@ -4,7 +4,6 @@ use glam::Vec3;
 use paint::layer::Cell;
 
 use super::error::WorldError;
-use super::settings::MOST_VOLUMES;
 use super::state::{BIRTH, NONE, World};
 
 /// Level of detail of the volumes of the grid.
@@ -33,23 +32,29 @@ impl World {
     /// One step of spilling between all wet volumes of the grid.
     pub(super) fn spill(&mut self) -> Result<(), WorldError> {
         let grid = std::sync::Arc::clone(&self.grid);
-        self.paint.fill(Cell::default());
-        let (mut over, mut dry) = (false, 0);
+        let mut reached = Vec::new();
+        let mut over = false;
         for volume in self.volumes.iter().filter(|volume| !volume.dry) {
             let Some(cell) = volume.cell.map(|cell| cell as usize) else { continue };
-            self.paint[cell] = volume.paint;
-            let full = volume.paint.volume() > grid.cells.capacities[cell];
-            over |= full;
-            if full {
-                let others = grid.graph.links(cell).map(|link| grid.graph.others[link] as usize);
-                dry += others.filter(|&other| self.of_cell[other] == NONE).count();
+            if volume.paint.volume() > grid.cells.capacities[cell] {
+                over = true;
+                let others = grid.graph.links(cell).map(|link| grid.graph.others[link]);
+                reached.extend(others.filter(|&other| self.of_cell[other as usize] == NONE));
             }
         }
         if !over {
             return Ok(());
         }
+        self.paint.fill(Cell::default());
+        for volume in self.volumes.iter().filter(|volume| !volume.dry) {
+            if let Some(cell) = volume.cell {
+                self.paint[cell as usize] = volume.paint;
+            }
+        }
+        reached.sort_unstable();
+        reached.dedup();
         // Near the limit paint stays where it is wet.
-        let births = self.volumes.len() + dry <= MOST_VOLUMES;
+        let births = self.has_room(reached.len(), DETAIL).is_ok();
         let cells = (&grid.graph, &grid.cells);
         let born = self.spilling.step(cells, &mut self.paint, births);
         for birth in born {

@@ -11,7 +11,7 @@ use super::error::WorldError;
 use super::recipe::amounts_of;
 use super::settings::{MOST_PARTICLES, MOST_VOLUMES, STEPS_PER_SECOND, Scale, WorldSettings};
 use super::tally::{Tally, add};
-use crate::motion::{KeepIn, MotionError, Push, SurfaceLattice, Surroundings, kick};
+use crate::motion::{MotionError, Push, SurfaceLattice, Surroundings, kick};
 use crate::sphere_mesh::{MOST_DETAIL, SphereMesh};
 use crate::volume::Volume;
 use crate::wetting::{Grid, Spilling};
@@ -28,18 +28,20 @@ pub(super) const BIRTH: f32 = 0.02;
 /// which the same steps and actions lead to the same bytes, on any number of threads. Frames may
 /// take any number of steps each.
 ///
-/// ```no_run
+/// ```
 /// use graphics::mesh::SampleModel;
 /// use volumes::world::{Pour, Recipe, World, WorldSettings};
 ///
-/// let mesh = SampleModel::Village.mesh(20_000);
+/// let mesh = SampleModel::Sphere.mesh(500);
 /// let mut world = World::of(&mesh, &WorldSettings::default())?;
-/// let roof = mesh.positions[1000].into();
-/// world.pour(Pour::at(roof, 40.0, 2.0, Recipe::of_slot(0)))?;
-/// for _ in 0..240 {
+/// // 40 mm^3 of the paint in slot 0 a second, for half a second.
+/// world.pour(Pour::at(mesh.positions[100].into(), 40.0, 0.5, Recipe::of_slot(0)))?;
+/// for _ in 0..60 {
 ///     world.step()?;
 /// }
 /// assert!(!world.volumes().is_empty());
+/// let poured = world.tally().poured[0] as f64 * world.quantum_mm3();
+/// assert!((poured - 20.0).abs() < 1e-6);
 /// # Ok::<(), volumes::world::WorldError>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -47,7 +49,7 @@ pub struct World {
     pub(super) settings: WorldSettings,
     pub(super) scale: Scale,
     /// The grid of the whole surface.
-    whole: Arc<Grid>,
+    pub(super) whole: Arc<Grid>,
     /// The grid of the surface inside of all regions to stay in.
     pub(super) grid: Arc<Grid>,
     pub(super) spilling: Spilling,
@@ -189,25 +191,6 @@ impl World {
         Ok(number)
     }
 
-    /// Keeps all volumes inside of a region from now on. No paint spills to surface outside of it;
-    /// paint that is there already stays, in volumes that shrink to dots.
-    ///
-    /// # Errors
-    /// If a number of the region is out of its range.
-    pub fn keep(&mut self, region: KeepIn) -> Result<(), WorldError> {
-        let mut kept = self.surroundings.clone();
-        kept.regions.push(region);
-        kept.check()?;
-        let regions = &kept.regions;
-        let inside = |at| regions.iter().all(|region| region.way_back(at, 0.0) == Vec3::ZERO);
-        let grid = self.whole.within(inside);
-        let WorldSettings { rate, slope, .. } = self.settings;
-        self.spilling = Spilling::new(&grid.cells, self.scale.cell, rate, slope)?;
-        self.grid = Arc::new(grid);
-        self.surroundings = kept;
-        Ok(())
-    }
-
     /// Dries all paint on the scene: from now on its shape and its amounts are frozen. Wet paint
     /// poured later lies over it, in volumes of its own.
     pub fn dry(&mut self) {
@@ -243,19 +226,25 @@ impl World {
             let value = center.element_sum();
             return Err(MotionError::Volume { index, what: "centre", value, must: "finite" }.into());
         }
-        let own = SphereMesh::of_detail(detail).directions.len();
-        let particles: usize = self.volumes.iter().map(|v| v.particles.places[0].len()).sum();
-        if self.volumes.len() >= MOST_VOLUMES {
-            return Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES });
-        }
-        if particles + own > MOST_PARTICLES {
-            return Err(WorldError::Full { what: "particles", most: MOST_PARTICLES });
-        }
+        self.has_room(1, detail)?;
         // Odd multiples of one number are all different (Weyl's sequence).
         let seed = self.next_number().wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ self.settings.seed;
         let mut volume = Volume::ball(center, radius, detail, seed);
         kick(&mut volume, self.settings.motion.kick, self.steps);
         self.volumes.push(volume);
         Ok(self.volumes.len() - 1)
+    }
+
+    /// Whether there is room for `count` more volumes of this detail.
+    pub(super) fn has_room(&self, count: usize, detail: u8) -> Result<(), WorldError> {
+        let own = count * SphereMesh::of_detail(detail).directions.len();
+        let particles: usize = self.volumes.iter().map(|v| v.particles.places[0].len()).sum();
+        if self.volumes.len() + count > MOST_VOLUMES {
+            return Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES });
+        }
+        if particles + own > MOST_PARTICLES {
+            return Err(WorldError::Full { what: "particles", most: MOST_PARTICLES });
+        }
+        Ok(())
     }
 }

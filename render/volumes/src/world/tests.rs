@@ -9,6 +9,7 @@ use super::*;
 use crate::containing::Inside;
 use crate::motion::{KeepIn, Push};
 use crate::test_surfaces::{joined, sheet};
+use crate::wetting::SurfaceSamples;
 
 fn level(side: f32, height: f32) -> Mesh {
     sheet(1, |u, v| [side * (u - 0.5), height, side * (v - 0.5)])
@@ -185,6 +186,13 @@ fn what_a_full_cell_has_no_room_for_stays_in_the_tube() {
     assert!(is_exact(&world) && tally.in_tube[0] > 0);
     let asked = tally.poured[0] + tally.in_tube[0];
     assert_eq!(asked, (2.0 / world.quantum_mm3()).round() as u64);
+    // No surface is left to pour on or to split to.
+    let mut bare = world.clone();
+    bare.keep(KeepIn::Ball { center: Vec3::splat(5.0), radius: 0.1 }).unwrap();
+    assert!(bare.pour(Pour::at(Vec3::ZERO, 2.0, 1.0, Recipe::of_slot(0))).is_err());
+    bare.add_volume(&single(Vec3::ZERO, 1.0)).unwrap();
+    run(&mut bare, 20);
+    assert!(is_exact(&bare) && bare.grid().samples.is_empty());
     // Walls hold the volumes back, but for the rounding of a wall.
     for volume in world.volumes() {
         assert!(volume.vertices().all(|at| at[0].abs() < 0.6001 && at[2].abs() < 0.6001));
@@ -249,6 +257,54 @@ fn a_volume_without_paint_left_vanishes() {
 }
 
 #[test]
+fn a_volume_shrinks_with_its_paint_until_it_vanishes() {
+    let mut world = flat();
+    let index = world.add_volume(&single(Vec3::ZERO, 2.0)).unwrap();
+    let bare = Single { recipe: None, ..single(Vec3::X, 1.0) };
+    let other = world.add_volume(&bare).unwrap();
+    world.shrink(index, 0.75).unwrap();
+    world.shrink(other, 0.5).unwrap();
+    run(&mut world, 300);
+    let radii = [index, other].map(|index| world.volumes()[index].radius);
+    // A quarter of the paint covers a quarter of the area.
+    assert!((radii[0] - 1.0).abs() < 0.05 && (radii[1] - 0.5).abs() < 1e-3, "{radii:?}");
+    world.shrink(index, 1.0).unwrap();
+    world.shrink(other, 1.0).unwrap();
+    run(&mut world, 300);
+    assert!(world.volumes().is_empty() && is_exact(&world));
+    assert!(world.shrink(0, 1.0).is_err());
+}
+
+#[test]
+fn full_cells_of_rough_volumes_hold_all_surface() {
+    for shape in SampleModel::ALL {
+        let mesh = shape.mesh(3000);
+        let settings = WorldSettings { cell: 0.125, ..WorldSettings::default() };
+        let mut world = World::of(&mesh, &settings).unwrap();
+        for cell in 0..world.grid.cells.len() {
+            let place = world.grid.samples.places[world.grid.samples.of_cell(cell).start];
+            let index = world.volume_in(cell, place, 0).unwrap();
+            let paint = Recipe::of_slot(0).measured(world.grid.cells.capacities[cell]);
+            world.set_paint(index, paint);
+            world.volumes[index].radius = world.volumes[index].target_radius;
+        }
+        run(&mut world, 60);
+        let insides: Vec<(Vec3, Inside)> =
+            world.volumes().iter().map(|volume| (volume.center, Inside::of(volume))).collect();
+        // Other places than those that the grid was made of, four times as many.
+        let places = SurfaceSamples::of(&mesh, world.scale.cell / 2.0, 77).unwrap().places;
+        let held = |at: &Vec3| {
+            let near = insides
+                .iter()
+                .filter(|(center, inside)| f64::from(center.distance(*at)) <= inside.farthest());
+            near.into_iter().any(|(_, inside)| inside.holds(*at))
+        };
+        let bare = places.iter().filter(|at| !held(at)).count();
+        assert_eq!(bare, 0, "{} of {} on {}", bare, places.len(), shape.name());
+    }
+}
+
+#[test]
 fn paint_stays_on_one_of_two_plates() {
     let settings = WorldSettings { unit_mm: Some(1.0), ..WorldSettings::default() };
     let plates = joined(level(12.0, 0.0), &level(12.0, 1.0));
@@ -301,4 +357,29 @@ fn worlds_and_volumes_out_of_range_are_refused() {
     let full = world.add_volume(&good);
     assert_eq!(full, Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES }));
     assert_eq!(world.tally(), Tally::default());
+}
+
+#[test]
+fn a_full_world_keeps_paint_where_it_is_or_in_the_tube() {
+    let mut world = flat();
+    let dot = Single { recipe: None, detail: 0, ..single(Vec3::splat(9.0), 0.1) };
+    for _ in 0..MOST_VOLUMES - 3 {
+        world.add_volume(&dot).unwrap();
+    }
+    world.pour(Pour::at(Vec3::ZERO, 1.0, 1.0, Recipe::of_slot(0))).unwrap();
+    let far = Vec3::new(4.0, 0.0, 4.0);
+    for _ in 0..60 {
+        world.move_paint().unwrap();
+    }
+    world.add_volume(&dot).unwrap();
+    world.add_volume(&dot).unwrap();
+    world.pour(Pour::at(far, 1.0, 0.5, Recipe::of_slot(1))).unwrap();
+    for _ in 0..60 {
+        world.move_paint().unwrap();
+    }
+    assert_eq!(world.volumes().len(), MOST_VOLUMES);
+    assert!(is_exact(&world));
+    let tally = world.tally();
+    assert_eq!(tally.in_tube[1], (0.5 / world.quantum_mm3()).round() as u64);
+    assert!(tally.on_scene[0] > 0 && tally.on_scene[1] == 0);
 }
