@@ -21,6 +21,8 @@ mod on_surface;
 
 mod through;
 
+mod glass;
+
 mod materials;
 
 mod tones;
@@ -40,6 +42,7 @@ mod view;
 pub use drawing::{Drawing, InsidePaint, UnderPainting};
 pub use film::{Film, FilmHeights, FilmScale, FilmSum};
 pub use film_profile::FilmProfile;
+pub use glass::Glass;
 pub use grisaille::Grisaille;
 pub use lattice::{SampleLattice, SampledSurface};
 pub use materials::{FilmMaterial, FilmPaintError};
