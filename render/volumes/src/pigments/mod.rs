@@ -21,6 +21,8 @@ mod on_surface;
 
 mod through;
 
+mod counter;
+
 mod glass;
 
 mod materials;
@@ -39,6 +41,7 @@ mod painter;
 
 mod view;
 
+pub use counter::{FilmCounter, FilmKind};
 pub use drawing::{Drawing, InsidePaint, UnderPainting};
 pub use film::{Film, FilmHeights, FilmScale, FilmSum};
 pub use film_profile::FilmProfile;

@@ -2,7 +2,7 @@
 //! of the volumes, as dry layers of whole quanta.
 
 use graphics::field::Field;
-use paint::amount::quanta_from_mm;
+use paint::amount::QUANTA_PER_CELL;
 use paint::document::{Document, DryLayer, Slots};
 use paint::layer::{Layer, SLOTS};
 use paint::separation::SeparationSettings;
@@ -248,8 +248,9 @@ impl FilmPainter {
         let Some(own) = self.own_colors.as_ref().filter(|_| share > 0.0) else {
             return [0; SLOTS];
         };
-        let cell_mm = self.settings.cell_mm;
-        own.heights_mm([r, g, b]).map(|mm| quanta_from_mm(f64::from(mm * share), cell_mm))
+        let quanta_per_mm = f64::from(QUANTA_PER_CELL) / self.settings.cell_mm;
+        let quanta = |mm: f32| (f64::from(mm * share) * quanta_per_mm + 0.5) as u32;
+        own.heights_mm([r, g, b]).map(quanta)
     }
 }
 

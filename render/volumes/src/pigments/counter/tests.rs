@@ -1,7 +1,4 @@
-use glam::Vec3;
-use graphics::camera::Camera;
-use graphics::field::Field;
-use graphics::surface::{Crossings, PackedMesh, VisibilityBuffer, visible};
+use graphics::surface::visible;
 use paint::amount::mm_from_quanta;
 use paint::layer::{Cell, SLOTS};
 use rand::{RngExt, SeedableRng};
@@ -9,29 +6,28 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::containing::Inside;
-use crate::pigments::{Facets, FilmProfile, FilmScale, FilmSum, SampleLattice, SampledSurface};
-use crate::surfaces::VolumeSurfaces;
+use crate::pigments::FilmSum;
 use crate::test_volumes::{bumpy, camera, plane};
-use crate::volume::Volume;
 use crate::wetting::SurfaceSamples;
+
+/// Side of a cell of the grid.
+const CELL: f32 = 1.0 / 3.0;
 
 const SCALE: FilmScale = FilmScale { quantum_mm3: 3e-7, unit_mm: 20.0, cell_mm: 0.2 };
 
 /// A plane with overlapping volumes on it.
 struct Poured {
     mesh: PackedMesh,
-    facets: Facets,
+    samples: SurfaceSamples,
     visible: Vec<(Camera, VisibilityBuffer)>,
     volumes: Vec<Volume>,
-    films: Vec<Film>,
 }
 
 impl Poured {
     /// Seen from these cameras in pictures of this size.
     fn new(cameras: &[Camera], (width, height): (usize, usize)) -> Self {
         let mesh = plane(24);
-        let samples = SurfaceSamples::of(&mesh, 1.0 / 3.0, 5).unwrap();
-        let lattice = SampleLattice::of(&samples.places, 1.0 / 3.0);
+        let samples = SurfaceSamples::of(&mesh, CELL, 5).unwrap();
         let random = &mut ChaCha8Rng::seed_from_u64(8);
         let volumes: Vec<Volume> = (0..9)
             .map(|seed| {
@@ -44,26 +40,27 @@ impl Poured {
                 volume
             })
             .collect();
-        let facing = vec![Vec3::Z; volumes.len()];
-        let surface = SampledSurface::from(&samples);
-        let profile = FilmProfile::default();
-        let films = Film::of_volumes(&volumes, &facing, profile, (&surface, &lattice), &SCALE);
         let sight = |camera: &Camera| (*camera, visible(&mesh, camera, width, height));
         let visible = cameras.iter().map(sight).collect();
-        let mesh = PackedMesh::new(&mesh);
-        Self { facets: Facets::of(&mesh), mesh, visible, volumes, films }
+        Self { mesh: PackedMesh::new(&mesh), samples, visible, volumes }
     }
 
-    fn seen(&self, sight: usize) -> SeenPlaces<'_> {
-        SeenPlaces::of(&self.mesh, &self.facets, &self.visible[sight].1)
+    fn films(&self) -> Vec<Film> {
+        let surface = SampledSurface::from(&self.samples);
+        let lattice = SampleLattice::of(surface.places, CELL);
+        let facing = vec![Vec3::Z; self.volumes.len()];
+        let profile = FilmProfile::default();
+        Film::of_volumes(&self.volumes, &facing, profile, (&surface, &lattice), &SCALE)
     }
 
     fn heights(&self, sight: usize) -> Field<FilmHeights> {
-        let VolumeSurfaces { vertices, triangles } = VolumeSurfaces::of(&self.volumes);
+        let surface = SampledSurface::from(&self.samples);
+        let profile = FilmProfile::default();
+        let mut counter = FilmCounter::new(&self.mesh, &surface, CELL, profile, SCALE);
         let (camera, visible) = &self.visible[sight];
-        let seen = self.seen(sight);
-        let films = FilmOnSurface { films: &self.films, seen: &seen };
-        Crossings::default().sum(&films, &vertices, &triangles, camera, visible)
+        let facing = vec![Vec3::Z; self.volumes.len()];
+        let poured = (&self.volumes[..], &facing[..]);
+        counter.heights((&self.mesh, &surface), poured, FilmKind::Surface, camera, visible)
     }
 }
 
@@ -89,9 +86,12 @@ fn the_film_of_a_picture_face_on_is_the_paint_poured() {
 fn counted_films_are_those_of_the_volumes_that_hold_each_place() {
     let poured = Poured::new(&[camera(25.0, 5.0), camera(-60.0, 2.5)], (97, 61));
     let insides: Vec<Inside> = poured.volumes.iter().map(Inside::of).collect();
-    let sum = FilmSum { films: &poured.films, insides: &insides };
+    let films = poured.films();
+    let sum = FilmSum { films: &films, insides: &insides };
+    let facets = Facets::of(&poured.mesh);
     for sight in 0..2 {
-        let (heights, seen) = (poured.heights(sight), poured.seen(sight));
+        let seen = SeenPlaces::of(&poured.mesh, &facets, &poured.visible[sight].1);
+        let heights = poured.heights(sight);
         let (mut off, mut covered) = (0, 0);
         for (pixel, found) in heights.values().iter().enumerate() {
             let (place, normal) = seen.at(pixel);
@@ -111,7 +111,8 @@ fn heights_stay_at_their_places_when_the_picture_turns() {
     let poured = Poured::new(&[camera(0.0, 5.6), camera(60.0, 5.0)], size);
     let (straight, turned) = (poured.heights(0), poured.heights(1));
     let clip = poured.visible[0].0.clip_from_model(size.0 as f32 / size.1 as f32);
-    let seen = poured.seen(1);
+    let facets = Facets::of(&poured.mesh);
+    let seen = SeenPlaces::of(&poured.mesh, &facets, &poured.visible[1].1);
     let (mut off, mut all, mut compared) = (0.0, 0.0, 0);
     for (pixel, heights) in turned.values().iter().enumerate() {
         let (place, _) = seen.at(pixel);
@@ -150,9 +151,6 @@ fn places_outside_of_all_volumes_have_no_film_to_the_quantum_on_any_threads() {
     assert!(heights.values().iter().all(|heights| heights.0.iter().all(|&height| height >= 0)));
     for threads in [1, 2, 8] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert_eq!(
-            pool.install(|| Poured::new(&[camera(-40.0, 4.0)], (160, 120)).heights(0)),
-            heights
-        );
+        assert_eq!(pool.install(|| poured.heights(0)), heights);
     }
 }
