@@ -1,3 +1,4 @@
+use graphics::mesh::SampleModel;
 use graphics::surface::visible;
 use paint::amount::mm_from_quanta;
 use paint::layer::{Cell, SLOTS};
@@ -80,6 +81,38 @@ fn the_film_of_a_picture_face_on_is_the_paint_poured() {
         let ratio = laid / (all * SCALE.quantum_mm3);
         assert!((0.98..1.02).contains(&ratio), "{slot}: {ratio}");
     }
+}
+
+#[test]
+fn the_films_on_a_still_life_are_the_paint_poured() {
+    let mesh = SampleModel::StillLife.mesh(6000);
+    let [low, high] = mesh.bounds();
+    let cell = (high - low).max_element() / 12.0;
+    let samples = SurfaceSamples::of(&mesh, cell, 5).unwrap();
+    let surface = SampledSurface::from(&samples);
+    let lattice = SampleLattice::of(surface.places, cell);
+    let pick = |at: usize| (at * 7919 + 11) % samples.len();
+    let volumes: Vec<Volume> = (0..40)
+        .map(|at| {
+            let radius = cell * (0.5 + 0.02 * at as f32);
+            let mut volume = bumpy(samples.places[pick(at)], radius, 2, at as u64);
+            volume.paint = Cell { pigments: [0; SLOTS], vehicle: 2_000_000 };
+            volume
+        })
+        .collect();
+    let facing: Vec<Vec3> = (0..40).map(|at| samples.normals[pick(at)]).collect();
+    let profile = FilmProfile::default();
+    let films = Film::of_volumes(&volumes, &facing, profile, (&surface, &lattice), &SCALE);
+    let insides: Vec<Inside> = volumes.iter().map(Inside::of).collect();
+    let sum = FilmSum { films: &films, insides: &insides };
+    // Other samples, 25 times as many.
+    let fine = SurfaceSamples::of(&mesh, 0.2 * cell, 6).unwrap();
+    let patch_mm2 = f64::from(fine.areas[0]) * SCALE.unit_mm * SCALE.unit_mm;
+    let height = |at: usize| f64::from(sum.at(fine.places[at], fine.normals[at]).0[SLOTS]);
+    let heights: f64 = (0..fine.len()).map(height).sum();
+    let laid = heights * mm_from_quanta(1, SCALE.cell_mm) * patch_mm2;
+    let ratio = laid / (40.0 * 2e6 * SCALE.quantum_mm3);
+    assert!((0.98..1.02).contains(&ratio), "{ratio}");
 }
 
 #[test]
