@@ -27,6 +27,8 @@ mod glass;
 
 mod materials;
 
+mod toner;
+
 mod tones;
 
 mod grisaille;
@@ -55,5 +57,6 @@ pub use painter::{FilmPainter, FilmPainterSettings};
 pub use pencil::Pencil;
 pub use seen::{Facets, SeenPlaces};
 pub use through::{Density, FilmThrough, enclosed};
+pub use toner::toner;
 pub use view::FilmView;
 pub use wetted::Wetted;
