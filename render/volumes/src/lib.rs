@@ -20,6 +20,13 @@ pub mod containing;
 
 pub mod surfaces;
 
+pub mod motion;
+
 pub mod wetting;
 
+pub mod world;
+
 pub mod pigments;
+
+#[cfg(test)]
+mod test_surfaces;

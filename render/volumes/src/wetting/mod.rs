@@ -9,6 +9,26 @@ mod lattice;
 
 mod samples;
 
-pub use fault::WettingError;
+mod cells;
+
+mod entering;
+
+mod graph;
+
+mod reach;
+
+mod spill;
+
+mod grid;
+
+pub use cells::{Cells, MOST_FILMS, QUANTA_PER_FACE};
+pub use fault::{MOST_CELLS, WettingError};
+pub use graph::Graph;
+pub use grid::Grid;
 pub use lattice::Lattice;
+pub use reach::Reach;
 pub use samples::{SAMPLES_PER_CELL, SurfaceSamples};
+pub use spill::{Birth, FASTEST_RATE, Spilling};
+
+#[cfg(test)]
+mod tests;

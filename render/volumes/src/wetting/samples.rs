@@ -90,19 +90,35 @@ impl SurfaceSamples {
         }
     }
 
+    /// The samples whose place is `kept`. The numbers of cells stay, so that some may be empty.
+    #[must_use]
+    pub fn within(&self, kept: impl Fn(Vec3) -> bool) -> Self {
+        let all: Vec<usize> = (0..self.len()).filter(|&sample| kept(self.places[sample])).collect();
+        let before = |&start: &u32| all.partition_point(|&sample| sample < start as usize) as u32;
+        Self {
+            lattice: self.lattice,
+            places: all.iter().map(|&sample| self.places[sample]).collect(),
+            normals: all.iter().map(|&sample| self.normals[sample]).collect(),
+            areas: all.iter().map(|&sample| self.areas[sample]).collect(),
+            triangles: all.iter().map(|&sample| self.triangles[sample]).collect(),
+            cells: all.iter().map(|&sample| self.cells[sample]).collect(),
+            starts: self.starts.iter().map(before).collect(),
+        }
+    }
+
     /// Number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
         self.places.len()
     }
 
-    /// Whether there is no sample; a surface with an area has at least one.
+    /// Whether there is no sample.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.places.is_empty()
     }
 
-    /// Number of cells that hold a sample.
+    /// Number of cells; each held a sample before [`Self::within`].
     #[must_use]
     pub fn cell_count(&self) -> usize {
         self.starts.len() - 1
@@ -172,21 +188,10 @@ fn on_path(corners: [Vec3; 3], share: f64) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use graphics::mesh::{Material, SampleModel, Triangle};
+    use graphics::mesh::SampleModel;
 
     use super::*;
-
-    fn bare(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> Mesh {
-        let count = positions.len();
-        Mesh {
-            positions: positions.to_vec(),
-            normals: vec![[0.0, 1.0, 0.0]; count],
-            texture_coordinates: vec![[0.0; 2]; count],
-            colors: vec![[1.0; 3]; count],
-            triangles: triangles.iter().map(|&corners| Triangle { corners, material: 0 }).collect(),
-            materials: vec![Material::plain([1.0; 3])],
-        }
-    }
+    use crate::test_surfaces::{bare, sheet};
 
     #[test]
     fn areas_add_up_to_that_of_the_surface() {
@@ -220,12 +225,7 @@ mod tests {
     fn samples_do_not_depend_on_the_cut_into_triangles() {
         let corners = [[0.0; 3], [4.0, 0.0, 0.0], [4.0, 0.0, 4.0], [0.0, 0.0, 4.0]];
         let flat = SurfaceSamples::of(&bare(&corners, &[[0, 2, 1], [0, 3, 2]]), 1.0, 3).unwrap();
-        let points = (0..10_201).map(|i| [(i % 101) as f32 * 0.04, 0.0, (i / 101) as f32 * 0.04]);
-        let squares = (0..10_000)
-            .map(|i| i / 100 * 101 + i % 100)
-            .flat_map(|first| [[first, first + 102, first + 1], [first, first + 101, first + 102]]);
-        let (points, squares): (Vec<_>, Vec<_>) = (points.collect(), squares.collect());
-        let fine = SurfaceSamples::of(&bare(&points, &squares), 1.0, 3).unwrap();
+        let fine = SurfaceSamples::of(&sheet(100, |u, v| [4.0 * u, 0.0, 4.0 * v]), 1.0, 3).unwrap();
         assert_eq!(flat.cell_count(), fine.cell_count());
         assert!(flat.len().abs_diff(fine.len()) <= 1);
         for cell in 0..flat.cell_count() {
