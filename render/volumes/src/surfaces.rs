@@ -24,6 +24,21 @@ impl VolumeSurfaces {
         surfaces
     }
 
+    /// Normals of the vertices, of length 1: means of those of their faces by area.
+    #[must_use]
+    pub fn normals(&self) -> Vec<Vec3> {
+        let mut normals = vec![Vec3::ZERO; self.vertices.len()];
+        for triangle in &self.triangles {
+            let corners = triangle.corners.map(|corner| corner as usize);
+            let [a, b, c] = corners.map(|corner| Vec3::from(self.vertices[corner]));
+            let twice_area = (b - a).cross(c - a);
+            for corner in corners {
+                normals[corner] += twice_area;
+            }
+        }
+        normals.into_iter().map(Vec3::normalize_or_zero).collect()
+    }
+
     /// Replaces all faces by those of these volumes, in the same memory.
     pub fn update(&mut self, volumes: &[Volume]) {
         self.clear();
@@ -70,6 +85,10 @@ mod tests {
                 let distance = at.distance(volume.center) / volume.radius;
                 assert!((1.0..1.1).contains(&distance), "{distance}");
             }
+        }
+        for (normal, at) in surfaces.normals().into_iter().zip(&surfaces.vertices).take(42) {
+            let outward = (Vec3::from(*at) - Vec3::X).normalize();
+            assert!(normal.dot(outward) > 0.99, "{normal}");
         }
         surfaces.update(&volumes[1..]);
         assert_eq!((surfaces.vertices.len(), surfaces.triangles.len()), (162, 320));

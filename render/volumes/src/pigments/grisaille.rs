@@ -26,8 +26,9 @@ pub struct Grisaille {
 }
 
 impl Grisaille {
-    /// Finds the films of `white` and `black` for all greys, over the ground and under the light of
-    /// `material`. `films` has the range of their heights. Takes a good part of a second.
+    /// Finds the films of `white` and `black` for all greys, with `toner` against their cast if there
+    /// is one, over the ground and under the light of `material`. `films` has the range of their
+    /// heights. Takes a good part of a second.
     ///
     /// # Errors
     /// [`FilmPaintError`] for heights out of range.
@@ -36,11 +37,11 @@ impl Grisaille {
     /// If the library lacks a pigment.
     pub fn new(
         material: &FilmMaterial,
-        [white, black]: [PigmentId; 2],
+        ([white, black], toner): ([PigmentId; 2], Option<PigmentId>),
         films: &SeparationSettings,
     ) -> Result<Self, FilmPaintError> {
         let mut slots = Slots::default();
-        (slots[0], slots[1]) = (Some(white), Some(black));
+        (slots[0], slots[1], slots[2]) = (Some(white), Some(black), toner);
         let film = material.film(&slots);
         let settings = SeparationSettings { lattice: LATTICE, ..*films };
         let separation = Separation::new(film.clone(), &settings)?;
@@ -56,7 +57,7 @@ impl Grisaille {
         Ok(Self { slots, film, heights_mm })
     }
 
-    /// The white in the first slot and the black in the second.
+    /// The white in the first slot, the black in the second, and the toner, if any, in the third.
     #[must_use]
     pub fn slots(&self) -> &Slots {
         &self.slots

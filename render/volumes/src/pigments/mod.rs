@@ -21,7 +21,13 @@ mod on_surface;
 
 mod through;
 
+mod counter;
+
+mod glass;
+
 mod materials;
+
+mod toner;
 
 mod tones;
 
@@ -37,9 +43,11 @@ mod painter;
 
 mod view;
 
+pub use counter::{FilmCounter, FilmKind};
 pub use drawing::{Drawing, InsidePaint, UnderPainting};
 pub use film::{Film, FilmHeights, FilmScale, FilmSum};
 pub use film_profile::FilmProfile;
+pub use glass::Glass;
 pub use grisaille::Grisaille;
 pub use lattice::{SampleLattice, SampledSurface};
 pub use materials::{FilmMaterial, FilmPaintError};
@@ -49,5 +57,6 @@ pub use painter::{FilmPainter, FilmPainterSettings};
 pub use pencil::Pencil;
 pub use seen::{Facets, SeenPlaces};
 pub use through::{Density, FilmThrough, enclosed};
+pub use toner::toner;
 pub use view::FilmView;
 pub use wetted::Wetted;

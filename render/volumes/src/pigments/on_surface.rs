@@ -28,6 +28,3 @@ impl CrossingSum for FilmOnSurface<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

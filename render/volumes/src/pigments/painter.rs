@@ -2,7 +2,7 @@
 //! of the volumes, as dry layers of whole quanta.
 
 use graphics::field::Field;
-use paint::amount::quanta_from_mm;
+use paint::amount::QUANTA_PER_CELL;
 use paint::document::{Document, DryLayer, Slots};
 use paint::layer::{Layer, SLOTS};
 use paint::separation::SeparationSettings;
@@ -14,6 +14,7 @@ use super::grisaille::{Grisaille, level};
 use super::materials::{FilmMaterial, FilmPaintError};
 use super::own_colors::OwnColors;
 use super::pencil::{Pencil, step};
+use super::toner::toner;
 use super::tones::within_one;
 
 /// How a scene and its volumes become layers of paint.
@@ -23,6 +24,9 @@ pub struct FilmPainterSettings {
     pub under: UnderPainting,
     /// What volumes show.
     pub inside: InsidePaint,
+    /// Whether the grisaille takes a third paint that makes its greys neutral
+    /// ([`toner`]).
+    pub neutral: bool,
     /// Encoded grey that full ink darkens the ground to, 0..1.
     pub pencil: f32,
     /// Width of a cell of the painting in mm.
@@ -32,12 +36,12 @@ pub struct FilmPainterSettings {
 }
 
 impl Default for FilmPainterSettings {
-    /// A glaze over grisaille with a pencil of 0.15 on cells of 0.2 mm; films of 0.03 to 0.3 mm
-    /// that hide the ground.
+    /// A glaze over grisaille of white and black with a pencil of 0.15 on cells of 0.2 mm; films of
+    /// 0.03 to 0.3 mm that hide the ground.
     fn default() -> Self {
         let films = SeparationSettings { lattice: 17, refined: false, ..Default::default() };
         let (under, inside) = (UnderPainting::default(), InsidePaint::default());
-        Self { under, inside, pencil: 0.15, cell_mm: 0.2, films }
+        Self { under, inside, neutral: false, pencil: 0.15, cell_mm: 0.2, films }
     }
 }
 
@@ -83,7 +87,8 @@ impl FilmPainter {
         settings: FilmPainterSettings,
     ) -> Result<Self, FilmPaintError> {
         let pigments = material.white_and_black()?;
-        let grisaille = Grisaille::new(&material, pigments, &settings.films)?;
+        let toner = if settings.neutral { toner(&material, pigments) } else { None };
+        let grisaille = Grisaille::new(&material, (pigments, toner), &settings.films)?;
         let pencil = Pencil::new(&grisaille, settings.pencil);
         let shown = settings.under == UnderPainting::OwnColors || settings.inside.has_own_colors();
         let own_colors = match shown {
@@ -248,8 +253,9 @@ impl FilmPainter {
         let Some(own) = self.own_colors.as_ref().filter(|_| share > 0.0) else {
             return [0; SLOTS];
         };
-        let cell_mm = self.settings.cell_mm;
-        own.heights_mm([r, g, b]).map(|mm| quanta_from_mm(f64::from(mm * share), cell_mm))
+        let quanta_per_mm = f64::from(QUANTA_PER_CELL) / self.settings.cell_mm;
+        let quanta = |mm: f32| (f64::from(mm * share) * quanta_per_mm + 0.5) as u32;
+        own.heights_mm([r, g, b]).map(quanta)
     }
 }
 

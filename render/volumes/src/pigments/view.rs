@@ -30,14 +30,20 @@ pub struct FilmView {
 }
 
 impl FilmView {
-    /// The paint of `painter` under the light of `lighting`. Takes a good part of a second.
+    /// The paint of `painter` under the light of `lighting`. Takes a good part of a second, unless it
+    /// is the light that the painter matches colours under.
     ///
     /// # Errors
     /// [`FilmPaintError::Light`] for a light that cannot be used with the library.
     pub fn new(painter: &FilmPainter, lighting: &Lighting) -> Result<Self, FilmPaintError> {
         let material = painter.material();
         let library = &material.library;
-        let light = Light::named(library, &lighting.illuminant, &lighting.observer)?;
+        let Lighting { illuminant, observer, .. } = lighting;
+        let own = &material.lighting;
+        let light = match (illuminant, observer) == (&own.illuminant, &own.observer) {
+            true => material.light().clone(),
+            false => Light::named(library, illuminant, observer)?,
+        };
         let coats = painter.coats();
         let dry: Vec<(Slots, f64)> =
             coats.iter().map(|&coat| (painter.slots_of(coat), 1.0)).collect();

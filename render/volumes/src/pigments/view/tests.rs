@@ -7,8 +7,10 @@ use paint::ground::GroundKind;
 use paint::painting::{LayerRef, Painting};
 use paint::palette::palette_slots;
 use paint::scene::SpectralDocument;
+use paint::separation::SeparationSettings;
 use pigment::{Backing, FilmOver, PigmentLibrary};
 use spectra::color::{Lab, Rgb, RgbSpace, delta_e_ciede2000};
+use spectra::hint::Explain;
 use spectra::{Reflectance, Spectrum};
 
 use super::*;
@@ -86,6 +88,9 @@ impl Made {
 
 fn shown(document: &Document) -> Field<[f32; 4]> {
     let Lighting { illuminant, observer, .. } = &document.lighting;
+    if (illuminant.as_str(), observer.as_str()) == ("D65", "1931-2") {
+        return picture(document, &scene(document, GLAZES.material().light()));
+    }
     let light = Light::named(&document.library, illuminant, observer).unwrap();
     picture(document, &scene(document, &light))
 }
@@ -210,27 +215,39 @@ fn blue_and_yellow_that_overlap_have_the_colour_of_their_mixture() {
     }
 }
 
-#[test]
-fn the_grisaille_has_the_greys_of_the_drawing() {
-    let view = FilmView::new(&GLAZES, &level_light()).unwrap();
+/// CIELAB of 101 greys from black to white.
+fn greys(painter: &FilmPainter) -> Vec<Lab> {
+    let view = FilmView::new(painter, &level_light()).unwrap();
     let greys = (0..=100).map(|step| [0.0, 0.0, 0.0, step as f32 / 100.0]).collect();
     let color = Field::from_values(101, 1, greys);
     let drawing = Drawing { color: &color, cover: None, ink: None, tint: None, films: None };
-    let seen = view.picture(&GLAZES, &drawing).unwrap();
-    let labs: Vec<Lab> = seen.values().iter().map(|&rgb| lab(rgb)).collect();
+    let seen = view.picture(painter, &drawing).unwrap();
+    seen.values().iter().map(|&rgb| lab(rgb)).collect()
+}
+
+#[test]
+fn the_grisaille_has_the_greys_of_the_drawing() {
+    let labs = greys(&GLAZES);
     for (step, pair) in labs.windows(2).enumerate() {
         assert!(pair[1].lightness > pair[0].lightness - 0.01, "{step}: {pair:?}");
         assert!(pair[0].a.hypot(pair[0].b) < 8.0, "{step}: {pair:?}");
     }
-    assert!(
-        labs[0].lightness < 25.0 && labs[100].lightness > 92.0,
-        "{:?} {:?}",
-        labs[0],
-        labs[100]
-    );
+    assert!(labs[0].lightness < 25.0 && labs[100].lightness > 92.0, "{labs:?}");
     let grey = Rgb([0.5; 3]).linear().0[0] as f32;
     let middle = lab([grey, grey, grey, 1.0]).lightness;
     assert!((labs[50].lightness - middle).abs() < 4.0, "{:?} for {middle}", labs[50]);
+}
+
+#[test]
+fn a_third_paint_makes_the_greys_neutral() {
+    let settings = FilmPainterSettings { neutral: true, ..GLAZES.settings().clone() };
+    let material = GLAZES.material().clone();
+    let painter = FilmPainter::new(material, *GLAZES.slots(), None, settings).unwrap();
+    let mean = |labs: &[Lab]| labs.iter().map(|lab| lab.a.hypot(lab.b)).sum::<f64>() / 101.0;
+    let [two, three] = [&*GLAZES, &painter].map(|painter| mean(&greys(painter)));
+    assert!(three < 1.5 && three < 0.5 * two, "{two} {three}");
+    let slots = painter.document("", &Made::new().drawing()).unwrap().dry[0].slots;
+    assert_eq!(slots.iter().flatten().count(), 3);
 }
 
 #[test]
@@ -285,6 +302,65 @@ fn volumes_show_own_colours_glazes_or_both() {
     assert_eq!(both.dry[3].paint, wanted);
     assert!(wanted.totals()[8] > 0);
     assert_eq!(glazes.dry[2].slots, slots(PIGMENTS));
+}
+
+#[test]
+fn own_colours_under_everything_are_near_those_of_the_scene() {
+    let made = Made::new();
+    let painter = painter(UnderPainting::OwnColors, InsidePaint::Glaze);
+    let view = FilmView::new(&painter, &level_light()).unwrap();
+    let plain = Drawing { color: &made.color, cover: None, ink: None, tint: None, films: None };
+    let seen = view.picture(&painter, &plain).unwrap();
+    let document = painter.document("", &plain).unwrap();
+    assert_eq!(most_apart(&seen, &shown(&document)), 0.0);
+    let pairs = seen.values().iter().zip(made.color.values());
+    let off = pairs.map(|(&seen, color)| {
+        let linear = Rgb([color[0], color[1], color[2]].map(f64::from)).linear().0;
+        let [r, g, b] = linear.map(|value| value.clamp(0.0, 1.0) as f32);
+        delta_e_ciede2000(lab(seen), lab([r, g, b, 1.0]))
+    });
+    let mean = off.sum::<f64>() / seen.values().len() as f64;
+    // The palette has no black, and the table of this test is coarse.
+    assert!(mean < 8.0, "{mean}");
+}
+
+#[test]
+fn relief_is_that_of_the_painting() {
+    let made = Made::new();
+    let raised = Lighting { relief: 1.0, ..level_light() };
+    let view = FilmView::new(&GLAZES, &raised).unwrap();
+    let seen = view.picture(&GLAZES, &made.drawing()).unwrap();
+    let mut document = GLAZES.document("", &made.drawing()).unwrap();
+    document.lighting = raised;
+    assert_eq!(most_apart(&seen, &shown(&document)), 0.0);
+    let flat = FilmView::new(&GLAZES, &level_light()).unwrap();
+    assert!(most_apart(&seen, &flat.picture(&GLAZES, &made.drawing()).unwrap()) > 0.001);
+}
+
+#[test]
+fn libraries_and_palettes_that_cannot_paint_are_refused() {
+    let material = GLAZES.material();
+    let settings = FilmPainterSettings { under: UnderPainting::OwnColors, ..Default::default() };
+    let none = Slots::default();
+    let error = FilmPainter::new(material.clone(), none, None, settings.clone()).unwrap_err();
+    assert!(error.hint().is_some() && error.to_string().contains("at least one pigment"));
+    let wrong = FilmPainterSettings {
+        films: SeparationSettings { least_mm: -1.0, ..settings.films },
+        ..settings
+    };
+    let error = FilmPainter::new(material.clone(), *GLAZES.slots(), None, wrong).unwrap_err();
+    assert!(matches!(error, FilmPaintError::Separation(_)), "{error}");
+    let mut one = PigmentLibrary::van_gogh_oils();
+    one.pigments.truncate(1);
+    one.reference = None;
+    let ground = material.ground.clone();
+    let made = FilmMaterial::new(Arc::new(one), ground.clone(), level_light());
+    let error = made.unwrap().white_and_black().unwrap_err();
+    assert!(matches!(error, FilmPaintError::NoWhite) && error.hint().is_some(), "{error}");
+    let lamp = Lighting { illuminant: "candle".to_owned(), ..level_light() };
+    let library = material.library.clone();
+    let error = FilmMaterial::new(library, ground, lamp).unwrap_err();
+    assert!(matches!(error, FilmPaintError::Light(_)), "{error}");
 }
 
 #[test]

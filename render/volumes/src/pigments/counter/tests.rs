@@ -1,7 +1,6 @@
 use glam::Vec3;
-use graphics::camera::Camera;
-use graphics::field::Field;
-use graphics::surface::{Crossings, PackedMesh, VisibilityBuffer, visible};
+use graphics::mesh::SampleModel;
+use graphics::surface::visible;
 use paint::amount::mm_from_quanta;
 use paint::layer::{Cell, SLOTS};
 use rand::{RngExt, SeedableRng};
@@ -9,29 +8,29 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::containing::Inside;
-use crate::pigments::{Facets, FilmProfile, FilmScale, FilmSum, SampleLattice, SampledSurface};
-use crate::surfaces::VolumeSurfaces;
+use crate::pigments::FilmSum;
 use crate::test_volumes::{bumpy, camera, plane};
-use crate::volume::Volume;
 use crate::wetting::SurfaceSamples;
+use crate::world::{Pour, Recipe, World, WorldSettings};
+
+/// Side of a cell of the grid.
+const CELL: f32 = 1.0 / 3.0;
 
 const SCALE: FilmScale = FilmScale { quantum_mm3: 3e-7, unit_mm: 20.0, cell_mm: 0.2 };
 
 /// A plane with overlapping volumes on it.
 struct Poured {
     mesh: PackedMesh,
-    facets: Facets,
+    samples: SurfaceSamples,
     visible: Vec<(Camera, VisibilityBuffer)>,
     volumes: Vec<Volume>,
-    films: Vec<Film>,
 }
 
 impl Poured {
     /// Seen from these cameras in pictures of this size.
     fn new(cameras: &[Camera], (width, height): (usize, usize)) -> Self {
         let mesh = plane(24);
-        let samples = SurfaceSamples::of(&mesh, 1.0 / 3.0, 5).unwrap();
-        let lattice = SampleLattice::of(&samples.places, 1.0 / 3.0);
+        let samples = SurfaceSamples::of(&mesh, CELL, 5).unwrap();
         let random = &mut ChaCha8Rng::seed_from_u64(8);
         let volumes: Vec<Volume> = (0..9)
             .map(|seed| {
@@ -41,29 +40,29 @@ impl Poured {
                 let mut pigments = [0; SLOTS];
                 pigments[seed as usize % 3] = (within(1.0, 4.0) * 1e6) as u32;
                 volume.paint = Cell { pigments, vehicle: 600_000 };
+                volume.normal = Vec3::Z;
                 volume
             })
             .collect();
-        let facing = vec![Vec3::Z; volumes.len()];
-        let surface = SampledSurface::from(&samples);
-        let profile = FilmProfile::default();
-        let films = Film::of_volumes(&volumes, &facing, profile, (&surface, &lattice), &SCALE);
         let sight = |camera: &Camera| (*camera, visible(&mesh, camera, width, height));
         let visible = cameras.iter().map(sight).collect();
-        let mesh = PackedMesh::new(&mesh);
-        Self { facets: Facets::of(&mesh), mesh, visible, volumes, films }
+        Self { mesh: PackedMesh::new(&mesh), samples, visible, volumes }
     }
 
-    fn seen(&self, sight: usize) -> SeenPlaces<'_> {
-        SeenPlaces::of(&self.mesh, &self.facets, &self.visible[sight].1)
+    fn films(&self) -> Vec<Film> {
+        let surface = SampledSurface::from(&self.samples);
+        let lattice = SampleLattice::of(surface.places, CELL);
+        let profile = FilmProfile::default();
+        Film::of_volumes(&self.volumes, profile, (&surface, &lattice), &SCALE)
     }
 
     fn heights(&self, sight: usize) -> Field<FilmHeights> {
-        let VolumeSurfaces { vertices, triangles } = VolumeSurfaces::of(&self.volumes);
+        let surface = SampledSurface::from(&self.samples);
+        let profile = FilmProfile::default();
+        let mut counter = FilmCounter::new(&self.mesh, &surface, CELL, profile, SCALE);
         let (camera, visible) = &self.visible[sight];
-        let seen = self.seen(sight);
-        let films = FilmOnSurface { films: &self.films, seen: &seen };
-        Crossings::default().sum(&films, &vertices, &triangles, camera, visible)
+        let scene = (&self.mesh, &surface);
+        counter.heights(scene, &self.volumes, FilmKind::Surface, camera, visible)
     }
 }
 
@@ -86,12 +85,81 @@ fn the_film_of_a_picture_face_on_is_the_paint_poured() {
 }
 
 #[test]
+fn the_films_on_a_still_life_are_the_paint_poured() {
+    let mesh = SampleModel::StillLife.mesh(6000);
+    let [low, high] = mesh.bounds();
+    let cell = (high - low).max_element() / 12.0;
+    let samples = SurfaceSamples::of(&mesh, cell, 5).unwrap();
+    let surface = SampledSurface::from(&samples);
+    let lattice = SampleLattice::of(surface.places, cell);
+    let pick = |at: usize| (at * 7919 + 11) % samples.len();
+    let volumes: Vec<Volume> = (0..40)
+        .map(|at| {
+            let radius = cell * (0.5 + 0.02 * at as f32);
+            let mut volume = bumpy(samples.places[pick(at)], radius, 2, at as u64);
+            volume.paint = Cell { pigments: [0; SLOTS], vehicle: 2_000_000 };
+            volume.normal = samples.normals[pick(at)];
+            volume
+        })
+        .collect();
+    let profile = FilmProfile::default();
+    let films = Film::of_volumes(&volumes, profile, (&surface, &lattice), &SCALE);
+    let insides: Vec<Inside> = volumes.iter().map(Inside::of).collect();
+    let sum = FilmSum { films: &films, insides: &insides };
+    // Other samples, 25 times as many.
+    let fine = SurfaceSamples::of(&mesh, 0.2 * cell, 6).unwrap();
+    let patch_mm2 = f64::from(fine.areas[0]) * SCALE.unit_mm * SCALE.unit_mm;
+    let height = |at: usize| f64::from(sum.at(fine.places[at], fine.normals[at]).0[SLOTS]);
+    let heights: f64 = (0..fine.len()).map(height).sum();
+    let laid = heights * mm_from_quanta(1, SCALE.cell_mm) * patch_mm2;
+    let ratio = laid / (40.0 * 2e6 * SCALE.quantum_mm3);
+    assert!((0.98..1.02).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn the_films_of_a_world_are_the_paint_on_its_scene() {
+    let mesh = SampleModel::Village.mesh(6000);
+    let mut world = World::of(&mesh, &WorldSettings::default()).unwrap();
+    for (slot, at) in [(0, 100), (1, 900), (3, 2100)] {
+        let place = Vec3::from(mesh.positions[at]);
+        world.pour(Pour::at(place, 60.0, 1.0, Recipe::of_slot(slot))).unwrap();
+    }
+    (0..150).for_each(|_| world.step().unwrap());
+    let samples = &world.grid().samples;
+    let surface = SampledSurface::from(samples);
+    let lattice = SampleLattice::of(surface.places, samples.lattice.cell);
+    let (unit_mm, quantum_mm3) = (world.unit_mm(), world.quantum_mm3());
+    let scale = FilmScale { quantum_mm3, unit_mm, cell_mm: 0.2 };
+    let profile = FilmProfile::default();
+    let films = Film::of_volumes(world.volumes(), profile, (&surface, &lattice), &scale);
+    let insides: Vec<Inside> = world.volumes().iter().map(Inside::of).collect();
+    let sum = FilmSum { films: &films, insides: &insides };
+    let fine = SurfaceSamples::of(&mesh, 0.2 * samples.lattice.cell, 6).unwrap();
+    let patch_mm2 = f64::from(fine.areas[0]) * unit_mm * unit_mm;
+    let mut laid = [0.0; SLOTS + 1];
+    for (&place, &normal) in fine.places.iter().zip(&fine.normals) {
+        let heights = sum.at(place, normal).0;
+        laid.iter_mut().zip(heights).for_each(|(laid, height)| *laid += f64::from(height));
+    }
+    let on_scene = world.tally().on_scene;
+    for slot in [0, 1, 3] {
+        let laid_mm3 = laid[slot] * mm_from_quanta(1, 0.2) * patch_mm2;
+        let ratio = laid_mm3 / (on_scene[slot] as f64 * quantum_mm3);
+        assert!((0.97..1.03).contains(&ratio), "{slot}: {ratio}");
+    }
+    assert!(world.volumes().len() > 20, "{}", world.volumes().len());
+}
+
+#[test]
 fn counted_films_are_those_of_the_volumes_that_hold_each_place() {
     let poured = Poured::new(&[camera(25.0, 5.0), camera(-60.0, 2.5)], (97, 61));
     let insides: Vec<Inside> = poured.volumes.iter().map(Inside::of).collect();
-    let sum = FilmSum { films: &poured.films, insides: &insides };
+    let films = poured.films();
+    let sum = FilmSum { films: &films, insides: &insides };
+    let facets = Facets::of(&poured.mesh);
     for sight in 0..2 {
-        let (heights, seen) = (poured.heights(sight), poured.seen(sight));
+        let seen = SeenPlaces::of(&poured.mesh, &facets, &poured.visible[sight].1);
+        let heights = poured.heights(sight);
         let (mut off, mut covered) = (0, 0);
         for (pixel, found) in heights.values().iter().enumerate() {
             let (place, normal) = seen.at(pixel);
@@ -111,7 +179,8 @@ fn heights_stay_at_their_places_when_the_picture_turns() {
     let poured = Poured::new(&[camera(0.0, 5.6), camera(60.0, 5.0)], size);
     let (straight, turned) = (poured.heights(0), poured.heights(1));
     let clip = poured.visible[0].0.clip_from_model(size.0 as f32 / size.1 as f32);
-    let seen = poured.seen(1);
+    let facets = Facets::of(&poured.mesh);
+    let seen = SeenPlaces::of(&poured.mesh, &facets, &poured.visible[1].1);
     let (mut off, mut all, mut compared) = (0.0, 0.0, 0);
     for (pixel, heights) in turned.values().iter().enumerate() {
         let (place, _) = seen.at(pixel);
@@ -150,9 +219,6 @@ fn places_outside_of_all_volumes_have_no_film_to_the_quantum_on_any_threads() {
     assert!(heights.values().iter().all(|heights| heights.0.iter().all(|&height| height >= 0)));
     for threads in [1, 2, 8] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert_eq!(
-            pool.install(|| Poured::new(&[camera(-40.0, 4.0)], (160, 120)).heights(0)),
-            heights
-        );
+        assert_eq!(pool.install(|| poured.heights(0)), heights);
     }
 }
