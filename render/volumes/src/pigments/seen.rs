@@ -56,8 +56,8 @@ impl<'a> SeenPlaces<'a> {
         Self { places, visible, facets }
     }
 
-    /// What the pixel with this index, counted row by row, shows: a place and the normal of its
-    /// triangle. The place is no number where nothing is seen.
+    /// Place and normal of the triangle that the pixel with this index, counted row by row, shows.
+    /// The place is no number where nothing is seen.
     #[must_use]
     #[inline]
     pub fn at(&self, pixel: usize) -> (Vec3, Vec3) {
