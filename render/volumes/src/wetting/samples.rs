@@ -228,14 +228,15 @@ mod tests {
         let spacing = samples.areas[0].sqrt();
         let random = &mut ChaCha8Rng::seed_from_u64(9);
         let [a, b, c] = corners(&mesh, 0);
-        for _ in 0..1000 {
+        let mut most = 0.0_f32;
+        for _ in 0..4000 {
             let [u, v]: [f32; 2] = [(); 2].map(|()| random.random());
             let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
             let place = a + (b - a) * u + (c - a) * v;
             let distances = samples.places.iter().map(|at| at.distance(place));
-            let least = distances.fold(f32::INFINITY, f32::min) / spacing;
-            assert!(least < 2.0, "{place}: {least} spacings");
+            most = most.max(distances.fold(f32::INFINITY, f32::min) / spacing);
         }
+        assert!(most < 1.3, "{most} spacings");
     }
 
     #[test]

@@ -52,7 +52,10 @@ fn what_is_poured_arrives_to_the_quantum_and_covers_its_area() {
     world.pour(Pour { region: 3, ..pour }).unwrap();
     run(&mut world, 600);
     assert!(world.volumes().len() > 20);
-    assert!(world.volumes().iter().all(|volume| volume.region == 3));
+    for volume in world.volumes() {
+        let capacity = world.grid().cells.capacities[volume.cell.unwrap() as usize];
+        assert!(volume.region == 3 && volume.paint.volume() < capacity + capacity / 100);
+    }
     let tally = world.tally();
     let whole = (0.6 / world.quantum_mm3()).round() as u64;
     assert_eq!(tally.poured.iter().sum::<u64>(), whole);
