@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use graphics::mesh::Triangle;
+use graphics::surface::ClosedSurfaces;
 
 use crate::volume::Volume;
 
@@ -22,6 +23,12 @@ impl VolumeSurfaces {
         let mut surfaces = Self::default();
         surfaces.update(volumes);
         surfaces
+    }
+
+    /// The faces, for counting.
+    #[must_use]
+    pub fn closed(&self) -> ClosedSurfaces<'_, [f32; 3]> {
+        ClosedSurfaces { vertices: &self.vertices, triangles: &self.triangles }
     }
 
     /// Replaces all faces by those of these volumes, in the same memory.

@@ -55,7 +55,6 @@ pub(crate) fn plane(count: usize) -> Mesh {
         triangles: squares.flat_map(pair).collect(),
         materials: vec![Material::plain([1.0; 3])],
         positions,
-        ..Mesh::default()
     }
 }
 

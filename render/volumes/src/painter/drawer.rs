@@ -4,15 +4,17 @@ use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, Image};
 use graphics::field::Field;
 use graphics::mesh::Mesh;
-use graphics::surface::{Crossings, Fragment, InsideCounter, Model, NO_TRIANGLE, PackedMesh};
+use graphics::surface::{Crossings, Fragment, NO_TRIANGLE, PackedMesh};
 
 use super::averaged::averaged;
 use super::error::PaintingError;
 use super::films::Films;
+use super::in_sight::InSight;
+use super::loaded_scene::LoadedScene;
 use super::looks::{self, RegionLook};
 use super::region_counts::{RegionSurfaces, Volumes};
 use crate::drawing::{DrawingLook, Inside, Region, TintTable, reveal, shade, shade_apart};
-use crate::hatching::{Hatching, ThresholdTexture};
+use crate::hatching::ThresholdTexture;
 use crate::pigments::{Drawing, Facets, FilmHeights, SeenPlaces};
 use crate::script::RegionStyle;
 use crate::settings::Settings;
@@ -24,18 +26,17 @@ const MOST_SAMPLES: usize = 1 << 28;
 /// Draws one scene with its volumes.
 #[derive(Debug)]
 pub(super) struct Drawer {
-    /// Where pictures are made.
-    compute: Compute,
-    model: Model,
+    /// The scene where pictures are made.
+    scene: LoadedScene,
+    /// The scene on the processor, where paintings are made, if pictures are made elsewhere.
+    host: Option<LoadedScene>,
     packed: PackedMesh,
     facets: Facets,
     texture: ThresholdTexture,
-    hatching: Hatching,
     pub(super) settings: Settings,
     look: DrawingLook,
     pub(super) regions: Vec<RegionLook>,
     surfaces: Vec<RegionSurfaces>,
-    counter: InsideCounter,
     crossings: Crossings,
 }
 
@@ -79,37 +80,35 @@ impl Drawer {
     ) -> Result<Self, PaintingError> {
         scene.check()?;
         let packed = PackedMesh::new(scene);
-        let mut compute = Compute::cpu();
+        let facets = Facets::of(&packed);
         let texture = ThresholdTexture::new(u64::from(settings.seed));
         let regions: Result<Vec<_>, _> = styles.iter().map(RegionLook::of).collect();
         let regions = regions?;
         let look = looks::drawing_look(settings);
         look.check()?;
         Ok(Self {
-            model: Model::new(&mut compute, packed.clone())?,
-            hatching: Hatching::new(&mut compute, &texture, &packed)?,
+            scene: LoadedScene::new(Compute::cpu(), &packed, &facets, &texture)?,
+            host: None,
             texture,
-            facets: Facets::of(&packed),
+            facets,
             packed,
             look,
             settings: settings.clone(),
             surfaces: vec![RegionSurfaces::default(); regions.len()],
             regions,
-            counter: InsideCounter::default(),
             crossings: Crossings::default(),
-            compute,
         })
     }
 
     /// Draws on another device.
-    pub(super) fn on(self, mut compute: Compute) -> Result<Self, PaintingError> {
-        let model = Model::new(&mut compute, self.packed.clone())?;
-        let hatching = Hatching::new(&mut compute, &self.texture, &self.packed)?;
-        Ok(Self { model, hatching, counter: InsideCounter::default(), compute, ..self })
+    pub(super) fn on(self, compute: Compute) -> Result<Self, PaintingError> {
+        let scene = LoadedScene::new(compute, &self.packed, &self.facets, &self.texture)?;
+        let host = [Some(self.scene), self.host].into_iter().flatten().find(LoadedScene::is_host);
+        Ok(Self { scene, host, ..self })
     }
 
     pub(super) fn compute_name(&self) -> &str {
-        self.compute.name()
+        self.scene.compute.name()
     }
 
     /// Draws with other settings of light, grey, hatching, paper and gate.
@@ -128,9 +127,9 @@ impl Drawer {
         size: (usize, usize),
     ) -> Result<Sight, PaintingError> {
         let (width, height) = self.samples(size)?;
-        let visible = self.model.visible(&mut self.compute, camera, width, height)?;
-        let (look, hatching) = (&self.look, &self.hatching);
-        let shaded = shade(&mut self.compute, &self.model, &visible, camera, look, hatching)?;
+        let LoadedScene { compute, model, hatching, .. } = &mut self.scene;
+        let visible = model.visible(compute, camera, width, height)?;
+        let shaded = shade(compute, model, &visible, camera, &self.look, hatching)?;
         let counts = self.counts(world, &visible, camera)?;
         Ok(Sight { visible, shaded, counts })
     }
@@ -144,25 +143,13 @@ impl Drawer {
     ) -> Result<Vec<Image<i32>>, PaintingError> {
         let facing = world.facing();
         let all = Volumes { volumes: world.volumes(), facing: &facing };
-        self.check_regions(all)?;
-        let seen = match &self.compute {
-            Compute::Cpu => Some(SeenPlaces::of(&self.packed, &self.facets, visible.host())),
-            Compute::Gpu(_) => None,
-        };
+        check_regions(all, self.regions.len())?;
+        let in_sight = InSight::new(camera, visible);
+        let gate = self.settings.drawing.gate;
         let mut counts = Vec::with_capacity(self.regions.len());
-        for (number, region) in self.regions.iter().enumerate() {
-            let surfaces = &mut self.surfaces[number];
-            surfaces.update(all, number, region);
-            counts.push(match &seen {
-                Some(seen) => {
-                    let gate = self.settings.drawing.gate;
-                    surfaces.gated(&mut self.crossings, (seen, camera), gate).into()
-                }
-                None => {
-                    let scene = (&self.model, visible);
-                    surfaces.counts(&mut self.compute, &mut self.counter, scene, camera)?
-                }
-            });
+        for (region, surfaces) in self.regions.iter().enumerate().zip(&mut self.surfaces) {
+            surfaces.update(all, region, gate, &in_sight);
+            counts.push(surfaces.counts(&mut self.scene, visible, camera)?);
         }
         Ok(counts)
     }
@@ -176,8 +163,9 @@ impl Drawer {
     ) -> Result<Field<[f32; 4]>, PaintingError> {
         let Sight { visible, shaded, .. } = sight;
         let samples = self.look.samples;
-        let picture = reveal(&mut self.compute, shaded, visible, regions, paper, samples)?;
-        Ok(self.compute.download(&picture)?)
+        let compute = &mut self.scene.compute;
+        let picture = reveal(compute, shaded, visible, regions, paper, samples)?;
+        Ok(compute.take(picture)?)
     }
 
     /// The regions of a sight.
@@ -200,28 +188,32 @@ impl Drawer {
         size: (usize, usize),
     ) -> Result<Parts, PaintingError> {
         let (width, height) = self.samples(size)?;
-        let mut host = Model::new(&mut Compute::cpu(), self.packed.clone())?;
-        let visible = host.visible(&mut Compute::cpu(), camera, width, height)?;
-        let hatching = Hatching::new(&mut Compute::cpu(), &self.texture, &self.packed)?;
-        let visible = visible.host();
-        let (color, ink) = shade_apart(&self.packed, visible, camera, &self.look, &hatching)?;
-        let seen = SeenPlaces::of(&self.packed, &self.facets, visible);
+        if !self.scene.is_host() && self.host.is_none() {
+            let host = Compute::cpu();
+            self.host = Some(LoadedScene::new(host, &self.packed, &self.facets, &self.texture)?);
+        }
+        let host = self.host.as_mut().unwrap_or(&mut self.scene);
+        let LoadedScene { compute, model, hatching, .. } = &mut *host;
+        let image = model.visible(compute, camera, width, height)?;
+        let visible = image.host();
+        let (color, ink) = shade_apart(&self.packed, visible, camera, &self.look, hatching)?;
         let facing = world.facing();
         let all = Volumes { volumes: world.volumes(), facing: &facing };
-        self.check_regions(all)?;
+        check_regions(all, self.regions.len())?;
+        let in_sight = InSight::new(camera, &image);
+        let gate = self.settings.drawing.gate;
         let mut tint = Field::filled(width, height, 0.0);
-        for (number, region) in self.regions.iter().enumerate() {
-            if looks::has_own_colors(region.inside) {
-                let surfaces = &mut self.surfaces[number];
-                surfaces.update(all, number, region);
-                let gate = self.settings.drawing.gate;
-                let counts = surfaces.gated(&mut self.crossings, (&seen, camera), gate);
-                lay_tint(&mut tint, &counts, region.shells.table());
+        for (region, surfaces) in self.regions.iter().enumerate().zip(&mut self.surfaces) {
+            if looks::has_own_colors(region.1.inside) {
+                surfaces.update(all, region, gate, &in_sight);
+                let counts = surfaces.counts(host, &image, camera)?;
+                lay_tint(&mut tint, counts.host(), region.1.shells.table());
             }
         }
+        let seen = SeenPlaces::of(&self.packed, &self.facets, visible);
         let crossings = &mut self.crossings;
-        let heights =
-            films.heights(world, &self.regions, &self.settings, crossings, (&seen, camera));
+        let sight = (&seen, &in_sight, camera);
+        let heights = films.heights(all, world, (&self.regions, &self.settings), crossings, sight);
         let hatching = &self.look.hatching;
         let (inside, outside) = (hatching.inside, hatching.outside);
         let mut ink = ink;
@@ -252,14 +244,14 @@ impl Drawer {
             }
         }
     }
+}
 
-    fn check_regions(&self, all: Volumes<'_>) -> Result<(), PaintingError> {
-        let regions = self.regions.len();
-        let mut indices = all.volumes.iter().map(|volume| usize::from(volume.region));
-        match indices.find(|&region| region >= regions) {
-            None => Ok(()),
-            Some(region) => Err(PaintingError::Region { region, regions }),
-        }
+/// Checks that every volume is of one of these many regions.
+fn check_regions(all: Volumes<'_>, regions: usize) -> Result<(), PaintingError> {
+    let mut indices = all.volumes.iter().map(|volume| usize::from(volume.region));
+    match indices.find(|&region| region >= regions) {
+        None => Ok(()),
+        Some(region) => Err(PaintingError::Region { region, regions }),
     }
 }
 

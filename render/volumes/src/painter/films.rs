@@ -5,12 +5,13 @@ use std::sync::Arc;
 use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::field::Field;
-use graphics::surface::{ClosedSurfaces, Crossings};
+use graphics::surface::Crossings;
 use paint::document::{Lighting, Slots};
 use paint::ground::GroundSpec;
 use pigment::PigmentLibrary;
 
 use super::error::PaintingError;
+use super::in_sight::InSight;
 use super::looks::{self, RegionLook};
 use super::region_counts::Volumes;
 use crate::pigments::{
@@ -73,20 +74,17 @@ impl Films {
     /// Heights of the films at what each pixel shows. Volumes of regions without films have none.
     pub(super) fn heights(
         &mut self,
+        all: Volumes<'_>,
         world: &World,
-        regions: &[RegionLook],
-        settings: &Settings,
+        (regions, settings): (&[RegionLook], &Settings),
         crossings: &mut Crossings,
-        (seen, camera): (&SeenPlaces<'_>, &Camera),
+        (seen, in_sight, camera): (&SeenPlaces<'_>, &InSight, &Camera),
     ) -> Field<FilmHeights> {
-        let facing = world.facing();
-        let all = Volumes { volumes: world.volumes(), facing: &facing };
-        let (volumes, facing) = filmed(all, regions);
+        // Films through volumes are seen before surfaces too.
+        let everywhere = settings.drawing.film == settings::Film::Through;
+        let (volumes, facing) = filmed(all, regions, |one| everywhere || in_sight.may_hold(one));
         self.surfaces.update(&volumes);
-        let closed = ClosedSurfaces {
-            vertices: &self.surfaces.vertices,
-            triangles: &self.surfaces.triangles,
-        };
+        let closed = self.surfaces.closed();
         let scale = FilmScale {
             quantum_mm3: world.quantum_mm3(),
             unit_mm: world.unit_mm(),
@@ -115,13 +113,18 @@ impl Films {
     }
 }
 
-/// The volumes of regions with films, with the normals of their cells.
-fn filmed(all: Volumes<'_>, regions: &[RegionLook]) -> (Vec<Volume>, Vec<Vec3>) {
+/// The wanted volumes of regions with films, with the normals of their cells.
+fn filmed(
+    all: Volumes<'_>,
+    regions: &[RegionLook],
+    wanted: impl Fn(&Volume) -> bool,
+) -> (Vec<Volume>, Vec<Vec3>) {
     let has_films = |volume: &Volume| {
         regions
             .get(usize::from(volume.region))
             .is_some_and(|region| looks::has_films(region.inside))
     };
     let pairs = all.volumes.iter().zip(all.facing);
-    pairs.filter(|(volume, _)| has_films(volume)).map(|(volume, &to)| (volume.clone(), to)).unzip()
+    let pairs = pairs.filter(|(volume, _)| has_films(volume) && wanted(volume));
+    pairs.map(|(volume, &to)| (volume.clone(), to)).unzip()
 }

@@ -6,6 +6,10 @@ mod averaged;
 
 mod looks;
 
+mod in_sight;
+
+mod loaded_scene;
+
 mod region_counts;
 
 mod films;
@@ -13,6 +17,9 @@ mod films;
 mod drawer;
 
 mod volume_painter;
+
+#[cfg(test)]
+mod tests;
 
 pub use error::PaintingError;
 pub use films::{CELL_MM, VolumePigments};

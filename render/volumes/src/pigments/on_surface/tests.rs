@@ -59,11 +59,11 @@ impl Poured {
     }
 
     fn heights(&self, sight: usize) -> Field<FilmHeights> {
-        let VolumeSurfaces { vertices, triangles } = VolumeSurfaces::of(&self.volumes);
+        let surfaces = VolumeSurfaces::of(&self.volumes);
         let (camera, visible) = &self.visible[sight];
         let seen = self.seen(sight);
         let films = FilmOnSurface { films: &self.films, seen: &seen };
-        Crossings::default().sum(&films, &vertices, &triangles, camera, visible)
+        Crossings::default().sum(&films, surfaces.closed(), camera, visible)
     }
 }
 
