@@ -302,3 +302,20 @@ fn worlds_and_volumes_out_of_range_are_refused() {
     assert_eq!(full, Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES }));
     assert_eq!(world.tally(), Tally::default());
 }
+
+#[test]
+fn volumes_on_a_surface_come_to_rest() {
+    let mut world =
+        World::of(&SampleModel::StillLife.mesh(3000), &WorldSettings::default()).unwrap();
+    for cell in (0..world.grid().cells.len()).step_by(7) {
+        let samples = &world.grid().samples;
+        let place = samples.places[samples.of_cell(cell).start];
+        world.pour(Pour::at(place, 4.0, 1.0, Recipe::of_slot(cell % 3))).unwrap();
+    }
+    run(&mut world, 1200);
+    let moving = world.volumes.iter().filter(|volume| volume.rests_under == 0).count();
+    assert!(world.volumes.len() > 100 && moving == 0, "{moving} of {}", world.volumes.len());
+    let rested = world.volumes.clone();
+    run(&mut world, 10);
+    assert_eq!(world.volumes, rested);
+}
