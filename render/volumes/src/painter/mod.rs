@@ -6,17 +6,26 @@ mod averaged;
 
 mod looks;
 
+mod in_sight;
+
+mod loaded_scene;
+
 mod region_counts;
 
 mod films;
 
 mod drawer;
 
+mod parts_apart;
+
 mod volume_painter;
 
 mod shown;
 
 mod passes;
+
+#[cfg(test)]
+mod tests;
 
 pub use error::PaintingError;
 pub use films::{CELL_MM, VolumePigments};

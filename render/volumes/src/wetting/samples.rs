@@ -1,5 +1,7 @@
 //! The surface of a scene in samples of one area each.
 
+use std::cmp::Ordering;
+
 use glam::Vec3;
 use graphics::mesh::Mesh;
 use rand::{RngExt, SeedableRng};
@@ -122,6 +124,23 @@ impl SurfaceSamples {
     #[must_use]
     pub fn cell_count(&self) -> usize {
         self.starts.len() - 1
+    }
+
+    /// The cell that holds a place, if there is surface in it.
+    #[must_use]
+    pub fn cell_at(&self, place: Vec3) -> Option<usize> {
+        let key = |place: Vec3| Lattice::key(self.lattice.coordinates(place));
+        let wanted = place.is_finite().then(|| key(place))?;
+        let (mut low, mut high) = (0, self.cell_count());
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            match key(self.places[self.starts[middle] as usize]).cmp(&wanted) {
+                Ordering::Equal => return Some(middle),
+                Ordering::Less => low = middle + 1,
+                Ordering::Greater => high = middle,
+            }
+        }
+        None
     }
 
     /// Indices of the samples in the cell with this index.
@@ -266,12 +285,14 @@ mod tests {
                 assert!(!range.is_empty() && range.start == last);
                 last = range.end;
                 let at = samples.lattice.coordinates(samples.places[range.start]);
+                assert_eq!(samples.cell_at(samples.places[range.start]), Some(index));
                 for sample in range {
                     assert_eq!(samples.lattice.coordinates(samples.places[sample]), at);
                     assert_eq!(samples.cells[sample] as usize, index);
                 }
             }
             assert_eq!(last, samples.len());
+            assert_eq!(samples.cell_at(high + cell), None);
         }
     }
 
