@@ -1,7 +1,5 @@
 //! The surface of a scene in samples of one area each.
 
-use std::cmp::Ordering;
-
 use glam::Vec3;
 use graphics::mesh::Mesh;
 use rand::{RngExt, SeedableRng};
@@ -131,16 +129,10 @@ impl SurfaceSamples {
     pub fn cell_at(&self, place: Vec3) -> Option<usize> {
         let key = |place: Vec3| Lattice::key(self.lattice.coordinates(place));
         let wanted = place.is_finite().then(|| key(place))?;
-        let (mut low, mut high) = (0, self.cell_count());
-        while low < high {
-            let middle = usize::midpoint(low, high);
-            match key(self.places[self.starts[middle] as usize]).cmp(&wanted) {
-                Ordering::Equal => return Some(middle),
-                Ordering::Less => low = middle + 1,
-                Ordering::Greater => high = middle,
-            }
-        }
-        None
+        // Samples are in the order of their cells; cells outside of all regions have none.
+        let first = self.places.partition_point(|at| key(*at) < wanted);
+        let found = self.places.get(first).is_some_and(|at| key(*at) == wanted);
+        found.then(|| self.cells[first] as usize)
     }
 
     /// Indices of the samples in the cell with this index.

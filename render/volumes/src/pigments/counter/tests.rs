@@ -145,7 +145,8 @@ fn the_films_of_a_world_are_the_paint_on_its_scene() {
     for slot in [0, 1, 3] {
         let laid_mm3 = laid[slot] * mm_from_quanta(1, 0.2) * patch_mm2;
         let ratio = laid_mm3 / (on_scene[slot] as f64 * quantum_mm3);
-        assert!((0.97..1.03).contains(&ratio), "{slot}: {ratio}");
+        // Both sums are over samples; those of the world are five times as far apart.
+        assert!((0.96..1.04).contains(&ratio), "{slot}: {ratio}");
     }
     assert!(world.volumes().len() > 20, "{}", world.volumes().len());
 }
