@@ -103,6 +103,11 @@ fn paint_is_poured_where_the_first_picture_was_picked() {
     let scene = mesh();
     let view = FirstView::new(&scene, &camera(&scene), SIZE);
     let place = view.place(&scene, [0.45, 0.6]).unwrap();
+    let aspect = SIZE.0 as f32 / SIZE.1 as f32;
+    let at = camera(&scene).clip_from_model(aspect).project_point3(place);
+    // Places are those of the middle of a pixel.
+    let [across, down] = [0.5 + 0.5 * at.x - 0.45, 0.5 - 0.5 * at.y - 0.6];
+    assert!(across.abs() <= 1.0 / SIZE.0 as f32 && down.abs() <= 1.0 / SIZE.1 as f32, "{at}");
     let world = played.world();
     assert_eq!(world.volumes().len(), 1);
     let (sample, distance) = world.grid().nearest(place).unwrap();
