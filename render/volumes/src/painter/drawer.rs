@@ -14,10 +14,11 @@ use super::averaged::averaged;
 use super::error::PaintingError;
 use super::films::Films;
 use super::looks::{self, RegionLook};
+use super::parts::Parts;
 use super::region_counts::{RegionSurfaces, Volumes};
 use crate::drawing::{DrawingLook, Inside, Region, TintTable, reveal, shade, shade_apart};
 use crate::hatching::{Hatching, ThresholdTexture};
-use crate::pigments::{Drawing, Facets, FilmHeights, SeenPlaces};
+use crate::pigments::{Facets, SeenPlaces};
 use crate::script::RegionStyle;
 use crate::settings::Settings;
 use crate::world::World;
@@ -31,14 +32,14 @@ pub(super) struct Drawer {
     /// Where pictures are made.
     compute: Compute,
     model: Model,
-    packed: PackedMesh,
+    pub(super) packed: PackedMesh,
     facets: Facets,
     texture: ThresholdTexture,
     hatching: Hatching,
     /// The same in the processor's memory, for films and parts.
-    host_hatching: Hatching,
+    pub(super) host_hatching: Hatching,
     pub(super) settings: Settings,
-    look: DrawingLook,
+    pub(super) look: DrawingLook,
     pub(super) regions: Vec<RegionLook>,
     surfaces: Vec<RegionSurfaces>,
     counter: InsideCounter,
@@ -52,29 +53,6 @@ pub(super) struct Sight {
     pub(super) shaded: ColorImage,
     /// Volumes and shells that hold each sample, by region.
     pub(super) counts: Vec<Image<i32>>,
-}
-
-/// A painting's parts, one value for each pixel.
-pub(super) struct Parts {
-    /// Colours lit and textured but not hatched, each with its grey.
-    pub(super) color: Field<[f32; 4]>,
-    pub(super) cover: Field<f32>,
-    pub(super) ink: Field<f32>,
-    /// Share of the scene's own colours.
-    pub(super) tint: Field<f32>,
-    pub(super) heights: Field<FilmHeights>,
-}
-
-impl Parts {
-    pub(super) fn drawing(&self) -> Drawing<'_> {
-        Drawing {
-            color: &self.color,
-            cover: Some(&self.cover),
-            ink: Some(&self.ink),
-            tint: Some(&self.tint),
-            films: Some(&self.heights),
-        }
-    }
 }
 
 impl Drawer {
@@ -199,6 +177,19 @@ impl Drawer {
         regions.map(region).collect()
     }
 
+    /// Name of a region; its number from 1 if it has none.
+    pub(super) fn region_name(&self, index: usize) -> String {
+        match self.regions[index].name.as_str() {
+            "" => (index + 1).to_string(),
+            name => name.to_owned(),
+        }
+    }
+
+    /// The tints of a region.
+    pub(super) fn tints(&self, index: usize) -> TintTable {
+        self.regions[index].shells.table().clone()
+    }
+
     /// Colour of the paper, encoded sRGB.
     pub(super) fn paper(&self) -> [f32; 3] {
         looks::paper(&self.settings)
@@ -225,19 +216,35 @@ impl Drawer {
         Ok(self.compute.download(image)?)
     }
 
+    /// A value of the counts of each pixel's samples, in the mean.
+    pub(super) fn of_counts(
+        &mut self,
+        counts: &Image<i32>,
+        value: impl Fn(i32) -> f32,
+    ) -> Result<Field<f32>, PaintingError> {
+        let counts = self.downloaded(counts)?;
+        let values = counts.values().iter().map(|&count| value(count)).collect();
+        let field = Field::from_values(counts.width(), counts.height(), values);
+        Ok(averaged(field, self.look.samples))
+    }
+
     /// What `camera` sees, on the processor.
-    fn seen(
+    pub(super) fn seen(
         &self,
         camera: &Camera,
         size: (usize, usize),
     ) -> Result<VisibilityBuffer, PaintingError> {
-        let (width, height) = self.samples(size)?;
+        Ok(self.drawn(camera, self.samples(size)?))
+    }
+
+    /// What `camera` sees at this many samples, on the processor.
+    fn drawn(&self, camera: &Camera, (width, height): (usize, usize)) -> VisibilityBuffer {
         let mut visible = Field::filled(width, height, Fragment::EMPTY);
         let clip_from_model = camera.clip_from_model(width as f32 / height as f32);
         let PackedMesh { vertices, triangles, .. } = &self.packed;
         let mut rasteriser = Rasteriser::default();
         rasteriser.draw(clip_from_model, vertices, triangles, Sides::Both, &mut visible);
-        Ok(visible)
+        visible
     }
 
     /// The ink of the strokes at each sample, at full strength, 0 to 1.
@@ -288,14 +295,10 @@ impl Drawer {
     pub(super) fn places(
         &self,
         camera: &Camera,
-        (width, height): (usize, usize),
+        size: (usize, usize),
     ) -> Result<(VisibilityBuffer, Field<Vec3>), PaintingError> {
-        self.samples((width, height))?;
-        let mut visible = Field::filled(width, height, Fragment::EMPTY);
-        let clip_from_model = camera.clip_from_model(width as f32 / height as f32);
-        let PackedMesh { vertices, triangles, .. } = &self.packed;
-        let mut rasteriser = Rasteriser::default();
-        rasteriser.draw(clip_from_model, vertices, triangles, Sides::Both, &mut visible);
+        self.samples(size)?;
+        let visible = self.drawn(camera, size);
         let places = SeenPlaces::of(&self.packed, &self.facets, &visible).places;
         Ok((visible, places))
     }
@@ -318,7 +321,7 @@ impl Drawer {
         self.check_regions(all)?;
         let mut tint = Field::filled(width, height, 0.0);
         for (number, region) in self.regions.iter().enumerate() {
-            if looks::has_own_colors(region.inside) {
+            if region.inside.has_own_colors() {
                 let surfaces = &mut self.surfaces[number];
                 surfaces.update(all, number, region);
                 let gate = self.settings.drawing.gate;

@@ -55,7 +55,7 @@ impl Films {
         let VolumePigments { library, slots, own_colors, ground, lighting } = pigments;
         let material = FilmMaterial::new(library, ground, lighting.clone())?;
         let own = FilmPainterSettings {
-            under: looks::under(settings),
+            under: settings.drawing.under,
             inside: looks::inside(regions),
             pencil: settings.hatching.pencil,
             cell_mm: CELL_MM,
@@ -88,10 +88,10 @@ impl Films {
         counter.profile = profile;
         let has_films = |volume: &&Volume| {
             let region = regions.get(usize::from(volume.region));
-            region.is_some_and(|region| looks::has_films(region.inside))
+            region.is_some_and(|region| region.inside.has_films())
         };
         let volumes: Vec<Volume> = world.volumes().iter().filter(has_films).cloned().collect();
-        let kind = looks::film_kind(settings);
+        let kind = settings.drawing.film;
         counter.heights((scene, &surface), &volumes, kind, camera, visible)
     }
 }

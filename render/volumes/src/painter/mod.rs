@@ -10,6 +10,8 @@ mod region_counts;
 
 mod films;
 
+mod parts;
+
 mod drawer;
 
 mod volume_painter;
@@ -18,7 +20,10 @@ mod shown;
 
 mod passes;
 
+mod stages;
+
 pub use error::PaintingError;
 pub use films::{CELL_MM, VolumePigments};
 pub use shown::{Show, ShowError};
+pub use stages::Stage;
 pub use volume_painter::VolumePainter;
