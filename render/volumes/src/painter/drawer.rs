@@ -1,4 +1,4 @@
-//! What a camera sees of a scene and which volumes hold it, before a picture is composed.
+//! The scene before a camera and the volumes that hold it, before a picture is composed.
 
 use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, Image};
@@ -12,10 +12,11 @@ use super::films::Films;
 use super::in_sight::InSight;
 use super::loaded_scene::LoadedScene;
 use super::looks::{self, RegionLook};
+use super::parts::Parts;
 use super::region_counts::{RegionSurfaces, Volumes};
 use crate::drawing::{DrawingLook, Inside, Region, TintTable, reveal, shade, shade_apart};
 use crate::hatching::ThresholdTexture;
-use crate::pigments::{Drawing, Facets, FilmHeights};
+use crate::pigments::Facets;
 use crate::script::RegionStyle;
 use crate::settings::Settings;
 use crate::world::World;
@@ -39,36 +40,13 @@ pub(super) struct Drawer {
     surfaces: Vec<RegionSurfaces>,
 }
 
-/// What a camera sees, before volumes bring colour.
+/// The view of a camera, before volumes bring colour.
 pub(super) struct Sight {
     pub(super) visible: Image<Fragment>,
     /// Colours lit, textured and hatched, each with its grey.
     pub(super) shaded: ColorImage,
     /// Volumes and shells that hold each sample, by region.
     pub(super) counts: Vec<Image<i32>>,
-}
-
-/// A painting's parts, one value for each pixel.
-pub(super) struct Parts {
-    /// Colours lit and textured but not hatched, each with its grey.
-    pub(super) color: Field<[f32; 4]>,
-    pub(super) cover: Field<f32>,
-    pub(super) ink: Field<f32>,
-    /// Share of the scene's own colours.
-    pub(super) tint: Field<f32>,
-    pub(super) heights: Field<FilmHeights>,
-}
-
-impl Parts {
-    pub(super) fn drawing(&self) -> Drawing<'_> {
-        Drawing {
-            color: &self.color,
-            cover: Some(&self.cover),
-            ink: Some(&self.ink),
-            tint: Some(&self.tint),
-            films: Some(&self.heights),
-        }
-    }
 }
 
 impl Drawer {
@@ -117,7 +95,7 @@ impl Drawer {
         Ok(())
     }
 
-    /// What `camera` sees in a picture of `size`.
+    /// The view of `camera` in a picture of `size`.
     pub(super) fn sight(
         &mut self,
         world: &World,
@@ -199,7 +177,7 @@ impl Drawer {
         let gate = self.settings.drawing.gate;
         let mut tint = Field::filled(width, height, 0.0);
         for (region, surfaces) in self.regions.iter().enumerate().zip(&mut self.surfaces) {
-            if looks::has_own_colors(region.1.inside) {
+            if region.1.inside.has_own_colors() {
                 surfaces.update(all, region, gate, &in_sight);
                 let counts = surfaces.counts(host, &image, camera)?;
                 lay_tint(&mut tint, counts.host(), region.1.shells.table());

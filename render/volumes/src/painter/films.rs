@@ -57,7 +57,7 @@ impl Films {
         let VolumePigments { library, slots, own_colors, ground, lighting } = pigments;
         let material = FilmMaterial::new(library, ground, lighting.clone())?;
         let own = FilmPainterSettings {
-            under: looks::under(settings),
+            under: settings.drawing.under,
             inside: looks::inside(regions),
             pencil: settings.hatching.pencil,
             cell_mm: CELL_MM,
@@ -87,11 +87,11 @@ impl Films {
             .counter
             .get_or_insert_with(|| FilmCounter::new(scene, &surface, world.cell(), profile, scale));
         counter.profile = profile;
-        let kind = looks::film_kind(settings);
+        let kind = settings.drawing.film;
         let wanted = |volume: &&Volume| {
             let region = regions.get(usize::from(volume.region));
             // Films through volumes are seen before surfaces too.
-            region.is_some_and(|region| looks::has_films(region.inside))
+            region.is_some_and(|region| region.inside.has_films())
                 && (kind == FilmKind::Through || in_sight.may_hold(volume))
         };
         let volumes: Vec<Volume> = world.volumes().iter().filter(wanted).cloned().collect();

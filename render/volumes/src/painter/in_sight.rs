@@ -14,7 +14,7 @@ const TILE: usize = 16;
 /// Depths this much apart may be equal but for rounding.
 const MARGIN: f32 = 1e-5;
 
-/// What a picture shows, in tiles of samples.
+/// The depths that a picture shows, in tiles of samples.
 #[derive(Debug)]
 pub(super) struct InSight {
     clip_from_model: Mat4,

@@ -14,6 +14,8 @@ mod region_counts;
 
 mod films;
 
+mod parts;
+
 mod drawer;
 
 mod parts_apart;
@@ -24,10 +26,13 @@ mod shown;
 
 mod passes;
 
+mod stages;
+
 #[cfg(test)]
 mod tests;
 
 pub use error::PaintingError;
 pub use films::{CELL_MM, VolumePigments};
 pub use shown::{Show, ShowError};
+pub use stages::Stage;
 pub use volume_painter::VolumePainter;

@@ -10,10 +10,23 @@ use super::averaged::averaged;
 use super::drawer::Drawer;
 use super::error::PaintingError;
 use super::looks;
-use crate::drawing::shade_apart;
+use crate::drawing::{TintTable, shade_apart};
 use crate::pigments::SeenPlaces;
 
 impl Drawer {
+    /// Name of a region; its number from 1 if it has none.
+    pub(super) fn region_name(&self, index: usize) -> String {
+        match self.regions[index].name.as_str() {
+            "" => (index + 1).to_string(),
+            name => name.to_owned(),
+        }
+    }
+
+    /// The tints of a region.
+    pub(super) fn tints(&self, index: usize) -> TintTable {
+        self.regions[index].shells.table().clone()
+    }
+
     /// Colour of the paper, encoded sRGB.
     pub(super) fn paper(&self) -> [f32; 3] {
         looks::paper(&self.settings)
@@ -40,8 +53,20 @@ impl Drawer {
         Ok(self.scene.compute.download(image)?)
     }
 
-    /// What `camera` sees at `width` x `height` samples, on the processor.
-    fn seen(
+    /// A value of the counts of each pixel's samples, in the mean.
+    pub(super) fn of_counts(
+        &mut self,
+        counts: &Image<i32>,
+        value: impl Fn(i32) -> f32,
+    ) -> Result<Field<f32>, PaintingError> {
+        let counts = self.downloaded(counts)?;
+        let values = counts.values().iter().map(|&count| value(count)).collect();
+        let field = Field::from_values(counts.width(), counts.height(), values);
+        Ok(averaged(field, self.look.samples))
+    }
+
+    /// The view of `camera` at `width` x `height` samples, on the processor.
+    pub(super) fn seen(
         &mut self,
         camera: &Camera,
         (width, height): (usize, usize),
@@ -96,7 +121,7 @@ impl Drawer {
         Ok([of(&|point| point.position()), of(&|point| point.normal(camera.eye))])
     }
 
-    /// What each pixel shows, and where that is; no numbers where nothing is seen.
+    /// The fragment and the place that each pixel shows; no numbers where nothing is seen.
     pub(super) fn places(
         &mut self,
         camera: &Camera,

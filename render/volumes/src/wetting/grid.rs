@@ -23,13 +23,13 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid of a mesh with cells of width `cell`, in the unit of the scene. Places are
-    /// drawn from `seed`.
+    /// The grid of a mesh with cells of width `cell`, in the unit of the scene, and `per_cell`
+    /// samples in each on average. Places are drawn from `seed`.
     ///
     /// # Errors
-    /// If the mesh has no surface, or the cells have no size or are too many.
-    pub fn of(mesh: &Mesh, cell: f32, seed: u64) -> Result<Self, WettingError> {
-        let samples = SurfaceSamples::of(mesh, cell, seed)?;
+    /// If the mesh has no surface, the cells have no size, or cells or samples are too many.
+    pub fn of(mesh: &Mesh, cell: f32, per_cell: usize, seed: u64) -> Result<Self, WettingError> {
+        let samples = SurfaceSamples::of(mesh, cell, per_cell, seed)?;
         let cells = Cells::of(&samples);
         let graph = Graph::of(mesh, &samples)?;
         let reach = Reach::of(&samples, &cells);

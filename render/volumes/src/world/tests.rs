@@ -9,7 +9,7 @@ use super::*;
 use crate::containing::Inside;
 use crate::motion::{KeepIn, Push};
 use crate::test_surfaces::{joined, sheet};
-use crate::wetting::SurfaceSamples;
+use crate::wetting::{SAMPLES_PER_CELL, SurfaceSamples};
 
 fn level(side: f32, height: f32) -> Mesh {
     sheet(1, |u, v| [side * (u - 0.5), height, side * (v - 0.5)])
@@ -298,7 +298,8 @@ fn full_cells_of_rough_volumes_hold_all_surface() {
         let insides: Vec<(Vec3, Inside)> =
             world.volumes().iter().map(|volume| (volume.center, Inside::of(volume))).collect();
         // Other places than those that the grid was made of, four times as many.
-        let places = SurfaceSamples::of(&mesh, world.scale.cell / 2.0, 77).unwrap().places;
+        let places =
+            SurfaceSamples::of(&mesh, world.scale.cell / 2.0, SAMPLES_PER_CELL, 77).unwrap().places;
         let held = |at: &Vec3| {
             let near = insides
                 .iter()

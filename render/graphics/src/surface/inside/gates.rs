@@ -4,7 +4,7 @@ use super::crossing::{Crossing, CrossingSum};
 use crate::compute::Image;
 use crate::surface::visibility::Fragment;
 
-/// What closed surfaces may hold: the triangles of a scene that face as they do. So paint on one
+/// Limits on what closed surfaces hold: the triangles of a scene that face as they do. So paint on one
 /// side of a thin wall does not show on the other.
 #[derive(Debug, Clone, Copy)]
 pub struct Gates<'a> {

@@ -200,7 +200,7 @@ pub(super) fn gated(
     scattered(gpu, &GATED_FACES, (visible.size(), &buffers), camera, surfaces, target)
 }
 
-/// What `shader` adds at every pixel of every face. Its buffers are those of the surfaces, then
+/// Sums of `shader` over every pixel of every face. Its buffers are those of the surfaces, then
 /// `buffers`, then the sums.
 fn scattered(
     gpu: &mut GpuCompute,
