@@ -13,7 +13,8 @@ use graphics::mesh::Mesh;
 use graphics::picture::Photograph;
 use volumes::painter::VolumePainter;
 use volumes::performance::{FirstView, Performance};
-use volumes::script::{STEPS_A_SECOND, Script, ScriptCamera, Subject};
+use volumes::script::{Script, ScriptCamera, Subject};
+use volumes::world::STEPS_PER_SECOND;
 
 const SIZE: (usize, usize) = (750, 570);
 
@@ -57,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut painter = VolumePainter::new(&scene, &settings, &script.region_styles(&settings))?;
     for second in 0..=script.seconds as u64 {
         performance
-            .advance_to(second * u64::from(STEPS_A_SECOND))
+            .advance_to(second * u64::from(STEPS_PER_SECOND))
             .map_err(|error| error.located(&name, &text))?;
         let picture = painter.paint(performance.world(), &camera, SIZE)?;
         std::fs::write(folder.join(format!("{second}.png")), frame_png(&frame_of(&picture))?)?;

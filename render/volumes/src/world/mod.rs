@@ -40,6 +40,9 @@ mod time;
 #[cfg(test)]
 mod tests;
 
+#[cfg(test)]
+mod limit_tests;
+
 pub use actions::{Lift, Pour, Single};
 pub use error::WorldError;
 pub use recipe::Recipe;

@@ -16,23 +16,23 @@ fn level(side: f32, height: f32) -> Mesh {
 }
 
 /// A world over a level sheet of 12 by 12 mm in the middle, with 12 by 12 cells of 1 mm.
-fn flat() -> World {
+pub(super) fn flat() -> World {
     let settings = WorldSettings { unit_mm: Some(1.0), ..WorldSettings::default() };
     World::of(&level(12.0, 0.0), &settings).unwrap()
 }
 
-fn run(world: &mut World, steps: usize) {
+pub(super) fn run(world: &mut World, steps: usize) {
     for _ in 0..steps {
         world.step().unwrap();
     }
 }
 
-fn is_exact(world: &World) -> bool {
+pub(super) fn is_exact(world: &World) -> bool {
     let tally = world.tally();
     (0..9).all(|slot| tally.poured[slot] == tally.on_scene[slot] + tally.lifted[slot])
 }
 
-fn single(center: Vec3, radius: f32) -> Single {
+pub(super) fn single(center: Vec3, radius: f32) -> Single {
     Single { center, radius, detail: 4, recipe: Some(Recipe::of_slot(2)), region: 1 }
 }
 
@@ -364,46 +364,4 @@ fn worlds_and_volumes_out_of_range_are_refused() {
     let full = world.add_volume(&good);
     assert_eq!(full, Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES }));
     assert_eq!(world.tally(), Tally::default());
-}
-
-#[test]
-fn a_full_world_keeps_paint_where_it_is_or_in_the_tube() {
-    let mut world = flat();
-    let dot = Single { recipe: None, detail: 0, ..single(Vec3::splat(9.0), 0.1) };
-    for _ in 0..MOST_VOLUMES - 3 {
-        world.add_volume(&dot).unwrap();
-    }
-    world.pour(Pour::at(Vec3::ZERO, 1.0, 1.0, Recipe::of_slot(0))).unwrap();
-    let far = Vec3::new(4.0, 0.0, 4.0);
-    for _ in 0..60 {
-        world.move_paint().unwrap();
-    }
-    world.add_volume(&dot).unwrap();
-    world.add_volume(&dot).unwrap();
-    world.pour(Pour::at(far, 1.0, 0.5, Recipe::of_slot(1))).unwrap();
-    for _ in 0..60 {
-        world.move_paint().unwrap();
-    }
-    assert_eq!(world.volumes().len(), MOST_VOLUMES);
-    assert!(is_exact(&world));
-    let tally = world.tally();
-    assert_eq!(tally.in_tube[1], (0.5 / world.quantum_mm3()).round() as u64);
-    assert!(tally.on_scene[0] > 0 && tally.on_scene[1] == 0);
-}
-
-#[test]
-fn volumes_on_a_surface_come_to_rest() {
-    let mut world =
-        World::of(&SampleModel::StillLife.mesh(3000), &WorldSettings::default()).unwrap();
-    for cell in (0..world.grid().cells.len()).step_by(7) {
-        let samples = &world.grid().samples;
-        let place = samples.places[samples.of_cell(cell).start];
-        world.pour(Pour::at(place, 4.0, 1.0, Recipe::of_slot(cell % 3))).unwrap();
-    }
-    run(&mut world, 1200);
-    let moving = world.volumes.iter().filter(|volume| volume.rests_under == 0).count();
-    assert!(world.volumes.len() > 100 && moving == 0, "{moving} of {}", world.volumes.len());
-    let rested = world.volumes.clone();
-    run(&mut world, 10);
-    assert_eq!(world.volumes, rested);
 }
