@@ -12,3 +12,9 @@
 pub mod sphere_mesh;
 
 pub mod volume;
+
+pub mod toml_text;
+
+pub mod settings;
+
+pub mod script;

@@ -69,6 +69,31 @@ fn normal_lens() -> f32 {
     35.0
 }
 
+impl Keyframe {
+    /// First value from which no camera can be made: its key and the reason.
+    #[must_use]
+    pub fn fault(&self) -> Option<(&'static str, String)> {
+        let Self { eye, target, up, field_of_view_deg } = *self;
+        for (key, value) in [("eye", eye), ("target", target), ("up", up)] {
+            if value.iter().any(|number| !number.is_finite()) {
+                return Some((key, format!("`{value:?}` is not finite")));
+            }
+        }
+        let [eye, target, up] = [eye, target, up].map(Vec3::from);
+        if !(0.1..=170.0).contains(&field_of_view_deg) {
+            let reason = format!("`{field_of_view_deg}` is not from 0.1 to 170 degrees");
+            return Some(("field_of_view_deg", reason));
+        }
+        let Some(forward) = (target - eye).try_normalize() else {
+            return Some(("target", format!("`{target}` is where the eye is")));
+        };
+        if !up.try_normalize().is_some_and(|up| up.cross(forward).length() > LEAST_SINE) {
+            return Some(("up", format!("`{up}` is parallel to the viewing direction, or zero")));
+        }
+        None
+    }
+}
+
 /// A camera path could not be read. Every message starts with the file's path.
 #[derive(Debug, thiserror::Error)]
 pub enum CameraPathError {
@@ -163,24 +188,8 @@ impl CameraPath {
             }
         }
         for (keyframe, number) in self.keyframes.iter().zip(1..) {
-            let key = |name: &str| format!("keyframe {number}: {name}");
-            let Keyframe { eye, target, up, field_of_view_deg } = *keyframe;
-            for (name, value) in [("eye", eye), ("target", target), ("up", up)] {
-                if value.iter().any(|number| !number.is_finite()) {
-                    return Some((key(name), format!("`{value:?}` is not finite")));
-                }
-            }
-            let [eye, target, up] = [eye, target, up].map(Vec3::from);
-            if !(0.1..=170.0).contains(&field_of_view_deg) {
-                let reason = format!("`{field_of_view_deg}` is not from 0.1 to 170 degrees");
-                return Some((key("field_of_view_deg"), reason));
-            }
-            let Some(forward) = (target - eye).try_normalize() else {
-                return Some((key("target"), format!("`{target}` is where the eye is")));
-            };
-            if !up.try_normalize().is_some_and(|up| up.cross(forward).length() > LEAST_SINE) {
-                let reason = format!("`{up}` is parallel to the viewing direction, or zero");
-                return Some((key("up"), reason));
+            if let Some((key, reason)) = keyframe.fault() {
+                return Some((format!("keyframe {number}: {key}"), reason));
             }
         }
         None

@@ -77,6 +77,7 @@ pub use action::{Action, Load, Recipe, Squeeze, Stroke};
 pub use error::{InvalidValue, ScriptError, ValueLocation};
 pub use limits::{MAX_ACTIONS, MAX_CELLS, MAX_FILE_BYTES, MAX_NAMES, MAX_SAMPLES};
 pub use named_files::ScriptLibrary;
+pub use names::similar_names;
 pub use palette::PaletteSpec;
 pub use resolve::{ActionPigments, Resolved};
 pub use script::{BrushSpec, StrokeScript};

@@ -44,10 +44,13 @@ pub(super) fn distinct_keys<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
 }
 
 /// Up to three of `known` that are spelt like `name`, the most similar first.
-pub(super) fn similar_names<'a>(
-    name: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Vec<&'a str> {
+///
+/// ```
+/// use paint::strokes::similar_names;
+/// assert_eq!(similar_names("viridan", ["Viridian", "Zinc White"]), ["Viridian"]);
+/// ```
+#[must_use]
+pub fn similar_names<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let name: Vec<char> = name.to_lowercase().chars().take(100).collect();
     let mut ranked: Vec<_> = known
         .into_iter()

@@ -1,0 +1,108 @@
+//! A script as actions in time.
+
+use super::action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
+use super::file::Script;
+use super::rows::Row;
+use crate::toml_text::KeyPath;
+
+/// Steps of the simulation in a second.
+pub const STEPS_A_SECOND: u32 = 120;
+
+/// An action with its time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Event {
+    /// Step, from 0, before which it begins.
+    pub start: u32,
+    /// Step before which it ends, above `start`; actions of a moment last one step.
+    pub end: u32,
+    /// The action itself.
+    pub action: Action,
+    /// Path of its table in the script, for faults.
+    pub table: KeyPath,
+}
+
+/// Number of steps nearest to a time of 0 s and more.
+#[must_use]
+pub fn steps_of(seconds: f64) -> u32 {
+    (seconds * f64::from(STEPS_A_SECOND)).round() as u32
+}
+
+/// Time of a step in seconds.
+#[must_use]
+pub fn seconds_of(steps: u32) -> f64 {
+    f64::from(steps) / f64::from(STEPS_A_SECOND)
+}
+
+impl Script {
+    /// All actions, sorted by the step in which they begin, then in the order of [`Action`], then
+    /// in that of the script. The script must have passed [`Script::check`].
+    #[must_use]
+    pub fn events(&self) -> Vec<Event> {
+        let region = |name: &Option<String>| self.region_index(name.as_deref()).unwrap_or(0);
+        let mut events = Vec::new();
+        let mut add = |name: &str, index: usize, [from, duration]: [f64; 2], action: Action| {
+            let start = steps_of(from);
+            let end = start + steps_of(duration).max(1);
+            events.push(Event { start, end, action, table: KeyPath::of(name).index(index) });
+        };
+        for (index, table) in self.volumes.iter().enumerate() {
+            let volume = NewVolume {
+                center: table.center.0,
+                radius: table.radius,
+                detail: table.detail,
+                recipe: table.recipe.clone(),
+                region: region(&table.region),
+            };
+            add("volume", index, [table.from_s, 0.0], Action::Volume(volume));
+        }
+        for (index, table) in self.pours.iter().enumerate() {
+            let pour = Pour {
+                place: place(table.at, table.picked, &table.path),
+                quantity: quantity(table.amount_mm3, table.rate_mm3_s),
+                recipe: table.recipe.clone(),
+                region: region(&table.region),
+            };
+            add("pour", index, [table.from_s, table.for_s], Action::Pour(pour));
+        }
+        for (index, table) in self.pushes.iter().enumerate() {
+            let (at, towards) = (table.at.0, table.towards.0);
+            let push = Push { at, towards, radius: table.radius, strength: table.strength };
+            add("push", index, [table.from_s, table.for_s], Action::Push(push));
+        }
+        for (index, table) in self.lifts.iter().enumerate() {
+            let lift = Lift {
+                place: place(table.at, table.picked, &table.path),
+                radius: table.radius,
+                rate: table.rate,
+            };
+            add("lift", index, [table.from_s, table.for_s], Action::Lift(lift));
+        }
+        for (index, table) in self.splits.iter().enumerate() {
+            let volume = table.volume.map(|number| number.saturating_sub(1) as usize);
+            add("split", index, [table.at_s, 0.0], Action::Split(Split { volume }));
+        }
+        for (index, table) in self.dries.iter().enumerate() {
+            add("dry", index, [table.at_s, 0.0], Action::Dry);
+        }
+        events.sort_by_key(|event| (event.start, event.action.rank()));
+        events
+    }
+}
+
+fn place(at: Option<Row<3>>, picked: Option<Row<2>>, path: &[Row<4>]) -> Place {
+    if !path.is_empty() {
+        let point = |&Row([seconds, x, y, z]): &Row<4>| PathPoint { seconds, at: [x, y, z] };
+        return Place::Path(path.iter().map(point).collect());
+    }
+    match picked {
+        Some(Row(picked)) => Place::Picked(picked),
+        None => Place::At(at.map(|Row(at)| at).unwrap_or_default()),
+    }
+}
+
+fn quantity(amount: Option<f64>, rate: Option<f64>) -> Quantity {
+    match rate {
+        Some(rate) => Quantity::Rate(rate),
+        None => Quantity::Amount(amount.unwrap_or(0.0)),
+    }
+}

@@ -1,0 +1,141 @@
+//! Scripts of paint volumes: the file format `paint-volumes`, version 1.
+//!
+//! A script is TOML with a subject, pigments, settings and what is done to the subject in time. It
+//! is written by hand, by a program, or by a session that records. Places are in the unit of the
+//! subject, times in seconds.
+//!
+//! ```toml
+//! format = "paint-volumes"
+//! version = 1
+//! title = "A jug wakes up"
+//! subject = "shape:still-life"      # or a model or photograph beside the script
+//! unit_mm = 100.0                   # left out: the longest side is 200 mm
+//! seconds = 6.0
+//! preset = "washed"                 # left out: sketch
+//!
+//! [palette]                         # left out: colours are the subject's own
+//! B = "Ultramarine"
+//! Y = "Chrome Yellow"
+//!
+//! [grid]                            # short for [settings.grid]
+//! cell = 0.083
+//!
+//! [settings.motion]                 # any group of the settings
+//! kick = 0.5
+//!
+//! [camera]                          # degrees, or `[[camera.keyframe]]` as of camera paths
+//! azimuth_deg = 30.0
+//! elevation_deg = 20.0
+//!
+//! [[region]]                        # left out: one region with the settings' own drawing
+//! name = "glow"
+//! inside = "own-colours"
+//! shells = [1.0, 0.93, 0.86]
+//! tint = [0.0, 0.35, 0.7, 1.0]
+//!
+//! [[pour]]                          # `at` a place, or `picked` of the first picture, or a `path`
+//! path = [[0.0, 0.1, 0.6, 0.3], [2.0, 0.5, 0.6, 0.2]]   # seconds from its start, then place
+//! from_s = 0.5
+//! for_s = 2.0
+//! rate_mm3_s = 40.0                 # or amount_mm3
+//! recipe = { B = 2, Y = 1 }
+//! region = "glow"
+//!
+//! [[volume]]                        # a single volume
+//! centre = [0.1, 0.6, 0.3]
+//! radius = 0.2
+//! detail = 4
+//! recipe = { B = 1 }
+//!
+//! [[push]]
+//! at = [0.1, 0.6, 0.3]
+//! towards = [1.0, 0.0, 0.0]         # a direction
+//! radius = 0.2
+//! strength = 10.0                   # cells a square second
+//! from_s = 3.0
+//! for_s = 0.5
+//!
+//! [[lift]]                          # a sponge that takes paint up
+//! picked = [0.42, 0.55]
+//! radius = 0.1
+//! rate = 0.5                        # of the paint below it, a second
+//! from_s = 4.0
+//! for_s = 1.0
+//!
+//! [[keep]]                          # volumes stay in a box, a sphere or above a plane
+//! above = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+//!
+//! [[split]]                         # the first single volume to volumes of the grid
+//! at_s = 4.5
+//! volume = 1
+//!
+//! [[dry]]                           # all paint on the scene
+//! at_s = 5.0
+//! ```
+//!
+//! Scripts are untrusted: unknown keys, numbers out of range and files that are too long are
+//! refused with line and key, and the subject lies beside the script. Written figures have six
+//! digits, times four decimals.
+
+mod limits;
+
+mod rows;
+
+mod tables;
+
+mod ranges;
+
+mod camera;
+
+mod file;
+
+mod rounded;
+
+mod subject;
+
+mod regions;
+
+mod check_tables;
+
+mod check;
+
+mod error;
+
+mod text;
+
+mod action;
+
+mod pigments;
+
+mod events;
+
+mod record;
+
+#[cfg(test)]
+mod samples;
+
+#[cfg(test)]
+mod tests;
+
+#[cfg(test)]
+mod fault_tests;
+
+#[cfg(test)]
+mod fuzz_tests;
+
+pub use action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Recipe, Split};
+pub use camera::{CameraTable, KeyframeTable, ScriptCamera};
+pub use error::ScriptError;
+pub use events::{Event, STEPS_A_SECOND, seconds_of, steps_of};
+pub use file::Script;
+pub use limits::{
+    MOST_CELLS, MOST_EVENTS, MOST_FRAMES, MOST_PARTICLES, MOST_REGIONS, MOST_SECONDS, MOST_VOLUMES,
+    cells_fit, frames_fit,
+};
+pub use record::Recorder;
+pub use regions::RegionStyle;
+pub use rows::{Ball, Pair, Row};
+pub use subject::Subject;
+pub use tables::{
+    DryTable, KeepTable, LiftTable, PourTable, PushTable, RegionTable, SplitTable, VolumeTable,
+};

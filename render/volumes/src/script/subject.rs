@@ -1,0 +1,83 @@
+//! The subject of a script.
+
+use std::path::{Component, Path, PathBuf};
+
+use graphics::mesh::SampleModel;
+use paint::strokes::similar_names;
+
+use super::file::Script;
+use crate::toml_text::{Checked, Fault, KeyPath};
+
+/// Longest path in bytes.
+const LONGEST: usize = 1024;
+
+/// The model or photograph that a script paints.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Subject {
+    /// A model that is made, written `shape:NAME`.
+    Shape(SampleModel),
+    /// A file with a model or a photograph.
+    File(PathBuf),
+}
+
+impl Script {
+    /// The subject; a path starts from `folder`, the folder of the script.
+    ///
+    /// # Errors
+    /// [`Fault`] of `subject` for an unknown shape, and for a path that is empty or has control
+    /// characters.
+    pub fn subject_in(&self, folder: &Path) -> Result<Subject, Box<Fault>> {
+        self.check_subject()?;
+        match self.subject.strip_prefix("shape:").and_then(SampleModel::from_name) {
+            Some(shape) => Ok(Subject::Shape(shape)),
+            None => Ok(Subject::File(folder.join(&self.subject))),
+        }
+    }
+
+    pub(super) fn check_subject(&self) -> Checked {
+        let key = KeyPath::of("subject");
+        if let Some(name) = self.subject.strip_prefix("shape:") {
+            if SampleModel::from_name(name).is_some() {
+                return Ok(());
+            }
+            let names = SampleModel::ALL.map(SampleModel::name);
+            let similar = similar_names(name, names);
+            let hint = match similar.is_empty() {
+                true => format!("shapes are {}", names.join(", ")),
+                false => format!("did you mean shape:{}?", similar.join(" or shape:")),
+            };
+            return Err(Fault::new(&key, "the name of a shape after `shape:`", name, hint));
+        }
+        let fits =
+            (1..=LONGEST).contains(&self.subject.len()) && !self.subject.contains(char::is_control);
+        match fits {
+            true => Ok(()),
+            false => Err(Fault::new(
+                &key,
+                format!("a path of 1 to {LONGEST} bytes without control characters"),
+                self.subject.escape_debug(),
+                "subject = \"shape:still-life\" is a model that is always there",
+            )),
+        }
+    }
+
+    /// Checks that a path leads to a file in the script's folder or below it.
+    pub(super) fn check_subject_beside(&self) -> Checked {
+        if self.subject.starts_with("shape:") {
+            return Ok(());
+        }
+        let mut parts = Path::new(&self.subject).components();
+        // Colons and backslashes lead elsewhere on Windows.
+        let below = parts.all(|part| matches!(part, Component::Normal(_)))
+            && !self.subject.contains(['\\', ':']);
+        match below {
+            true => Ok(()),
+            false => Err(Fault::new(
+                &KeyPath::of("subject"),
+                "a path below the script's folder",
+                &self.subject,
+                "put the file beside the script",
+            )),
+        }
+    }
+}

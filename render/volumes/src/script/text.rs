@@ -1,0 +1,102 @@
+//! Scripts as text.
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use super::error::ScriptError;
+use super::file::{FormatVersion, Script};
+use crate::settings::{GridTable, Settings};
+use crate::toml_text::{Fault, KeyPath, Source, TextError, read_text};
+
+/// The settings of a script alone. A script keeps only what it changes; this finds unknown keys
+/// and wrong types with their lines.
+#[derive(Deserialize)]
+struct OwnSettings {
+    #[serde(default, rename = "settings")]
+    _settings: Settings,
+    #[serde(default, rename = "grid")]
+    _grid: GridTable,
+}
+
+impl Script {
+    /// Reads a script whose subject lies beside it.
+    ///
+    /// # Errors
+    /// [`ScriptError`] with file, line, key and the way out.
+    pub fn open(path: &Path) -> Result<Self, ScriptError> {
+        Self::from_text(&path.display().to_string(), &read_text(path)?)
+    }
+
+    /// Reads a script of the user's own, whose subject may lie in any folder.
+    ///
+    /// # Errors
+    /// [`ScriptError`] with file, line, key and the way out.
+    pub fn open_own(path: &Path) -> Result<Self, ScriptError> {
+        let (name, text) = (path.display().to_string(), read_text(path)?);
+        Ok(parsed(&name, &text)?.0)
+    }
+
+    /// Parses the text of a script, which errors call `name`. The subject lies beside it.
+    ///
+    /// # Errors
+    /// [`ScriptError`] with line, key and the way out.
+    pub fn from_text(name: &str, text: &str) -> Result<Self, ScriptError> {
+        let (script, source) = parsed(name, text)?;
+        script.check_subject_beside().map_err(|fault| source.located(fault))?;
+        Ok(script)
+    }
+
+    /// The text of a script: figures with six digits, times with four decimals. Reading it gives
+    /// [`Script::rounded`] to the bit.
+    ///
+    /// # Errors
+    /// [`ScriptError`] for the first value that is out of its range.
+    pub fn to_text(&self) -> Result<String, ScriptError> {
+        let rounded = self.rounded();
+        rounded.check()?;
+        toml::to_string(&rounded).map_err(|error| {
+            let hint = "write plain numbers and words";
+            Fault::new(&KeyPath::of("settings"), "values of TOML", error, hint).into()
+        })
+    }
+}
+
+impl ScriptError {
+    /// The error of a fault that is found after reading, such as an unknown pigment, with its line
+    /// in the script's `text`, which it calls `name`.
+    #[must_use]
+    pub fn located(name: &str, text: &str, fault: Box<Fault>) -> Self {
+        match Source::parse(name, text) {
+            Ok(source) => source.located(fault).into(),
+            Err(_) => TextError::Invalid(fault).into(),
+        }
+    }
+}
+
+fn parsed<'t>(name: &'t str, text: &'t str) -> Result<(Script, Source<'t>), ScriptError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let source = Source::parse(name, text)?;
+    check_format(name, &source)?;
+    let script: Script = source.typed()?;
+    source.typed::<OwnSettings>()?;
+    script.check().map_err(|fault| source.located(fault))?;
+    Ok((script, source))
+}
+
+/// Checks format and version before anything else: a newer version may have other keys.
+fn check_format(name: &str, source: &Source<'_>) -> Result<(), ScriptError> {
+    let file = name.to_owned();
+    let line = |key: &str| source.line(&KeyPath::of(key)).max(1);
+    let found = source.value_of("format").unwrap_or_else(|| "nothing".to_owned());
+    if found.trim_matches(['"', '\'']) != "paint-volumes" {
+        return Err(ScriptError::Format { file, line: line("format"), found });
+    }
+    let newest = FormatVersion::NUMBER;
+    match source.value_of("version") {
+        Some(found) if found.parse() != Ok(newest) => {
+            Err(ScriptError::Version { file, line: line("version"), found, newest })
+        }
+        _ => Ok(()),
+    }
+}
