@@ -18,3 +18,4 @@ pub mod toml_text;
 pub mod settings;
 
 pub mod script;
+pub mod motion;

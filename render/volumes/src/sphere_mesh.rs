@@ -16,6 +16,8 @@ pub const MOST_DETAIL: u8 = 5;
 pub struct SphereMesh {
     /// Unit vectors from the centre to the vertices.
     pub directions: Vec<[f32; 3]>,
+    /// Components of the unit vectors along x, y and z, one array each.
+    pub axes: [Vec<f32>; 3],
     /// Corners of the faces, counter-clockwise seen from outside.
     pub faces: Vec<[u32; 3]>,
     /// The vertices joined to each vertex by an edge, in ascending order: six, but five for the
@@ -23,6 +25,8 @@ pub struct SphereMesh {
     pub neighbours: Vec<[u32; 6]>,
     /// Distance from the centre to the nearest face, below 1.
     pub inradius: f32,
+    /// Least determinant of the unit vectors to the corners of a face, above 0.
+    pub least_cone: f32,
 }
 
 impl SphereMesh {
@@ -49,8 +53,15 @@ impl SphereMesh {
             (b - a).cross(c - a).normalize().dot(a)
         });
         let inradius = to_plane.fold(1.0, f64::min) as f32;
+        let cones = faces.iter().map(|face| {
+            let [a, b, c] = face.map(|corner| vertices[corner as usize]);
+            a.dot(b.cross(c))
+        });
+        let least_cone = cones.fold(1.0, f64::min) as f32;
         let directions = vertices.iter().map(|at| at.to_array().map(|value| value as f32));
-        Self { directions: directions.collect(), faces, neighbours, inradius }
+        let directions: Vec<_> = directions.collect();
+        let axes = std::array::from_fn(|axis| directions.iter().map(|at| at[axis]).collect());
+        Self { directions, axes, faces, neighbours, inradius, least_cone }
     }
 }
 

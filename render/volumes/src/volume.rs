@@ -29,6 +29,8 @@ pub struct Volume {
     pub region: u16,
     /// Cell of the grid that it stands in; none for a single volume.
     pub cell: Option<u32>,
+    /// Mean unit normal of the surface that it lies on, or zero.
+    pub normal: Vec3,
     /// Seed of its kicks.
     pub seed: u64,
     /// Whether its shape and paint are frozen.
@@ -37,6 +39,8 @@ pub struct Volume {
     pub paint: Cell,
     /// Its particles.
     pub particles: Particles,
+    /// The forces under which it came to rest, as a number that tells forces apart; 0 if it moves.
+    pub(crate) rests_under: u64,
 }
 
 impl Volume {
@@ -56,8 +60,21 @@ impl Volume {
         };
         let paint = Cell::default();
         let (region, cell, dry) = (0, None, false);
-        let target_radius = radius;
-        Self { center, radius, target_radius, detail, region, cell, seed, dry, paint, particles }
+        let (target_radius, normal, rests_under) = (radius, Vec3::ZERO, 0);
+        Self {
+            center,
+            radius,
+            target_radius,
+            detail,
+            region,
+            cell,
+            normal,
+            seed,
+            dry,
+            paint,
+            particles,
+            rests_under,
+        }
     }
 
     /// Its mesh at rest.

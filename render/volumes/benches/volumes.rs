@@ -1,0 +1,92 @@
+//! Benchmarks of paint volumes: particles moved a second, with all forces and the guard.
+
+#![expect(clippy::unwrap_used, reason = "a bench may panic")]
+
+use std::fmt;
+use std::sync::Arc;
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use glam::Vec3;
+use volumes::motion::{MotionSettings, SurfaceLattice, Surroundings, advance, kick};
+use volumes::volume::Volume;
+
+const STEP: f32 = 1.0 / 120.0;
+
+/// Volumes of one level of detail.
+#[derive(Clone, Copy)]
+struct Crowd {
+    count: usize,
+    detail: u8,
+}
+
+const CROWDS: [Crowd; 4] = [
+    Crowd { count: 64, detail: 3 },
+    Crowd { count: 256, detail: 2 },
+    Crowd { count: 1, detail: 4 },
+    Crowd { count: 1000, detail: 3 },
+];
+
+impl fmt::Display for Crowd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of detail {}", self.count, self.detail)
+    }
+}
+
+impl Crowd {
+    /// Volumes on the plane y = 0, one a cell, that keep growing and so never rest.
+    fn volumes(self) -> Vec<Volume> {
+        let side = (self.count as f64).sqrt().ceil() as usize;
+        let ball = |i: usize| {
+            let center = Vec3::new((i % side) as f32 + 0.5, 0.0, (i / side) as f32 + 0.5);
+            let mut ball = Volume::ball(center, 0.6, self.detail, i as u64);
+            ball.target_radius = 1e6;
+            kick(&mut ball, 0.3, 0);
+            ball
+        };
+        (0..self.count).map(ball).collect()
+    }
+
+    /// The plane below them, with 64 samples a cell.
+    fn floor(self) -> Vec<Vec3> {
+        let side = 8 * (self.count as f64).sqrt().ceil() as usize;
+        let at = |i: usize| Vec3::new((i % side) as f32, 0.0, (i / side) as f32) / 8.0;
+        (0..side * side).map(at).collect()
+    }
+
+    fn run(self, bencher: Bencher, surroundings: &Surroundings) {
+        // Growth so slow that the shapes stay alike through the bench.
+        let settings = MotionSettings { fastest: 0.002, ..MotionSettings::default() };
+        let mut volumes = self.volumes();
+        let particles: usize = volumes.iter().map(|v| v.particles.places[0].len()).sum();
+        bencher
+            .counter(ItemsCount::new(particles))
+            .bench_local(|| advance(&mut volumes, &settings, surroundings, STEP).unwrap());
+    }
+}
+
+/// Pressure, elastic force, cohesion, friction, microstructure and the guard.
+#[divan::bench(args = CROWDS)]
+fn free(bencher: Bencher, crowd: Crowd) {
+    crowd.run(bencher, &Surroundings::new(1.0, 1));
+}
+
+/// The same with the pull to a surface.
+#[divan::bench(args = CROWDS)]
+fn on_a_surface(bencher: Bencher, crowd: Crowd) {
+    let surface = SurfaceLattice::of(&crowd.floor(), 1.0).unwrap();
+    let surroundings =
+        Surroundings { surface: Some(Arc::new(surface)), ..Surroundings::new(1.0, 1) };
+    crowd.run(bencher, &surroundings);
+}
+
+/// The look-up of the nearest sample, made once for a scene of about 1000 cells.
+#[divan::bench]
+fn surface_lattice(bencher: Bencher) {
+    let places = Crowd { count: 1000, detail: 2 }.floor();
+    bencher.bench(|| SurfaceLattice::of(&places, 1.0).unwrap());
+}
+
+fn main() {
+    divan::main();
+}

@@ -1,0 +1,131 @@
+//! The guard that keeps volumes star-shaped: every face is seen from the centre on its inside.
+//!
+//! A mesh of such cones does not cut itself, so that it holds a point once or not at all.
+
+use crate::sphere_mesh::SphereMesh;
+
+/// Share of the least cone at rest that every cone keeps at least. It leaves room for the rounding
+/// of places in the scene.
+const LEAST_SHARE: f32 = 1.0 / 64.0;
+
+/// Rounds in which corners of failing faces go half-way to their rays; from then on they go all the
+/// way.
+const HALF_WAY_ROUNDS: usize = 8;
+
+/// Rounds after which all corners go to their rays.
+const MOST_ROUNDS: usize = 16;
+
+/// A corner: its place from the centre, and its distance.
+pub(super) type Corner = [f32; 4];
+
+/// Whether the cone over a face is wide enough.
+#[inline(always)]
+fn is_open([a, b, c]: [Corner; 3], least: f32) -> bool {
+    let x = a[0] * (b[1] * c[2] - b[2] * c[1]);
+    let y = a[1] * (b[2] * c[0] - b[0] * c[2]);
+    let z = a[2] * (b[0] * c[1] - b[1] * c[0]);
+    x + y + z > least * (a[3] * b[3] * c[3])
+}
+
+/// Whether all cones of a mesh are wide enough.
+#[inline(always)]
+pub(super) fn is_star(mesh: &SphereMesh, corners: &[Corner]) -> bool {
+    let least = LEAST_SHARE * mesh.least_cone;
+    let mut all = true;
+    for face in &mesh.faces {
+        all &= is_open(face.map(|corner| corners[corner as usize]), least);
+    }
+    all
+}
+
+/// Moves corners of faces whose cones fail: half-way to the ray through their original direction, at
+/// their own distance, at most 8 times; then onto it. Their velocities are halved each time.
+pub(super) fn mend(mesh: &SphereMesh, corners: &mut [Corner], velocities: [&mut [f32]; 3]) {
+    let least = LEAST_SHARE * mesh.least_cone;
+    let mut failing = vec![false; corners.len()];
+    let [x, y, z] = velocities;
+    for round in 0..=MOST_ROUNDS {
+        failing.fill(round == MOST_ROUNDS);
+        for face in &mesh.faces {
+            if !is_open(face.map(|corner| corners[corner as usize]), least) {
+                for &corner in face {
+                    failing[corner as usize] = true;
+                }
+            }
+        }
+        if !failing.contains(&true) {
+            return;
+        }
+        for i in (0..corners.len()).filter(|&i| failing[i]) {
+            let ray = mesh.directions[i].map(|along| along * corners[i][3]);
+            corners[i] = if round < HALF_WAY_ROUNDS {
+                half_way(corners[i], ray)
+            } else {
+                [ray[0], ray[1], ray[2], corners[i][3]]
+            };
+            for velocity in [&mut x[i], &mut y[i], &mut z[i]] {
+                *velocity *= 0.5;
+            }
+        }
+    }
+}
+
+/// The place between `corner` and `ray` at the distance of both; `ray` if they are opposite.
+fn half_way([x, y, z, distance]: Corner, ray: [f32; 3]) -> Corner {
+    let middle = [x + ray[0], y + ray[1], z + ray[2]];
+    let length = middle.iter().fold(0.0, |sum, along| sum + along * along).sqrt();
+    if length > distance / 1024.0 {
+        let scale = distance / length;
+        [middle[0] * scale, middle[1] * scale, middle[2] * scale, distance]
+    } else {
+        [ray[0], ray[1], ray[2], distance]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use graphics::noise::random;
+    use rand::RngExt;
+
+    use super::*;
+
+    fn shaken(detail: u8, amount: f32) -> Vec<Corner> {
+        let mut random = random(4, 0);
+        let corner = |at: &[f32; 3]| {
+            let [x, y, z] = at.map(|along| along + amount * (2.0 * random.random::<f32>() - 1.0));
+            [x, y, z, (x * x + y * y + z * z).sqrt()]
+        };
+        SphereMesh::of_detail(detail).directions.iter().map(corner).collect()
+    }
+
+    #[test]
+    fn a_mesh_turned_inside_out_becomes_a_star_of_the_same_distances() {
+        for (detail, amount) in [(0, 3.0), (2, 0.3), (3, 3.0), (4, 100.0), (5, 0.1)] {
+            let mesh = SphereMesh::of_detail(detail);
+            let before = shaken(detail, amount);
+            assert!(!is_star(mesh, &before), "{detail}");
+            let (mut after, mut still) = (before.clone(), vec![0.0; before.len()]);
+            let mut other = still.clone();
+            mend(mesh, &mut after, [&mut still, &mut other.clone(), &mut other]);
+            assert!(is_star(mesh, &after), "{detail}");
+            assert!(before.iter().zip(&after).all(|(before, after)| before[3] == after[3]));
+        }
+    }
+
+    #[test]
+    fn only_corners_of_failing_faces_move() {
+        let mesh = SphereMesh::of_detail(3);
+        let mut corners = shaken(3, 0.0);
+        let before = corners.clone();
+        let [x, y, z, distance] = corners[100];
+        corners[100] = [-x, -y, -z, distance];
+        let mut velocities = [vec![1.0; 642], vec![1.0; 642], vec![1.0; 642]];
+        mend(mesh, &mut corners, velocities.each_mut().map(Vec::as_mut_slice));
+        assert!(is_star(mesh, &corners));
+        let moved: Vec<usize> = (0..642).filter(|&i| velocities[0][i] < 1.0).collect();
+        let near = |i: &usize| *i == 100 || mesh.neighbours[100].contains(&(*i as u32));
+        assert!(moved.contains(&100) && moved.iter().all(near), "{moved:?}");
+        let far = |i: &usize| !near(i);
+        assert!((0..642).filter(far).all(|i| corners[i] == before[i]));
+    }
+}

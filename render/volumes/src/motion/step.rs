@@ -1,0 +1,339 @@
+//! One volume over the sub-steps of a step.
+
+use glam::Vec3;
+
+use super::forces::{cohesion, damping, elastic, gravity, pressure, velocity};
+use super::growth::grown;
+use super::keep_in::KeepIn;
+use super::microstructure::RestingRadii;
+use super::push::Push;
+use super::settings::MotionSettings;
+use super::star::{Corner, is_star, mend};
+use super::surroundings::Surroundings;
+use crate::sphere_mesh::SphereMesh;
+use crate::volume::{Particles, Volume};
+
+/// Nearest and farthest that particles come to the centre, in resting radii.
+const NEAREST: f32 = 1.0 / 32.0;
+const FARTHEST: f32 = 6.0;
+
+/// Least radius that a volume shrinks to, in cells.
+const LEAST_RADIUS: f32 = 1.0 / 1024.0;
+
+/// Width of the wall of a region before which it pushes back, in cells.
+const WALL: f32 = 1.0 / 16.0;
+
+/// Way to its place of rest, in radii, below which a particle rests; and the most that rounding,
+/// which stops a slow particle early, adds to it.
+const STILL: f32 = 2e-6;
+const STILL_ROUNDED: f32 = 1e-5;
+
+/// All that is the same for every volume in a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Conditions<'a> {
+    pub(super) settings: &'a MotionSettings,
+    pub(super) surroundings: &'a Surroundings,
+    /// Fingerprint of both.
+    pub(super) fingerprint: u64,
+    /// Number of sub-steps.
+    pub(super) count: u32,
+    /// Length of a sub-step in seconds.
+    pub(super) seconds: f32,
+}
+
+/// Memory for the steps of volumes, one after another.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    resting: Vec<f32>,
+    deviations: Vec<[f32; 4]>,
+    forces: [Vec<f32>; 3],
+    distances: Vec<f32>,
+    corners: Vec<Corner>,
+}
+
+impl Scratch {
+    fn fit(&mut self, count: usize) {
+        self.resting.resize(count, 0.0);
+        self.deviations.resize(count, [0.0; 4]);
+        self.forces.iter_mut().for_each(|along| along.resize(count, 0.0));
+        self.distances.resize(count, 0.0);
+        self.corners.resize(count, [0.0; 4]);
+    }
+}
+
+/// Moves one volume over all sub-steps. A volume that rested under the same forces stays as it is.
+pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratch: &mut Scratch) {
+    let Conditions { settings, surroundings, .. } = conditions;
+    let mesh = SphereMesh::of_detail(volume.detail);
+    let least = LEAST_RADIUS * surroundings.cell;
+    let target = volume.target_radius.max(least);
+    let reach = FARTHEST * volume.radius.max(target) / mesh.inradius;
+    let reaches = |push: &&Push| push.reaches(volume.center, reach);
+    let pushes: Vec<Push> = surroundings.pushes.iter().filter(reaches).copied().collect();
+    let rests = volume.rests_under == conditions.fingerprint;
+    if volume.dry || (rests && volume.radius == target && pushes.is_empty()) {
+        return;
+    }
+    volume.rests_under = 0;
+    scratch.fit(mesh.directions.len());
+    let inset = WALL * surroundings.cell;
+    let passes = |region: &&KeepIn| !region.holds_ball(volume.center, reach, inset);
+    let regions: Vec<KeepIn> = surroundings.regions.iter().filter(passes).copied().collect();
+    let center = volume.center.to_array();
+    let mut resting_radii = RestingRadii::new(
+        surroundings.microstructure,
+        settings,
+        surroundings.cell,
+        center,
+        mesh.inradius,
+    );
+    let mut still = false;
+    for _ in 0..conditions.count {
+        let fastest = settings.fastest * surroundings.cell;
+        volume.radius = grown(volume.radius, target, fastest, conditions.seconds).max(least);
+        resting_radii.radius = volume.radius;
+        let step = SubStep {
+            conditions,
+            mesh,
+            resting_radii,
+            center: volume.center,
+            constant: gravity(
+                settings.gravity * surroundings.cell,
+                surroundings.down,
+                volume.normal,
+            ),
+            pushes: &pushes,
+            regions: &regions,
+            particles: &mut volume.particles,
+            scratch,
+        };
+        still = pulp::Arch::new().dispatch(step);
+        if !regions.is_empty() {
+            keep_inside(&regions, volume.center, NEAREST * volume.radius, &mut volume.particles);
+        }
+    }
+    if still && volume.radius == target && pushes.is_empty() {
+        volume.particles.velocities.iter_mut().for_each(|along| along.fill(0.0));
+        volume.rests_under = conditions.fingerprint;
+    }
+}
+
+/// One sub-step of one volume.
+struct SubStep<'a> {
+    conditions: Conditions<'a>,
+    mesh: &'a SphereMesh,
+    resting_radii: RestingRadii,
+    center: Vec3,
+    /// The acceleration of all particles alike.
+    constant: Vec3,
+    pushes: &'a [Push],
+    regions: &'a [KeepIn],
+    particles: &'a mut Particles,
+    scratch: &'a mut Scratch,
+}
+
+impl pulp::WithSimd for SubStep<'_> {
+    /// Whether all particles are still.
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(mut self, _: S) -> bool {
+        let axes = self.mesh.axes.each_ref().map(Vec::as_slice);
+        self.resting_radii.write(axes, &mut self.scratch.resting);
+        self.deviate();
+        self.cohere();
+        self.press();
+        let still = self.integrate();
+        self.set_corners();
+        if is_star(self.mesh, &self.scratch.corners) {
+            return still;
+        }
+        let velocities = self.particles.velocities.each_mut().map(Vec::as_mut_slice);
+        mend(self.mesh, &mut self.scratch.corners, velocities);
+        for (axis, along) in self.particles.places.iter_mut().enumerate() {
+            for (place, corner) in along.iter_mut().zip(&self.scratch.corners) {
+                *place = corner[axis];
+            }
+        }
+        false
+    }
+}
+
+impl SubStep<'_> {
+    /// Writes the deviation of every particle from its resting place.
+    #[inline(always)]
+    fn deviate(&mut self) {
+        let count = self.scratch.resting.len();
+        let places = self.particles.places.each_ref().map(|along| &along[..count]);
+        let axes = self.mesh.axes.each_ref().map(|along| &along[..count]);
+        let resting = &self.scratch.resting[..count];
+        let deviations = &mut self.scratch.deviations[..count];
+        for i in 0..count {
+            let [x, y, z] = [0, 1, 2].map(|axis| places[axis][i] - resting[i] * axes[axis][i]);
+            deviations[i] = [x, y, z, 0.0];
+        }
+    }
+
+    /// Writes the force of cohesion, which gathers from neighbours.
+    #[inline(always)]
+    fn cohere(&mut self) {
+        let count = self.scratch.resting.len();
+        let deviations = &self.scratch.deviations[..count];
+        let [x, y, z] = self.scratch.forces.each_mut().map(|along| &mut along[..count]);
+        let neighbours = &self.mesh.neighbours[..count];
+        let stiffness = self.conditions.settings.cohesion;
+        for i in 0..count {
+            let sum = neighbours[i].iter().fold([0.0; 4], |sum: [f32; 4], &other| {
+                let other = deviations[other as usize];
+                [0, 1, 2, 3].map(|axis| sum[axis] + other[axis])
+            });
+            // The first 12 vertices have five neighbours.
+            let stiffness = stiffness / if i < 12 { 5.0 } else { 6.0 };
+            let own = Vec3::from_slice(&deviations[i]);
+            let force = cohesion(stiffness, own, Vec3::from_slice(&sum));
+            [x[i], y[i], z[i]] = force.to_array();
+        }
+    }
+
+    /// Adds the forces of the surroundings.
+    #[inline(always)]
+    fn press(&mut self) {
+        let Conditions { settings, surroundings, .. } = self.conditions;
+        let pull = settings.surface_pull;
+        let surface = surroundings.surface.as_deref().filter(|_| pull > 0.0);
+        let (cell, inset) = (surroundings.cell, WALL * surroundings.cell);
+        if surface.is_none() && self.pushes.is_empty() && self.regions.is_empty() {
+            return;
+        }
+        let count = self.scratch.resting.len();
+        let places = self.particles.places.each_ref().map(|along| &along[..count]);
+        let forces = self.scratch.forces.each_mut().map(|along| &mut along[..count]);
+        for i in 0..count {
+            let place = self.center + Vec3::new(places[0][i], places[1][i], places[2][i]);
+            let mut force = Vec3::ZERO;
+            if let Some(sample) = surface.and_then(|surface| surface.nearest(place)) {
+                let way = sample - place;
+                let near = way.length_squared() < cell * cell;
+                force += if near { way * pull } else { Vec3::ZERO };
+            }
+            for push in self.pushes {
+                force += push.at(place, cell);
+            }
+            for region in self.regions {
+                force += region.way_back(place, inset) * settings.keep;
+            }
+            for axis in 0..3 {
+                forces[axis][i] += force[axis];
+            }
+        }
+    }
+
+    /// Moves all particles and writes their distances. Returns whether all are still.
+    #[inline(always)]
+    fn integrate(&mut self) -> bool {
+        let Conditions { settings, seconds, .. } = self.conditions;
+        let damping = damping(settings.friction, seconds);
+        let count = self.scratch.resting.len();
+        let [px, py, pz] = self.particles.places.each_mut().map(|along| &mut along[..count]);
+        let [vx, vy, vz] = self.particles.velocities.each_mut().map(|along| &mut along[..count]);
+        let [ux, uy, uz] = self.mesh.axes.each_ref().map(|along| &along[..count]);
+        let [fx, fy, fz] = self.scratch.forces.each_ref().map(|along| &along[..count]);
+        let resting = &self.scratch.resting[..count];
+        let distances = &mut self.scratch.distances[..count];
+        let radius = self.resting_radii.radius * self.resting_radii.scale;
+        let (nearest, farthest) = (NEAREST * radius, FARTHEST * radius);
+        let weakest = settings.pressure.min(settings.elastic);
+        // Friction lets a force move a particle by h F / k_f a step, which rounding may swallow.
+        let swallowed = f32::EPSILON * settings.friction / (seconds * weakest);
+        let still = (STILL + swallowed).min(STILL_ROUNDED) * radius;
+        let (most_force, most_speed) =
+            ((weakest * still) * (weakest * still), weakest * still * still);
+        let mut moving = 0_u32;
+        for i in 0..count {
+            let place = Vec3::new(px[i], py[i], pz[i]);
+            let before = Vec3::new(vx[i], vy[i], vz[i]);
+            let at_rest = Vec3::new(ux[i], uy[i], uz[i]) * resting[i];
+            let distance = place.dot(place).sqrt();
+            let outward = place * (1.0 / distance);
+            let force = Vec3::new(fx[i], fy[i], fz[i])
+                + self.constant
+                + pressure(settings.pressure, resting[i], distance, outward)
+                + elastic(settings.elastic, place - at_rest, outward);
+            let speed = velocity(before, force, seconds, damping);
+            let after = place + speed * seconds;
+            let quiet = force.dot(force) <= most_force && speed.dot(speed) <= most_speed;
+            moving |= u32::from(!quiet);
+            let (after, speed, distance) = bounded(after, speed, nearest, farthest, at_rest);
+            [px[i], py[i], pz[i]] = after.to_array();
+            [vx[i], vy[i], vz[i]] = speed.to_array();
+            distances[i] = distance;
+        }
+        moving == 0
+    }
+
+    #[inline(always)]
+    fn set_corners(&mut self) {
+        let count = self.scratch.distances.len();
+        let [x, y, z] = self.particles.places.each_ref().map(|along| &along[..count]);
+        let distances = &self.scratch.distances[..count];
+        let corners = &mut self.scratch.corners[..count];
+        for i in 0..count {
+            corners[i] = [x[i], y[i], z[i], distances[i]];
+        }
+    }
+}
+
+/// A place and velocity between `nearest` and `farthest` from the centre, and that distance. What
+/// is not a number, or has no direction, goes to its place of rest.
+#[inline(always)]
+fn bounded(
+    place: Vec3,
+    velocity: Vec3,
+    nearest: f32,
+    farthest: f32,
+    at_rest: Vec3,
+) -> (Vec3, Vec3, f32) {
+    let distance = place.dot(place).sqrt();
+    let is_inside = distance >= nearest && distance <= farthest;
+    let is_sane = distance > f32::MIN_POSITIVE && distance < f32::MAX;
+    let to = if distance < nearest { nearest } else { farthest };
+    let scale = if is_inside { 1.0 } else { to / distance };
+    let outward = place * (1.0 / distance);
+    let along = if is_inside { 0.0 } else { velocity.dot(outward) };
+    let (scaled, slowed) = (place * scale, velocity - outward * along);
+    let rest = at_rest.dot(at_rest).sqrt();
+    let choose = |sane: f32, other: f32| if is_sane { sane } else { other };
+    let place = Vec3::new(
+        choose(scaled.x, at_rest.x),
+        choose(scaled.y, at_rest.y),
+        choose(scaled.z, at_rest.z),
+    );
+    let velocity = Vec3::new(choose(slowed.x, 0.0), choose(slowed.y, 0.0), choose(slowed.z, 0.0));
+    let bounded = if is_inside { distance } else { to };
+    (place, velocity, choose(bounded, rest))
+}
+
+/// Brings particles that passed a wall back to it along the ray to the centre, which keeps cones as
+/// they are, and takes their outward velocity.
+fn keep_inside(regions: &[KeepIn], center: Vec3, least: f32, particles: &mut Particles) {
+    let [px, py, pz] = &mut particles.places;
+    let [vx, vy, vz] = &mut particles.velocities;
+    for i in 0..px.len() {
+        let place = Vec3::new(px[i], py[i], pz[i]);
+        let share = regions
+            .iter()
+            .map(|region| region.share_inside(center, place))
+            .fold(1.0, |least, share| if share < least { share } else { least });
+        if share >= 1.0 {
+            continue;
+        }
+        let distance = place.dot(place).sqrt();
+        // Slightly inside of the wall, so that rounding does not pass it.
+        let to = (distance * share * (1.0 - 1e-5)).max(least / 1024.0);
+        let outward = place * (1.0 / distance);
+        let velocity = Vec3::new(vx[i], vy[i], vz[i]);
+        let velocity = velocity - outward * velocity.dot(outward).max(0.0);
+        [px[i], py[i], pz[i]] = (outward * to).to_array();
+        [vx[i], vy[i], vz[i]] = velocity.to_array();
+    }
+}

@@ -1,0 +1,252 @@
+//! Which sample of the surface is nearest, looked up in constant time.
+
+use std::ops::Range;
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::error::MotionError;
+use super::settings::in_range;
+
+/// Boxes along each side of a cell.
+const BOXES: usize = 4;
+
+/// Boxes in a cell.
+const BOXES_OF_CELL: usize = BOXES * BOXES * BOXES;
+
+/// Greatest number of cells in the box around the surface.
+const MOST_CELLS: usize = 1 << 24;
+
+/// No cell of the look-up, or no sample near a box.
+const NONE: u32 = u32::MAX;
+
+/// Samples of the scene's surface, with the nearest one for every box of a quarter of a cell that is
+/// less than a cell from the surface.
+///
+/// The sample of a place is the one nearest to the middle of its box: it is farther from the place
+/// than the nearest of all by at most the diagonal of a box, 0.43 cells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceLattice {
+    cell: f32,
+    /// Corner of the first cell.
+    low: Vec3,
+    /// Cells along x, y and z.
+    counts: [usize; 3],
+    /// For every cell, the index of its boxes, or [`NONE`].
+    tables: Vec<u32>,
+    /// For every box, the index of its sample, or [`NONE`].
+    boxes: Vec<u32>,
+    places: Vec<Vec3>,
+    print: [u32; 2],
+}
+
+impl SurfaceLattice {
+    /// The look-up of samples at `places`, for cells of size `cell`.
+    ///
+    /// # Errors
+    /// [`MotionError::OutOfRange`] for a cell size that is not finite and above 0,
+    /// [`MotionError::Place`] for a place that is not finite, [`MotionError::TooFine`] if the box
+    /// around the places holds more than 2^24 cells.
+    pub fn of(places: &[Vec3], cell: f32) -> Result<Self, MotionError> {
+        in_range("cell", cell, f32::MIN_POSITIVE, f32::MAX)?;
+        if let Some(index) = places.iter().position(|place| !place.is_finite()) {
+            return Err(MotionError::Place { index });
+        }
+        let low = places.iter().copied().reduce(Vec3::min).unwrap_or_default();
+        let high = places.iter().copied().reduce(Vec3::max).unwrap_or_default();
+        // A layer of cells all around, as places outside of the box are pulled too.
+        let sides = ((high - low) / cell).floor() + 3.0;
+        let blocks = sides.x * sides.y * sides.z;
+        if blocks > MOST_CELLS as f32 || !blocks.is_finite() {
+            let extent = (high - low).max_element();
+            let most = MOST_CELLS;
+            let fitting_cell = extent / ((most as f32).cbrt() - 3.0).floor();
+            return Err(MotionError::TooFine { cell, blocks, most, fitting_cell });
+        }
+        let counts = sides.to_array().map(|side| side as usize);
+        let (low, places) = (low - cell, places.to_vec());
+        let print = print_of(&places);
+        let (tables, boxes) = (Vec::new(), Vec::new());
+        let mut lattice = Self { cell, low, counts, tables, boxes, places, print };
+        lattice.fill();
+        Ok(lattice)
+    }
+
+    /// The sample for `place`; none if the surface is farther than about a cell.
+    #[inline]
+    #[must_use]
+    pub fn nearest(&self, place: Vec3) -> Option<Vec3> {
+        let at = (place - self.low) * (BOXES as f32 / self.cell);
+        if !at.cmpge(Vec3::ZERO).all() {
+            return None;
+        }
+        let [x, y, z] = at.to_array().map(|along| along as usize);
+        let [columns, rows, layers] = self.counts;
+        if x >= columns * BOXES || y >= rows * BOXES || z >= layers * BOXES {
+            return None;
+        }
+        let cell = ((z / BOXES) * rows + y / BOXES) * columns + x / BOXES;
+        let table = self.tables[cell];
+        if table == NONE {
+            return None;
+        }
+        let inside = ((z % BOXES) * BOXES + y % BOXES) * BOXES + x % BOXES;
+        self.places.get(self.boxes[table as usize * BOXES_OF_CELL + inside] as usize).copied()
+    }
+
+    /// Size of a cell, in the unit of the scene.
+    #[must_use]
+    pub fn cell(&self) -> f32 {
+        self.cell
+    }
+
+    /// Two numbers that tell its samples from those of others.
+    pub(super) fn print(&self) -> [u32; 2] {
+        self.print
+    }
+
+    fn fill(&mut self) {
+        let cells = self.counts.iter().product();
+        let cell_of = |place: Vec3| {
+            let at = ((place - self.low) / self.cell).to_array().map(|along| along as usize);
+            (at[2] * self.counts[1] + at[1]) * self.counts[0] + at[0]
+        };
+        // Samples by cell, in each by index.
+        let of_samples: Vec<usize> = self.places.iter().map(|&place| cell_of(place)).collect();
+        let mut first = vec![0_u32; cells + 1];
+        for &cell in &of_samples {
+            first[cell + 1] += 1;
+        }
+        for cell in 0..cells {
+            first[cell + 1] += first[cell];
+        }
+        let (mut next, mut sorted) = (first.clone(), vec![0_u32; self.places.len()]);
+        for (sample, &cell) in of_samples.iter().enumerate() {
+            sorted[next[cell] as usize] = sample as u32;
+            next[cell] += 1;
+        }
+        let is_near =
+            |cell: &usize| self.rows_around(*cell).any(|row| first[row.start] < first[row.end]);
+        let near: Vec<usize> = (0..cells).filter(is_near).collect();
+        self.tables = vec![NONE; cells];
+        for (&cell, table) in near.iter().zip(0..) {
+            self.tables[cell] = table;
+        }
+        let boxes = near.par_iter().flat_map_iter(|&cell| {
+            let ranges = self.rows_around(cell).map(|row| first[row.start]..first[row.end]);
+            let samples =
+                ranges.flat_map(|range| &sorted[range.start as usize..range.end as usize]);
+            let samples: Vec<_> = samples.map(|&s| (s, self.places[s as usize])).collect();
+            self.boxes_of(cell, &samples)
+        });
+        self.boxes = boxes.collect();
+    }
+
+    /// A cell and the 26 around it, as up to nine rows of cells that lie one after another.
+    fn rows_around(&self, cell: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+        let [columns, rows, layers] = self.counts;
+        let [x, y, z] = [cell % columns, cell / columns % rows, cell / columns / rows];
+        let side = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+        let (along, across) = (side(x, columns), side(y, rows));
+        side(z, layers).flat_map(move |layer| {
+            let along = along.clone();
+            across.clone().map(move |row| {
+                let start = (layer * rows + row) * columns;
+                start + along.start..start + along.end
+            })
+        })
+    }
+
+    /// The nearest of `samples` for every box of a cell.
+    fn boxes_of(&self, cell: usize, samples: &[(u32, Vec3)]) -> Vec<u32> {
+        const HALF: usize = BOXES / 2;
+        let [columns, rows, _] = self.counts;
+        let at = [cell % columns, cell / columns % rows, cell / columns / rows];
+        let corner = self.low + Vec3::from(at.map(|along| along as f32)) * self.cell;
+        let side = self.cell / BOXES as f32;
+        let diagonal = side * 3.0_f32.sqrt();
+        let mut found = vec![NONE; BOXES_OF_CELL];
+        let (mut few, mut squares) = (Vec::new(), Vec::new());
+        // An eighth of the cell at a time: few samples can be nearest to any of its boxes.
+        for eighth in 0..8 {
+            let from = [eighth % 2, eighth / 2 % 2, eighth / 4].map(|half| half * HALF);
+            let middle = corner + Vec3::from(from.map(|along| (along + HALF / 2) as f32)) * side;
+            squares.clear();
+            squares.extend(samples.iter().map(|(_, place)| (*place - middle).length_squared()));
+            let least = squares.iter().copied().fold(f32::MAX, f32::min);
+            // Middles of boxes are at most half of this from the middle of the eighth.
+            let far = least.sqrt() + ((HALF - 1) as f32 + 0.01) * diagonal;
+            let near = samples.iter().zip(&squares).filter(|(_, square)| **square <= far * far);
+            few.clear();
+            few.extend(near.map(|(sample, _)| *sample));
+            for inside in 0..HALF * HALF * HALF {
+                let [x, y, z] = [inside % HALF, inside / HALF % HALF, inside / HALF / HALF];
+                let at = [from[0] + x, from[1] + y, from[2] + z];
+                let middle = corner + Vec3::from(at.map(|along| along as f32 + 0.5)) * side;
+                let reach = self.cell + 0.5 * diagonal;
+                let mut nearest = (reach * reach, NONE);
+                for &(sample, place) in &few {
+                    let square = (place - middle).length_squared();
+                    // Of equally near samples the first one is taken.
+                    if square < nearest.0 || (square == nearest.0 && sample < nearest.1) {
+                        nearest = (square, sample);
+                    }
+                }
+                found[(at[2] * BOXES + at[1]) * BOXES + at[0]] = nearest.1;
+            }
+        }
+        found
+    }
+}
+
+/// Two sums over the bits of all places (Fletcher 1982).
+fn print_of(places: &[Vec3]) -> [u32; 2] {
+    let words = places.iter().flat_map(|place| place.to_array()).map(f32::to_bits);
+    words.fold([0, 1], |[sum, of_sums]: [u32; 2], word| {
+        let sum = sum.wrapping_add(word).rotate_left(5);
+        [sum, of_sums.wrapping_add(sum)]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use graphics::noise::random;
+    use rand::RngExt;
+
+    use super::*;
+
+    #[test]
+    fn the_sample_found_is_nearly_the_nearest() {
+        let mut random = random(3, 0);
+        let mut unit = || random.random::<f32>();
+        let places: Vec<Vec3> =
+            (0..3000).map(|_| Vec3::new(6.0 * unit(), 0.3 * unit(), 7.0 * unit())).collect();
+        let lattice = SurfaceLattice::of(&places, 1.0).unwrap();
+        let (mut found, mut exact) = (0, 0);
+        for _ in 0..4000 {
+            let place = Vec3::new(8.0 * unit() - 1.0, 4.0 * unit() - 2.0, 9.0 * unit() - 1.0);
+            let to = |sample: Vec3| sample.distance(place);
+            let nearest = places.iter().copied().min_by(|a, b| to(*a).total_cmp(&to(*b))).unwrap();
+            let Some(sample) = lattice.nearest(place) else {
+                assert!(to(nearest) > 0.99, "{place} is {} from a sample", to(nearest));
+                continue;
+            };
+            assert!(to(sample) <= to(nearest) + 0.434, "{place}: {sample}, {nearest}");
+            found += 1;
+            exact += usize::from(sample == nearest);
+        }
+        assert!(found > 1000 && exact * 10 > found * 3, "{exact} of {found}");
+    }
+
+    #[test]
+    fn a_lattice_too_fine_says_which_cell_would_fit() {
+        let places = [Vec3::ZERO, Vec3::ONE];
+        let error = SurfaceLattice::of(&places, 1e-4).unwrap_err();
+        let MotionError::TooFine { fitting_cell, .. } = error else { panic!("{error}") };
+        assert!(SurfaceLattice::of(&places, fitting_cell).is_ok(), "{error}");
+        assert!(SurfaceLattice::of(&places, 0.0).is_err());
+        let error = SurfaceLattice::of(&[Vec3::NAN], 1.0).unwrap_err();
+        assert_eq!(error, MotionError::Place { index: 0 });
+        assert_eq!(SurfaceLattice::of(&[], 1.0).unwrap().nearest(Vec3::ZERO), None);
+    }
+}
