@@ -18,4 +18,16 @@ pub mod toml_text;
 pub mod settings;
 
 pub mod script;
+#[cfg(test)]
+mod test_volumes;
+
+pub mod containing;
+
 pub mod motion;
+
+pub mod wetting;
+
+pub mod world;
+
+#[cfg(test)]
+mod test_surfaces;

@@ -1,0 +1,71 @@
+//! Benchmarks of the grid: what it costs once, and paint that spills.
+
+#![expect(clippy::unwrap_used, reason = "a bench may panic")]
+
+use divan::counter::ItemsCount;
+use divan::{Bencher, black_box};
+use graphics::mesh::{Material, Mesh, SampleModel, Triangle};
+use paint::layer::Cell;
+use volumes::wetting::{Grid, Spilling, SurfaceSamples};
+
+fn still_life() -> (Mesh, f32) {
+    let mesh = SampleModel::StillLife.mesh(60_000);
+    let [low, high] = mesh.bounds();
+    let cell = (high - low).max_element() / 12.0;
+    (mesh, cell)
+}
+
+/// Grid and samples of a still life of 60,000 triangles. Goal: 0.3 s.
+#[divan::bench(sample_count = 10)]
+fn grid(bencher: Bencher<'_, '_>) {
+    let (mesh, cell) = still_life();
+    bencher.bench_local(|| Grid::of(black_box(&mesh), cell, 1).unwrap());
+}
+
+/// Its samples alone.
+#[divan::bench(sample_count = 10)]
+fn samples(bencher: Bencher<'_, '_>) {
+    let (mesh, cell) = still_life();
+    bencher.bench_local(|| SurfaceSamples::of(black_box(&mesh), cell, 1).unwrap());
+}
+
+/// A level square of as many cells.
+fn level(side: f32) -> Mesh {
+    let positions = vec![[0.0; 3], [side, 0.0, 0.0], [side, 0.0, side], [0.0, 0.0, side]];
+    let triangles = [[0, 2, 1], [0, 3, 2]];
+    Mesh {
+        normals: vec![[0.0, 1.0, 0.0]; 4],
+        texture_coordinates: vec![[0.0; 2]; 4],
+        colors: vec![[1.0; 3]; 4],
+        positions,
+        triangles: triangles.map(|corners| Triangle { corners, material: 0 }).to_vec(),
+        materials: vec![Material::plain([1.0; 3])],
+    }
+}
+
+/// Wet cells of a level square, all of which give and take. Goal: 10 million cell-steps a second.
+#[divan::bench(args = [1, 3, 8], sample_count = 10)]
+fn spill(bencher: Bencher<'_, '_>, pigments: usize) {
+    let side = 400.0;
+    let grid = Grid::of(&level(side), 1.0, 1).unwrap();
+    let mut spilling = Spilling::new(&grid.cells, 1.0, 0.04, 0.0).unwrap();
+    let amount = |cell: usize| {
+        let mut own = Cell::default();
+        let films = 2 + (cell as u32).wrapping_mul(2_654_435_761) % 12;
+        own.pigments[..pigments].fill(grid.cells.capacities[cell] * films / pigments as u32);
+        own
+    };
+    let paint: Vec<Cell> = (0..grid.cells.len()).map(amount).collect();
+    bencher
+        .counter(ItemsCount::new(20 * paint.len()))
+        .with_inputs(|| paint.clone())
+        .bench_local_refs(|paint| {
+            for _ in 0..20 {
+                spilling.step((&grid.graph, &grid.cells), paint, true);
+            }
+        });
+}
+
+fn main() {
+    divan::main();
+}

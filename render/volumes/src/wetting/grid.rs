@@ -1,0 +1,80 @@
+//! The grid of a scene: samples of its surface, cells, links between them and the reach of paint.
+
+use glam::Vec3;
+use graphics::mesh::Mesh;
+
+use super::cells::Cells;
+use super::fault::WettingError;
+use super::graph::Graph;
+use super::reach::Reach;
+use super::samples::SurfaceSamples;
+
+/// Everything that is known of the surface before paint lies on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// The surface in samples.
+    pub samples: SurfaceSamples,
+    /// The cells that hold them.
+    pub cells: Cells,
+    /// The cells joined by surface.
+    pub graph: Graph,
+    /// Radii of volumes by their amount of paint.
+    pub reach: Reach,
+}
+
+impl Grid {
+    /// The grid of a mesh with cells of width `cell`, in the unit of the scene. Places are
+    /// drawn from `seed`.
+    ///
+    /// # Errors
+    /// If the mesh has no surface, or the cells have no size or are too many.
+    pub fn of(mesh: &Mesh, cell: f32, seed: u64) -> Result<Self, WettingError> {
+        let samples = SurfaceSamples::of(mesh, cell, seed)?;
+        let cells = Cells::of(&samples);
+        let graph = Graph::of(mesh, &samples)?;
+        let reach = Reach::of(&samples, &cells);
+        Ok(Self { samples, cells, graph, reach })
+    }
+
+    /// The grid of the surface where `kept` is true. The numbers of cells stay; cells without
+    /// such surface have no capacity and no links.
+    #[must_use]
+    pub fn within(&self, kept: impl Fn(Vec3) -> bool) -> Self {
+        let samples = self.samples.within(kept);
+        let cells = Cells::of(&samples);
+        let graph = self.graph.cut(|cell| cells.capacities[cell] > 0);
+        let reach = Reach::of(&samples, &cells);
+        Self { samples, cells, graph, reach }
+    }
+
+    /// The sample nearest to `place`, the first of several, and its distance in the unit of the
+    /// scene; none if no cell takes paint.
+    #[must_use]
+    pub fn nearest(&self, place: Vec3) -> Option<(usize, f32)> {
+        // No place in a cell is farther from the middle of its surface than this.
+        let diagonal = 1.75 * self.samples.lattice.cell;
+        let (mut found, mut least) = (None, f32::INFINITY);
+        for (cell, center) in self.cells.centers.iter().enumerate() {
+            let near = center.distance(place) <= least + diagonal;
+            if near && self.cells.capacities[cell] > 0 {
+                for sample in self.samples.of_cell(cell) {
+                    let distance = self.samples.places[sample].distance(place);
+                    if distance < least {
+                        (found, least) = (Some(sample), distance);
+                    }
+                }
+            }
+        }
+        found.map(|sample| (sample, least))
+    }
+
+    /// The place on the surface of `cell` that is nearest to the middle of its neighbour `giver`.
+    #[must_use]
+    pub fn entrance(&self, cell: usize, giver: usize) -> Vec3 {
+        let from = self.cells.centers[giver];
+        let own = self.samples.places[self.samples.of_cell(cell)].iter().copied();
+        let nearest =
+            own.min_by(|a, b| a.distance_squared(from).total_cmp(&b.distance_squared(from)));
+        nearest.unwrap_or(self.cells.centers[cell])
+    }
+}

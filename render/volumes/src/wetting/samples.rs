@@ -1,0 +1,277 @@
+//! The surface of a scene in samples of one area each.
+
+use glam::Vec3;
+use graphics::mesh::Mesh;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::fault::{MOST_CELLS, WettingError};
+use super::lattice::{Lattice, rounded_up};
+
+/// Samples of a flat piece of surface as large as a face of a cell.
+pub const SAMPLES_PER_CELL: usize = 64;
+
+/// Halvings of a triangle until one of its parts stands for a place.
+const HALVINGS: u32 = 32;
+
+/// Places spread evenly over the surface of a mesh, in the order of the cells that hold them. All
+/// lists but `starts` have the same length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceSamples {
+    /// The cells that the samples are counted in.
+    pub lattice: Lattice,
+    /// Places on the surface, in the unit of the scene.
+    pub places: Vec<Vec3>,
+    /// Unit normals of the triangles, on the side of the normals of the mesh.
+    pub normals: Vec<Vec3>,
+    /// The area that each sample stands for, in square units of the scene; all are the same.
+    pub areas: Vec<f32>,
+    /// Index of the triangle of each sample.
+    pub triangles: Vec<u32>,
+    /// The cell that holds each sample, counted from 0 in ascending order of [`Lattice::key`].
+    pub cells: Vec<u32>,
+    /// Index of the first sample of each cell, and at last the number of samples.
+    pub starts: Vec<u32>,
+}
+
+impl SurfaceSamples {
+    /// Samples of a mesh, [`SAMPLES_PER_CELL`] for an area of `cell` by `cell` (in the unit of the
+    /// scene). The surface is cut into as many pieces of one area, along a path that winds through
+    /// each triangle, and each piece has a random place of `seed`. Triangles without area are left
+    /// out.
+    ///
+    /// # Errors
+    /// If the mesh fails [`Mesh::check`], has no area, or `cell` is not above 0 or too small.
+    pub fn of(mesh: &Mesh, cell: f32, seed: u64) -> Result<Self, WettingError> {
+        mesh.check()?;
+        let triangles = mesh.triangles.len();
+        let bounds = mesh.bounds();
+        let size = bounds[1] - bounds[0];
+        if !size.is_finite() {
+            return Err(WettingError::NoArea { triangles });
+        }
+        let areas: Vec<f64> = (0..triangles).map(|triangle| area(mesh, triangle)).collect();
+        let whole: f64 = areas.iter().sum();
+        if !(whole.is_finite() && whole > 0.0) {
+            return Err(WettingError::NoArea { triangles });
+        }
+        let lattice = Lattice::around(bounds, cell)?;
+        let flat_cells = whole / (f64::from(cell) * f64::from(cell));
+        if flat_cells > MOST_CELLS as f64 {
+            let fits =
+                rounded_up((f64::from(cell) * (flat_cells / MOST_CELLS as f64).sqrt()) as f32);
+            return Err(WettingError::TooManyCells { cell, fits });
+        }
+        let count = (flat_cells * SAMPLES_PER_CELL as f64).ceil().max(1.0);
+        let found = spread(mesh, &areas, whole / count, seed);
+        Ok(Self::sorted(mesh, lattice, &found, (whole / count) as f32))
+    }
+
+    fn sorted(mesh: &Mesh, lattice: Lattice, found: &[(u32, Vec3)], area: f32) -> Self {
+        let keys = found.iter().map(|(_, place)| Lattice::key(lattice.coordinates(*place)));
+        let mut order: Vec<(u64, u32)> = keys.zip(0..).collect();
+        order.sort_unstable();
+        let (mut cells, mut starts) = (Vec::with_capacity(order.len()), Vec::new());
+        for (cell, members) in order.chunk_by(|a, b| a.0 == b.0).enumerate() {
+            starts.push(cells.len() as u32);
+            cells.resize(cells.len() + members.len(), cell as u32);
+        }
+        starts.push(cells.len() as u32);
+        let sample = |&(_, at): &(u64, u32)| found[at as usize];
+        let triangles: Vec<u32> = order.iter().map(|at| sample(at).0).collect();
+        Self {
+            lattice,
+            places: order.iter().map(|at| sample(at).1).collect(),
+            normals: triangles.iter().map(|&triangle| normal(mesh, triangle as usize)).collect(),
+            areas: vec![area; triangles.len()],
+            triangles,
+            cells,
+            starts,
+        }
+    }
+
+    /// The samples whose place is `kept`. The numbers of cells stay, so that some may be empty.
+    #[must_use]
+    pub fn within(&self, kept: impl Fn(Vec3) -> bool) -> Self {
+        let all: Vec<usize> = (0..self.len()).filter(|&sample| kept(self.places[sample])).collect();
+        let before = |&start: &u32| all.partition_point(|&sample| sample < start as usize) as u32;
+        Self {
+            lattice: self.lattice,
+            places: all.iter().map(|&sample| self.places[sample]).collect(),
+            normals: all.iter().map(|&sample| self.normals[sample]).collect(),
+            areas: all.iter().map(|&sample| self.areas[sample]).collect(),
+            triangles: all.iter().map(|&sample| self.triangles[sample]).collect(),
+            cells: all.iter().map(|&sample| self.cells[sample]).collect(),
+            starts: self.starts.iter().map(before).collect(),
+        }
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Whether there is no sample.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
+    /// Number of cells; each held a sample before [`Self::within`].
+    #[must_use]
+    pub fn cell_count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Indices of the samples in the cell with this index.
+    #[must_use]
+    pub fn of_cell(&self, cell: usize) -> std::ops::Range<usize> {
+        self.starts[cell] as usize..self.starts[cell + 1] as usize
+    }
+}
+
+fn corners(mesh: &Mesh, triangle: usize) -> [Vec3; 3] {
+    mesh.triangles[triangle].corners.map(|corner| Vec3::from(mesh.positions[corner as usize]))
+}
+
+fn area(mesh: &Mesh, triangle: usize) -> f64 {
+    let [a, b, c] = corners(mesh, triangle).map(Vec3::as_dvec3);
+    (b - a).cross(c - a).length() / 2.0
+}
+
+/// Unit normal of a triangle, on the side of the normals of its corners.
+fn normal(mesh: &Mesh, triangle: usize) -> Vec3 {
+    let [a, b, c] = corners(mesh, triangle).map(Vec3::as_dvec3);
+    let facet = (b - a).cross(c - a).normalize_or_zero().as_vec3();
+    let own = mesh.triangles[triangle].corners;
+    let side: Vec3 = own.iter().map(|&corner| Vec3::from(mesh.normals[corner as usize])).sum();
+    if side.dot(facet) < 0.0 { -facet } else { facet }
+}
+
+/// Triangle and place of a random point in every piece of area `step`.
+fn spread(mesh: &Mesh, areas: &[f64], step: f64, seed: u64) -> Vec<(u32, Vec3)> {
+    let random = &mut ChaCha8Rng::seed_from_u64(seed);
+    let (mut found, mut before) = (Vec::new(), 0.0);
+    let mut piece = 0.0;
+    let mut next = random.random::<f64>() * step;
+    for (triangle, &area) in areas.iter().enumerate() {
+        while next < before + area {
+            let share = ((next - before) / area).clamp(0.0, 1.0);
+            found.push((triangle as u32, on_path(corners(mesh, triangle), share)));
+            piece += 1.0;
+            next = (piece + random.random::<f64>()) * step;
+        }
+        before += area;
+    }
+    found
+}
+
+/// The place at a share of the area along a path that winds through the whole triangle: halves of
+/// halves in an order in which neighbours touch (Sierpinski's curve), so that every stretch of the
+/// path is a compact piece.
+fn on_path(corners: [Vec3; 3], share: f64) -> Vec3 {
+    let squared = |i: usize| corners[i].distance_squared(corners[(i + 1) % 3]);
+    let longest = (1..3).fold(0, |most, i| if squared(i) > squared(most) { i } else { most });
+    let [mut start, mut end, mut apex] = [0, 1, 2].map(|i| corners[(longest + i) % 3]);
+    let mut bits = (share * (1_u64 << HALVINGS) as f64) as u64;
+    bits = bits.min((1 << HALVINGS) - 1);
+    for level in (0..HALVINGS).rev() {
+        let middle = (start + end) / 2.0;
+        match bits >> level & 1 {
+            0 => (end, apex) = (apex, middle),
+            _ => (start, apex) = (apex, middle),
+        }
+    }
+    (start + end + apex) / 3.0
+}
+
+#[cfg(test)]
+mod tests {
+    use graphics::mesh::SampleModel;
+
+    use super::*;
+    use crate::test_surfaces::{bare, sheet};
+
+    #[test]
+    fn areas_add_up_to_that_of_the_surface() {
+        let samples = SurfaceSamples::of(&Mesh::sphere(60_000), 1.0 / 6.0, 1).unwrap();
+        let whole: f64 = samples.areas.iter().map(|&area| f64::from(area)).sum();
+        assert!((whole / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{whole}");
+        assert_eq!(samples.len().div_ceil(1000), 29);
+        for (place, normal) in samples.places.iter().zip(&samples.normals) {
+            assert!((place.length() - 1.0).abs() < 1e-3 && place.dot(*normal) > 0.99);
+        }
+    }
+
+    #[test]
+    fn every_part_of_a_surface_has_its_share() {
+        // A triangle cut by lines into parts: each part has as many samples as its area wants.
+        let mesh = bare(&[[0.0; 3], [8.0, 0.0, 0.0], [0.0, 0.0, 8.0]], &[[0, 2, 1]]);
+        let samples = SurfaceSamples::of(&mesh, 1.0, 7).unwrap();
+        assert_eq!(samples.len(), 32 * SAMPLES_PER_CELL);
+        for (x, z) in [(0.0, 0.0), (2.0, 2.0), (1.0, 3.0), (3.5, 0.2)] {
+            let inside = samples
+                .places
+                .iter()
+                .filter(|at| (x..x + 2.0).contains(&at.x) && (z..z + 2.0).contains(&at.z));
+            // Pieces at the rim of a part of 256 samples may lie on either side.
+            let found = inside.count();
+            assert!((240..=272).contains(&found), "{x} {z}: {found}");
+        }
+    }
+
+    #[test]
+    fn samples_do_not_depend_on_the_cut_into_triangles() {
+        let corners = [[0.0; 3], [4.0, 0.0, 0.0], [4.0, 0.0, 4.0], [0.0, 0.0, 4.0]];
+        let flat = SurfaceSamples::of(&bare(&corners, &[[0, 2, 1], [0, 3, 2]]), 1.0, 3).unwrap();
+        let fine = SurfaceSamples::of(&sheet(100, |u, v| [4.0 * u, 0.0, 4.0 * v]), 1.0, 3).unwrap();
+        assert_eq!(flat.cell_count(), fine.cell_count());
+        assert!(flat.len().abs_diff(fine.len()) <= 1);
+        for cell in 0..flat.cell_count() {
+            let [a, b] = [&flat, &fine].map(|samples| samples.of_cell(cell).len());
+            assert!(a.abs_diff(b) <= 14, "{cell}: {a} {b}");
+        }
+    }
+
+    #[test]
+    fn samples_are_in_the_order_of_cells() {
+        for shape in SampleModel::ALL {
+            let mesh = shape.mesh(4000);
+            let [low, high] = mesh.bounds();
+            let cell = (high - low).max_element() / 12.0;
+            let samples = SurfaceSamples::of(&mesh, cell, 1).unwrap();
+            assert_eq!(samples, SurfaceSamples::of(&mesh, cell, 1).unwrap());
+            let mut last = 0;
+            for index in 0..samples.cell_count() {
+                let range = samples.of_cell(index);
+                assert!(!range.is_empty() && range.start == last);
+                last = range.end;
+                let at = samples.lattice.coordinates(samples.places[range.start]);
+                for sample in range {
+                    assert_eq!(samples.lattice.coordinates(samples.places[sample]), at);
+                    assert_eq!(samples.cells[sample] as usize, index);
+                }
+            }
+            assert_eq!(last, samples.len());
+        }
+    }
+
+    #[test]
+    fn triangles_without_area_are_left_out_and_models_of_them_refused() {
+        let positions = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let mesh = bare(&positions, &[[0, 1, 2], [0, 3, 1], [1, 1, 1]]);
+        let samples = SurfaceSamples::of(&mesh, 0.25, 1).unwrap();
+        assert!(samples.triangles.iter().all(|&triangle| triangle == 1));
+        let line = bare(&positions, &[[0, 1, 2]]);
+        let refused = SurfaceSamples::of(&line, 0.25, 1);
+        assert_eq!(refused, Err(WettingError::NoArea { triangles: 1 }));
+        let points = bare(&positions, &[]);
+        assert!(matches!(SurfaceSamples::of(&points, 0.25, 1), Err(WettingError::Mesh(_))));
+        let Err(WettingError::TooManyCells { fits, .. }) = SurfaceSamples::of(&mesh, 1e-4, 1)
+        else {
+            panic!("cells of 1e-4 fit");
+        };
+        assert!((6.9e-4..7.1e-4).contains(&fits), "{fits}");
+    }
+}

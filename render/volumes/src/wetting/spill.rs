@@ -1,0 +1,272 @@
+//! Paint that spills from full cells to the cells joined to them, in whole quanta.
+
+use paint::amount::{ratio_of_65536, share_of_65536};
+use paint::layer::Cell;
+use rayon::prelude::*;
+
+use super::cells::{Cells, MOST_FILMS, room};
+use super::fault::WettingError;
+use super::graph::Graph;
+
+/// Greatest rate for which a step is stable: the shares of 6 neighbours across faces, 12 across
+/// edges and 8 across corners then sum to less than 1.
+pub const FASTEST_RATE: f32 = 0.067;
+
+/// Greatest slope.
+const STEEPEST: f32 = 1000.0;
+
+/// One in heads and shares.
+const ONE: u64 = 1 << 16;
+
+/// Cells that one thread works on at a time.
+const BLOCK: usize = 1 << 10;
+
+/// A cell that paint has reached for the first time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Birth {
+    /// The cell.
+    pub cell: u32,
+    /// The neighbour that gave it most paint.
+    pub giver: u32,
+}
+
+/// Spilling over a graph of cells: its rates, and lists that each step fills anew.
+#[derive(Debug, Clone)]
+pub struct Spilling {
+    /// Share of a difference of heads that crosses a face, an edge and a corner in a step, in
+    /// parts of 65536.
+    rates: [u64; 3],
+    /// Height of each cell as a head, in parts of 65536.
+    lifts: Vec<u32>,
+    /// Whether cells lie at different heights, or hold less than 16 films.
+    uneven: bool,
+    volumes: Vec<u32>,
+    heads: Vec<u32>,
+    /// What each cell gives along each of its links, as a share of its paint.
+    shares: Vec<u32>,
+    /// The share of what is offered to each cell that it has room for.
+    accepted: Vec<u32>,
+    next: Vec<Cell>,
+}
+
+impl Spilling {
+    /// Spilling between `cells` of width `cell` (in the unit of the scene). `rate` is the share of
+    /// a difference of heads that crosses a face in a step, 0 to [`FASTEST_RATE`]; a cell that is
+    /// higher by one width has its head raised by `slope`, 0 to 1000.
+    ///
+    /// # Errors
+    /// If the rate or the slope is out of its range.
+    pub fn new(cells: &Cells, cell: f32, rate: f32, slope: f32) -> Result<Self, WettingError> {
+        for (what, found, most) in [("rate", rate, FASTEST_RATE), ("slope", slope, STEEPEST)] {
+            if !(0.0..=most).contains(&found) {
+                return Err(WettingError::Spilling { what, found });
+            }
+        }
+        let wet = |i: &usize| cells.capacities[*i] > 0;
+        let heights = (0..cells.len()).filter(wet).map(|i| cells.centers[i].y);
+        let lowest = heights.fold(f32::INFINITY, f32::min);
+        let lift = |i: usize| {
+            let height = if wet(&i) { cells.centers[i].y - lowest } else { 0.0 };
+            (slope * height / cell * ONE as f32).clamp(0.0, (1 << 30) as f32) as u32
+        };
+        let rate = |axes: f32| (rate * ONE as f32 / axes) as u64;
+        let lifts: Vec<u32> = (0..cells.len()).map(lift).collect();
+        let tight = |&capacity: &u32| room(capacity) < capacity.saturating_mul(MOST_FILMS);
+        Ok(Self {
+            rates: [rate(1.0), rate(2.0), rate(3.0)],
+            uneven: lifts.iter().any(|lift| *lift > 0) || cells.capacities.iter().any(tight),
+            lifts,
+            volumes: Vec::new(),
+            heads: Vec::new(),
+            shares: Vec::new(),
+            accepted: Vec::new(),
+            next: Vec::new(),
+        })
+    }
+
+    /// One step: moves what is over the capacity of cells in `paint` to joined cells with a lower
+    /// head, and returns the cells that were dry before, in ascending order. Without `births` no
+    /// paint enters dry cells.
+    ///
+    /// Whole quanta move: sums are exact, and the result does not depend on threads. A cell gives
+    /// `(H_i - H_j) rate C` quanta to each lower neighbour, with the smaller of both capacities
+    /// for C, scaled down together to what is over its own capacity, and to the room of the taker.
+    ///
+    /// # Panics
+    /// If `paint`, `cells` and `graph` are not of the same number of cells.
+    pub fn step(
+        &mut self,
+        (graph, cells): (&Graph, &Cells),
+        paint: &mut Vec<Cell>,
+        births: bool,
+    ) -> Vec<Birth> {
+        let count = graph.len();
+        assert_eq!((paint.len(), cells.len()), (count, count), "one entry a cell");
+        self.volumes.resize(count, 0);
+        self.heads.resize(count, 0);
+        self.accepted.resize(count, 0);
+        self.shares.resize(graph.others.len(), 0);
+        self.next.resize(count, Cell::default());
+        let most = self.measure(cells, paint);
+        self.offer(graph, cells, births);
+        // A level cell never rises above its highest neighbour, but for rounding.
+        match self.uneven || u64::from(most) >= u64::from(MOST_FILMS - 1) * ONE {
+            true => self.accept(graph, cells),
+            false => self.accepted.fill(ONE as u32),
+        }
+        let found = self.gather(graph, paint);
+        std::mem::swap(paint, &mut self.next);
+        found
+    }
+
+    /// Fills `volumes` and `heads`, and returns the highest head.
+    fn measure(&mut self, cells: &Cells, paint: &[Cell]) -> u32 {
+        let blocks = self.volumes.chunks_mut(BLOCK).zip(self.heads.chunks_mut(BLOCK));
+        let most = each(blocks.enumerate().collect(), |(block, (volumes, heads))| {
+            let mut most = 0;
+            for (cell, (volume, head)) in (block * BLOCK..).zip(volumes.iter_mut().zip(heads)) {
+                *volume = paint[cell].volume();
+                let films = (u64::from(*volume) << 16) / u64::from(cells.capacities[cell].max(1));
+                // Cells that were cut may hold more than they could now.
+                *head = self.lifts[cell] + films.min(1 << 30) as u32;
+                most = most.max(*head);
+            }
+            most
+        });
+        most.into_iter().max().unwrap_or(0)
+    }
+
+    /// Fills `shares`.
+    fn offer(&mut self, graph: &Graph, cells: &Cells, births: bool) {
+        let (volumes, heads, rates) = (&self.volumes, &self.heads, self.rates);
+        each(blocks_of(graph, &mut self.shares), |(first, shares)| {
+            let offset = graph.starts[first] as usize;
+            for cell in first..(first + BLOCK).min(graph.len()) {
+                let links = graph.links(cell);
+                let shares = &mut shares[links.start - offset..links.end - offset];
+                let capacity = cells.capacities[cell];
+                let excess = volumes[cell].saturating_sub(capacity);
+                if excess == 0 {
+                    shares.fill(0);
+                    continue;
+                }
+                let mut sum = 0;
+                for (share, link) in shares.iter_mut().zip(links) {
+                    let other = graph.others[link] as usize;
+                    let fall = u64::from(heads[cell].saturating_sub(heads[other])).min(16 * ONE);
+                    let closed = !births && volumes[other] == 0;
+                    let smaller = u64::from(capacity.min(cells.capacities[other]));
+                    let rate = if closed { 0 } else { rates[usize::from(graph.axes[link]) - 1] };
+                    let wanted = (fall * rate * smaller) >> 32;
+                    sum += wanted;
+                    *share = wanted as u32;
+                }
+                let excess = u64::from(excess);
+                for share in shares.iter_mut().filter(|share| **share > 0) {
+                    if sum > excess {
+                        *share = (excess * u64::from(*share) / sum) as u32;
+                    }
+                    *share = ratio_of_65536(*share, volumes[cell]);
+                }
+            }
+        });
+    }
+
+    /// Fills `accepted`.
+    fn accept(&mut self, graph: &Graph, cells: &Cells) {
+        let (volumes, shares) = (&self.volumes, &self.shares);
+        let blocks = self.accepted.chunks_mut(BLOCK).enumerate().collect();
+        each(blocks, |(block, all)| {
+            for (cell, accepted) in (block * BLOCK..).zip(all) {
+                let offers = graph.links(cell).map(|link| {
+                    let share = shares[graph.back[link] as usize];
+                    // Rounded up.
+                    let offer = share_of_65536(volumes[graph.others[link] as usize], share);
+                    u64::from(offer) + u64::from(share > 0)
+                });
+                let offered: u64 = offers.sum();
+                let free = u64::from(room(cells.capacities[cell]).saturating_sub(volumes[cell]));
+                *accepted = if offered > free { free * ONE / offered } else { ONE } as u32;
+            }
+        });
+    }
+
+    /// Fills `next`.
+    fn gather(&mut self, graph: &Graph, paint: &[Cell]) -> Vec<Birth> {
+        let (volumes, shares, accepted) = (&self.volumes, &self.shares, &self.accepted);
+        let blocks = self.next.chunks_mut(BLOCK).enumerate().collect();
+        let births = each(blocks, |(block, next)| {
+            let first = block * BLOCK;
+            let gathering = Gathering { graph, paint, volumes, shares, accepted, first, next };
+            pulp::Arch::new().dispatch(gathering)
+        });
+        births.concat()
+    }
+}
+
+/// The cells of a block that gather what their neighbours give; compiled for every instruction
+/// set.
+struct Gathering<'a> {
+    graph: &'a Graph,
+    paint: &'a [Cell],
+    volumes: &'a [u32],
+    shares: &'a [u32],
+    accepted: &'a [u32],
+    /// The first cell of the block.
+    first: usize,
+    next: &'a mut [Cell],
+}
+
+impl pulp::WithSimd for Gathering<'_> {
+    type Output = Vec<Birth>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<Birth> {
+        let Self { graph, paint, volumes, shares, accepted, first, next } = self;
+        let mut births = Vec::new();
+        for (cell, next) in (first..).zip(next) {
+            let own = paint[cell];
+            let mut sum = own;
+            let (mut most, mut giver) = (0, None);
+            for link in graph.links(cell) {
+                let other = graph.others[link] as usize;
+                let back = graph.back[link] as usize;
+                // Paint flows one way, from the higher head to the lower.
+                if shares[link] > 0 {
+                    let share = share_of_65536(shares[link], accepted[other]);
+                    sum = sum.minus(&own.share_of_65536(share));
+                } else if shares[back] > 0 {
+                    let share = share_of_65536(shares[back], accepted[cell]);
+                    let part = paint[other].share_of_65536(share);
+                    sum = sum.plus(&part);
+                    if volumes[cell] == 0 && part.volume() > most {
+                        (most, giver) = (part.volume(), Some(other as u32));
+                    }
+                }
+            }
+            *next = sum;
+            births.extend(giver.map(|giver| Birth { cell: cell as u32, giver }));
+        }
+        births
+    }
+}
+
+/// The results of `act` for all blocks, in their order; a single block needs no other thread.
+fn each<T: Send, R: Send>(blocks: Vec<T>, act: impl Fn(T) -> R + Sync + Send) -> Vec<R> {
+    match blocks.len() {
+        0 | 1 => blocks.into_iter().map(act).collect(),
+        _ => blocks.into_par_iter().map(act).collect(),
+    }
+}
+
+/// The first cell of each block and the part of a list over all links that belongs to the block.
+fn blocks_of<'a>(graph: &Graph, mut links: &'a mut [u32]) -> Vec<(usize, &'a mut [u32])> {
+    let firsts = (0..graph.len()).step_by(BLOCK);
+    let cut = firsts.map(|first| {
+        let end = graph.starts[(first + BLOCK).min(graph.len())] - graph.starts[first];
+        let (own, rest) = std::mem::take(&mut links).split_at_mut(end as usize);
+        links = rest;
+        (first, own)
+    });
+    cut.collect()
+}

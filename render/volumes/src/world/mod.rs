@@ -1,0 +1,49 @@
+//! All volumes over one scene, what is done to them, and one step of time.
+//!
+//! ```text
+//! pour, lift -> paint of volumes -> spilling -> new volumes, target radii -> motion -> volumes
+//! ```
+//!
+//! Paint is only moved, in whole quanta: [`Tally`] says where it is. A world is data: its clone is
+//! a snapshot from which it goes on to the same bytes.
+//!
+//! Modules are declared in order of dependence: each uses only those above it.
+
+mod error;
+
+mod settings;
+
+mod recipe;
+
+mod track;
+
+mod actions;
+
+mod tally;
+
+mod state;
+
+mod spreading;
+
+mod keeping;
+
+mod single;
+
+mod pouring;
+
+mod lifting;
+
+mod splitting;
+
+mod time;
+
+#[cfg(test)]
+mod tests;
+
+pub use actions::{Lift, Pour, Single};
+pub use error::WorldError;
+pub use recipe::Recipe;
+pub use settings::{MOST_VOLUMES, STEPS_PER_SECOND, WorldSettings};
+pub use state::World;
+pub use tally::Tally;
+pub use track::Track;

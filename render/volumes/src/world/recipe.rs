@@ -1,0 +1,133 @@
+//! Shares of pigments, and how an amount is measured out by them in whole quanta.
+
+use paint::amount::MAX_COLUMN;
+use paint::layer::{Cell, SLOTS};
+
+use super::error::WorldError;
+
+/// Shares of the paints of eight slots and of vehicle, which sum to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Recipe {
+    shares: [f64; SLOTS + 1],
+}
+
+impl Recipe {
+    /// The recipe with these parts: of the pigments by slot, and at last of vehicle.
+    ///
+    /// # Errors
+    /// If a part is below 0 or not finite, or none is above 0.
+    pub fn of_parts(parts: [f64; SLOTS + 1]) -> Result<Self, WorldError> {
+        let sum: f64 = parts.iter().sum();
+        let valid = parts.iter().all(|part| *part >= 0.0) && sum.is_finite() && sum > 0.0;
+        if !valid {
+            return Err(WorldError::Recipe { found: parts.to_vec() });
+        }
+        Ok(Self { shares: parts.map(|part| part / sum) })
+    }
+
+    /// The paint of one slot alone.
+    ///
+    /// # Panics
+    /// If `slot` is 8 or more.
+    #[must_use]
+    pub fn of_slot(slot: usize) -> Self {
+        assert!(slot < SLOTS, "a layer has {SLOTS} slots");
+        let mut shares = [0.0; SLOTS + 1];
+        shares[slot] = 1.0;
+        Self { shares }
+    }
+
+    /// `amount` quanta of it, in whole quanta of each paint.
+    pub(super) fn measured(&self, amount: u32) -> Cell {
+        let mut measured = Measured::default();
+        as_cell(measured.up_to(self, f64::from(amount), true))
+    }
+}
+
+/// Amounts of a recipe that have been measured out so far, in quanta.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Measured {
+    given: [u64; SLOTS + 1],
+}
+
+impl Measured {
+    /// What is to be added so that `amount` quanta have been given in all: each paint's share
+    /// rounded down, so the rest is carried; at the `end` the rest goes to the greatest share.
+    pub(super) fn up_to(&mut self, recipe: &Recipe, amount: f64, end: bool) -> [u64; SLOTS + 1] {
+        let mut due = recipe.shares.map(|share| (share * amount) as u64);
+        if end {
+            let rest = (amount.round() as u64).saturating_sub(due.iter().sum());
+            let greater = |most, i| if recipe.shares[i] > recipe.shares[most] { i } else { most };
+            due[(0..=SLOTS).fold(0, greater)] += rest;
+        }
+        let mut added = [0; SLOTS + 1];
+        for ((added, due), given) in added.iter_mut().zip(due).zip(&mut self.given) {
+            *added = due.saturating_sub(*given);
+            *given += *added;
+        }
+        added
+    }
+}
+
+/// These amounts as a cell, which holds no more than a column of paint.
+pub(super) fn as_cell(amounts: [u64; SLOTS + 1]) -> Cell {
+    let amount = |value: u64| value.min(u64::from(MAX_COLUMN)) as u32;
+    let mut cell = Cell { vehicle: amount(amounts[SLOTS]), ..Cell::default() };
+    for (own, value) in cell.pigments.iter_mut().zip(amounts) {
+        *own = amount(value);
+    }
+    cell
+}
+
+/// The amounts of a cell: of eight slots, and at last of vehicle.
+pub(super) fn amounts_of(cell: &Cell) -> [u64; SLOTS + 1] {
+    std::array::from_fn(|i| u64::from(cell.pigments.get(i).copied().unwrap_or(cell.vehicle)))
+}
+
+/// The part of `amounts` that fits into `room` quanta, each in proportion and rounded down.
+pub(super) fn fitting(amounts: [u64; SLOTS + 1], room: u32) -> [u64; SLOTS + 1] {
+    let sum: u64 = amounts.iter().sum();
+    let room = u64::from(room);
+    if sum <= room {
+        return amounts;
+    }
+    amounts.map(|amount| (u128::from(amount) * u128::from(room) / u128::from(sum)) as u64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_measured_out_in_parts_adds_up() {
+        let recipe = Recipe::of_parts([1.0, 2.0, 0.0, 0.3, 0.0, 0.0, 0.0, 0.0, 0.7]).unwrap();
+        let (mut measured, mut sums) = (Measured::default(), [0; SLOTS + 1]);
+        for step in 1..=1000 {
+            let amount = 12_345.678 * f64::from(step);
+            for (sum, added) in sums.iter_mut().zip(measured.up_to(&recipe, amount, step == 1000)) {
+                *sum += added;
+            }
+            let behind = amount - sums.iter().sum::<u64>() as f64;
+            assert!((-0.5..4.0).contains(&behind), "{behind} at {step}");
+        }
+        assert_eq!(sums.iter().sum::<u64>(), 12_345_678);
+        assert!(sums[1].abs_diff(2 * 12_345_678 / 4) <= 4);
+        assert_eq!(recipe.measured(1_000_003).volume(), 1_000_003);
+    }
+
+    #[test]
+    fn recipes_without_paint_are_refused() {
+        for parts in [[0.0; 9], [-1.0; 9], [f64::NAN; 9], [f64::INFINITY; 9]] {
+            assert!(matches!(Recipe::of_parts(parts), Err(WorldError::Recipe { .. })));
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_cut_in_proportion() {
+        let amounts = [10, 20, 30, 0, 0, 0, 0, 0, 40];
+        assert_eq!(fitting(amounts, 100), amounts);
+        assert_eq!(fitting(amounts, 50), [5, 10, 15, 0, 0, 0, 0, 0, 20]);
+        assert_eq!(fitting(amounts, 0), [0; 9]);
+        assert_eq!(amounts_of(&as_cell(amounts)), amounts);
+    }
+}

@@ -1,0 +1,83 @@
+//! Settings of a world, and lengths that follow from them.
+
+use super::error::{WorldError, in_range};
+use crate::motion::MotionSettings;
+use crate::wetting::QUANTA_PER_FACE;
+
+/// Greatest number of volumes.
+pub const MOST_VOLUMES: usize = 4096;
+
+/// Greatest number of particles of all volumes.
+pub(super) const MOST_PARTICLES: usize = 2_000_000;
+
+/// Steps of time in a second.
+pub const STEPS_PER_SECOND: u32 = 120;
+
+/// Longest side of a model in mm, if no unit is given.
+const LONGEST_MM: f64 = 200.0;
+
+/// Cells along the longest side, if none are given.
+const CELLS: f32 = 12.0;
+
+/// Settings of a world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WorldSettings {
+    /// Length of one unit of the scene in mm; without, the longest side of the model is 200 mm.
+    pub unit_mm: Option<f64>,
+    /// Width of a cell as a share of the longest side of the model, 0 to 1; 1/12 by default. With
+    /// 0 paint does not spill, and there are single volumes only.
+    pub cell: f32,
+    /// Thickness of the film that paint spreads to, 0.0001 to 100 mm; 0.02 by default.
+    pub film_mm: f64,
+    /// Share of a difference of heads that spills across a face in a step, 0 to
+    /// [`crate::wetting::FASTEST_RATE`]; 0.04 by default.
+    pub rate: f32,
+    /// Head of a cell that is higher than another by its width, 0 to 1000; 0 by default.
+    pub slope: f32,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// The motion of volumes.
+    pub motion: MotionSettings,
+}
+
+impl Default for WorldSettings {
+    fn default() -> Self {
+        Self {
+            unit_mm: None,
+            cell: 1.0 / CELLS,
+            film_mm: 0.02,
+            rate: 0.04,
+            slope: 0.0,
+            seed: 1,
+            motion: MotionSettings::default(),
+        }
+    }
+}
+
+/// Lengths of a world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scale {
+    /// Length of one unit of the scene in mm.
+    pub(super) unit_mm: f64,
+    /// Width of a cell, in the unit of the scene.
+    pub(super) cell: f32,
+    /// Volume of a quantum in mm^3.
+    pub(super) quantum_mm3: f64,
+}
+
+impl WorldSettings {
+    /// The lengths of a model whose longest side is `longest`, in the unit of the scene.
+    pub(super) fn scale(&self, longest: f32) -> Result<Scale, WorldError> {
+        self.motion.check()?;
+        in_range("cell", self.cell.into(), [0.0, 1.0], "0 to 1")?;
+        in_range("film_mm", self.film_mm, [1e-4, 100.0], "0.0001 to 100")?;
+        let cell = longest * if self.cell > 0.0 { self.cell } else { 1.0 / CELLS };
+        let unit_mm = self.unit_mm.unwrap_or(LONGEST_MM / f64::from(longest));
+        if self.unit_mm.is_some() {
+            in_range("unit_mm", unit_mm, [1e-9, 1e9], "1e-9 to 1e9")?;
+        }
+        let cell_mm = f64::from(cell) * unit_mm;
+        let quantum_mm3 = cell_mm * cell_mm * self.film_mm / f64::from(QUANTA_PER_FACE);
+        Ok(Scale { unit_mm, cell, quantum_mm3 })
+    }
+}

@@ -1,0 +1,103 @@
+//! Volumes of the grid: paint spills from one to the next, and they grow with their paint.
+
+use glam::Vec3;
+use paint::layer::Cell;
+
+use super::error::WorldError;
+use super::state::{BIRTH, NONE, World};
+
+/// Level of detail of the volumes of the grid.
+const DETAIL: u8 = 2;
+
+impl World {
+    /// The wet volume in a cell; without one, a new one at `place` in the region.
+    pub(super) fn volume_in(
+        &mut self,
+        cell: usize,
+        place: Vec3,
+        region: u16,
+    ) -> Result<usize, WorldError> {
+        if self.of_cell[cell] != NONE {
+            return Ok(self.of_cell[cell] as usize);
+        }
+        let index = self.begin(place, BIRTH * self.scale.cell, DETAIL)?;
+        let volume = &mut self.volumes[index];
+        volume.cell = Some(cell as u32);
+        volume.region = region;
+        volume.normal = self.grid.cells.normals[cell];
+        self.of_cell[cell] = index as u32;
+        Ok(index)
+    }
+
+    /// One step of spilling between all wet volumes of the grid.
+    pub(super) fn spill(&mut self) -> Result<(), WorldError> {
+        let grid = std::sync::Arc::clone(&self.grid);
+        let mut reached = Vec::new();
+        let mut over = false;
+        for volume in self.volumes.iter().filter(|volume| !volume.dry) {
+            let Some(cell) = volume.cell.map(|cell| cell as usize) else { continue };
+            if volume.paint.volume() > grid.cells.capacities[cell] {
+                over = true;
+                let others = grid.graph.links(cell).map(|link| grid.graph.others[link]);
+                reached.extend(others.filter(|&other| self.of_cell[other as usize] == NONE));
+            }
+        }
+        if !over {
+            return Ok(());
+        }
+        self.paint.fill(Cell::default());
+        for volume in self.volumes.iter().filter(|volume| !volume.dry) {
+            if let Some(cell) = volume.cell {
+                self.paint[cell as usize] = volume.paint;
+            }
+        }
+        reached.sort_unstable();
+        reached.dedup();
+        // Near the limit paint stays where it is wet.
+        let births = self.has_room(reached.len(), DETAIL).is_ok();
+        let cells = (&grid.graph, &grid.cells);
+        let born = self.spilling.step(cells, &mut self.paint, births);
+        for birth in born {
+            let (cell, giver) = (birth.cell as usize, birth.giver as usize);
+            let region = self.volumes[self.of_cell[giver] as usize].region;
+            self.volume_in(cell, grid.entrance(cell, giver), region)?;
+        }
+        for index in 0..self.volumes.len() {
+            let Some(cell) = self.volumes[index].cell.filter(|_| !self.volumes[index].dry) else {
+                continue;
+            };
+            let now = self.paint[cell as usize];
+            if now != self.volumes[index].paint {
+                self.set_paint(index, now);
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives a volume of the grid its paint, and moves its centre from where it began towards the
+    /// middle of its cell as the cell fills: a full cell's volume holds all its surface.
+    pub(super) fn set_paint(&mut self, index: usize, paint: Cell) {
+        let Some(cell) = self.volumes[index].cell.map(|cell| cell as usize) else { return };
+        let capacity = self.grid.cells.capacities[cell].max(1) as f32;
+        let filled = |paint: &Cell| (paint.volume() as f32 / capacity).min(1.0);
+        let volume = &mut self.volumes[index];
+        let (before, now) = (filled(&volume.paint), filled(&paint));
+        if now > before {
+            let way = self.grid.cells.centers[cell] - volume.center;
+            let share = if now < 1.0 { (now - before) / (1.0 - before) } else { 1.0 };
+            if self.grid.cells.capacities[cell] > 0 {
+                volume.center += way * share;
+            }
+        }
+        volume.paint = paint;
+        volume.target_radius = match paint.volume() {
+            0 => 0.0,
+            amount => {
+                let roughness = self.settings.motion.microstructure;
+                let radius = self.grid.reach.radius(cell, amount, roughness);
+                radius.max(BIRTH * self.scale.cell)
+            }
+        };
+        volume.rests_under = 0;
+    }
+}

@@ -1,0 +1,235 @@
+//! A world: its surface, its volumes and what is being done to them.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use graphics::mesh::Mesh;
+use paint::layer::{Cell, SLOTS};
+
+use super::actions::{Lift, Source, Timed};
+use super::error::WorldError;
+use super::recipe::amounts_of;
+use super::settings::{MOST_PARTICLES, MOST_VOLUMES, STEPS_PER_SECOND, Scale, WorldSettings};
+use super::tally::{Tally, add};
+use crate::motion::{MotionError, Push, SurfaceLattice, Surroundings, kick};
+use crate::sphere_mesh::{MOST_DETAIL, SphereMesh};
+use crate::volume::Volume;
+use crate::wetting::{Grid, Spilling};
+
+/// In `of_cell`, no volume.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Radius at birth, in cells.
+pub(super) const BIRTH: f32 = 0.02;
+
+/// All volumes over one scene.
+///
+/// Time goes on by [`World::step`] alone, a 120th of a second each. A clone is a snapshot, from
+/// which the same steps and actions lead to the same bytes, on any number of threads. Frames may
+/// take any number of steps each.
+///
+/// ```no_run
+/// use graphics::mesh::SampleModel;
+/// use volumes::world::{Pour, Recipe, World, WorldSettings};
+///
+/// let mesh = SampleModel::Village.mesh(20_000);
+/// let mut world = World::of(&mesh, &WorldSettings::default())?;
+/// let roof = mesh.positions[1000].into();
+/// world.pour(Pour::at(roof, 40.0, 2.0, Recipe::of_slot(0)))?;
+/// for _ in 0..240 {
+///     world.step()?;
+/// }
+/// assert!(!world.volumes().is_empty());
+/// # Ok::<(), volumes::world::WorldError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct World {
+    pub(super) settings: WorldSettings,
+    pub(super) scale: Scale,
+    /// The grid of the whole surface.
+    pub(super) whole: Arc<Grid>,
+    /// The grid of the surface inside of all regions to stay in.
+    pub(super) grid: Arc<Grid>,
+    pub(super) spilling: Spilling,
+    pub(super) surroundings: Surroundings,
+    pub(super) volumes: Vec<Volume>,
+    /// Index of the wet volume in each cell, or [`NONE`].
+    pub(super) of_cell: Vec<u32>,
+    /// Paint of the cells for spilling; each step fills it anew.
+    pub(super) paint: Vec<Cell>,
+    pub(super) sources: Vec<Timed<Source>>,
+    pub(super) sponges: Vec<Timed<Lift>>,
+    pub(super) pushes: Vec<Timed<Push>>,
+    pub(super) poured: [u64; SLOTS + 1],
+    pub(super) lifted: [u64; SLOTS + 1],
+    pub(super) in_tube: [u64; SLOTS + 1],
+    pub(super) steps: u64,
+    /// How many things have been given a number.
+    numbered: u64,
+}
+
+impl World {
+    /// A world without volumes around a mesh. y points up.
+    ///
+    /// # Errors
+    /// If the mesh has no surface, a setting is out of its range, or cells are too small.
+    pub fn of(mesh: &Mesh, settings: &WorldSettings) -> Result<Self, WorldError> {
+        mesh.check().map_err(crate::wetting::WettingError::from)?;
+        let [low, high] = mesh.bounds();
+        let scale = settings.scale((high - low).max_element())?;
+        let grid = Arc::new(Grid::of(mesh, scale.cell, settings.seed)?);
+        let spilling = Spilling::new(&grid.cells, scale.cell, settings.rate, settings.slope)?;
+        let mut surroundings = Surroundings::new(scale.cell, settings.seed);
+        surroundings.surface =
+            Some(Arc::new(SurfaceLattice::of(&grid.samples.places, scale.cell)?));
+        let count = grid.cells.len();
+        Ok(Self {
+            settings: *settings,
+            scale,
+            whole: Arc::clone(&grid),
+            grid,
+            spilling,
+            surroundings,
+            volumes: Vec::new(),
+            of_cell: vec![NONE; count],
+            paint: vec![Cell::default(); count],
+            sources: Vec::new(),
+            sponges: Vec::new(),
+            pushes: Vec::new(),
+            poured: [0; SLOTS + 1],
+            lifted: [0; SLOTS + 1],
+            in_tube: [0; SLOTS + 1],
+            steps: 0,
+            numbered: 0,
+        })
+    }
+
+    /// The volumes, in the order in which they began; those that vanish are removed.
+    #[must_use]
+    pub fn volumes(&self) -> &[Volume] {
+        &self.volumes
+    }
+
+    /// The surface inside of all regions to stay in, its cells and their links.
+    #[must_use]
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The settings that it was made with.
+    #[must_use]
+    pub fn settings(&self) -> &WorldSettings {
+        &self.settings
+    }
+
+    /// What acts on the volumes from outside at present.
+    #[must_use]
+    pub fn surroundings(&self) -> &Surroundings {
+        &self.surroundings
+    }
+
+    /// Length of one unit of the scene in mm.
+    #[must_use]
+    pub fn unit_mm(&self) -> f64 {
+        self.scale.unit_mm
+    }
+
+    /// Volume of one quantum of paint in mm^3.
+    #[must_use]
+    pub fn quantum_mm3(&self) -> f64 {
+        self.scale.quantum_mm3
+    }
+
+    /// Number of steps since the beginning.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Time since the beginning in seconds.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.steps as f64 / f64::from(STEPS_PER_SECOND)
+    }
+
+    /// Where all paint is at present.
+    #[must_use]
+    pub fn tally(&self) -> Tally {
+        let mut on_scene = [0; SLOTS + 1];
+        for volume in &self.volumes {
+            add(&mut on_scene, amounts_of(&volume.paint));
+        }
+        let Self { poured, lifted, in_tube, .. } = *self;
+        Tally { poured, on_scene, lifted, in_tube }
+    }
+
+    /// Pushes what is inside of a ball for some time in seconds (infinite until it is stopped).
+    /// Returns its number for [`World::stop`].
+    ///
+    /// # Errors
+    /// If the push or the time is out of its range.
+    pub fn push(&mut self, push: Push, for_s: f64) -> Result<u64, WorldError> {
+        let pushes = vec![push];
+        Surroundings { pushes, ..self.surroundings.clone() }.check()?;
+        let number = self.next_number();
+        self.pushes.push(Timed::new(number, push, for_s)?);
+        Ok(number)
+    }
+
+    /// Dries all paint on the scene: from now on its shape and its amounts are frozen. Wet paint
+    /// poured later lies over it, in volumes of its own.
+    pub fn dry(&mut self) {
+        self.volumes.iter_mut().for_each(|volume| volume.dry = true);
+        self.of_cell.fill(NONE);
+    }
+
+    /// Ends a flow, a sponge or a push before its time; numbers of what has ended do nothing.
+    pub fn stop(&mut self, number: u64) {
+        self.sources.retain(|timed| timed.number != number);
+        self.sponges.retain(|timed| timed.number != number);
+        self.pushes.retain(|timed| timed.number != number);
+    }
+
+    /// A number that nothing else has.
+    pub(super) fn next_number(&mut self) -> u64 {
+        self.numbered += 1;
+        self.numbered
+    }
+
+    /// Adds a kicked ball and returns its index.
+    pub(super) fn begin(
+        &mut self,
+        center: Vec3,
+        radius: f32,
+        detail: u8,
+    ) -> Result<usize, WorldError> {
+        let number = f64::from(radius);
+        super::error::in_range("radius", number, [1e-15, 1e15], "above 0")?;
+        super::error::in_range("detail", detail.into(), [0.0, MOST_DETAIL.into()], "0 to 5")?;
+        if !center.is_finite() {
+            let index = self.volumes.len();
+            let value = center.element_sum();
+            return Err(MotionError::Volume { index, what: "centre", value, must: "finite" }.into());
+        }
+        self.has_room(1, detail)?;
+        // Odd multiples of one number are all different (Weyl's sequence).
+        let seed = self.next_number().wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ self.settings.seed;
+        let mut volume = Volume::ball(center, radius, detail, seed);
+        kick(&mut volume, self.settings.motion.kick, self.steps);
+        self.volumes.push(volume);
+        Ok(self.volumes.len() - 1)
+    }
+
+    /// Whether there is room for `count` more volumes of this detail.
+    pub(super) fn has_room(&self, count: usize, detail: u8) -> Result<(), WorldError> {
+        let own = count * SphereMesh::of_detail(detail).directions.len();
+        let particles: usize = self.volumes.iter().map(|v| v.particles.places[0].len()).sum();
+        if self.volumes.len() + count > MOST_VOLUMES {
+            return Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES });
+        }
+        if particles + own > MOST_PARTICLES {
+            return Err(WorldError::Full { what: "particles", most: MOST_PARTICLES });
+        }
+        Ok(())
+    }
+}

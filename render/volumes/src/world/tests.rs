@@ -1,0 +1,336 @@
+//! Worlds over surfaces of known form.
+
+use glam::Vec3;
+use graphics::mesh::{Mesh, SampleModel};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::*;
+use crate::containing::Inside;
+use crate::motion::{KeepIn, Push};
+use crate::test_surfaces::{joined, sheet};
+
+fn level(side: f32, height: f32) -> Mesh {
+    sheet(1, |u, v| [side * (u - 0.5), height, side * (v - 0.5)])
+}
+
+/// A world over a level sheet of 12 by 12 mm in the middle, with 12 by 12 cells of 1 mm.
+fn flat() -> World {
+    let settings = WorldSettings { unit_mm: Some(1.0), ..WorldSettings::default() };
+    World::of(&level(12.0, 0.0), &settings).unwrap()
+}
+
+fn run(world: &mut World, steps: usize) {
+    for _ in 0..steps {
+        world.step().unwrap();
+    }
+}
+
+fn is_exact(world: &World) -> bool {
+    let tally = world.tally();
+    (0..9).all(|slot| tally.poured[slot] == tally.on_scene[slot] + tally.lifted[slot])
+}
+
+fn single(center: Vec3, radius: f32) -> Single {
+    Single { center, radius, detail: 4, recipe: Some(Recipe::of_slot(2)), region: 1 }
+}
+
+/// The places of the surface that some volume holds.
+fn held(world: &World) -> Vec<Vec3> {
+    let insides: Vec<Inside> = world.volumes().iter().map(Inside::of).collect();
+    let places = world.grid().samples.places.iter().copied();
+    places.filter(|place| insides.iter().any(|inside| inside.holds(*place))).collect()
+}
+
+#[test]
+fn what_is_poured_arrives_to_the_quantum_and_covers_its_area() {
+    let mut world = flat();
+    let recipe = Recipe::of_parts([3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0]).unwrap();
+    // 0.6 mm^3 as a film of 0.02 mm are 30 mm^2.
+    world.pour(Pour::at(Vec3::new(0.2, 0.3, 0.1), 0.4, 1.5, recipe)).unwrap();
+    run(&mut world, 600);
+    let tally = world.tally();
+    let whole = (0.6 / world.quantum_mm3()).round() as u64;
+    assert_eq!(tally.poured.iter().sum::<u64>(), whole);
+    assert_eq!(tally.on_scene, tally.poured);
+    assert!(tally.poured[0].abs_diff(whole / 2) < 4 && tally.poured[8].abs_diff(whole / 3) < 4);
+    let area = held(&world).len() as f32 * world.grid().samples.areas[0];
+    assert!((area / 30.0 - 1.0).abs() < 0.15, "{area}");
+}
+
+#[test]
+fn random_actions_keep_every_quantum() {
+    let random = &mut ChaCha8Rng::seed_from_u64(3);
+    let settings = WorldSettings { cell: 0.3, slope: 0.5, rate: 0.06, ..WorldSettings::default() };
+    let mut world = World::of(&Mesh::sphere(500), &settings).unwrap();
+    for action in 0..100_000 {
+        let [x, y, z] = [(); 3].map(|()| random.random_range(-1.0..1.0_f32));
+        let place = Vec3::new(x, y, z).normalize_or(Vec3::Y);
+        let for_s = random.random_range(0.001..0.1);
+        match random.random_range(0..1000) {
+            0..300 => {
+                let parts = [(); 9].map(|()| random.random_range(0.0..1.0_f64));
+                let rate = random.random_range(0.0..3e4_f64);
+                let recipe = Recipe::of_parts(parts).unwrap();
+                world.pour(Pour::at(place, rate, for_s, recipe)).unwrap();
+            }
+            300..500 => {
+                let radius = random.random_range(0.05..0.8);
+                let rate = random.random_range(0.0..120.0);
+                world.lift(Lift { track: Track::at(place), radius, rate, for_s }).unwrap();
+            }
+            500 => world.dry(),
+            501 => {
+                let radius = random.random_range(0.05..0.6);
+                let own = Single { detail: 1, ..single(place, radius) };
+                let index = world.add_volume(&own).unwrap();
+                // Too small a volume may hold no sample.
+                let _ = world.split(index);
+            }
+            _ => {
+                world.move_paint().unwrap();
+                for volume in &mut world.volumes {
+                    volume.radius = volume.target_radius.max(0.01);
+                }
+            }
+        }
+        if action % 100 == 0 {
+            assert!(is_exact(&world), "{action}");
+            for volume in world.volumes() {
+                let room = volume.cell.map_or(1 << 30, |cell| world.grid.cells.room(cell as usize));
+                assert!(volume.paint.volume() <= room);
+            }
+            // Dried volumes would fill the world.
+            world.volumes.retain(|volume| !volume.dry || volume.paint.volume() > 0);
+            if world.volumes.len() > 1000 {
+                world.step().unwrap();
+                let settings = *world.settings();
+                world = World::of(&Mesh::sphere(500), &settings).unwrap();
+            }
+            world.of_cell.fill(state::NONE);
+            for (index, volume) in (0..).zip(&world.volumes) {
+                if let (Some(cell), false) = (volume.cell, volume.dry) {
+                    world.of_cell[cell as usize] = index;
+                }
+            }
+        }
+    }
+    let tally = world.tally();
+    assert!(tally.poured.iter().all(|amount| *amount > 0) && tally.lifted[0] > 0);
+}
+
+#[test]
+fn a_snapshot_goes_on_to_the_same_bits_on_any_number_of_threads() {
+    let whole = |threads: usize, from: Option<&World>| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let mut world = match from {
+                Some(world) => world.clone(),
+                None => {
+                    let settings = WorldSettings { slope: 0.3, ..WorldSettings::default() };
+                    let mut world =
+                        World::of(&SampleModel::StillLife.mesh(2000), &settings).unwrap();
+                    let at = world.grid().samples.places[1000];
+                    let other = world.grid().samples.places[1200];
+                    let path = Track::along(vec![(0.0, at), (1.0, other)]).unwrap();
+                    let pour = Pour { track: path, ..Pour::at(at, 60.0, 0.8, Recipe::of_slot(1)) };
+                    world.pour(pour).unwrap();
+                    let lift = Lift { track: Track::at(at), radius: 0.2, rate: 3.0, for_s: 0.4 };
+                    world.lift(lift).unwrap();
+                    let push = Push { center: at, direction: Vec3::X, radius: 0.5, strength: 9.0 };
+                    world.push(push, 0.5).unwrap();
+                    run(&mut world, 40);
+                    world
+                }
+            };
+            let snapshot = world.clone();
+            run(&mut world, 50);
+            (snapshot, world)
+        })
+    };
+    let (snapshot, end) = whole(1, None);
+    assert!(end.volumes().len() > 3 && end.volumes() != snapshot.volumes());
+    for threads in [1, 2, 8] {
+        let (_, again) = whole(threads, Some(&snapshot));
+        assert_eq!(again.volumes(), end.volumes());
+        assert_eq!((again.tally(), again.steps()), (end.tally(), 90));
+        assert_eq!(whole(threads, None).1.volumes(), end.volumes());
+    }
+}
+
+#[test]
+fn sources_off_the_surface_are_refused_with_their_distance() {
+    let mut world = flat();
+    let pour = |y: f32| Pour::at(Vec3::new(0.0, y, 0.0), 1.0, 1.0, Recipe::of_slot(0));
+    assert!(world.pour(pour(0.9)).is_ok());
+    let Err(WorldError::OffSurface { distance, most, .. }) = world.pour(pour(2.0)) else {
+        panic!("poured in the air");
+    };
+    assert!((distance - 2.0).abs() < 0.02 && (most - 1.0).abs() < 1e-6, "{distance} {most}");
+    assert!(world.move_source(1, Vec3::splat(9.0)).is_err());
+    assert!(world.pour(Pour { rate_mm3_s: -1.0, ..pour(0.0) }).is_err());
+    assert!(world.pour(Pour { for_s: f64::NAN, ..pour(0.0) }).is_err());
+}
+
+#[test]
+fn what_a_full_cell_has_no_room_for_stays_in_the_tube() {
+    let mut world = flat();
+    let walls = Vec3::new(0.6, 1.0, 0.6);
+    world.keep(KeepIn::Box { low: -walls, high: walls }).unwrap();
+    let kept = world.grid().cells.capacities.iter().filter(|capacity| **capacity > 0).count();
+    world.pour(Pour::at(Vec3::ZERO, 2.0, 1.0, Recipe::of_slot(0))).unwrap();
+    run(&mut world, 200);
+    let tally = world.tally();
+    assert_eq!(world.volumes().len(), kept);
+    assert!(is_exact(&world) && tally.in_tube[0] > 0);
+    let asked = tally.poured[0] + tally.in_tube[0];
+    assert_eq!(asked, (2.0 / world.quantum_mm3()).round() as u64);
+    // No surface is left to pour on or to split to.
+    let mut bare = world.clone();
+    bare.keep(KeepIn::Ball { center: Vec3::splat(5.0), radius: 0.1 }).unwrap();
+    assert!(bare.pour(Pour::at(Vec3::ZERO, 2.0, 1.0, Recipe::of_slot(0))).is_err());
+    bare.add_volume(&single(Vec3::ZERO, 1.0)).unwrap();
+    run(&mut bare, 20);
+    assert!(is_exact(&bare) && bare.grid().samples.is_empty());
+    // Walls hold the volumes back, but for the rounding of a wall.
+    for volume in world.volumes() {
+        assert!(volume.vertices().all(|at| at[0].abs() < 0.6001 && at[2].abs() < 0.6001));
+    }
+    for at in held(&world) {
+        assert!(at.x.abs() < 0.6001 && at.z.abs() < 0.6001);
+    }
+}
+
+#[test]
+fn dry_paint_stays_as_it_is_under_new_paint() {
+    let mut world = flat();
+    let pour = |slot| Pour::at(Vec3::ZERO, 0.1, 0.5, Recipe::of_slot(slot));
+    world.pour(pour(0)).unwrap();
+    run(&mut world, 60);
+    world.dry();
+    let before = world.volumes().to_vec();
+    assert!(before.len() > 1 && before.iter().all(|volume| volume.dry));
+    world.pour(pour(1)).unwrap();
+    run(&mut world, 60);
+    assert_eq!(world.volumes()[..before.len()], before);
+    assert!(world.volumes()[before.len()..].iter().all(|volume| volume.paint.pigments[0] == 0));
+    assert!(is_exact(&world) && world.tally().on_scene[1] > 0);
+}
+
+#[test]
+fn a_split_volume_leaves_its_paint_in_the_cells_it_held() {
+    let mut world = flat();
+    let index = world.add_volume(&single(Vec3::ZERO, 2.5)).unwrap();
+    let whole = world.volumes()[index].paint;
+    let film = whole.volume() as f64 * world.quantum_mm3() / 0.02;
+    assert!((film / (2.5 * 2.5 * std::f64::consts::PI) - 1.0).abs() < 0.03, "{film}");
+    run(&mut world, 10);
+    let cells = world.split(index).unwrap();
+    assert!((20..50).contains(&cells), "{cells}");
+    assert!(is_exact(&world));
+    assert_eq!(world.tally().on_scene[2], u64::from(whole.pigments[2]));
+    assert_eq!(world.volumes().len(), cells + 1);
+    assert!(world.volumes()[1..].iter().all(|volume| volume.detail == 2 && volume.region == 1));
+    run(&mut world, 400);
+    assert_eq!(world.volumes().len(), cells, "the whole vanishes");
+    for wrong in [0, 99] {
+        assert!(matches!(world.split(wrong), Err(WorldError::Volume { .. })));
+    }
+    let away = world.add_volume(&single(Vec3::splat(9.0), 0.5)).unwrap();
+    assert!(world.split(away).is_err());
+}
+
+#[test]
+fn a_volume_without_paint_left_vanishes() {
+    let mut world = flat();
+    world.pour(Pour::at(Vec3::ZERO, 0.1, 0.5, Recipe::of_slot(0))).unwrap();
+    world.add_volume(&single(Vec3::new(1.0, 0.0, 1.0), 0.7)).unwrap();
+    run(&mut world, 60);
+    assert!(world.volumes().len() > 2);
+    let track = Track::at(Vec3::ZERO);
+    world.lift(Lift { track, radius: 9.0, rate: 20.0, for_s: 3.0 }).unwrap();
+    run(&mut world, 400);
+    assert!(world.volumes().is_empty());
+    assert!(is_exact(&world));
+    assert_eq!(world.tally().lifted, world.tally().poured);
+}
+
+#[test]
+fn paint_stays_on_one_of_two_plates() {
+    let settings = WorldSettings { unit_mm: Some(1.0), ..WorldSettings::default() };
+    let plates = joined(level(12.0, 0.0), &level(12.0, 1.0));
+    let mut world = World::of(&plates, &settings).unwrap();
+    world.pour(Pour::at(Vec3::new(0.0, -0.1, 0.0), 1.0, 1.0, Recipe::of_slot(0))).unwrap();
+    run(&mut world, 240);
+    assert!(world.volumes().len() > 20);
+    assert!(world.volumes().iter().all(|volume| volume.center.y < 0.1));
+}
+
+#[test]
+fn without_a_grid_paint_grows_single_volumes() {
+    let settings = WorldSettings { unit_mm: Some(1.0), cell: 0.0, ..WorldSettings::default() };
+    let mut world = World::of(&level(12.0, 0.0), &settings).unwrap();
+    world.pour(Pour::at(Vec3::ZERO, 0.1, 1.0, Recipe::of_slot(0))).unwrap();
+    run(&mut world, 400);
+    assert_eq!(world.volumes().len(), 1);
+    // 0.1 mm^3 as a film of 0.02 mm are a disk of 5 mm^2.
+    let radius = world.volumes()[0].radius;
+    assert!((radius / (5.0 / std::f32::consts::PI).sqrt() - 1.0).abs() < 0.04, "{radius}");
+    assert!(world.split(0).is_err());
+}
+
+#[test]
+fn worlds_and_volumes_out_of_range_are_refused() {
+    let mesh = level(12.0, 0.0);
+    let defaults = WorldSettings::default();
+    for wrong in [
+        WorldSettings { cell: -0.1, ..defaults },
+        WorldSettings { film_mm: 0.0, ..defaults },
+        WorldSettings { unit_mm: Some(f64::NAN), ..defaults },
+        WorldSettings { rate: 0.1, ..defaults },
+        WorldSettings { cell: 1e-6, ..defaults },
+    ] {
+        assert!(World::of(&mesh, &wrong).is_err());
+    }
+    let mut world = World::of(&mesh, &defaults).unwrap();
+    assert!((world.unit_mm() - 200.0 / 12.0).abs() < 1e-9);
+    let good = Single { recipe: None, detail: 0, ..single(Vec3::ZERO, 1.0) };
+    for wrong in [
+        Single { radius: 0.0, ..good },
+        Single { detail: 6, ..good },
+        Single { center: Vec3::NAN, ..good },
+    ] {
+        assert!(world.add_volume(&wrong).is_err());
+    }
+    for _ in 0..MOST_VOLUMES {
+        world.add_volume(&good).unwrap();
+    }
+    let full = world.add_volume(&good);
+    assert_eq!(full, Err(WorldError::Full { what: "volumes", most: MOST_VOLUMES }));
+    assert_eq!(world.tally(), Tally::default());
+}
+
+#[test]
+fn a_full_world_keeps_paint_where_it_is_or_in_the_tube() {
+    let mut world = flat();
+    let dot = Single { recipe: None, detail: 0, ..single(Vec3::splat(9.0), 0.1) };
+    for _ in 0..MOST_VOLUMES - 3 {
+        world.add_volume(&dot).unwrap();
+    }
+    world.pour(Pour::at(Vec3::ZERO, 1.0, 1.0, Recipe::of_slot(0))).unwrap();
+    let far = Vec3::new(4.0, 0.0, 4.0);
+    for _ in 0..60 {
+        world.move_paint().unwrap();
+    }
+    world.add_volume(&dot).unwrap();
+    world.add_volume(&dot).unwrap();
+    world.pour(Pour::at(far, 1.0, 0.5, Recipe::of_slot(1))).unwrap();
+    for _ in 0..60 {
+        world.move_paint().unwrap();
+    }
+    assert_eq!(world.volumes().len(), MOST_VOLUMES);
+    assert!(is_exact(&world));
+    let tally = world.tally();
+    assert_eq!(tally.in_tube[1], (0.5 / world.quantum_mm3()).round() as u64);
+    assert!(tally.on_scene[0] > 0 && tally.on_scene[1] == 0);
+}
