@@ -1,6 +1,6 @@
 //! A perspective camera.
 
-use glam::camera::rh::proj::directx::perspective;
+use glam::camera::rh::proj::directx::{perspective, perspective_infinite};
 use glam::camera::rh::view::look_at_mat4;
 use glam::{Mat4, Vec3};
 
@@ -37,5 +37,20 @@ impl Camera {
         let view = look_at_mat4(self.eye, self.target, self.up);
         let field = self.field_of_view_deg.to_radians();
         perspective(field, aspect, self.near, self.far) * view
+    }
+
+    /// Matrix as [`Self::clip_from_model`], but of a camera without a far plane: its depth
+    /// times [`Self::depth_scale`] is the depth of this camera, above 1 beyond the far plane.
+    #[must_use]
+    pub fn endless_clip_from_model(&self, aspect: f32) -> Mat4 {
+        let view = look_at_mat4(self.eye, self.target, self.up);
+        let field = self.field_of_view_deg.to_radians();
+        perspective_infinite(field, aspect, self.near) * view
+    }
+
+    /// The depth of this camera by that of a camera without a far plane, above 1.
+    #[must_use]
+    pub fn depth_scale(&self) -> f32 {
+        self.far / (self.far - self.near)
     }
 }

@@ -14,7 +14,13 @@ pub(super) fn bind_group_layout(
 ) -> wgpu::BindGroupLayout {
     let entry = |binding: u32, ty, has_dynamic_offset, bytes| wgpu::BindGroupLayoutEntry {
         binding,
-        visibility,
+        visibility: match ty {
+            // Vertex shaders of the base profile write no buffers.
+            wgpu::BufferBindingType::Storage { read_only: false } => {
+                visibility - wgpu::ShaderStages::VERTEX
+            }
+            _ => visibility,
+        },
         ty: wgpu::BindingType::Buffer {
             ty,
             has_dynamic_offset,

@@ -9,6 +9,7 @@ use super::adapter::Adapter;
 use super::error::DeviceError;
 use super::pipeline::Pipeline;
 use super::raster_pipeline::RasterPipeline;
+use super::stencil_pipeline::{ScatterPipeline, StencilPipeline};
 
 /// Number of submissions that may be pending on the device; the next one waits for the
 /// oldest. Chosen by hand: few, so that memory is freed soon.
@@ -43,6 +44,8 @@ pub struct Device {
     pub(super) pipelines: BTreeMap<&'static str, Pipeline>,
     /// Key: name of the shader, and whether back faces are culled.
     pub(super) raster_pipelines: BTreeMap<(&'static str, bool), RasterPipeline>,
+    pub(super) stencil_pipelines: BTreeMap<&'static str, StencilPipeline>,
+    pub(super) scatter_pipelines: BTreeMap<&'static str, ScatterPipeline>,
     pub(super) parameters: Option<Buffer>,
     pub(super) batch: Option<Buffer>,
     in_flight: VecDeque<wgpu::SubmissionIndex>,
@@ -91,6 +94,8 @@ impl Device {
             reported,
             pipelines: BTreeMap::new(),
             raster_pipelines: BTreeMap::new(),
+            stencil_pipelines: BTreeMap::new(),
+            scatter_pipelines: BTreeMap::new(),
             parameters: None,
             batch: None,
             in_flight: VecDeque::new(),

@@ -12,11 +12,15 @@ mod kernel;
 
 mod raster;
 
+mod stencil;
+
 mod binding;
 
 mod pipeline;
 
 mod raster_pipeline;
+
+mod stencil_pipeline;
 
 mod rows;
 
@@ -28,11 +32,15 @@ mod choose;
 
 mod target;
 
+mod stencil_target;
+
 mod recording;
 
 mod transfer;
 
 mod drawing;
+
+mod stencil_drawing;
 
 mod submission;
 
@@ -44,6 +52,8 @@ pub use kernel::{GROUP, Kernel, Storage, groups};
 pub use layout::Layout;
 pub use layout::layout;
 pub use raster::RasterShader;
-pub use recording::{Recording, Triangles};
+pub use recording::{Recording, TriangleList, Triangles};
 pub use rows::Rows;
+pub use stencil::{ScatterShader, StencilShader};
+pub use stencil_target::StencilTarget;
 pub use target::Target;

@@ -1,9 +1,13 @@
 //! Commands recorded for the device: dispatches, draws and copies, with the parameters and
 //! data that they read.
 
+use std::ops::Range;
+
 use super::device::Buffer;
 use super::kernel::Kernel;
 use super::raster::RasterShader;
+use super::stencil::{ScatterShader, StencilShader};
+use super::stencil_target::StencilTarget;
 use super::target::Target;
 
 /// Alignment of the parameters of each dispatch, in bytes: the largest that WebGPU adapters
@@ -26,6 +30,10 @@ pub(super) enum Command {
     Copy { from: Buffer, to: Buffer, bytes: u64 },
     /// Draws triangles into a target and copies it to a buffer.
     Draw(Box<Draw>),
+    /// Counts faces in a stencil and copies it to a buffer.
+    Stencil(Box<StencilDraw>),
+    /// Draws faces that add to a buffer.
+    Scatter(Box<ScatterDraw>),
 }
 
 /// A draw of triangles.
@@ -40,6 +48,44 @@ pub(super) struct Draw {
     pub(super) background: [u32; 4],
     pub(super) target: Target,
     pub(super) into: Buffer,
+}
+
+/// Triangles drawn with some parameters and buffers.
+#[derive(Debug)]
+pub(super) struct List {
+    pub(super) buffers: Vec<Buffer>,
+    /// Offset of the parameters in [`Recording::parameters`], in bytes.
+    pub(super) parameters: u32,
+    pub(super) triangles: Range<u32>,
+}
+
+/// Faces counted in a stencil.
+#[derive(Debug)]
+pub(super) struct StencilDraw {
+    pub(super) shader: &'static StencilShader,
+    /// The scene whose depth is drawn before; none to keep the depth of the target.
+    pub(super) scene: Option<List>,
+    pub(super) faces: List,
+    pub(super) target: StencilTarget,
+}
+
+/// Faces that add to a buffer.
+#[derive(Debug)]
+pub(super) struct ScatterDraw {
+    pub(super) shader: &'static ScatterShader,
+    pub(super) faces: List,
+    pub(super) target: StencilTarget,
+}
+
+/// Triangles of a draw: the parameters and buffers of its shader, and which triangles.
+#[derive(Debug, Clone)]
+pub struct TriangleList<'a, P> {
+    /// Parameters of the shader.
+    pub parameters: &'a P,
+    /// Buffers of the shader, in the order of their bindings.
+    pub buffers: &'a [&'a Buffer],
+    /// Indices of the triangles.
+    pub triangles: Range<usize>,
 }
 
 /// Number of triangles of a draw, and how they are drawn.
@@ -121,6 +167,68 @@ impl Recording {
             target: target.clone(),
             into: into.clone(),
         })));
+    }
+
+    /// Records the counting of faces in the stencil of `target`, which starts at 0: back faces
+    /// that are not before the depth of the target add 1, such front faces subtract 1, and it
+    /// wraps at 256. With a `scene`, its depth is drawn first; otherwise the target keeps the
+    /// depth of the last one. Then copies the stencil to [`StencilTarget::rows`].
+    ///
+    /// # Panics
+    /// If the size of the parameters or the number of buffers is not that of the shader, or
+    /// there are more than 2^32 corners.
+    pub fn count_faces<P: bytemuck::Pod>(
+        &mut self,
+        shader: &'static StencilShader,
+        scene: Option<TriangleList<'_, P>>,
+        faces: TriangleList<'_, P>,
+        target: &StencilTarget,
+    ) {
+        let counts = (shader.name, shader.parameters.bytes, shader.buffers);
+        let scene = scene.map(|scene| self.list(counts, &scene));
+        let faces = self.list(counts, &faces);
+        let target = target.clone();
+        self.commands.push(Command::Stencil(Box::new(StencilDraw {
+            shader,
+            scene,
+            faces,
+            target,
+        })));
+    }
+
+    /// Records a draw of both sides of faces, whose shader adds to its last buffer at their
+    /// pixels in a picture of the size of `target`; the target itself is left as it is.
+    ///
+    /// # Panics
+    /// If the size of the parameters or the number of buffers is not that of the shader, or
+    /// there are more than 2^32 corners.
+    pub fn scatter<P: bytemuck::Pod>(
+        &mut self,
+        shader: &'static ScatterShader,
+        faces: &TriangleList<'_, P>,
+        target: &StencilTarget,
+    ) {
+        let faces = self.list((shader.name, shader.parameters.bytes, shader.buffers), faces);
+        let target = target.clone();
+        self.commands.push(Command::Scatter(Box::new(ScatterDraw { shader, faces, target })));
+    }
+
+    /// Checks a list of triangles for the shader of this name, size of parameters and number
+    /// of buffers, and appends its parameters.
+    fn list<P: bytemuck::Pod>(
+        &mut self,
+        (name, bytes, buffers): (&str, usize, usize),
+        list: &TriangleList<'_, P>,
+    ) -> List {
+        assert_eq!(size_of::<P>(), bytes, "parameters of {name}");
+        assert_eq!(list.buffers.len(), buffers, "buffers of {name}");
+        let Range { start, end } = list.triangles;
+        assert!(end <= u32::MAX as usize / 3, "{end} triangles");
+        List {
+            buffers: list.buffers.iter().map(|&buffer| buffer.clone()).collect(),
+            parameters: self.push_parameters(bytemuck::bytes_of(list.parameters)),
+            triangles: start as u32..end as u32,
+        }
     }
 
     /// Appends the parameters of a command. Returns their offset in bytes.

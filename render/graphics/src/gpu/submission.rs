@@ -56,6 +56,14 @@ impl Device {
                     self.prepare_raster(draw.shader, draw.front_only)?;
                     draw.shader.parameters
                 }
+                Command::Stencil(draw) => {
+                    self.prepare_stencil(draw.shader)?;
+                    draw.shader.parameters
+                }
+                Command::Scatter(draw) => {
+                    self.prepare_scatter(draw.shader)?;
+                    draw.shader.parameters
+                }
                 Command::Copy { .. } => continue,
             };
             longest = longest.max(parameters.bytes);
@@ -112,6 +120,14 @@ impl Device {
                 Command::Draw(draw) => {
                     pass = None;
                     self.encode_draw(&mut encoder, draw, parameters);
+                }
+                Command::Stencil(draw) => {
+                    pass = None;
+                    self.encode_stencil(&mut encoder, draw, parameters);
+                }
+                Command::Scatter(draw) => {
+                    pass = None;
+                    self.encode_scatter(&mut encoder, draw, parameters);
                 }
                 Command::Dispatch { kernel, buffers, parameters: start, groups } => {
                     let pipeline = &self.pipelines[kernel.name];

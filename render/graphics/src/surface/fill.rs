@@ -1,4 +1,6 @@
-//! Fills the pixels of one triangle.
+//! The pixels of one triangle.
+
+use std::ops::Range;
 
 use super::screen::{Corner, STEPS, pixel_range};
 use super::visibility::Fragment;
@@ -11,6 +13,8 @@ pub(super) struct Shape {
     /// this shape's corners.
     weights: [[f32; 2]; 3],
     twice_area: i64,
+    /// Whether its corners were counter-clockwise in the picture.
+    front: bool,
 }
 
 impl Shape {
@@ -24,14 +28,52 @@ impl Shape {
         let twice_area = i64::from(b.x - a.x) * i64::from(c.y - a.y)
             - i64::from(c.x - a.x) * i64::from(b.y - a.y);
         match twice_area < 0 {
-            false => Self { triangle, corners, weights, twice_area },
+            false => Self { triangle, corners, weights, twice_area, front: false },
             true => Self {
                 triangle,
                 corners: [a, c, b],
                 weights: [at_a, at_c, at_b],
                 twice_area: -twice_area,
+                front: true,
             },
         }
+    }
+
+    /// Index of the triangle that it is or belongs to.
+    pub(super) fn triangle(&self) -> u32 {
+        self.triangle
+    }
+
+    /// Whether its corners are counter-clockwise in the picture, as a front face has them.
+    pub(super) fn is_front(&self) -> bool {
+        self.front
+    }
+
+    /// Greatest depth of a corner.
+    pub(super) fn greatest_depth(&self) -> f32 {
+        let [a, b, c] = &self.corners;
+        a.depth.max(b.depth).max(c.depth)
+    }
+
+    /// The columns, out of `width`, in which it may have pixels.
+    pub(super) fn columns(&self, width: usize) -> Range<usize> {
+        let [a, b, c] = &self.corners;
+        pixel_range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), width)
+    }
+
+    /// Depth where its second and third corner have these weights in the picture.
+    #[inline]
+    pub(super) fn depth(&self, second: f32, third: f32) -> f32 {
+        let [a, b, c] = &self.corners;
+        a.depth + (second * (b.depth - a.depth) + third * (c.depth - a.depth))
+    }
+
+    /// Shares of its corners in 1 / w where the second and third corner have these weights
+    /// in the picture; they add up to 1 / w.
+    #[inline]
+    pub(super) fn inverse_w(&self, second: f32, third: f32) -> [f32; 3] {
+        let [a, b, c] = &self.corners;
+        [(1.0 - second - third) * a.inverse_w, second * b.inverse_w, third * c.inverse_w]
     }
 }
 
@@ -62,42 +104,36 @@ impl Edge {
     }
 }
 
-/// Draws `shape` into `pixels`, which are whole rows of `width` from row `first_row` on,
-/// wherever it is nearer than what they show.
-pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [Fragment]) {
+/// Calls `visit` with each pixel of `shape` among `pixels`, which are whole rows of `width`
+/// from row `first_row` on: its index, the pixel, and the weights of the shape's second and
+/// third corner in the picture.
+#[inline(always)]
+pub(super) fn cover<P>(
+    shape: &Shape,
+    first_row: usize,
+    width: usize,
+    pixels: &mut [P],
+    mut visit: impl FnMut(usize, &mut P, f32, f32),
+) {
     let [a, b, c] = &shape.corners;
     let all_rows = pixel_range(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), usize::MAX);
     let last_row = first_row + pixels.len() / width;
     let rows = all_rows.start.max(first_row)..all_rows.end.min(last_row);
-    let columns = pixel_range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), width);
+    let columns = shape.columns(width);
     let edge = |from, to| Edge::new(from, to, columns.start, rows.start);
     let mut edges = [edge(b, c), edge(c, a), edge(a, b)];
     let per_area = 1.0 / shape.twice_area as f32;
-    let [to_b, to_c] = [b.depth - a.depth, c.depth - a.depth];
     for row in rows {
-        let pixels = &mut pixels[(row - first_row) * width..][columns.clone()];
+        let first = (row - first_row) * width + columns.start;
+        let pixels = &mut pixels[first..][..columns.len()];
         let [mut of_a, mut of_b, mut of_c] = edges.map(|edge| edge.value - edge.least);
         let mut entered = false;
-        for pixel in pixels {
+        for (pixel, index) in pixels.iter_mut().zip(first..) {
             if of_a | of_b | of_c >= 0 {
                 entered = true;
                 let second = (of_b + edges[1].least) as f32 * per_area;
                 let third = (of_c + edges[2].least) as f32 * per_area;
-                let depth = a.depth + (second * to_b + third * to_c);
-                if depth < pixel.depth {
-                    let [first, second, third] = [
-                        (1.0 - second - third) * a.inverse_w,
-                        second * b.inverse_w,
-                        third * c.inverse_w,
-                    ];
-                    let whole = 1.0 / (first + second + third);
-                    let at = |i: usize| {
-                        let [by_a, by_b, by_c] = shape.weights.map(|weights| weights[i]);
-                        (first * by_a + second * by_b + third * by_c) * whole
-                    };
-                    *pixel =
-                        Fragment { triangle: shape.triangle, second: at(0), third: at(1), depth };
-                }
+                visit(index, pixel, second, third);
             } else if entered {
                 break;
             }
@@ -109,4 +145,21 @@ pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [
             edge.value += edge.by_row;
         }
     }
+}
+
+/// Draws `shape` into `pixels`, which are whole rows of `width` from row `first_row` on,
+/// wherever it is nearer than what they show.
+pub(super) fn fill(shape: &Shape, first_row: usize, width: usize, pixels: &mut [Fragment]) {
+    cover(shape, first_row, width, pixels, |_, pixel, second, third| {
+        let depth = shape.depth(second, third);
+        if depth < pixel.depth {
+            let [first, second, third] = shape.inverse_w(second, third);
+            let whole = 1.0 / (first + second + third);
+            let at = |i: usize| {
+                let [by_a, by_b, by_c] = shape.weights.map(|weights| weights[i]);
+                (first * by_a + second * by_b + third * by_c) * whole
+            };
+            *pixel = Fragment { triangle: shape.triangle, second: at(0), third: at(1), depth };
+        }
+    });
 }

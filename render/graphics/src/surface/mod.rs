@@ -12,14 +12,23 @@ mod screen;
 
 mod fill;
 
+mod bands;
+
 mod raster;
 
 mod surface_point;
 
 mod model;
 
+mod inside;
+
+pub use bands::Sides;
+pub use inside::{
+    ADD_STENCIL, ClosedSurfaces, Count, Crossing, CrossingSum, Crossings, InsideCounter,
+    STENCIL_FACES, WEIGHED_FACES, WeighedCount,
+};
 pub use model::{DeviceModel, HostModel, Model};
 pub use packed::{PackedMaterial, PackedMesh, Positioned, Vertex};
-pub use raster::{RASTER, RasterParams, Rasteriser, Sides, visible};
+pub use raster::{RASTER, RasterParams, Rasteriser, visible};
 pub use surface_point::{SurfacePoint, position_at};
 pub use visibility::{Fragment, NO_TRIANGLE, VisibilityBuffer};

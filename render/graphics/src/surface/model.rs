@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use super::bands::Sides;
 use super::packed::PackedMesh;
-use super::raster::{RASTER, RasterParams, Rasteriser, Sides};
+use super::raster::{RASTER, RasterParams, Rasteriser};
 use super::visibility::{Fragment, VisibilityBuffer};
 use crate::camera::Camera;
 use crate::compute::{Compute, GpuCompute, Image, Plane};
@@ -156,7 +157,7 @@ pub struct DeviceModel {
     pub materials: Buffer,
     /// Texels of all textures, one after the other.
     pub texels: Buffer,
-    count: usize,
+    pub(super) count: usize,
     closed: bool,
     bounds: [glam::Vec3; 2],
     target: Option<Target>,

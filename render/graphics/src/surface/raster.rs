@@ -9,9 +9,10 @@
 use glam::Mat4;
 use rayon::prelude::*;
 
+use super::bands::{BAND, Bands, Sides};
 use super::fill::{Shape, fill};
 use super::packed::{Positioned, Vertex};
-use super::screen::{Corner, Screen, pixel_range};
+use super::screen::Screen;
 use super::visibility::{Fragment, VisibilityBuffer};
 use crate::camera::Camera;
 use crate::gpu::{RasterShader, layout};
@@ -35,25 +36,6 @@ pub struct RasterParams {
     pub clip_from_model: [[f32; 4]; 4],
 }
 
-/// Rows of pixels that one thread draws at a time.
-const BAND: usize = 16;
-
-/// Triangles that one thread sorts into bands at a time.
-const CHUNK: usize = 2048;
-
-/// This bit is set where an entry of a band is the index of a piece of a clipped triangle.
-const PIECE: u32 = 1 << 31;
-
-/// Which sides of triangles are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sides {
-    /// Front and back faces.
-    Both,
-    /// Only faces whose corners run counter-clockwise in the picture. Of a closed surface
-    /// seen from outside, nothing else is visible.
-    Front,
-}
-
 /// Draws both sides of all triangles of a mesh as `camera` sees them.
 ///
 /// # Panics
@@ -75,24 +57,7 @@ pub fn visible(mesh: &Mesh, camera: &Camera, width: usize, height: usize) -> Vis
 /// Draws triangles on the processor. Keeps its memory between pictures.
 #[derive(Debug, Clone, Default)]
 pub struct Rasteriser {
-    corners: Vec<Corner>,
-    chunks: Vec<Chunk>,
-}
-
-/// Some triangles, sorted into bands.
-#[derive(Debug, Clone, Default)]
-struct Chunk {
-    /// For each band the triangles to draw there, or pieces of clipped ones ([`PIECE`]).
-    bands: Vec<Vec<u32>>,
-    pieces: Vec<Piece>,
-}
-
-/// A triangular piece of a clipped triangle.
-#[derive(Debug, Clone)]
-struct Piece {
-    triangle: u32,
-    corners: [Corner; 3],
-    weights: [[f32; 2]; 3],
+    bands: Bands,
 }
 
 impl Rasteriser {
@@ -109,93 +74,17 @@ impl Rasteriser {
         sides: Sides,
         visible: &mut VisibilityBuffer,
     ) {
-        assert!(triangles.len() < PIECE as usize, "{} triangles", triangles.len());
         let (width, height) = (visible.width(), visible.height());
         if width * height == 0 {
             return;
         }
         let screen = Screen::new(clip_from_model, width, height);
-        screen.corners(vertices, &mut self.corners);
-        let corners = &self.corners;
-        self.chunks.resize_with(triangles.len().div_ceil(CHUNK), Chunk::default);
-        let sorter = Sorter { screen, vertices, corners, sides, width, height };
-        self.chunks.par_iter_mut().zip(triangles.par_chunks(CHUNK)).enumerate().for_each(
-            |(number, (chunk, triangles))| sorter.sort((number * CHUNK) as u32, triangles, chunk),
-        );
-        let chunks = &self.chunks;
+        self.bands.sort(screen, (width, height), vertices, triangles, sides);
         let bands = visible.values_mut().par_chunks_mut(width * BAND).enumerate();
         bands.for_each(|(band, pixels)| {
             pixels.fill(Fragment::EMPTY);
-            for chunk in chunks {
-                for &entry in &chunk.bands[band] {
-                    let shape = match entry & PIECE {
-                        0 => Shape::whole(entry, triangles[entry as usize].corners, corners),
-                        _ => {
-                            let piece = &chunk.pieces[(entry & !PIECE) as usize];
-                            Shape::cut(piece.triangle, piece.corners, piece.weights)
-                        }
-                    };
-                    fill(&shape, band * BAND, width, pixels);
-                }
-            }
+            let fill = |shape: &Shape| fill(shape, band * BAND, width, pixels);
+            self.bands.for_each_shape(band, triangles, fill);
         });
-    }
-}
-
-/// Sorts triangles into the bands that they touch.
-struct Sorter<'a, V> {
-    screen: Screen,
-    vertices: &'a [V],
-    corners: &'a [Corner],
-    sides: Sides,
-    width: usize,
-    height: usize,
-}
-
-impl<V: Positioned> Sorter<'_, V> {
-    fn sort(&self, first: u32, triangles: &[Triangle], chunk: &mut Chunk) {
-        chunk.bands.resize_with(self.height.div_ceil(BAND), Vec::new);
-        chunk.bands.iter_mut().for_each(Vec::clear);
-        chunk.pieces.clear();
-        for (triangle, number) in triangles.iter().zip(first..) {
-            let corners = triangle.corners.map(|corner| self.corners[corner as usize]);
-            let outside = corners.map(|at| if at.inverse_w == 0.0 { at.x } else { 0 });
-            if outside == [0; 3] {
-                self.add(&corners, number, &mut chunk.bands);
-            } else if outside[0] & outside[1] & outside[2] == 0 {
-                self.add_pieces(*triangle, number, chunk);
-            }
-        }
-    }
-
-    fn add_pieces(&self, triangle: Triangle, number: u32, chunk: &mut Chunk) {
-        let positions = triangle.corners.map(|corner| self.vertices[corner as usize].position());
-        let polygon = self.screen.clip_triangle(positions);
-        for i in 2..polygon.len() {
-            let fan = [polygon[0], polygon[i - 1], polygon[i]];
-            let corners = fan.map(|(corner, _)| corner);
-            self.add(&corners, PIECE | chunk.pieces.len() as u32, &mut chunk.bands);
-            let weights = fan.map(|(_, weights)| weights);
-            chunk.pieces.push(Piece { triangle: number, corners, weights });
-        }
-    }
-
-    /// Adds `entry` to the bands in which the triangle of these corners may have pixels.
-    fn add(&self, corners: &[Corner; 3], entry: u32, bands: &mut [Vec<u32>]) {
-        let [a, b, c] = corners;
-        let twice_area = i64::from(b.x - a.x) * i64::from(c.y - a.y)
-            - i64::from(c.x - a.x) * i64::from(b.y - a.y);
-        // Rows run downwards, so counter-clockwise triangles have a negative area.
-        if twice_area == 0 || (twice_area > 0 && self.sides == Sides::Front) {
-            return;
-        }
-        let columns = pixel_range(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), self.width);
-        let rows = pixel_range(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), self.height);
-        if columns.is_empty() || rows.is_empty() {
-            return;
-        }
-        for band in &mut bands[rows.start / BAND..=(rows.end - 1) / BAND] {
-            band.push(entry);
-        }
     }
 }

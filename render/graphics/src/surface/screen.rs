@@ -33,6 +33,7 @@ pub(super) struct Screen {
     clip_from_model: Mat4,
     half_width: f32,
     half_height: f32,
+    planes: [Vec4; 6],
 }
 
 /// A corner of a clipped triangle.
@@ -46,14 +47,20 @@ struct ClippedCorner {
 impl Screen {
     pub(super) fn new(clip_from_model: Mat4, width: usize, height: usize) -> Self {
         let [half_width, half_height] = [width, height].map(|cells| cells as f32 / 2.0);
-        Self { clip_from_model, half_width, half_height }
+        Self { clip_from_model, half_width, half_height, planes: PLANES }
+    }
+
+    /// This transform without a far plane: nothing is too far away, and depth may exceed 1.
+    pub(super) fn without_far_plane(mut self) -> Self {
+        self.planes[FAR] = BEFORE_EYE;
+        self
     }
 
     /// Projects one position of the model.
     fn corner(&self, position: [f32; 3]) -> Corner {
         let clip = self.clip(position);
         let beyond = |plane: &Vec4| i32::from(plane.dot(clip) < 0.0 || clip.is_nan());
-        match PLANES.iter().fold(0, |bits, plane| bits << 1 | beyond(plane)) {
+        match self.planes.iter().fold(0, |bits, plane| bits << 1 | beyond(plane)) {
             0 => self.project(clip),
             x => Corner { x, y: 0, depth: 0.0, inverse_w: 0.0 },
         }
@@ -91,7 +98,7 @@ impl Screen {
             .zip(weights)
             .map(|(clip, weights)| ClippedCorner { clip, weights })
             .collect();
-        for plane in PLANES {
+        for plane in self.planes {
             let sides: Vec<f32> = polygon.iter().map(|at| plane.dot(at.clip)).collect();
             let mut left = Vec::with_capacity(polygon.len() + 1);
             for (i, &here) in polygon.iter().enumerate() {
@@ -112,6 +119,12 @@ impl Screen {
         polygon.iter().map(|at| (self.project(at.clip), at.weights)).collect()
     }
 }
+
+/// Position of the far plane in [`PLANES`].
+const FAR: usize = 1;
+
+/// The plane through the eye along the picture: everything beyond the near plane is inside.
+const BEFORE_EYE: Vec4 = Vec4::W;
 
 /// Near and far plane, then the four planes of the guard band. A point is inside where the
 /// dot product with its clip coordinates is not negative.

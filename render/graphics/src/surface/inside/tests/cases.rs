@@ -1,0 +1,136 @@
+//! Counts where the eye, the planes of the camera or the number of surfaces make them hard.
+
+use glam::Vec3;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use super::scene::{Found, Scene, camera, wall};
+use super::shapes::Surfaces;
+use crate::surface::{Count, Crossings, Fragment, VisibilityBuffer};
+
+/// A wall 3 in front of an eye at the origin.
+fn before_wall(surfaces: Surfaces) -> Scene {
+    let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
+    Scene { mesh: wall(-3.0, 6.0, 4), surfaces, camera, size: (97, 61) }
+}
+
+fn agreed(scene: &Scene) -> Found {
+    let found = scene.compared();
+    assert!(found.wrong == 0 && found.differ * 500 <= found.samples, "{found:?}");
+    found
+}
+
+#[test]
+fn the_eye_may_stand_in_nested_surfaces() {
+    let random = &mut ChaCha8Rng::seed_from_u64(5);
+    for nested in [0, 1, 2, 5] {
+        let mut surfaces = Surfaces::default();
+        // The nested ones end before the wall or reach through it in turn.
+        for i in 0..nested {
+            let radius = if i % 2 == 0 { 4.5 } else { 0.5 };
+            surfaces.add_bumpy(Vec3::ZERO, radius * (1.0 + 0.1 * i as f32), random);
+        }
+        surfaces.add_bumpy(Vec3::new(0.4, 0.2, -3.0), 0.7, random);
+        let found = agreed(&before_wall(surfaces));
+        assert_eq!(found.most, 1 + (nested + 1) / 2, "{nested} nested: {found:?}");
+    }
+}
+
+#[test]
+fn the_near_plane_may_cut_a_surface() {
+    let mut surfaces = Surfaces::default();
+    surfaces.add_ball(Vec3::new(0.2, 0.1, -0.5), 0.47);
+    surfaces.add_ball(Vec3::new(0.3, 0.0, -1.7), 1.66);
+    let mut scene = before_wall(surfaces);
+    for near in [0.01, 0.05, 0.3, 1.0, 2.9] {
+        scene.camera.near = near;
+        assert_eq!(agreed(&scene).most, 1, "near {near}");
+    }
+}
+
+#[test]
+fn a_surface_may_lie_beyond_the_far_plane_or_reach_there() {
+    let mut surfaces = Surfaces::default();
+    surfaces.add_ball(Vec3::new(0.5, 0.0, -3.0), 0.8);
+    surfaces.add_ball(Vec3::new(-0.5, 0.0, -5.0), 1.0);
+    surfaces.add_ball(Vec3::ZERO, 100.0);
+    let mut scene = before_wall(surfaces);
+    scene.camera.far = 3.01;
+    assert_eq!(agreed(&scene).most, 2);
+    let inside = scene.counts().values().iter().filter(|&&count| count == 2).count();
+    assert!(inside > 200, "{inside}");
+}
+
+#[test]
+fn three_hundred_surfaces_count_three_hundred() {
+    for count in [256, 300] {
+        let mut surfaces = Surfaces::default();
+        for i in 0..count {
+            surfaces.add_ball(Vec3::new(0.0, 0.0, -3.0), 1.0 + i as f32 * 0.003);
+        }
+        let counts = before_wall(surfaces).counts();
+        assert_eq!(counts[(48, 30)], count);
+        assert_eq!(counts.values().iter().max(), Some(&count));
+        assert_eq!(counts[(0, 0)], 0);
+    }
+}
+
+/// A picture in which every pixel shows something on the near plane, so that no face is hidden
+/// from the count.
+fn without_depth((width, height): (usize, usize)) -> VisibilityBuffer {
+    let seen = Fragment { triangle: 0, second: 0.0, third: 0.0, depth: 0.0 };
+    VisibilityBuffer::filled(width, height, seen)
+}
+
+#[test]
+fn a_surface_wholly_before_the_camera_sums_to_nothing() {
+    let random = &mut ChaCha8Rng::seed_from_u64(6);
+    let size = (203, 121);
+    for eye in [Vec3::new(0.0, 0.0, 3.0), Vec3::new(1.5, 0.7, 1.9), Vec3::new(0.1, 2.6, 0.2)] {
+        let mut surfaces = Surfaces::default();
+        for _ in 0..20 {
+            surfaces.add_bumpy(Vec3::ZERO, 1.0, random);
+        }
+        for size in [size, (1, 1), (8, 8), (67, 33)] {
+            let seen = without_depth(size);
+            let camera = camera(eye, Vec3::new(0.2, 0.1, 0.0));
+            let sums = Crossings::default().sum(&Count, surfaces.closed(), &camera, &seen);
+            assert!(sums.values().iter().all(|&sum| sum == 0), "{eye}: {size:?}");
+        }
+    }
+}
+
+#[test]
+fn the_skin_itself_counts_from_the_side_of_the_eye() {
+    // Faces with the corners of the wall have its depth, bit for bit. The box behind the wall
+    // begins on it and does not hold it; the box before the wall ends on it and does.
+    let mut scene = before_wall(Surfaces::default());
+    scene.mesh = wall(-3.0, 1.0, 1);
+    scene.surfaces.add_box(Vec3::new(-1.0, -1.0, -4.0), Vec3::new(1.0, 1.0, -3.0));
+    assert!(scene.counts().values().iter().all(|&count| count == 0));
+    scene.surfaces.add_box(Vec3::new(-1.0, -1.0, -3.0), Vec3::new(1.0, 1.0, -2.0));
+    let (counts, visible) = (scene.counts(), scene.visible());
+    let inside = counts.values().iter().zip(visible.values());
+    assert!(inside.clone().all(|(&count, seen)| count == i32::from(*seen != Fragment::EMPTY)));
+    assert!(inside.filter(|(count, _)| **count == 1).count() > 300);
+}
+
+#[test]
+fn counts_do_not_depend_on_the_tessellation_of_the_scene() {
+    let random = &mut ChaCha8Rng::seed_from_u64(7);
+    let mut surfaces = Surfaces::default();
+    for i in 0..12 {
+        let at = Vec3::new(0.5 * (i % 4) as f32 - 0.8, 0.6 * (i / 4) as f32 - 0.5, -3.0);
+        surfaces.add_bumpy(at, 0.5, random);
+    }
+    let mut scene = before_wall(surfaces);
+    scene.camera = camera(Vec3::new(1.0, 0.6, 0.0), Vec3::new(0.0, 0.0, -3.0));
+    scene.size = (250, 190);
+    let [few, many] = [1, 100].map(|cells| {
+        scene.mesh = wall(-3.0, 6.0, cells);
+        scene.counts()
+    });
+    let differ = few.values().iter().zip(many.values()).filter(|(a, b)| a != b).count();
+    assert!(few.values().contains(&3));
+    assert!(differ * 2000 <= few.values().len(), "{differ}");
+}

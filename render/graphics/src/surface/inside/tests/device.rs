@@ -1,0 +1,208 @@
+//! Counting in the stencil of a graphics device, against the processor. Without a device the
+//! tests pass, with a note on standard error.
+
+use std::io::Write;
+
+use glam::Vec3;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use super::random_scenes::random_scene;
+use super::scene::{Scene, camera, wall};
+use super::shapes::Surfaces;
+use crate::compute::{Compute, Image};
+use crate::field::Field;
+use crate::gpu::{BackendChoice, choose};
+use crate::surface::{Fragment, InsideCounter, Model, PackedMesh, VisibilityBuffer};
+
+/// A device, hardware before software. Appends the name of the adapter (or `none`) to the file
+/// that the environment variable `IMPASTO_GPU_TESTS` names, if it is set.
+fn device() -> Option<Compute> {
+    let device = choose(BackendChoice::Gpu).ok().flatten();
+    let name = device.as_ref().map_or("none", |device| &device.adapter().name);
+    if let Some(path) = std::env::var_os("IMPASTO_GPU_TESTS") {
+        let mut list = std::fs::OpenOptions::new().append(true).create(true).open(path).unwrap();
+        writeln!(list, "{name}").unwrap();
+    }
+    if device.is_none() {
+        let _ = writeln!(std::io::stderr(), "no graphics adapter: not tested");
+    }
+    device.map(Compute::gpu)
+}
+
+impl Scene {
+    fn packed(&self) -> PackedMesh {
+        let mut mesh = self.mesh.clone();
+        let count = mesh.positions.len();
+        mesh.normals = vec![[0.0, 0.0, 1.0]; count];
+        mesh.texture_coordinates = vec![[0.0; 2]; count];
+        mesh.colors = vec![[1.0; 3]; count];
+        PackedMesh::new(&mesh)
+    }
+
+    fn counts_of(&self, compute: &mut Compute, counter: &mut InsideCounter) -> Field<i32> {
+        let Self { surfaces, camera, size, .. } = self;
+        let mut model = Model::new(compute, self.packed()).unwrap();
+        let visible = model.visible(compute, camera, size.0, size.1).unwrap();
+        let counts = counter.counts(compute, (&model, &visible), camera, surfaces.closed());
+        compute.download(&counts.unwrap()).unwrap()
+    }
+
+    fn weighed_of(&self, compute: &mut Compute, weights: &[i32]) -> Field<i32> {
+        let Self { surfaces, camera, size, .. } = self;
+        let mut model = Model::new(compute, self.packed()).unwrap();
+        let visible = model.visible(compute, camera, size.0, size.1).unwrap();
+        let weighed = (surfaces.closed(), weights);
+        let sums = InsideCounter::default().weighed(compute, &visible, camera, weighed);
+        compute.download(&sums.unwrap()).unwrap()
+    }
+}
+
+/// Number of values that differ. Panics at one that the other picture does not have within a
+/// pixel.
+fn differing(on_cpu: &Field<i32>, on_gpu: &Field<i32>, what: &str) -> usize {
+    let (width, height) = (on_cpu.width(), on_cpu.height());
+    assert_eq!((width, height), (on_gpu.width(), on_gpu.height()));
+    let mut differ = 0;
+    for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
+        let found = on_gpu[(x, y)];
+        if found != on_cpu[(x, y)] {
+            differ += 1;
+            let rows = y.saturating_sub(1)..(y + 2).min(height);
+            let left = x.saturating_sub(1);
+            let mut near = rows.flat_map(|row| on_cpu.row(row, left, (x + 2).min(width) - left));
+            let own = on_cpu[(x, y)];
+            assert!(near.any(|&count| count != own), "{what}: {x}, {y}: {found} for {own}");
+        }
+    }
+    differ
+}
+
+#[test]
+fn the_device_counts_as_the_processor_does() {
+    let Some(mut on_gpu) = device() else { return };
+    let mut counter = InsideCounter::default();
+    let (mut differ, mut all, mut most) = (0, 0, 0);
+    for (seed, size) in (60..72).zip([(97, 61), (256, 40), (1, 1), (8, 8), (67, 33)].iter().cycle())
+    {
+        let mut scene = random_scene(seed);
+        scene.size = *size;
+        let on_cpu = scene.counts_of(&mut Compute::cpu(), &mut InsideCounter::default());
+        let found = scene.counts_of(&mut on_gpu, &mut counter);
+        let here = differing(&on_cpu, &found, &format!("scene {seed}"));
+        differ += here;
+        all += on_cpu.values().len();
+        most = most.max(*on_cpu.values().iter().max().unwrap());
+    }
+    assert!(differ * 500 <= all && most > 2, "{differ} of {all}, up to {most}");
+}
+
+#[test]
+fn the_device_weighs_as_the_processor_does() {
+    let Some(mut on_gpu) = device() else { return };
+    let scatters = on_gpu.device().is_some_and(crate::gpu::Device::scatters);
+    if !scatters {
+        return;
+    }
+    let mut held = 0;
+    for seed in 80..84 {
+        let scene = random_scene(seed);
+        let weights: Vec<i32> =
+            (0..scene.surfaces.count as i32).map(|i| (i - 7) * 1_000_003).collect();
+        let on_cpu = scene.weighed_of(&mut Compute::cpu(), &weights);
+        let found = scene.weighed_of(&mut on_gpu, &weights);
+        let differ = differing(&on_cpu, &found, &format!("scene {seed}"));
+        assert!(differ * 500 <= on_cpu.values().len(), "scene {seed}: {differ}");
+        held += on_cpu.values().iter().filter(|&&sum| sum != 0).count();
+    }
+    assert!(held > 1000, "{held}");
+}
+
+#[test]
+fn the_device_counts_beyond_the_stencil() {
+    let Some(mut on_gpu) = device() else { return };
+    for (count, shuffled) in [(255, false), (256, false), (300, true), (600, false)] {
+        let mut surfaces = Surfaces::default();
+        for i in 0..count {
+            surfaces.add_ball(Vec3::new(0.0, 0.0, -3.0), 1.0 + i as f32 * 0.001);
+        }
+        if shuffled {
+            surfaces.triangles.reverse();
+        }
+        let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
+        let scene = Scene { mesh: wall(-3.0, 6.0, 4), surfaces, camera, size: (97, 61) };
+        let found = scene.counts_of(&mut on_gpu, &mut InsideCounter::default());
+        assert_eq!((found[(48, 30)], found[(0, 0)]), (count, 0));
+        assert_eq!(found.values().iter().max(), Some(&count));
+        let on_cpu = scene.counts();
+        let differ = differing(&on_cpu, &found, &format!("{count} balls"));
+        // Six hundred outlines lie close together.
+        assert!(differ * 50 <= on_cpu.values().len(), "{count}: {differ}");
+    }
+}
+
+#[test]
+fn planes_of_the_camera_do_not_change_what_the_device_counts() {
+    let Some(mut on_gpu) = device() else { return };
+    let random = &mut ChaCha8Rng::seed_from_u64(8);
+    let mut surfaces = Surfaces::default();
+    surfaces.add_bumpy(Vec3::new(0.0, 0.0, -0.2), 3.1, random);
+    surfaces.add_bumpy(Vec3::ZERO, 0.5, random);
+    surfaces.add_bumpy(Vec3::new(0.5, 0.0, -3.0), 0.8, random);
+    surfaces.add_bumpy(Vec3::new(-0.5, 0.0, -5.0), 1.0, random);
+    surfaces.add_bumpy(Vec3::ZERO, 100.0, random);
+    let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
+    let mut scene = Scene { mesh: wall(-3.0, 6.0, 4), surfaces, camera, size: (97, 61) };
+    for (near, far) in [(0.05, 20.0), (0.3, 3.01), (0.01, 4.0), (2.0, 3.5)] {
+        (scene.camera.near, scene.camera.far) = (near, far);
+        let (on_cpu, found) =
+            (scene.counts(), scene.counts_of(&mut on_gpu, &mut InsideCounter::default()));
+        let differ = differing(&on_cpu, &found, &format!("{near} to {far}"));
+        assert!(differ * 500 <= found.values().len(), "{near} to {far}: {differ}");
+        assert!(found.values().iter().all(|count| (1..=3).contains(count)));
+    }
+}
+
+#[test]
+fn without_depth_the_device_sums_a_whole_surface_to_nothing() {
+    let Some(mut on_gpu) = device() else { return };
+    if !on_gpu.device().is_some_and(crate::gpu::Device::scatters) {
+        return;
+    }
+    let random = &mut ChaCha8Rng::seed_from_u64(9);
+    let mut surfaces = Surfaces::default();
+    for _ in 0..20 {
+        surfaces.add_bumpy(Vec3::ZERO, 1.0, random);
+    }
+    let camera = camera(Vec3::new(1.5, 0.7, 1.9), Vec3::new(0.2, 0.1, 0.0));
+    let weights: Vec<i32> = (1..=20).map(|i| i * i).collect();
+    // Seen on the near plane, so that no face is before it.
+    let seen = Fragment { triangle: 0, second: 0.0, third: 0.0, depth: 0.0 };
+    let seen = VisibilityBuffer::filled(203, 121, seen);
+    let visible: Image<Fragment> = on_gpu.upload(&seen).unwrap();
+    let weighed = (surfaces.closed(), &weights[..]);
+    let sums = InsideCounter::default().weighed(&mut on_gpu, &visible, &camera, weighed).unwrap();
+    assert!(on_gpu.download(&sums).unwrap().values().iter().all(|&sum| sum == 0));
+    // The stencil, without depth: the wall is nearer than everything.
+    let near_wall = wall(1.0, 0.5, 1);
+    let mut scene = Scene { mesh: near_wall, surfaces, camera, size: (203, 121) };
+    scene.camera = super::scene::camera(Vec3::new(0.0, 0.0, 1.06), Vec3::ZERO);
+    scene.surfaces.vertices.iter_mut().for_each(|at| at[2] -= 2.0);
+    let counts = scene.counts_of(&mut on_gpu, &mut InsideCounter::default());
+    assert!(counts.values().iter().all(|&count| count == 0));
+}
+
+#[test]
+fn surfaces_may_be_absent_and_sizes_are_checked() {
+    let Some(mut on_gpu) = device() else { return };
+    let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
+    let surfaces = Surfaces::default();
+    let scene = Scene { mesh: wall(-3.0, 6.0, 4), surfaces, camera, size: (31, 7) };
+    let counts = scene.counts_of(&mut on_gpu, &mut InsideCounter::default());
+    assert!(counts.values().iter().all(|&count| count == 0));
+    let Compute::Gpu(gpu) = &on_gpu else { panic!("a device") };
+    for size in [(0, 4), (4, 0), (1 << 20, 4)] {
+        let refused = gpu.device().stencil_target(size.0, size.1);
+        assert!(refused.unwrap_err().to_string().contains("its sides may be of 1 to"));
+    }
+}
