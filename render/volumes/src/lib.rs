@@ -31,3 +31,10 @@ pub mod world;
 
 #[cfg(test)]
 mod test_surfaces;
+pub mod hatching;
+
+pub mod drawing;
+
+mod kernels;
+
+pub use kernels::kernels;

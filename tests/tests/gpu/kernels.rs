@@ -3,12 +3,12 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use render::gpu::{Kernel, Layout, Storage};
-use render::{graphics_kernels, paint, painterly, watercolor};
+use render::{graphics_kernels, paint, painterly, volumes, watercolor};
 
-/// The kernels of graphics, paint, watercolour and models in brushwork.
+/// The kernels of graphics, paint, watercolour, models in brushwork and paint volumes.
 fn kernels() -> Vec<&'static Kernel> {
     let own = [graphics_kernels(), paint::engine::kernels()];
-    [own.concat(), watercolor::kernels(), painterly::kernels()].concat()
+    [own.concat(), watercolor::kernels(), painterly::kernels(), volumes::kernels()].concat()
 }
 
 fn parsed(kernel: &Kernel) -> naga::Module {

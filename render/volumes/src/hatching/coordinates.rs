@@ -1,0 +1,263 @@
+//! Where strokes lie on a surface: the model's own texture coordinates, or three planes.
+
+use glam::{Vec2, Vec3};
+use graphics::camera::Camera;
+use graphics::surface::{Fragment, PackedMesh};
+
+use super::look::{Coordinates, HatchingLook};
+
+/// Tiles of strokes along the longest side of a model, for the three planes.
+const TILES: f32 = 2.0;
+
+/// Share of the greatest component of a normal at which a plane begins to count.
+const PLANE_FROM: f32 = 0.8;
+
+/// Least cosine between sight and surface that strokes follow; beyond they lie closer together.
+const LEAST_COSINE: f32 = 0.12;
+
+/// Greatest stretch of coordinates, length along u to that along v or back, that is useful.
+const MOST_STRETCH: f32 = 4.0;
+
+/// Share of a model's area whose coordinates must be useful.
+const USEFUL_SHARE: f32 = 0.9;
+
+/// A place on the tile of strokes, and how much one plane counts there.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Patch {
+    pub(crate) u: f32,
+    pub(crate) v: f32,
+    /// Change of u from pixel to pixel, at most.
+    pub(crate) u_per_px: f32,
+    /// Change of v from pixel to pixel, at most.
+    pub(crate) v_per_px: f32,
+    /// 0 to 1.
+    pub(crate) weight: f32,
+}
+
+/// How places of a model are laid on the tile, seen by a camera.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placing {
+    pub(crate) coordinates: Coordinates,
+    pub(crate) eye: Vec3,
+    /// Size of a pixel at distance 1 from the eye.
+    pub(crate) pixel: f32,
+    /// Tiles per unit of the model.
+    pub(crate) tiles: f32,
+    /// Where the tiles of the three planes begin: the lowest corner of the model.
+    pub(crate) origin: Vec3,
+    /// Cosine and sine of the strokes' angle in the planes.
+    pub(crate) turn: Vec2,
+}
+
+impl Placing {
+    /// Places for a picture `height_px` pixels high.
+    pub(crate) fn new(
+        look: &HatchingLook,
+        (mesh_is_useful, bounds): (bool, [Vec3; 2]),
+        camera: &Camera,
+        height_px: usize,
+    ) -> Self {
+        let by_mesh = if mesh_is_useful { Coordinates::Own } else { Coordinates::ThreePlanes };
+        let half = (camera.field_of_view_deg / 2.0).to_radians().tan();
+        let longest = (bounds[1] - bounds[0]).max_element();
+        Self {
+            coordinates: look.coordinates.unwrap_or(by_mesh),
+            eye: camera.eye,
+            pixel: 2.0 * half / height_px.max(1) as f32,
+            tiles: TILES / longest.max(f32::MIN_POSITIVE),
+            origin: bounds[0],
+            turn: Vec2::from_angle(look.angle_deg.to_radians()),
+        }
+    }
+
+    /// The patches of a point with a unit normal towards the eye; unused ones weigh 0. The change
+    /// of u is told only if strokes are `crossed`.
+    #[inline(always)]
+    pub(crate) fn patches(
+        &self,
+        mesh: &PackedMesh,
+        fragment: Fragment,
+        (position, normal): (Vec3, Vec3),
+        crossed: bool,
+    ) -> [Patch; 3] {
+        let sight = Sight::new(position - self.eye, normal, self.pixel);
+        match self.coordinates {
+            Coordinates::Own => {
+                [own(mesh, fragment, &sight, crossed), Patch::default(), Patch::default()]
+            }
+            Coordinates::ThreePlanes => self.planes(position, normal, &sight, crossed),
+        }
+    }
+
+    #[inline(always)]
+    fn planes(&self, position: Vec3, normal: Vec3, sight: &Sight, crossed: bool) -> [Patch; 3] {
+        let facing = normal.abs();
+        let least = PLANE_FROM * facing.max_element();
+        let weights = (facing - least).max(Vec3::ZERO);
+        let weights = weights / (weights.x + weights.y + weights.z).max(f32::MIN_POSITIVE);
+        let at = (position - self.origin) * self.tiles;
+        // Strokes fall from right to left on every side of a model that stands upright.
+        let plane = |weight: f32, right: Vec3, up: Vec3| {
+            if weight <= 0.0 {
+                return Patch::default();
+            }
+            let along_u = right * self.turn.x + up * self.turn.y;
+            let along_v = up * self.turn.x - right * self.turn.y;
+            Patch {
+                u: along_u.dot(at),
+                v: along_v.dot(at),
+                u_per_px: if crossed { sight.per_px(along_u) * self.tiles } else { 0.0 },
+                v_per_px: sight.per_px(along_v) * self.tiles,
+                weight,
+            }
+        };
+        [
+            plane(weights.x, -Vec3::Z * side(normal.x), Vec3::Y),
+            plane(weights.y, Vec3::X, -Vec3::Z * side(normal.y)),
+            plane(weights.z, Vec3::X * side(normal.z), Vec3::Y),
+        ]
+    }
+}
+
+#[inline(always)]
+fn side(component: f32) -> f32 {
+    if component < 0.0 { -1.0 } else { 1.0 }
+}
+
+/// How a pixel grows on the surface that it shows.
+struct Sight {
+    ray: Vec3,
+    normal: Vec3,
+    /// Cosine between ray and normal, negative.
+    cosine: f32,
+    /// Size of the pixel at the surface, if that faced the eye.
+    pixel: f32,
+}
+
+impl Sight {
+    #[inline(always)]
+    fn new(from_eye: Vec3, normal: Vec3, pixel: f32) -> Self {
+        let distance = from_eye.length();
+        let ray = from_eye / distance.max(f32::MIN_POSITIVE);
+        let cosine = ray.dot(normal).min(-LEAST_COSINE);
+        Self { ray, normal, cosine, pixel: pixel * distance }
+    }
+
+    /// Change from pixel to pixel, at most, of a value with this gradient: along the surface,
+    /// across the ray.
+    #[inline(always)]
+    fn per_px(&self, gradient: Vec3) -> f32 {
+        let seen = gradient - self.normal * (gradient.dot(self.ray) / self.cosine);
+        seen.length() * self.pixel
+    }
+}
+
+/// The place in the model's own coordinates.
+#[inline(always)]
+fn own(mesh: &PackedMesh, fragment: Fragment, sight: &Sight, crossed: bool) -> Patch {
+    let [a, b, c] = mesh.triangles[fragment.triangle as usize]
+        .corners
+        .map(|corner| &mesh.vertices[corner as usize]);
+    let [to_b, to_c] = [b, c].map(|to| Vec3::from(to.position) - Vec3::from(a.position));
+    let [du, dv] = [[b.u - a.u, c.u - a.u], [b.v - a.v, c.v - a.v]];
+    let [along_u, along_v] = gradients([to_b, to_c], [du, dv]);
+    Patch {
+        u: a.u + du[0] * fragment.second + du[1] * fragment.third,
+        v: a.v + dv[0] * fragment.second + dv[1] * fragment.third,
+        u_per_px: if crossed { sight.per_px(along_u) } else { 0.0 },
+        v_per_px: sight.per_px(along_v),
+        weight: 1.0,
+    }
+}
+
+/// Gradients in the plane of a triangle of values that change along two of its edges; 0 on a
+/// triangle without area.
+#[inline(always)]
+fn gradients([to_b, to_c]: [Vec3; 2], changes: [[f32; 2]; 2]) -> [Vec3; 2] {
+    let normal = to_b.cross(to_c);
+    let area = normal.dot(normal);
+    let by = if area > 0.0 { 1.0 / area } else { 0.0 };
+    let [of_b, of_c] = [to_c.cross(normal) * by, normal.cross(to_b) * by];
+    changes.map(|[second, third]| of_b * second + of_c * third)
+}
+
+/// Whether texture coordinates lie on the surface without much stretch nearly everywhere, so that
+/// strokes can follow them.
+#[must_use]
+pub fn has_useful_coordinates(mesh: &PackedMesh) -> bool {
+    let (mut useful, mut all) = (0.0, 0.0);
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.corners.map(|corner| &mesh.vertices[corner as usize]);
+        let edges = [b, c].map(|to| Vec3::from(to.position) - Vec3::from(a.position));
+        let changes = [[b.u - a.u, c.u - a.u], [b.v - a.v, c.v - a.v]];
+        let [u, v] = gradients(edges, changes);
+        let area = edges[0].cross(edges[1]).length();
+        // Squares of the singular values of the map: half the sum, and their product.
+        let half = 0.5 * (u.length_squared() + v.length_squared());
+        let product = u.length_squared() * v.length_squared() - u.dot(v).powi(2);
+        let root = (half * half - product).max(0.0).sqrt();
+        all += area;
+        if half - root > 0.0 && half + root <= MOST_STRETCH.powi(2) * (half - root) {
+            useful += area;
+        }
+    }
+    all > 0.0 && useful >= USEFUL_SHARE * all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use graphics::mesh::Mesh;
+
+    fn camera() -> Camera {
+        Camera {
+            eye: Vec3::Z * 10.0,
+            target: Vec3::ZERO,
+            up: Vec3::Y,
+            field_of_view_deg: 30.0,
+            near: 0.1,
+            far: 30.0,
+        }
+    }
+
+    #[test]
+    fn strokes_follow_a_plane_as_the_pixels_see_it() {
+        let look = HatchingLook { angle_deg: 0.0, ..HatchingLook::default() };
+        let bounds = [-Vec3::ONE, Vec3::ONE];
+        let placing = Placing::new(&look, (false, bounds), &camera(), 570);
+        let mesh = PackedMesh::new(&Mesh::default());
+        let fragment = Fragment::EMPTY;
+        let [_, _, facing] = placing.patches(&mesh, fragment, (Vec3::ZERO, Vec3::Z), true);
+        assert_eq!(facing.weight, 1.0);
+        // A tile is one unit, 10 away: its pixels by the lens.
+        let wanted = 10.0 * 2.0 * 15.0_f32.to_radians().tan() / 570.0;
+        assert!((facing.u_per_px / wanted - 1.0).abs() < 1e-5);
+        assert!((facing.v_per_px / wanted - 1.0).abs() < 1e-5);
+        // A floor seen at 30 degrees: depth passes twice as fast.
+        let tilted = Vec3::new(0.0, 0.75_f32.sqrt(), 0.5);
+        let [_, floor, _] = placing.patches(&mesh, fragment, (Vec3::ZERO, tilted), true);
+        assert_eq!(floor.weight, 1.0);
+        assert!((floor.u_per_px / wanted - 1.0).abs() < 1e-5);
+        let slope = 3.0_f32.sqrt();
+        assert!((floor.v_per_px / wanted / slope - 1.0).abs() < 1e-5, "{floor:?}");
+        // Planes pass into each other with weights that sum to 1.
+        let corner = Vec3::ONE.normalize();
+        let weights =
+            placing.patches(&mesh, fragment, (Vec3::ZERO, corner), true).map(|at| at.weight);
+        assert!((weights.iter().sum::<f32>() - 1.0).abs() < 1e-6 && weights[0] > 0.3);
+    }
+
+    #[test]
+    fn coordinates_are_useful_where_they_lie_flat() {
+        let mut sheet =
+            Mesh { materials: vec![graphics::mesh::Material::plain([1.0; 3])], ..Mesh::default() };
+        let cells = graphics::mesh::GridSize { columns: 4, rows: 4 };
+        sheet.add_grid(cells, 0, |uv| Vec3::new(uv.x, -uv.y, 0.0));
+        assert!(has_useful_coordinates(&PackedMesh::new(&sheet)));
+        sheet.texture_coordinates.iter_mut().for_each(|uv| uv[0] *= 5.0);
+        assert!(!has_useful_coordinates(&PackedMesh::new(&sheet)));
+        sheet.texture_coordinates.iter_mut().for_each(|uv| *uv = [0.0; 2]);
+        assert!(!has_useful_coordinates(&PackedMesh::new(&sheet)));
+        assert!(!has_useful_coordinates(&PackedMesh::new(&Mesh::default())));
+    }
+}

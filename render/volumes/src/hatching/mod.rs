@@ -1,0 +1,28 @@
+//! Real-time hatching that conveys light: a texture of pencil strokes, and how much ink it puts
+//! on a point of a surface.
+//!
+//! Praun, Hoppe, Webb and Finkelstein, "Real-time hatching" (2001): strokes of a lighter tone are
+//! in all darker ones, strokes of a coarser level in all finer ones. Webb, Praun, Finkelstein and
+//! Hoppe, "Fine tone control in hardware hatching" (2002): a texture of thresholds holds all tones
+//! at once.
+
+mod strokes;
+
+mod threshold;
+
+mod look;
+
+mod coordinates;
+
+mod ink;
+
+mod uploaded;
+
+pub use coordinates::has_useful_coordinates;
+pub use ink::{DIRECTIONS_MEET, crossed_tones};
+pub use look::{Coordinates, HatchingLook};
+pub use threshold::{COARSEST_SIDE, FINEST_SIDE, LEVELS, ThresholdTexture};
+pub use uploaded::Hatching;
+
+pub(crate) use coordinates::Placing;
+pub(crate) use ink::Inking;
