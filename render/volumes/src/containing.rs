@@ -83,6 +83,12 @@ impl Inside {
         Exit { face, distance }
     }
 
+    /// Centre in the unit of the scene.
+    #[must_use]
+    pub fn center(&self) -> DVec3 {
+        self.center
+    }
+
     /// Distance of the farthest vertex from the centre, in the unit of the scene.
     #[must_use]
     pub fn farthest(&self) -> f64 {

@@ -38,3 +38,7 @@ pub mod drawing;
 mod kernels;
 
 pub use kernels::kernels;
+pub mod surfaces;
+
+
+pub mod pigments;

@@ -1,6 +1,8 @@
-//! Volumes for tests.
+//! Volumes and scenes for tests.
 
 use glam::{DVec3, Vec3};
+use graphics::camera::Camera;
+use graphics::mesh::{Material, Mesh, Triangle};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -33,4 +35,35 @@ pub(crate) fn bumpy(center: Vec3, radius: f32, detail: u8, seed: u64) -> Volume 
         assert!(a.cross(b).dot(c) > 0.0, "a cone is turned inside out");
     }
     volume
+}
+
+/// A plane from (0, 0, 0) to (4, 4, 0) that faces along z, of `2 * count * count` triangles.
+pub(crate) fn plane(count: usize) -> Mesh {
+    let side = count + 1;
+    let at = |i: usize| [i % side, i / side].map(|at| 4.0 * at as f32 / count as f32);
+    let positions: Vec<[f32; 3]> = (0..side * side).map(|i| [at(i)[0], at(i)[1], 0.0]).collect();
+    let squares = (0..count * count).map(|i| (i % count + i / count * side) as u32);
+    let (right, up) = (1, side as u32);
+    let pair = |a: u32| {
+        let corners = [[a, a + right, a + right + up], [a, a + right + up, a + up]];
+        corners.map(|corners| Triangle { corners, material: 0 })
+    };
+    Mesh {
+        texture_coordinates: (0..side * side).map(|i| at(i).map(|value| value / 4.0)).collect(),
+        colors: vec![[1.0; 3]; side * side],
+        normals: vec![[0.0, 0.0, 1.0]; side * side],
+        triangles: squares.flat_map(pair).collect(),
+        materials: vec![Material::plain([1.0; 3])],
+        positions,
+    }
+}
+
+/// A camera that looks at the middle of [`plane`] from a distance, turned about the vertical by
+/// some degrees.
+pub(crate) fn camera(turned_deg: f32, distance: f32) -> Camera {
+    let target = Vec3::new(2.0, 2.0, 0.0);
+    let (sin, cos) = turned_deg.to_radians().sin_cos();
+    let eye = target + distance * Vec3::new(sin, 0.0, cos);
+    let up = Vec3::Y;
+    Camera { eye, target, up, field_of_view_deg: 40.0, near: 0.05 * distance, far: 3.0 * distance }
 }

@@ -1,0 +1,189 @@
+use graphics::mesh::SampleModel;
+use graphics::surface::visible;
+use paint::amount::mm_from_quanta;
+use paint::layer::{Cell, SLOTS};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::*;
+use crate::containing::Inside;
+use crate::pigments::FilmSum;
+use crate::test_volumes::{bumpy, camera, plane};
+use crate::wetting::SurfaceSamples;
+
+/// Side of a cell of the grid.
+const CELL: f32 = 1.0 / 3.0;
+
+const SCALE: FilmScale = FilmScale { quantum_mm3: 3e-7, unit_mm: 20.0, cell_mm: 0.2 };
+
+/// A plane with overlapping volumes on it.
+struct Poured {
+    mesh: PackedMesh,
+    samples: SurfaceSamples,
+    visible: Vec<(Camera, VisibilityBuffer)>,
+    volumes: Vec<Volume>,
+}
+
+impl Poured {
+    /// Seen from these cameras in pictures of this size.
+    fn new(cameras: &[Camera], (width, height): (usize, usize)) -> Self {
+        let mesh = plane(24);
+        let samples = SurfaceSamples::of(&mesh, CELL, 5).unwrap();
+        let random = &mut ChaCha8Rng::seed_from_u64(8);
+        let volumes: Vec<Volume> = (0..9)
+            .map(|seed| {
+                let mut within = |low: f32, high: f32| random.random_range(low..high);
+                let center = Vec3::new(within(0.9, 3.1), within(0.9, 3.1), within(-0.1, 0.1));
+                let mut volume = bumpy(center, within(0.25, 0.6), 2, seed);
+                let mut pigments = [0; SLOTS];
+                pigments[seed as usize % 3] = (within(1.0, 4.0) * 1e6) as u32;
+                volume.paint = Cell { pigments, vehicle: 600_000 };
+                volume
+            })
+            .collect();
+        let sight = |camera: &Camera| (*camera, visible(&mesh, camera, width, height));
+        let visible = cameras.iter().map(sight).collect();
+        Self { mesh: PackedMesh::new(&mesh), samples, visible, volumes }
+    }
+
+    fn films(&self) -> Vec<Film> {
+        let surface = SampledSurface::from(&self.samples);
+        let lattice = SampleLattice::of(surface.places, CELL);
+        let facing = vec![Vec3::Z; self.volumes.len()];
+        let profile = FilmProfile::default();
+        Film::of_volumes(&self.volumes, &facing, profile, (&surface, &lattice), &SCALE)
+    }
+
+    fn heights(&self, sight: usize) -> Field<FilmHeights> {
+        let surface = SampledSurface::from(&self.samples);
+        let profile = FilmProfile::default();
+        let mut counter = FilmCounter::new(&self.mesh, &surface, CELL, profile, SCALE);
+        let (camera, visible) = &self.visible[sight];
+        let facing = vec![Vec3::Z; self.volumes.len()];
+        let poured = (&self.volumes[..], &facing[..]);
+        counter.heights((&self.mesh, &surface), poured, FilmKind::Surface, camera, visible)
+    }
+}
+
+#[test]
+fn the_film_of_a_picture_face_on_is_the_paint_poured() {
+    let distance = 5.6;
+    let (width, height) = (375, 285);
+    let poured = Poured::new(&[camera(0.0, distance)], (width, height));
+    let heights = poured.heights(0);
+    let pixel_mm =
+        f64::from(2.0 * distance * 20_f32.to_radians().tan() / height as f32) * SCALE.unit_mm;
+    for slot in [0, 1, 2, SLOTS] {
+        let sum: f64 = heights.values().iter().map(|heights| f64::from(heights.0[slot])).sum();
+        let laid = sum * mm_from_quanta(1, SCALE.cell_mm) * pixel_mm * pixel_mm;
+        let quanta = |cell: &Cell| if slot < SLOTS { cell.pigments[slot] } else { cell.vehicle };
+        let all: f64 = poured.volumes.iter().map(|volume| f64::from(quanta(&volume.paint))).sum();
+        let ratio = laid / (all * SCALE.quantum_mm3);
+        assert!((0.98..1.02).contains(&ratio), "{slot}: {ratio}");
+    }
+}
+
+#[test]
+fn the_films_on_a_still_life_are_the_paint_poured() {
+    let mesh = SampleModel::StillLife.mesh(6000);
+    let [low, high] = mesh.bounds();
+    let cell = (high - low).max_element() / 12.0;
+    let samples = SurfaceSamples::of(&mesh, cell, 5).unwrap();
+    let surface = SampledSurface::from(&samples);
+    let lattice = SampleLattice::of(surface.places, cell);
+    let pick = |at: usize| (at * 7919 + 11) % samples.len();
+    let volumes: Vec<Volume> = (0..40)
+        .map(|at| {
+            let radius = cell * (0.5 + 0.02 * at as f32);
+            let mut volume = bumpy(samples.places[pick(at)], radius, 2, at as u64);
+            volume.paint = Cell { pigments: [0; SLOTS], vehicle: 2_000_000 };
+            volume
+        })
+        .collect();
+    let facing: Vec<Vec3> = (0..40).map(|at| samples.normals[pick(at)]).collect();
+    let profile = FilmProfile::default();
+    let films = Film::of_volumes(&volumes, &facing, profile, (&surface, &lattice), &SCALE);
+    let insides: Vec<Inside> = volumes.iter().map(Inside::of).collect();
+    let sum = FilmSum { films: &films, insides: &insides };
+    // Other samples, 25 times as many.
+    let fine = SurfaceSamples::of(&mesh, 0.2 * cell, 6).unwrap();
+    let patch_mm2 = f64::from(fine.areas[0]) * SCALE.unit_mm * SCALE.unit_mm;
+    let height = |at: usize| f64::from(sum.at(fine.places[at], fine.normals[at]).0[SLOTS]);
+    let heights: f64 = (0..fine.len()).map(height).sum();
+    let laid = heights * mm_from_quanta(1, SCALE.cell_mm) * patch_mm2;
+    let ratio = laid / (40.0 * 2e6 * SCALE.quantum_mm3);
+    assert!((0.98..1.02).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn counted_films_are_those_of_the_volumes_that_hold_each_place() {
+    let poured = Poured::new(&[camera(25.0, 5.0), camera(-60.0, 2.5)], (97, 61));
+    let insides: Vec<Inside> = poured.volumes.iter().map(Inside::of).collect();
+    let films = poured.films();
+    let sum = FilmSum { films: &films, insides: &insides };
+    let facets = Facets::of(&poured.mesh);
+    for sight in 0..2 {
+        let seen = SeenPlaces::of(&poured.mesh, &facets, &poured.visible[sight].1);
+        let heights = poured.heights(sight);
+        let (mut off, mut covered) = (0, 0);
+        for (pixel, found) in heights.values().iter().enumerate() {
+            let (place, normal) = seen.at(pixel);
+            let wanted = sum.at(place, normal);
+            off += usize::from(*found != wanted);
+            covered += usize::from(wanted != FilmHeights::default());
+        }
+        // Places at the skins, whose depth is that of a face to rounding.
+        assert!(off <= 2, "{off} of {covered} in sight {sight}");
+        assert!(covered > 800, "{covered}");
+    }
+}
+
+#[test]
+fn heights_stay_at_their_places_when_the_picture_turns() {
+    let size = (375, 285);
+    let poured = Poured::new(&[camera(0.0, 5.6), camera(60.0, 5.0)], size);
+    let (straight, turned) = (poured.heights(0), poured.heights(1));
+    let clip = poured.visible[0].0.clip_from_model(size.0 as f32 / size.1 as f32);
+    let facets = Facets::of(&poured.mesh);
+    let seen = SeenPlaces::of(&poured.mesh, &facets, &poured.visible[1].1);
+    let (mut off, mut all, mut compared) = (0.0, 0.0, 0);
+    for (pixel, heights) in turned.values().iter().enumerate() {
+        let (place, _) = seen.at(pixel);
+        if heights.0[SLOTS] == 0 || place.is_nan() {
+            continue;
+        }
+        let at = clip.project_point3(place);
+        let x = (0.5 + 0.5 * at.x) * size.0 as f32 - 0.5;
+        let y = (0.5 - 0.5 * at.y) * size.1 as f32 - 0.5;
+        let (column, row) = (x as usize, y as usize);
+        let around = [(0, 0), (1, 0), (0, 1), (1, 1)];
+        let around = around.map(|(right, down)| straight[(column + right, row + down)].0[SLOTS]);
+        // Where a pixel's neighbours are held by other volumes there is a step between them.
+        let [least, most] = [around.iter().min(), around.iter().max()].map(|one| *one.unwrap());
+        if f64::from(most - least) > 0.1 * f64::from(most) {
+            continue;
+        }
+        let [a, b, c, d] = around.map(|height| height as f32);
+        let (u, v) = (x.fract(), y.fract());
+        let (above, below) = (a + (b - a) * u, c + (d - c) * u);
+        let wanted = f64::from(above + (below - above) * v);
+        off += (f64::from(heights.0[SLOTS]) - wanted).abs();
+        all += wanted;
+        compared += 1;
+    }
+    assert!(compared > 10_000, "{compared}");
+    assert!(off <= 0.01 * all, "{} of the heights", off / all);
+}
+
+#[test]
+fn places_outside_of_all_volumes_have_no_film_to_the_quantum_on_any_threads() {
+    let poured = Poured::new(&[camera(-40.0, 4.0)], (160, 120));
+    let heights = poured.heights(0);
+    let none = heights.values().iter().filter(|heights| **heights == FilmHeights::default());
+    assert!(none.count() > 4000);
+    assert!(heights.values().iter().all(|heights| heights.0.iter().all(|&height| height >= 0)));
+    for threads in [1, 2, 8] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| poured.heights(0)), heights);
+    }
+}

@@ -1,0 +1,75 @@
+//! The picture of the scene that films are laid over.
+
+use graphics::field::Field;
+
+use super::film::FilmHeights;
+
+/// What lies under the films of volumes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum UnderPainting {
+    /// The scene in grey, in white and black paint.
+    #[default]
+    Grisaille,
+    /// The colours of the scene in mixtures of a palette.
+    OwnColors,
+    /// The bare ground.
+    None,
+}
+
+/// What volumes show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum InsidePaint {
+    /// The colours of the scene, as in the paper.
+    OwnColors,
+    /// The film of their own pigments over what lies under it everywhere.
+    #[default]
+    Glaze,
+    /// The film of their pigments over the colours of the scene.
+    Both,
+}
+
+impl InsidePaint {
+    /// Whether volumes show the colours of the scene.
+    #[must_use]
+    pub fn has_own_colors(self) -> bool {
+        self != Self::Glaze
+    }
+
+    /// Whether volumes show a film of their pigments.
+    #[must_use]
+    pub fn has_films(self) -> bool {
+        self != Self::OwnColors
+    }
+}
+
+/// A picture of the scene without its volumes, with what they do to it. All fields have the same
+/// size, one value for each cell of the painting.
+#[derive(Debug, Clone, Copy)]
+pub struct Drawing<'a> {
+    /// Encoded sRGB of the scene, lit and textured but not hatched, with its grey as the fourth
+    /// value, 0..1.
+    pub color: &'a Field<[f32; 4]>,
+    /// Share of each cell that shows the scene, 0..1; all of it if left out.
+    pub cover: Option<&'a Field<f32>>,
+    /// Ink of the hatching, 0..1; none if left out.
+    pub ink: Option<&'a Field<f32>>,
+    /// Share of each cell that shows the inside of volumes, 0..1; none if left out.
+    pub tint: Option<&'a Field<f32>>,
+    /// Heights of the volumes' films; none if left out.
+    pub films: Option<&'a Field<FilmHeights>>,
+}
+
+impl Drawing<'_> {
+    /// Width and height in cells.
+    ///
+    /// # Panics
+    /// If a field differs in size.
+    pub(super) fn size(&self) -> (usize, usize) {
+        let bounds = self.color.bounds();
+        let greys = [self.cover, self.ink, self.tint];
+        let fits = greys.into_iter().flatten().all(|field| field.bounds() == bounds);
+        let fits = fits && self.films.is_none_or(|films| films.bounds() == bounds);
+        assert!(fits, "the fields of a drawing differ in size");
+        (self.color.width(), self.color.height())
+    }
+}

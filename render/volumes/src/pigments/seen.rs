@@ -1,0 +1,68 @@
+//! The places of a scene that a picture shows.
+
+use glam::Vec3;
+use graphics::field::Field;
+use graphics::surface::{NO_TRIANGLE, PackedMesh, SurfacePoint, VisibilityBuffer};
+use rayon::prelude::*;
+
+/// Pixels that share the work of one thread at least.
+const PIXELS: usize = 8192;
+
+/// Normals of the triangles of a scene, which do not depend on the view.
+#[derive(Debug, Clone)]
+pub struct Facets {
+    /// Of length 1, on the side of the normals of the corners; zero for triangles without area.
+    normals: Vec<Vec3>,
+}
+
+impl Facets {
+    /// The normals of all triangles of `mesh`.
+    #[must_use]
+    pub fn of(mesh: &PackedMesh) -> Self {
+        let normal = |corners: [u32; 3]| {
+            let corners = corners.map(|corner| &mesh.vertices[corner as usize]);
+            let [a, b, c] = corners.map(|corner| Vec3::from(corner.position));
+            let facet = (b - a).cross(c - a).normalize_or_zero();
+            let side: Vec3 = corners.iter().map(|corner| Vec3::from(corner.normal)).sum();
+            if side.dot(facet) < 0.0 { -facet } else { facet }
+        };
+        let triangles = mesh.triangles.par_iter().with_min_len(PIXELS);
+        Self { normals: triangles.map(|triangle| normal(triangle.corners)).collect() }
+    }
+}
+
+/// The place and the triangle that each pixel shows.
+#[derive(Debug, Clone)]
+pub struct SeenPlaces<'a> {
+    /// Places in the unit of the scene; no numbers where nothing is seen.
+    pub places: Field<Vec3>,
+    visible: &'a VisibilityBuffer,
+    facets: &'a Facets,
+}
+
+impl<'a> SeenPlaces<'a> {
+    /// The places of `mesh`, whose normals are `facets`, that `visible` shows.
+    ///
+    /// # Panics
+    /// If `visible` shows a triangle that the mesh does not have.
+    #[must_use]
+    pub fn of(mesh: &PackedMesh, facets: &'a Facets, visible: &'a VisibilityBuffer) -> Self {
+        let place = |fragment: &graphics::surface::Fragment| match fragment.triangle {
+            NO_TRIANGLE => Vec3::NAN,
+            _ => SurfacePoint::new(mesh, *fragment).position(),
+        };
+        let places = visible.values().par_iter().with_min_len(PIXELS).map(place).collect();
+        let places = Field::from_values(visible.width(), visible.height(), places);
+        Self { places, visible, facets }
+    }
+
+    /// What the pixel with this index, counted row by row, shows: a place and the normal of its
+    /// triangle. The place is no number where nothing is seen.
+    #[must_use]
+    #[inline]
+    pub fn at(&self, pixel: usize) -> (Vec3, Vec3) {
+        let triangle = self.visible.values()[pixel].triangle as usize;
+        let normal = self.facets.normals.get(triangle).copied().unwrap_or(Vec3::ZERO);
+        (self.places.values()[pixel], normal)
+    }
+}

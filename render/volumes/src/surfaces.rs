@@ -1,0 +1,81 @@
+//! The faces of many volumes in one list, for counting and drawing.
+
+use glam::Vec3;
+use graphics::mesh::Triangle;
+
+use crate::volume::Volume;
+
+/// The closed surfaces of volumes as triangles. The material of a triangle is the index of its
+/// volume.
+#[derive(Debug, Clone, Default)]
+pub struct VolumeSurfaces {
+    /// Places of the vertices, volume by volume, in the unit of the scene.
+    pub vertices: Vec<[f32; 3]>,
+    /// The faces, volume by volume, counter-clockwise seen from outside.
+    pub triangles: Vec<Triangle>,
+}
+
+impl VolumeSurfaces {
+    /// The faces of these volumes.
+    #[must_use]
+    pub fn of(volumes: &[Volume]) -> Self {
+        let mut surfaces = Self::default();
+        surfaces.update(volumes);
+        surfaces
+    }
+
+    /// Normals of the vertices, of length 1: means of those of their faces by area.
+    #[must_use]
+    pub fn normals(&self) -> Vec<Vec3> {
+        let mut normals = vec![Vec3::ZERO; self.vertices.len()];
+        for triangle in &self.triangles {
+            let corners = triangle.corners.map(|corner| corner as usize);
+            let [a, b, c] = corners.map(|corner| Vec3::from(self.vertices[corner]));
+            let twice_area = (b - a).cross(c - a);
+            for corner in corners {
+                normals[corner] += twice_area;
+            }
+        }
+        normals.into_iter().map(Vec3::normalize_or_zero).collect()
+    }
+
+    /// Replaces all faces by those of these volumes, in the same memory.
+    pub fn update(&mut self, volumes: &[Volume]) {
+        self.vertices.clear();
+        self.triangles.clear();
+        for (volume, material) in volumes.iter().zip(0..) {
+            let first = self.vertices.len() as u32;
+            self.vertices.extend(volume.vertices());
+            let corners = |face: &[u32; 3]| face.map(|corner| first + corner);
+            let faces = volume.mesh().faces.iter();
+            self.triangles.extend(faces.map(|face| Triangle { corners: corners(face), material }));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faces_are_those_of_the_volumes_in_their_order() {
+        let volumes = [Volume::ball(Vec3::X, 0.5, 1, 0), Volume::ball(Vec3::Y, 0.2, 2, 0)];
+        let mut surfaces = VolumeSurfaces::of(&volumes);
+        assert_eq!(surfaces.triangles.len(), 80 + 320);
+        for triangle in &surfaces.triangles {
+            let volume = &volumes[triangle.material as usize];
+            for corner in triangle.corners {
+                let at = Vec3::from(surfaces.vertices[corner as usize]);
+                let distance = at.distance(volume.center) / volume.radius;
+                assert!((1.0..1.1).contains(&distance), "{distance}");
+            }
+        }
+        for (normal, at) in surfaces.normals().into_iter().zip(&surfaces.vertices).take(42) {
+            let outward = (Vec3::from(*at) - Vec3::X).normalize();
+            assert!(normal.dot(outward) > 0.99, "{normal}");
+        }
+        surfaces.update(&volumes[1..]);
+        assert_eq!((surfaces.vertices.len(), surfaces.triangles.len()), (162, 320));
+        assert!(surfaces.triangles.iter().all(|triangle| triangle.material == 0));
+    }
+}
