@@ -13,15 +13,15 @@ pub mod sphere_mesh;
 
 pub mod volume;
 
-pub mod toml_text;
-
-pub mod settings;
-
-pub mod script;
 #[cfg(test)]
 mod test_volumes;
 
+#[cfg(test)]
+mod test_surfaces;
+
 pub mod containing;
+
+pub mod surfaces;
 
 pub mod motion;
 
@@ -29,16 +29,22 @@ pub mod wetting;
 
 pub mod world;
 
-#[cfg(test)]
-mod test_surfaces;
 pub mod hatching;
 
 pub mod drawing;
 
+pub mod pigments;
+
+pub mod toml_text;
+
+pub mod settings;
+
+pub mod script;
+
+pub mod performance;
+
+pub mod painter;
+
 mod kernels;
 
 pub use kernels::kernels;
-pub mod surfaces;
-
-
-pub mod pigments;

@@ -41,15 +41,31 @@ impl VolumeSurfaces {
 
     /// Replaces all faces by those of these volumes, in the same memory.
     pub fn update(&mut self, volumes: &[Volume]) {
+        self.clear();
+        for (volume, surface) in volumes.iter().zip(0..) {
+            self.add(volume, 1.0, surface);
+        }
+    }
+
+    /// Removes all faces.
+    pub fn clear(&mut self) {
         self.vertices.clear();
         self.triangles.clear();
-        for (volume, material) in volumes.iter().zip(0..) {
-            let first = self.vertices.len() as u32;
-            self.vertices.extend(volume.vertices());
-            let corners = |face: &[u32; 3]| face.map(|corner| first + corner);
-            let faces = volume.mesh().faces.iter();
-            self.triangles.extend(faces.map(|face| Triangle { corners: corners(face), material }));
+    }
+
+    /// Adds the faces of a volume, scaled about its centre, as the surface with this index.
+    pub fn add(&mut self, volume: &Volume, scale: f32, surface: u32) {
+        let first = self.vertices.len() as u32;
+        let center = volume.center;
+        let scaled = |at: [f32; 3]| (center + (Vec3::from(at) - center) * scale).to_array();
+        match scale == 1.0 {
+            true => self.vertices.extend(volume.vertices()),
+            false => self.vertices.extend(volume.vertices().map(scaled)),
         }
+        let corners = |face: &[u32; 3]| face.map(|corner| first + corner);
+        let faces = volume.mesh().faces.iter();
+        let faces = faces.map(|face| Triangle { corners: corners(face), material: surface });
+        self.triangles.extend(faces);
     }
 }
 

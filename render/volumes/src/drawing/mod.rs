@@ -22,7 +22,7 @@ pub use grey::{GreyWeights, grey_of};
 pub use look::DrawingLook;
 pub use regions::{Inside, MOST_REGIONS, Region, checked_regions};
 pub use reveal::reveal;
-pub use shade::shade;
+pub use shade::{shade, shade_apart};
 pub use shells::{MOST_SHELLS, ShellError, Shells, TintTable};
 
 pub(crate) use reveal::{FINISH, REGION};

@@ -43,16 +43,7 @@ pub fn shade(
     let placing = Placing::new(&look.hatching, of_mesh, camera, height_px);
     match compute {
         Compute::Cpu => {
-            let mesh = model.host().mesh();
-            let (quads, look_of) = (hatching.quads.host().values(), &look.hatching);
-            let shader = Shader {
-                mesh,
-                look,
-                light: look.light.direction(camera),
-                placing,
-                inking: Inking::new(quads, look_of.softness, look_of.width_px),
-                transfer: Transfer::get(),
-            };
+            let shader = Shader::new(model.host().mesh(), look, camera, placing, hatching);
             Ok(shader.picture(visible.host()).into())
         }
         Compute::Gpu(gpu) => {
@@ -62,6 +53,44 @@ pub fn shade(
             Ok(shade_on_gpu(gpu, model, planes, &params)?.into())
         }
     }
+}
+
+/// Shades like [`shade`], but keeps colour and hatching apart, for pictures that lay them in paint:
+/// for each sample its colour, lit and textured, with the grey of that colour as the fourth value;
+/// and the ink of the strokes at full strength, 0 to 1. On the processor. Where no surface is seen
+/// the colour is white, without ink.
+///
+/// # Errors
+/// [`DrawingError::Setting`] for a setting out of range.
+///
+/// # Panics
+/// If `visible` is of another mesh, or `hatching` is in the memory of a device.
+pub fn shade_apart(
+    mesh: &PackedMesh,
+    visible: &VisibilityBuffer,
+    camera: &Camera,
+    look: &DrawingLook,
+    hatching: &Hatching,
+) -> Result<(Field<[f32; 4]>, Field<f32>), DrawingError> {
+    look.check()?;
+    let height_px = visible.height() / look.samples;
+    let of_mesh = (hatching.mesh_is_useful, hatching.bounds);
+    let placing = Placing::new(&look.hatching, of_mesh, camera, height_px);
+    let shader = Shader::new(mesh, look, camera, placing, hatching);
+    let (width, height) = (visible.width(), visible.height());
+    let mut colors = Field::filled(width, height, [1.0; 4]);
+    let mut inks = Field::filled(width, height, 0.0);
+    let width = width.max(1);
+    let rows = colors.values_mut().par_chunks_mut(width);
+    let rows = rows.zip(inks.values_mut().par_chunks_mut(width));
+    rows.zip(visible.values().par_chunks(width)).for_each(|((colors, inks), seen)| {
+        for ((color, ink), fragment) in colors.iter_mut().zip(inks).zip(seen) {
+            if fragment.triangle != NO_TRIANGLE {
+                (*color, *ink) = shader.apart(*fragment);
+            }
+        }
+    });
+    Ok((colors, inks))
 }
 
 /// Shades single fragments on the processor.
@@ -75,7 +104,20 @@ struct Shader<'a> {
     transfer: &'a Transfer,
 }
 
-impl Shader<'_> {
+impl<'a> Shader<'a> {
+    fn new(
+        mesh: &'a PackedMesh,
+        look: &'a DrawingLook,
+        camera: &Camera,
+        placing: Placing,
+        hatching: &'a Hatching,
+    ) -> Self {
+        let quads = hatching.quads.host().values();
+        let inking = Inking::new(quads, look.hatching.softness, look.hatching.width_px);
+        let light = look.light.direction(camera);
+        Self { mesh, look, light, placing, inking, transfer: Transfer::get() }
+    }
+
     fn picture(&self, visible: &VisibilityBuffer) -> Field<[f32; 4]> {
         let (width, height) = (visible.width(), visible.height());
         let mut shaded = Field::filled(width, height, [1.0; 4]);
@@ -91,22 +133,9 @@ impl Shader<'_> {
 
     #[inline(always)]
     fn shaded(&self, fragment: Fragment) -> [f32; 4] {
-        let point = SurfacePoint::new(self.mesh, fragment);
         let (look, hatching) = (self.look, &self.look.hatching);
-        let normal = point.normal(self.placing.eye);
-        let mut color = point.albedo();
-        let light = if look.lit {
-            look.tones.grey(normal.dot(self.light))
-        } else {
-            look.tones.grey(self.transfer.grey(color, look.weights))
-        };
-        if look.lit {
-            color *= 1.0 - look.shade * (1.0 - light);
-        }
-        let ink = match hatching.inside.max(hatching.outside) > 0.0 {
-            true => self.ink(fragment, point.position(), normal, light),
-            false => 0.0,
-        };
+        let (color, ink) = self.lit(fragment, hatching.inside.max(hatching.outside) > 0.0);
+        let ink = ink * (1.0 - hatching.pencil);
         let inside = color * (1.0 - ink * hatching.inside);
         let outside = color * (1.0 - ink * hatching.outside);
         let grey = if look.pale > 0.0 {
@@ -118,7 +147,35 @@ impl Shader<'_> {
         inside.extend(grey).into()
     }
 
-    /// Share of the light that the strokes on a point take, at full strength.
+    /// The colour, with its grey, and the ink at full strength.
+    fn apart(&self, fragment: Fragment) -> ([f32; 4], f32) {
+        let look = self.look;
+        let (color, ink) = self.lit(fragment, true);
+        let grey = self.transfer.grey(color, look.weights);
+        (color.extend(grey + (1.0 - grey) * look.pale).into(), ink)
+    }
+
+    /// Colour under the light, and the ink of the strokes there if these are wanted.
+    #[inline(always)]
+    fn lit(&self, fragment: Fragment, hatched: bool) -> (Vec3, f32) {
+        let point = SurfacePoint::new(self.mesh, fragment);
+        let look = self.look;
+        let normal = point.normal(self.placing.eye);
+        let color = point.albedo();
+        let (color, light) = if look.lit {
+            let light = look.tones.grey(normal.dot(self.light));
+            (color * (1.0 - look.shade * (1.0 - light)), light)
+        } else {
+            (color, look.tones.grey(self.transfer.grey(color, look.weights)))
+        };
+        let ink = match hatched {
+            true => self.ink(fragment, point.position(), normal, light),
+            false => 0.0,
+        };
+        (color, ink)
+    }
+
+    /// Ink of the strokes on a point, 0 to 1.
     #[inline(always)]
     fn ink(&self, fragment: Fragment, position: Vec3, normal: Vec3, light: f32) -> f32 {
         let hatching = &self.look.hatching;
@@ -132,7 +189,7 @@ impl Shader<'_> {
                 ink += patch.weight * self.inking.ink(&patch, tone);
             }
         }
-        ink.min(1.0) * (1.0 - hatching.pencil)
+        ink.min(1.0)
     }
 }
 

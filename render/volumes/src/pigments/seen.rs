@@ -56,13 +56,25 @@ impl<'a> SeenPlaces<'a> {
         Self { places, visible, facets }
     }
 
+    /// The buffer that shows them.
+    #[must_use]
+    pub fn visible(&self) -> &'a VisibilityBuffer {
+        self.visible
+    }
+
+    /// The normal of the triangle that the pixel with this index shows; zero where there is none.
+    #[must_use]
+    #[inline]
+    pub fn normal(&self, pixel: usize) -> Vec3 {
+        let triangle = self.visible.values()[pixel].triangle as usize;
+        self.facets.normals.get(triangle).copied().unwrap_or(Vec3::ZERO)
+    }
+
     /// What the pixel with this index, counted row by row, shows: a place and the normal of its
     /// triangle. The place is no number where nothing is seen.
     #[must_use]
     #[inline]
     pub fn at(&self, pixel: usize) -> (Vec3, Vec3) {
-        let triangle = self.visible.values()[pixel].triangle as usize;
-        let normal = self.facets.normals.get(triangle).copied().unwrap_or(Vec3::ZERO);
-        (self.places.values()[pixel], normal)
+        (self.places.values()[pixel], self.normal(pixel))
     }
 }

@@ -116,6 +116,19 @@ impl World {
         &self.grid
     }
 
+    /// Mean normal of each volume's cell, in the order of the volumes; zero for a single one.
+    #[must_use]
+    pub fn facing(&self) -> Vec<Vec3> {
+        let facing = |volume: &Volume| volume.cell.map_or(Vec3::ZERO, |_| volume.normal);
+        self.volumes.iter().map(facing).collect()
+    }
+
+    /// Width of a cell, in the unit of the scene.
+    #[must_use]
+    pub fn cell(&self) -> f32 {
+        self.scale.cell
+    }
+
     /// The settings that it was made with.
     #[must_use]
     pub fn settings(&self) -> &WorldSettings {

@@ -1,0 +1,122 @@
+//! Pictures and paintings of a scene with its volumes, from any camera.
+
+use graphics::camera::Camera;
+use graphics::compute::Compute;
+use graphics::encoding::encoded_from_linear;
+use graphics::field::Field;
+use graphics::mesh::Mesh;
+use paint::document::Document;
+
+use super::drawer::Drawer;
+use super::error::PaintingError;
+use super::films::{Films, VolumePigments};
+use super::looks;
+use crate::script::RegionStyle;
+use crate::settings::Settings;
+use crate::world::World;
+
+/// Paints one scene with its volumes.
+#[derive(Debug)]
+pub struct VolumePainter {
+    pub(super) drawer: Drawer,
+    pub(super) films: Option<Films>,
+}
+
+impl VolumePainter {
+    /// A painter of `scene`, with a style for each region of its volumes
+    /// ([`crate::script::Script::region_styles`]), on the processor.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a mesh with a fault, settings out of range, and shells or tints that
+    /// cannot be used.
+    pub fn new(
+        scene: &Mesh,
+        settings: &Settings,
+        styles: &[RegionStyle],
+    ) -> Result<Self, PaintingError> {
+        Ok(Self { drawer: Drawer::new(scene, settings, styles)?, films: None })
+    }
+
+    /// Makes pictures on another device. They agree with those of the processor to rounding, but for
+    /// outlines within a pixel and walls that volumes reach through: a device knows no gate. Films
+    /// of pigments stay on the processor.
+    ///
+    /// # Errors
+    /// [`PaintingError::Device`] if the device cannot hold the scene.
+    pub fn on(self, compute: Compute) -> Result<Self, PaintingError> {
+        Ok(Self { drawer: self.drawer.on(compute)?, ..self })
+    }
+
+    /// Shows the scene in measured pigments, and volumes as films where their regions ask for them.
+    /// Takes seconds.
+    ///
+    /// # Errors
+    /// [`PaintingError::Films`] for pigments, a ground or a light that cannot be used.
+    pub fn with_pigments(self, pigments: VolumePigments) -> Result<Self, PaintingError> {
+        let films = Films::new(pigments, &self.drawer.settings, &self.drawer.regions)?;
+        Ok(Self { films: Some(films), ..self })
+    }
+
+    /// Draws with other settings of light, grey, hatching, paper, gate and films from now on.
+    ///
+    /// # Errors
+    /// [`PaintingError::Drawing`] for a setting out of its range.
+    pub fn set_drawing(&mut self, settings: &Settings) -> Result<(), PaintingError> {
+        self.drawer.set(settings)
+    }
+
+    /// Name of the device of its pictures.
+    #[must_use]
+    pub fn compute_name(&self) -> &str {
+        self.drawer.compute_name()
+    }
+
+    /// Whether the scene is shown in measured pigments.
+    #[must_use]
+    pub fn has_pigments(&self) -> bool {
+        self.films.is_some()
+    }
+
+    /// The picture of the scene as `camera` sees it, in `width` x `height` pixels: encoded sRGB
+    /// whose fourth value is 1. The same input gives the same bits for any number of threads.
+    ///
+    /// # Errors
+    /// [`PaintingError`] for a picture without pixels or with too many, for a volume of a region
+    /// that has no style, and for a device that fails.
+    pub fn paint(
+        &mut self,
+        world: &World,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<Field<[f32; 4]>, PaintingError> {
+        let Self { drawer, films } = self;
+        if let Some(films) = films {
+            let parts = drawer.parts(films, world, camera, size)?;
+            let picture = films.view.picture(&films.painter, &parts.drawing())?;
+            return Ok(encoded_from_linear(&picture));
+        }
+        let sight = drawer.sight(world, camera, size)?;
+        let regions = drawer.regions_of(&sight);
+        let paper = looks::paper(&drawer.settings);
+        drawer.revealed(&sight, &regions, Some(paper))
+    }
+
+    /// The painting of the scene as `camera` sees it: a ground and dry layers of whole quanta, one
+    /// cell for each pixel. It can be saved, relit and given other pigments.
+    ///
+    /// # Errors
+    /// Those of [`Self::paint`]; [`PaintingError::NoPigments`] without
+    /// [`Self::with_pigments`].
+    pub fn painting(
+        &mut self,
+        world: &World,
+        camera: &Camera,
+        size: (usize, usize),
+        title: &str,
+    ) -> Result<Document, PaintingError> {
+        let Self { drawer, films } = self;
+        let films = films.as_mut().ok_or(PaintingError::NoPigments)?;
+        let parts = drawer.parts(films, world, camera, size)?;
+        Ok(films.painter.document(title, &parts.drawing())?)
+    }
+}

@@ -1,0 +1,234 @@
+//! The events of a script, done to a world in their steps.
+
+use glam::Vec3;
+use graphics::mesh::Mesh;
+
+use super::error::PerformanceError;
+use super::picked::FirstView;
+use crate::motion::{KeepIn, Push};
+use crate::script::{self, Action, Event, KeepTable, Place, Quantity, Script, seconds_of};
+use crate::settings::Settings;
+use crate::toml_text::KeyStep;
+use crate::world::{Lift, Pour, Recipe, Single, Track, World, WorldError, WorldSettings};
+
+/// A script being played. A clone is a snapshot that goes on to the same bytes.
+#[derive(Debug, Clone)]
+pub struct Performance {
+    world: World,
+    script: Script,
+    events: Vec<Event>,
+    /// Index of the next event.
+    next: usize,
+    /// Places of events that pick one in the first picture.
+    picked: Vec<Option<Vec3>>,
+    /// Seeds of the single volumes of the script, in its order, once they are born.
+    singles: Vec<Option<u64>>,
+}
+
+impl Performance {
+    /// The beginning of `script` on `scene`, with these settings
+    /// ([`Script::settings`]). `view` is the first picture, in which events pick places.
+    ///
+    /// # Errors
+    /// [`PerformanceError`] for a world that cannot be made, walls out of range, and picked places
+    /// where the first picture shows nothing.
+    pub fn new(
+        script: &Script,
+        scene: &Mesh,
+        settings: &Settings,
+        view: &FirstView,
+    ) -> Result<Self, PerformanceError> {
+        let mut world = World::of(scene, &WorldSettings::from(settings))?;
+        for keep in &script.keeps {
+            world.keep(region(keep))?;
+        }
+        let events = script.events();
+        let picked: Result<_, _> = events.iter().map(|event| picked(event, scene, view)).collect();
+        let singles = vec![None; script.volumes.len()];
+        Ok(Self { world, script: script.clone(), events, next: 0, picked: picked?, singles })
+    }
+
+    /// The world at present.
+    #[must_use]
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Number of steps played.
+    #[must_use]
+    pub fn step(&self) -> u64 {
+        self.world.steps()
+    }
+
+    /// Plays on until `step` steps are played; nothing if they are already.
+    ///
+    /// # Errors
+    /// [`PerformanceError`] for an event that cannot be done, such as paint poured off the surface.
+    pub fn advance_to(&mut self, step: u64) -> Result<(), PerformanceError> {
+        while self.world.steps() < step {
+            while let Some(event) = self.events.get(self.next) {
+                if u64::from(event.start) > self.world.steps() {
+                    break;
+                }
+                let event = event.clone();
+                self.act(&event)?;
+                self.next += 1;
+            }
+            self.world.step()?;
+        }
+        Ok(())
+    }
+
+    /// Does what an event asks for.
+    fn act(&mut self, event: &Event) -> Result<(), PerformanceError> {
+        let for_s = seconds_of(event.end - event.start);
+        let failed = |error: WorldError| PerformanceError::Event {
+            place: event.table.to_string(),
+            table: event.table.clone(),
+            error,
+        };
+        match &event.action {
+            Action::Volume(volume) => {
+                let recipe = self.recipe(&volume.recipe).map_err(failed)?;
+                let index = self.world.add_volume(&Single {
+                    center: narrow(volume.center),
+                    radius: volume.radius as f32,
+                    detail: volume.detail,
+                    recipe: Some(recipe),
+                    region: volume.region as u16,
+                });
+                let seed = self.world.volumes()[index.map_err(failed)?].seed;
+                // The table's place in the script is the number that `[[split]]` names.
+                if let Some(KeyStep::Index(number)) = event.table.0.last() {
+                    self.singles[*number] = Some(seed);
+                }
+            }
+            Action::Pour(pour) => {
+                let recipe = self.recipe(&pour.recipe).map_err(failed)?;
+                let rate_mm3_s = match pour.quantity {
+                    Quantity::Rate(rate) => rate,
+                    Quantity::Amount(amount) => amount / for_s,
+                };
+                let track = self.track(&pour.place).map_err(failed)?;
+                let region = pour.region as u16;
+                let pour = Pour { track, rate_mm3_s, for_s, recipe, region };
+                self.world.pour(pour).map_err(failed)?;
+            }
+            Action::Push(push) => {
+                let pushed = Push {
+                    center: narrow(push.at),
+                    direction: narrow(push.towards).normalize_or_zero(),
+                    radius: push.radius as f32,
+                    strength: push.strength as f32,
+                };
+                self.world.push(pushed, for_s).map_err(failed)?;
+            }
+            Action::Lift(lift) => {
+                let track = self.track(&lift.place).map_err(failed)?;
+                let (radius, rate) = (lift.radius as f32, lift.rate as f32);
+                self.world.lift(Lift { track, radius, rate, for_s }).map_err(failed)?;
+            }
+            Action::Split(split) => self.split(event, split.volume)?,
+            Action::Dry => self.world.dry(),
+        }
+        Ok(())
+    }
+
+    /// Splits a single volume of the script, or all that are there.
+    fn split(&mut self, event: &Event, volume: Option<usize>) -> Result<(), PerformanceError> {
+        let table = || event.table.clone();
+        let place = || event.table.to_string();
+        let wanted: Vec<u64> = match volume {
+            None => self.singles.iter().flatten().copied().collect(),
+            Some(index) => {
+                let seed = self.singles.get(index).copied().flatten();
+                let missing = || PerformanceError::NoVolume {
+                    place: place(),
+                    table: table(),
+                    number: index + 1,
+                };
+                vec![seed.ok_or_else(missing)?]
+            }
+        };
+        for seed in wanted {
+            let single = |own: &crate::volume::Volume| own.seed == seed && own.cell.is_none();
+            match self.world.volumes().iter().position(single) {
+                Some(index) => {
+                    let split = self.world.split(index);
+                    split.map_err(|error| PerformanceError::Event {
+                        place: place(),
+                        table: table(),
+                        error,
+                    })?;
+                }
+                None if volume.is_none() => {}
+                None => {
+                    let number = volume.map_or(0, |index| index + 1);
+                    return Err(PerformanceError::NoVolume {
+                        place: place(),
+                        table: table(),
+                        number,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Shares of the slots; clear vehicle for a recipe without pigments.
+    fn recipe(&self, recipe: &script::Recipe) -> Result<Recipe, WorldError> {
+        let shares = self.script.shares(recipe);
+        let vehicle = if shares.iter().sum::<f64>() > 0.0 { 0.0 } else { 1.0 };
+        let mut parts = [vehicle; 9];
+        parts[..8].copy_from_slice(&shares);
+        Recipe::of_parts(parts)
+    }
+
+    fn track(&self, place: &Place) -> Result<Track, WorldError> {
+        match place {
+            Place::At(at) => Ok(Track::at(narrow(*at))),
+            Place::Picked(_) => {
+                // The place of this event was found when the performance was made.
+                Ok(Track::at(self.picked[self.next].unwrap_or_default()))
+            }
+            Place::Path(points) => {
+                Track::along(points.iter().map(|point| (point.seconds, narrow(point.at))).collect())
+            }
+        }
+    }
+}
+
+fn narrow(place: [f64; 3]) -> Vec3 {
+    Vec3::from(place.map(|along| along as f32))
+}
+
+/// The place that an event picks in the first picture, if it picks one.
+fn picked(event: &Event, scene: &Mesh, view: &FirstView) -> Result<Option<Vec3>, PerformanceError> {
+    let place = match &event.action {
+        Action::Pour(pour) => &pour.place,
+        Action::Lift(lift) => &lift.place,
+        _ => return Ok(None),
+    };
+    let Place::Picked(share) = place else { return Ok(None) };
+    let bare = || PerformanceError::Bare {
+        place: event.table.to_string(),
+        table: event.table.clone(),
+        x: share[0],
+        y: share[1],
+    };
+    view.place(scene, *share).map(Some).ok_or_else(bare)
+}
+
+/// The region of a table, which has one of the three keys.
+fn region(keep: &KeepTable) -> KeepIn {
+    match (&keep.cuboid, &keep.sphere, &keep.above) {
+        (Some(cuboid), _, _) => KeepIn::Box { low: narrow(cuboid.0[0]), high: narrow(cuboid.0[1]) },
+        (_, Some(sphere), _) => {
+            KeepIn::Ball { center: narrow(sphere.center), radius: sphere.radius as f32 }
+        }
+        (_, _, above) => {
+            let [point, normal] = above.map_or([[0.0; 3], [0.0, 1.0, 0.0]], |pair| pair.0);
+            KeepIn::Above { point: narrow(point), normal: narrow(normal).normalize_or_zero() }
+        }
+    }
+}
