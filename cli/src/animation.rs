@@ -56,6 +56,11 @@ impl AnimationOptions {
         self.animation.is_some() || self.frames.is_some()
     }
 
+    /// Frames per second.
+    pub(crate) fn rate(&self) -> f64 {
+        self.rate
+    }
+
     /// Checks that the animation can be written. Returns `None` if no frames are requested.
     pub(crate) fn open(&self, inputs: &[PathBuf]) -> Result<Option<Animation>> {
         let rate = FrameRate::new(self.rate)?;

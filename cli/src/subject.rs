@@ -100,6 +100,11 @@ impl SubjectOptions {
         Ok((Subject::Photograph(photograph, width), vec![path.to_owned()]))
     }
 
+    /// Whether options choose the camera.
+    pub(crate) fn has_camera(&self) -> bool {
+        self.camera.is_some() || self.turntable.is_some()
+    }
+
     /// Where cameras stand that turn a picture, in degrees to the right and upwards from straight
     /// before it: one, or those of a swing around that place.
     pub(crate) fn picture_turns(&self) -> Result<Vec<[f32; 2]>> {

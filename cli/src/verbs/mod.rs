@@ -40,6 +40,8 @@ mod artmap;
 
 mod painterly;
 
+mod stencil;
+
 mod gpu;
 
 use clap::Subcommand;
@@ -65,6 +67,7 @@ pub(crate) enum Verb {
     Watercolor(Box<watercolor::Watercolor>),
     Artmap(artmap::Artmap),
     Painterly(Box<painterly::Painterly>),
+    Stencil(Box<stencil::Stencil>),
     Gpu(gpu::Gpu),
 }
 
@@ -86,6 +89,7 @@ impl Verb {
             Self::Watercolor(verb) => verb.run(console),
             Self::Artmap(verb) => verb.run(console),
             Self::Painterly(verb) => verb.run(console),
+            Self::Stencil(verb) => verb.run(console),
             Self::Gpu(verb) => verb.run(console),
         }
     }

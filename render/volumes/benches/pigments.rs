@@ -37,7 +37,6 @@ struct Scene {
     samples: SurfaceSamples,
     lattice: SampleLattice,
     volumes: Vec<Volume>,
-    facing: Vec<Vec3>,
     films: Vec<Film>,
     surfaces: VolumeSurfaces,
     color: Field<[f32; 4]>,
@@ -65,18 +64,18 @@ fn scene() -> &'static Scene {
             .collect();
         cells.sort_by(|a, b| a.0.distance(camera.eye).total_cmp(&b.0.distance(camera.eye)));
         cells.truncate(64);
-        let pour = |(seed, (place, _)): (usize, &(Vec3, Vec3))| {
+        let pour = |(seed, (place, normal)): (usize, &(Vec3, Vec3))| {
             let radius = cell * (0.5 + 0.05 * (seed % 8) as f32);
             let mut volume = Volume::ball(*place, radius, 2, seed as u64);
             volume.paint = Cell { pigments: [0; 8], vehicle: 100_000 };
             volume.paint.pigments[seed % 3] = 3_000_000;
+            volume.normal = *normal;
             volume
         };
         let volumes: Vec<Volume> = cells.iter().enumerate().map(pour).collect();
-        let facing: Vec<Vec3> = cells.iter().map(|cell| cell.1).collect();
         let surface = SampledSurface::from(&samples);
         let profile = FilmProfile::default();
-        let films = Film::of_volumes(&volumes, &facing, profile, (&surface, &lattice), &SCALE);
+        let films = Film::of_volumes(&volumes, profile, (&surface, &lattice), &SCALE);
         let visible = visible(&mesh, &camera, width, height);
         let mesh = PackedMesh::new(&mesh);
         let lit = visible.values().iter().map(|&fragment| {
@@ -100,7 +99,6 @@ fn scene() -> &'static Scene {
             samples,
             lattice,
             volumes,
-            facing,
             films,
             surfaces,
             color,
@@ -132,11 +130,11 @@ fn heights(scene: &Scene) -> Field<FilmHeights> {
 
 #[divan::bench]
 fn films_of_volumes(bencher: Bencher<'_, '_>) {
-    let Scene { volumes, facing, samples, lattice, .. } = scene();
+    let Scene { volumes, samples, lattice, .. } = scene();
     let surface = SampledSurface::from(samples);
     bencher.bench_local(|| {
         let profile = FilmProfile::default();
-        black_box(Film::of_volumes(volumes, facing, profile, (&surface, lattice), &SCALE))
+        black_box(Film::of_volumes(volumes, profile, (&surface, lattice), &SCALE))
     });
 }
 

@@ -3,6 +3,7 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, StorageAccess, TypeInner};
 use render::gpu::{Kernel, Layout, Storage};
+use render::surface::{STENCIL_FACES, WEIGHED_FACES};
 use render::{graphics_kernels, paint, painterly, volumes, watercolor};
 
 /// The kernels of graphics, paint, watercolour, models in brushwork and paint volumes.
@@ -76,6 +77,28 @@ fn structs_have_the_same_fields_in_both_languages() {
             assert_eq!(span as usize, bytes, "{}: {name}", kernel.name);
             let own: Vec<_> = own.iter().map(|&(name, at)| (name.to_owned(), at)).collect();
             assert_eq!(found, own, "{}: {name}", kernel.name);
+        }
+    }
+}
+
+#[test]
+fn shaders_that_count_faces_are_valid_and_bound_as_they_say() {
+    let (stencil, weighed) = (&STENCIL_FACES, &WEIGHED_FACES);
+    let no_structs: &[Layout] = &[];
+    let shaders = [
+        (stencil.source, stencil.parameters, no_structs, stencil.buffers),
+        (weighed.source, weighed.parameters, weighed.structs, weighed.buffers),
+    ];
+    for (source, parameters, structs, buffers) in shaders {
+        let module = naga::front::wgsl::parse_str(source).unwrap();
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+        let valid = validator.validate(&module);
+        assert!(valid.is_ok(), "{valid:?}");
+        assert_eq!(module.global_variables.len(), buffers + 1);
+        for Layout { name, bytes, fields: own } in structs.iter().chain([&parameters]) {
+            let (span, found) = fields(&module, name).unwrap();
+            let own: Vec<_> = own.iter().map(|&(name, at)| (name.to_owned(), at)).collect();
+            assert_eq!((span as usize, found), (*bytes, own), "{name}");
         }
     }
 }

@@ -1,6 +1,5 @@
 //! Heights of films at all pixels of a picture, frame after frame.
 
-use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::field::Field;
 use graphics::surface::{Crossings, PackedMesh, VisibilityBuffer};
@@ -58,16 +57,15 @@ impl FilmCounter {
     }
 
     /// Heights of the films of `volumes` at each pixel of `visible`, which is what `camera` sees of
-    /// `mesh`. `facing` has the mean normal of each volume's cell, or zero. `mesh` and `surface` are
-    /// those that the counter was made with.
+    /// `mesh`. `mesh` and `surface` are those that the counter was made with.
     ///
     /// # Panics
-    /// If `facing` and `volumes` differ in length, or `visible` shows another mesh.
+    /// If `visible` shows a triangle that the mesh does not have.
     #[must_use]
     pub fn heights(
         &mut self,
         (mesh, surface): (&PackedMesh, &SampledSurface<'_>),
-        (volumes, facing): (&[Volume], &[Vec3]),
+        volumes: &[Volume],
         kind: FilmKind,
         camera: &Camera,
         visible: &VisibilityBuffer,
@@ -79,7 +77,7 @@ impl FilmCounter {
         match kind {
             FilmKind::Surface => {
                 let samples = (surface, &*lattice);
-                let films = Film::of_volumes(volumes, facing, *profile, samples, scale);
+                let films = Film::of_volumes(volumes, *profile, samples, scale);
                 let films = FilmOnSurface { films: &films, seen: &seen };
                 crossings.sum(&films, vertices, triangles, camera, visible)
             }

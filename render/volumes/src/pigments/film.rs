@@ -52,22 +52,17 @@ pub struct Film {
 
 impl Film {
     /// The films of all volumes: as high as spreads each volume's paint over the surface that it
-    /// holds. `facing` has the mean normal of each volume's cell, or zero.
-    ///
-    /// # Panics
-    /// If `facing` and `volumes` differ in length.
+    /// holds.
     #[must_use]
     pub fn of_volumes(
         volumes: &[Volume],
-        facing: &[Vec3],
         profile: FilmProfile,
         (surface, lattice): (&SampledSurface<'_>, &SampleLattice),
         scale: &FilmScale,
     ) -> Vec<Self> {
-        assert_eq!(volumes.len(), facing.len(), "each volume has a normal of its cell");
-        let films = volumes.par_iter().zip(facing).map(|(volume, &facing)| {
+        let films = volumes.par_iter().map(|volume| {
             let inside = Inside::of(volume);
-            let wetted = Wetted::of(volume, &inside, facing);
+            let wetted = Wetted::of(volume, &inside);
             if volume.paint == Cell::default() {
                 return Self { wetted, heights: [0.0; SLOTS + 1], profile };
             }

@@ -28,17 +28,18 @@ pub struct Wetted {
     pub reach: f32,
     /// 1 / radius.
     pub per_radius: f32,
-    /// Mean normal of the cell that the volume stands in; surfaces that face away from it are not
-    /// wetted. Zero for a single volume, which wets all that it holds.
+    /// Mean normal of the surface that the volume lies on; surfaces that face away from it are not
+    /// wetted. Zero for a volume that wets all that it holds.
     pub facing: Vec3,
 }
 
 impl Wetted {
     /// The reach of `volume` whose inside is `inside`.
     #[must_use]
-    pub fn of(volume: &Volume, inside: &Inside, facing: Vec3) -> Self {
+    pub fn of(volume: &Volume, inside: &Inside) -> Self {
         let reach = inside.farthest() as f32;
-        Self { center: volume.center, reach, per_radius: 1.0 / volume.radius, facing }
+        let Volume { center, radius, normal, .. } = *volume;
+        Self { center, reach, per_radius: 1.0 / radius, facing: normal }
     }
 
     /// Height of the film of `profile` at a place on a surface with this normal, relative to that

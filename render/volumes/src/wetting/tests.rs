@@ -82,6 +82,35 @@ fn a_level_sheet_joins_eight_neighbours() {
 }
 
 #[test]
+fn triangles_that_meet_at_a_wall_join_its_cells() {
+    let wall = Grid::of(&level(9.0, 0.0, 1), 1.0, 1).unwrap().samples.lattice.origin.x;
+    for beside in [-2e-6, 0.0, 2e-6] {
+        let middle = wall + beside;
+        let halves =
+            sheet(2, |u, v| [if u == 0.5 { middle } else { 9.0 * u }, 0.0, 9.0 * (v - 0.04)]);
+        let grid = Grid::of(&halves, 1.0, 1).unwrap();
+        for side in [-0.5, 0.5] {
+            let cell = cell_at(&grid, [wall + side, 0.0, 4.0]);
+            assert_eq!(grid.graph.links(cell).len(), 8, "{beside} {side}");
+        }
+    }
+}
+
+#[test]
+fn the_nearest_sample_is_that_of_a_search_through_all() {
+    let grid = Grid::of(&SampleModel::Village.mesh(2000), 0.3, 1).unwrap();
+    let random = &mut ChaCha8Rng::seed_from_u64(2);
+    for _ in 0..200 {
+        let place = Vec3::from([(); 3].map(|()| random.random_range(-2.0..2.0)));
+        let distances = grid.samples.places.iter().map(|at| at.distance(place));
+        let least = distances.fold(f32::INFINITY, f32::min);
+        let (sample, distance) = grid.nearest(place).unwrap();
+        assert_eq!(distance, least);
+        assert_eq!(grid.samples.places[sample].distance(place), least);
+    }
+}
+
+#[test]
 fn cells_of_parallel_plates_are_not_joined() {
     for height in [1.0, 0.7, 1.3] {
         let plates = joined(level(6.0, 0.0, 3), &level(6.0, height, 2));

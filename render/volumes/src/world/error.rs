@@ -70,7 +70,9 @@ impl Explain for WorldError {
             Self::Recipe { .. } => Hint::new("name a pigment with a share above 0"),
             Self::OffSurface { .. } => Hint::new("pour at a place of the model's surface"),
             Self::Full { .. } => Hint::new("take larger cells with [cell], or fewer volumes"),
-            Self::Volume { .. } => Hint::new("split a single volume that holds surface, once"),
+            Self::Volume { .. } => {
+                Hint::new("name a wet volume; to be split, one for itself that holds surface")
+            }
         })
     }
 

@@ -25,6 +25,39 @@ impl World {
         Ok(number)
     }
 
+    /// Takes up a share, 0 to 1, of the paint of one volume, which shrinks; a volume that loses
+    /// all its paint vanishes. A volume without paint shrinks by the share of its radius.
+    ///
+    /// # Errors
+    /// If there is no such volume, it is dry, or the share is out of its range.
+    pub fn shrink(&mut self, index: usize, share: f32) -> Result<(), WorldError> {
+        in_range("share", share.into(), [0.0, 1.0], "0 to 1")?;
+        let count = self.volumes.len();
+        let refused = |why| Err(WorldError::Volume { index, count, why });
+        let Some(volume) = self.volumes.get_mut(index) else { return refused("does not exist") };
+        if volume.dry {
+            return refused("is dry");
+        }
+        if volume.paint.volume() == 0 {
+            volume.target_radius *= 1.0 - share;
+            volume.rests_under = 0;
+            return Ok(());
+        }
+        self.take_share(index, share);
+        Ok(())
+    }
+
+    /// Moves a share of a volume's paint to the sponge, rounded up.
+    fn take_share(&mut self, index: usize, share: f32) {
+        let kept = ((1.0 - share) * 65536.0).clamp(0.0, 65536.0) as u32;
+        if kept < 65536 {
+            let before = self.volumes[index].paint;
+            let after = before.share_of_65536(kept);
+            add(&mut self.lifted, amounts_of(&before.minus(&after)));
+            self.give(index, after);
+        }
+    }
+
     /// What all sponges take up in this step.
     pub(super) fn take_up(&mut self) {
         let mut sponges = std::mem::take(&mut self.sponges);
@@ -48,13 +81,7 @@ impl World {
                 continue;
             }
             let covered = self.share_below(index, |at| at.distance(middle) < radius);
-            let kept = ((1.0 - covered * rate) * 65536.0).clamp(0.0, 65536.0) as u32;
-            if kept < 65536 {
-                let before = volume.paint;
-                let after = before.share_of_65536(kept);
-                add(&mut self.lifted, amounts_of(&before.minus(&after)));
-                self.give(index, after);
-            }
+            self.take_share(index, covered * rate);
         }
     }
 

@@ -28,18 +28,20 @@ pub(super) const BIRTH: f32 = 0.02;
 /// which the same steps and actions lead to the same bytes, on any number of threads. Frames may
 /// take any number of steps each.
 ///
-/// ```no_run
+/// ```
 /// use graphics::mesh::SampleModel;
 /// use volumes::world::{Pour, Recipe, World, WorldSettings};
 ///
-/// let mesh = SampleModel::Village.mesh(20_000);
+/// let mesh = SampleModel::Sphere.mesh(500);
 /// let mut world = World::of(&mesh, &WorldSettings::default())?;
-/// let roof = mesh.positions[1000].into();
-/// world.pour(Pour::at(roof, 40.0, 2.0, Recipe::of_slot(0)))?;
-/// for _ in 0..240 {
+/// // 40 mm^3 of the paint in slot 0 a second, for half a second.
+/// world.pour(Pour::at(mesh.positions[100].into(), 40.0, 0.5, Recipe::of_slot(0)))?;
+/// for _ in 0..60 {
 ///     world.step()?;
 /// }
 /// assert!(!world.volumes().is_empty());
+/// let poured = world.tally().poured[0] as f64 * world.quantum_mm3();
+/// assert!((poured - 20.0).abs() < 1e-6);
 /// # Ok::<(), volumes::world::WorldError>(())
 /// ```
 #[derive(Debug, Clone)]

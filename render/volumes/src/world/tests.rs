@@ -9,6 +9,7 @@ use super::*;
 use crate::containing::Inside;
 use crate::motion::{KeepIn, Push};
 use crate::test_surfaces::{joined, sheet};
+use crate::wetting::SurfaceSamples;
 
 fn level(side: f32, height: f32) -> Mesh {
     sheet(1, |u, v| [side * (u - 0.5), height, side * (v - 0.5)])
@@ -253,6 +254,54 @@ fn a_volume_without_paint_left_vanishes() {
     assert!(world.volumes().is_empty());
     assert!(is_exact(&world));
     assert_eq!(world.tally().lifted, world.tally().poured);
+}
+
+#[test]
+fn a_volume_shrinks_with_its_paint_until_it_vanishes() {
+    let mut world = flat();
+    let index = world.add_volume(&single(Vec3::ZERO, 2.0)).unwrap();
+    let bare = Single { recipe: None, ..single(Vec3::X, 1.0) };
+    let other = world.add_volume(&bare).unwrap();
+    world.shrink(index, 0.75).unwrap();
+    world.shrink(other, 0.5).unwrap();
+    run(&mut world, 300);
+    let radii = [index, other].map(|index| world.volumes()[index].radius);
+    // A quarter of the paint covers a quarter of the area.
+    assert!((radii[0] - 1.0).abs() < 0.05 && (radii[1] - 0.5).abs() < 1e-3, "{radii:?}");
+    world.shrink(index, 1.0).unwrap();
+    world.shrink(other, 1.0).unwrap();
+    run(&mut world, 300);
+    assert!(world.volumes().is_empty() && is_exact(&world));
+    assert!(world.shrink(0, 1.0).is_err());
+}
+
+#[test]
+fn full_cells_of_rough_volumes_hold_all_surface() {
+    for shape in SampleModel::ALL {
+        let mesh = shape.mesh(3000);
+        let settings = WorldSettings { cell: 0.125, ..WorldSettings::default() };
+        let mut world = World::of(&mesh, &settings).unwrap();
+        for cell in 0..world.grid.cells.len() {
+            let place = world.grid.samples.places[world.grid.samples.of_cell(cell).start];
+            let index = world.volume_in(cell, place, 0).unwrap();
+            let paint = Recipe::of_slot(0).measured(world.grid.cells.capacities[cell]);
+            world.set_paint(index, paint);
+            world.volumes[index].radius = world.volumes[index].target_radius;
+        }
+        run(&mut world, 60);
+        let insides: Vec<(Vec3, Inside)> =
+            world.volumes().iter().map(|volume| (volume.center, Inside::of(volume))).collect();
+        // Other places than those that the grid was made of, four times as many.
+        let places = SurfaceSamples::of(&mesh, world.scale.cell / 2.0, 77).unwrap().places;
+        let held = |at: &Vec3| {
+            let near = insides
+                .iter()
+                .filter(|(center, inside)| f64::from(center.distance(*at)) <= inside.farthest());
+            near.into_iter().any(|(_, inside)| inside.holds(*at))
+        };
+        let bare = places.iter().filter(|at| !held(at)).count();
+        assert_eq!(bare, 0, "{} of {} on {}", bare, places.len(), shape.name());
+    }
 }
 
 #[test]

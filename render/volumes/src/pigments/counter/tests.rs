@@ -1,3 +1,4 @@
+use glam::Vec3;
 use graphics::mesh::SampleModel;
 use graphics::surface::visible;
 use paint::amount::mm_from_quanta;
@@ -10,6 +11,7 @@ use crate::containing::Inside;
 use crate::pigments::FilmSum;
 use crate::test_volumes::{bumpy, camera, plane};
 use crate::wetting::SurfaceSamples;
+use crate::world::{Pour, Recipe, World, WorldSettings};
 
 /// Side of a cell of the grid.
 const CELL: f32 = 1.0 / 3.0;
@@ -38,6 +40,7 @@ impl Poured {
                 let mut pigments = [0; SLOTS];
                 pigments[seed as usize % 3] = (within(1.0, 4.0) * 1e6) as u32;
                 volume.paint = Cell { pigments, vehicle: 600_000 };
+                volume.normal = Vec3::Z;
                 volume
             })
             .collect();
@@ -49,9 +52,8 @@ impl Poured {
     fn films(&self) -> Vec<Film> {
         let surface = SampledSurface::from(&self.samples);
         let lattice = SampleLattice::of(surface.places, CELL);
-        let facing = vec![Vec3::Z; self.volumes.len()];
         let profile = FilmProfile::default();
-        Film::of_volumes(&self.volumes, &facing, profile, (&surface, &lattice), &SCALE)
+        Film::of_volumes(&self.volumes, profile, (&surface, &lattice), &SCALE)
     }
 
     fn heights(&self, sight: usize) -> Field<FilmHeights> {
@@ -59,9 +61,8 @@ impl Poured {
         let profile = FilmProfile::default();
         let mut counter = FilmCounter::new(&self.mesh, &surface, CELL, profile, SCALE);
         let (camera, visible) = &self.visible[sight];
-        let facing = vec![Vec3::Z; self.volumes.len()];
-        let poured = (&self.volumes[..], &facing[..]);
-        counter.heights((&self.mesh, &surface), poured, FilmKind::Surface, camera, visible)
+        let scene = (&self.mesh, &surface);
+        counter.heights(scene, &self.volumes, FilmKind::Surface, camera, visible)
     }
 }
 
@@ -97,12 +98,12 @@ fn the_films_on_a_still_life_are_the_paint_poured() {
             let radius = cell * (0.5 + 0.02 * at as f32);
             let mut volume = bumpy(samples.places[pick(at)], radius, 2, at as u64);
             volume.paint = Cell { pigments: [0; SLOTS], vehicle: 2_000_000 };
+            volume.normal = samples.normals[pick(at)];
             volume
         })
         .collect();
-    let facing: Vec<Vec3> = (0..40).map(|at| samples.normals[pick(at)]).collect();
     let profile = FilmProfile::default();
-    let films = Film::of_volumes(&volumes, &facing, profile, (&surface, &lattice), &SCALE);
+    let films = Film::of_volumes(&volumes, profile, (&surface, &lattice), &SCALE);
     let insides: Vec<Inside> = volumes.iter().map(Inside::of).collect();
     let sum = FilmSum { films: &films, insides: &insides };
     // Other samples, 25 times as many.
@@ -113,6 +114,40 @@ fn the_films_on_a_still_life_are_the_paint_poured() {
     let laid = heights * mm_from_quanta(1, SCALE.cell_mm) * patch_mm2;
     let ratio = laid / (40.0 * 2e6 * SCALE.quantum_mm3);
     assert!((0.98..1.02).contains(&ratio), "{ratio}");
+}
+
+#[test]
+fn the_films_of_a_world_are_the_paint_on_its_scene() {
+    let mesh = SampleModel::Village.mesh(6000);
+    let mut world = World::of(&mesh, &WorldSettings::default()).unwrap();
+    for (slot, at) in [(0, 100), (1, 900), (3, 2100)] {
+        let place = Vec3::from(mesh.positions[at]);
+        world.pour(Pour::at(place, 60.0, 1.0, Recipe::of_slot(slot))).unwrap();
+    }
+    (0..150).for_each(|_| world.step().unwrap());
+    let samples = &world.grid().samples;
+    let surface = SampledSurface::from(samples);
+    let lattice = SampleLattice::of(surface.places, samples.lattice.cell);
+    let (unit_mm, quantum_mm3) = (world.unit_mm(), world.quantum_mm3());
+    let scale = FilmScale { quantum_mm3, unit_mm, cell_mm: 0.2 };
+    let profile = FilmProfile::default();
+    let films = Film::of_volumes(world.volumes(), profile, (&surface, &lattice), &scale);
+    let insides: Vec<Inside> = world.volumes().iter().map(Inside::of).collect();
+    let sum = FilmSum { films: &films, insides: &insides };
+    let fine = SurfaceSamples::of(&mesh, 0.2 * samples.lattice.cell, 6).unwrap();
+    let patch_mm2 = f64::from(fine.areas[0]) * unit_mm * unit_mm;
+    let mut laid = [0.0; SLOTS + 1];
+    for (&place, &normal) in fine.places.iter().zip(&fine.normals) {
+        let heights = sum.at(place, normal).0;
+        laid.iter_mut().zip(heights).for_each(|(laid, height)| *laid += f64::from(height));
+    }
+    let on_scene = world.tally().on_scene;
+    for slot in [0, 1, 3] {
+        let laid_mm3 = laid[slot] * mm_from_quanta(1, 0.2) * patch_mm2;
+        let ratio = laid_mm3 / (on_scene[slot] as f64 * quantum_mm3);
+        assert!((0.97..1.03).contains(&ratio), "{slot}: {ratio}");
+    }
+    assert!(world.volumes().len() > 20, "{}", world.volumes().len());
 }
 
 #[test]

@@ -34,13 +34,13 @@ impl Plane {
     fn films(&self, volumes: &[Volume], profile: FilmProfile) -> Vec<Film> {
         let Self { places, normals, areas, lattice } = self;
         let surface = SampledSurface { places, normals, areas };
-        let facing = vec![Vec3::Z; volumes.len()];
-        Film::of_volumes(volumes, &facing, profile, (&surface, lattice), &SCALE)
+        Film::of_volumes(volumes, profile, (&surface, lattice), &SCALE)
     }
 }
 
 fn painted(mut volume: Volume, pigments: [u32; SLOTS], vehicle: u32) -> Volume {
     volume.paint = Cell { pigments, vehicle };
+    volume.normal = Vec3::Z;
     volume
 }
 

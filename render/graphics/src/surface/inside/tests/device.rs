@@ -5,6 +5,7 @@ use std::io::Write;
 
 use glam::Vec3;
 use rand::SeedableRng;
+use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
 use super::random_scenes::random_scene;
@@ -127,7 +128,7 @@ fn the_device_counts_beyond_the_stencil() {
             surfaces.add_ball(Vec3::new(0.0, 0.0, -3.0), 1.0 + i as f32 * 0.001);
         }
         if shuffled {
-            surfaces.triangles.reverse();
+            surfaces.triangles.shuffle(&mut ChaCha8Rng::seed_from_u64(10));
         }
         let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
         let scene = Scene { mesh: wall(-3.0, 6.0, 4), surfaces, camera, size: (97, 61) };

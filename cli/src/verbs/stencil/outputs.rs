@@ -1,0 +1,121 @@
+//! Options and files of everything that is written beside an animation.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use render::volumes::script::Script;
+
+use crate::failure::{Failure, Result};
+use crate::output::{Output, create_folder};
+use crate::pictures::{Exports, OpenExports};
+use crate::plain_picture::refuse_same;
+
+#[derive(Debug, Args)]
+pub(super) struct OutputOptions {
+    #[command(flatten)]
+    exports: Exports,
+    /// Write the picture in layers for compositing, as OpenEXR of several parts: colour, grey, count
+    /// and tint of each region, ink, place, normal, and heights of pigments
+    #[arg(long, value_name = "FILE", help_heading = "Exports")]
+    passes: Option<PathBuf>,
+    /// Write a mask as PNG or OpenEXR: white where volumes bring colour
+    #[arg(long, value_name = "FILE", help_heading = "Exports")]
+    mask: Option<PathBuf>,
+    /// Write the volumes of each frame into this folder as PLY
+    #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
+    volumes: Option<PathBuf>,
+    /// Write what was poured, with all settings that differ from the preset, as a script (.toml)
+    #[arg(long, value_name = "FILE", help_heading = "Exports")]
+    script_out: Option<PathBuf>,
+}
+
+/// Files that were checked to be writable.
+pub(super) struct OpenOutputs {
+    pub(super) exports: OpenExports,
+    pub(super) passes: Option<Output>,
+    pub(super) mask: Option<Output>,
+    script: Option<Output>,
+    volumes: Vec<Output>,
+}
+
+impl OutputOptions {
+    /// Whether anything is to be written.
+    pub(super) fn any(&self) -> bool {
+        let others = [&self.passes, &self.mask, &self.volumes, &self.script_out];
+        self.exports.any() || others.into_iter().any(Option::is_some)
+    }
+
+    /// First option present that needs layers of pigments.
+    pub(super) fn layer_option(&self) -> Option<&'static str> {
+        self.exports.layer_option()
+    }
+
+    /// Checks that all files can be written, for `frames` frames.
+    pub(super) fn open(
+        self,
+        inputs: &[PathBuf],
+        frames: usize,
+        animation: Option<&Output>,
+    ) -> Result<OpenOutputs> {
+        let open = |path: &Option<PathBuf>, endings: &[&str]| {
+            path.as_ref().map(|path| Output::with_ending(path, endings, inputs)).transpose()
+        };
+        let passes = open(&self.passes, &["exr"])?;
+        let mask = open(&self.mask, &["png", "exr"])?;
+        let script = open(&self.script_out, &["toml"])?;
+        refuse_same(&[passes.as_ref(), mask.as_ref(), script.as_ref(), animation])?;
+        let exports = self.exports.open(inputs)?;
+        let own = [&passes, &mask, &script].into_iter().flatten().chain(animation);
+        if let Some(twice) = own.into_iter().find(|output| exports.writes(output)) {
+            return Err(Failure::usage(
+                format!("{}: two outputs have this file name", twice.path().display()),
+                "give each output its own file name",
+            ));
+        }
+        let volumes = match &self.volumes {
+            None => Vec::new(),
+            Some(folder) => {
+                create_folder(folder)?;
+                let file = |index: usize| folder.join(format!("frame-{:04}.ply", index + 1));
+                refuse_beyond(&file(frames))?;
+                let outputs = (0..frames).map(|index| Output::open(&file(index), inputs));
+                outputs.collect::<Result<_>>()?
+            }
+        };
+        Ok(OpenOutputs { exports, passes, mask, script, volumes })
+    }
+}
+
+impl OpenOutputs {
+    /// Whether volumes are to be written.
+    pub(super) fn wants_volumes(&self) -> bool {
+        !self.volumes.is_empty()
+    }
+
+    /// Writes the script.
+    pub(super) fn write_script(&mut self, script: &Script) -> Result<()> {
+        match self.script.take() {
+            None => Ok(()),
+            Some(output) => output.write(script.to_text()?),
+        }
+    }
+
+    /// Writes the volumes of all frames, in order.
+    pub(super) fn write_volumes(&mut self, files: Vec<Vec<u8>>) -> Result<()> {
+        for (output, bytes) in std::mem::take(&mut self.volumes).into_iter().zip(files) {
+            output.write(bytes)?;
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a folder that has a frame beyond the last one, which would be of another animation.
+fn refuse_beyond(path: &Path) -> Result<()> {
+    match path.exists() {
+        false => Ok(()),
+        true => Err(Failure::usage(
+            format!("{}: a frame of another animation", path.display()),
+            "name an empty folder, or remove its frames",
+        )),
+    }
+}

@@ -1,0 +1,92 @@
+//! Options for painting with measured pigments.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use calibrate::Backing;
+use clap::Args;
+use render::paint::document::Lighting;
+use render::paint::ground::{GroundKind, MeasuredPrimer, Primer, PrimerSpectrum};
+use render::volumes::painter::VolumePigments;
+use render::volumes::script::Script;
+
+use crate::canvas::grounds;
+use crate::console::Console;
+use crate::failure::{Failure, Result};
+use crate::ground::ground;
+use crate::input::{library, viewing};
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Pigments")]
+pub(super) struct PigmentOptions {
+    /// Paint with this library: volumes become films of measured pigments over a grisaille, if the
+    /// setting drawing.inside is glaze or both (as in the preset grisaille)
+    #[arg(long, value_name = "LIBRARY")]
+    pigments: Option<PathBuf>,
+    /// Up to eight pigments of the volumes, separated by commas
+    #[arg(long, value_name = "PIGMENTS", value_delimiter = ',', requires = "pigments")]
+    palette: Vec<String>,
+    /// Ground: linen, paper or panel
+    #[arg(long, value_name = "KIND", default_value = "panel", value_parser = grounds())]
+    ground: GroundKind,
+    /// Reflectance of the ground as measured, 0 to 1, white or black [default: the white of the
+    /// library]
+    #[arg(long, value_name = "GROUND", requires = "pigments")]
+    over: Option<String>,
+    /// Light: D65, A, FL11, 5600K, or the file of a lamp
+    #[arg(long, value_name = "LIGHT", default_value = "D65", requires = "pigments")]
+    illuminant: String,
+}
+
+impl PigmentOptions {
+    /// Path of the library, if given.
+    pub(super) fn input(&self) -> Option<&PathBuf> {
+        self.pigments.as_ref()
+    }
+
+    /// Whether a library is given.
+    pub(super) fn any(&self) -> bool {
+        self.pigments.is_some()
+    }
+
+    /// The pigments of `--palette` by name.
+    pub(super) fn palette(&self) -> &[String] {
+        &self.palette
+    }
+
+    /// Pigments, ground and light of a script's palette, if a library is given. `located` adds file
+    /// and line to a fault of the script.
+    pub(super) fn materials(
+        &self,
+        script: &Script,
+        located: impl FnOnce(Box<render::volumes::toml_text::Fault>) -> Failure,
+        console: &mut Console<'_>,
+    ) -> Result<Option<VolumePigments>> {
+        let Some(path) = &self.pigments else { return Ok(None) };
+        let library = library(path)?;
+        if script.palette.is_empty() {
+            return Err(Failure::usage(
+                format!("{}: no pigment of this library is chosen", path.display()),
+                "add --palette with up to eight of its pigments, or --paint for each pour",
+            ));
+        }
+        let slots = script.slots(&library).map_err(located)?;
+        let mut ground_spec = self.ground.spec(1);
+        if let Some(text) = &self.over {
+            ground_spec.reflectance = Some(match ground(text, console)? {
+                Backing::Even(reflectance) => Primer::Grey(reflectance),
+                Backing::Measured(spectrum) => {
+                    let (grid, values) = (spectrum.grid(), spectrum.values().to_vec());
+                    Primer::Measured(MeasuredPrimer { spectrum: PrimerSpectrum { grid, values } })
+                }
+            });
+        }
+        // Films are thinner than the relief of a ground, which would only hide the drawing.
+        let illuminant = self.illuminant.clone();
+        let lighting = Lighting { illuminant, relief: 0.0, ..Lighting::default() };
+        // An unknown light is refused before anything is painted.
+        viewing(&lighting.illuminant, &lighting.observer)?;
+        let library = Arc::new(library);
+        Ok(Some(VolumePigments { library, slots, own_colors: None, ground: ground_spec, lighting }))
+    }
+}

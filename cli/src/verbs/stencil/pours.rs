@@ -1,0 +1,120 @@
+//! Options for what is poured, and for how long.
+
+use clap::Args;
+use render::volumes::script::{PourTable, Row, Script};
+
+use crate::failure::{Failure, Result};
+
+/// Paint of a pour whose amount is not given, in mm3: a film of 0.02 mm on a disc 60 mm wide.
+const AMOUNT_MM3: f64 = 60.0;
+/// Longest time over which such paint flows, in seconds.
+const FLOW_S: f64 = 3.0;
+/// Duration without a script and without `--seconds`.
+const SECONDS: f64 = 4.0;
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Paint")]
+pub(super) struct PourOptions {
+    /// Pour paint at a place of the first picture: shares of its width and height, and the amount in
+    /// mm3 [default: 60], such as `0.5,0.6` or `0.5,0.6,200`; may be repeated
+    #[arg(long = "pour", value_name = "X,Y[,MM3]")]
+    pours: Vec<String>,
+    /// Paint of the pours, as pigments with their parts, such as `Ultramarine=2,White=1`: one for all
+    /// of them, or one for each [default: the pigments of --palette in turn]
+    #[arg(long = "paint", value_name = "RECIPE")]
+    paints: Vec<String>,
+    /// How long paint spreads, in seconds [default: 4, or as the script says]
+    #[arg(long, value_name = "SECONDS")]
+    seconds: Option<f64>,
+}
+
+impl PourOptions {
+    /// Seconds of a scene without a script.
+    pub(super) fn usual_seconds(&self) -> f64 {
+        self.seconds.unwrap_or(SECONDS)
+    }
+
+    /// Adds what is poured to a script. `palette` are the pigments by name.
+    pub(super) fn apply(&self, script: &mut Script, palette: &[String]) -> Result<()> {
+        if let Some(seconds) = self.seconds {
+            script.seconds = seconds;
+        }
+        if !self.paints.is_empty() && self.paints.len() != 1 && self.paints.len() != self.pours.len()
+        {
+            return Err(Failure::usage(
+                format!("{} recipes for {} pours", self.paints.len(), self.pours.len()),
+                "give one --paint for all pours, or one for each",
+            ));
+        }
+        for name in palette {
+            letter(script, name);
+        }
+        for (index, text) in self.pours.iter().enumerate() {
+            let (picked, amount_mm3) = place(text)?;
+            let mut pour = PourTable {
+                picked: Some(Row(picked)),
+                for_s: script.seconds.min(FLOW_S),
+                amount_mm3: Some(amount_mm3),
+                ..PourTable::default()
+            };
+            let recipe = match self.paints.len() {
+                0 => palette.get(index % palette.len().max(1)).cloned(),
+                1 => Some(self.paints[0].clone()),
+                _ => Some(self.paints[index].clone()),
+            };
+            for (name, part) in recipe.iter().map(|text| parts(text)).collect::<Result<Vec<_>>>()?.concat()
+            {
+                pour.recipe.insert(letter(script, &name), part);
+            }
+            script.pours.push(pour);
+        }
+        Ok(())
+    }
+}
+
+/// The key of a pigment in the palette of a script, which is added if it is new.
+fn letter(script: &mut Script, pigment: &str) -> String {
+    if let Some((key, _)) = script.palette.iter().find(|(_, name)| *name == pigment) {
+        return key.clone();
+    }
+    let key = (1..).map(|number| format!("P{number}"));
+    let key = key.skip_while(|key| script.palette.contains_key(key)).next().unwrap_or_default();
+    script.palette.insert(key.clone(), pigment.to_owned());
+    key
+}
+
+/// Reads `X,Y[,MM3]`.
+fn place(text: &str) -> Result<([f64; 2], f64)> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let (x, y, amount) = match numbers.as_deref() {
+        Ok(&[x, y]) => (x, y, AMOUNT_MM3),
+        Ok(&[x, y, amount]) => (x, y, amount),
+        _ => (f64::NAN, f64::NAN, AMOUNT_MM3),
+    };
+    let inside = [x, y].iter().all(|share| (0.0..=1.0).contains(share));
+    if inside && amount > 0.0 && amount.is_finite() {
+        return Ok(([x, y], amount));
+    }
+    Err(Failure::usage(
+        format!("--pour takes X,Y or X,Y,MM3 with shares of 0 to 1 and more than 0 mm3, found `{text}`"),
+        "try --pour 0.5,0.6 or --pour 0.5,0.6,200",
+    ))
+}
+
+/// Reads `NAME=PART,NAME=PART`; a name alone has one part.
+fn parts(text: &str) -> Result<Vec<(String, f64)>> {
+    let wrong = || {
+        Failure::usage(
+            format!("--paint takes pigments with their parts above 0, found `{text}`"),
+            "try --paint \"Ultramarine=2,Titanium White=1\"",
+        )
+    };
+    let part = |part: &str| {
+        let (name, share) = part.split_once('=').unwrap_or((part, "1"));
+        let share: f64 = share.trim().parse().map_err(|_| wrong())?;
+        let name = name.trim();
+        let fits = !name.is_empty() && share > 0.0 && share.is_finite();
+        if fits { Ok((name.to_owned(), share)) } else { Err(wrong()) }
+    };
+    text.split(',').map(part).collect()
+}
