@@ -124,8 +124,7 @@ fn painter(inside: InsidePaint) -> (FilmPainter, FilmView) {
 fn heights(scene: &Scene) -> Field<FilmHeights> {
     let seen = SeenPlaces::of(&scene.mesh, &scene.facets, &scene.visible);
     let films = FilmOnSurface { films: &scene.films, seen: &seen };
-    let VolumeSurfaces { vertices, triangles } = &scene.surfaces;
-    Crossings::default().sum(&films, vertices, triangles, &scene.camera, &scene.visible)
+    Crossings::default().sum(&films, scene.surfaces.closed(), &scene.camera, &scene.visible)
 }
 
 #[divan::bench]
@@ -150,8 +149,7 @@ fn heights_on_surface(bencher: Bencher<'_, '_>) {
     let seen = SeenPlaces::of(mesh, facets, visible);
     let films = FilmOnSurface { films, seen: &seen };
     let mut crossings = Crossings::default();
-    let VolumeSurfaces { vertices, triangles } = surfaces;
-    bencher.bench_local(|| crossings.sum(&films, vertices, triangles, camera, visible));
+    bencher.bench_local(|| crossings.sum(&films, surfaces.closed(), camera, visible));
 }
 
 #[divan::bench]
@@ -160,10 +158,9 @@ fn heights_along_rays(bencher: Bencher<'_, '_>) {
     let seen = SeenPlaces::of(mesh, facets, visible);
     let densities: Vec<Density> = volumes.iter().map(|one| Density::of(one, &SCALE)).collect();
     let mut crossings = Crossings::default();
-    let VolumeSurfaces { vertices, triangles } = surfaces;
     bencher.bench_local(|| {
         let films = FilmThrough::new(&densities, camera, &seen.places, false);
-        crossings.sum(&films, vertices, triangles, camera, visible)
+        crossings.sum(&films, surfaces.closed(), camera, visible)
     });
 }
 

@@ -1,9 +1,22 @@
 //! The faces of many volumes in one list, for counting and drawing.
 
 use glam::Vec3;
+use graphics::export::{ExportError, ply};
 use graphics::mesh::Triangle;
+use graphics::surface::ClosedSurfaces;
 
 use crate::volume::Volume;
+
+/// Colours that tell regions apart, encoded sRGB (Okabe and Ito 2008, safe for colour-blind eyes).
+pub const REGIONS: [[f32; 3]; 7] = [
+    [0.0, 0.447, 0.698],
+    [0.902, 0.624, 0.0],
+    [0.0, 0.620, 0.451],
+    [0.800, 0.475, 0.655],
+    [0.337, 0.706, 0.914],
+    [0.835, 0.369, 0.0],
+    [0.941, 0.894, 0.259],
+];
 
 /// The closed surfaces of volumes as triangles. The material of a triangle is the index of its
 /// volume.
@@ -47,6 +60,12 @@ impl VolumeSurfaces {
         }
     }
 
+    /// The surfaces as a list for counting.
+    #[must_use]
+    pub fn closed(&self) -> ClosedSurfaces<'_, [f32; 3]> {
+        ClosedSurfaces { vertices: &self.vertices, triangles: &self.triangles }
+    }
+
     /// Removes all faces.
     pub fn clear(&mut self) {
         self.vertices.clear();
@@ -67,6 +86,21 @@ impl VolumeSurfaces {
         let faces = faces.map(|face| Triangle { corners: corners(face), material: surface });
         self.triangles.extend(faces);
     }
+}
+
+/// A binary PLY file of the surfaces of volumes; each has a colour by its region.
+///
+/// # Errors
+/// [`ExportError`] for more than 2^31 vertices.
+pub fn ply_of(volumes: &[Volume]) -> Result<Vec<u8>, ExportError> {
+    let surfaces = VolumeSurfaces::of(volumes);
+    let colors = volumes.iter().flat_map(|volume| {
+        let color = REGIONS[usize::from(volume.region) % REGIONS.len()];
+        std::iter::repeat_n(color, volume.mesh().directions.len())
+    });
+    let vertices: Vec<_> = surfaces.vertices.iter().copied().zip(colors).collect();
+    let faces: Vec<_> = surfaces.triangles.iter().map(|triangle| triangle.corners).collect();
+    ply(&vertices, &faces)
 }
 
 #[cfg(test)]

@@ -39,7 +39,9 @@ impl PourOptions {
         if let Some(seconds) = self.seconds {
             script.seconds = seconds;
         }
-        if !self.paints.is_empty() && self.paints.len() != 1 && self.paints.len() != self.pours.len()
+        if !self.paints.is_empty()
+            && self.paints.len() != 1
+            && self.paints.len() != self.pours.len()
         {
             return Err(Failure::usage(
                 format!("{} recipes for {} pours", self.paints.len(), self.pours.len()),
@@ -62,7 +64,8 @@ impl PourOptions {
                 1 => Some(self.paints[0].clone()),
                 _ => Some(self.paints[index].clone()),
             };
-            for (name, part) in recipe.iter().map(|text| parts(text)).collect::<Result<Vec<_>>>()?.concat()
+            for (name, part) in
+                recipe.iter().map(|text| parts(text)).collect::<Result<Vec<_>>>()?.concat()
             {
                 pour.recipe.insert(letter(script, &name), part);
             }
@@ -96,7 +99,9 @@ fn place(text: &str) -> Result<([f64; 2], f64)> {
         return Ok(([x, y], amount));
     }
     Err(Failure::usage(
-        format!("--pour takes X,Y or X,Y,MM3 with shares of 0 to 1 and more than 0 mm3, found `{text}`"),
+        format!(
+            "--pour takes X,Y or X,Y,MM3 with shares of 0 to 1 and more than 0 mm3, found `{text}`"
+        ),
         "try --pour 0.5,0.6 or --pour 0.5,0.6,200",
     ))
 }

@@ -13,7 +13,7 @@ use spectra::color::RgbSpace;
 use super::error::{ExportError, check_cell, check_size};
 
 /// A part of an OpenEXR file: its name, and channels with their samples row by row.
-pub type ExrPart = (String, Vec<(String, FlatSamples)>);
+pub type ExrPart = (String, Vec<(String, Vec<f32>)>);
 
 /// Encodes named channels (samples row by row) with the primaries of sRGB; a pixel is
 /// `cell_mm` wide.
@@ -26,7 +26,7 @@ pub fn exr_file(
     encoded(size, cell_mm, vec![(attributes, channels)])
 }
 
-/// Encodes parts of one size, each with named channels, as one OpenEXR file with the primaries of
+/// Encodes parts of one size, each with named channels of 32-bit floats, as one OpenEXR file with the primaries of
 /// sRGB; a pixel is `cell_mm` wide.
 ///
 /// # Errors
@@ -37,7 +37,11 @@ pub fn exr_parts(
     cell_mm: f64,
     parts: Vec<ExrPart>,
 ) -> Result<Vec<u8>, ExportError> {
-    let named = |(name, channels): ExrPart| (LayerAttributes::named(name.as_str()), channels);
+    let named = |(name, channels): ExrPart| {
+        let channels = channels.into_iter();
+        let channels = channels.map(|(name, values)| (name, FlatSamples::F32(values)));
+        (LayerAttributes::named(name.as_str()), channels.collect())
+    };
     encoded(size, cell_mm, parts.into_iter().map(named).collect())
 }
 
@@ -89,7 +93,7 @@ mod tests {
 
     #[test]
     fn parts_keep_their_names_channels_and_values() {
-        let plane = |value: f32| FlatSamples::F32(vec![value; 6]);
+        let plane = |value: f32| vec![value; 6];
         let parts = vec![
             ("color".to_owned(), vec![("R".to_owned(), plane(0.25)), ("B".to_owned(), plane(2.0))]),
             ("count".to_owned(), vec![("sky".to_owned(), plane(300.0))]),

@@ -1,10 +1,14 @@
 //! What a camera sees of a scene and which volumes hold it, before a picture is composed.
 
+use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, Image};
 use graphics::field::Field;
 use graphics::mesh::Mesh;
-use graphics::surface::{Crossings, Fragment, InsideCounter, Model, NO_TRIANGLE, PackedMesh};
+use graphics::surface::{
+    Crossings, Fragment, InsideCounter, Model, NO_TRIANGLE, PackedMesh, Rasteriser, Sides,
+    SurfacePoint, VisibilityBuffer,
+};
 
 use super::averaged::averaged;
 use super::error::PaintingError;
@@ -31,6 +35,8 @@ pub(super) struct Drawer {
     facets: Facets,
     texture: ThresholdTexture,
     hatching: Hatching,
+    /// The same in the processor's memory, for films and parts.
+    host_hatching: Hatching,
     pub(super) settings: Settings,
     look: DrawingLook,
     pub(super) regions: Vec<RegionLook>,
@@ -81,13 +87,15 @@ impl Drawer {
         let packed = PackedMesh::new(scene);
         let mut compute = Compute::cpu();
         let texture = ThresholdTexture::new(u64::from(settings.seed));
+        let host_hatching = Hatching::new(&mut compute, &texture, &packed)?;
         let regions: Result<Vec<_>, _> = styles.iter().map(RegionLook::of).collect();
         let regions = regions?;
         let look = looks::drawing_look(settings);
         look.check()?;
         Ok(Self {
             model: Model::new(&mut compute, packed.clone())?,
-            hatching: Hatching::new(&mut compute, &texture, &packed)?,
+            hatching: host_hatching.clone(),
+            host_hatching,
             texture,
             facets: Facets::of(&packed),
             packed,
@@ -191,6 +199,107 @@ impl Drawer {
         regions.map(region).collect()
     }
 
+    /// Colour of the paper, encoded sRGB.
+    pub(super) fn paper(&self) -> [f32; 3] {
+        looks::paper(&self.settings)
+    }
+
+    /// Samples along each side of a pixel.
+    pub(super) fn samples_a_pixel(&self) -> usize {
+        self.look.samples
+    }
+
+    /// An image in the memory of whatever draws.
+    pub(super) fn uploaded<T: bytemuck::Pod>(
+        &mut self,
+        field: &Field<T>,
+    ) -> Result<Image<T>, PaintingError> {
+        Ok(self.compute.upload(field)?)
+    }
+
+    /// The values of an image.
+    pub(super) fn downloaded<T: bytemuck::Pod>(
+        &mut self,
+        image: &Image<T>,
+    ) -> Result<Field<T>, PaintingError> {
+        Ok(self.compute.download(image)?)
+    }
+
+    /// What `camera` sees, on the processor.
+    fn seen(
+        &self,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<VisibilityBuffer, PaintingError> {
+        let (width, height) = self.samples(size)?;
+        let mut visible = Field::filled(width, height, Fragment::EMPTY);
+        let clip_from_model = camera.clip_from_model(width as f32 / height as f32);
+        let PackedMesh { vertices, triangles, .. } = &self.packed;
+        let mut rasteriser = Rasteriser::default();
+        rasteriser.draw(clip_from_model, vertices, triangles, Sides::Both, &mut visible);
+        Ok(visible)
+    }
+
+    /// The ink of the strokes at each sample, at full strength, 0 to 1.
+    pub(super) fn ink(
+        &self,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<Field<f32>, PaintingError> {
+        let visible = self.seen(camera, size)?;
+        let hatching = &self.host_hatching;
+        Ok(shade_apart(&self.packed, &visible, camera, &self.look, hatching)?.1)
+    }
+
+    /// A picture of the strokes alone, in the grey of the pencil on white.
+    pub(super) fn strokes(
+        &self,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<Field<[f32; 4]>, PaintingError> {
+        let ink = averaged(self.ink(camera, size)?, self.look.samples);
+        let darker = 1.0 - self.look.hatching.pencil;
+        let stroke = |&ink: &f32| {
+            let grey = 1.0 - ink * darker;
+            [grey, grey, grey, 1.0]
+        };
+        let values = ink.values().iter().map(stroke).collect();
+        Ok(Field::from_values(ink.width(), ink.height(), values))
+    }
+
+    /// Place and normal that each sample shows; zeros where nothing is seen.
+    pub(super) fn surfaces_seen(
+        &self,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<[Field<[f32; 3]>; 2], PaintingError> {
+        let visible = self.seen(camera, size)?;
+        let of = |value: &dyn Fn(SurfacePoint<'_>) -> Vec3| {
+            let values = visible.values().iter().map(|seen| match seen.triangle {
+                NO_TRIANGLE => [0.0; 3],
+                _ => value(SurfacePoint::new(&self.packed, *seen)).to_array(),
+            });
+            Field::from_values(visible.width(), visible.height(), values.collect())
+        };
+        Ok([of(&|point| point.position()), of(&|point| point.normal(camera.eye))])
+    }
+
+    /// What each pixel shows, on the processor, and where that is; no numbers where nothing is seen.
+    pub(super) fn places(
+        &self,
+        camera: &Camera,
+        (width, height): (usize, usize),
+    ) -> Result<(VisibilityBuffer, Field<Vec3>), PaintingError> {
+        self.samples((width, height))?;
+        let mut visible = Field::filled(width, height, Fragment::EMPTY);
+        let clip_from_model = camera.clip_from_model(width as f32 / height as f32);
+        let PackedMesh { vertices, triangles, .. } = &self.packed;
+        let mut rasteriser = Rasteriser::default();
+        rasteriser.draw(clip_from_model, vertices, triangles, Sides::Both, &mut visible);
+        let places = SeenPlaces::of(&self.packed, &self.facets, &visible).places;
+        Ok((visible, places))
+    }
+
     /// The parts of a painting with `films`, on the processor.
     pub(super) fn parts(
         &mut self,
@@ -200,11 +309,9 @@ impl Drawer {
         size: (usize, usize),
     ) -> Result<Parts, PaintingError> {
         let (width, height) = self.samples(size)?;
-        let mut host = Model::new(&mut Compute::cpu(), self.packed.clone())?;
-        let visible = host.visible(&mut Compute::cpu(), camera, width, height)?;
-        let hatching = Hatching::new(&mut Compute::cpu(), &self.texture, &self.packed)?;
-        let visible = visible.host();
-        let (color, ink) = shade_apart(&self.packed, visible, camera, &self.look, &hatching)?;
+        let visible = &self.seen(camera, size)?;
+        let hatching = &self.host_hatching;
+        let (color, ink) = shade_apart(&self.packed, visible, camera, &self.look, hatching)?;
         let seen = SeenPlaces::of(&self.packed, &self.facets, visible);
         let facing = world.facing();
         let all = Volumes { volumes: world.volumes(), facing: &facing };
@@ -219,9 +326,8 @@ impl Drawer {
                 lay_tint(&mut tint, &counts, region.shells.table());
             }
         }
-        let crossings = &mut self.crossings;
-        let heights =
-            films.heights(world, &self.regions, &self.settings, crossings, (&seen, camera));
+        let sight = (&self.packed, visible, camera);
+        let heights = films.heights(world, &self.regions, &self.settings, sight);
         let hatching = &self.look.hatching;
         let (inside, outside) = (hatching.inside, hatching.outside);
         let mut ink = ink;

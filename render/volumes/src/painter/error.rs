@@ -1,5 +1,6 @@
 //! What can go wrong while a scene with its volumes is painted.
 
+use graphics::export::ExportError;
 use graphics::gpu::DeviceError;
 use graphics::mesh::MeshFault;
 use spectra::hint::{Explain, Fault, Hint};
@@ -25,6 +26,9 @@ pub enum PaintingError {
     /// The graphics device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
+    /// The file cannot be written.
+    #[error(transparent)]
+    Export(#[from] ExportError),
     /// The picture has no pixels, or too many.
     #[error("a picture has 1 to {most} pixels, found `{width} x {height}`")]
     Size {
@@ -55,6 +59,7 @@ impl PaintingError {
             Self::Shells(error) => Some(error),
             Self::Films(error) => Some(error),
             Self::Device(error) => Some(error),
+            Self::Export(error) => Some(error),
             Self::Scene(_) | Self::Size { .. } | Self::Region { .. } | Self::NoPigments => None,
         }
     }

@@ -2,23 +2,19 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::field::Field;
-use graphics::surface::{ClosedSurfaces, Crossings};
+use graphics::surface::{PackedMesh, VisibilityBuffer};
 use paint::document::{Lighting, Slots};
 use paint::ground::GroundSpec;
 use pigment::PigmentLibrary;
 
 use super::error::PaintingError;
 use super::looks::{self, RegionLook};
-use super::region_counts::Volumes;
 use crate::pigments::{
-    Density, Film, FilmHeights, FilmMaterial, FilmOnSurface, FilmPainter, FilmPainterSettings,
-    FilmScale, FilmThrough, FilmView, SampleLattice, SeenPlaces,
+    FilmCounter, FilmHeights, FilmMaterial, FilmPainter, FilmPainterSettings, FilmScale, FilmView,
 };
-use crate::settings::{self, Settings};
-use crate::surfaces::VolumeSurfaces;
+use crate::settings::Settings;
 use crate::volume::Volume;
 use crate::world::World;
 
@@ -36,7 +32,8 @@ pub struct VolumePigments {
     pub own_colors: Option<Slots>,
     /// The ground under all films.
     pub ground: GroundSpec,
-    /// Light that the painting is viewed under.
+    /// Light that the painting is viewed under. Without relief ([`Lighting::relief`] 0) pictures
+    /// are made at the speed of frames.
     pub lighting: Lighting,
 }
 
@@ -45,8 +42,8 @@ pub struct VolumePigments {
 pub(super) struct Films {
     pub(super) painter: FilmPainter,
     pub(super) view: FilmView,
-    lattice: Option<SampleLattice>,
-    surfaces: VolumeSurfaces,
+    /// Made for the first world that is painted.
+    counter: Option<FilmCounter>,
 }
 
 impl Films {
@@ -57,71 +54,44 @@ impl Films {
     ) -> Result<Self, PaintingError> {
         let VolumePigments { library, slots, own_colors, ground, lighting } = pigments;
         let material = FilmMaterial::new(library, ground, lighting.clone())?;
-        let usual = FilmPainterSettings::default();
-        let painter = FilmPainterSettings {
+        let own = FilmPainterSettings {
             under: looks::under(settings),
             inside: looks::inside(regions),
             pencil: settings.hatching.pencil,
             cell_mm: CELL_MM,
-            ..usual
+            ..FilmPainterSettings::default()
         };
-        let painter = FilmPainter::new(material, slots, own_colors, painter)?;
+        let painter = FilmPainter::new(material, slots, own_colors, own)?;
         let view = FilmView::new(&painter, &lighting)?;
-        Ok(Self { painter, view, lattice: None, surfaces: VolumeSurfaces::default() })
+        Ok(Self { painter, view, counter: None })
     }
 
-    /// Heights of the films at what each pixel shows. Volumes of regions without films have none.
+    /// Heights of the films at what each pixel shows of `scene`. Volumes of regions without films
+    /// have none.
     pub(super) fn heights(
         &mut self,
         world: &World,
         regions: &[RegionLook],
         settings: &Settings,
-        crossings: &mut Crossings,
-        (seen, camera): (&SeenPlaces<'_>, &Camera),
+        (scene, visible, camera): (&PackedMesh, &VisibilityBuffer, &Camera),
     ) -> Field<FilmHeights> {
-        let facing = world.facing();
-        let all = Volumes { volumes: world.volumes(), facing: &facing };
-        let (volumes, facing) = filmed(all, regions);
-        self.surfaces.update(&volumes);
-        let closed = ClosedSurfaces {
-            vertices: &self.surfaces.vertices,
-            triangles: &self.surfaces.triangles,
-        };
+        let surface = (&world.grid().samples).into();
+        let profile = looks::profile(settings);
         let scale = FilmScale {
             quantum_mm3: world.quantum_mm3(),
             unit_mm: world.unit_mm(),
             cell_mm: CELL_MM,
         };
-        let visible = seen.visible();
-        match settings.drawing.film {
-            settings::Film::Surface => {
-                let samples = &world.grid().samples;
-                let lattice = self
-                    .lattice
-                    .get_or_insert_with(|| SampleLattice::of(&samples.places, world.cell()));
-                let surface = (&samples.into(), &*lattice);
-                let profile = looks::profile(settings);
-                let films = Film::of_volumes(&volumes, &facing, profile, surface, &scale);
-                let on_surface = FilmOnSurface { films: &films, seen };
-                crossings.sum(&on_surface, closed, camera, visible)
-            }
-            settings::Film::Through => {
-                let densities: Vec<Density> =
-                    volumes.iter().map(|volume| Density::of(volume, &scale)).collect();
-                let through = FilmThrough::new(&densities, camera, &seen.places, false);
-                crossings.sum(&through, closed, camera, visible)
-            }
-        }
+        let counter = self
+            .counter
+            .get_or_insert_with(|| FilmCounter::new(scene, &surface, world.cell(), profile, scale));
+        counter.profile = profile;
+        let has_films = |volume: &&Volume| {
+            let region = regions.get(usize::from(volume.region));
+            region.is_some_and(|region| looks::has_films(region.inside))
+        };
+        let volumes: Vec<Volume> = world.volumes().iter().filter(has_films).cloned().collect();
+        let kind = looks::film_kind(settings);
+        counter.heights((scene, &surface), &volumes, kind, camera, visible)
     }
-}
-
-/// The volumes of regions with films, with the normals of their cells.
-fn filmed(all: Volumes<'_>, regions: &[RegionLook]) -> (Vec<Volume>, Vec<Vec3>) {
-    let has_films = |volume: &Volume| {
-        regions
-            .get(usize::from(volume.region))
-            .is_some_and(|region| looks::has_films(region.inside))
-    };
-    let pairs = all.volumes.iter().zip(all.facing);
-    pairs.filter(|(volume, _)| has_films(volume)).map(|(volume, &to)| (volume.clone(), to)).unzip()
 }

@@ -6,9 +6,9 @@ use spectra::color::Rgb;
 
 use crate::drawing::{self, DrawingLook, ShellError, Shells};
 use crate::hatching::HatchingLook;
-use crate::pigments::{FilmProfile, InsidePaint, UnderPainting};
+use crate::pigments::{FilmKind, FilmProfile, InsidePaint, UnderPainting};
 use crate::script::RegionStyle;
-use crate::settings::{GreyWeights, Inside, LightWith, Settings, Under};
+use crate::settings::{Film, GreyWeights, Inside, LightWith, Settings, Under};
 
 /// How a region shows what its volumes hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,4 +98,12 @@ pub(super) fn has_own_colors(inside: Inside) -> bool {
 /// Whether volumes show films of their pigments.
 pub(super) fn has_films(inside: Inside) -> bool {
     inside != Inside::OwnColors
+}
+
+/// Where films lie.
+pub(super) fn film_kind(settings: &Settings) -> FilmKind {
+    match settings.drawing.film {
+        Film::Surface => FilmKind::Surface,
+        Film::Through => FilmKind::Through,
+    }
 }

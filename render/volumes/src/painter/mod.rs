@@ -14,6 +14,11 @@ mod drawer;
 
 mod volume_painter;
 
+mod shown;
+
+mod passes;
+
 pub use error::PaintingError;
 pub use films::{CELL_MM, VolumePigments};
+pub use shown::{Show, ShowError};
 pub use volume_painter::VolumePainter;

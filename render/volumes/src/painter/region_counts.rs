@@ -5,9 +5,7 @@ use graphics::camera::Camera;
 use graphics::compute::{Compute, Image};
 use graphics::field::Field;
 use graphics::gpu::DeviceError;
-use graphics::surface::{
-    ClosedSurfaces, Crossing, CrossingSum, Crossings, Fragment, InsideCounter, Model,
-};
+use graphics::surface::{Crossing, CrossingSum, Crossings, Fragment, InsideCounter, Model};
 
 use super::looks::RegionLook;
 use crate::pigments::SeenPlaces;
@@ -45,10 +43,6 @@ impl RegionSurfaces {
         }
     }
 
-    fn closed(&self) -> ClosedSurfaces<'_, [f32; 3]> {
-        ClosedSurfaces { vertices: &self.surfaces.vertices, triangles: &self.surfaces.triangles }
-    }
-
     /// The count of each pixel on the processor, leaving out surfaces of the scene that face away
     /// from their volume's cell by a cosine below `gate`.
     pub(super) fn gated(
@@ -58,7 +52,7 @@ impl RegionSurfaces {
         gate: f32,
     ) -> Field<i32> {
         let gated = GatedCount { facing: &self.facing, seen, gate };
-        crossings.sum(&gated, self.closed(), camera, seen.visible())
+        crossings.sum(&gated, self.surfaces.closed(), camera, seen.visible())
     }
 
     /// The count of each pixel on whatever computes, without a gate.
@@ -69,7 +63,7 @@ impl RegionSurfaces {
         scene: (&Model, &Image<Fragment>),
         camera: &Camera,
     ) -> Result<Image<i32>, DeviceError> {
-        counter.counts(compute, scene, camera, self.closed())
+        counter.counts(compute, scene, camera, self.surfaces.closed())
     }
 }
 

@@ -72,20 +72,19 @@ impl FilmCounter {
     ) -> Field<FilmHeights> {
         let Self { facets, lattice, profile, scale, surfaces, crossings } = self;
         surfaces.update(volumes);
-        let VolumeSurfaces { vertices, triangles } = surfaces;
         let seen = SeenPlaces::of(mesh, facets, visible);
         match kind {
             FilmKind::Surface => {
                 let samples = (surface, &*lattice);
                 let films = Film::of_volumes(volumes, *profile, samples, scale);
                 let films = FilmOnSurface { films: &films, seen: &seen };
-                crossings.sum(&films, vertices, triangles, camera, visible)
+                crossings.sum(&films, surfaces.closed(), camera, visible)
             }
             FilmKind::Through => {
                 let densities = volumes.par_iter().map(|volume| Density::of(volume, scale));
                 let densities: Vec<Density> = densities.collect();
                 let films = FilmThrough::new(&densities, camera, &seen.places, false);
-                crossings.sum(&films, vertices, triangles, camera, visible)
+                crossings.sum(&films, surfaces.closed(), camera, visible)
             }
         }
     }

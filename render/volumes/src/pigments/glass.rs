@@ -72,7 +72,7 @@ impl Glass {
         });
         let densities: Vec<Density> = densities.collect();
         let through = FilmThrough::new(&densities, camera, places, true);
-        let sums = Crossings::default().sum(&through, vertices, triangles, camera, visible);
+        let sums = Crossings::default().sum(&through, surfaces.closed(), camera, visible);
         let (width, height) = (scene.width(), scene.height());
         let mut fronts = Field::filled(width, height, Fragment::EMPTY);
         let clip_from_model = camera.clip_from_model(width as f32 / height.max(1) as f32);

@@ -99,6 +99,8 @@ mod check_tables;
 
 mod check;
 
+mod changed;
+
 mod error;
 
 mod text;

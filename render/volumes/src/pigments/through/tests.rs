@@ -23,8 +23,8 @@ fn lengths(volumes: &[Volume], camera: &Camera, beyond: bool) -> (Field<f32>, Fi
     density.0[2] = UNITS;
     let densities = vec![density; volumes.len()];
     let through = FilmThrough::new(&densities, camera, &places, beyond);
-    let VolumeSurfaces { vertices, triangles } = VolumeSurfaces::of(volumes);
-    let sums = Crossings::default().sum(&through, &vertices, &triangles, camera, &seen);
+    let surfaces = VolumeSurfaces::of(volumes);
+    let sums = Crossings::default().sum(&through, surfaces.closed(), camera, &seen);
     let length = |heights: &FilmHeights| {
         assert_eq!((heights.0[0], heights.0[SLOTS]), (0, 0));
         heights.0[2] as f32 / UNITS
