@@ -34,6 +34,8 @@ mod inbox;
 
 mod opened;
 
+mod header;
+
 mod timeline;
 
 mod inspect;

@@ -26,6 +26,20 @@ pub(super) struct Sight {
     pub(super) size: [usize; 2],
 }
 
+/// How carefully a picture is drawn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Quality {
+    /// Whether it has all samples, or one a pixel.
+    pub(super) fine: bool,
+    /// Its width by that of the picture that it stands for, whose strokes it has.
+    pub(super) share: f32,
+}
+
+impl Quality {
+    /// A picture as it is exported.
+    pub(super) const BEST: Self = Self { fine: true, share: 1.0 };
+}
+
 /// What a painter is made for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
@@ -108,7 +122,7 @@ impl Painters {
         }
     }
 
-    /// The picture of a world: encoded sRGB. `fine` draws it with all samples.
+    /// The picture of a world: encoded sRGB.
     ///
     /// # Errors
     /// [`FileFailure`] for settings or pigments that cannot be used.
@@ -117,12 +131,14 @@ impl Painters {
         (scene, world): (&Mesh, &World),
         sight: &Sight,
         look: &Look,
-        fine: bool,
+        quality: Quality,
     ) -> Result<Field<[f32; 4]>, FileFailure> {
         let mut settings = look.applied_to(&self.settings);
-        if !fine {
+        if !quality.fine {
             settings.picture.samples = 1;
         }
+        let hatching = &mut settings.hatching;
+        hatching.width_px = (hatching.width_px * quality.share).max(1.0);
         let drawn = look.show != Show::Final || look.inside == Inside::OwnColours;
         let kind = if drawn { Kind::Drawing } else { Kind::Painting(look.inside) };
         let painter = self.painter(scene, kind, &settings)?;

@@ -4,43 +4,37 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use glam::Vec3;
 use pigment::library::PigmentLibrary;
-use render::camera::{Camera, Framing};
+use render::camera::Camera;
 use render::encoding::linear_from_encoded;
 use render::export::frame_of;
 use render::field::Field;
 use render::layer::SLOTS;
-use render::light::Light;
 use render::mesh::Mesh;
-use render::paint::document::{Document, Lighting, Slots};
+use render::paint::document::Document;
 use render::volumes::performance::FirstView;
 use render::volumes::pigments::FilmProfile;
-use render::volumes::script::{
-    CameraTable, Event, KeyframeTable, Recipe, Row, Script, ScriptCamera, ScriptError,
-};
+use render::volumes::script::{Event, Recipe, Script, ScriptError};
 use render::volumes::settings::Settings;
 use render::volumes::toml_text::KeyPath;
-use render::volumes::world::Tally;
 use spectra::color::{ColorCode, Rgb};
 
 use super::event::{Here, SceneRecording};
 use super::gesture::{Hand, Timed};
+use super::header::{
+    FIRST_PICTURE, camera_table, first_camera, resolve_picks, script_steps, tally, tubes,
+};
 use super::inspect::found_at;
 use super::look::Look;
 use super::opened::OpenedScene;
-use super::painters::{Painters, Sight};
+use super::painters::{Painters, Quality, Sight};
 use super::ray::{Hit, surface_at};
 use super::recorded::Recorded;
-use super::state::{SceneState, SceneTally, SceneTime, SceneTube};
+use super::state::{SceneState, SceneTime, SceneTube};
 use super::subject::Subject;
 use super::timeline::Timeline;
 use super::tool::{Grip, ScenePen, SceneTool};
-use crate::colors::Colors;
 use crate::failure::FileFailure;
-
-/// Size of the picture in which scripts pick places, as the command line makes it.
-const FIRST_PICTURE: (usize, usize) = (1000, 750);
 
 /// A scene at work.
 #[derive(Debug)]
@@ -266,7 +260,7 @@ impl Scene {
     /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn picture(&mut self, sight: &Sight) -> Result<Field<[f32; 4]>, FileFailure> {
         let scene = (&self.mesh, self.timeline.now().world());
-        let picture = self.painters.picture(scene, sight, &self.look, true)?;
+        let picture = self.painters.picture(scene, sight, &self.look, Quality::BEST)?;
         Ok(linear_from_encoded(&picture))
     }
 
@@ -280,17 +274,17 @@ impl Scene {
         self.painters.painting(scene, sight, &self.look, title)
     }
 
-    /// The bytes of the picture. `fine` draws it with all samples.
+    /// The bytes of the picture.
     ///
     /// # Errors
     /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn pixels(
         &mut self,
         sight: &Sight,
-        fine: bool,
+        quality: Quality,
     ) -> Result<Vec<[u8; 4]>, FileFailure> {
         let scene = (&self.mesh, self.timeline.now().world());
-        let picture = self.painters.picture(scene, sight, &self.look, fine)?;
+        let picture = self.painters.picture(scene, sight, &self.look, quality)?;
         let frame = frame_of(&picture);
         self.shown = Some(picture);
         Ok(frame.values().iter().map(|&[red, green, blue]| [red, green, blue, 255]).collect())
@@ -375,82 +369,6 @@ impl Scene {
             tally: tally(&world.tally(), world.quantum_mm3(), world.volumes().len()),
             revision: self.revision(),
         }
-    }
-}
-
-/// Steps of the duration of a script.
-fn script_steps(script: &Script) -> u64 {
-    u64::from(render::volumes::script::steps_of(script.seconds))
-}
-
-/// The camera of the first picture of a script.
-fn first_camera(script: &Script, mesh: &Mesh) -> Camera {
-    let aspect = FIRST_PICTURE.0 as f32 / FIRST_PICTURE.1 as f32;
-    let framed = |framing: Framing| Framing { aspect, ..framing }.fit(&mesh.positions);
-    match script.camera.as_ref().map(|camera| camera.camera(1)) {
-        Some(ScriptCamera::Path(path)) => {
-            let first = path.cameras(mesh.bounds()).into_iter().next();
-            first.unwrap_or_else(|| framed(Framing::default()))
-        }
-        Some(ScriptCamera::Framing(framing)) => framed(framing),
-        None => framed(Framing::default()),
-    }
-}
-
-/// A camera as a script has it.
-fn camera_table(camera: &Camera) -> CameraTable {
-    let row = |place: Vec3| Row(place.to_array().map(f64::from));
-    let keyframe = KeyframeTable {
-        eye: row(camera.eye),
-        target: row(camera.target),
-        up: None,
-        field_of_view_deg: Some(camera.field_of_view_deg.into()),
-    };
-    CameraTable { keyframes: vec![keyframe], ..CameraTable::default() }
-}
-
-/// Replaces places picked in the first picture by places of the subject, so that a recording does
-/// not depend on its camera. Picks of nothing stay, and are refused when they are played.
-fn resolve_picks(script: &mut Script, mesh: &Mesh, view: &FirstView) {
-    let resolve = |at: &mut Option<Row<3>>, picked: &mut Option<Row<2>>| {
-        let place = picked.and_then(|Row(share)| view.place(mesh, share));
-        if let Some(place) = place {
-            (*at, *picked) = (Some(Row(place.to_array().map(f64::from))), None);
-        }
-    };
-    script.pours.iter_mut().for_each(|pour| resolve(&mut pour.at, &mut pour.picked));
-    script.lifts.iter_mut().for_each(|lift| resolve(&mut lift.at, &mut lift.picked));
-}
-
-/// The tubes of a script's palette under daylight.
-fn tubes(
-    script: &Script,
-    library: &Arc<PigmentLibrary>,
-    slots: &Slots,
-) -> Result<Vec<SceneTube>, FileFailure> {
-    let Lighting { illuminant, observer, .. } = Lighting::default();
-    let light = Light::named(library, &illuminant, &observer);
-    let light = Arc::new(light.map_err(|error| FileFailure::explained(&error))?);
-    let colors = Colors::new(Arc::clone(library), light);
-    let (masstones, tints) = (colors.masstones(slots), colors.tints(slots));
-    let names = script.palette.values().zip(masstones).zip(tints);
-    let tube = |((name, masstone), tint): ((&String, _), _)| SceneTube {
-        name: name.clone(),
-        masstone,
-        tint,
-    };
-    Ok(names.map(tube).collect())
-}
-
-/// Where the paint is, in mm3.
-fn tally(tally: &Tally, quantum_mm3: f64, volumes: usize) -> SceneTally {
-    let mm3 = |amounts: &[u64]| amounts.iter().sum::<u64>() as f64 * quantum_mm3;
-    SceneTally {
-        poured_mm3: mm3(&tally.poured),
-        on_surfaces_mm3: mm3(&tally.on_scene),
-        lifted_mm3: mm3(&tally.lifted),
-        left_mm3: mm3(&tally.in_tube),
-        volumes,
     }
 }
 

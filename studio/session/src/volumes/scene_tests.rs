@@ -7,7 +7,7 @@ use render::volumes::performance::{FirstView, Performance};
 use render::volumes::script::Script;
 use render::volumes::volume::Volume;
 
-use super::painters::Sight;
+use super::painters::{Quality, Sight};
 use super::scene::Scene;
 use super::subject::Subject;
 use super::tool::{Grip, ScenePen, SceneTool};
@@ -52,7 +52,7 @@ fn settle(scene: &mut Scene) {
 
 fn picture(scene: &mut Scene) -> Vec<[u8; 4]> {
     let sight = sight(scene);
-    scene.pixels(&sight, false).unwrap()
+    scene.pixels(&sight, Quality { fine: false, share: 1.0 }).unwrap()
 }
 
 /// The volumes that the saved script of a scene leads to at its present moment.

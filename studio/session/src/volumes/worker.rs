@@ -9,7 +9,7 @@ use super::command::VolumeCommand;
 use super::event::{ScenePicture, VolumeEvent};
 use super::inbox::Inbox;
 use super::pacer::{Pacer, STEPS_A_SECOND};
-use super::painters::Sight;
+use super::painters::{Quality, Sight};
 use super::scene::Scene;
 use super::state::{SceneState, SceneTime};
 use crate::failure::FileFailure;
@@ -23,8 +23,11 @@ const STEPS_TIME: Duration = Duration::from_millis(25);
 /// Time for steps between two pictures while a moment is sought.
 const SEEK_TIME: Duration = Duration::from_millis(60);
 
-/// Time of a picture from which moving scenes are drawn at half the width and height.
-const SLOW: Duration = Duration::from_millis(55);
+/// Time for a picture of a scene that moves. It is drawn smaller if it would take longer.
+const MOVING: Duration = Duration::from_millis(40);
+
+/// Smallest share of width and height at which moving scenes are drawn.
+const SMALLEST: f64 = 0.5;
 
 /// Time after the last change at which a picture is drawn with all samples.
 const REST: Duration = Duration::from_millis(160);
@@ -51,8 +54,8 @@ pub(super) struct SceneLoop<'a> {
     stale: bool,
     /// Time of the last change, until the picture was drawn with all samples.
     moved: Option<Instant>,
-    /// Whether moving scenes are drawn at half the width and height.
-    halved: bool,
+    /// Seconds that a pixel of a moving scene took last.
+    pixel_seconds: f64,
     state_stale: bool,
     state_due: Instant,
 }
@@ -71,7 +74,7 @@ impl<'a> SceneLoop<'a> {
             unconfirmed: 0,
             stale: false,
             moved: None,
-            halved: false,
+            pixel_seconds: 0.0,
             state_stale: false,
             state_due: Instant::now(),
         }
@@ -283,20 +286,19 @@ impl<'a> SceneLoop<'a> {
         };
         let began = Instant::now();
         let moves = std::mem::take(&mut self.stale);
-        let share = if moves && self.halved { 2 } else { 1 };
-        let size = sight.size.map(|side| side.div_ceil(share));
+        let share = if moves { share_in_time(sight.size, self.pixel_seconds) } else { 1.0 };
+        let size = sight.size.map(|side| ((side as f64 * share).round() as usize).max(1));
         if !moves {
             self.moved = None;
         }
-        let pixels = scene.pixels(&Sight { size, ..sight }, !moves)?;
+        let quality = Quality { fine: !moves, share: share as f32 };
+        let pixels = scene.pixels(&Sight { size, ..sight }, quality)?;
         let [width, height] = size;
         let picture = ScenePicture { width, height, pixels, step: scene.moment() };
         (self.send)(VolumeEvent::Picture(Arc::new(picture)));
         self.unconfirmed += 1;
         if moves {
-            let took = began.elapsed();
-            // Half the sides take about a quarter of the time.
-            self.halved = if self.halved { took > SLOW / 5 } else { took > SLOW };
+            self.pixel_seconds = began.elapsed().as_secs_f64() / (width * height) as f64;
         }
         Ok(())
     }
@@ -324,5 +326,24 @@ impl<'a> SceneLoop<'a> {
             speed: if self.playing { self.pacer.speed(Instant::now()) } else { 0.0 },
         };
         Some(Arc::new(scene.state(time)))
+    }
+}
+
+/// Share of width and height, in eighths, at which a picture of `size` takes no longer than
+/// [`MOVING`], at least [`SMALLEST`].
+fn share_in_time([width, height]: [usize; 2], pixel_seconds: f64) -> f64 {
+    let whole = pixel_seconds * (width * height) as f64;
+    let share = (MOVING.as_secs_f64() / whole.max(1e-9)).sqrt();
+    ((8.0 * share).floor() / 8.0).clamp(SMALLEST, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moving_picture_is_as_large_as_there_is_time_for() {
+        let share = |milliseconds: f64| share_in_time([800, 500], 1e-3 * milliseconds / 4e5);
+        assert_eq!([0.0, 39.0, 41.0, 71.0, 170.0, 1e9].map(share), [1.0, 1.0, 0.875, 0.75, 0.5, 0.5]);
     }
 }

@@ -27,7 +27,10 @@ impl Volumes {
         if let Some((_, picture)) = &mut self.picture {
             let mut view = ViewState::default();
             view.fit(picture.cells(), rect, 0.0, density);
-            picture.draw(&painter, &view.placement(rect, density), DrawnPart::Whole);
+            let mut placement = view.placement(rect, density);
+            // A picture that is drawn smaller while the scene moves is smoothed.
+            placement.aligned &= view.zoom == 1.0;
+            picture.draw(&painter, &placement, DrawnPart::Whole);
         }
         self.navigate(ui, &response);
         self.use_tool(ui, pen);
