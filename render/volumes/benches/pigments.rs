@@ -18,9 +18,9 @@ use paint::layer::Cell;
 use paint::palette::palette_slots;
 use pigment::PigmentLibrary;
 use volumes::pigments::{
-    Density, Drawing, Facets, Film, FilmHeights, FilmMaterial, FilmOnSurface, FilmPainter,
-    FilmPainterSettings, FilmProfile, FilmScale, FilmThrough, FilmView, InsidePaint, SampleLattice,
-    SampledSurface, SeenPlaces, UnderPainting,
+    Density, Drawing, Facets, Film, FilmCounter, FilmHeights, FilmKind, FilmMaterial,
+    FilmOnSurface, FilmPainter, FilmPainterSettings, FilmProfile, FilmScale, FilmThrough, FilmView,
+    InsidePaint, SampleLattice, SampledSurface, SeenPlaces, UnderPainting,
 };
 use volumes::surfaces::VolumeSurfaces;
 use volumes::volume::Volume;
@@ -180,6 +180,22 @@ fn picture(bencher: Bencher<'_, '_>, inside: &str) {
         films: Some(&films),
     };
     bencher.bench_local(|| view.picture(&painter, &drawing).unwrap());
+}
+
+/// All that films add to a frame.
+#[divan::bench]
+fn frame(bencher: Bencher<'_, '_>) {
+    let (scene, (painter, view)) = (scene(), painter(InsidePaint::Glaze));
+    let Scene { mesh, volumes, samples, camera, visible, color, ink, .. } = scene;
+    let surface = SampledSurface::from(samples);
+    let side = samples.lattice.cell;
+    let mut counter = FilmCounter::new(mesh, &surface, side, FilmProfile::default(), SCALE);
+    bencher.bench_local(|| {
+        let films = counter.heights((mesh, &surface), volumes, FilmKind::Surface, camera, visible);
+        let (films, ink) = (Some(&films), Some(ink));
+        let drawing = Drawing { color, cover: None, ink, tint: None, films };
+        view.picture(&painter, &drawing).unwrap()
+    });
 }
 
 fn main() {

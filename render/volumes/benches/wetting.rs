@@ -7,6 +7,7 @@ use divan::{Bencher, black_box};
 use graphics::mesh::{Material, Mesh, SampleModel, Triangle};
 use paint::layer::Cell;
 use volumes::wetting::{Grid, Spilling, SurfaceSamples};
+use volumes::world::{Pour, Recipe, World, WorldSettings};
 
 fn still_life() -> (Mesh, f32) {
     let mesh = SampleModel::StillLife.mesh(60_000);
@@ -64,6 +65,24 @@ fn spill(bencher: Bencher<'_, '_>, pigments: usize) {
                 spilling.step((&grid.graph, &grid.cells), paint, true);
             }
         });
+}
+
+/// A still life of 60,000 triangles while paint is poured on it: two steps, as a frame takes, once
+/// there are as many volumes of the grid.
+#[divan::bench(args = [64, 256], sample_count = 100)]
+fn frame_of_a_world(bencher: Bencher<'_, '_>, volumes: usize) {
+    let (mesh, _) = still_life();
+    let mut world = World::of(&mesh, &WorldSettings::default()).unwrap();
+    let place = world.grid().samples.places[9000];
+    world.pour(Pour::at(place, 300.0, f64::INFINITY, Recipe::of_slot(0))).unwrap();
+    while world.volumes().len() < volumes {
+        world.step().unwrap();
+    }
+    bencher.with_inputs(|| world.clone()).bench_local_values(|mut world| {
+        world.step().unwrap();
+        world.step().unwrap();
+        world
+    });
 }
 
 fn main() {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use render::camera::Camera;
 use render::compute::Compute;
 use render::encoding::{linear_from_encoded, over_white};
-use render::export::frame_of;
+use render::export::{PictureFormat, frame_of, picture_file};
 use render::light::Light;
 use render::paint::engine::PaintEngine;
 use render::paint::painting::Painting;
@@ -13,6 +13,8 @@ use render::volumes::painter::{Show, VolumePainter, VolumePigments};
 use render::volumes::performance::{FirstView, Performance};
 use render::volumes::script::frames_fit;
 use render::volumes::settings::Settings;
+use render::volumes::surfaces::ply_of;
+use render::volumes::volume::Volume;
 use render::volumes::world::{STEPS_PER_SECOND, World};
 use serde_json::json;
 use spectra::Viewing;
@@ -91,7 +93,7 @@ impl Job {
         let located = |fault| script.located(fault);
         let pigments = verb.pigments.materials(&script.script, located, console)?;
         let mut inputs: Vec<PathBuf> = scene.inputs.clone();
-        inputs.extend(verb.settings.input().chain(verb.pigments.input()).cloned());
+        inputs.extend(verb.settings.input().into_iter().chain(verb.pigments.input()).cloned());
         let animation = verb.animation.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
         // Last, because it creates folders.
@@ -120,14 +122,14 @@ impl Job {
     /// Plays the script and writes everything.
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let Self { compute, script, settings, scene, pigments, show, at, steps, title, .. } = self;
-        let (mut outputs, animation) = (self.outputs, self.animation);
+        let OpenOutputs { exports, passes, mask, script: script_file, volumes } = self.outputs;
         let Scene { mesh, cameras, size, .. } = scene;
         let backend = compute.name().to_owned();
         let view = FirstView::new(&mesh, &cameras[0], size);
         let beginning = Performance::new(&script.script, &mesh, &settings, &view);
         let beginning = beginning.map_err(|error| script.located_event(error))?;
         let styles = script.script.region_styles(&settings);
-        let recording = match animation {
+        let recording = match self.animation {
             None => None,
             Some(animation) => {
                 let digest = FramesDigest::default()
@@ -146,11 +148,13 @@ impl Job {
         if let Some(pigments) = pigments {
             painter = painter.with_pigments(pigments)?;
         }
-        outputs.write_script(&script.script)?;
+        if let Some(output) = script_file {
+            output.write(script.script.to_text()?)?;
+        }
         let mut still = beginning.clone();
         still.advance_to(at).map_err(|error| script.located_event(error))?;
         let (world, first) = (still.world(), &cameras[0]);
-        if outputs.exports.any() {
+        if exports.any() {
             match &illuminant {
                 Some(lighting) => {
                     let document = painter.painting(world, first, size, &title)?;
@@ -161,34 +165,32 @@ impl Job {
                     };
                     let light = Light::new(&document.library, &viewing)?;
                     let mut painting = Painting::open_under(document, light, engine, 0)?;
-                    outputs.exports.write(&mut painting, console)?;
+                    exports.write(&mut painting, console)?;
                 }
                 None => {
                     let picture = painter.shown(world, first, size, show)?;
                     let linear = linear_from_encoded(&over_white(&picture));
-                    outputs.exports.write_picture(&linear, PX_MM, console)?;
+                    exports.write_picture(&linear, PX_MM, console)?;
                 }
             }
         }
-        if let Some(output) = outputs.mask.take() {
+        if let Some(output) = mask {
             let mask = painter.shown(world, first, size, Show::Mask)?;
             let picture = linear_from_encoded(&mask);
-            let format = render::export::PictureFormat::from_path(output.path());
-            let file = render::export::picture_file(&picture, PX_MM, format.unwrap_or_default())?;
+            let format = PictureFormat::from_path(output.path()).unwrap_or_default();
+            let file = picture_file(&picture, PX_MM, format)?;
             output.write(file.bytes)?;
         }
-        if let Some(output) = outputs.passes.take() {
+        if let Some(output) = passes {
             output.write(painter.passes(world, first, size, PX_MM)?)?;
         }
         let summary = Summary::of(world, size, &backend);
-        if outputs.wants_volumes() {
+        if !volumes.is_empty() {
             let mut play = beginning.clone();
-            let mut files = Vec::new();
-            for &step in &steps {
+            for (output, &step) in volumes.into_iter().zip(&steps) {
                 play.advance_to(step).map_err(|error| script.located_event(error))?;
-                files.push(render::volumes::surfaces::ply_of(play.world().volumes())?);
+                output.write(ply_of(play.world().volumes())?)?;
             }
-            outputs.write_volumes(files)?;
         }
         let mut frames = None;
         if let Some(recording) = recording {
@@ -221,7 +223,7 @@ impl Summary {
     fn of(world: &World, size: (usize, usize), backend: &str) -> Self {
         let tally = world.tally();
         let mm3 = |amounts: [u64; 9]| amounts.iter().sum::<u64>() as f64 * world.quantum_mm3();
-        let particles = |volume: &render::volumes::volume::Volume| volume.vertices().len();
+        let particles = |volume: &Volume| volume.vertices().len();
         Self {
             size,
             backend: backend.to_owned(),

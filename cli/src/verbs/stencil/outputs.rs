@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use render::volumes::script::Script;
 
 use crate::failure::{Failure, Result};
 use crate::output::{Output, create_folder};
@@ -34,8 +33,9 @@ pub(super) struct OpenOutputs {
     pub(super) exports: OpenExports,
     pub(super) passes: Option<Output>,
     pub(super) mask: Option<Output>,
-    script: Option<Output>,
-    volumes: Vec<Output>,
+    pub(super) script: Option<Output>,
+    /// One file for each frame, or none.
+    pub(super) volumes: Vec<Output>,
 }
 
 impl OutputOptions {
@@ -83,29 +83,6 @@ impl OutputOptions {
             }
         };
         Ok(OpenOutputs { exports, passes, mask, script, volumes })
-    }
-}
-
-impl OpenOutputs {
-    /// Whether volumes are to be written.
-    pub(super) fn wants_volumes(&self) -> bool {
-        !self.volumes.is_empty()
-    }
-
-    /// Writes the script.
-    pub(super) fn write_script(&mut self, script: &Script) -> Result<()> {
-        match self.script.take() {
-            None => Ok(()),
-            Some(output) => output.write(script.to_text()?),
-        }
-    }
-
-    /// Writes the volumes of all frames, in order.
-    pub(super) fn write_volumes(&mut self, files: Vec<Vec<u8>>) -> Result<()> {
-        for (output, bytes) in std::mem::take(&mut self.volumes).into_iter().zip(files) {
-            output.write(bytes)?;
-        }
-        Ok(())
     }
 }
 

@@ -5,10 +5,10 @@ use graphics::tones::ToneRamp;
 use spectra::color::Rgb;
 
 use crate::drawing::{self, DrawingLook, ShellError, Shells};
-use crate::hatching::HatchingLook;
+use crate::hatching::{Coordinates, HatchingLook};
 use crate::pigments::{FilmKind, FilmProfile, InsidePaint, UnderPainting};
 use crate::script::RegionStyle;
-use crate::settings::{Film, GreyWeights, Inside, LightWith, Settings, Under};
+use crate::settings::{Film, GreyWeights, Inside, LightWith, Settings, StrokesAlong, Under};
 
 /// How a region shows what its volumes hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +47,10 @@ pub(super) fn drawing_look(settings: &Settings) -> DrawingLook {
             GreyWeights::Rec601 => drawing::GreyWeights::Rec601,
         },
         hatching: HatchingLook {
-            coordinates: None,
+            coordinates: match hatching.along {
+                StrokesAlong::Axes => Some(Coordinates::ThreePlanes),
+                StrokesAlong::Texture => None,
+            },
             inside: hatching.inside,
             outside: hatching.outside,
             pencil: hatching.pencil,

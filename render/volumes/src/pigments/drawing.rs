@@ -4,7 +4,7 @@ use graphics::field::Field;
 
 use super::film::FilmHeights;
 
-/// What lies under the films of volumes.
+/// The layer under the films of volumes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum UnderPainting {
     /// The scene in grey, in white and black paint.
@@ -16,7 +16,7 @@ pub enum UnderPainting {
     None,
 }
 
-/// What volumes show.
+/// The look of the inside of volumes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum InsidePaint {
     /// The colours of the scene, as in the paper.

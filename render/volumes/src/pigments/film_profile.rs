@@ -26,9 +26,13 @@ impl FilmProfile {
     #[must_use]
     #[inline]
     pub fn height(&self, depth: f32) -> f32 {
-        let rim = self.rim.max(NARROWEST);
-        let risen = 0.25 + 0.75 * smooth_step(depth / rim);
-        risen * (1.0 + self.edge * (1.0 - smooth_step(depth / (3.0 * rim))))
+        let rims = depth / self.rim.max(NARROWEST);
+        // Most of a film lies there.
+        if rims >= 3.0 {
+            return 1.0;
+        }
+        let risen = 0.25 + 0.75 * smooth_step(rims);
+        risen * (1.0 + self.edge * (1.0 - smooth_step(rims * (1.0 / 3.0))))
     }
 
     /// The most that [`Self::height`] can be.

@@ -1,4 +1,4 @@
-//! What films are made of: a library, the ground under them, and the light that colours are matched
+//! Materials of films: a library, the ground under them, and the light that colours are matched
 //! under.
 
 use std::sync::Arc;

@@ -12,7 +12,7 @@ use super::seen::SeenPlaces;
 pub struct FilmOnSurface<'a> {
     /// The film of each volume.
     pub films: &'a [Film],
-    /// What the pixels show.
+    /// Places that the pixels show.
     pub seen: &'a SeenPlaces<'a>,
 }
 

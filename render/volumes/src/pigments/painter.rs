@@ -20,9 +20,9 @@ use super::tones::within_one;
 /// How a scene and its volumes become layers of paint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilmPainterSettings {
-    /// What lies under the films.
+    /// The layer under the films.
     pub under: UnderPainting,
-    /// What volumes show.
+    /// The look of the inside of volumes.
     pub inside: InsidePaint,
     /// Whether the grisaille takes a third paint that makes its greys neutral
     /// ([`toner`]).
@@ -103,7 +103,7 @@ impl FilmPainter {
         Ok(Self { material, settings, slots, grisaille, own_colors, greys, inks })
     }
 
-    /// What its films are made of.
+    /// Materials of its films.
     #[must_use]
     pub fn material(&self) -> &FilmMaterial {
         &self.material

@@ -70,8 +70,8 @@ impl<'a> SeenPlaces<'a> {
         self.facets.normals.get(triangle).copied().unwrap_or(Vec3::ZERO)
     }
 
-    /// What the pixel with this index, counted row by row, shows: a place and the normal of its
-    /// triangle. The place is no number where nothing is seen.
+    /// Place and normal of the triangle that the pixel with this index, counted row by row, shows.
+    /// The place is no number where nothing is seen.
     #[must_use]
     #[inline]
     pub fn at(&self, pixel: usize) -> (Vec3, Vec3) {

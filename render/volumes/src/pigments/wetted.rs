@@ -58,6 +58,7 @@ impl Wetted {
         profile.height((self.reach - distance.sqrt()) * self.per_radius)
     }
 
+    #[inline]
     fn faces_away(&self, normal: Vec3) -> bool {
         normal.dot(self.facing) < GATE
     }

@@ -86,6 +86,17 @@ impl Default for DrawingTable {
     }
 }
 
+/// Where strokes lie on surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StrokesAlong {
+    /// Projected along the three axes, each where the surface faces it.
+    #[default]
+    Axes,
+    /// Along the scene's own texture coordinates where these are useful.
+    Texture,
+}
+
 /// Pencil hatching, which conveys the light.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -94,6 +105,8 @@ pub struct HatchingTable {
     pub inside: f32,
     /// Strength of strokes outside of volumes, 0..=1.
     pub outside: f32,
+    /// Where strokes lie.
+    pub along: StrokesAlong,
     /// Grey of the pencil, 0 (black) to 1 (white).
     pub pencil: f32,
     /// Width of a stroke in px, 1..=16; it varies by a third either way.
@@ -111,6 +124,7 @@ impl Default for HatchingTable {
         Self {
             inside: 1.0,
             outside: 1.0,
+            along: StrokesAlong::default(),
             pencil: 0.15,
             width_px: 2.8,
             softness: 0.12,
@@ -123,7 +137,7 @@ impl Default for HatchingTable {
 const INSIDE: &[&str] = &["own-colours", "glaze", "both"];
 const UNDER: &[&str] = &["grisaille", "own-colours", "none"];
 
-pub(super) const SETTINGS: [Setting; 15] = [
+pub(super) const SETTINGS: [Setting; 16] = [
     Setting::new(
         "drawing.shells",
         Numbers(0.01, 1.0),
@@ -173,6 +187,12 @@ pub(super) const SETTINGS: [Setting; 15] = [
         Number(0.0, 1.0),
         "",
         "Strength of pencil strokes outside of volumes.",
+    ),
+    Setting::new(
+        "hatching.along",
+        Words(&["axes", "texture"]),
+        "",
+        "Strokes are projected along the three axes, or follow the scene's texture coordinates.",
     ),
     Setting::new(
         "hatching.pencil",

@@ -27,7 +27,7 @@ mod change;
 #[cfg(test)]
 mod tests;
 
-pub use drawing::{DrawingTable, Film, HatchingTable, Inside, Under};
+pub use drawing::{DrawingTable, Film, HatchingTable, Inside, StrokesAlong, Under};
 pub use error::SettingsError;
 pub use grid::GridTable;
 pub use motion::MotionTable;

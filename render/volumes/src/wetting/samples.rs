@@ -222,6 +222,24 @@ mod tests {
     }
 
     #[test]
+    fn no_place_is_far_from_a_sample() {
+        let mesh = bare(&[[0.0; 3], [9.0, 0.0, 1.0], [2.0, 0.0, 8.0]], &[[0, 2, 1]]);
+        let samples = SurfaceSamples::of(&mesh, 1.0, 7).unwrap();
+        let spacing = samples.areas[0].sqrt();
+        let random = &mut ChaCha8Rng::seed_from_u64(9);
+        let [a, b, c] = corners(&mesh, 0);
+        let mut most = 0.0_f32;
+        for _ in 0..4000 {
+            let [u, v]: [f32; 2] = [(); 2].map(|()| random.random());
+            let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
+            let place = a + (b - a) * u + (c - a) * v;
+            let distances = samples.places.iter().map(|at| at.distance(place));
+            most = most.max(distances.fold(f32::INFINITY, f32::min) / spacing);
+        }
+        assert!(most < 1.3, "{most} spacings");
+    }
+
+    #[test]
     fn samples_do_not_depend_on_the_cut_into_triangles() {
         let corners = [[0.0; 3], [4.0, 0.0, 0.0], [4.0, 0.0, 4.0], [0.0, 0.0, 4.0]];
         let flat = SurfaceSamples::of(&bare(&corners, &[[0, 2, 1], [0, 3, 2]]), 1.0, 3).unwrap();

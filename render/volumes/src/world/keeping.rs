@@ -34,6 +34,7 @@ impl World {
         }
         self.grid = Arc::new(grid);
         self.surroundings = kept;
+        self.settled = false;
         for index in 0..self.volumes.len() {
             if self.volumes[index].cell.is_some() && !self.volumes[index].dry {
                 self.set_paint(index, self.volumes[index].paint);

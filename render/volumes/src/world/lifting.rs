@@ -6,7 +6,7 @@ use super::actions::{Lift, Timed};
 use super::error::{WorldError, in_range};
 use super::recipe::amounts_of;
 use super::settings::STEPS_PER_SECOND;
-use super::state::World;
+use super::state::{BIRTH, World};
 use super::tally::add;
 
 impl World {
@@ -39,7 +39,9 @@ impl World {
             return refused("is dry");
         }
         if volume.paint.volume() == 0 {
-            volume.target_radius *= 1.0 - share;
+            let target = volume.target_radius * (1.0 - share);
+            // Dots vanish.
+            volume.target_radius = if target < BIRTH * self.scale.cell { 0.0 } else { target };
             volume.rests_under = 0;
             return Ok(());
         }

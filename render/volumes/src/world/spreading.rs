@@ -31,6 +31,9 @@ impl World {
 
     /// One step of spilling between all wet volumes of the grid.
     pub(super) fn spill(&mut self) -> Result<(), WorldError> {
+        if self.settled {
+            return Ok(());
+        }
         let grid = std::sync::Arc::clone(&self.grid);
         let mut reached = Vec::new();
         let mut over = false;
@@ -62,6 +65,7 @@ impl World {
             let region = self.volumes[self.of_cell[giver] as usize].region;
             self.volume_in(cell, grid.entrance(cell, giver), region)?;
         }
+        let mut settled = true;
         for index in 0..self.volumes.len() {
             let Some(cell) = self.volumes[index].cell.filter(|_| !self.volumes[index].dry) else {
                 continue;
@@ -69,8 +73,10 @@ impl World {
             let now = self.paint[cell as usize];
             if now != self.volumes[index].paint {
                 self.set_paint(index, now);
+                settled = false;
             }
         }
+        self.settled = settled;
         Ok(())
     }
 
@@ -90,6 +96,7 @@ impl World {
             }
         }
         volume.paint = paint;
+        self.settled = false;
         volume.target_radius = match paint.volume() {
             0 => 0.0,
             amount => {

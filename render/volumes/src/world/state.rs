@@ -59,6 +59,8 @@ pub struct World {
     pub(super) of_cell: Vec<u32>,
     /// Paint of the cells for spilling; each step fills it anew.
     pub(super) paint: Vec<Cell>,
+    /// Whether the last step spilled nothing, and no paint has come or gone since.
+    pub(super) settled: bool,
     pub(super) sources: Vec<Timed<Source>>,
     pub(super) sponges: Vec<Timed<Lift>>,
     pub(super) pushes: Vec<Timed<Push>>,
@@ -95,6 +97,7 @@ impl World {
             volumes: Vec::new(),
             of_cell: vec![NONE; count],
             paint: vec![Cell::default(); count],
+            settled: false,
             sources: Vec::new(),
             sponges: Vec::new(),
             pushes: Vec::new(),
@@ -196,6 +199,7 @@ impl World {
     pub fn dry(&mut self) {
         self.volumes.iter_mut().for_each(|volume| volume.dry = true);
         self.of_cell.fill(NONE);
+        self.settled = false;
     }
 
     /// Ends a flow, a sponge or a push before its time; numbers of what has ended do nothing.

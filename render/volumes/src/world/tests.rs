@@ -48,8 +48,14 @@ fn what_is_poured_arrives_to_the_quantum_and_covers_its_area() {
     let mut world = flat();
     let recipe = Recipe::of_parts([3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0]).unwrap();
     // 0.6 mm^3 as a film of 0.02 mm are 30 mm^2.
-    world.pour(Pour::at(Vec3::new(0.2, 0.3, 0.1), 0.4, 1.5, recipe)).unwrap();
+    let pour = Pour::at(Vec3::new(0.2, 0.3, 0.1), 0.4, 1.5, recipe);
+    world.pour(Pour { region: 3, ..pour }).unwrap();
     run(&mut world, 600);
+    assert!(world.volumes().len() > 20);
+    for volume in world.volumes() {
+        let capacity = world.grid().cells.capacities[volume.cell.unwrap() as usize];
+        assert!(volume.region == 3 && volume.paint.volume() < capacity + capacity / 100);
+    }
     let tally = world.tally();
     let whole = (0.6 / world.quantum_mm3()).round() as u64;
     assert_eq!(tally.poured.iter().sum::<u64>(), whole);

@@ -41,6 +41,7 @@ impl World {
             !vanishing || volume.radius > least
         });
         if self.volumes.len() < count {
+            self.settled = false;
             self.of_cell.fill(NONE);
             for (index, volume) in (0..).zip(&self.volumes) {
                 if let (Some(cell), false) = (volume.cell, volume.dry) {
