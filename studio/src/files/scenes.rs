@@ -28,6 +28,9 @@ const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "exr"] };
 const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
 const ANIMATIONS: Filter = Filter { label: "Animations", endings: &["gif", "png", "apng"] };
 
+/// Longest time between a change and its autosave: a script is written in no time.
+const INTERVAL: Duration = Duration::from_secs(2);
+
 impl Files {
     /// Removes and returns the oldest answer of the painter about scenes.
     pub fn take_scene_answer(&mut self) -> Option<SceneAnswer> {
@@ -107,7 +110,7 @@ impl Files {
         if !changed || self.scenes.awaited {
             return false;
         }
-        let interval = Duration::from_secs(self.preferences.autosave_seconds);
+        let interval = Duration::from_secs(self.preferences.autosave_seconds).min(INTERVAL);
         match interval.checked_sub(self.scenes.last_autosave.elapsed()) {
             Some(left) if !left.is_zero() => {
                 self.ctx.request_repaint_after(left);

@@ -2,8 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Event, Modifiers, PointerButton, Pos2, vec2};
-use session::volumes::Subject;
+use eframe::egui::{
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2,
+};
+use egui_kittest::kittest::Queryable;
+use session::volumes::{Inside, SceneTool, Show, Subject};
 use studio::app::Volumes;
 
 use super::harness::{Window, button};
@@ -40,34 +43,207 @@ fn at(window: &Window, x: f32, y: f32) -> Pos2 {
     rect.min + vec2(x, y) * rect.size()
 }
 
-#[test]
-fn look_at_it() {
-    let mut window = scene("volumes");
-    let from = at(&window, 0.45, 0.55);
+/// Number of pixels of the last picture with a colour.
+fn colored(volumes: &Volumes) -> usize {
+    let is_colored =
+        |[red, green, blue, _]: &&[u8; 4]| red.max(green).max(blue) - red.min(green).min(blue) > 24;
+    volumes.picture().map_or(0, |picture| picture.pixels.iter().filter(is_colored).count())
+}
+
+/// Holds the pen down until colour has come, moves it, and lifts it.
+fn pour(window: &mut Window) {
+    let from = at(window, 0.5, 0.55);
     window.frame(vec![Event::PointerMoved(from)]);
     window.frame(vec![button(from, true)]);
-    let start = Instant::now();
-    while start.elapsed() < Duration::from_secs(2) {
-        let x = 0.45 + 0.1 * start.elapsed().as_secs_f32();
-        let to = at(&window, x, 0.55);
-        std::thread::sleep(Duration::from_millis(8));
-        window.frame(vec![Event::PointerMoved(to)]);
+    wait(window, "colour", |volumes| colored(volumes) > 100);
+    let to = at(window, 0.55, 0.58);
+    window.frame(vec![Event::PointerMoved(to)]);
+    wait(window, "time", |volumes| volumes.state().unwrap().time.step > 60);
+    window.frame(vec![button(to, false)]);
+    window.frame(Vec::new());
+}
+
+/// Stops time and waits for the picture with all samples.
+fn rest(window: &mut Window) {
+    if volumes(window).state().unwrap().time.playing {
+        window.key(Modifiers::NONE, Key::P);
     }
-    let end = at(&window, 0.65, 0.55);
-    window.frame(vec![button(end, false)]);
-    window.frame(vec![]);
-    window.save("volumes-1");
-    let (pos, button, modifiers) =
-        (at(&window, 0.6, 0.5), PointerButton::Secondary, Modifiers::NONE);
+    wait(window, "rest", |volumes| !volumes.state().unwrap().time.playing);
+    let (mut seen, mut since) = (volumes(window).pictures(), Instant::now());
+    while since.elapsed() < Duration::from_millis(600) {
+        window.harness().step();
+        std::thread::sleep(Duration::from_millis(5));
+        if volumes(window).pictures() != seen {
+            (seen, since) = (volumes(window).pictures(), Instant::now());
+        }
+    }
+}
+
+fn key(window: &mut Window, key: Key) {
+    window.key(Modifiers::NONE, key);
+}
+
+#[test]
+fn colour_is_poured_played_back_and_taken_back() {
+    let mut window = scene("volumes");
+    assert_eq!(colored(volumes(&window)), 0, "the drawing is grey");
+    pour(&mut window);
+    rest(&mut window);
+    window.save("volumes");
+    let end = volumes(&window).picture().unwrap().clone();
+    let size = volumes(&window).rect().size();
+    assert_eq!((end.width, end.height), (size.x as usize, size.y as usize), "at rest it is whole");
+    assert_eq!(volumes(&window).state().unwrap().events.len(), 1);
+    window.click("From the start");
+    wait(&mut window, "the start", |volumes| colored(volumes) == 0);
+    let track = window.harness().get_by_label("Time").rect();
+    let right = Pos2::new(track.right() - 2.0, track.center().y);
+    window.pen_stroke(&[track.center(), right, right]);
+    wait(&mut window, "the end", |volumes| volumes.state().unwrap().time.step == end.step);
+    rest(&mut window);
+    assert_eq!(volumes(&window).picture().unwrap(), &end, "the same bytes");
+    window.key(Modifiers::COMMAND, Key::Z);
+    wait(&mut window, "undo", |volumes| volumes.state().unwrap().events.is_empty());
+    wait(&mut window, "a grey drawing", |volumes| colored(volumes) == 0);
+}
+
+#[test]
+fn the_middle_button_and_the_wheel_move_the_camera_also_while_paint_flows() {
+    let mut window = scene("volumes-camera");
+    let start = volumes(&window).orbit;
+    let pen = at(&window, 0.5, 0.55);
+    window.frame(vec![Event::PointerMoved(pen)]);
+    window.frame(vec![button(pen, true)]);
+    wait(&mut window, "time", |volumes| volumes.state().unwrap().time.step > 5);
+    let mut drag = |shift: bool, by| {
+        let modifiers = Modifiers { shift, ..Modifiers::NONE };
+        let middle = |pos, pressed| Event::PointerButton {
+            pos,
+            button: PointerButton::Middle,
+            pressed,
+            modifiers,
+        };
+        window.frame(vec![Event::ModifiersChanged(modifiers), middle(pen, true)]);
+        window.frame(vec![Event::PointerMoved(pen + 0.5 * by)]);
+        window.frame(vec![Event::PointerMoved(pen + by)]);
+        window.frame(vec![middle(pen + by, false)]);
+        window.frame(vec![Event::ModifiersChanged(Modifiers::NONE), Event::PointerMoved(pen)]);
+        volumes(&window).orbit.camera()
+    };
+    let turned = drag(false, vec2(120.0, -30.0));
+    assert_eq!(turned.target, start.camera().target, "it turns about the middle");
+    assert!(turned.eye.distance(start.camera().eye) > 0.1, "{turned:?}");
+    let moved = drag(true, vec2(40.0, 20.0));
+    assert!(moved.target.distance(turned.target) > 0.01, "{moved:?}");
+    assert!(volumes(&window).state().unwrap().time.playing, "time runs on");
+    window.frame(vec![button(pen, false)]);
+    window.frame(vec![Event::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        delta: vec2(0.0, 3.0),
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    }]);
+    window.harness().run_steps(30);
+    let near = volumes(&window).orbit.camera();
+    let distance = |camera: render::camera::Camera| camera.eye.distance(camera.target);
+    assert!(distance(near) < 0.95 * distance(moved), "the wheel comes nearer");
+    key(&mut window, Key::Home);
+    assert_eq!(volumes(&window).orbit.camera(), start.camera(), "Home frames the scene");
+    assert_eq!(volumes(&window).state().unwrap().events.len(), 1, "one pour");
+}
+
+#[test]
+fn keys_choose_what_is_shown_and_what_is_poured() {
+    let mut window = scene("volumes-keys");
+    let look = |volumes: &Volumes| volumes.state().unwrap().look;
+    key(&mut window, Key::V);
+    wait(&mut window, "volumes", move |volumes| look(volumes).show == Show::Volumes);
+    key(&mut window, Key::V);
+    wait(&mut window, "the picture", move |volumes| look(volumes).show == Show::Final);
+    key(&mut window, Key::H);
+    wait(&mut window, "no strokes", move |volumes| !look(volumes).hatching);
+    key(&mut window, Key::G);
+    wait(&mut window, "a glaze", move |volumes| look(volumes).inside == Inside::Glaze);
+    key(&mut window, Key::Num4);
+    let before = volumes(&window).tools.grip.rate_mm3_s;
+    key(&mut window, Key::CloseBracket);
+    let grip = volumes(&window).tools.grip;
+    assert!(grip.tube == 3 && grip.rate_mm3_s > before, "{grip:?}");
+    key(&mut window, Key::OpenBracket);
+    assert!((volumes(&window).tools.grip.rate_mm3_s - before).abs() < 1e-9);
+    key(&mut window, Key::E);
+    assert_eq!(volumes(&window).tools.grip.tool, SceneTool::Lift);
+    key(&mut window, Key::Period);
+    wait(&mut window, "a step", |volumes| volumes.state().unwrap().time.step == 1);
+    key(&mut window, Key::R);
+    wait(&mut window, "the start", |volumes| volumes.state().unwrap().time.step == 0);
+    key(&mut window, Key::P);
+    wait(&mut window, "time", |volumes| volumes.state().unwrap().time.playing);
+    window.key(Modifiers::COMMAND, Key::E);
+    assert!(!window.studio().shows_volumes, "back to the easel");
+    assert!(window.studio().painting().is_some(), "which is as it was");
+    key(&mut window, Key::B);
+    assert_eq!(volumes(&window).tools.grip.tool, SceneTool::Lift, "its keys are its own");
+}
+
+#[test]
+fn a_right_click_tells_what_is_there() {
+    let mut window = scene("volumes-here");
+    pour(&mut window);
+    rest(&mut window);
+    let pos = at(&window, 0.52, 0.565);
+    let right = |pressed| Event::PointerButton {
+        pos,
+        button: PointerButton::Secondary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
     window.frame(vec![Event::PointerMoved(pos)]);
-    window.frame(vec![Event::PointerButton { pos, button, pressed: true, modifiers }]);
-    window.frame(vec![Event::PointerButton { pos, button, pressed: false, modifiers }]);
+    window.frame(vec![right(true)]);
+    window.frame(vec![right(false)]);
     wait(&mut window, "the answer", |volumes| volumes.here().is_some());
-    window.frame(vec![]);
-    window.click("Events");
-    window.save("volumes-2");
-    window.click("Light");
-    window.save("volumes-3");
-    window.click("Export");
-    window.save("volumes-4");
+    let here = volumes(&window).here().unwrap().clone();
+    assert!(here.place.is_some() && here.volumes > 0, "{here:?}");
+    assert_eq!(here.paint[0].0, "Zinc White", "{here:?}");
+    window.frame(Vec::new());
+    window.save("volumes-here");
+    assert_eq!(volumes(&window).state().unwrap().events.len(), 1, "it pours nothing");
+    key(&mut window, Key::Escape);
+    assert!(volumes(&window).here().is_none(), "Escape closes the card");
+}
+
+#[test]
+fn every_part_of_the_workspace_is_within_the_window() {
+    let mut window = scene("volumes-layout");
+    let whole = window.whole();
+    for tab in ["Light", "Events", "Export", "View"] {
+        window.click(tab);
+        window.save(&format!("volumes-{}", tab.to_lowercase()));
+    }
+    for label in ["Play", "Step", "From the start", "Time", "Final", "Strokes", "Both", "Hatching"]
+    {
+        let rect = window.harness().get_all_by_label(label).next().unwrap().rect();
+        assert!(whole.contains_rect(rect), "{label}: {rect:?}");
+    }
+    let scene = volumes(&window).rect();
+    assert!(scene.width() > 900.0 && scene.height() > 650.0, "{scene:?}");
+}
+
+#[test]
+fn a_wrong_file_is_told_and_dropped_models_open() {
+    let mut window = scene("volumes-wrong");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("broken.obj");
+    std::fs::write(&path, "v 1 2").unwrap();
+    let context = window.harness().ctx.clone();
+    window.studio_mut().open_scene(&context, Subject::File(path));
+    let start = Instant::now();
+    while window.harness().query_all_by_label_contains("broken.obj").next().is_none() {
+        assert!(start.elapsed() < PATIENCE, "nothing is told");
+        std::thread::sleep(Duration::from_millis(3));
+        window.harness().step();
+    }
+    window.save("volumes-wrong");
+    assert_eq!(volumes(&window).state().unwrap().title, "village", "the open scene stays");
 }

@@ -80,6 +80,14 @@ pub struct Look {
     pub light: SceneLight,
 }
 
+impl Default for Look {
+    /// The hatched drawing with the subject's own colours, lit from the upper left.
+    fn default() -> Self {
+        let light = SceneLight { azimuth_deg: 315.0, elevation_deg: 45.0 };
+        Self { show: Show::Final, hatching: true, inside: Inside::OwnColours, light }
+    }
+}
+
 impl Look {
     /// The look that a script's settings and regions give.
     pub(super) fn of(script: &Script, settings: &Settings) -> Self {

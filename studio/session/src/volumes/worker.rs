@@ -198,8 +198,11 @@ impl<'a> SceneLoop<'a> {
                 }
             }
             VolumeCommand::PenUp => {
+                let worked = scene.is_at_work();
                 scene.pen_up()?;
-                self.stops_at = scene.moment() + RUN_ON;
+                if worked {
+                    self.stops_at = scene.moment() + RUN_ON;
+                }
             }
             VolumeCommand::Pick(at) => {
                 let Some(sight) = sight else { return Ok(()) };
@@ -344,6 +347,9 @@ mod tests {
     #[test]
     fn a_moving_picture_is_as_large_as_there_is_time_for() {
         let share = |milliseconds: f64| share_in_time([800, 500], 1e-3 * milliseconds / 4e5);
-        assert_eq!([0.0, 39.0, 41.0, 71.0, 170.0, 1e9].map(share), [1.0, 1.0, 0.875, 0.75, 0.5, 0.5]);
+        assert_eq!(
+            [0.0, 39.0, 41.0, 71.0, 170.0, 1e9].map(share),
+            [1.0, 1.0, 0.875, 0.75, 0.5, 0.5]
+        );
     }
 }

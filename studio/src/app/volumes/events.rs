@@ -72,6 +72,7 @@ impl Volumes {
         shown.write(&TilePixels { rect, pixels: picture.pixels.clone() });
         self.picture = Some((picture, shown));
         self.pictures += 1;
+        self.shown_at = Some(Instant::now());
         self.frames.begin(Instant::now(), None);
     }
 

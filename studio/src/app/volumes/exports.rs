@@ -81,8 +81,11 @@ impl Volumes {
                 let (recording, size) = (Arc::clone(recording), self.told.1);
                 files.export_scene(path, move |path, progress| {
                     let report = |share| progress.report(share).is_ok();
-                    let written = session::volumes::animation(&recording, size, path, report);
-                    written.map_err(|failure| Problem::from(failure).into()).map(|()| None)
+                    session::volumes::animation(&recording, size, path, report)
+                        .map_err(Problem::from)?;
+                    // Nothing was written if it was cancelled.
+                    progress.report(1.0)?;
+                    Ok(None)
                 });
             }
             _ => {}

@@ -1,6 +1,6 @@
 //! The status line of the workspace of scenes.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use eframe::egui::{Align, Label, Layout, RichText, Ui};
 use session::volumes::SceneState;
@@ -22,7 +22,8 @@ impl Volumes {
                 let speed = format!("{:.0} % of real time", 100.0 * state.time.speed);
                 ui.label(small(&speed)).on_hover_text("Speed of time over the last second");
             }
-            let rate = self.frames.rate().frames_a_second;
+            let moves = self.shown_at.is_some_and(|at| at.elapsed() < Duration::from_secs(1));
+            let rate = if moves { self.frames.rate().frames_a_second } else { 0.0 };
             ui.label(small(&format!("{rate:.0} pictures/s")))
                 .on_hover_text("Pictures drawn in the last second; none while the scene rests");
             ui.label(small(&paint_text(state)))

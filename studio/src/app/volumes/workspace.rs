@@ -45,8 +45,9 @@ pub struct Volumes {
     pub(super) here: Option<(Pos2, Option<Here>)>,
     pub(super) message: Option<Message>,
     pub(super) requests: Vec<SceneRequest>,
-    /// Pictures received.
+    /// Pictures received, and when the last one came.
     pub(super) pictures: u64,
+    pub(super) shown_at: Option<Instant>,
     /// Frames of the last second in which a picture arrived.
     pub(super) frames: Frames,
     /// Files that the worker was asked to fill, by the number of the request.
@@ -75,6 +76,7 @@ impl Volumes {
             message: None,
             requests: Vec::new(),
             pictures: 0,
+            shown_at: None,
             frames: Frames::default(),
             awaited: Vec::new(),
             last_request: 0,
