@@ -50,6 +50,21 @@ fn colored(volumes: &Volumes) -> usize {
     volumes.picture().map_or(0, |picture| picture.pixels.iter().filter(is_colored).count())
 }
 
+/// A point of the window in the middle of the colour.
+fn in_color(window: &Window) -> Pos2 {
+    let picture = volumes(window).picture().unwrap();
+    let (width, height) = (picture.width, picture.height);
+    let is_colored = |x: usize, y: usize| {
+        let [red, green, blue, _] = picture.pixels[y * width + x];
+        red.max(green).max(blue) - red.min(green).min(blue) > 24
+    };
+    let places = (2..height - 2).flat_map(|y| (2..width - 2).map(move |x| (x, y)));
+    let mut deep =
+        places.filter(|&(x, y)| (y - 2..=y + 2).all(|y| (x - 2..=x + 2).all(|x| is_colored(x, y))));
+    let (x, y) = deep.next().expect("there is colour");
+    at(window, (x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32)
+}
+
 /// Holds the pen down until colour has come, moves it, and lifts it.
 fn pour(window: &mut Window) {
     let from = at(window, 0.5, 0.55);
@@ -63,20 +78,16 @@ fn pour(window: &mut Window) {
     window.frame(Vec::new());
 }
 
-/// Stops time and waits for the picture with all samples.
+/// Stops time and waits for the picture with all pixels and samples.
 fn rest(window: &mut Window) {
     if volumes(window).state().unwrap().time.playing {
         window.key(Modifiers::NONE, Key::P);
     }
-    wait(window, "rest", |volumes| !volumes.state().unwrap().time.playing);
-    let (mut seen, mut since) = (volumes(window).pictures(), Instant::now());
-    while since.elapsed() < Duration::from_millis(600) {
-        window.harness().step();
-        std::thread::sleep(Duration::from_millis(5));
-        if volumes(window).pictures() != seen {
-            (seen, since) = (volumes(window).pictures(), Instant::now());
-        }
-    }
+    wait(window, "rest", |volumes| {
+        let time = volumes.state().unwrap().time;
+        volumes.picture().is_some_and(|shown| shown.fine && shown.step == time.step)
+            && !time.playing
+    });
 }
 
 fn key(window: &mut Window, key: Key) {
@@ -176,10 +187,18 @@ fn keys_choose_what_is_shown_and_what_is_poured() {
     assert_eq!(volumes(&window).tools.grip.tool, SceneTool::Lift);
     key(&mut window, Key::Period);
     wait(&mut window, "a step", |volumes| volumes.state().unwrap().time.step == 1);
+    key(&mut window, Key::P);
+    wait(&mut window, "time", |volumes| volumes.state().unwrap().time.step > 20);
+    key(&mut window, Key::P);
+    wait(&mut window, "a pause", |volumes| !volumes.state().unwrap().time.playing);
     key(&mut window, Key::R);
     wait(&mut window, "the start", |volumes| volumes.state().unwrap().time.step == 0);
+    let end = volumes(&window).state().unwrap().time.end;
     key(&mut window, Key::P);
-    wait(&mut window, "time", |volumes| volumes.state().unwrap().time.playing);
+    wait(&mut window, "the end", move |volumes| {
+        let time = volumes.state().unwrap().time;
+        time.step == end && !time.playing
+    });
     window.key(Modifiers::COMMAND, Key::E);
     assert!(!window.studio().shows_volumes, "back to the easel");
     assert!(window.studio().painting().is_some(), "which is as it was");
@@ -192,7 +211,7 @@ fn a_right_click_tells_what_is_there() {
     let mut window = scene("volumes-here");
     pour(&mut window);
     rest(&mut window);
-    let pos = at(&window, 0.52, 0.565);
+    let pos = in_color(&window);
     let right = |pressed| Event::PointerButton {
         pos,
         button: PointerButton::Secondary,
@@ -217,12 +236,11 @@ fn a_right_click_tells_what_is_there() {
 fn every_part_of_the_workspace_is_within_the_window() {
     let mut window = scene("volumes-layout");
     let whole = window.whole();
-    for tab in ["Light", "Events", "Export", "View"] {
+    for tab in ["Light", "Events", "Export"] {
         window.click(tab);
         window.save(&format!("volumes-{}", tab.to_lowercase()));
     }
-    for label in ["Play", "Step", "From the start", "Time", "Final", "Strokes", "Both", "Hatching"]
-    {
+    for label in ["Play", "Step", "From the start", "Time", "Script...", "Animation...", "Rate"] {
         let rect = window.harness().get_all_by_label(label).next().unwrap().rect();
         assert!(whole.contains_rect(rect), "{label}: {rect:?}");
     }

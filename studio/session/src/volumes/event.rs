@@ -21,6 +21,8 @@ pub struct ScenePicture {
     pub pixels: Vec<[u8; 4]>,
     /// The moment shown, in steps.
     pub step: u64,
+    /// Whether it has all pixels and samples; not while the scene moves.
+    pub fine: bool,
 }
 
 /// What is at a place of the picture.

@@ -24,6 +24,16 @@ pub(super) fn script_steps(script: &Script) -> u64 {
     u64::from(script::steps_of(script.seconds))
 }
 
+/// A camera that frames a subject in a picture of 4 by 3: a model from the right and above, a flat
+/// one from the front.
+pub(super) fn framed(mesh: &Mesh, flat: bool) -> Camera {
+    let framing = Framing { field_of_view_deg: 35.0, aspect: 4.0 / 3.0, ..Framing::default() };
+    match flat {
+        true => Framing { azimuth_deg: 0.0, elevation_deg: 0.0, ..framing }.fit(&mesh.positions),
+        false => framing.fit(&mesh.positions),
+    }
+}
+
 /// The camera of the first picture of a script.
 pub(super) fn first_camera(script: &Script, mesh: &Mesh) -> Camera {
     let aspect = FIRST_PICTURE.0 as f32 / FIRST_PICTURE.1 as f32;

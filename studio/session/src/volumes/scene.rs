@@ -22,7 +22,7 @@ use spectra::color::{ColorCode, Rgb};
 use super::event::{Here, SceneRecording};
 use super::gesture::{Hand, Timed};
 use super::header::{
-    FIRST_PICTURE, camera_table, first_camera, resolve_picks, script_steps, tally, tubes,
+    FIRST_PICTURE, camera_table, first_camera, framed, resolve_picks, script_steps, tally, tubes,
 };
 use super::inspect::found_at;
 use super::look::Look;
@@ -41,6 +41,8 @@ use crate::failure::FileFailure;
 pub(super) struct Scene {
     mesh: Mesh,
     flat: bool,
+    /// The camera that frames the subject.
+    framed: Camera,
     folder: PathBuf,
     file: Option<PathBuf>,
     settings: Settings,
@@ -80,6 +82,7 @@ impl Scene {
         let look = Look::of(&script, &settings);
         let (hand, shown) = (None, None);
         Ok(Self {
+            framed: framed(&mesh, flat),
             mesh,
             flat,
             folder,
@@ -361,6 +364,7 @@ impl Scene {
             triangles: self.mesh.triangles.len(),
             unit_mm: world.unit_mm(),
             flat: self.flat,
+            framed: self.framed,
             seen_from: self.seen_from(),
             tubes: Arc::clone(&self.tubes),
             look: self.look,

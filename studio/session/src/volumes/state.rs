@@ -73,6 +73,8 @@ pub struct SceneState {
     pub unit_mm: f64,
     /// Whether the subject is a photograph, which is seen from the front.
     pub flat: bool,
+    /// A camera that frames the subject in a picture of 4 by 3.
+    pub framed: Camera,
     /// The camera that its script names, if it does.
     pub seen_from: Option<Camera>,
     /// The tubes, at most eight.

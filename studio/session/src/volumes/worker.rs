@@ -256,7 +256,8 @@ impl<'a> SceneLoop<'a> {
             }
             return Ok(());
         }
-        let due = self.pacer.due(began);
+        let left = self.stops_at.saturating_sub(scene.moment());
+        let due = self.pacer.due(began).min(left);
         let mut taken = 0;
         while taken < due && (taken == 0 || began.elapsed() < STEPS_TIME) {
             scene.step()?;
@@ -297,7 +298,8 @@ impl<'a> SceneLoop<'a> {
         let quality = Quality { fine: !moves, share: share as f32 };
         let pixels = scene.pixels(&Sight { size, ..sight }, quality)?;
         let [width, height] = size;
-        let picture = ScenePicture { width, height, pixels, step: scene.moment() };
+        let (step, fine) = (scene.moment(), !moves);
+        let picture = ScenePicture { width, height, pixels, step, fine };
         (self.send)(VolumeEvent::Picture(Arc::new(picture)));
         self.unconfirmed += 1;
         if moves {

@@ -26,7 +26,7 @@ impl Volumes {
     fn handle_event(&mut self, event: VolumeEvent, files: &mut Files) {
         match event {
             VolumeEvent::Opened(state) => {
-                let orbit = Orbit::around(state.bounds, state.flat);
+                let orbit = Orbit::around(state.bounds, state.framed);
                 let seen_from = state.seen_from.as_ref();
                 self.orbit = seen_from.map_or(orbit, |camera| orbit.seen_by(camera));
                 self.told.0 = None;

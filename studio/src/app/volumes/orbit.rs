@@ -2,13 +2,13 @@
 
 use eframe::egui::{Vec2, vec2};
 use glam::Vec3;
-use render::camera::{Camera, Framing};
+use render::camera::Camera;
 
 /// Vertical field of view in degrees.
 const FIELD_DEG: f32 = 35.0;
 
-/// Direction from which a model is seen first, in degrees: azimuth and elevation.
-const MODEL: [f32; 2] = [30.0, 20.0];
+/// Width by height of the picture that a scene is framed in.
+const FRAMED_ASPECT: f32 = 4.0 / 3.0;
 
 /// Turn of the camera by a drag of one point, in degrees (chosen by hand).
 const TURN_DEG: f32 = 0.35;
@@ -20,8 +20,9 @@ const STEEPEST_DEG: f32 = 85.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orbit {
     bounds: [Vec3; 2],
-    flat: bool,
-    /// Azimuth and elevation in degrees, as in [`Framing`].
+    /// The camera that frames the scene in a picture of 4 by 3.
+    home: Camera,
+    /// Azimuth about the y axis and elevation, in degrees.
     angles: [f32; 2],
     target: Vec3,
     distance: f32,
@@ -32,21 +33,38 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// A camera that sees the whole box between two corners: a model from the right and above, a
-    /// flat picture from the front.
+    /// A camera around the box between two corners, which `home` frames in a picture of 4 by 3.
     #[must_use]
-    pub fn around(bounds: [Vec3; 2], flat: bool) -> Self {
+    pub fn around(bounds: [Vec3; 2], home: Camera) -> Self {
         let mut orbit = Self {
             bounds,
-            flat,
+            home,
             angles: [0.0; 2],
             target: Vec3::ZERO,
             distance: 1.0,
-            aspect: 1.0,
+            aspect: FRAMED_ASPECT,
             framed: true,
         };
         orbit.frame();
         orbit
+    }
+
+    /// Frames the whole scene, as it is seen first.
+    pub fn frame(&mut self) {
+        *self = self.seen_by(&self.home);
+        // In a narrower picture from farther away.
+        self.distance *= (FRAMED_ASPECT / self.aspect).max(1.0);
+        self.framed = true;
+    }
+
+    /// Sets the shape of the picture, width by height.
+    pub fn set_aspect(&mut self, aspect: f32) {
+        if aspect != self.aspect && aspect.is_finite() && aspect > 0.0 {
+            self.aspect = aspect;
+            if self.framed {
+                self.frame();
+            }
+        }
     }
 
     /// This camera around the same scene, as `camera` sees it.
@@ -61,30 +79,6 @@ impl Orbit {
         let distance = distance * tangent(camera.field_of_view_deg) / tangent(FIELD_DEG);
         let angles = [azimuth_deg, elevation_deg.clamp(-STEEPEST_DEG, STEEPEST_DEG)];
         Self { angles, target: camera.target, distance, framed: false, ..self }
-    }
-
-    /// Frames the whole scene, as it is seen first.
-    pub fn frame(&mut self) {
-        self.angles = if self.flat { [0.0; 2] } else { MODEL };
-        self.framed = true;
-        let camera = self.framing().camera(self.bounds);
-        self.target = camera.target;
-        self.distance = camera.eye.distance(camera.target);
-    }
-
-    fn framing(&self) -> Framing {
-        let [azimuth_deg, elevation_deg] = self.angles;
-        Framing { azimuth_deg, elevation_deg, field_of_view_deg: FIELD_DEG, aspect: self.aspect }
-    }
-
-    /// Sets the shape of the picture, width by height.
-    pub fn set_aspect(&mut self, aspect: f32) {
-        if aspect != self.aspect && aspect.is_finite() && aspect > 0.0 {
-            self.aspect = aspect;
-            if self.framed {
-                self.frame();
-            }
-        }
     }
 
     /// Turns around the target by a drag of `by` points.
@@ -157,10 +151,17 @@ impl Orbit {
 #[cfg(test)]
 mod tests {
     use glam::Vec4Swizzles;
+    use render::camera::Framing;
 
     use super::*;
 
     const BOX: [Vec3; 2] = [Vec3::new(-1.0, 0.0, -2.0), Vec3::new(3.0, 2.0, 2.0)];
+
+    fn framed_box() -> Orbit {
+        let framing =
+            Framing { field_of_view_deg: FIELD_DEG, aspect: FRAMED_ASPECT, ..Framing::default() };
+        Orbit::around(BOX, framing.camera(BOX))
+    }
 
     /// Place in the picture, from the middle, in halves of its width and height.
     fn seen(orbit: &Orbit, place: Vec3) -> [f32; 2] {
@@ -171,8 +172,8 @@ mod tests {
 
     #[test]
     fn the_whole_scene_is_framed_in_every_shape() {
-        for (aspect, flat) in [(0.5, false), (1.0, true), (1.6, false), (2.5, true)] {
-            let mut orbit = Orbit::around(BOX, flat);
+        for aspect in [0.5, 1.0, 1.6, 2.5] {
+            let mut orbit = framed_box();
             orbit.set_aspect(aspect);
             for corner in 0..8 {
                 let side = |bit: usize| BOX[usize::from(corner & bit != 0)];
@@ -185,7 +186,7 @@ mod tests {
 
     #[test]
     fn a_drag_turns_and_home_comes_back() {
-        let mut orbit = Orbit::around(BOX, false);
+        let mut orbit = framed_box();
         let start = orbit.camera();
         orbit.turn(vec2(100.0, 0.0));
         let turned = orbit.camera();
@@ -202,18 +203,18 @@ mod tests {
 
     #[test]
     fn a_camera_of_the_same_lens_is_found_again() {
-        let mut orbit = Orbit::around(BOX, false);
+        let mut orbit = framed_box();
         orbit.turn(vec2(-310.0, 40.0));
         orbit.pan(vec2(20.0, 10.0), 400.0);
         let camera = orbit.camera();
-        let again = Orbit::around(BOX, false).seen_by(&camera).camera();
+        let again = framed_box().seen_by(&camera).camera();
         assert!(again.eye.distance(camera.eye) < 1e-3, "{again:?} {camera:?}");
         assert!(again.target.distance(camera.target) < 1e-5, "{again:?}");
     }
 
     #[test]
     fn panning_and_zooming_keep_what_is_under_the_pointer() {
-        let mut orbit = Orbit::around(BOX, false);
+        let mut orbit = framed_box();
         orbit.set_aspect(1.5);
         let [height, width] = [400.0, 600.0];
         let target = orbit.target;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use eframe::egui::{Context, Pos2, Rect, vec2};
+use glam::Vec3;
 use render::camera::Camera;
 
 use super::orbit::Orbit;
@@ -21,6 +22,16 @@ use session::volumes::{
 
 /// Subject of a new scene.
 const NEW: &str = "village";
+
+/// The camera before a scene is open.
+const NOWHERE: Camera = Camera {
+    eye: Vec3::Z,
+    target: Vec3::ZERO,
+    up: Vec3::Y,
+    field_of_view_deg: 35.0,
+    near: 0.1,
+    far: 10.0,
+};
 
 /// The workspace of scenes. Its worker starts with it.
 #[derive(Debug)]
@@ -64,7 +75,7 @@ impl Volumes {
         let woken = context.clone();
         Self {
             tools: SceneTools::default(),
-            orbit: Orbit::around([glam::Vec3::NEG_ONE, glam::Vec3::ONE], false),
+            orbit: Orbit::around([Vec3::NEG_ONE, Vec3::ONE], NOWHERE),
             worker: VolumeWorker::start(move || woken.request_repaint()),
             state: None,
             picture: None,

@@ -7,6 +7,9 @@ use std::time::{Duration, Instant};
 use eframe::egui::{Ui, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
+use glam::Vec3;
+use render::camera::Framing;
+use session::LostSession;
 use session::volumes::{Look, SceneRecording, SceneState, SceneTally, SceneTime};
 use studio::files::{Files, Home, Preferences, SceneAnswer};
 
@@ -16,10 +19,11 @@ const PATIENCE: Duration = Duration::from_secs(20);
 fn state(revision: u64) -> SceneState {
     SceneState {
         title: "village".to_owned(),
-        bounds: [glam::Vec3::ZERO, glam::Vec3::ONE],
+        bounds: [Vec3::ZERO, Vec3::ONE],
         triangles: 1,
         unit_mm: 1.0,
         flat: false,
+        framed: Framing::default().camera([Vec3::ZERO, Vec3::ONE]),
         seen_from: None,
         tubes: Arc::default(),
         look: Look::default(),
@@ -89,6 +93,12 @@ fn a_scene_left_by_a_crash_is_offered_and_recovered() {
     autosaved(&mut first, "the script", folder.path());
     // A crash: the window ends without finishing.
     drop(first);
+    let start = Instant::now();
+    let scenes = Home::in_folder(folder.path()).scenes();
+    // The thread that wrote the autosave ends soon.
+    while LostSession::all(&scenes).unwrap().is_empty() {
+        assert!(start.elapsed() < PATIENCE, "the lock stays");
+    }
     let mut second = window(folder.path());
     second.run_steps(3);
     assert!(second.query_by_label("A scene was not saved").is_some(), "recovery is offered");
