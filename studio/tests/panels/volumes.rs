@@ -75,7 +75,10 @@ fn pour(window: &mut Window) {
     window.frame(vec![Event::PointerMoved(to)]);
     wait(window, "time", |volumes| volumes.state().unwrap().time.step > 60);
     window.frame(vec![button(to, false)]);
-    window.frame(Vec::new());
+    wait(window, "the end of the pour", |volumes| {
+        let state = volumes.state().unwrap();
+        state.events.first().is_some_and(|event| state.time.step > event.to)
+    });
 }
 
 /// Stops time and waits for the picture with all pixels and samples.
