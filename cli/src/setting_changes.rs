@@ -33,6 +33,7 @@ fn as_toml(value: &str) -> String {
     if let Ok(number) = value.parse::<f64>() {
         return format!("{number:?}").to_lowercase();
     }
-    let bare = ["true", "false"].contains(&value) || value.starts_with(['"', '\'']);
+    // Lists are written as in a file.
+    let bare = ["true", "false"].contains(&value) || value.starts_with(['"', '\'', '[']);
     if bare { value.to_owned() } else { format!("{value:?}") }
 }

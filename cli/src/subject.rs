@@ -105,6 +105,11 @@ impl SubjectOptions {
         self.camera.is_some() || self.turntable.is_some()
     }
 
+    /// The file of keyframes of `--camera`, if it names one.
+    pub(crate) fn camera_file(&self) -> Option<&Path> {
+        self.camera.as_deref().filter(|text| text.ends_with(".toml")).map(Path::new)
+    }
+
     /// Where cameras stand that turn a picture, in degrees to the right and upwards from straight
     /// before it: one, or those of a swing around that place.
     pub(crate) fn picture_turns(&self) -> Result<Vec<[f32; 2]>> {
@@ -140,15 +145,14 @@ impl SubjectOptions {
         let height = self.height.map_or(width * 3 / 4, |height| height as usize).max(1);
         let bounds = mesh.bounds();
         let aspect = width as f32 / height as f32;
-        let file = self.camera.as_deref().filter(|text| text.ends_with(".toml"));
-        let cameras = match (file, self.turntable) {
+        let cameras = match (self.camera_file(), self.turntable) {
             (Some(path), None) => {
                 inputs.push(path.into());
-                CameraPath::open(Path::new(path))?.cameras(bounds)
+                CameraPath::open(path)?.cameras(bounds)
             }
             (Some(path), Some(_)) => {
                 return Err(Failure::usage(
-                    format!("--turntable and {path} both move the camera"),
+                    format!("--turntable and {} both move the camera", path.display()),
                     "leave one of them out",
                 ));
             }
@@ -163,7 +167,8 @@ impl SubjectOptions {
         Ok((Subject::Mesh(Box::new(mesh), cameras, (width, height)), inputs))
     }
 
-    fn framing(&self, aspect: f32) -> Result<Framing> {
+    /// The camera of a mesh that `--camera` gives in degrees, for pictures of this aspect.
+    pub(crate) fn framing(&self, aspect: f32) -> Result<Framing> {
         let usual = Framing { aspect, ..Framing::default() };
         let Some(text) = &self.camera else { return Ok(usual) };
         let invalid = || {

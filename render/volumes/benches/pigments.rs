@@ -24,7 +24,7 @@ use volumes::pigments::{
 };
 use volumes::surfaces::VolumeSurfaces;
 use volumes::volume::Volume;
-use volumes::wetting::SurfaceSamples;
+use volumes::wetting::{SAMPLES_PER_CELL, SurfaceSamples};
 
 const SIZE: (usize, usize) = (750, 570);
 const SCALE: FilmScale = FilmScale { quantum_mm3: 1e-7, unit_mm: 40.0, cell_mm: 0.2 };
@@ -52,7 +52,7 @@ fn scene() -> &'static Scene {
         let camera = framing.fit(&mesh.positions);
         let [low, high] = mesh.bounds();
         let cell = (high - low).max_element() / 12.0;
-        let samples = SurfaceSamples::of(&mesh, cell, 1).unwrap();
+        let samples = SurfaceSamples::of(&mesh, cell, SAMPLES_PER_CELL, 1).unwrap();
         let lattice = SampleLattice::of(&samples.places, cell);
         let mut cells: Vec<(Vec3, Vec3)> = (0..samples.cell_count())
             .map(|cell| {

@@ -6,7 +6,7 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use graphics::mesh::{Material, Mesh, SampleModel, Triangle};
 use paint::layer::Cell;
-use volumes::wetting::{Grid, Spilling, SurfaceSamples};
+use volumes::wetting::{Grid, SAMPLES_PER_CELL, Spilling, SurfaceSamples};
 use volumes::world::{Pour, Recipe, World, WorldSettings};
 
 fn still_life() -> (Mesh, f32) {
@@ -20,14 +20,15 @@ fn still_life() -> (Mesh, f32) {
 #[divan::bench(sample_count = 10)]
 fn grid(bencher: Bencher<'_, '_>) {
     let (mesh, cell) = still_life();
-    bencher.bench_local(|| Grid::of(black_box(&mesh), cell, 1).unwrap());
+    bencher.bench_local(|| Grid::of(black_box(&mesh), cell, SAMPLES_PER_CELL, 1).unwrap());
 }
 
 /// Its samples alone.
 #[divan::bench(sample_count = 10)]
 fn samples(bencher: Bencher<'_, '_>) {
     let (mesh, cell) = still_life();
-    bencher.bench_local(|| SurfaceSamples::of(black_box(&mesh), cell, 1).unwrap());
+    bencher
+        .bench_local(|| SurfaceSamples::of(black_box(&mesh), cell, SAMPLES_PER_CELL, 1).unwrap());
 }
 
 /// A level square of as many cells.
@@ -48,7 +49,7 @@ fn level(side: f32) -> Mesh {
 #[divan::bench(args = [1, 3, 8], sample_count = 10)]
 fn spill(bencher: Bencher<'_, '_>, pigments: usize) {
     let side = 400.0;
-    let grid = Grid::of(&level(side), 1.0, 1).unwrap();
+    let grid = Grid::of(&level(side), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let mut spilling = Spilling::new(&grid.cells, 1.0, 0.04, 0.0).unwrap();
     let amount = |cell: usize| {
         let mut own = Cell::default();

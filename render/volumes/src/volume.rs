@@ -12,6 +12,9 @@ pub struct Particles {
     pub places: [Vec<f32>; 3],
     /// Velocities along x, y and z, in units of the scene a second.
     pub velocities: [Vec<f32>; 3],
+    /// Index of the sample of the surface that each particle is pulled to; the greatest number for
+    /// none.
+    pub samples: Vec<u32>,
 }
 
 /// A volume of paint.
@@ -57,6 +60,7 @@ impl Volume {
         let particles = Particles {
             places: std::array::from_fn(along),
             velocities: std::array::from_fn(|_| still.clone()),
+            samples: vec![u32::MAX; still.len()],
         };
         let paint = Cell::default();
         let (region, cell, dry) = (0, None, false);

@@ -9,4 +9,5 @@ mod demo;
 mod errors;
 mod matching;
 mod painterly;
+mod stencil;
 mod verbs;

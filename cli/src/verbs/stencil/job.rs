@@ -1,32 +1,25 @@
 //! One run: what is painted, and into which files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use render::camera::Camera;
 use render::compute::Compute;
-use render::encoding::{linear_from_encoded, over_white};
-use render::export::{PictureFormat, frame_of, picture_file};
-use render::light::Light;
-use render::paint::engine::PaintEngine;
-use render::paint::painting::Painting;
+use render::encoding::over_white;
+use render::export::frame_of;
 use render::volumes::painter::{Show, VolumePainter, VolumePigments};
-use render::volumes::performance::{FirstView, Performance};
-use render::volumes::script::frames_fit;
-use render::volumes::settings::Settings;
+use render::volumes::performance::Performance;
+use render::volumes::settings::{Preset, Settings};
 use render::volumes::surfaces::ply_of;
-use render::volumes::volume::Volume;
-use render::volumes::world::{STEPS_PER_SECOND, World};
-use serde_json::json;
-use spectra::Viewing;
-use spectra::{Observer, light_from_text};
 
 use super::Stencil;
 use super::outputs::OpenOutputs;
 use super::scene::{OpenScript, Scene};
-use crate::animation::{Animation, FramesDigest};
+use super::stills::Stills;
+use super::summary::Summary;
+use super::times::Times;
+use crate::animation::{Animation, FramesDigest, Recording};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::plain_picture::PX_MM;
+use crate::output::Output;
 
 /// A scene, its script and its outputs.
 pub(super) struct Job {
@@ -34,13 +27,14 @@ pub(super) struct Job {
     script: OpenScript,
     settings: Settings,
     scene: Scene,
+    /// The script before its first step.
+    beginning: Performance,
     pigments: Option<VolumePigments>,
     show: Show,
-    /// Step of single pictures.
-    at: u64,
-    /// Steps of the frames.
-    steps: Vec<u64>,
+    times: Times,
     title: String,
+    /// Text of `--script-out`.
+    script_text: String,
     outputs: OpenOutputs,
     animation: Option<Animation>,
     json: bool,
@@ -49,51 +43,28 @@ pub(super) struct Job {
 impl Job {
     /// Checks all options and reads all files.
     pub(super) fn of(verb: Stencil, console: &mut Console<'_>) -> Result<Self> {
-        if !verb.outputs.any() && !verb.animation.any() {
-            return Err(Failure::usage(
-                "nothing would be written",
-                "add --picture spread.png, --animation spread.gif, or --output painting.exr",
-            ));
-        }
-        if let Some(option) = verb.outputs.layer_option().filter(|_| !verb.pigments.any()) {
-            return Err(Failure::usage(
-                format!("{option} needs pigments, but no library is given"),
-                "add --pigments LIBRARY and --palette",
-            ));
-        }
+        check_outputs(&verb)?;
         let path = verb.subject.clone().unwrap_or_default();
-        let mut script = OpenScript::of(&path, verb.pours.usual_seconds())?;
-        verb.settings.apply(&mut script.script)?;
-        verb.pours.apply(&mut script.script, verb.pigments.palette())?;
-        script.script.check().map_err(|fault| script.located(fault))?;
-        if script.script.events().is_empty() {
-            return Err(Failure::usage(
-                format!("{}: nothing is poured", path.display()),
-                "add --pour 0.5,0.5, or a script with [[pour]]",
-            ));
-        }
-        let seconds = script.script.seconds;
+        let mut script = script(&verb, &path)?;
         let rate = verb.animation.rate();
-        let frames = frames_fit(seconds, rate).map_err(|fault| script.located(fault))? as usize;
+        let frames = Times::frames(&script, rate).map_err(|fault| script.located(fault))?;
         let scene = script.scene(&path, &verb.subject_options, frames)?;
         if scene.photograph {
             script.script.light_of_its_own();
         }
         let settings = script.script.settings().map_err(|fault| script.located(fault))?;
-        let step = |seconds: f64| (seconds * f64::from(STEPS_PER_SECOND)).round() as u64;
-        let at = verb.at.unwrap_or(seconds);
-        if !(0.0..=seconds).contains(&at) {
-            return Err(Failure::usage(
-                format!("--at takes 0 to {seconds} seconds, found `{at}`"),
-                "leave it out for the end, or give more --seconds",
-            ));
-        }
         let frames = if scene.cameras.len() > 1 { scene.cameras.len() } else { frames };
-        let steps = (0..frames).map(|frame| step((frame as f64 / rate).min(seconds))).collect();
+        let times = Times::of(script.script.seconds, verb.at, rate, frames)?;
         let located = |fault| script.located(fault);
         let pigments = verb.pigments.materials(&script.script, located, console)?;
         let mut inputs: Vec<PathBuf> = scene.inputs.clone();
         inputs.extend(verb.settings.input().into_iter().chain(verb.pigments.input()).cloned());
+        let script_text = match verb.outputs.script_folder() {
+            None => String::new(),
+            Some(folder) => script.text(&scene, &verb.subject_options, &folder)?,
+        };
+        let beginning = script.beginning(&scene, &settings)?;
+        let compute = verb.backend.compute()?;
         let animation = verb.animation.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
         // Last, because it creates folders.
@@ -101,18 +72,18 @@ impl Job {
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let own_title = Some(script.script.title.clone()).filter(|title| !title.is_empty());
         let title = own_title.or(stem).unwrap_or_default();
-        let (compute, show, json) = (verb.backend.compute()?, verb.show, verb.json);
-        let at = step(at);
+        let (show, json) = (verb.show, verb.json);
         Ok(Self {
             compute,
             script,
             settings,
             scene,
+            beginning,
             pigments,
             show,
-            at,
-            steps,
+            times,
             title,
+            script_text,
             outputs,
             animation,
             json,
@@ -120,154 +91,163 @@ impl Job {
     }
 
     /// Plays the script and writes everything.
-    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let Self { compute, script, settings, scene, pigments, show, at, steps, title, .. } = self;
-        let OpenOutputs { exports, passes, mask, script: script_file, volumes } = self.outputs;
-        let Scene { mesh, cameras, size, .. } = scene;
-        let backend = compute.name().to_owned();
-        let view = FirstView::new(&mesh, &cameras[0], size);
-        let beginning = Performance::new(&script.script, &mesh, &settings, &view);
-        let beginning = beginning.map_err(|error| script.located_event(error))?;
-        let styles = script.script.region_styles(&settings);
-        let recording = match self.animation {
-            None => None,
-            Some(animation) => {
-                let digest = FramesDigest::default()
-                    .add(&env!("CARGO_PKG_VERSION"))
-                    .add(&script.script)
-                    .add(&settings)
-                    .add(&(&cameras, &steps, show))
-                    .add(&mesh)
-                    .add(&pigments)
-                    .add(&backend);
-                Some(animation.begin(digest, steps.len(), size)?)
+    pub(super) fn run(mut self, console: &mut Console<'_>) -> Result<()> {
+        let backend = self.compute.name().to_owned();
+        let size = self.scene.size;
+        let recording = self.animation.take();
+        let digest = recording.as_ref().map(|_| self.digest(&backend));
+        let lighting = self.pigments.as_ref().map(|own| own.lighting.clone());
+        let mut painter = self.painter()?;
+        let still = self.rehearsed(recording.is_some())?;
+        let recording = match (recording, digest) {
+            (Some(animation), Some(digest)) => {
+                Some(animation.begin(digest, self.times.frames.len(), size)?)
             }
+            _ => None,
         };
-        let mut painter = VolumePainter::new(&mesh, &settings, &styles)?.on(compute)?;
-        let illuminant = pigments.as_ref().map(|own| own.lighting.clone());
-        if let Some(pigments) = pigments {
-            painter = painter.with_pigments(pigments)?;
-        }
-        if let Some(output) = script_file {
-            output.write(script.script.to_text()?)?;
-        }
-        let mut still = beginning.clone();
-        still.advance_to(at).map_err(|error| script.located_event(error))?;
-        let (world, first) = (still.world(), &cameras[0]);
-        if exports.any() {
-            match &illuminant {
-                Some(lighting) => {
-                    let document = painter.painting(world, first, size, &title)?;
-                    let engine = PaintEngine::on_cpu(document.ground.height.clone());
-                    let viewing = Viewing {
-                        illuminant: light_from_text(&lighting.illuminant)?,
-                        observer: Observer::named(&lighting.observer)?,
-                    };
-                    let light = Light::new(&document.library, &viewing)?;
-                    let mut painting = Painting::open_under(document, light, engine, 0)?;
-                    exports.write(&mut painting, console)?;
-                }
-                None => {
-                    let picture = painter.shown(world, first, size, show)?;
-                    let linear = linear_from_encoded(&over_white(&picture));
-                    exports.write_picture(&linear, PX_MM, console)?;
-                }
-            }
-        }
-        if let Some(output) = mask {
-            let mask = painter.shown(world, first, size, Show::Mask)?;
-            let picture = linear_from_encoded(&mask);
-            let format = PictureFormat::from_path(output.path()).unwrap_or_default();
-            let file = picture_file(&picture, PX_MM, format)?;
-            output.write(file.bytes)?;
-        }
-        if let Some(output) = passes {
-            output.write(painter.passes(world, first, size, PX_MM)?)?;
-        }
-        let summary = Summary::of(world, size, &backend);
-        if !volumes.is_empty() {
-            let mut play = beginning.clone();
-            for (output, &step) in volumes.into_iter().zip(&steps) {
-                play.advance_to(step).map_err(|error| script.located_event(error))?;
-                output.write(ply_of(play.world().volumes())?)?;
-            }
-        }
-        let mut frames = None;
-        if let Some(recording) = recording {
-            let mut play = beginning;
-            let found = recording.paint(console, |index| {
-                play.advance_to(steps[index]).map_err(|error| script.located_event(error))?;
-                let camera: &Camera = &cameras[index.min(cameras.len() - 1)];
-                let picture = painter.shown(play.world(), camera, size, show)?;
-                Ok(frame_of(&over_white(&picture)))
-            })?;
-            frames = Some((steps.len(), found));
-        }
-        summary.print(frames, self.json, console)
-    }
-}
-
-/// Summary of a finished run.
-struct Summary {
-    size: (usize, usize),
-    backend: String,
-    seconds: f64,
-    volumes: usize,
-    particles: usize,
-    cells: usize,
-    /// Paint on the scene, lifted and left in the tube, in mm3.
-    paint_mm3: [f64; 3],
-}
-
-impl Summary {
-    fn of(world: &World, size: (usize, usize), backend: &str) -> Self {
-        let tally = world.tally();
-        let mm3 = |amounts: [u64; 9]| amounts.iter().sum::<u64>() as f64 * world.quantum_mm3();
-        let particles = |volume: &Volume| volume.vertices().len();
-        Self {
+        let OpenOutputs { pictures, script, volumes } = self.outputs;
+        let mut stills = Stills {
+            painter: &mut painter,
+            world: still.world(),
+            camera: &self.scene.cameras[0],
             size,
-            backend: backend.to_owned(),
-            seconds: world.seconds(),
-            volumes: world.volumes().len(),
-            particles: world.volumes().iter().map(particles).sum(),
-            cells: world.grid().cells.len(),
-            paint_mm3: [tally.on_scene, tally.lifted, tally.in_tube].map(mm3),
+            show: self.show,
+            lighting: lighting.as_ref(),
+            title: &self.title,
+        };
+        stills.write(pictures, console)?;
+        if let Some(output) = script {
+            output.write(&self.script_text)?;
+        }
+        let mut summary = Summary::of(still.world(), size, &backend);
+        let mut film = Film {
+            script: &self.script,
+            scene: &self.scene,
+            play: self.beginning,
+            steps: &self.times.frames,
+        };
+        film.clone().write_volumes(volumes)?;
+        if let Some(recording) = recording {
+            let found = film.record(recording, &mut painter, self.show, console)?;
+            summary.frames = Some((self.times.frames.len(), found));
+        }
+        summary.print(self.json, console)
+    }
+
+    /// Everything that the frames depend on.
+    fn digest(&self, backend: &str) -> FramesDigest {
+        FramesDigest::default()
+            .add(&env!("CARGO_PKG_VERSION"))
+            .add(&self.script.script)
+            .add(&self.settings)
+            .add(&(&self.scene.cameras, &self.times.frames, self.show))
+            .add(&self.scene.mesh)
+            .add(&self.pigments)
+            .add(&backend)
+    }
+
+    fn painter(&mut self) -> Result<VolumePainter> {
+        let compute = std::mem::replace(&mut self.compute, Compute::cpu());
+        let styles = self.script.script.region_styles(&self.settings);
+        let painter = VolumePainter::new(&self.scene.mesh, &self.settings, &styles)?.on(compute)?;
+        match self.pigments.take() {
+            Some(pigments) => Ok(painter.with_pigments(pigments)?),
+            None => Ok(painter),
         }
     }
 
-    fn print(
-        &self,
-        frames: Option<(usize, usize)>,
-        as_json: bool,
-        console: &mut Console<'_>,
-    ) -> Result<()> {
-        let Self { size: (width, height), backend, seconds, volumes, particles, cells, .. } = self;
-        let [on_scene, lifted, in_tube] = self.paint_mm3;
-        if as_json {
-            return console.json(&json!({
-                "size": [width, height],
-                "backend": backend,
-                "seconds": seconds,
-                "volumes": volumes,
-                "particles": particles,
-                "cells": cells,
-                "paint_mm3": { "on_scene": on_scene, "lifted": lifted, "in_tube": in_tube },
-                "frames": frames.map(|(frames, _)| frames),
-                "frames_found": frames.map(|(_, found)| found),
-            }));
+    /// The script at the time of single pictures. It is played to the last step of all first, so
+    /// that an event that cannot be done is told before anything is written.
+    fn rehearsed(&self, has_frames: bool) -> Result<Performance> {
+        let located = |error| self.script.located_event(error);
+        let mut play = self.beginning.clone();
+        play.advance_to(self.times.still).map_err(located)?;
+        let still = play.clone();
+        if has_frames || !self.outputs.volumes.is_empty() {
+            play.advance_to(self.times.last()).map_err(located)?;
         }
-        let mut line = format!(
-            "{width} x {height} pixels on {backend}: {volumes} volumes after {seconds:.2} s, {on_scene:.1} mm3 of paint"
-        );
-        if in_tube > 0.0 {
-            line += &format!(", {in_tube:.1} mm3 had no room and stayed in the tube");
-        }
-        if let Some((frames, found)) = frames {
-            line += &format!(", {frames} frames");
-            if found > 0 {
-                line += &format!(" ({found} of them existed already)");
-            }
-        }
-        console.line(line)
+        Ok(still)
     }
+}
+
+/// The frames of a script in their order.
+#[derive(Clone)]
+struct Film<'a> {
+    script: &'a OpenScript,
+    scene: &'a Scene,
+    play: Performance,
+    steps: &'a [u64],
+}
+
+impl Film<'_> {
+    fn advance_to(&mut self, frame: usize) -> Result<()> {
+        let step = self.steps[frame];
+        self.play.advance_to(step).map_err(|error| self.script.located_event(error))
+    }
+
+    /// Writes the volumes of each frame.
+    fn write_volumes(mut self, outputs: Vec<Output>) -> Result<()> {
+        for (frame, output) in outputs.into_iter().enumerate() {
+            self.advance_to(frame)?;
+            output.write(ply_of(self.play.world().volumes())?)?;
+        }
+        Ok(())
+    }
+
+    /// Paints the missing frames and returns how many existed already.
+    fn record(
+        &mut self,
+        recording: Recording,
+        painter: &mut VolumePainter,
+        show: Show,
+        console: &Console<'_>,
+    ) -> Result<usize> {
+        recording.paint(console, |frame| {
+            self.advance_to(frame)?;
+            let cameras = &self.scene.cameras;
+            let camera = &cameras[frame.min(cameras.len() - 1)];
+            let picture = painter.shown(self.play.world(), camera, self.scene.size, show)?;
+            Ok(frame_of(&over_white(&picture)))
+        })
+    }
+}
+
+/// Refuses options that ask for nothing, and layers of a painting that there are none of.
+fn check_outputs(verb: &Stencil) -> Result<()> {
+    if !verb.outputs.any() && !verb.animation.any() {
+        return Err(Failure::usage(
+            "nothing would be written",
+            "add --picture spread.png, --animation spread.gif, or --output painting.exr",
+        ));
+    }
+    let Some(option) = verb.outputs.layer_option() else { return Ok(()) };
+    if !verb.pigments.any() {
+        return Err(Failure::usage(
+            format!("{option} needs pigments, but no library is given"),
+            "add --pigments LIBRARY and --palette",
+        ));
+    }
+    match verb.show {
+        Show::Final => Ok(()),
+        show => Err(Failure::usage(
+            format!("{option} is of the painting, and --show {} is not", show.name()),
+            format!("leave out {option} or --show"),
+        )),
+    }
+}
+
+/// The script with all that options change of it.
+fn script(verb: &Stencil, path: &Path) -> Result<OpenScript> {
+    let mut open = OpenScript::of(path, &verb.pours)?;
+    let usual = (verb.pigments.any() && !open.is_file()).then_some(Preset::Grisaille);
+    verb.settings.apply(&mut open.script, usual)?;
+    verb.pours.apply(&mut open.script, verb.pigments.palette())?;
+    open.script.check().map_err(|fault| open.located(fault))?;
+    if open.script.events().is_empty() {
+        return Err(Failure::usage(
+            format!("{}: nothing is poured", path.display()),
+            "add --pour 0.5,0.5, or a script with [[pour]]",
+        ));
+    }
+    Ok(open)
 }

@@ -11,6 +11,12 @@ mod scene;
 
 mod outputs;
 
+mod times;
+
+mod stills;
+
+mod summary;
+
 mod job;
 
 use std::path::PathBuf;

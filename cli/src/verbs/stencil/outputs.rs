@@ -8,6 +8,7 @@ use crate::failure::{Failure, Result};
 use crate::output::{Output, create_folder};
 use crate::pictures::{Exports, OpenExports};
 use crate::plain_picture::refuse_same;
+use crate::stages::StageFolder;
 
 #[derive(Debug, Args)]
 pub(super) struct OutputOptions {
@@ -20,19 +21,29 @@ pub(super) struct OutputOptions {
     /// Write a mask as PNG or OpenEXR: white where volumes bring colour
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     mask: Option<PathBuf>,
+    /// Write the steps to the picture into this folder as PNG: the colours seen, light, hatching,
+    /// colour, grey, count and tint of each region, volumes, mask, picture
+    #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
+    stages: Option<PathBuf>,
     /// Write the volumes of each frame into this folder as PLY
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
     volumes: Option<PathBuf>,
-    /// Write what was poured, with all settings that differ from the preset, as a script (.toml)
+    /// Write what is poured, with all settings that differ from the preset, as a script (.toml)
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     script_out: Option<PathBuf>,
 }
 
-/// Files that were checked to be writable.
-pub(super) struct OpenOutputs {
+/// Files of single pictures that were checked to be writable.
+pub(super) struct PictureFiles {
     pub(super) exports: OpenExports,
     pub(super) passes: Option<Output>,
     pub(super) mask: Option<Output>,
+    pub(super) stages: Option<StageFolder>,
+}
+
+/// Files that were checked to be writable.
+pub(super) struct OpenOutputs {
+    pub(super) pictures: PictureFiles,
     pub(super) script: Option<Output>,
     /// One file for each frame, or none.
     pub(super) volumes: Vec<Output>,
@@ -41,13 +52,18 @@ pub(super) struct OpenOutputs {
 impl OutputOptions {
     /// Whether anything is to be written.
     pub(super) fn any(&self) -> bool {
-        let others = [&self.passes, &self.mask, &self.volumes, &self.script_out];
+        let others = [&self.passes, &self.mask, &self.stages, &self.volumes, &self.script_out];
         self.exports.any() || others.into_iter().any(Option::is_some)
     }
 
     /// First option present that needs layers of pigments.
     pub(super) fn layer_option(&self) -> Option<&'static str> {
         self.exports.layer_option()
+    }
+
+    /// Folder of the script that is written, if one is.
+    pub(super) fn script_folder(&self) -> Option<PathBuf> {
+        self.script_out.as_ref().map(|path| path.parent().unwrap_or(Path::new("")).to_owned())
     }
 
     /// Checks that all files can be written, for `frames` frames.
@@ -82,7 +98,10 @@ impl OutputOptions {
                 outputs.collect::<Result<_>>()?
             }
         };
-        Ok(OpenOutputs { exports, passes, mask, script, volumes })
+        let stages = self.stages.as_deref();
+        let stages = stages.map(|folder| StageFolder::open(folder, inputs)).transpose()?;
+        let pictures = PictureFiles { exports, passes, mask, stages };
+        Ok(OpenOutputs { pictures, script, volumes })
     }
 }
 

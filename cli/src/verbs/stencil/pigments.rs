@@ -9,6 +9,7 @@ use render::paint::document::Lighting;
 use render::paint::ground::{GroundKind, MeasuredPrimer, Primer, PrimerSpectrum};
 use render::volumes::painter::VolumePigments;
 use render::volumes::script::Script;
+use render::volumes::toml_text::Fault;
 
 use crate::canvas::grounds;
 use crate::console::Console;
@@ -19,15 +20,21 @@ use crate::input::{library, viewing};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Pigments")]
 pub(super) struct PigmentOptions {
-    /// Paint with this library: volumes become films of measured pigments over a grisaille, if the
-    /// setting drawing.inside is glaze or both (as in the preset grisaille)
+    /// Paint with this library: volumes become films of measured pigments, and the picture a painting.
+    /// The setting drawing.inside is then glaze or both, as in the preset grisaille
     #[arg(long, value_name = "LIBRARY")]
     pigments: Option<PathBuf>,
     /// Up to eight pigments of the volumes, separated by commas
     #[arg(long, value_name = "PIGMENTS", value_delimiter = ',', requires = "pigments")]
     palette: Vec<String>,
     /// Ground: linen, paper or panel
-    #[arg(long, value_name = "KIND", default_value = "panel", value_parser = grounds())]
+    #[arg(
+        long,
+        value_name = "KIND",
+        default_value = "panel",
+        requires = "pigments",
+        value_parser = grounds()
+    )]
     ground: GroundKind,
     /// Reflectance of the ground as measured, 0 to 1, white or black [default: the white of the
     /// library]
@@ -59,7 +66,7 @@ impl PigmentOptions {
     pub(super) fn materials(
         &self,
         script: &Script,
-        located: impl FnOnce(Box<render::volumes::toml_text::Fault>) -> Failure,
+        located: impl FnOnce(Box<Fault>) -> Failure,
         console: &mut Console<'_>,
     ) -> Result<Option<VolumePigments>> {
         let Some(path) = &self.pigments else { return Ok(None) };

@@ -20,8 +20,8 @@ pub(super) struct PourOptions {
     #[arg(long = "pour", value_name = "X,Y[,MM3]")]
     pours: Vec<String>,
     /// Paint of the pours, as pigments with their parts, such as `Ultramarine=2,White=1`: one for all
-    /// of them, or one for each [default: the pigments of --palette in turn]
-    #[arg(long = "paint", value_name = "RECIPE")]
+    /// of them, or one for each [default: the pigments of --palette, or of the script, in turn]
+    #[arg(long = "paint", value_name = "RECIPE", requires = "pigments")]
     paints: Vec<String>,
     /// How long paint spreads, in seconds [default: 4, or as the script says]
     #[arg(long, value_name = "SECONDS")]
@@ -34,24 +34,31 @@ impl PourOptions {
         self.seconds.unwrap_or(SECONDS)
     }
 
+    /// Whether the duration is given.
+    pub(super) fn has_seconds(&self) -> bool {
+        self.seconds.is_some()
+    }
+
     /// Adds what is poured to a script. `palette` are the pigments by name.
     pub(super) fn apply(&self, script: &mut Script, palette: &[String]) -> Result<()> {
+        self.check_counts()?;
         if let Some(seconds) = self.seconds {
             script.seconds = seconds;
-        }
-        if !self.paints.is_empty()
-            && self.paints.len() != 1
-            && self.paints.len() != self.pours.len()
-        {
-            return Err(Failure::usage(
-                format!("{} recipes for {} pours", self.paints.len(), self.pours.len()),
-                "give one --paint for all pours, or one for each",
-            ));
         }
         for name in palette {
             letter(script, name);
         }
+        let in_turn: Vec<String> = match palette {
+            [] => script.palette.values().cloned().collect(),
+            own => own.to_vec(),
+        };
+        let paints = self.paints.iter().map(|text| parts(text)).collect::<Result<Vec<_>>>()?;
         for (index, text) in self.pours.iter().enumerate() {
+            let recipe = match &paints[..] {
+                [] => in_turn.iter().cycle().nth(index).map(|name| vec![(name.clone(), 1.0)]),
+                [one] => Some(one.clone()),
+                each => Some(each[index].clone()),
+            };
             let (picked, amount_mm3) = place(text)?;
             let mut pour = PourTable {
                 picked: Some(Row(picked)),
@@ -59,19 +66,28 @@ impl PourOptions {
                 amount_mm3: Some(amount_mm3),
                 ..PourTable::default()
             };
-            let recipe = match self.paints.len() {
-                0 => palette.get(index % palette.len().max(1)).cloned(),
-                1 => Some(self.paints[0].clone()),
-                _ => Some(self.paints[index].clone()),
-            };
-            for (name, part) in
-                recipe.iter().map(|text| parts(text)).collect::<Result<Vec<_>>>()?.concat()
-            {
-                pour.recipe.insert(letter(script, &name), part);
+            for (name, part) in recipe.into_iter().flatten() {
+                *pour.recipe.entry(letter(script, &name)).or_default() += part;
             }
             script.pours.push(pour);
         }
         Ok(())
+    }
+
+    /// Checks that there is paint for every pour, and a pour for every paint.
+    fn check_counts(&self) -> Result<()> {
+        match (self.paints.len(), self.pours.len()) {
+            (0, _) | (1, 1..) => Ok(()),
+            (paints, pours) if paints == pours => Ok(()),
+            (_, 0) => Err(Failure::usage(
+                "--paint is the paint of pours, but there is no --pour",
+                "add --pour 0.5,0.5",
+            )),
+            (paints, pours) => Err(Failure::usage(
+                format!("{paints} recipes for {pours} pours"),
+                "give one --paint for all pours, or one for each",
+            )),
+        }
     }
 }
 
@@ -121,5 +137,15 @@ fn parts(text: &str) -> Result<Vec<(String, f64)>> {
         let fits = !name.is_empty() && share > 0.0 && share.is_finite();
         if fits { Ok((name.to_owned(), share)) } else { Err(wrong()) }
     };
-    text.split(',').map(part).collect()
+    // Names of pigments may have commas in brackets.
+    let mut open = 0_usize;
+    let outside = |letter: char| {
+        match letter {
+            '(' => open += 1,
+            ')' => open = open.saturating_sub(1),
+            _ => {}
+        }
+        letter == ',' && open == 0
+    };
+    text.split(outside).map(part).collect()
 }

@@ -2,11 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use render::camera::{Camera, CameraPath, Framing, PictureView};
+use render::camera::{Camera, CameraPath, Framing, Keyframe, PictureView};
 use render::mesh::Mesh;
-use render::volumes::script::{Script, ScriptCamera, ScriptError, Subject as ScriptSubject};
-use render::volumes::toml_text::Fault;
+use render::volumes::performance::{FirstView, Performance, PerformanceError};
+use render::volumes::script::{
+    CameraTable, KeyframeTable, Row, Script, ScriptCamera, ScriptError, Subject as ScriptSubject,
+};
+use render::volumes::settings::Settings;
+use render::volumes::toml_text::{Fault, KeyPath, KeyStep};
 
+use super::pours::PourOptions;
 use crate::failure::{Context, Failure, Result};
 use crate::subject::{Subject, SubjectOptions};
 
@@ -15,6 +20,10 @@ pub(super) struct OpenScript {
     pub(super) script: Script,
     /// Name of the file and its text.
     file: Option<(String, String)>,
+    /// Number of its own pours; later ones are of the command line.
+    own_pours: usize,
+    /// Whether the command line gives the duration.
+    seconds_given: bool,
 }
 
 /// A scene ready to be painted.
@@ -26,41 +35,116 @@ pub(super) struct Scene {
     pub(super) size: (usize, usize),
     /// Whether it is a photograph, which has light of its own.
     pub(super) photograph: bool,
+    /// The model or photograph, for a script.
+    subject: PathBuf,
     /// Files that it was read from.
     pub(super) inputs: Vec<PathBuf>,
 }
 
 impl OpenScript {
-    /// Reads a script, or makes one in which nothing happens to `subject` for `seconds`.
-    pub(super) fn of(subject: &Path, seconds: f64) -> Result<Self> {
+    /// Reads a script, or makes one in which nothing happens to `subject`.
+    pub(super) fn of(subject: &Path, pours: &PourOptions) -> Result<Self> {
+        let seconds_given = pours.has_seconds();
         if !is_script(subject) {
-            let script = Script::new(&subject.to_string_lossy(), seconds);
-            return Ok(Self { script, file: None });
+            let script = Script::new(&subject.to_string_lossy(), pours.usual_seconds());
+            return Ok(Self { script, file: None, own_pours: 0, seconds_given });
         }
         let name = subject.display().to_string();
         let text = std::fs::read_to_string(subject)
             .context(|| format!("{name}: this file cannot be read"))?;
         let script = Script::open_own(subject)?;
-        Ok(Self { script, file: Some((name, text)) })
+        let own_pours = script.pours.len();
+        Ok(Self { script, file: Some((name, text)), own_pours, seconds_given })
+    }
+
+    /// Whether it was read from a file.
+    pub(super) fn is_file(&self) -> bool {
+        self.file.is_some()
     }
 
     /// A fault of the script with its file and line.
     pub(super) fn located(&self, fault: Box<Fault>) -> Failure {
+        if let Some(option) = self.option_of(&fault.key) {
+            let Fault { wanted, found, hint, .. } = *fault;
+            return Failure::data(format!("{option} takes {wanted}, found `{found}`"), hint);
+        }
         match &self.file {
             Some((name, text)) => ScriptError::located(name, text, fault).into(),
             None => ScriptError::from(fault).into(),
         }
     }
 
+    /// The option that gave the value at `key`, if it was one.
+    fn option_of(&self, key: &KeyPath) -> Option<String> {
+        let (first, index) = match &key.0[..] {
+            [KeyStep::Key(first), KeyStep::Index(index), ..] => (first, Some(*index)),
+            [KeyStep::Key(first), ..] => (first, None),
+            _ => return None,
+        };
+        match (first.as_str(), index) {
+            ("seconds", _) if self.seconds_given || self.file.is_none() => {
+                Some("--seconds".to_owned())
+            }
+            ("pour", Some(index)) if index >= self.own_pours => {
+                Some(format!("--pour number {}", index + 1 - self.own_pours))
+            }
+            ("palette", _) if self.file.is_none() => Some("--palette or --paint".to_owned()),
+            _ => None,
+        }
+    }
+
     /// An error of playing with its file and line.
-    pub(super) fn located_event(
-        &self,
-        error: render::volumes::performance::PerformanceError,
-    ) -> Failure {
+    pub(super) fn located_event(&self, error: PerformanceError) -> Failure {
+        if let Some(option) = error.table().and_then(|table| self.option_of(table)) {
+            return error.placed(option).into();
+        }
         match &self.file {
             Some((name, text)) => error.located(name, text).into(),
             None => error.into(),
         }
+    }
+
+    /// A failure to read the subject, with the line that names it in the script, if there is one.
+    fn of_subject(&self, failure: Failure) -> Failure {
+        let Some((name, text)) = &self.file else { return failure };
+        let fault = Box::new(Fault {
+            key: KeyPath::of("subject"),
+            wanted: "a model or photograph that can be read".to_owned(),
+            found: self.script.subject.clone(),
+            hint: String::new(),
+        });
+        failure.within(ScriptError::located(name, text, fault).to_string())
+    }
+
+    /// The script before its first step.
+    pub(super) fn beginning(&self, scene: &Scene, settings: &Settings) -> Result<Performance> {
+        let Scene { mesh, cameras, size, .. } = scene;
+        let view = FirstView::new(mesh, &cameras[0], *size);
+        Performance::new(&self.script, mesh, settings, &view).map_err(|error| {
+            let of_scene = matches!(error, PerformanceError::World(_));
+            let failure = self.located_event(error);
+            match of_scene {
+                true => failure
+                    .within(format!("{}: paint cannot be poured over it", scene.subject.display())),
+                false => failure,
+            }
+        })
+    }
+
+    /// The script as text, to be written into `folder`: with the subject's path from there, and the
+    /// camera of a mesh that options choose.
+    pub(super) fn text(
+        &self,
+        scene: &Scene,
+        options: &SubjectOptions,
+        folder: &Path,
+    ) -> Result<String> {
+        let mut script = self.script.clone();
+        script.subject = path_from(&scene.subject, folder);
+        if !scene.photograph && options.has_camera() {
+            script.camera = Some(camera_table(options)?);
+        }
+        Ok(script.to_text()?)
     }
 
     /// Reads the scene. `frames` is the number of frames of a camera path of the script.
@@ -78,7 +162,8 @@ impl OpenScript {
                 ScriptSubject::File(file) => file,
             },
         };
-        let (read, mut inputs) = options.subject(&subject, true)?;
+        let (read, mut inputs) =
+            options.subject(&subject, true).map_err(|failure| self.of_subject(failure))?;
         if is_script(path) {
             inputs.push(path.to_owned());
         }
@@ -93,7 +178,7 @@ impl OpenScript {
                         vec![Framing { aspect, ..framing }.fit(&mesh.positions)]
                     }
                 };
-                Scene { mesh: *mesh, cameras, size, photograph: false, inputs }
+                Scene { mesh: *mesh, cameras, size, photograph: false, subject, inputs }
             }
             Subject::Photograph(photograph, width) => {
                 let (own_width, own_height) = photograph.size();
@@ -103,7 +188,7 @@ impl OpenScript {
                 let view = PictureView::of(photograph.size());
                 let turns = options.picture_turns()?.into_iter();
                 let cameras = turns.map(|[right, up]| view.turned(right, up)).collect();
-                Scene { mesh, cameras, size, photograph: true, inputs }
+                Scene { mesh, cameras, size, photograph: true, subject, inputs }
             }
         };
         match scene.cameras.is_empty() {
@@ -111,6 +196,41 @@ impl OpenScript {
             true => Err(Failure::data("the camera path has no frames", "give frames = 60")),
         }
     }
+}
+
+/// The path of a subject from a folder, or its whole path if it does not lie below the folder.
+fn path_from(subject: &Path, folder: &Path) -> String {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let path = match (subject.canonicalize(), folder.canonicalize()) {
+        (Ok(subject), Ok(folder)) => {
+            subject.strip_prefix(&folder).map_or(subject.clone(), Path::to_owned)
+        }
+        // A shape has no file.
+        _ => subject.to_owned(),
+    };
+    path.to_string_lossy().into_owned()
+}
+
+/// The camera of a mesh that options choose.
+fn camera_table(options: &SubjectOptions) -> Result<CameraTable> {
+    let Some(path) = options.camera_file() else {
+        let Framing { azimuth_deg, elevation_deg, field_of_view_deg, .. } = options.framing(1.0)?;
+        return Ok(CameraTable {
+            azimuth_deg: Some(azimuth_deg.into()),
+            elevation_deg: Some(elevation_deg.into()),
+            field_of_view_deg: Some(field_of_view_deg.into()),
+            ..CameraTable::default()
+        });
+    };
+    let CameraPath { closed, keyframes, .. } = CameraPath::open(path)?;
+    let keyframe = |own: Keyframe| KeyframeTable {
+        eye: Row(own.eye.map(f64::from)),
+        target: Row(own.target.map(f64::from)),
+        up: Some(Row(own.up.map(f64::from))),
+        field_of_view_deg: Some(own.field_of_view_deg.into()),
+    };
+    let keyframes = keyframes.into_iter().map(keyframe).collect();
+    Ok(CameraTable { closed, keyframes, ..CameraTable::default() })
 }
 
 fn path_cameras(path: &CameraPath, mesh: &Mesh) -> Vec<Camera> {

@@ -13,7 +13,8 @@ use crate::setting_changes::changes;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Style")]
 pub(super) struct SettingsOptions {
-    /// Preset of settings that ships with impasto [default: that of the script, or sketch]
+    /// Preset of settings that ships with impasto [default: that of the script, or sketch; with
+    /// --pigments and no script, grisaille]
     #[arg(long, value_name = "NAME", value_parser = preset_names())]
     preset: Option<Preset>,
     /// Settings from a file (TOML); others keep the values of the preset
@@ -30,11 +31,9 @@ impl SettingsOptions {
         self.settings.as_ref()
     }
 
-    /// Changes the settings of a script.
-    pub(super) fn apply(&self, script: &mut Script) -> Result<()> {
-        if let Some(preset) = self.preset {
-            script.preset = Some(preset);
-        }
+    /// Changes the settings of a script. `usual` is the preset of a script that names none.
+    pub(super) fn apply(&self, script: &mut Script, usual: Option<Preset>) -> Result<()> {
+        script.preset = self.preset.or(script.preset).or(usual);
         if let Some(path) = &self.settings {
             let name = path.display().to_string();
             let text = std::fs::read_to_string(path)

@@ -116,4 +116,19 @@ impl Compute {
             Self::Gpu(gpu) => gpu.download(image.plane()),
         }
     }
+
+    /// The values of an image. They are copied only from a device, or if another clone of the
+    /// image is alive.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if the device was lost; never on the processor.
+    ///
+    /// # Panics
+    /// If another form of [`Compute`] made the image.
+    pub fn take<T: bytemuck::Pod>(&mut self, image: Image<T>) -> Result<Field<T>, DeviceError> {
+        match self {
+            Self::Cpu => Ok(image.into_host()),
+            Self::Gpu(gpu) => gpu.download(image.plane()),
+        }
+    }
 }

@@ -101,7 +101,7 @@ impl Device {
     }
 }
 
-/// What a pass does with the depth and the stencil of its target.
+/// Use of the depth and the stencil of the target by a pass.
 type Uses = (Option<wgpu::Operations<f32>>, Option<wgpu::Operations<u32>>);
 
 fn begin_pass<'a>(

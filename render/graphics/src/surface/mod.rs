@@ -24,8 +24,8 @@ mod inside;
 
 pub use bands::Sides;
 pub use inside::{
-    ADD_STENCIL, ClosedSurfaces, Count, Crossing, CrossingSum, Crossings, InsideCounter,
-    STENCIL_FACES, WEIGHED_FACES, WeighedCount,
+    ADD_STENCIL, ClosedSurfaces, Count, Crossing, CrossingSum, Crossings, GATED_FACES, Gates,
+    InsideCounter, STENCIL_FACES, WEIGHED_FACES, WeighedCount,
 };
 pub use model::{DeviceModel, HostModel, Model};
 pub use packed::{PackedMaterial, PackedMesh, Positioned, Vertex};

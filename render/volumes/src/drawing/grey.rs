@@ -3,10 +3,12 @@
 use std::sync::OnceLock;
 
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 use spectra::color::Rgb;
 
 /// How the grey of a colour is weighed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum GreyWeights {
     /// The luminance Y of linear sRGB, encoded again: as light as the colour.
     #[default]

@@ -1,7 +1,7 @@
 //! The picture: a grey drawing into which volumes bring colour.
 
 #[cfg(test)]
-mod test_device;
+pub(crate) mod test_device;
 
 mod error;
 

@@ -9,7 +9,7 @@ use graphics::gpu::{BackendChoice, choose};
 /// A device, hardware before software. `None` without an adapter, with a note on standard error.
 /// Appends the name of the adapter (or `none`) to the file that the environment variable
 /// `IMPASTO_GPU_TESTS` names, if it is set.
-pub(super) fn device() -> Option<Compute> {
+pub(crate) fn device() -> Option<Compute> {
     let device = choose(BackendChoice::Gpu).ok().flatten();
     let name = device.as_ref().map_or("none", |device| &device.adapter().name);
     if let Some(path) = std::env::var_os("IMPASTO_GPU_TESTS") {
@@ -23,7 +23,7 @@ pub(super) fn device() -> Option<Compute> {
 }
 
 /// Greatest difference of two pictures, and the share of pixels that differ by more than 1/255.
-pub(super) fn far(one: &Field<[f32; 4]>, other: &Field<[f32; 4]>) -> (f32, f32) {
+pub(crate) fn far(one: &Field<[f32; 4]>, other: &Field<[f32; 4]>) -> (f32, f32) {
     assert_eq!((one.width(), one.height()), (other.width(), other.height()));
     let (mut most, mut over) = (0.0_f32, 0);
     for (a, b) in one.values().iter().zip(other.values()) {

@@ -71,14 +71,14 @@ pub enum MotionError {
 
 impl Explain for MotionError {
     fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
+        Some(Hint::verbatim(match self {
             Self::OutOfRange { .. } => "leave the setting out to take its default",
             Self::TooStiff { .. } => {
-                "take shorter steps, or weaker forces: [pressure], [elastic], [cohesion], [surface_pull], [keep]"
+                "take shorter steps, or weaker forces: the settings motion.pressure, elastic, cohesion, surface_pull, keep"
             }
             Self::Volume { .. } => "give the volume a finite centre and a radius above 0",
             Self::Place { .. } => "repair the mesh: a vertex of it is not a number",
-            Self::TooFine { .. } => "take larger cells with [cell]",
+            Self::TooFine { .. } => "take larger cells (grid.cell)",
         }))
     }
 

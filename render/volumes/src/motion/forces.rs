@@ -25,6 +25,18 @@ pub(super) fn cohesion(stiffness: f32, deviation: Vec3, sum: Vec3) -> Vec3 {
     (sum - deviation * 6.0) * stiffness
 }
 
+/// The pull of a sample of the surface, which is `way` from the particle and less than a cell. From
+/// farther than the radius it does not grow, so that it does not tear small volumes.
+#[inline(always)]
+pub(super) fn surface_pull(way: Vec3, stiffness: f32, radius: f32, cell: f32) -> Vec3 {
+    let square = way.dot(way);
+    if square >= cell * cell {
+        return Vec3::ZERO;
+    }
+    let far = square > radius * radius;
+    way * if far { stiffness * radius / square.sqrt() } else { stiffness }
+}
+
 /// Gravity along a surface of unit normal `normal`, or all of it where that is zero.
 pub(super) fn gravity(acceleration: f32, down: Vec3, normal: Vec3) -> Vec3 {
     (down - normal * down.dot(normal)) * acceleration
@@ -61,6 +73,14 @@ mod tests {
         assert_eq!(cohesion(1.0 / 6.0, own, other * 6.0), other - own);
         let five = cohesion(1.0 / 5.0, own, other * 5.0 + own);
         assert!(five.abs_diff_eq(other - own, 1e-6), "{five}");
+    }
+
+    #[test]
+    fn the_surface_pulls_within_a_cell_and_small_volumes_gently() {
+        let pull = |x: f32, radius: f32| surface_pull(Vec3::X * x, 50.0, radius, 1.0).x;
+        assert_eq!([pull(0.25, 0.5), pull(-0.5, 0.5)], [12.5, -25.0]);
+        assert_eq!([pull(0.75, 0.5), pull(-0.5, 0.125)], [25.0, -6.25]);
+        assert_eq!([pull(1.0, 0.5), pull(0.0, 0.5)], [0.0, 0.0]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::forces::{cohesion, damping, elastic, gravity, pressure, velocity};
+use super::forces::{cohesion, damping, elastic, gravity, pressure, surface_pull, velocity};
 use super::growth::grown;
 use super::keep_in::KeepIn;
 use super::microstructure::RestingRadii;
@@ -76,6 +76,7 @@ pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratc
     }
     volume.rests_under = 0;
     scratch.fit(mesh.directions.len());
+    volume.particles.samples.resize(mesh.directions.len(), u32::MAX);
     let inset = WALL * surroundings.cell;
     let passes = |region: &&KeepIn| !region.holds_ball(volume.center, reach, inset);
     let regions: Vec<KeepIn> = surroundings.regions.iter().filter(passes).copied().collect();
@@ -202,19 +203,21 @@ impl SubStep<'_> {
         let pull = settings.surface_pull;
         let surface = surroundings.surface.as_deref().filter(|_| pull > 0.0);
         let (cell, inset) = (surroundings.cell, WALL * surroundings.cell);
+        let radius = self.resting_radii.radius;
         if surface.is_none() && self.pushes.is_empty() && self.regions.is_empty() {
             return;
         }
         let count = self.scratch.resting.len();
         let places = self.particles.places.each_ref().map(|along| &along[..count]);
+        let samples = &mut self.particles.samples[..count];
         let forces = self.scratch.forces.each_mut().map(|along| &mut along[..count]);
         for i in 0..count {
             let place = self.center + Vec3::new(places[0][i], places[1][i], places[2][i]);
             let mut force = Vec3::ZERO;
-            if let Some(sample) = surface.and_then(|surface| surface.nearest(place)) {
-                let way = sample - place;
-                let near = way.length_squared() < cell * cell;
-                force += if near { way * pull } else { Vec3::ZERO };
+            if let Some(surface) = surface {
+                let (index, sample) = surface.pulling(place, samples[i]);
+                samples[i] = index;
+                force += surface_pull(sample.unwrap_or(place) - place, pull, radius, cell);
             }
             for push in self.pushes {
                 force += push.at(place, cell);

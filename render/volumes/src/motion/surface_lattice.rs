@@ -76,22 +76,49 @@ impl SurfaceLattice {
     #[inline]
     #[must_use]
     pub fn nearest(&self, place: Vec3) -> Option<Vec3> {
+        self.places.get(self.sample_of(place) as usize).copied()
+    }
+
+    /// The sample that pulls a particle at `place`, which `last` pulled before; both are indices, or
+    /// [`u32::MAX`] for none. A particle goes over to the sample of its place only where that is
+    /// nearer, so it cannot swing between two samples for ever: the energy of the pull falls.
+    #[inline]
+    #[must_use]
+    pub fn pulling(&self, place: Vec3, last: u32) -> (u32, Option<Vec3>) {
+        let found = self.sample_of(place);
+        let [sample, before] = [found, last].map(|index| self.places.get(index as usize));
+        let (Some(&sample), Some(&before)) = (sample, before) else {
+            return if before.is_some() {
+                (last, before.copied())
+            } else {
+                (found, sample.copied())
+            };
+        };
+        match sample.distance_squared(place) < before.distance_squared(place) {
+            true => (found, Some(sample)),
+            false => (last, Some(before)),
+        }
+    }
+
+    /// Index of the sample for `place`, or [`NONE`].
+    #[inline]
+    fn sample_of(&self, place: Vec3) -> u32 {
         let at = (place - self.low) * (BOXES as f32 / self.cell);
         if !at.cmpge(Vec3::ZERO).all() {
-            return None;
+            return NONE;
         }
         let [x, y, z] = at.to_array().map(|along| along as usize);
         let [columns, rows, layers] = self.counts;
         if x >= columns * BOXES || y >= rows * BOXES || z >= layers * BOXES {
-            return None;
+            return NONE;
         }
         let cell = ((z / BOXES) * rows + y / BOXES) * columns + x / BOXES;
         let table = self.tables[cell];
         if table == NONE {
-            return None;
+            return NONE;
         }
         let inside = ((z % BOXES) * BOXES + y % BOXES) * BOXES + x % BOXES;
-        self.places.get(self.boxes[table as usize * BOXES_OF_CELL + inside] as usize).copied()
+        self.boxes[table as usize * BOXES_OF_CELL + inside]
     }
 
     /// Size of a cell, in the unit of the scene.

@@ -1,23 +1,22 @@
-//! What a camera sees of a scene and which volumes hold it, before a picture is composed.
+//! The scene before a camera and the volumes that hold it, before a picture is composed.
 
-use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, Image};
 use graphics::field::Field;
 use graphics::mesh::Mesh;
-use graphics::surface::{
-    Crossings, Fragment, InsideCounter, Model, NO_TRIANGLE, PackedMesh, Rasteriser, Sides,
-    SurfacePoint, VisibilityBuffer,
-};
+use graphics::surface::{Fragment, NO_TRIANGLE, PackedMesh};
 
 use super::averaged::averaged;
 use super::error::PaintingError;
 use super::films::Films;
+use super::in_sight::InSight;
+use super::loaded_scene::LoadedScene;
 use super::looks::{self, RegionLook};
+use super::parts::Parts;
 use super::region_counts::{RegionSurfaces, Volumes};
 use crate::drawing::{DrawingLook, Inside, Region, TintTable, reveal, shade, shade_apart};
-use crate::hatching::{Hatching, ThresholdTexture};
-use crate::pigments::{Drawing, Facets, FilmHeights, SeenPlaces};
+use crate::hatching::ThresholdTexture;
+use crate::pigments::Facets;
 use crate::script::RegionStyle;
 use crate::settings::Settings;
 use crate::world::World;
@@ -28,53 +27,26 @@ const MOST_SAMPLES: usize = 1 << 28;
 /// Draws one scene with its volumes.
 #[derive(Debug)]
 pub(super) struct Drawer {
-    /// Where pictures are made.
-    compute: Compute,
-    model: Model,
-    packed: PackedMesh,
-    facets: Facets,
+    /// The scene where pictures are made.
+    pub(super) scene: LoadedScene,
+    /// The scene on the processor, where paintings are made, if pictures are made elsewhere.
+    pub(super) host: Option<LoadedScene>,
+    pub(super) packed: PackedMesh,
+    pub(super) facets: Facets,
     texture: ThresholdTexture,
-    hatching: Hatching,
-    /// The same in the processor's memory, for films and parts.
-    host_hatching: Hatching,
     pub(super) settings: Settings,
-    look: DrawingLook,
+    pub(super) look: DrawingLook,
     pub(super) regions: Vec<RegionLook>,
     surfaces: Vec<RegionSurfaces>,
-    counter: InsideCounter,
-    crossings: Crossings,
 }
 
-/// What a camera sees, before volumes bring colour.
+/// The view of a camera, before volumes bring colour.
 pub(super) struct Sight {
     pub(super) visible: Image<Fragment>,
     /// Colours lit, textured and hatched, each with its grey.
     pub(super) shaded: ColorImage,
     /// Volumes and shells that hold each sample, by region.
     pub(super) counts: Vec<Image<i32>>,
-}
-
-/// A painting's parts, one value for each pixel.
-pub(super) struct Parts {
-    /// Colours lit and textured but not hatched, each with its grey.
-    pub(super) color: Field<[f32; 4]>,
-    pub(super) cover: Field<f32>,
-    pub(super) ink: Field<f32>,
-    /// Share of the scene's own colours.
-    pub(super) tint: Field<f32>,
-    pub(super) heights: Field<FilmHeights>,
-}
-
-impl Parts {
-    pub(super) fn drawing(&self) -> Drawing<'_> {
-        Drawing {
-            color: &self.color,
-            cover: Some(&self.cover),
-            ink: Some(&self.ink),
-            tint: Some(&self.tint),
-            films: Some(&self.heights),
-        }
-    }
 }
 
 impl Drawer {
@@ -85,39 +57,34 @@ impl Drawer {
     ) -> Result<Self, PaintingError> {
         scene.check()?;
         let packed = PackedMesh::new(scene);
-        let mut compute = Compute::cpu();
+        let facets = Facets::of(&packed);
         let texture = ThresholdTexture::new(u64::from(settings.seed));
-        let host_hatching = Hatching::new(&mut compute, &texture, &packed)?;
         let regions: Result<Vec<_>, _> = styles.iter().map(RegionLook::of).collect();
         let regions = regions?;
         let look = looks::drawing_look(settings);
         look.check()?;
         Ok(Self {
-            model: Model::new(&mut compute, packed.clone())?,
-            hatching: host_hatching.clone(),
-            host_hatching,
+            scene: LoadedScene::new(Compute::cpu(), &packed, &facets, &texture)?,
+            host: None,
             texture,
-            facets: Facets::of(&packed),
+            facets,
             packed,
             look,
             settings: settings.clone(),
             surfaces: vec![RegionSurfaces::default(); regions.len()],
             regions,
-            counter: InsideCounter::default(),
-            crossings: Crossings::default(),
-            compute,
         })
     }
 
     /// Draws on another device.
-    pub(super) fn on(self, mut compute: Compute) -> Result<Self, PaintingError> {
-        let model = Model::new(&mut compute, self.packed.clone())?;
-        let hatching = Hatching::new(&mut compute, &self.texture, &self.packed)?;
-        Ok(Self { model, hatching, counter: InsideCounter::default(), compute, ..self })
+    pub(super) fn on(self, compute: Compute) -> Result<Self, PaintingError> {
+        let scene = LoadedScene::new(compute, &self.packed, &self.facets, &self.texture)?;
+        let host = [Some(self.scene), self.host].into_iter().flatten().find(LoadedScene::is_host);
+        Ok(Self { scene, host, ..self })
     }
 
     pub(super) fn compute_name(&self) -> &str {
-        self.compute.name()
+        self.scene.compute.name()
     }
 
     /// Draws with other settings of light, grey, hatching, paper and gate.
@@ -128,7 +95,7 @@ impl Drawer {
         Ok(())
     }
 
-    /// What `camera` sees in a picture of `size`.
+    /// The view of `camera` in a picture of `size`.
     pub(super) fn sight(
         &mut self,
         world: &World,
@@ -136,9 +103,9 @@ impl Drawer {
         size: (usize, usize),
     ) -> Result<Sight, PaintingError> {
         let (width, height) = self.samples(size)?;
-        let visible = self.model.visible(&mut self.compute, camera, width, height)?;
-        let (look, hatching) = (&self.look, &self.hatching);
-        let shaded = shade(&mut self.compute, &self.model, &visible, camera, look, hatching)?;
+        let LoadedScene { compute, model, hatching, .. } = &mut self.scene;
+        let visible = model.visible(compute, camera, width, height)?;
+        let shaded = shade(compute, model, &visible, camera, &self.look, hatching)?;
         let counts = self.counts(world, &visible, camera)?;
         Ok(Sight { visible, shaded, counts })
     }
@@ -152,25 +119,13 @@ impl Drawer {
     ) -> Result<Vec<Image<i32>>, PaintingError> {
         let facing = world.facing();
         let all = Volumes { volumes: world.volumes(), facing: &facing };
-        self.check_regions(all)?;
-        let seen = match &self.compute {
-            Compute::Cpu => Some(SeenPlaces::of(&self.packed, &self.facets, visible.host())),
-            Compute::Gpu(_) => None,
-        };
+        check_regions(all, self.regions.len())?;
+        let in_sight = InSight::new(camera, visible);
+        let gate = self.settings.drawing.gate;
         let mut counts = Vec::with_capacity(self.regions.len());
-        for (number, region) in self.regions.iter().enumerate() {
-            let surfaces = &mut self.surfaces[number];
-            surfaces.update(all, number, region);
-            counts.push(match &seen {
-                Some(seen) => {
-                    let gate = self.settings.drawing.gate;
-                    surfaces.gated(&mut self.crossings, (seen, camera), gate).into()
-                }
-                None => {
-                    let scene = (&self.model, visible);
-                    surfaces.counts(&mut self.compute, &mut self.counter, scene, camera)?
-                }
-            });
+        for (region, surfaces) in self.regions.iter().enumerate().zip(&mut self.surfaces) {
+            surfaces.update(all, region, gate, &in_sight);
+            counts.push(surfaces.counts(&mut self.scene, visible, camera)?);
         }
         Ok(counts)
     }
@@ -184,8 +139,9 @@ impl Drawer {
     ) -> Result<Field<[f32; 4]>, PaintingError> {
         let Sight { visible, shaded, .. } = sight;
         let samples = self.look.samples;
-        let picture = reveal(&mut self.compute, shaded, visible, regions, paper, samples)?;
-        Ok(self.compute.download(&picture)?)
+        let compute = &mut self.scene.compute;
+        let picture = reveal(compute, shaded, visible, regions, paper, samples)?;
+        Ok(compute.take(picture)?)
     }
 
     /// The regions of a sight.
@@ -199,107 +155,6 @@ impl Drawer {
         regions.map(region).collect()
     }
 
-    /// Colour of the paper, encoded sRGB.
-    pub(super) fn paper(&self) -> [f32; 3] {
-        looks::paper(&self.settings)
-    }
-
-    /// Samples along each side of a pixel.
-    pub(super) fn samples_a_pixel(&self) -> usize {
-        self.look.samples
-    }
-
-    /// An image in the memory of whatever draws.
-    pub(super) fn uploaded<T: bytemuck::Pod>(
-        &mut self,
-        field: &Field<T>,
-    ) -> Result<Image<T>, PaintingError> {
-        Ok(self.compute.upload(field)?)
-    }
-
-    /// The values of an image.
-    pub(super) fn downloaded<T: bytemuck::Pod>(
-        &mut self,
-        image: &Image<T>,
-    ) -> Result<Field<T>, PaintingError> {
-        Ok(self.compute.download(image)?)
-    }
-
-    /// What `camera` sees, on the processor.
-    fn seen(
-        &self,
-        camera: &Camera,
-        size: (usize, usize),
-    ) -> Result<VisibilityBuffer, PaintingError> {
-        let (width, height) = self.samples(size)?;
-        let mut visible = Field::filled(width, height, Fragment::EMPTY);
-        let clip_from_model = camera.clip_from_model(width as f32 / height as f32);
-        let PackedMesh { vertices, triangles, .. } = &self.packed;
-        let mut rasteriser = Rasteriser::default();
-        rasteriser.draw(clip_from_model, vertices, triangles, Sides::Both, &mut visible);
-        Ok(visible)
-    }
-
-    /// The ink of the strokes at each sample, at full strength, 0 to 1.
-    pub(super) fn ink(
-        &self,
-        camera: &Camera,
-        size: (usize, usize),
-    ) -> Result<Field<f32>, PaintingError> {
-        let visible = self.seen(camera, size)?;
-        let hatching = &self.host_hatching;
-        Ok(shade_apart(&self.packed, &visible, camera, &self.look, hatching)?.1)
-    }
-
-    /// A picture of the strokes alone, in the grey of the pencil on white.
-    pub(super) fn strokes(
-        &self,
-        camera: &Camera,
-        size: (usize, usize),
-    ) -> Result<Field<[f32; 4]>, PaintingError> {
-        let ink = averaged(self.ink(camera, size)?, self.look.samples);
-        let darker = 1.0 - self.look.hatching.pencil;
-        let stroke = |&ink: &f32| {
-            let grey = 1.0 - ink * darker;
-            [grey, grey, grey, 1.0]
-        };
-        let values = ink.values().iter().map(stroke).collect();
-        Ok(Field::from_values(ink.width(), ink.height(), values))
-    }
-
-    /// Place and normal that each sample shows; zeros where nothing is seen.
-    pub(super) fn surfaces_seen(
-        &self,
-        camera: &Camera,
-        size: (usize, usize),
-    ) -> Result<[Field<[f32; 3]>; 2], PaintingError> {
-        let visible = self.seen(camera, size)?;
-        let of = |value: &dyn Fn(SurfacePoint<'_>) -> Vec3| {
-            let values = visible.values().iter().map(|seen| match seen.triangle {
-                NO_TRIANGLE => [0.0; 3],
-                _ => value(SurfacePoint::new(&self.packed, *seen)).to_array(),
-            });
-            Field::from_values(visible.width(), visible.height(), values.collect())
-        };
-        Ok([of(&|point| point.position()), of(&|point| point.normal(camera.eye))])
-    }
-
-    /// What each pixel shows, on the processor, and where that is; no numbers where nothing is seen.
-    pub(super) fn places(
-        &self,
-        camera: &Camera,
-        (width, height): (usize, usize),
-    ) -> Result<(VisibilityBuffer, Field<Vec3>), PaintingError> {
-        self.samples((width, height))?;
-        let mut visible = Field::filled(width, height, Fragment::EMPTY);
-        let clip_from_model = camera.clip_from_model(width as f32 / height as f32);
-        let PackedMesh { vertices, triangles, .. } = &self.packed;
-        let mut rasteriser = Rasteriser::default();
-        rasteriser.draw(clip_from_model, vertices, triangles, Sides::Both, &mut visible);
-        let places = SeenPlaces::of(&self.packed, &self.facets, &visible).places;
-        Ok((visible, places))
-    }
-
     /// The parts of a painting with `films`, on the processor.
     pub(super) fn parts(
         &mut self,
@@ -309,25 +164,27 @@ impl Drawer {
         size: (usize, usize),
     ) -> Result<Parts, PaintingError> {
         let (width, height) = self.samples(size)?;
-        let visible = &self.seen(camera, size)?;
-        let hatching = &self.host_hatching;
+        self.load_on_host()?;
+        let host = self.host.as_mut().unwrap_or(&mut self.scene);
+        let LoadedScene { compute, model, hatching, .. } = &mut *host;
+        let image = model.visible(compute, camera, width, height)?;
+        let visible = image.host();
         let (color, ink) = shade_apart(&self.packed, visible, camera, &self.look, hatching)?;
-        let seen = SeenPlaces::of(&self.packed, &self.facets, visible);
         let facing = world.facing();
         let all = Volumes { volumes: world.volumes(), facing: &facing };
-        self.check_regions(all)?;
+        check_regions(all, self.regions.len())?;
+        let in_sight = InSight::new(camera, &image);
+        let gate = self.settings.drawing.gate;
         let mut tint = Field::filled(width, height, 0.0);
-        for (number, region) in self.regions.iter().enumerate() {
-            if looks::has_own_colors(region.inside) {
-                let surfaces = &mut self.surfaces[number];
-                surfaces.update(all, number, region);
-                let gate = self.settings.drawing.gate;
-                let counts = surfaces.gated(&mut self.crossings, (&seen, camera), gate);
-                lay_tint(&mut tint, &counts, region.shells.table());
+        for (region, surfaces) in self.regions.iter().enumerate().zip(&mut self.surfaces) {
+            if region.1.inside.has_own_colors() {
+                surfaces.update(all, region, gate, &in_sight);
+                let counts = surfaces.counts(host, &image, camera)?;
+                lay_tint(&mut tint, counts.host(), region.1.shells.table());
             }
         }
-        let sight = (&self.packed, visible, camera);
-        let heights = films.heights(world, &self.regions, &self.settings, sight);
+        let sight = (&self.packed, visible, &in_sight, camera);
+        let heights = films.heights(world, (&self.regions, &self.settings), sight);
         let hatching = &self.look.hatching;
         let (inside, outside) = (hatching.inside, hatching.outside);
         let mut ink = ink;
@@ -347,8 +204,20 @@ impl Drawer {
         })
     }
 
+    /// Copies the scene to the processor's memory, if pictures are made elsewhere.
+    pub(super) fn load_on_host(&mut self) -> Result<(), PaintingError> {
+        if !self.scene.is_host() && self.host.is_none() {
+            let host = Compute::cpu();
+            self.host = Some(LoadedScene::new(host, &self.packed, &self.facets, &self.texture)?);
+        }
+        Ok(())
+    }
+
     /// Width and height in samples.
-    fn samples(&self, (width, height): (usize, usize)) -> Result<(usize, usize), PaintingError> {
+    pub(super) fn samples(
+        &self,
+        (width, height): (usize, usize),
+    ) -> Result<(usize, usize), PaintingError> {
         let sides = [width, height].map(|side| side.saturating_mul(self.look.samples));
         match sides[0].saturating_mul(sides[1]) {
             1..=MOST_SAMPLES => Ok(sides.into()),
@@ -358,14 +227,14 @@ impl Drawer {
             }
         }
     }
+}
 
-    fn check_regions(&self, all: Volumes<'_>) -> Result<(), PaintingError> {
-        let regions = self.regions.len();
-        let mut indices = all.volumes.iter().map(|volume| usize::from(volume.region));
-        match indices.find(|&region| region >= regions) {
-            None => Ok(()),
-            Some(region) => Err(PaintingError::Region { region, regions }),
-        }
+/// Checks that every volume is of one of these many regions.
+fn check_regions(all: Volumes<'_>, regions: usize) -> Result<(), PaintingError> {
+    let mut indices = all.volumes.iter().map(|volume| usize::from(volume.region));
+    match indices.find(|&region| region >= regions) {
+        None => Ok(()),
+        Some(region) => Err(PaintingError::Region { region, regions }),
     }
 }
 

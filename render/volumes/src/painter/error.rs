@@ -1,4 +1,4 @@
-//! What can go wrong while a scene with its volumes is painted.
+//! Errors of painting a scene with its volumes.
 
 use graphics::export::ExportError;
 use graphics::gpu::DeviceError;

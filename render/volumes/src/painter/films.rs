@@ -10,9 +10,11 @@ use paint::ground::GroundSpec;
 use pigment::PigmentLibrary;
 
 use super::error::PaintingError;
+use super::in_sight::InSight;
 use super::looks::{self, RegionLook};
 use crate::pigments::{
-    FilmCounter, FilmHeights, FilmMaterial, FilmPainter, FilmPainterSettings, FilmScale, FilmView,
+    FilmCounter, FilmHeights, FilmKind, FilmMaterial, FilmPainter, FilmPainterSettings, FilmScale,
+    FilmView,
 };
 use crate::settings::Settings;
 use crate::volume::Volume;
@@ -55,7 +57,7 @@ impl Films {
         let VolumePigments { library, slots, own_colors, ground, lighting } = pigments;
         let material = FilmMaterial::new(library, ground, lighting.clone())?;
         let own = FilmPainterSettings {
-            under: looks::under(settings),
+            under: settings.drawing.under,
             inside: looks::inside(regions),
             pencil: settings.hatching.pencil,
             cell_mm: CELL_MM,
@@ -71,9 +73,8 @@ impl Films {
     pub(super) fn heights(
         &mut self,
         world: &World,
-        regions: &[RegionLook],
-        settings: &Settings,
-        (scene, visible, camera): (&PackedMesh, &VisibilityBuffer, &Camera),
+        (regions, settings): (&[RegionLook], &Settings),
+        (scene, visible, in_sight, camera): (&PackedMesh, &VisibilityBuffer, &InSight, &Camera),
     ) -> Field<FilmHeights> {
         let surface = (&world.grid().samples).into();
         let profile = looks::profile(settings);
@@ -86,12 +87,14 @@ impl Films {
             .counter
             .get_or_insert_with(|| FilmCounter::new(scene, &surface, world.cell(), profile, scale));
         counter.profile = profile;
-        let has_films = |volume: &&Volume| {
+        let kind = settings.drawing.film;
+        let wanted = |volume: &&Volume| {
             let region = regions.get(usize::from(volume.region));
-            region.is_some_and(|region| looks::has_films(region.inside))
+            // Films through volumes are seen before surfaces too.
+            region.is_some_and(|region| region.inside.has_films())
+                && (kind == FilmKind::Through || in_sight.may_hold(volume))
         };
-        let volumes: Vec<Volume> = world.volumes().iter().filter(has_films).cloned().collect();
-        let kind = looks::film_kind(settings);
+        let volumes: Vec<Volume> = world.volumes().iter().filter(wanted).cloned().collect();
         counter.heights((scene, &surface), &volumes, kind, camera, visible)
     }
 }

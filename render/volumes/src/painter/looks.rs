@@ -4,17 +4,17 @@ use graphics::distant_light::DistantLight;
 use graphics::tones::ToneRamp;
 use spectra::color::Rgb;
 
-use crate::drawing::{self, DrawingLook, ShellError, Shells};
+use crate::drawing::{DrawingLook, ShellError, Shells};
 use crate::hatching::{Coordinates, HatchingLook};
-use crate::pigments::{FilmKind, FilmProfile, InsidePaint, UnderPainting};
+use crate::pigments::{FilmProfile, InsidePaint};
 use crate::script::RegionStyle;
-use crate::settings::{Film, GreyWeights, Inside, LightWith, Settings, StrokesAlong, Under};
+use crate::settings::{LightWith, Settings, StrokesAlong};
 
 /// How a region shows what its volumes hold.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RegionLook {
     pub(super) name: String,
-    pub(super) inside: Inside,
+    pub(super) inside: InsidePaint,
     pub(super) shells: Shells,
 }
 
@@ -42,10 +42,7 @@ pub(super) fn drawing_look(settings: &Settings) -> DrawingLook {
         lit: light.lit,
         shade: light.shade,
         pale: settings.grey.pale,
-        weights: match settings.grey.weights {
-            GreyWeights::Luminance => drawing::GreyWeights::Luminance,
-            GreyWeights::Rec601 => drawing::GreyWeights::Rec601,
-        },
+        weights: settings.grey.weights,
         hatching: HatchingLook {
             coordinates: match hatching.along {
                 StrokesAlong::Axes => Some(Coordinates::ThreePlanes),
@@ -74,39 +71,12 @@ pub(super) fn profile(settings: &Settings) -> FilmProfile {
     FilmProfile { rim: settings.drawing.rim, edge: settings.drawing.edge }
 }
 
-/// What lies under films.
-pub(super) fn under(settings: &Settings) -> UnderPainting {
-    match settings.drawing.under {
-        Under::Grisaille => UnderPainting::Grisaille,
-        Under::OwnColors => UnderPainting::OwnColors,
-        Under::None => UnderPainting::None,
-    }
-}
-
-/// What the volumes of all regions show together.
+/// The insides of the volumes of all regions together.
 pub(super) fn inside(regions: &[RegionLook]) -> InsidePaint {
-    let any = |wanted: fn(Inside) -> bool| regions.iter().any(|region| wanted(region.inside));
-    match (any(has_own_colors), any(has_films)) {
+    let any = |wanted: fn(InsidePaint) -> bool| regions.iter().any(|own| wanted(own.inside));
+    match (any(InsidePaint::has_own_colors), any(InsidePaint::has_films)) {
         (true, false) => InsidePaint::OwnColors,
         (false, _) => InsidePaint::Glaze,
         (true, true) => InsidePaint::Both,
-    }
-}
-
-/// Whether volumes show the scene's own colours.
-pub(super) fn has_own_colors(inside: Inside) -> bool {
-    inside != Inside::Glaze
-}
-
-/// Whether volumes show films of their pigments.
-pub(super) fn has_films(inside: Inside) -> bool {
-    inside != Inside::OwnColors
-}
-
-/// Where films lie.
-pub(super) fn film_kind(settings: &Settings) -> FilmKind {
-    match settings.drawing.film {
-        Film::Surface => FilmKind::Surface,
-        Film::Through => FilmKind::Through,
     }
 }

@@ -6,11 +6,19 @@ mod averaged;
 
 mod looks;
 
+mod in_sight;
+
+mod loaded_scene;
+
 mod region_counts;
 
 mod films;
 
+mod parts;
+
 mod drawer;
+
+mod parts_apart;
 
 mod volume_painter;
 
@@ -18,7 +26,13 @@ mod shown;
 
 mod passes;
 
+mod stages;
+
+#[cfg(test)]
+mod tests;
+
 pub use error::PaintingError;
 pub use films::{CELL_MM, VolumePigments};
 pub use shown::{Show, ShowError};
+pub use stages::Stage;
 pub use volume_painter::VolumePainter;

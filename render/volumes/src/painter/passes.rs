@@ -35,21 +35,10 @@ impl VolumePainter {
             ("grey".to_owned(), vec![("Y".to_owned(), channel(&shaded, 3))]),
         ];
         for (index, counts) in sight.counts.iter().enumerate() {
-            let counts = drawer.downloaded(counts)?;
-            let region = &drawer.regions[index];
-            let name = match region.name.is_empty() {
-                true => (index + 1).to_string(),
-                false => region.name.clone(),
-            };
-            let table = region.shells.table();
-            let of = |value: &dyn Fn(i32) -> f32| {
-                let values = counts.values().iter().map(|&count| value(count)).collect();
-                let field = Field::from_values(counts.width(), counts.height(), values);
-                averaged(field, samples).values().to_vec()
-            };
-            parts
-                .push((format!("count.{name}"), vec![("N".to_owned(), of(&|count| count as f32))]));
-            let tint = of(&|count| table.tint(count));
+            let (name, table) = (drawer.region_name(index), drawer.tints(index));
+            let count = drawer.of_counts(counts, |count| count as f32)?.values().to_vec();
+            let tint = drawer.of_counts(counts, |count| table.tint(count))?.values().to_vec();
+            parts.push((format!("count.{name}"), vec![("N".to_owned(), count)]));
             parts.push((format!("tint.{name}"), vec![("A".to_owned(), tint)]));
         }
         let ink = averaged(drawer.ink(camera, size)?, samples);

@@ -2,15 +2,18 @@
 
 use glam::Vec3;
 use graphics::camera::Camera;
-use graphics::compute::{Compute, Image};
-use graphics::field::Field;
+use graphics::compute::Image;
 use graphics::gpu::DeviceError;
-use graphics::surface::{Crossing, CrossingSum, Crossings, Fragment, InsideCounter, Model};
+use graphics::surface::{Fragment, Gates};
 
+use super::in_sight::InSight;
+use super::loaded_scene::LoadedScene;
 use super::looks::RegionLook;
-use crate::pigments::SeenPlaces;
 use crate::surfaces::VolumeSurfaces;
 use crate::volume::Volume;
+
+/// The gate of a surface that holds what faces any way.
+const OPEN: [f32; 4] = [0.0, 0.0, 0.0, -2.0];
 
 /// All volumes at one time.
 #[derive(Debug, Clone, Copy)]
@@ -24,64 +27,49 @@ pub(super) struct Volumes<'a> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct RegionSurfaces {
     surfaces: VolumeSurfaces,
-    /// What each surface faces.
-    facing: Vec<Vec3>,
+    /// Of each surface what it faces, and the least cosine.
+    gates: Vec<[f32; 4]>,
 }
 
 impl RegionSurfaces {
-    /// Replaces the surfaces by those of region `number`.
-    pub(super) fn update(&mut self, all: Volumes<'_>, number: usize, look: &RegionLook) {
+    /// Replaces the surfaces by those of region `number` that may hold what is seen. Volumes of the
+    /// grid hold only what faces as their cell does, by a cosine of `gate` at least.
+    pub(super) fn update(
+        &mut self,
+        all: Volumes<'_>,
+        (number, look): (usize, &RegionLook),
+        gate: f32,
+        in_sight: &InSight,
+    ) {
         self.surfaces.clear();
-        self.facing.clear();
+        self.gates.clear();
         for (volume, &facing) in all.volumes.iter().zip(all.facing) {
-            if usize::from(volume.region) == number {
-                for &scale in look.shells.scales() {
-                    self.surfaces.add(volume, scale, self.facing.len() as u32);
-                    self.facing.push(facing);
-                }
+            if usize::from(volume.region) != number || !in_sight.may_hold(volume) {
+                continue;
+            }
+            let own = if facing == Vec3::ZERO { OPEN } else { facing.extend(gate).to_array() };
+            for &scale in look.shells.scales() {
+                self.surfaces.add(volume, scale, self.gates.len() as u32);
+                self.gates.push(own);
             }
         }
     }
 
-    /// The count of each pixel on the processor, leaving out surfaces of the scene that face away
-    /// from their volume's cell by a cosine below `gate`.
-    pub(super) fn gated(
-        &self,
-        crossings: &mut Crossings,
-        (seen, camera): (&SeenPlaces<'_>, &Camera),
-        gate: f32,
-    ) -> Field<i32> {
-        let gated = GatedCount { facing: &self.facing, seen, gate };
-        crossings.sum(&gated, self.surfaces.closed(), camera, seen.visible())
-    }
-
-    /// The count of each pixel on whatever computes, without a gate.
+    /// The count of each sample. A device whose fragments cannot write to buffers counts without
+    /// gates.
     pub(super) fn counts(
         &self,
-        compute: &mut Compute,
-        counter: &mut InsideCounter,
-        scene: (&Model, &Image<Fragment>),
+        scene: &mut LoadedScene,
+        visible: &Image<Fragment>,
         camera: &Camera,
     ) -> Result<Image<i32>, DeviceError> {
-        counter.counts(compute, scene, camera, self.surfaces.closed())
-    }
-}
-
-/// Counts surfaces whose volume stands on the side of the wall that is seen.
-struct GatedCount<'a> {
-    facing: &'a [Vec3],
-    seen: &'a SeenPlaces<'a>,
-    gate: f32,
-}
-
-impl CrossingSum for GatedCount<'_> {
-    type Sum = i32;
-
-    #[inline]
-    fn add(&self, sum: &mut i32, crossing: &Crossing) {
-        let normal = self.seen.normal(crossing.pixel);
-        if normal.dot(self.facing[crossing.surface as usize]) >= self.gate {
-            *sum = sum.wrapping_add(crossing.sign);
+        let closed = self.surfaces.closed();
+        let gated = scene.gates() && self.gates.iter().any(|gate| *gate != OPEN);
+        let LoadedScene { compute, model, normals, counter, .. } = scene;
+        if !gated {
+            return counter.counts(compute, (model, visible), camera, closed);
         }
+        let gates = Gates { surfaces: &self.gates, normals };
+        counter.gated(compute, visible, camera, (closed, gates))
     }
 }

@@ -1,4 +1,4 @@
-//! What a picture shows: the result, or one of its parts.
+//! Pictures of the result, or of one of its parts.
 
 use std::str::FromStr;
 
@@ -14,7 +14,7 @@ use crate::pigments::Glass;
 use crate::surfaces::REGIONS;
 use crate::world::World;
 
-/// What a picture shows.
+/// The subject of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Show {
     /// The result.

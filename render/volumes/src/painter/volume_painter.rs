@@ -38,8 +38,9 @@ impl VolumePainter {
     }
 
     /// Makes pictures on another device. They agree with those of the processor to rounding, but for
-    /// outlines within a pixel and walls that volumes reach through: a device knows no gate. Films
-    /// of pigments stay on the processor.
+    /// outlines within a pixel. A device whose fragments cannot write to buffers knows no gate:
+    /// there paint shows on both sides of walls thinner than a cell. Films of pigments stay on the
+    /// processor.
     ///
     /// # Errors
     /// [`PaintingError::Device`] if the device cannot hold the scene.

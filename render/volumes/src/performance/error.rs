@@ -1,8 +1,8 @@
 //! What can go wrong while a script is played.
 
-use spectra::hint::{Explain, Fault, Hint};
+use spectra::hint::{Explain, Fault as FaultKind, Hint};
 
-use crate::toml_text::{KeyPath, Source};
+use crate::toml_text::{Fault, KeyPath, Source};
 use crate::world::WorldError;
 
 /// A script cannot be played.
@@ -11,6 +11,14 @@ pub enum PerformanceError {
     /// The world cannot be made or go on.
     #[error(transparent)]
     World(#[from] WorldError),
+    /// A setting does not fit the scene.
+    #[error("{place}{fault}")]
+    Setting {
+        /// File and line, followed by a colon, where these are known.
+        place: String,
+        /// The setting.
+        fault: Box<Fault>,
+    },
     /// An event cannot be done.
     #[error("{place}: {error}")]
     Event {
@@ -50,14 +58,35 @@ impl PerformanceError {
     /// table in its `text`.
     #[must_use]
     pub fn located(mut self, file: &str, text: &str) -> Self {
-        let (place, table) = match &mut self {
-            Self::World(_) => return self,
-            Self::Event { place, table, .. }
-            | Self::Bare { place, table, .. }
-            | Self::NoVolume { place, table, .. } => (place, table),
-        };
-        if let Ok(source) = Source::parse(file, text) {
-            *place = format!("{file}, line {}: {table}", source.line(table));
+        let Ok(source) = Source::parse(file, text) else { return self };
+        if let Self::Setting { place, fault } = &mut self {
+            *place = format!("{file}, line {}: ", source.line(&fault.key));
+        }
+        match self.table().map(|table| (source.line(table), table.to_string())) {
+            Some((line, table)) => self.placed(format!("{file}, line {line}: {table}")),
+            None => self,
+        }
+    }
+
+    /// Path of the event's table in the script, if an event is at fault.
+    #[must_use]
+    pub fn table(&self) -> Option<&KeyPath> {
+        match self {
+            Self::World(_) | Self::Setting { .. } => None,
+            Self::Event { table, .. } | Self::Bare { table, .. } | Self::NoVolume { table, .. } => {
+                Some(table)
+            }
+        }
+    }
+
+    /// The same error with other words for the place of the event.
+    #[must_use]
+    pub fn placed(mut self, words: String) -> Self {
+        match &mut self {
+            Self::World(_) | Self::Setting { .. } => {}
+            Self::Event { place, .. } | Self::Bare { place, .. } | Self::NoVolume { place, .. } => {
+                *place = words;
+            }
         }
         self
     }
@@ -67,6 +96,7 @@ impl Explain for PerformanceError {
     fn hint(&self) -> Option<Hint> {
         match self {
             Self::World(error) | Self::Event { error, .. } => error.hint(),
+            Self::Setting { fault, .. } => fault.hint(),
             Self::Bare { .. } => {
                 Some(Hint::new("choose a place on the subject, 0 to 1 across and down"))
             }
@@ -76,10 +106,11 @@ impl Explain for PerformanceError {
         }
     }
 
-    fn fault(&self) -> Fault {
+    fn fault(&self) -> FaultKind {
         match self {
             Self::World(error) | Self::Event { error, .. } => error.fault(),
-            Self::Bare { .. } | Self::NoVolume { .. } => Fault::Input,
+            Self::Setting { .. } => FaultKind::Setting,
+            Self::Bare { .. } | Self::NoVolume { .. } => FaultKind::Input,
         }
     }
 }

@@ -8,6 +8,9 @@ mod settings;
 
 mod player;
 
+#[cfg(test)]
+mod tests;
+
 pub use error::PerformanceError;
 pub use picked::{FirstView, place_seen};
 pub use player::Performance;

@@ -5,10 +5,11 @@ use graphics::mesh::Mesh;
 
 use super::error::PerformanceError;
 use super::picked::FirstView;
-use crate::motion::{KeepIn, Push};
+use crate::motion::{KeepIn, MotionError, Push};
 use crate::script::{self, Action, Event, KeepTable, Place, Quantity, Script, seconds_of};
 use crate::settings::Settings;
 use crate::toml_text::KeyStep;
+use crate::wetting::WettingError;
 use crate::world::{Lift, Pour, Recipe, Single, Track, World, WorldError, WorldSettings};
 
 /// A script being played. A clone is a snapshot that goes on to the same bytes.
@@ -30,22 +31,39 @@ impl Performance {
     /// ([`Script::settings`]). `view` is the first picture, in which events pick places.
     ///
     /// # Errors
-    /// [`PerformanceError`] for a world that cannot be made, walls out of range, and picked places
-    /// where the first picture shows nothing.
+    /// [`PerformanceError`] for a world that cannot be made, walls out of range, picked places
+    /// where the first picture shows nothing, and paint poured off the surface.
     pub fn new(
         script: &Script,
         scene: &Mesh,
         settings: &Settings,
         view: &FirstView,
     ) -> Result<Self, PerformanceError> {
-        let mut world = World::of(scene, &WorldSettings::from(settings))?;
+        let mut world = World::of(scene, &WorldSettings::from(settings))
+            .map_err(|error| of_settings(error, settings, scene))?;
         for keep in &script.keeps {
             world.keep(region(keep))?;
         }
         let events = script.events();
         let picked: Result<_, _> = events.iter().map(|event| picked(event, scene, view)).collect();
         let singles = vec![None; script.volumes.len()];
-        Ok(Self { world, script: script.clone(), events, next: 0, picked: picked?, singles })
+        let own = Self { world, script: script.clone(), events, next: 0, picked: picked?, singles };
+        own.check_pours()?;
+        Ok(own)
+    }
+
+    /// Checks that all paint is poured onto the surface.
+    fn check_pours(&self) -> Result<(), PerformanceError> {
+        for (index, event) in self.events.iter().enumerate() {
+            let Action::Pour(pour) = &event.action else { continue };
+            let track = self.track(&pour.place, index);
+            let check = |track: Track| {
+                let mut places = track.places();
+                places.try_for_each(|place| self.world.check_place(place))
+            };
+            track.and_then(check).map_err(|error| at_event(event, error))?;
+        }
+        Ok(())
     }
 
     /// The world at present.
@@ -112,11 +130,7 @@ impl Performance {
     /// Does what an event asks for.
     fn act(&mut self, event: &Event) -> Result<(), PerformanceError> {
         let for_s = seconds_of(event.end - event.start);
-        let failed = |error: WorldError| PerformanceError::Event {
-            place: event.table.to_string(),
-            table: event.table.clone(),
-            error,
-        };
+        let failed = |error: WorldError| at_event(event, error);
         match &event.action {
             Action::Volume(volume) => {
                 let recipe = self.recipe(&volume.recipe).map_err(failed)?;
@@ -139,7 +153,7 @@ impl Performance {
                     Quantity::Rate(rate) => rate,
                     Quantity::Amount(amount) => amount / for_s,
                 };
-                let track = self.track(&pour.place).map_err(failed)?;
+                let track = self.track(&pour.place, self.next).map_err(failed)?;
                 let region = pour.region as u16;
                 let pour = Pour { track, rate_mm3_s, for_s, recipe, region };
                 self.world.pour(pour).map_err(failed)?;
@@ -154,7 +168,7 @@ impl Performance {
                 self.world.push(pushed, for_s).map_err(failed)?;
             }
             Action::Lift(lift) => {
-                let track = self.track(&lift.place).map_err(failed)?;
+                let track = self.track(&lift.place, self.next).map_err(failed)?;
                 let (radius, rate) = (lift.radius as f32, lift.rate as f32);
                 self.world.lift(Lift { track, radius, rate, for_s }).map_err(failed)?;
             }
@@ -185,11 +199,7 @@ impl Performance {
             match self.world.volumes().iter().position(single) {
                 Some(index) => {
                     let split = self.world.split(index);
-                    split.map_err(|error| PerformanceError::Event {
-                        place: place(),
-                        table: table(),
-                        error,
-                    })?;
+                    split.map_err(|error| at_event(event, error))?;
                 }
                 None if volume.is_none() => {}
                 None => {
@@ -214,17 +224,44 @@ impl Performance {
         Recipe::of_parts(parts)
     }
 
-    fn track(&self, place: &Place) -> Result<Track, WorldError> {
+    /// The track of an event with this index.
+    fn track(&self, place: &Place, index: usize) -> Result<Track, WorldError> {
         match place {
             Place::At(at) => Ok(Track::at(narrow(*at))),
             Place::Picked(_) => {
                 // The place of this event was found when the performance was made.
-                Ok(Track::at(self.picked[self.next].unwrap_or_default()))
+                Ok(Track::at(self.picked[index].unwrap_or_default()))
             }
             Place::Path(points) => {
                 Track::along(points.iter().map(|point| (point.seconds, narrow(point.at))).collect())
             }
         }
+    }
+}
+
+/// The error of an event.
+fn at_event(event: &Event, error: WorldError) -> PerformanceError {
+    PerformanceError::Event { place: event.table.to_string(), table: event.table.clone(), error }
+}
+
+/// The error of a world that cannot be made, by the setting of the file that is at fault.
+fn of_settings(error: WorldError, settings: &Settings, scene: &Mesh) -> PerformanceError {
+    let [low, high] = scene.bounds();
+    let longest = f64::from((high - low).max_element());
+    let setting = |fault| PerformanceError::Setting { place: String::new(), fault };
+    match error {
+        WorldError::Wetting(WettingError::TooManyCells { fits, .. }) => {
+            let cell = settings.grid.cell.into();
+            setting(script::cells_too_small(cell, f64::from(fits) / longest))
+        }
+        WorldError::Motion(MotionError::TooFine { fitting_cell, .. }) => {
+            let cell = settings.grid.cell.into();
+            setting(script::cells_too_small(cell, f64::from(fitting_cell) / longest))
+        }
+        WorldError::Wetting(WettingError::TooManySamples { found, fits }) => {
+            setting(script::samples_too_many(found, fits))
+        }
+        error => PerformanceError::World(error),
     }
 }
 

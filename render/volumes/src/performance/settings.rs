@@ -10,6 +10,7 @@ impl From<&Settings> for WorldSettings {
         Self {
             unit_mm: (settings.unit_mm > 0.0).then(|| f64::from(settings.unit_mm)),
             cell: grid.cell,
+            samples: grid.samples as usize,
             film_mm: f64::from(grid.film_mm),
             rate: grid.rate,
             slope: grid.slope,

@@ -4,6 +4,7 @@ use graphics::camera::Camera;
 use graphics::field::Field;
 use graphics::surface::{Crossings, PackedMesh, VisibilityBuffer};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::film::{Film, FilmHeights, FilmScale};
 use super::film_profile::FilmProfile;
@@ -15,7 +16,8 @@ use crate::surfaces::VolumeSurfaces;
 use crate::volume::Volume;
 
 /// Where the paint of a volume is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum FilmKind {
     /// On the surfaces that it holds: the same from all sides, and as much as was poured.
     #[default]

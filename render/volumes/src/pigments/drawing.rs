@@ -1,25 +1,30 @@
 //! The picture of the scene that films are laid over.
 
 use graphics::field::Field;
+use serde::{Deserialize, Serialize};
 
 use super::film::FilmHeights;
 
 /// The layer under the films of volumes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum UnderPainting {
     /// The scene in grey, in white and black paint.
     #[default]
     Grisaille,
     /// The colours of the scene in mixtures of a palette.
+    #[serde(rename = "own-colours")]
     OwnColors,
     /// The bare ground.
     None,
 }
 
 /// The look of the inside of volumes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum InsidePaint {
     /// The colours of the scene, as in the paper.
+    #[serde(rename = "own-colours")]
     OwnColors,
     /// The film of their own pigments over what lies under it everywhere.
     #[default]

@@ -29,6 +29,12 @@ impl Facets {
         let triangles = mesh.triangles.par_iter().with_min_len(PIXELS);
         Self { normals: triangles.map(|triangle| normal(triangle.corners)).collect() }
     }
+
+    /// The normal of each triangle: of length 1, or zero for one without area.
+    #[must_use]
+    pub fn normals(&self) -> &[Vec3] {
+        &self.normals
+    }
 }
 
 /// The place and the triangle that each pixel shows.

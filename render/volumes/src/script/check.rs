@@ -4,12 +4,12 @@ use paint::layer::SLOTS;
 use toml::{Table, Value};
 
 use super::file::Script;
-use super::limits::{
-    MOST_EVENTS, MOST_POINTS, MOST_REGIONS, MOST_VOLUMES, check_count, check_particles,
-};
+use super::limits::{MOST_EVENTS, MOST_POINTS, check_count, check_particles};
 use super::ranges::{check_name, check_positive, check_time};
+use crate::drawing::MOST_REGIONS;
 use crate::settings::{Preset, Settings};
 use crate::toml_text::{Checked, Fault, KeyPath};
+use crate::world::MOST_VOLUMES;
 
 impl Script {
     /// Checks every value of the script. Pigments are looked up by [`Script::slots`].

@@ -4,9 +4,7 @@ use super::action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quant
 use super::file::Script;
 use super::rows::Row;
 use crate::toml_text::KeyPath;
-
-/// Steps of the simulation in a second.
-pub const STEPS_A_SECOND: u32 = 120;
+use crate::world::STEPS_PER_SECOND;
 
 /// An action with its time.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,13 +22,13 @@ pub struct Event {
 /// Number of steps nearest to a time of 0 s and more.
 #[must_use]
 pub fn steps_of(seconds: f64) -> u32 {
-    (seconds * f64::from(STEPS_A_SECOND)).round() as u32
+    (seconds * f64::from(STEPS_PER_SECOND)).round() as u32
 }
 
 /// Time of a step in seconds.
 #[must_use]
 pub fn seconds_of(steps: u32) -> f64 {
-    f64::from(steps) / f64::from(STEPS_A_SECOND)
+    f64::from(steps) / f64::from(STEPS_PER_SECOND)
 }
 
 impl Script {

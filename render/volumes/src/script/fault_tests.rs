@@ -3,7 +3,8 @@
 use spectra::hint::Explain;
 
 use super::samples::{SHORT, WHOLE};
-use super::{MOST_EVENTS, MOST_REGIONS, Script};
+use super::{MOST_EVENTS, Script};
+use crate::drawing::MOST_REGIONS;
 
 /// The error of a text and its hint.
 fn fault(text: &str) -> [String; 2] {

@@ -2,24 +2,14 @@
 
 use crate::sphere_mesh::MOST_DETAIL;
 use crate::toml_text::{Checked, Fault, KeyPath};
-
-/// Most single volumes.
-pub const MOST_VOLUMES: usize = 4096;
-
-/// Most particles of all volumes.
-pub const MOST_PARTICLES: usize = 2_000_000;
-
-/// Most cells of the grid.
-pub const MOST_CELLS: u64 = 1 << 20;
+use crate::wetting::MOST_CELLS;
+use crate::world::MOST_PARTICLES;
 
 /// Most frames of an animation.
 pub const MOST_FRAMES: u64 = 100_000;
 
 /// Most tables that do something: pours, volumes, pushes, walls, lifts, splits and dryings.
 pub const MOST_EVENTS: usize = 10_000;
-
-/// Most regions of a script.
-pub const MOST_REGIONS: usize = 64;
 
 /// Longest script in seconds.
 pub const MOST_SECONDS: f64 = 3600.0;
@@ -46,19 +36,21 @@ pub fn frames_fit(seconds: f64, rate: f64) -> Result<u64, Box<Fault>> {
     Err(Fault::new(&KeyPath::of("seconds"), wanted, format!("{count} frames"), hint))
 }
 
-/// Checks the number of cells of a grid whose cells are `cell` wide, by the longest side.
-///
-/// # Errors
-/// [`Fault`] of `grid.cell` for more than [`MOST_CELLS`], with a width that fits.
-pub fn cells_fit(count: u64, cell: f64) -> Result<(), Box<Fault>> {
-    if count <= MOST_CELLS {
-        return Ok(());
-    }
-    // Cells lie over a surface, so their number falls with the square of their width.
-    let fits = cell * (count as f64 / MOST_CELLS as f64).sqrt();
-    let hint = format!("cell = {} fits", (fits * 1.05 * 1e5).ceil() / 1e5);
+/// The fault of cells that are `cell` wide, by the scene's longest side, where this is too narrow
+/// and cells of `fits` would do.
+#[must_use]
+pub fn cells_too_small(cell: f64, fits: f64) -> Box<Fault> {
     let wanted = format!("a width of at most {MOST_CELLS} cells");
-    Err(Fault::new(&KeyPath::of("grid.cell"), wanted, format!("{cell}: {count} cells"), hint))
+    let hint = format!("cell = {} fits", (fits * 1e5).ceil() / 1e5);
+    Fault::new(&KeyPath::of("grid.cell"), wanted, cell as f32, hint)
+}
+
+/// The fault of `found` samples in a cell, where `fits` would do.
+#[must_use]
+pub fn samples_too_many(found: usize, fits: usize) -> Box<Fault> {
+    let wanted = format!("1 to {fits} for cells of this width");
+    let hint = format!("samples = {fits} fits, or larger cells (grid.cell)");
+    Fault::new(&KeyPath::of("grid.samples"), wanted, found, hint)
 }
 
 /// Checks the length of the list `key`.
@@ -110,9 +102,10 @@ mod tests {
         let hint = fault.hint().unwrap().to_string();
         assert_eq!(hint, "3333.3 seconds fit at 30 frames a second, or 27.7 frames a second");
         assert!(frames_fit(3333.3, 30.0).is_ok() && frames_fit(3600.0, 27.7).is_ok());
-        assert_eq!(cells_fit(MOST_CELLS, 0.001), Ok(()));
-        let hint = cells_fit(4 << 20, 0.001).unwrap_err().hint().unwrap().to_string();
-        assert_eq!(hint, "cell = 0.00211 fits");
+        let fault = cells_too_small(0.001, 0.002_105_3);
+        assert_eq!(fault.hint().unwrap().to_string(), "cell = 0.00211 fits");
+        let told = "grid.cell takes a width of at most 1048576 cells, found `0.001`";
+        assert_eq!(fault.to_string(), told);
         assert_eq!(check_particles(&[3; 3000]), Ok(()));
         let fault = check_particles(&[5; 300]).unwrap_err();
         assert_eq!(fault.key.to_string(), "[[volume]] 196, detail");

@@ -128,11 +128,10 @@ mod fuzz_tests;
 pub use action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Recipe, Split};
 pub use camera::{CameraTable, KeyframeTable, ScriptCamera};
 pub use error::ScriptError;
-pub use events::{Event, STEPS_A_SECOND, seconds_of, steps_of};
+pub use events::{Event, seconds_of, steps_of};
 pub use file::Script;
 pub use limits::{
-    MOST_CELLS, MOST_EVENTS, MOST_FRAMES, MOST_PARTICLES, MOST_REGIONS, MOST_SECONDS, MOST_VOLUMES,
-    cells_fit, frames_fit,
+    MOST_EVENTS, MOST_FRAMES, MOST_SECONDS, cells_too_small, frames_fit, samples_too_many,
 };
 pub use record::Recorder;
 pub use regions::RegionStyle;

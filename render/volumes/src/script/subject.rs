@@ -24,7 +24,7 @@ impl Script {
     /// The subject; a path starts from `folder`, the folder of the script.
     ///
     /// # Errors
-    /// [`Fault`] of `subject` for an unknown shape, and for a path that is empty or has control
+    /// [`Fault`] of `subject` for an unknown shape, another script, and for a path that is empty or has control
     /// characters.
     pub fn subject_in(&self, folder: &Path) -> Result<Subject, Box<Fault>> {
         self.check_subject()?;
@@ -47,6 +47,11 @@ impl Script {
                 false => format!("did you mean shape:{}?", similar.join(" or shape:")),
             };
             return Err(Fault::new(&key, "the name of a shape after `shape:`", name, hint));
+        }
+        let ending = Path::new(&self.subject).extension();
+        if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+            let hint = "name the model or photograph that the other script paints";
+            return Err(Fault::new(&key, "a model or a photograph", &self.subject, hint));
         }
         let fits =
             (1..=LONGEST).contains(&self.subject.len()) && !self.subject.contains(char::is_control);

@@ -6,45 +6,7 @@ use super::setting::{
     Setting,
     Takes::{Number, Numbers, Words},
 };
-
-/// Appearance of the scene inside of volumes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Inside {
-    /// The scene's own colours.
-    #[default]
-    #[serde(rename = "own-colours")]
-    OwnColors,
-    /// A film of the pigments that were poured.
-    Glaze,
-    /// A film of pigments over the scene's own colours.
-    Both,
-}
-
-/// Layer under a film of pigments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Under {
-    /// The grey drawing in black and white pigment.
-    #[default]
-    Grisaille,
-    /// The scene's colours as recipes of pigments.
-    #[serde(rename = "own-colours")]
-    OwnColors,
-    /// The bare ground.
-    None,
-}
-
-/// Where the film of pigments lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Film {
-    /// On the surface: it does not change as the camera turns.
-    #[default]
-    Surface,
-    /// Along the eye ray through the volume.
-    Through,
-}
+use crate::pigments::{FilmKind, InsidePaint, UnderPainting};
 
 /// How volumes show what they hold.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -60,11 +22,11 @@ pub struct DrawingTable {
     /// -1..=1.
     pub gate: f32,
     /// Appearance of the scene inside of volumes.
-    pub inside: Inside,
+    pub inside: InsidePaint,
     /// Layer under a film of pigments.
-    pub under: Under,
+    pub under: UnderPainting,
     /// Where the film of pigments lies.
-    pub film: Film,
+    pub film: FilmKind,
     /// Width of the thin rim of a film by the radius, 0..=1.
     pub rim: f32,
     /// How much thicker a film dries near its rim, 0..=4.
@@ -77,9 +39,9 @@ impl Default for DrawingTable {
             shells: vec![1.0, 0.93, 0.86, 0.79],
             tint: Vec::new(),
             gate: -0.2,
-            inside: Inside::default(),
-            under: Under::default(),
-            film: Film::default(),
+            inside: InsidePaint::OwnColors,
+            under: UnderPainting::Grisaille,
+            film: FilmKind::Surface,
             rim: 0.15,
             edge: 0.5,
         }

@@ -27,14 +27,18 @@ mod change;
 #[cfg(test)]
 mod tests;
 
-pub use drawing::{DrawingTable, Film, HatchingTable, Inside, StrokesAlong, Under};
+pub use drawing::{DrawingTable, HatchingTable, StrokesAlong};
 pub use error::SettingsError;
 pub use grid::GridTable;
 pub use motion::MotionTable;
-pub use picture::{GreyTable, GreyWeights, LightTable, LightWith, PictureTable};
+pub use picture::{GreyTable, LightTable, LightWith, PictureTable};
 pub use preset::Preset;
 pub use setting::{Setting, Takes};
-pub use shells::{MOST_SHELLS, even_tints};
+pub use shells::even_tints;
 pub use whole::Settings;
 
 pub(crate) use shells::check_shells;
+
+// The words of some settings are those of the modules that do the work.
+pub use crate::drawing::{GreyWeights, MOST_SHELLS};
+pub use crate::pigments::{FilmKind as Film, InsidePaint as Inside, UnderPainting as Under};

@@ -6,6 +6,7 @@ use super::setting::{
     Setting,
     Takes::{Color, Number, Switch, Whole, Words},
 };
+use crate::drawing::GreyWeights;
 
 /// Whether the light moves with the camera or the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -50,17 +51,6 @@ impl Default for LightTable {
             shade: 0.3,
         }
     }
-}
-
-/// How colours weigh in grey.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum GreyWeights {
-    /// Luminance of linear sRGB.
-    #[default]
-    Luminance,
-    /// Rec. 601 weights on encoded values, as was usual in 2005.
-    Rec601,
 }
 
 /// Grey outside of volumes.

@@ -1,9 +1,7 @@
 //! Concentric shells of a volume and the tint of a place by the number of shells that hold it.
 
+use crate::drawing::MOST_SHELLS;
 use crate::toml_text::{Checked, Fault, KeyPath};
-
-/// Most shells of a volume.
-pub const MOST_SHELLS: usize = 16;
 
 /// Even steps from 0 to 1 for `shells` shells: the tint in no shell, in one, and so on.
 #[must_use]
@@ -54,7 +52,7 @@ mod tests {
         assert_eq!(check(&[1.0, 0.9], &[]), Ok(()));
         assert_eq!(check(&[1.0, 0.9], &[0.0, 1.0, 1.0]), Ok(()));
         for (shells, tints, wanted) in [
-            (&[][..], &[][..], "drawing.shells takes 1 to 16 sizes, found `[]`"),
+            (&[][..], &[][..], "drawing.shells takes 1 to 63 sizes, found `[]`"),
             (&[0.9, 1.0], &[], "drawing.shells takes sizes that fall"),
             (&[1.0, f64::NAN], &[], "drawing.shells takes sizes that fall"),
             (&[1.0, 0.001], &[], "drawing.shells takes sizes that fall"),

@@ -32,6 +32,14 @@ pub enum WettingError {
         /// Width of cells that are few enough, in the unit of the scene.
         fits: f32,
     },
+    /// A cell would have no samples, or all cells together too many.
+    #[error("cells of the grid have `{found}` samples each")]
+    TooManySamples {
+        /// Samples in a cell.
+        found: usize,
+        /// Samples in a cell that are few enough for this model.
+        fits: usize,
+    },
     /// The rate or the slope of spilling is out of its range.
     #[error("paint cannot spill at {what} `{found}`")]
     Spilling {
@@ -47,10 +55,15 @@ impl Explain for WettingError {
         Some(match self {
             Self::Mesh(fault) => return fault.hint(),
             Self::NoArea { .. } => Hint::new("export the model with its faces, at its real size"),
-            Self::CellSize { .. } => Hint::new("[cell] is a length above 0"),
-            Self::TooManyCells { fits, .. } => Hint::new(format!("[cell={fits}] would fit")),
-            Self::Spilling { what, .. } if *what == "rate" => Hint::new("[rate] is 0 to 0.067"),
-            Self::Spilling { .. } => Hint::new("[slope] is 0 to 1000"),
+            Self::CellSize { .. } => Hint::verbatim("grid.cell is a share above 0"),
+            Self::TooManyCells { fits, .. } => Hint::verbatim(format!("cells of {fits} would fit")),
+            Self::TooManySamples { fits, .. } => {
+                Hint::verbatim(format!("grid.samples is 1 to {fits}"))
+            }
+            Self::Spilling { what, .. } if *what == "rate" => {
+                Hint::verbatim("grid.rate is 0 to 0.067")
+            }
+            Self::Spilling { .. } => Hint::verbatim("grid.slope is 0 to 1000"),
         })
     }
 

@@ -23,13 +23,13 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The grid of a mesh with cells of width `cell`, in the unit of the scene. Places are
-    /// drawn from `seed`.
+    /// The grid of a mesh with cells of width `cell`, in the unit of the scene, and `per_cell`
+    /// samples in each on average. Places are drawn from `seed`.
     ///
     /// # Errors
-    /// If the mesh has no surface, or the cells have no size or are too many.
-    pub fn of(mesh: &Mesh, cell: f32, seed: u64) -> Result<Self, WettingError> {
-        let samples = SurfaceSamples::of(mesh, cell, seed)?;
+    /// If the mesh has no surface, the cells have no size, or cells or samples are too many.
+    pub fn of(mesh: &Mesh, cell: f32, per_cell: usize, seed: u64) -> Result<Self, WettingError> {
+        let samples = SurfaceSamples::of(mesh, cell, per_cell, seed)?;
         let cells = Cells::of(&samples);
         let graph = Graph::of(mesh, &samples)?;
         let reach = Reach::of(&samples, &cells);
@@ -54,17 +54,20 @@ impl Grid {
         // No place in a cell is farther from the middle of its surface than this.
         let diagonal = 1.75 * self.samples.lattice.cell;
         let (mut found, mut least) = (None, f32::INFINITY);
-        for (cell, center) in self.cells.centers.iter().enumerate() {
-            let near = center.distance(place) <= least + diagonal;
+        let mut search = |cell: usize| {
+            let near = self.cells.centers[cell].distance(place) <= least + diagonal;
             if near && self.cells.capacities[cell] > 0 {
                 for sample in self.samples.of_cell(cell) {
                     let distance = self.samples.places[sample].distance(place);
-                    if distance < least {
+                    if distance < least || (distance == least && Some(sample) < found) {
                         (found, least) = (Some(sample), distance);
                     }
                 }
             }
-        }
+        };
+        // The cell of the place comes first: few others then have nearer samples.
+        self.samples.cell_at(place).into_iter().for_each(&mut search);
+        (0..self.cells.centers.len()).for_each(search);
         found.map(|sample| (sample, least))
     }
 

@@ -8,8 +8,11 @@ use rand_chacha::ChaCha8Rng;
 use super::fault::{MOST_CELLS, WettingError};
 use super::lattice::{Lattice, rounded_up};
 
-/// Samples of a flat piece of surface as large as a face of a cell.
+/// Usual number of samples of a flat piece of surface as large as a face of a cell.
 pub const SAMPLES_PER_CELL: usize = 64;
+
+/// Most samples of a model: the usual number in each of as many cells as there can be.
+const MOST_SAMPLES: f64 = (MOST_CELLS * SAMPLES_PER_CELL) as f64;
 
 /// Halvings of a triangle until one of its parts stands for a place.
 const HALVINGS: u32 = 32;
@@ -35,14 +38,15 @@ pub struct SurfaceSamples {
 }
 
 impl SurfaceSamples {
-    /// Samples of a mesh, [`SAMPLES_PER_CELL`] for an area of `cell` by `cell` (in the unit of the
-    /// scene). The surface is cut into as many pieces of one area, along a path that winds through
+    /// Samples of a mesh, `per_cell` for an area of `cell` by `cell` (in the unit of the scene;
+    /// [`SAMPLES_PER_CELL`] is usual). The surface is cut into as many pieces of one area, along a path that winds through
     /// each triangle, and each piece has a random place of `seed`. Triangles without area are left
     /// out.
     ///
     /// # Errors
-    /// If the mesh fails [`Mesh::check`], has no area, or `cell` is not above 0 or too small.
-    pub fn of(mesh: &Mesh, cell: f32, seed: u64) -> Result<Self, WettingError> {
+    /// If the mesh fails [`Mesh::check`], has no area, `cell` is not above 0 or too small, or
+    /// `per_cell` is 0 or too many for as many cells.
+    pub fn of(mesh: &Mesh, cell: f32, per_cell: usize, seed: u64) -> Result<Self, WettingError> {
         mesh.check()?;
         let triangles = mesh.triangles.len();
         let bounds = mesh.bounds();
@@ -62,7 +66,11 @@ impl SurfaceSamples {
                 rounded_up((f64::from(cell) * (flat_cells / MOST_CELLS as f64).sqrt()) as f32);
             return Err(WettingError::TooManyCells { cell, fits });
         }
-        let count = (flat_cells * SAMPLES_PER_CELL as f64).ceil().max(1.0);
+        let count = (flat_cells * per_cell as f64).ceil().max(1.0);
+        if per_cell == 0 || count > MOST_SAMPLES {
+            let fits = (MOST_SAMPLES / flat_cells).floor() as usize;
+            return Err(WettingError::TooManySamples { found: per_cell, fits });
+        }
         let found = spread(mesh, &areas, whole / count, seed);
         Ok(Self::sorted(mesh, lattice, &found, (whole / count) as f32))
     }
@@ -122,6 +130,17 @@ impl SurfaceSamples {
     #[must_use]
     pub fn cell_count(&self) -> usize {
         self.starts.len() - 1
+    }
+
+    /// The cell that holds a place, if there is surface in it.
+    #[must_use]
+    pub fn cell_at(&self, place: Vec3) -> Option<usize> {
+        let key = |place: Vec3| Lattice::key(self.lattice.coordinates(place));
+        let wanted = place.is_finite().then(|| key(place))?;
+        // Samples are in the order of their cells; cells outside of all regions have none.
+        let first = self.places.partition_point(|at| key(*at) < wanted);
+        let found = self.places.get(first).is_some_and(|at| key(*at) == wanted);
+        found.then(|| self.cells[first] as usize)
     }
 
     /// Indices of the samples in the cell with this index.
@@ -195,7 +214,8 @@ mod tests {
 
     #[test]
     fn areas_add_up_to_that_of_the_surface() {
-        let samples = SurfaceSamples::of(&Mesh::sphere(60_000), 1.0 / 6.0, 1).unwrap();
+        let samples =
+            SurfaceSamples::of(&Mesh::sphere(60_000), 1.0 / 6.0, SAMPLES_PER_CELL, 1).unwrap();
         let whole: f64 = samples.areas.iter().map(|&area| f64::from(area)).sum();
         assert!((whole / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{whole}");
         assert_eq!(samples.len().div_ceil(1000), 29);
@@ -208,7 +228,7 @@ mod tests {
     fn every_part_of_a_surface_has_its_share() {
         // A triangle cut by lines into parts: each part has as many samples as its area wants.
         let mesh = bare(&[[0.0; 3], [8.0, 0.0, 0.0], [0.0, 0.0, 8.0]], &[[0, 2, 1]]);
-        let samples = SurfaceSamples::of(&mesh, 1.0, 7).unwrap();
+        let samples = SurfaceSamples::of(&mesh, 1.0, SAMPLES_PER_CELL, 7).unwrap();
         assert_eq!(samples.len(), 32 * SAMPLES_PER_CELL);
         for (x, z) in [(0.0, 0.0), (2.0, 2.0), (1.0, 3.0), (3.5, 0.2)] {
             let inside = samples
@@ -224,7 +244,7 @@ mod tests {
     #[test]
     fn no_place_is_far_from_a_sample() {
         let mesh = bare(&[[0.0; 3], [9.0, 0.0, 1.0], [2.0, 0.0, 8.0]], &[[0, 2, 1]]);
-        let samples = SurfaceSamples::of(&mesh, 1.0, 7).unwrap();
+        let samples = SurfaceSamples::of(&mesh, 1.0, SAMPLES_PER_CELL, 7).unwrap();
         let spacing = samples.areas[0].sqrt();
         let random = &mut ChaCha8Rng::seed_from_u64(9);
         let [a, b, c] = corners(&mesh, 0);
@@ -242,8 +262,16 @@ mod tests {
     #[test]
     fn samples_do_not_depend_on_the_cut_into_triangles() {
         let corners = [[0.0; 3], [4.0, 0.0, 0.0], [4.0, 0.0, 4.0], [0.0, 0.0, 4.0]];
-        let flat = SurfaceSamples::of(&bare(&corners, &[[0, 2, 1], [0, 3, 2]]), 1.0, 3).unwrap();
-        let fine = SurfaceSamples::of(&sheet(100, |u, v| [4.0 * u, 0.0, 4.0 * v]), 1.0, 3).unwrap();
+        let flat =
+            SurfaceSamples::of(&bare(&corners, &[[0, 2, 1], [0, 3, 2]]), 1.0, SAMPLES_PER_CELL, 3)
+                .unwrap();
+        let fine = SurfaceSamples::of(
+            &sheet(100, |u, v| [4.0 * u, 0.0, 4.0 * v]),
+            1.0,
+            SAMPLES_PER_CELL,
+            3,
+        )
+        .unwrap();
         assert_eq!(flat.cell_count(), fine.cell_count());
         assert!(flat.len().abs_diff(fine.len()) <= 1);
         for cell in 0..flat.cell_count() {
@@ -258,20 +286,22 @@ mod tests {
             let mesh = shape.mesh(4000);
             let [low, high] = mesh.bounds();
             let cell = (high - low).max_element() / 12.0;
-            let samples = SurfaceSamples::of(&mesh, cell, 1).unwrap();
-            assert_eq!(samples, SurfaceSamples::of(&mesh, cell, 1).unwrap());
+            let samples = SurfaceSamples::of(&mesh, cell, SAMPLES_PER_CELL, 1).unwrap();
+            assert_eq!(samples, SurfaceSamples::of(&mesh, cell, SAMPLES_PER_CELL, 1).unwrap());
             let mut last = 0;
             for index in 0..samples.cell_count() {
                 let range = samples.of_cell(index);
                 assert!(!range.is_empty() && range.start == last);
                 last = range.end;
                 let at = samples.lattice.coordinates(samples.places[range.start]);
+                assert_eq!(samples.cell_at(samples.places[range.start]), Some(index));
                 for sample in range {
                     assert_eq!(samples.lattice.coordinates(samples.places[sample]), at);
                     assert_eq!(samples.cells[sample] as usize, index);
                 }
             }
             assert_eq!(last, samples.len());
+            assert_eq!(samples.cell_at(high + cell), None);
         }
     }
 
@@ -279,17 +309,34 @@ mod tests {
     fn triangles_without_area_are_left_out_and_models_of_them_refused() {
         let positions = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
         let mesh = bare(&positions, &[[0, 1, 2], [0, 3, 1], [1, 1, 1]]);
-        let samples = SurfaceSamples::of(&mesh, 0.25, 1).unwrap();
+        let samples = SurfaceSamples::of(&mesh, 0.25, SAMPLES_PER_CELL, 1).unwrap();
         assert!(samples.triangles.iter().all(|&triangle| triangle == 1));
         let line = bare(&positions, &[[0, 1, 2]]);
-        let refused = SurfaceSamples::of(&line, 0.25, 1);
+        let refused = SurfaceSamples::of(&line, 0.25, SAMPLES_PER_CELL, 1);
         assert_eq!(refused, Err(WettingError::NoArea { triangles: 1 }));
         let points = bare(&positions, &[]);
-        assert!(matches!(SurfaceSamples::of(&points, 0.25, 1), Err(WettingError::Mesh(_))));
-        let Err(WettingError::TooManyCells { fits, .. }) = SurfaceSamples::of(&mesh, 1e-4, 1)
+        assert!(matches!(
+            SurfaceSamples::of(&points, 0.25, SAMPLES_PER_CELL, 1),
+            Err(WettingError::Mesh(_))
+        ));
+        let Err(WettingError::TooManyCells { fits, .. }) =
+            SurfaceSamples::of(&mesh, 1e-4, SAMPLES_PER_CELL, 1)
         else {
             panic!("cells of 1e-4 fit");
         };
         assert!((6.9e-4..7.1e-4).contains(&fits), "{fits}");
+    }
+
+    #[test]
+    fn a_cell_has_as_many_samples_as_are_wanted() {
+        let mesh = sheet(10, |u, v| [8.0 * u, 0.0, 8.0 * v]);
+        for per_cell in [8, 64, 200] {
+            let samples = SurfaceSamples::of(&mesh, 1.0, per_cell, 1).unwrap();
+            assert_eq!(samples.len(), 64 * per_cell);
+        }
+        let none = SurfaceSamples::of(&mesh, 1.0, 0, 1);
+        assert!(matches!(none, Err(WettingError::TooManySamples { found: 0, .. })));
+        let many = SurfaceSamples::of(&mesh, 0.01, 1024, 1);
+        assert_eq!(many, Err(WettingError::TooManySamples { found: 1024, fits: 104 }));
     }
 }

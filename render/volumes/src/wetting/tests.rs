@@ -45,7 +45,8 @@ fn links_do_not_depend_on_the_cut_into_triangles() {
             let place = |cell| grid.samples.lattice.coordinates(first(cell));
             (0..grid.cells.len()).map(place).collect::<Vec<_>>()
         };
-        let grids = [1, 100].map(|squares| Grid::of(&plane(squares), 1.0, 1).unwrap());
+        let grids =
+            [1, 100].map(|squares| Grid::of(&plane(squares), 1.0, SAMPLES_PER_CELL, 1).unwrap());
         let cells = grids.each_ref().map(keys);
         // A cell with a sliver of surface may have a sample of one cut and none of the other.
         let both: Vec<_> = cells[0].iter().filter(|at| cells[1].contains(at)).collect();
@@ -74,7 +75,7 @@ fn links_do_not_depend_on_the_cut_into_triangles() {
 #[test]
 fn a_level_sheet_joins_eight_neighbours() {
     for squares in [1, 37] {
-        let grid = Grid::of(&level(9.0, 0.0, squares), 1.0, 1).unwrap();
+        let grid = Grid::of(&level(9.0, 0.0, squares), 1.0, SAMPLES_PER_CELL, 1).unwrap();
         let inner = cell_at(&grid, [4.5, 0.0, 4.5]);
         let axes: Vec<u8> = grid.graph.links(inner).map(|link| grid.graph.axes[link]).collect();
         assert_eq!(axes, [2, 1, 2, 1, 1, 2, 1, 2], "{squares}");
@@ -83,12 +84,13 @@ fn a_level_sheet_joins_eight_neighbours() {
 
 #[test]
 fn triangles_that_meet_at_a_wall_join_its_cells() {
-    let wall = Grid::of(&level(9.0, 0.0, 1), 1.0, 1).unwrap().samples.lattice.origin.x;
+    let wall =
+        Grid::of(&level(9.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap().samples.lattice.origin.x;
     for beside in [-2e-6, 0.0, 2e-6] {
         let middle = wall + beside;
         let halves =
             sheet(2, |u, v| [if u == 0.5 { middle } else { 9.0 * u }, 0.0, 9.0 * (v - 0.04)]);
-        let grid = Grid::of(&halves, 1.0, 1).unwrap();
+        let grid = Grid::of(&halves, 1.0, SAMPLES_PER_CELL, 1).unwrap();
         for side in [-0.5, 0.5] {
             let cell = cell_at(&grid, [wall + side, 0.0, 4.0]);
             assert_eq!(grid.graph.links(cell).len(), 8, "{beside} {side}");
@@ -98,7 +100,7 @@ fn triangles_that_meet_at_a_wall_join_its_cells() {
 
 #[test]
 fn the_nearest_sample_is_that_of_a_search_through_all() {
-    let grid = Grid::of(&SampleModel::Village.mesh(2000), 0.3, 1).unwrap();
+    let grid = Grid::of(&SampleModel::Village.mesh(2000), 0.3, SAMPLES_PER_CELL, 1).unwrap();
     let random = &mut ChaCha8Rng::seed_from_u64(2);
     for _ in 0..200 {
         let place = Vec3::from([(); 3].map(|()| random.random_range(-2.0..2.0)));
@@ -114,7 +116,7 @@ fn the_nearest_sample_is_that_of_a_search_through_all() {
 fn cells_of_parallel_plates_are_not_joined() {
     for height in [1.0, 0.7, 1.3] {
         let plates = joined(level(6.0, 0.0, 3), &level(6.0, height, 2));
-        let grid = Grid::of(&plates, 1.0, 1).unwrap();
+        let grid = Grid::of(&plates, 1.0, SAMPLES_PER_CELL, 1).unwrap();
         let upper = |cell: usize| grid.cells.centers[cell].y > 0.5 * height;
         let both = (0..grid.cells.len()).filter(|&cell| {
             let own = &grid.samples.places[grid.samples.of_cell(cell)];
@@ -136,7 +138,7 @@ fn cells_of_parallel_plates_are_not_joined() {
 fn sides_of_a_fold_are_joined_at_the_fold_alone() {
     // Two large triangles a side, 1.2 cells apart at the open end.
     let fold = sheet(2, |u, v| [8.0 * (u - 0.5).abs() * 2.0, 2.4 * (u - 0.5), 8.0 * v]);
-    let grid = Grid::of(&fold, 1.0, 1).unwrap();
+    let grid = Grid::of(&fold, 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let side = |cell: usize| {
         let own = &grid.samples.places[grid.samples.of_cell(cell)];
         let above = own.iter().filter(|at| at.y > 0.0).count();
@@ -156,7 +158,7 @@ fn sides_of_a_fold_are_joined_at_the_fold_alone() {
 fn random_spills_keep_every_quantum_and_every_limit() {
     let random = &mut ChaCha8Rng::seed_from_u64(5);
     for slope in [0.0, 0.5, 40.0] {
-        let grid = Grid::of(&SampleModel::StillLife.mesh(3000), 0.25, 1).unwrap();
+        let grid = Grid::of(&SampleModel::StillLife.mesh(3000), 0.25, SAMPLES_PER_CELL, 1).unwrap();
         let Grid { cells, graph, .. } = &grid;
         let mut spilling = Spilling::new(cells, 0.25, FASTEST_RATE, slope).unwrap();
         let mut paint = vec![Cell::default(); cells.len()];
@@ -188,7 +190,7 @@ fn random_spills_keep_every_quantum_and_every_limit() {
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    let grid = Grid::of(&level(60.0, 0.0, 1), 1.0, 1).unwrap();
+    let grid = Grid::of(&level(60.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let runs = [1, 2, 8].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
@@ -211,7 +213,7 @@ fn threads_do_not_change_a_bit() {
 
 #[test]
 fn two_equal_cells_share_what_is_over_their_capacities() {
-    let grid = Grid::of(&level(12.0, 0.0, 1), 1.0, 1).unwrap();
+    let grid = Grid::of(&level(12.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let mut paint = vec![Cell::default(); grid.cells.len()];
     let at = cell_at(&grid, [6.0, 0.0, 6.0]);
     paint[at] = of_slot(3, 9 * grid.cells.capacities[at]);
@@ -239,7 +241,7 @@ fn held(grid: &Grid, paint: &[Cell]) -> Vec<Vec3> {
 
 #[test]
 fn paint_spreads_in_a_circle_and_its_area_grows_with_its_amount() {
-    let grid = Grid::of(&level(40.0, 0.0, 1), 1.0, 1).unwrap();
+    let grid = Grid::of(&level(40.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let source = cell_at(&grid, [20.1, 0.0, 20.1]);
     let middle = grid.cells.centers[source];
     let mut paint = vec![Cell::default(); grid.cells.len()];
@@ -281,9 +283,9 @@ fn full_cells_cover_all_surface() {
         let mesh = shape.mesh(6000);
         let [low, high] = mesh.bounds();
         let cell = (high - low).max_element() / 12.0;
-        let grid = Grid::of(&mesh, cell, 1).unwrap();
+        let grid = Grid::of(&mesh, cell, SAMPLES_PER_CELL, 1).unwrap();
         // Other places, four times as many.
-        let others = SurfaceSamples::of(&mesh, cell / 2.0, 99).unwrap();
+        let others = SurfaceSamples::of(&mesh, cell / 2.0, SAMPLES_PER_CELL, 99).unwrap();
         let radii: Vec<f32> = (0..grid.cells.len())
             .map(|cell| grid.reach.radius(cell, grid.cells.capacities[cell], 0.0))
             .collect();
@@ -298,7 +300,7 @@ fn full_cells_cover_all_surface() {
 
 #[test]
 fn a_film_stays_as_thick_while_its_area_grows() {
-    let grid = Grid::of(&level(12.0, 0.0, 1), 1.0, 1).unwrap();
+    let grid = Grid::of(&level(12.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let cell = cell_at(&grid, [6.0, 0.0, 6.0]);
     let capacity = grid.cells.capacities[cell];
     for share in [0.3, 0.5, 0.7] {
@@ -315,7 +317,7 @@ fn a_film_stays_as_thick_while_its_area_grows() {
 
 #[test]
 fn regions_cut_cells_out() {
-    let grid = Grid::of(&level(12.0, 0.0, 1), 1.0, 1).unwrap();
+    let grid = Grid::of(&level(12.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let kept = grid.within(|at| at.x < 6.0);
     assert_eq!(kept.cells.len(), grid.cells.len());
     let mut paint = vec![Cell::default(); grid.cells.len()];
@@ -334,7 +336,7 @@ fn regions_cut_cells_out() {
 
 #[test]
 fn rates_and_slopes_out_of_range_are_refused() {
-    let grid = Grid::of(&level(4.0, 0.0, 1), 1.0, 1).unwrap();
+    let grid = Grid::of(&level(4.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     for (rate, slope) in [(0.068, 0.0), (-0.1, 0.0), (f32::NAN, 0.0), (0.04, -1.0), (0.04, 1e9)] {
         assert!(Spilling::new(&grid.cells, 1.0, rate, slope).is_err(), "{rate} {slope}");
     }

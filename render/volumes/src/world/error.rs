@@ -69,7 +69,7 @@ impl Explain for WorldError {
             Self::Number { .. } => return None,
             Self::Recipe { .. } => Hint::new("name a pigment with a share above 0"),
             Self::OffSurface { .. } => Hint::new("pour at a place of the model's surface"),
-            Self::Full { .. } => Hint::new("take larger cells with [cell], or fewer volumes"),
+            Self::Full { .. } => Hint::verbatim("take larger cells (grid.cell), or fewer volumes"),
             Self::Volume { .. } => {
                 Hint::new("name a wet volume; to be split, one for itself that holds surface")
             }

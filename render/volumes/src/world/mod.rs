@@ -43,7 +43,7 @@ mod tests;
 pub use actions::{Lift, Pour, Single};
 pub use error::WorldError;
 pub use recipe::Recipe;
-pub use settings::{MOST_VOLUMES, STEPS_PER_SECOND, WorldSettings};
+pub use settings::{MOST_PARTICLES, MOST_VOLUMES, STEPS_PER_SECOND, WorldSettings};
 pub use state::World;
 pub use tally::Tally;
 pub use track::Track;

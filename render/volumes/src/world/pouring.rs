@@ -52,6 +52,14 @@ impl World {
         Ok(())
     }
 
+    /// Checks that paint can be poured at a place, in the unit of the scene.
+    ///
+    /// # Errors
+    /// [`WorldError::OffSurface`] if it is farther than one cell from the surface.
+    pub fn check_place(&self, place: Vec3) -> Result<(), WorldError> {
+        self.surface_at(place).map(|_| ())
+    }
+
     /// The sample of the surface nearest to a place.
     fn surface_at(&self, place: Vec3) -> Result<usize, WorldError> {
         let nearest = self.grid.nearest(place);

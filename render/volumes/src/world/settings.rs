@@ -2,13 +2,13 @@
 
 use super::error::{WorldError, in_range};
 use crate::motion::MotionSettings;
-use crate::wetting::QUANTA_PER_FACE;
+use crate::wetting::{QUANTA_PER_FACE, SAMPLES_PER_CELL};
 
 /// Greatest number of volumes.
 pub const MOST_VOLUMES: usize = 4096;
 
 /// Greatest number of particles of all volumes.
-pub(super) const MOST_PARTICLES: usize = 2_000_000;
+pub const MOST_PARTICLES: usize = 2_000_000;
 
 /// Steps of time in a second.
 pub const STEPS_PER_SECOND: u32 = 120;
@@ -27,6 +27,8 @@ pub struct WorldSettings {
     /// Width of a cell as a share of the longest side of the model, 0 to 1; 1/12 by default. With
     /// 0 paint does not spill, and there are single volumes only.
     pub cell: f32,
+    /// Samples of the surface in a cell on average, 1 and more; [`SAMPLES_PER_CELL`] by default.
+    pub samples: usize,
     /// Thickness of the film that paint spreads to, 0.0001 to 100 mm; 0.02 by default.
     pub film_mm: f64,
     /// Share of a difference of heads that spills across a face in a step, 0 to
@@ -45,6 +47,7 @@ impl Default for WorldSettings {
         Self {
             unit_mm: None,
             cell: 1.0 / CELLS,
+            samples: SAMPLES_PER_CELL,
             film_mm: 0.02,
             rate: 0.04,
             slope: 0.0,

@@ -81,7 +81,7 @@ impl World {
         mesh.check().map_err(crate::wetting::WettingError::from)?;
         let [low, high] = mesh.bounds();
         let scale = settings.scale((high - low).max_element())?;
-        let grid = Arc::new(Grid::of(mesh, scale.cell, settings.seed)?);
+        let grid = Arc::new(Grid::of(mesh, scale.cell, settings.samples, settings.seed)?);
         let spilling = Spilling::new(&grid.cells, scale.cell, settings.rate, settings.slope)?;
         let mut surroundings = Surroundings::new(scale.cell, settings.seed);
         surroundings.surface =

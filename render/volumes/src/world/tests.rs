@@ -9,7 +9,7 @@ use super::*;
 use crate::containing::Inside;
 use crate::motion::{KeepIn, Push};
 use crate::test_surfaces::{joined, sheet};
-use crate::wetting::SurfaceSamples;
+use crate::wetting::{SAMPLES_PER_CELL, SurfaceSamples};
 
 fn level(side: f32, height: f32) -> Mesh {
     sheet(1, |u, v| [side * (u - 0.5), height, side * (v - 0.5)])
@@ -298,7 +298,8 @@ fn full_cells_of_rough_volumes_hold_all_surface() {
         let insides: Vec<(Vec3, Inside)> =
             world.volumes().iter().map(|volume| (volume.center, Inside::of(volume))).collect();
         // Other places than those that the grid was made of, four times as many.
-        let places = SurfaceSamples::of(&mesh, world.scale.cell / 2.0, 77).unwrap().places;
+        let places =
+            SurfaceSamples::of(&mesh, world.scale.cell / 2.0, SAMPLES_PER_CELL, 77).unwrap().places;
         let held = |at: &Vec3| {
             let near = insides
                 .iter()
@@ -388,4 +389,21 @@ fn a_full_world_keeps_paint_where_it_is_or_in_the_tube() {
     let tally = world.tally();
     assert_eq!(tally.in_tube[1], (0.5 / world.quantum_mm3()).round() as u64);
     assert!(tally.on_scene[0] > 0 && tally.on_scene[1] == 0);
+}
+
+#[test]
+fn volumes_on_a_surface_come_to_rest() {
+    let mut world =
+        World::of(&SampleModel::StillLife.mesh(3000), &WorldSettings::default()).unwrap();
+    for cell in (0..world.grid().cells.len()).step_by(7) {
+        let samples = &world.grid().samples;
+        let place = samples.places[samples.of_cell(cell).start];
+        world.pour(Pour::at(place, 4.0, 1.0, Recipe::of_slot(cell % 3))).unwrap();
+    }
+    run(&mut world, 1200);
+    let moving = world.volumes.iter().filter(|volume| volume.rests_under == 0).count();
+    assert!(world.volumes.len() > 100 && moving == 0, "{moving} of {}", world.volumes.len());
+    let rested = world.volumes.clone();
+    run(&mut world, 10);
+    assert_eq!(world.volumes, rested);
 }

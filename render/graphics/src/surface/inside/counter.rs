@@ -1,6 +1,7 @@
 //! Counting on whatever computes.
 
 use super::crossing::{Count, WeighedCount};
+use super::gates::{GatedCount, Gates};
 use super::on_device;
 use super::sum::Crossings;
 use super::surfaces::ClosedSurfaces;
@@ -72,9 +73,8 @@ impl InsideCounter {
         camera: &Camera,
         (surfaces, weights): (ClosedSurfaces<'_, impl Positioned>, &[i32]),
     ) -> Result<Image<i32>, DeviceError> {
-        let last = surfaces.triangles.iter().map(|triangle| triangle.material as usize).max();
-        let (least, found) = (last.map_or(0, |last| last + 1), weights.len());
-        assert!(found >= least, "{found} weights of {least} surfaces");
+        let found = weights.len();
+        assert!(found >= least(surfaces), "{found} weights of {} surfaces", least(surfaces));
         match compute {
             Compute::Cpu => {
                 let weighed = WeighedCount(|surface: u32, _| weights[surface as usize]);
@@ -85,6 +85,39 @@ impl InsideCounter {
                 let target = self.target(gpu, plane.size())?;
                 let sums = on_device::weighed(gpu, plane, camera, (surfaces, weights), &target);
                 sums.map(Image::from)
+            }
+        }
+    }
+
+    /// The number of `surfaces` that hold the point that each pixel of `visible` shows and whose
+    /// gate lets its triangle pass; 0 where nothing is seen.
+    ///
+    /// # Errors
+    /// As [`Self::weighed`].
+    ///
+    /// # Panics
+    /// As [`Self::counts`]; if a surface has no gate, or (on the processor) a triangle that is
+    /// seen has no normal.
+    pub fn gated(
+        &mut self,
+        compute: &mut Compute,
+        visible: &Image<Fragment>,
+        camera: &Camera,
+        (surfaces, gates): (ClosedSurfaces<'_, impl Positioned>, Gates<'_>),
+    ) -> Result<Image<i32>, DeviceError> {
+        let found = gates.surfaces.len();
+        assert!(found >= least(surfaces), "{found} gates of {} surfaces", least(surfaces));
+        match compute {
+            Compute::Cpu => {
+                let (seen, normals) = (visible.host(), gates.normals.host().values());
+                let gated = GatedCount { surfaces: gates.surfaces, normals, seen: seen.values() };
+                Ok(self.crossings.sum(&gated, surfaces, camera, seen).into())
+            }
+            Compute::Gpu(gpu) => {
+                let plane = visible.plane();
+                let target = self.target(gpu, plane.size())?;
+                let counts = on_device::gated(gpu, plane, camera, (surfaces, gates), &target);
+                counts.map(Image::from)
             }
         }
     }
@@ -102,4 +135,10 @@ impl InsideCounter {
         self.target = Some(target.clone());
         Ok(target)
     }
+}
+
+/// The least number of weights or gates for all surfaces.
+fn least(surfaces: ClosedSurfaces<'_, impl Positioned>) -> usize {
+    let last = surfaces.triangles.iter().map(|triangle| triangle.material as usize).max();
+    last.map_or(0, |last| last + 1)
 }

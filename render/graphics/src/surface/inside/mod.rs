@@ -15,6 +15,8 @@ mod surfaces;
 
 mod crossing;
 
+mod gates;
+
 mod sum;
 
 mod on_device;
@@ -26,6 +28,7 @@ mod tests;
 
 pub use counter::InsideCounter;
 pub use crossing::{Count, Crossing, CrossingSum, WeighedCount};
-pub use on_device::{ADD_STENCIL, STENCIL_FACES, WEIGHED_FACES};
+pub use gates::Gates;
+pub use on_device::{ADD_STENCIL, GATED_FACES, STENCIL_FACES, WEIGHED_FACES};
 pub use sum::Crossings;
 pub use surfaces::ClosedSurfaces;

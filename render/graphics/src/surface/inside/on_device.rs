@@ -2,12 +2,14 @@
 
 use std::ops::Range;
 
+use super::gates::Gates;
 use super::surfaces::ClosedSurfaces;
 use crate::camera::Camera;
 use crate::compute::{GpuCompute, Plane};
 use crate::field::Field;
 use crate::gpu::{
-    DeviceError, Kernel, ScatterShader, StencilShader, StencilTarget, Storage, TriangleList, layout,
+    Buffer, DeviceError, Kernel, ScatterShader, StencilShader, StencilTarget, Storage,
+    TriangleList, layout,
 };
 use crate::mesh::Triangle;
 use crate::surface::model::DeviceModel;
@@ -36,6 +38,17 @@ pub static WEIGHED_FACES: ScatterShader = ScatterShader {
     buffers: 5,
 };
 
+/// The shader that counts closed surfaces with a gate. It reads the words of vertices,
+/// [`Triangle`]s, [`Fragment`]s, gates of surfaces and normals of triangles, and adds to the counts
+/// of pixels.
+pub static GATED_FACES: ScatterShader = ScatterShader {
+    name: "gated_faces",
+    source: concat!(include_str!("corner.wgsl"), include_str!("gate.wgsl")),
+    parameters: FacesParams::LAYOUT,
+    structs: &[Fragment::LAYOUT],
+    buffers: 6,
+};
+
 /// The kernel that adds the bytes of a stencil to counts.
 pub static ADD_STENCIL: Kernel = Kernel {
     name: "add_stencil",
@@ -45,7 +58,7 @@ pub static ADD_STENCIL: Kernel = Kernel {
     storage: &[Storage::Read, Storage::Read, Storage::Write],
 };
 
-/// Parameters of [`STENCIL_FACES`] and [`WEIGHED_FACES`].
+/// Parameters of [`STENCIL_FACES`], [`WEIGHED_FACES`] and [`GATED_FACES`].
 #[repr(C)]
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct FacesParams {
@@ -167,27 +180,52 @@ pub(super) fn weighed(
     (surfaces, weights): (ClosedSurfaces<'_, impl Positioned>, &[i32]),
     target: &StencilTarget,
 ) -> Result<Plane<i32>, DeviceError> {
+    let weights = gpu.upload(&Field::from_values(weights.len(), 1, weights.to_vec()))?;
+    let buffers = [visible.buffer(), weights.buffer()];
+    scattered(gpu, &WEIGHED_FACES, (visible.size(), &buffers), camera, surfaces, target)
+}
+
+/// Counts the surfaces that hold what each pixel shows and let its triangle pass.
+pub(super) fn gated(
+    gpu: &mut GpuCompute,
+    visible: &Plane<Fragment>,
+    camera: &Camera,
+    (surfaces, gates): (ClosedSurfaces<'_, impl Positioned>, Gates<'_>),
+    target: &StencilTarget,
+) -> Result<Plane<i32>, DeviceError> {
+    let normals = gates.normals.plane();
+    let gates = gates.surfaces.to_vec();
+    let gates = gpu.upload(&Field::from_values(gates.len(), 1, gates))?;
+    let buffers = [visible.buffer(), gates.buffer(), normals.buffer()];
+    scattered(gpu, &GATED_FACES, (visible.size(), &buffers), camera, surfaces, target)
+}
+
+/// Sums of `shader` over every pixel of every face. Its buffers are those of the surfaces, then
+/// `buffers`, then the sums.
+fn scattered(
+    gpu: &mut GpuCompute,
+    shader: &'static ScatterShader,
+    ((width, height), buffers): ((usize, usize), &[&Buffer]),
+    camera: &Camera,
+    surfaces: ClosedSurfaces<'_, impl Positioned>,
+    target: &StencilTarget,
+) -> Result<Plane<i32>, DeviceError> {
     if !gpu.device.scatters() {
         let what = "weighed counting".to_owned();
         let reason = "fragments of this adapter write no buffers".to_owned();
         return Err(DeviceError::Refused { what, reason });
     }
-    let (width, height) = visible.size();
     let sums = gpu.upload(&Field::filled(width, height, 0_i32))?;
     let own = DeviceSurfaces::new(gpu, surfaces.vertices, surfaces.triangles)?;
-    let weights = gpu.upload(&Field::from_values(weights.len(), 1, weights.to_vec()))?;
+    let mut all = vec![own.vertices.buffer(), own.triangles.buffer()];
+    all.extend(buffers);
+    all.push(sums.buffer());
     let faces = TriangleList {
         parameters: &FacesParams::new::<[f32; 3]>(camera, (width, height)),
-        buffers: &[
-            own.vertices.buffer(),
-            own.triangles.buffer(),
-            visible.buffer(),
-            weights.buffer(),
-            sums.buffer(),
-        ],
+        buffers: &all,
         triangles: 0..surfaces.triangles.len(),
     };
-    gpu.recording.scatter(&WEIGHED_FACES, &faces, target);
+    gpu.recording.scatter(shader, &faces, target);
     Ok(sums)
 }
 

@@ -14,7 +14,7 @@ use super::shapes::Surfaces;
 use crate::compute::{Compute, Image};
 use crate::field::Field;
 use crate::gpu::{BackendChoice, choose};
-use crate::surface::{Fragment, InsideCounter, Model, PackedMesh, VisibilityBuffer};
+use crate::surface::{Fragment, Gates, InsideCounter, Model, PackedMesh, VisibilityBuffer};
 
 /// A device, hardware before software. Appends the name of the adapter (or `none`) to the file
 /// that the environment variable `IMPASTO_GPU_TESTS` names, if it is set.
@@ -56,6 +56,22 @@ impl Scene {
         let weighed = (surfaces.closed(), weights);
         let sums = InsideCounter::default().weighed(compute, &visible, camera, weighed);
         compute.download(&sums.unwrap()).unwrap()
+    }
+
+    fn gated_of(
+        &self,
+        compute: &mut Compute,
+        surfaces: &[[f32; 4]],
+        normals: &[[f32; 4]],
+    ) -> Field<i32> {
+        let (camera, size) = (&self.camera, self.size);
+        let mut model = Model::new(compute, self.packed()).unwrap();
+        let visible = model.visible(compute, camera, size.0, size.1).unwrap();
+        let normals = Field::from_values(normals.len(), 1, normals.to_vec());
+        let gates = Gates { surfaces, normals: &compute.upload(&normals).unwrap() };
+        let gated = (self.surfaces.closed(), gates);
+        let counts = InsideCounter::default().gated(compute, &visible, camera, gated);
+        compute.download(&counts.unwrap()).unwrap()
     }
 }
 
@@ -117,6 +133,31 @@ fn the_device_weighs_as_the_processor_does() {
         held += on_cpu.values().iter().filter(|&&sum| sum != 0).count();
     }
     assert!(held > 1000, "{held}");
+}
+
+#[test]
+fn the_device_gates_as_the_processor_does() {
+    let Some(mut on_gpu) = device() else { return };
+    if !on_gpu.device().is_some_and(crate::gpu::Device::scatters) {
+        return;
+    }
+    let turned = |i: usize| Vec3::new(i as f32 * 0.7 - 3.0, 1.3 - (i % 5) as f32, (i % 3) as f32);
+    let (mut held, mut kept_out) = (0, 0);
+    for seed in 90..94 {
+        let scene = random_scene(seed);
+        let gate = |i: usize| turned(i).normalize().extend([-2.0, -0.2, 0.3][i % 3]).to_array();
+        let gates: Vec<[f32; 4]> = (0..scene.surfaces.count as usize).map(gate).collect();
+        let normal = |i: usize| turned(7 * i).normalize().extend(0.0).to_array();
+        let normals: Vec<[f32; 4]> = (0..scene.mesh.triangles.len()).map(normal).collect();
+        let on_cpu = scene.gated_of(&mut Compute::cpu(), &gates, &normals);
+        let found = scene.gated_of(&mut on_gpu, &gates, &normals);
+        let differ = differing(&on_cpu, &found, &format!("scene {seed}"));
+        assert!(differ * 500 <= on_cpu.values().len(), "scene {seed}: {differ}");
+        let all = scene.counts();
+        held += on_cpu.values().iter().filter(|&&count| count != 0).count();
+        kept_out += on_cpu.values().iter().zip(all.values()).filter(|(a, b)| a < b).count();
+    }
+    assert!(held > 1000 && kept_out > 500, "{held} {kept_out}");
 }
 
 #[test]

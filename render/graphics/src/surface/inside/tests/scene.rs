@@ -18,7 +18,7 @@ pub(crate) struct Scene {
     pub(crate) size: (usize, usize),
 }
 
-/// What a comparison found.
+/// Findings of a comparison.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Found {
     /// Pixels that show the scene.

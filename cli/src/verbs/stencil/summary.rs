@@ -1,0 +1,84 @@
+//! What a finished run tells.
+
+use render::volumes::volume::Volume;
+use render::volumes::world::World;
+use serde_json::json;
+
+use crate::console::Console;
+use crate::failure::Result;
+
+/// Summary of a finished run.
+pub(super) struct Summary {
+    size: (usize, usize),
+    backend: String,
+    seconds: f64,
+    volumes: usize,
+    particles: usize,
+    cells: usize,
+    /// Paint on the scene, lifted and left in the tube, in mm3.
+    paint_mm3: [f64; 3],
+    /// Number of frames, and how many of them existed already.
+    pub(super) frames: Option<(usize, usize)>,
+}
+
+impl Summary {
+    /// The world of single pictures.
+    pub(super) fn of(world: &World, size: (usize, usize), backend: &str) -> Self {
+        let tally = world.tally();
+        let mm3 = |amounts: [u64; 9]| amounts.iter().sum::<u64>() as f64 * world.quantum_mm3();
+        let particles = |volume: &Volume| volume.vertices().len();
+        Self {
+            size,
+            backend: backend.to_owned(),
+            seconds: world.seconds(),
+            volumes: world.volumes().len(),
+            particles: world.volumes().iter().map(particles).sum(),
+            cells: world.grid().cells.len(),
+            paint_mm3: [tally.on_scene, tally.lifted, tally.in_tube].map(mm3),
+            frames: None,
+        }
+    }
+
+    pub(super) fn print(&self, as_json: bool, console: &mut Console<'_>) -> Result<()> {
+        match as_json {
+            true => console.json(&self.json()),
+            false => console.line(self.line()),
+        }
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let [on_scene, lifted, in_tube] = self.paint_mm3;
+        json!({
+            "size": [self.size.0, self.size.1],
+            "backend": self.backend,
+            "seconds": self.seconds,
+            "volumes": self.volumes,
+            "particles": self.particles,
+            "cells": self.cells,
+            "paint_mm3": { "on_scene": on_scene, "lifted": lifted, "in_tube": in_tube },
+            "frames": self.frames.map(|(frames, _)| frames),
+            "frames_found": self.frames.map(|(_, found)| found),
+        })
+    }
+
+    fn line(&self) -> String {
+        let Self { size: (width, height), backend, seconds, volumes, .. } = self;
+        let [on_scene, lifted, in_tube] = self.paint_mm3;
+        let mut line = format!(
+            "{width} x {height} pixels on {backend}: {volumes} volumes after {seconds:.2} s, {on_scene:.1} mm3 of paint"
+        );
+        if lifted > 0.0 {
+            line += &format!(", {lifted:.1} mm3 taken up");
+        }
+        if in_tube > 0.0 {
+            line += &format!(", {in_tube:.1} mm3 had no room and stayed in the tube");
+        }
+        if let Some((frames, found)) = self.frames {
+            line += &format!(", {frames} frames");
+            if found > 0 {
+                line += &format!(" ({found} of them existed already)");
+            }
+        }
+        line
+    }
+}

@@ -1,0 +1,31 @@
+// Counts the closed surfaces that hold the seen point and whose gate lets its triangle pass;
+// twin of GatedCount. Follows corner.wgsl.
+
+struct Fragment {
+    triangle: u32,
+    second: f32,
+    third: f32,
+    depth: f32,
+}
+
+const NO_TRIANGLE: u32 = 0xffffffffu;
+
+@group(0) @binding(3) var<storage, read> fragments: array<Fragment>;
+// Of each surface: what it faces, and the least cosine.
+@group(0) @binding(4) var<storage, read> gates: array<vec4<f32>>;
+// Of each triangle of the scene.
+@group(0) @binding(5) var<storage, read> normals: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read_write> sums: array<atomic<i32>>;
+
+@fragment
+fn pixel(at: Corner, @builtin(front_facing) front: bool) {
+    let cell = u32(at.position.y) * params.width + u32(at.position.x);
+    let seen = fragments[cell];
+    if seen.triangle == NO_TRIANGLE || at.position.z * params.depth_scale < seen.depth {
+        return;
+    }
+    let gate = gates[at.surface];
+    if dot(normals[seen.triangle].xyz, gate.xyz) >= gate.w {
+        atomicAdd(&sums[cell], select(1, -1, front));
+    }
+}

@@ -1,0 +1,135 @@
+//! Single parts of a picture, made on the processor.
+
+use glam::Vec3;
+use graphics::camera::Camera;
+use graphics::compute::Image;
+use graphics::field::Field;
+use graphics::surface::{Fragment, NO_TRIANGLE, SurfacePoint, VisibilityBuffer};
+
+use super::averaged::averaged;
+use super::drawer::Drawer;
+use super::error::PaintingError;
+use super::looks;
+use crate::drawing::{TintTable, shade_apart};
+use crate::pigments::SeenPlaces;
+
+impl Drawer {
+    /// Name of a region; its number from 1 if it has none.
+    pub(super) fn region_name(&self, index: usize) -> String {
+        match self.regions[index].name.as_str() {
+            "" => (index + 1).to_string(),
+            name => name.to_owned(),
+        }
+    }
+
+    /// The tints of a region.
+    pub(super) fn tints(&self, index: usize) -> TintTable {
+        self.regions[index].shells.table().clone()
+    }
+
+    /// Colour of the paper, encoded sRGB.
+    pub(super) fn paper(&self) -> [f32; 3] {
+        looks::paper(&self.settings)
+    }
+
+    /// Samples along each side of a pixel.
+    pub(super) fn samples_a_pixel(&self) -> usize {
+        self.look.samples
+    }
+
+    /// An image in the memory of whatever draws.
+    pub(super) fn uploaded<T: bytemuck::Pod>(
+        &mut self,
+        field: &Field<T>,
+    ) -> Result<Image<T>, PaintingError> {
+        Ok(self.scene.compute.upload(field)?)
+    }
+
+    /// The values of an image.
+    pub(super) fn downloaded<T: bytemuck::Pod>(
+        &mut self,
+        image: &Image<T>,
+    ) -> Result<Field<T>, PaintingError> {
+        Ok(self.scene.compute.download(image)?)
+    }
+
+    /// A value of the counts of each pixel's samples, in the mean.
+    pub(super) fn of_counts(
+        &mut self,
+        counts: &Image<i32>,
+        value: impl Fn(i32) -> f32,
+    ) -> Result<Field<f32>, PaintingError> {
+        let counts = self.downloaded(counts)?;
+        let values = counts.values().iter().map(|&count| value(count)).collect();
+        let field = Field::from_values(counts.width(), counts.height(), values);
+        Ok(averaged(field, self.look.samples))
+    }
+
+    /// The view of `camera` at `width` x `height` samples, on the processor.
+    pub(super) fn seen(
+        &mut self,
+        camera: &Camera,
+        (width, height): (usize, usize),
+    ) -> Result<Image<Fragment>, PaintingError> {
+        self.load_on_host()?;
+        let host = self.host.as_mut().unwrap_or(&mut self.scene);
+        Ok(host.model.visible(&mut host.compute, camera, width, height)?)
+    }
+
+    /// The ink of the strokes at each sample, at full strength, 0 to 1.
+    pub(super) fn ink(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<Field<f32>, PaintingError> {
+        let visible = self.seen(camera, self.samples(size)?)?;
+        let hatching = &self.host.as_ref().unwrap_or(&self.scene).hatching;
+        Ok(shade_apart(&self.packed, visible.host(), camera, &self.look, hatching)?.1)
+    }
+
+    /// A picture of the strokes alone, in the grey of the pencil on white.
+    pub(super) fn strokes(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<Field<[f32; 4]>, PaintingError> {
+        let ink = averaged(self.ink(camera, size)?, self.look.samples);
+        let darker = 1.0 - self.look.hatching.pencil;
+        let stroke = |&ink: &f32| {
+            let grey = 1.0 - ink * darker;
+            [grey, grey, grey, 1.0]
+        };
+        let values = ink.values().iter().map(stroke).collect();
+        Ok(Field::from_values(ink.width(), ink.height(), values))
+    }
+
+    /// Place and normal that each sample shows; zeros where nothing is seen.
+    pub(super) fn surfaces_seen(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<[Field<[f32; 3]>; 2], PaintingError> {
+        let visible = self.seen(camera, self.samples(size)?)?;
+        let visible = visible.host();
+        let of = |value: &dyn Fn(SurfacePoint<'_>) -> Vec3| {
+            let values = visible.values().iter().map(|seen| match seen.triangle {
+                NO_TRIANGLE => [0.0; 3],
+                _ => value(SurfacePoint::new(&self.packed, *seen)).to_array(),
+            });
+            Field::from_values(visible.width(), visible.height(), values.collect())
+        };
+        Ok([of(&|point| point.position()), of(&|point| point.normal(camera.eye))])
+    }
+
+    /// The fragment and the place that each pixel shows; no numbers where nothing is seen.
+    pub(super) fn places(
+        &mut self,
+        camera: &Camera,
+        size: (usize, usize),
+    ) -> Result<(VisibilityBuffer, Field<Vec3>), PaintingError> {
+        self.samples(size)?;
+        let visible = self.seen(camera, size)?.host().clone();
+        let places = SeenPlaces::of(&self.packed, &self.facets, &visible).places;
+        Ok((visible, places))
+    }
+}

@@ -1,0 +1,76 @@
+//! Volumes as films of measured pigments.
+
+use suite::program::{impasto, repository};
+
+use super::{POUR, SMALL, done, files, folder, path, pixels, stencil};
+
+fn library() -> String {
+    repository("measurements/van-gogh-oils.pigments.json")
+}
+
+#[test]
+fn a_painting_of_volumes_is_relit_and_repainted() {
+    let folder = folder();
+    let library = library();
+    let [model, painting, picture] = ["box.obj", "o.exr", "p.png"].map(|name| path(&folder, name));
+    let [spectral, maps, shown] = ["s.exr", "maps", "r.png"].map(|name| path(&folder, name));
+    let scene = [&[&model[..]], &SMALL[..], &POUR, &["--pigments", &library]].concat();
+    let paint = ["--palette", "Ultramarine,Chrome Yellow", "--paint", "Ultramarine=1"];
+    let under = ["--ground", "paper", "--over", "white", "--illuminant", "D65"];
+    let exports = ["--output", &painting, "--picture", &picture, "--pigment-maps", &maps];
+    let bands = ["--spectral", &spectral, "--bands", "nodes", "--bits", "16"];
+    done(&[&scene[..], &paint, &under, &exports, &bands].concat());
+    let bits = image::open(&picture).unwrap();
+    assert!(bits.as_rgb16().is_some() || bits.as_rgba16().is_some(), "{:?}", bits.color());
+    let relit = |options: &[&str]| {
+        let run = impasto(&[&["relight", &painting, "--picture", &shown], options].concat());
+        assert_eq!(run.status, 0, "{options:?}: {}", run.err);
+        pixels(&shown)
+    };
+    let (own, same) = (pixels(&picture), relit(&[]));
+    let off = own.pixels().zip(same.pixels());
+    let off = off.map(|(a, b)| (0..3).map(|i| a.0[i].abs_diff(b.0[i])).max().unwrap());
+    assert!(off.max() <= Some(1), "the picture as it was saved");
+    let blue = |picture: &image::RgbImage| {
+        let paler = |pixel: &&image::Rgb<u8>| pixel.0[2] > pixel.0[0].saturating_add(12);
+        picture.pixels().filter(paler).count()
+    };
+    assert!(blue(&same) > 20, "{} pixels of ultramarine", blue(&same));
+    let swapped = relit(&["--swap", "all:Ultramarine=Chrome Yellow"]);
+    assert_eq!(blue(&swapped), 0, "no ultramarine is left");
+    assert!(relit(&["--illuminant", "A", "--adaptation", "0"]) != same);
+    let names = files(&maps, ".png");
+    assert!(names.iter().any(|name| name.to_lowercase().contains("ultramarine")), "{names:?}");
+    assert!(std::fs::metadata(&spectral).unwrap().len() > 1000);
+}
+
+#[test]
+fn pours_take_the_palette_in_turn_and_recipes_mix() {
+    let folder = folder();
+    let library = library();
+    let [model, picture, script] = ["box.obj", "p.png", "s.toml"].map(|name| path(&folder, name));
+    let scene = [&[&model[..]], &SMALL[..], &POUR, &["--pigments", &library]].concat();
+    let written = ["--picture", &picture, "--script-out", &script];
+    let text = |options: &[&str]| {
+        done(&[&scene[..], &written, options].concat());
+        let text = std::fs::read_to_string(&script).unwrap();
+        (text, pixels(&picture))
+    };
+    let palette = ["--palette", "Ultramarine,Chrome Yellow", "--pour", "0.6,0.4"];
+    let (in_turn, picture_of_two) = text(&palette);
+    for words in ["preset = \"grisaille\"", "P1 = 1.0", "P2 = 1.0", "P1 = \"Ultramarine\""] {
+        assert!(in_turn.contains(words), "{words}: {in_turn}");
+    }
+    let recipe = ["--paint", "Eosin Lake (lead, wax)=1, Ultramarine=2, Ultramarine=1"];
+    let (mixed, other) = text(&recipe);
+    for words in ["P1 = 1.0", "P2 = 3.0", "P1 = \"Eosin Lake (lead, wax)\""] {
+        assert!(mixed.contains(words), "{words}: {mixed}");
+    }
+    assert!(picture_of_two != other);
+    // Parts of a painting are shown too, but not written as one.
+    done(&[&scene[..], &palette, &["--show", "mask", "--picture", &picture]].concat());
+    assert!(pixels(&picture).pixels().all(|pixel| [0, 255].contains(&pixel.0[1])));
+    let output = path(&folder, "o.exr");
+    let run = stencil(&[&scene[..], &palette, &["--show", "mask", "--output", &output]].concat());
+    assert!(run.status == 2 && run.err.contains("--output is of the painting"), "{}", run.err);
+}
