@@ -10,7 +10,7 @@ use render::paint::strokes::{Action, BrushSpec, Canvas, Load, PaletteSpec, Strok
 use super::command::{Command, Origin};
 
 /// Pigments of the default palette: white, a cool and a warm one of each primary, black.
-const TUBES: [&str; 8] = [
+pub(super) const TUBES: [&str; 8] = [
     "Zinc White",
     "Chrome Yellow (Otero)",
     "Chrome Yellow",

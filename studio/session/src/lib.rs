@@ -92,6 +92,8 @@ mod failure;
 
 mod autosave;
 
+pub mod volumes;
+
 #[cfg(test)]
 mod tests;
 

@@ -76,6 +76,27 @@ pub const ENTRIES: &[Entry] = &[
         "Lights the painting with a lamp measured in a file",
         &[],
     ),
+    entry(
+        Intent::NewScene,
+        Menu::File,
+        "New scene",
+        "Begins a scene of paint volumes: a drawing that colour is poured over",
+        &[],
+    ),
+    entry(
+        Intent::OpenScene,
+        Menu::File,
+        "Open scene...",
+        "Opens a model, a photograph or a script of paint volumes",
+        &[],
+    ),
+    entry(
+        Intent::ShowScene,
+        Menu::File,
+        "Back to the scene",
+        "Shows the scene that is open; the painting stays as it is",
+        &[],
+    ),
     entry(Intent::Quit, Menu::File, "Quit", "Closes the program", &[key(CTRL, Key::Q)]),
     entry(Intent::Undo, Menu::Edit, "Undo", "Undoes the last action", &[key(CTRL, Key::Z)]),
     entry(

@@ -6,6 +6,7 @@ use eframe::egui::{Context, Ui};
 
 use super::help;
 use super::studio::Studio;
+use super::volumes::WindowIntent;
 use crate::panels::Request;
 
 impl Studio {
@@ -22,6 +23,17 @@ impl Studio {
                 self.files.report(problem);
             }
         }
+        while let Some(answer) = self.files.take_scene_answer() {
+            // Exports are answered where they were asked for.
+            self.show_volumes(context);
+            if let Some(volumes) = &mut self.volumes {
+                volumes.answer(answer, &mut self.files);
+            }
+        }
+        if let Some(volumes) = &mut self.volumes {
+            volumes.handle_events(&mut self.files);
+            volumes.autosave(&mut self.files);
+        }
         self.pen.settings = self.files.preferences.pen;
         let scale = self.files.preferences.interface_scale;
         if context.zoom_factor() != scale {
@@ -36,13 +48,17 @@ impl Studio {
         let now = Instant::now();
         self.frames.begin(now, busy);
         self.handle_events();
-        if !self.files.has_dialog() {
-            for intent in self.keys.read(&context, self.tools.mode) {
-                self.perform(intent, &context);
+        if self.shows_volumes {
+            self.draw_volumes(ui);
+        } else {
+            if !self.files.has_dialog() {
+                for intent in self.keys.read(&context, self.tools.mode) {
+                    self.perform(intent, &context);
+                }
             }
+            self.draw(ui);
+            help::show(&context, &mut self.visible.keys);
         }
-        self.draw(ui);
-        help::show(&context, &mut self.visible.keys);
         self.open_dropped(&context);
         self.files.show(ui);
         self.send_requests();
@@ -50,6 +66,16 @@ impl Studio {
         self.log_figures(&context, now);
         if self.message.as_ref().is_some_and(|message| !message.failed) {
             context.request_repaint_after(Duration::from_secs(1));
+        }
+    }
+
+    /// Draws the workspace of scenes.
+    fn draw_volumes(&mut self, ui: &mut Ui) {
+        let Some(volumes) = &mut self.volumes else { return };
+        match volumes.show(ui, self.visible.panels, &mut self.pen, &mut self.files) {
+            Some(WindowIntent::Easel) => self.shows_volumes = false,
+            Some(WindowIntent::Panels) => self.visible.panels ^= true,
+            None => {}
         }
     }
 

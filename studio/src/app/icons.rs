@@ -10,7 +10,7 @@ const SQUARE: f32 = 18.0;
 
 /// One element of an icon.
 #[derive(Debug, Clone, Copy)]
-enum Mark {
+pub(super) enum Mark {
     /// Polyline through points.
     Line(&'static [(f32, f32)]),
     /// Filled convex polygon.
@@ -25,6 +25,12 @@ use Mark::{Arc, Filled, Line};
 /// Draws the icon of an intent at the centre of a button. Returns whether it has one.
 pub(super) fn draw(painter: &Painter, button: Rect, intent: Intent, color: Color32) -> bool {
     let marks = marks(intent);
+    draw_marks(painter, button, marks, color);
+    !marks.is_empty()
+}
+
+/// Draws marks at the centre of a button.
+pub(super) fn draw_marks(painter: &Painter, button: Rect, marks: &[Mark], color: Color32) {
     let corner = button.center() - eframe::egui::Vec2::splat(0.5 * SQUARE);
     let place = |&(x, y): &(f32, f32)| corner + eframe::egui::vec2(x, y);
     let stroke = Stroke::new(1.5, color);
@@ -48,10 +54,10 @@ pub(super) fn draw(painter: &Painter, button: Rect, intent: Intent, color: Color
             }
         }
     }
-    !marks.is_empty()
 }
 
-fn marks(intent: Intent) -> &'static [Mark] {
+/// The marks of an intent's icon; none without one.
+pub(super) fn marks(intent: Intent) -> &'static [Mark] {
     match intent {
         Intent::Tool(Mode::Paint) => &[
             Line(&[(7.5, 10.5), (15.5, 2.5)]),

@@ -27,6 +27,12 @@ pub enum Intent {
     OpenLamp,
     /// Shows the preferences.
     Preferences,
+    /// Begins a scene of paint volumes.
+    NewScene,
+    /// Opens a scene of paint volumes.
+    OpenScene,
+    /// Shows the scene that is open.
+    ShowScene,
     /// Closes the program.
     Quit,
     /// Undoes the last action.

@@ -23,7 +23,8 @@ impl Studio {
         let mut intent = None;
         if self.visible.panels {
             let shown = (self.visible.panels, self.visible.palette, self.tools.figures);
-            let state = menus::State { open: painting.is_some(), history, shown, mirror };
+            let scene = self.volumes.is_some();
+            let state = menus::State { open: painting.is_some(), scene, history, shown, mirror };
             let title = self.title.clone();
             Panel::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| {
                 fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);

@@ -11,6 +11,8 @@ use super::toolbar::tip;
 pub(super) struct State {
     /// Whether a painting is open.
     pub(super) open: bool,
+    /// Whether a scene is open.
+    pub(super) scene: bool,
     /// Whether undo and redo are possible.
     pub(super) history: (bool, bool),
     /// Whether panels, palette and performance figures are shown.
@@ -66,6 +68,7 @@ fn begins_group(intent: Intent) -> bool {
         Intent::Save
             | Intent::Export
             | Intent::OpenReference
+            | Intent::NewScene
             | Intent::Quit
             | Intent::Dry
             | Intent::Larger
@@ -80,8 +83,11 @@ fn enabled(intent: Intent, state: State) -> bool {
     match intent {
         Intent::Undo => state.history.0,
         Intent::Redo => state.history.1,
+        Intent::ShowScene => state.scene,
         Intent::Open
         | Intent::New
+        | Intent::NewScene
+        | Intent::OpenScene
         | Intent::Preferences
         | Intent::Quit
         | Intent::Keys

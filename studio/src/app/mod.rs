@@ -24,6 +24,8 @@ mod parts;
 
 mod hover;
 
+mod volumes;
+
 mod studio;
 
 mod events;
@@ -50,3 +52,4 @@ pub use parts::{Parts, StartedWorker};
 pub use side::{Panels, Tab};
 pub use status::Message;
 pub use studio::{Studio, VisibleParts};
+pub use volumes::{Orbit, SCENE_ENTRIES, SceneEntry, SceneIntent, SceneMenu, Volumes};

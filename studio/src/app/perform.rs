@@ -38,6 +38,9 @@ impl Studio {
             Intent::SaveRecording => self.file(FileRequest::SaveRecording),
             Intent::OpenReference => self.file(FileRequest::OpenReference(None)),
             Intent::OpenLamp => self.file(FileRequest::OpenLamp),
+            Intent::NewScene => self.show_volumes(context).open_new(),
+            Intent::OpenScene => self.files.ask_for_scene(),
+            Intent::ShowScene => self.shows_volumes = self.volumes.is_some(),
             Intent::Preferences => self.file(FileRequest::Preferences),
             Intent::Quit => context.send_viewport_cmd(ViewportCommand::Close),
             // Over a picture that is drawn on, its last line.

@@ -11,11 +11,13 @@ use super::keys::Keys;
 use super::parts::{Parts, StartedWorker};
 use super::side::Panels;
 use super::status::Message;
+use super::volumes::Volumes;
 use crate::files::{FiguresLog, Files};
 use crate::panels::{FileRequest, Request, Tools};
 use crate::pen::Pen;
 use crate::theme;
 use crate::view::{Outline, SurfaceView};
+use session::volumes::Subject;
 use session::{Command, HeadOnCanvas, PaintingState, Performance, Worker};
 
 /// The studio window, independent of the window system.
@@ -35,6 +37,10 @@ pub struct Studio {
     pub panels: Panels,
     /// File dialogs, tasks and preferences.
     pub files: Files,
+    /// The workspace of scenes, from the first scene on.
+    pub volumes: Option<Volumes>,
+    /// Whether the workspace of scenes is shown instead of the easel.
+    pub shows_volumes: bool,
     pub(super) worker: Worker,
     pub(super) painting: Option<Arc<PaintingState>>,
     pub(super) keys: Keys,
@@ -88,8 +94,10 @@ impl Studio {
             dry_share: saved.dry_share,
             ..Tools::default()
         };
+        let subject = open.as_deref().and_then(|path| Subject::from_text(path.to_str()?));
+        let open = open.filter(|_| subject.is_none());
         let open = open.map(|path| Request::File(FileRequest::Open(Some(path))));
-        Self {
+        let mut studio = Self {
             tools,
             canvas: SurfaceView::new("Canvas", Outline::Rectangle, 22.0),
             palette: SurfaceView::new("Palette", Outline::Palette, 10.0),
@@ -97,6 +105,8 @@ impl Studio {
             pen,
             panels: Panels::default(),
             files,
+            volumes: None,
+            shows_volumes: false,
             worker,
             painting: None,
             keys: Keys::default(),
@@ -112,7 +122,11 @@ impl Studio {
             last_pick: None,
             log,
             title: String::new(),
+        };
+        if let Some(subject) = subject {
+            studio.open_scene(context, subject);
         }
+        studio
     }
 
     /// State of the painting as last reported by the worker; `None` before the first.
@@ -143,6 +157,17 @@ impl Studio {
     #[must_use]
     pub fn last_recording(&self) -> Option<u64> {
         self.last_recording
+    }
+
+    /// Shows the workspace of scenes; it starts when it is shown first.
+    pub fn show_volumes(&mut self, context: &Context) -> &mut Volumes {
+        self.shows_volumes = true;
+        self.volumes.get_or_insert_with(|| Volumes::new(context))
+    }
+
+    /// Opens a scene in the workspace of scenes.
+    pub fn open_scene(&mut self, context: &Context, subject: Subject) {
+        self.show_volumes(context).open(subject);
     }
 
     /// Queues a command for the worker, after the requests of the panels.

@@ -1,6 +1,8 @@
 //! Connections of the window to the system: title, dropped files, performance log and
 //! closing.
 
+use std::ffi::OsStr;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Align2, Color32, Context, FontId, Id, LayerId, Order, Rect, ViewportCommand};
@@ -12,6 +14,7 @@ use crate::panels::eyedropper::Eyedropper;
 use crate::panels::{FileRequest, Request};
 use crate::theme;
 use session::Command;
+use session::volumes::Subject;
 
 impl Studio {
     /// Prepares to close: stores the tool settings in the preferences, waits for files
@@ -39,6 +42,10 @@ impl Studio {
                 self.panels.select(Tab::Color);
                 continue;
             }
+            if let Some(subject) = self.scene_subject(&path) {
+                self.open_scene(context, subject);
+                continue;
+            }
             self.requests.push(Request::File(FileRequest::Open(Some(path))));
         }
         if hovering {
@@ -50,9 +57,20 @@ impl Studio {
         }
     }
 
+    /// The scene that a dropped file is opened as, if it is: while a scene is shown, a picture is
+    /// one too.
+    fn scene_subject(&self, path: &Path) -> Option<Subject> {
+        let subject = Subject::from_text(path.to_str()?);
+        let picture = || self.shows_volumes && path.extension().is_some_and(is_picture);
+        subject.or_else(|| picture().then(|| Subject::of_file(path)))
+    }
+
     pub(super) fn update_title(&mut self, context: &Context) {
         let mark = if self.files.has_unsaved_changes() { "*" } else { "" };
-        let title = format!("{}{mark}", self.files.title());
+        let title = match self.volumes.as_ref().filter(|_| self.shows_volumes) {
+            Some(volumes) => volumes.title(),
+            None => format!("{}{mark}", self.files.title()),
+        };
         if self.title != title {
             context.send_viewport_cmd(ViewportCommand::Title(format!("{title} - impasto")));
             self.title = title;
@@ -77,4 +95,10 @@ impl Studio {
         log.append_when_due(now, &frames, &self.figures);
         context.request_repaint_after(Duration::from_secs(1));
     }
+}
+
+/// Whether a file with this ending is a picture.
+fn is_picture(ending: &OsStr) -> bool {
+    let pictures = ["png", "jpg", "jpeg"];
+    ending.to_str().is_some_and(|ending| pictures.contains(&ending.to_ascii_lowercase().as_str()))
 }

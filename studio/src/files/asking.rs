@@ -143,6 +143,7 @@ impl Files {
             FilePurpose::Reference => self.change_reference(ReferenceChange::Open(path)),
             FilePurpose::SaveDrawing { drawing, next } => self.save_drawing(*drawing, path, next),
             FilePurpose::OpenDrawing(kind) => self.read_drawing(kind, path),
+            FilePurpose::Scene(purpose) => self.choose_for_scene(purpose, path),
         }
     }
 
@@ -157,7 +158,7 @@ impl Files {
         self.list_revisions();
     }
 
-    fn browse(&mut self, options: BrowserOptions, purpose: FilePurpose) {
+    pub(super) fn browse(&mut self, options: BrowserOptions, purpose: FilePurpose) {
         let beside = self.path.clone();
         self.browse_beside(beside.as_deref(), options, purpose);
     }

@@ -104,6 +104,11 @@ impl Files {
                     lost.discard();
                 }
             }
+            Finished::SceneSaved { path, revision } => {
+                self.notices.push(Notice::done(&format!("saved {}", path.display())));
+                self.scene_saved(&path, revision);
+            }
+            Finished::SceneAutosaved => self.scene_autosaved(),
             Finished::Quietly => {}
         }
     }

@@ -144,6 +144,7 @@ impl Files {
         if self.preferences != self.written_preferences {
             let _ = self.preferences.write(&self.home.preferences());
         }
+        self.scenes.end();
         let keeps = self.has_unsaved_changes() && !self.closing;
         let autosave = self.autosave.lock().ok().and_then(|mut autosave| autosave.take());
         if !keeps {

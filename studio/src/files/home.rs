@@ -35,6 +35,12 @@ impl Home {
         self.settings.join("preferences.json")
     }
 
+    /// Folder that holds one folder for each scene that is not saved.
+    #[must_use]
+    pub fn scenes(&self) -> PathBuf {
+        self.data.join("scenes")
+    }
+
     /// Folder that holds one folder for each session.
     #[must_use]
     pub fn sessions(&self) -> PathBuf {

@@ -11,6 +11,8 @@ mod reference_change;
 
 mod request;
 
+mod scene_file;
+
 mod job;
 
 mod home;
@@ -39,6 +41,8 @@ mod open_dialog;
 
 mod work;
 
+mod scene_files;
+
 mod state;
 
 mod tasks;
@@ -46,6 +50,8 @@ mod tasks;
 mod drawings;
 
 mod asking;
+
+mod scenes;
 
 mod finished;
 
@@ -63,4 +69,5 @@ pub use reference_change::ReferenceChange;
 pub use request::FileRequest;
 pub use revision_list::{ListedRevision, RevisionList};
 pub use revisions::Revision;
+pub use scene_file::{SceneAnswer, SceneExport};
 pub use state::Files;

@@ -10,7 +10,7 @@ use eframe::egui::{
 use super::age::ago;
 use super::state::Files;
 use super::work::JobKind;
-use session::Command;
+use session::{Command, LostSession};
 
 /// A job is shown after it has run for this time; a shorter one would only flicker.
 const JOB_SHOWN_AFTER: Duration = Duration::from_millis(300);
@@ -27,6 +27,8 @@ const MAX_NOTICES: usize = 4;
 enum Clicked {
     Recover(usize),
     Discard(usize),
+    RecoverScene(usize),
+    DiscardScene(usize),
     CloseNotice(usize),
     CancelJob(usize),
     CancelReplay,
@@ -72,6 +74,8 @@ impl Files {
                 self.recover(&folder);
             }
             Some(Clicked::Discard(index)) => self.lost_sessions.remove(index).discard(),
+            Some(Clicked::RecoverScene(index)) => self.recover_scene(index),
+            Some(Clicked::DiscardScene(index)) => self.scenes.lost.remove(index).discard(),
             Some(Clicked::CloseNotice(index)) => {
                 self.notices.remove(index);
             }
@@ -84,23 +88,20 @@ impl Files {
     /// Shows the sessions of programs that ended without saving.
     fn show_lost(&self, ui: &mut Ui, clicked: &mut Option<Clicked>) {
         for (index, lost) in self.lost_sessions.iter().enumerate() {
-            let then = SystemTime::UNIX_EPOCH + Duration::from_secs(lost.meta.seconds);
-            let when = ago(then, SystemTime::now());
-            let words = |ui: &mut Ui| {
-                ui.label("A painting was not saved");
-                let details = format!("{}, autosaved {when}", lost.meta.title);
-                ui.label(RichText::new(details).weak());
+            let answer = lost_card(ui, lost, "painting");
+            *clicked = match answer {
+                Some(true) => Some(Clicked::Recover(index)),
+                Some(false) => Some(Clicked::Discard(index)),
+                None => continue,
             };
-            card(ui, words, |ui| {
-                let discard = ui.button("Discard");
-                if discard.on_hover_text("Deletes the autosaved copy").clicked() {
-                    *clicked = Some(Clicked::Discard(index));
-                }
-                let recover = ui.button("Recover");
-                if recover.on_hover_text("Opens the painting as it was autosaved").clicked() {
-                    *clicked = Some(Clicked::Recover(index));
-                }
-            });
+        }
+        for (index, lost) in self.scenes.lost.iter().enumerate() {
+            let answer = lost_card(ui, lost, "scene");
+            *clicked = match answer {
+                Some(true) => Some(Clicked::RecoverScene(index)),
+                Some(false) => Some(Clicked::DiscardScene(index)),
+                None => continue,
+            };
         }
     }
 
@@ -133,6 +134,28 @@ impl Files {
             });
         }
     }
+}
+
+/// Offers to recover a lost `kind` of work. Returns whether it is to be recovered or discarded.
+fn lost_card(ui: &mut Ui, lost: &LostSession, kind: &str) -> Option<bool> {
+    let then = SystemTime::UNIX_EPOCH + Duration::from_secs(lost.meta.seconds);
+    let when = ago(then, SystemTime::now());
+    let words = |ui: &mut Ui| {
+        ui.label(format!("A {kind} was not saved"));
+        let details = format!("{}, autosaved {when}", lost.meta.title);
+        ui.label(RichText::new(details).weak());
+    };
+    let mut answer = None;
+    card(ui, words, |ui| {
+        if ui.button("Discard").on_hover_text("Deletes the autosaved copy").clicked() {
+            answer = Some(false);
+        }
+        let tip = format!("Opens the {kind} as it was autosaved");
+        if ui.button("Recover").on_hover_text(tip).clicked() {
+            answer = Some(true);
+        }
+    });
+    answer
 }
 
 /// A label over a progress bar, or over a spinner if the progress is not known.

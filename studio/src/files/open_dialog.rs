@@ -10,6 +10,7 @@ use super::dialogs::NewPainting;
 use super::drawing::{Drawing, DrawingKind};
 use super::exporting::Export;
 use super::pending::PendingAction;
+use super::scene_file::ScenePurpose;
 
 /// A dialog that asks the user.
 #[derive(Debug)]
@@ -50,4 +51,6 @@ pub(super) enum FilePurpose {
     SaveDrawing { drawing: Box<Drawing>, next: Option<PendingAction> },
     /// Reads a drawing from it.
     OpenDrawing(DrawingKind),
+    /// Opens or writes a file of a scene.
+    Scene(ScenePurpose),
 }

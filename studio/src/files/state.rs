@@ -17,6 +17,7 @@ use super::preferences::Preferences;
 use super::problem::Problem;
 use super::reference_change::ReferenceChange;
 use super::revision_list::RevisionList;
+use super::scene_files::SceneFiles;
 use super::work::{Finished, JobKind, Purpose, RunningJob};
 use session::{Autosave, Command, LostSession, Pace, PaintingState};
 
@@ -66,6 +67,8 @@ pub struct Files {
     pub(super) reference: VecDeque<ReferenceChange>,
     /// Drawings on that picture that are in no file.
     pub(super) unsaved_drawings: Vec<DrawnFile>,
+    /// Files of scenes.
+    pub(super) scenes: SceneFiles,
     /// Commands for the worker.
     pub(super) commands: Vec<Command>,
     /// Whether the window closes although changes may be lost.
@@ -81,6 +84,10 @@ impl Files {
         let lost = LostSession::all(&home.sessions());
         let autosave = Autosave::begin(&home.sessions());
         let lost_sessions = lost.unwrap_or_else(|failure| {
+            notices.push(Notice::problem(failure.into()));
+            Vec::new()
+        });
+        let lost_scenes = LostSession::all(&home.scenes()).unwrap_or_else(|failure| {
             notices.push(Notice::problem(failure.into()));
             Vec::new()
         });
@@ -113,6 +120,7 @@ impl Files {
             revisions: RevisionList::default(),
             reference: VecDeque::new(),
             unsaved_drawings: Vec::new(),
+            scenes: SceneFiles::new(lost_scenes),
             commands: Vec::new(),
             closing: false,
         }

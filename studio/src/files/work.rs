@@ -64,6 +64,10 @@ pub(super) enum Finished {
     /// An autosave was written. `revision` is the painting's counter of changes at that
     /// time.
     Autosaved { revision: u64, epoch: u64 },
+    /// The script of the scene was saved in a file.
+    SceneSaved { path: PathBuf, revision: u64 },
+    /// An autosave of the scene was written.
+    SceneAutosaved,
     /// The job was done, and its result changes nothing in the window.
     Quietly,
 }

@@ -26,6 +26,8 @@ pub mod brushes;
 
 pub mod figures;
 
+pub mod volumes;
+
 pub mod revisions;
 
 pub use crate::files::FileRequest;

@@ -7,3 +7,5 @@ mod saving;
 mod output;
 
 mod drawings;
+
+mod scenes;

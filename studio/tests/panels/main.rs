@@ -35,4 +35,6 @@ mod reference;
 
 mod tubes;
 
+mod volumes;
+
 mod whole;

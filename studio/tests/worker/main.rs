@@ -19,3 +19,5 @@ mod picking;
 mod free_space;
 
 mod messages;
+
+mod volumes;

@@ -97,6 +97,36 @@ impl Performance {
         Ok(())
     }
 
+    /// Adds an event that begins with the next step or later; it is the last of its kind in the
+    /// script, and its place is no pick. So a performance can be played while its script is written.
+    pub fn add(&mut self, event: Event) {
+        let place = |other: &Event| (other.start, other.action.rank());
+        let at = self.events.partition_point(|other| place(other) <= place(&event));
+        let at = at.max(self.next);
+        self.events.insert(at, event);
+        self.picked.insert(at, None);
+    }
+
+    /// Goes on by another script of the same scene, settings and walls, whose events before the
+    /// present step are the same. `scene` and `view` are as in [`Performance::new`].
+    ///
+    /// # Errors
+    /// [`PerformanceError`] for picked places where the first picture shows nothing.
+    pub fn go_on_by(
+        &mut self,
+        script: &Script,
+        scene: &Mesh,
+        view: &FirstView,
+    ) -> Result<(), PerformanceError> {
+        let events = script.events();
+        let picked: Result<_, _> = events.iter().map(|event| picked(event, scene, view)).collect();
+        self.picked = picked?;
+        self.next = events.partition_point(|event| u64::from(event.start) < self.step());
+        (self.events, self.script) = (events, script.clone());
+        self.singles.resize(self.script.volumes.len(), None);
+        Ok(())
+    }
+
     /// Does what an event asks for.
     fn act(&mut self, event: &Event) -> Result<(), PerformanceError> {
         let for_s = seconds_of(event.end - event.start);

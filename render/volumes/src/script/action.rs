@@ -113,7 +113,7 @@ pub struct Split {
 
 impl Action {
     /// Rank among the actions of one step.
-    pub(super) fn rank(&self) -> usize {
+    pub(crate) fn rank(&self) -> usize {
         match self {
             Self::Volume(_) => 0,
             Self::Pour(_) => 1,

@@ -22,13 +22,15 @@ const PARTIAL: &str = ".partial";
 const CANVAS: &str = "canvas.exr";
 const PALETTE: &str = "palette.exr";
 const META: &str = "session.json";
+const SCRIPT: &str = "scene.toml";
 
 /// Description of an autosave.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SessionMeta {
-    /// Title of the painting.
+    /// Title of the painting or scene.
     pub title: String,
-    /// File that the painting was opened from or saved as, if there is one.
+    /// File that the painting was opened from or saved as, if there is one; of a scene, the folder
+    /// that its subject lies in.
     pub path: Option<PathBuf>,
     /// Time of the autosave, in seconds since 1970.
     pub seconds: u64,
@@ -98,6 +100,17 @@ impl Autosave {
         };
         let meta = serde_json::to_vec(meta).map_err(|error| FileFailure::without_hint(&error))?;
         let files = [(CANVAS, bytes(canvas)?), (PALETTE, bytes(palette)?), (META, meta)];
+        self.keep_files(&files, &mut || Ok(()))
+            .map_err(|error| FileFailure::io(&self.folder, "used for autosave", &error))
+    }
+
+    /// Writes a generation that is the script of a scene, and removes the previous ones.
+    ///
+    /// # Errors
+    /// [`FileFailure`]; the previous generation stays.
+    pub fn keep_script(&mut self, script: &str, meta: &SessionMeta) -> Result<(), FileFailure> {
+        let meta = serde_json::to_vec(meta).map_err(|error| FileFailure::without_hint(&error))?;
+        let files = [(SCRIPT, script.as_bytes().to_vec()), (META, meta)];
         self.keep_files(&files, &mut || Ok(()))
             .map_err(|error| FileFailure::io(&self.folder, "used for autosave", &error))
     }
@@ -221,6 +234,12 @@ impl LostSession {
     pub fn files(&self) -> [PathBuf; 2] {
         let folder = generation_folder(&self.folder, self.generation);
         [CANVAS, PALETTE].map(|name| folder.join(name))
+    }
+
+    /// Path of the script of a scene.
+    #[must_use]
+    pub fn script(&self) -> PathBuf {
+        generation_folder(&self.folder, self.generation).join(SCRIPT)
     }
 
     /// Removes the session.

@@ -26,9 +26,9 @@ const SPOKES: usize = 48;
 /// Direction of the light: azimuth clockwise from the top of the canvas and elevation
 /// above it, in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Direction {
-    pub(super) azimuth_deg: f64,
-    pub(super) elevation_deg: f64,
+pub(in crate::panels) struct Direction {
+    pub(in crate::panels) azimuth_deg: f64,
+    pub(in crate::panels) elevation_deg: f64,
 }
 
 impl Direction {
@@ -64,7 +64,7 @@ fn rounded(degrees: f64) -> f64 {
 
 /// Draws the hemisphere and updates `direction` from dragging and arrow keys. The share
 /// `ambient` of the light, 0 to 1, is undirected.
-pub(super) fn direction_control(
+pub(in crate::panels) fn direction_control(
     ui: &mut Ui,
     size: f32,
     direction: &mut Direction,
@@ -106,7 +106,7 @@ pub(super) fn direction_control(
 }
 
 /// Formats a direction such as 315 degrees, 50 degrees high.
-pub(super) fn direction_text(direction: Direction) -> String {
+pub(in crate::panels) fn direction_text(direction: Direction) -> String {
     let Direction { azimuth_deg, elevation_deg } = direction;
     format!("{azimuth_deg:.0}\u{b0}, {elevation_deg:.0}\u{b0} high")
 }

@@ -20,4 +20,5 @@ mod gloss_pad;
 
 mod panel;
 
+pub(super) use direction::{Direction, direction_control, direction_text};
 pub use panel::LightPanel;

@@ -10,3 +10,4 @@ mod shelf;
 
 pub use shelf::Tubes;
 pub use squeeze::{DraggedTube, load, squeeze};
+pub(super) use tube::{TUBE_SIZE, draw as draw_tube};

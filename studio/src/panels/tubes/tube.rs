@@ -9,7 +9,7 @@ use crate::panels::controls::{patch, text};
 use crate::theme;
 
 /// Size of a tube with its name, in points.
-pub(super) const TUBE_SIZE: eframe::egui::Vec2 = vec2(61.0, 112.0);
+pub(in crate::panels) const TUBE_SIZE: eframe::egui::Vec2 = vec2(61.0, 112.0);
 
 /// Height of the name below the tube, in points.
 const NAME_HEIGHT: f32 = 28.0;
@@ -19,7 +19,7 @@ const METAL: [(f32, u8); 6] =
     [(0.0, 96), (0.12, 168), (0.32, 214), (0.55, 186), (0.85, 126), (1.0, 82)];
 
 /// Draws a tube standing on its cap, with masstone and tint (sRGB) on its label.
-pub(super) fn draw(
+pub(in crate::panels) fn draw(
     ui: &Ui,
     area: Rect,
     masstone: Option<[u8; 3]>,

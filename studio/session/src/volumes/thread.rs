@@ -1,0 +1,67 @@
+//! The worker of scenes as the front end sees it.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread;
+
+use spectra::hint::Hint;
+
+use super::command::VolumeCommand;
+use super::event::VolumeEvent;
+use super::inbox::{Inbox, Input};
+use super::worker::SceneLoop;
+
+/// Handle of the thread that owns a scene.
+#[derive(Debug)]
+pub struct VolumeWorker {
+    inputs: Sender<Input>,
+    events: Receiver<VolumeEvent>,
+}
+
+impl VolumeWorker {
+    /// Starts the thread. It has no scene until [`VolumeCommand::Open`]. `wake` is called on the
+    /// thread after each event, so that a window can be drawn again.
+    #[must_use]
+    pub fn start(wake: impl Fn() + Send + 'static) -> Self {
+        let (inputs, receiver) = channel();
+        let (sender, events) = channel();
+        thread::spawn(move || {
+            let send = move |event| {
+                // Sending fails only if the front end has dropped the receiver.
+                let _ = sender.send(event);
+                wake();
+            };
+            let work = || SceneLoop::new(Inbox::new(receiver), &send).run();
+            if catch_unwind(AssertUnwindSafe(work)).is_err() {
+                send(VolumeEvent::Message {
+                    text: "the scene has stopped by a fault of the program".to_owned(),
+                    hint: Some(Hint::new("start it again; it takes up what was saved last")),
+                    failed: true,
+                });
+            }
+        });
+        Self { inputs, events }
+    }
+
+    /// Sends a command. Has no effect after the worker has ended.
+    pub fn ask(&self, command: VolumeCommand) {
+        let _ = self.inputs.send(Input::Command(Box::new(command)));
+    }
+
+    /// Events since the last call.
+    pub fn events(&self) -> impl Iterator<Item = VolumeEvent> + '_ {
+        let events: Vec<VolumeEvent> = self.events.try_iter().collect();
+        let pictures = |event: &&VolumeEvent| matches!(event, VolumeEvent::Picture(_));
+        let received = events.iter().filter(pictures).count();
+        if received > 0 {
+            let _ = self.inputs.send(Input::Confirmed(received));
+        }
+        events.into_iter()
+    }
+}
+
+impl Drop for VolumeWorker {
+    fn drop(&mut self) {
+        self.ask(VolumeCommand::Quit);
+    }
+}

@@ -1,0 +1,357 @@
+//! The loop of the thread of a scene: carries out commands, lets time run, draws.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use render::camera::Camera;
+
+use super::command::VolumeCommand;
+use super::event::{ScenePicture, VolumeEvent};
+use super::inbox::Inbox;
+use super::pacer::{Pacer, STEPS_A_SECOND};
+use super::painters::{Quality, Sight};
+use super::scene::Scene;
+use super::state::{SceneState, SceneTime};
+use crate::failure::FileFailure;
+
+/// Most pictures that the front end may not have received yet.
+const MOST_UNCONFIRMED: usize = 2;
+
+/// Time for steps between two pictures. What is due beyond is forgotten.
+const STEPS_TIME: Duration = Duration::from_millis(25);
+
+/// Time for steps between two pictures while a moment is sought.
+const SEEK_TIME: Duration = Duration::from_millis(60);
+
+/// Time for a picture of a scene that moves. It is drawn smaller if it would take longer.
+const MOVING: Duration = Duration::from_millis(40);
+
+/// Smallest share of width and height at which moving scenes are drawn.
+const SMALLEST: f64 = 0.5;
+
+/// Time after the last change at which a picture is drawn with all samples.
+const REST: Duration = Duration::from_millis(160);
+
+/// Steps after which time stops by itself while nothing is done: 10 s. Paint has come to rest.
+const RUN_ON: u64 = 10 * STEPS_A_SECOND;
+
+/// Minimum time between two states.
+const STATE_INTERVAL: Duration = Duration::from_millis(50);
+
+/// State of the thread of a scene.
+pub(super) struct SceneLoop<'a> {
+    send: &'a dyn Fn(VolumeEvent),
+    inbox: Inbox,
+    scene: Option<Scene>,
+    camera: Option<Camera>,
+    size: [usize; 2],
+    playing: bool,
+    /// Moment at which time stops by itself.
+    stops_at: u64,
+    pacer: Pacer,
+    unconfirmed: usize,
+    /// Whether the picture may have changed since it was last drawn.
+    stale: bool,
+    /// Time of the last change, until the picture was drawn with all samples.
+    moved: Option<Instant>,
+    /// Seconds that a pixel of a moving scene took last.
+    pixel_seconds: f64,
+    state_stale: bool,
+    state_due: Instant,
+}
+
+impl<'a> SceneLoop<'a> {
+    pub(super) fn new(inbox: Inbox, send: &'a dyn Fn(VolumeEvent)) -> Self {
+        Self {
+            send,
+            inbox,
+            scene: None,
+            camera: None,
+            size: [0; 2],
+            playing: false,
+            stops_at: u64::MAX,
+            pacer: Pacer::default(),
+            unconfirmed: 0,
+            stale: false,
+            moved: None,
+            pixel_seconds: 0.0,
+            state_stale: false,
+            state_due: Instant::now(),
+        }
+    }
+
+    /// Works until the command to quit.
+    pub(super) fn run(mut self) {
+        loop {
+            self.inbox.receive(self.wait_until());
+            if self.inbox.quit {
+                return;
+            }
+            let confirmed = std::mem::take(&mut self.inbox.confirmed);
+            self.unconfirmed = self.unconfirmed.saturating_sub(confirmed);
+            while let Some(command) = self.inbox.next() {
+                let done = self.carry_out(command);
+                self.report(done);
+            }
+            let advanced = self.advance();
+            if advanced.is_err() {
+                self.play(false);
+            }
+            self.report(advanced);
+            let drawn = self.draw();
+            self.report(drawn);
+            self.send_state();
+        }
+    }
+
+    /// Time until which the thread may wait for commands; `None` is without end.
+    fn wait_until(&self) -> Option<Instant> {
+        let now = Instant::now();
+        let may_draw = self.unconfirmed < MOST_UNCONFIRMED;
+        let works = self.inbox.has_waiting()
+            || self.stale && may_draw
+            || self.scene.as_ref().is_some_and(Scene::is_behind);
+        if works {
+            return Some(now);
+        }
+        let rests = self.moved.map(|moved| moved + REST).filter(|_| may_draw);
+        let state = self.state_stale.then_some(self.state_due);
+        [self.pacer.next(), rests, state].into_iter().flatten().min()
+    }
+
+    fn report(&mut self, result: Result<(), FileFailure>) {
+        if let Err(FileFailure { what, hint }) = result {
+            (self.send)(VolumeEvent::Message { text: what, hint, failed: true });
+        }
+    }
+
+    /// Notes that the picture may have changed.
+    fn changed(&mut self) {
+        self.stale = true;
+        self.moved = Some(Instant::now());
+    }
+
+    fn sight(&self) -> Option<Sight> {
+        let camera = self.camera?;
+        (self.size.iter().all(|&side| side > 0)).then_some(Sight { camera, size: self.size })
+    }
+
+    /// Carries out a command.
+    fn carry_out(&mut self, command: VolumeCommand) -> Result<(), FileFailure> {
+        self.state_stale = true;
+        match command {
+            VolumeCommand::Open(subject) => {
+                let scene = Scene::open(&subject)?;
+                self.playing = false;
+                self.pacer.stop();
+                self.camera = None;
+                self.scene = Some(scene);
+                let state = self.state();
+                state.into_iter().for_each(|state| (self.send)(VolumeEvent::Opened(state)));
+                return Ok(());
+            }
+            VolumeCommand::Camera(camera) => self.camera = Some(camera),
+            VolumeCommand::Size(size) => self.size = size,
+            VolumeCommand::Look(look) => {
+                if let Some(scene) = &mut self.scene {
+                    scene.set_look(look);
+                }
+            }
+            VolumeCommand::Play(playing) => self.play(playing),
+            VolumeCommand::Quit => {}
+            other => return self.carry_out_in_scene(other),
+        }
+        self.changed();
+        Ok(())
+    }
+
+    /// Lets time run or stops it. It runs to the end of what was recorded; from there on, as long
+    /// as something is done.
+    fn play(&mut self, playing: bool) {
+        let Some(scene) = self.scene.as_ref().filter(|_| playing) else {
+            self.playing = false;
+            return self.pacer.stop();
+        };
+        let (moment, end) = (scene.moment(), scene.end());
+        self.stops_at = if moment < end { end } else { moment + RUN_ON };
+        self.playing = true;
+        self.pacer.start(Instant::now());
+    }
+
+    fn carry_out_in_scene(&mut self, command: VolumeCommand) -> Result<(), FileFailure> {
+        let sight = self.sight();
+        let Some(scene) = &mut self.scene else { return Ok(()) };
+        match command {
+            VolumeCommand::PenDown(grip, pen) => {
+                let Some(sight) = sight else { return Ok(()) };
+                if scene.pen_down(&sight, grip, pen)? {
+                    let works = scene.is_at_work();
+                    self.play(true);
+                    if works {
+                        self.stops_at = u64::MAX;
+                    }
+                }
+            }
+            VolumeCommand::PenMove(pen) => {
+                if let Some(sight) = sight {
+                    scene.pen_move(&sight, pen);
+                }
+            }
+            VolumeCommand::PenUp => {
+                let worked = scene.is_at_work();
+                scene.pen_up()?;
+                if worked {
+                    self.stops_at = scene.moment() + RUN_ON;
+                }
+            }
+            VolumeCommand::Pick(at) => {
+                let Some(sight) = sight else { return Ok(()) };
+                let here = scene.here(&sight, at);
+                (self.send)(VolumeEvent::Here(Box::new(here)));
+                return Ok(());
+            }
+            VolumeCommand::StepOnce => {
+                scene.step()?;
+                self.play(false);
+            }
+            VolumeCommand::Seek(step) => {
+                scene.go_to(step)?;
+                self.play(false);
+            }
+            VolumeCommand::Undo => scene.undo()?,
+            VolumeCommand::Remove(event) => scene.remove(event)?,
+            VolumeCommand::Draw(number, size) => {
+                let Some(sight) = sight else { return Ok(()) };
+                let picture = scene.picture(&Sight { size, ..sight })?;
+                (self.send)(VolumeEvent::Drawn(number, Arc::new(picture)));
+                return Ok(());
+            }
+            VolumeCommand::Paint(number, size) => {
+                let Some(sight) = sight else { return Ok(()) };
+                let document = scene.painting(&Sight { size, ..sight })?;
+                (self.send)(VolumeEvent::Painted(number, Arc::new(document)));
+                return Ok(());
+            }
+            VolumeCommand::Recording(number) => {
+                let recording = scene.recording(sight.map(|sight| sight.camera))?;
+                (self.send)(VolumeEvent::Recording(number, Arc::new(recording)));
+                return Ok(());
+            }
+            _ => {}
+        }
+        self.changed();
+        Ok(())
+    }
+
+    /// Takes the steps that are due, as many as there is time for.
+    fn advance(&mut self) -> Result<(), FileFailure> {
+        let Some(scene) = &mut self.scene else { return Ok(()) };
+        let began = Instant::now();
+        if scene.is_behind() {
+            scene.catch_up(began + SEEK_TIME)?;
+            self.pacer.forget(Instant::now());
+            self.state_stale = true;
+            if !scene.is_behind() {
+                self.changed();
+            }
+            return Ok(());
+        }
+        let left = self.stops_at.saturating_sub(scene.moment());
+        let due = self.pacer.due(began).min(left);
+        let mut taken = 0;
+        while taken < due && (taken == 0 || began.elapsed() < STEPS_TIME) {
+            scene.step()?;
+            taken += 1;
+        }
+        let (now, moment) = (Instant::now(), scene.moment());
+        if taken > 0 {
+            self.pacer.took(taken, now);
+            self.state_stale = true;
+            self.changed();
+        }
+        if taken < due {
+            self.pacer.forget(now);
+        }
+        if self.playing && moment >= self.stops_at {
+            self.play(false);
+        }
+        Ok(())
+    }
+
+    /// Draws the picture if it changed, or once more with all samples when it rests.
+    fn draw(&mut self) -> Result<(), FileFailure> {
+        let rests = self.moved.is_some_and(|moved| moved.elapsed() >= REST);
+        if self.unconfirmed >= MOST_UNCONFIRMED || !(self.stale || rests) {
+            return Ok(());
+        }
+        let Some(sight) = self.sight() else { return Ok(()) };
+        let Some(scene) = self.scene.as_mut().filter(|scene| !scene.is_behind()) else {
+            return Ok(());
+        };
+        let began = Instant::now();
+        let moves = std::mem::take(&mut self.stale);
+        let share = if moves { share_in_time(sight.size, self.pixel_seconds) } else { 1.0 };
+        let size = sight.size.map(|side| ((side as f64 * share).round() as usize).max(1));
+        if !moves {
+            self.moved = None;
+        }
+        let quality = Quality { fine: !moves, share: share as f32 };
+        let pixels = scene.pixels(&Sight { size, ..sight }, quality)?;
+        let [width, height] = size;
+        let (step, fine) = (scene.moment(), !moves);
+        let picture = ScenePicture { width, height, pixels, step, fine };
+        (self.send)(VolumeEvent::Picture(Arc::new(picture)));
+        self.unconfirmed += 1;
+        if moves {
+            self.pixel_seconds = began.elapsed().as_secs_f64() / (width * height) as f64;
+        }
+        Ok(())
+    }
+
+    /// Sends the state if it changed.
+    fn send_state(&mut self) {
+        let now = Instant::now();
+        if !self.state_stale || now < self.state_due {
+            return;
+        }
+        // The speed falls while nothing happens.
+        self.state_stale = self.pacer.speed(now) > 0.0;
+        self.state_due = now + STATE_INTERVAL;
+        if let Some(state) = self.state() {
+            (self.send)(VolumeEvent::State(state));
+        }
+    }
+
+    fn state(&mut self) -> Option<Arc<SceneState>> {
+        let scene = self.scene.as_ref()?;
+        let time = SceneTime {
+            step: scene.moment(),
+            end: scene.end(),
+            playing: self.playing,
+            speed: if self.playing { self.pacer.speed(Instant::now()) } else { 0.0 },
+        };
+        Some(Arc::new(scene.state(time)))
+    }
+}
+
+/// Share of width and height, in eighths, at which a picture of `size` takes no longer than
+/// [`MOVING`], at least [`SMALLEST`].
+fn share_in_time([width, height]: [usize; 2], pixel_seconds: f64) -> f64 {
+    let whole = pixel_seconds * (width * height) as f64;
+    let share = (MOVING.as_secs_f64() / whole.max(1e-9)).sqrt();
+    ((8.0 * share).floor() / 8.0).clamp(SMALLEST, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_moving_picture_is_as_large_as_there_is_time_for() {
+        let share = |milliseconds: f64| share_in_time([800, 500], 1e-3 * milliseconds / 4e5);
+        assert_eq!(
+            [0.0, 39.0, 41.0, 71.0, 170.0, 1e9].map(share),
+            [1.0, 1.0, 0.875, 0.75, 0.5, 0.5]
+        );
+    }
+}

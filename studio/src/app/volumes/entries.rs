@@ -1,0 +1,223 @@
+//! Table of all menu entries of the workspace of scenes.
+
+use eframe::egui::{Key, Modifiers};
+use session::volumes::SceneTool;
+
+use super::intent::{SceneEntry, SceneIntent, SceneMenu};
+use crate::app::intent::Shortcut;
+
+const NONE: Modifiers = Modifiers::NONE;
+const CTRL: Modifiers = Modifiers::COMMAND;
+
+const fn key(modifiers: Modifiers, key: Key) -> Shortcut {
+    Shortcut { modifiers, key }
+}
+
+const fn entry(
+    intent: SceneIntent,
+    menu: SceneMenu,
+    name: &'static str,
+    description: &'static str,
+    shortcuts: &'static [Shortcut],
+) -> SceneEntry {
+    SceneEntry { intent, menu, name, description, shortcuts }
+}
+
+/// All entries in menu order.
+pub const SCENE_ENTRIES: &[SceneEntry] = &[
+    entry(
+        SceneIntent::New,
+        SceneMenu::File,
+        "New scene",
+        "Begins a scene on the village that comes with the program",
+        &[key(CTRL, Key::N)],
+    ),
+    entry(
+        SceneIntent::Open,
+        SceneMenu::File,
+        "Open scene...",
+        "Opens a model (.glb, .obj, .ply), a photograph or a script (.toml)",
+        &[key(CTRL, Key::O)],
+    ),
+    entry(
+        SceneIntent::Save,
+        SceneMenu::File,
+        "Save script...",
+        "Saves all that was done as a script that plays it again",
+        &[key(CTRL, Key::S)],
+    ),
+    entry(
+        SceneIntent::Easel,
+        SceneMenu::File,
+        "Back to the easel",
+        "Shows the painting on the easel; the scene stays as it is",
+        &[key(CTRL, Key::E)],
+    ),
+    entry(SceneIntent::Quit, SceneMenu::File, "Quit", "Closes the program", &[key(CTRL, Key::Q)]),
+    entry(
+        SceneIntent::Undo,
+        SceneMenu::Edit,
+        "Undo",
+        "Takes back the last event, and replays the scene without it",
+        &[key(CTRL, Key::Z)],
+    ),
+    entry(
+        SceneIntent::Play,
+        SceneMenu::Edit,
+        "Play or pause",
+        "Lets time run, or stops it",
+        &[key(NONE, Key::P)],
+    ),
+    entry(
+        SceneIntent::Step,
+        SceneMenu::Edit,
+        "One step",
+        "Takes one step of 1/120 s",
+        &[key(NONE, Key::Period)],
+    ),
+    entry(
+        SceneIntent::Start,
+        SceneMenu::Edit,
+        "From the start",
+        "Goes to the start; drag the time bar for any other moment",
+        &[key(NONE, Key::R)],
+    ),
+    entry(
+        SceneIntent::More,
+        SceneMenu::Edit,
+        "Pour more",
+        "Pours more paint in a second",
+        &[key(NONE, Key::CloseBracket)],
+    ),
+    entry(
+        SceneIntent::Less,
+        SceneMenu::Edit,
+        "Pour less",
+        "Pours less paint in a second",
+        &[key(NONE, Key::OpenBracket)],
+    ),
+    entry(
+        SceneIntent::Volumes,
+        SceneMenu::View,
+        "Show volumes",
+        "Shows the volumes themselves, or the final picture",
+        &[key(NONE, Key::V)],
+    ),
+    entry(
+        SceneIntent::Hatching,
+        SceneMenu::View,
+        "Hatching",
+        "Shows the light by pencil strokes",
+        &[key(NONE, Key::H)],
+    ),
+    entry(
+        SceneIntent::Inside,
+        SceneMenu::View,
+        "Inside: next",
+        "Own colours, a glaze of the pigments, or both inside of the volumes",
+        &[key(NONE, Key::G)],
+    ),
+    entry(
+        SceneIntent::Frame,
+        SceneMenu::View,
+        "Whole scene",
+        "Frames the whole scene",
+        &[key(NONE, Key::Home), key(CTRL, Key::Num0)],
+    ),
+    entry(
+        SceneIntent::Panels,
+        SceneMenu::View,
+        "Panels",
+        "Shows or hides all panels",
+        &[key(NONE, Key::Tab)],
+    ),
+    entry(
+        SceneIntent::FullScreen,
+        SceneMenu::View,
+        "Full screen",
+        "Toggles full screen",
+        &[key(NONE, Key::F11)],
+    ),
+    entry(
+        SceneIntent::Tool(SceneTool::Pour),
+        SceneMenu::Tools,
+        "Pour",
+        "The pen pours the tube in hand where it is held",
+        &[key(NONE, Key::Q)],
+    ),
+    entry(
+        SceneIntent::Tool(SceneTool::Push),
+        SceneMenu::Tools,
+        "Push",
+        "The pen blows paint along the drag",
+        &[key(NONE, Key::W)],
+    ),
+    entry(
+        SceneIntent::Tool(SceneTool::Lift),
+        SceneMenu::Tools,
+        "Lift",
+        "The pen takes paint up, as a sponge does",
+        &[key(NONE, Key::E)],
+    ),
+    entry(
+        SceneIntent::Tool(SceneTool::Dry),
+        SceneMenu::Tools,
+        "Dry",
+        "A click dries all paint and its shape",
+        &[key(NONE, Key::D)],
+    ),
+    entry(
+        SceneIntent::Keys,
+        SceneMenu::Help,
+        "Keys",
+        "Shows the table of keys",
+        &[key(NONE, Key::F1)],
+    ),
+];
+
+/// What the pointer does, and keys that are in no menu.
+pub(super) const POINTER: &[(&str, &str)] = &[
+    ("Hold or draw", "Uses the tool in hand; pressure sets the rate"),
+    ("Middle button", "Turns the scene"),
+    ("Shift + middle", "Moves the scene"),
+    ("Wheel", "Zooms about the pointer"),
+    ("Right click", "Tells what is there: paint, height, colour, region"),
+    ("1 to 8", "Takes a tube in hand"),
+    ("Drag the time bar", "Goes to a moment, which is replayed to the bit"),
+];
+
+impl SceneEntry {
+    /// The entry of an intent, if it has one.
+    #[must_use]
+    pub fn of(intent: SceneIntent) -> Option<&'static Self> {
+        SCENE_ENTRIES.iter().find(|entry| entry.intent == intent)
+    }
+
+    /// Text of the first shortcut; empty without one.
+    #[must_use]
+    pub fn shortcut_text(&self) -> String {
+        self.shortcuts.first().map_or_else(String::new, Shortcut::text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_shortcut_has_two_entries_and_every_key_is_found() {
+        let mut seen: Vec<String> = Vec::new();
+        for entry in SCENE_ENTRIES {
+            for shortcut in entry.shortcuts {
+                let text = shortcut.text();
+                assert!(!seen.contains(&text), "{text} of {} is taken", entry.name);
+                let found = SceneIntent::of_key(shortcut.key, shortcut.modifiers);
+                assert_eq!(found, Some(entry.intent), "{text}");
+                seen.push(text);
+            }
+        }
+        assert!(seen.len() > 20, "{seen:?}");
+        assert_eq!(SceneIntent::of_key(Key::Num8, NONE), Some(SceneIntent::Tube(8)));
+        assert_eq!(SceneIntent::of_key(Key::Num9, NONE), None, "there are eight tubes");
+    }
+}

@@ -1,0 +1,86 @@
+//! The menu bar of the workspace of scenes.
+
+use eframe::egui::{Align, Button, Layout, MenuBar, Ui};
+use session::volumes::{SceneState, Show};
+
+use super::entries::SCENE_ENTRIES;
+use super::intent::{SceneIntent, SceneMenu};
+use super::toolbar::tip;
+
+/// Shows the bar with `title` at its right. Returns the entry that was clicked.
+pub(super) fn show(ui: &mut Ui, state: Option<&SceneState>, title: &str) -> Option<SceneIntent> {
+    let mut clicked = None;
+    MenuBar::new().ui(ui, |ui| {
+        for (menu, name, description) in [
+            (SceneMenu::File, "File", "Open and save scenes, back to the easel"),
+            (SceneMenu::Edit, "Edit", "Events, time and pouring"),
+            (SceneMenu::View, "View", "What is shown"),
+            (SceneMenu::Tools, "Tools", "Tools of the pen"),
+            (SceneMenu::Help, "Help", "The table of keys"),
+        ] {
+            let opened = ui.menu_button(name, |ui| {
+                ui.set_min_width(190.0);
+                for entry in SCENE_ENTRIES.iter().filter(|entry| entry.menu == menu) {
+                    if begins_group(entry.intent) {
+                        ui.separator();
+                    }
+                    let name = match checked(entry.intent, state) {
+                        Some(true) => format!("\u{2714} {}", entry.name),
+                        Some(false) => format!("    {}", entry.name),
+                        None => entry.name.to_owned(),
+                    };
+                    let button = Button::new(name).shortcut_text(entry.shortcut_text());
+                    let response = ui.add_enabled(enabled(entry.intent, state), button);
+                    if response.on_hover_ui(|ui| tip(ui, entry)).clicked() {
+                        clicked = Some(entry.intent);
+                        ui.close();
+                    }
+                }
+            });
+            opened.response.on_hover_text(description);
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.add_space(4.0);
+            ui.weak(title);
+        });
+    });
+    clicked
+}
+
+fn begins_group(intent: SceneIntent) -> bool {
+    matches!(
+        intent,
+        SceneIntent::Save
+            | SceneIntent::Easel
+            | SceneIntent::Quit
+            | SceneIntent::Play
+            | SceneIntent::More
+            | SceneIntent::Frame
+            | SceneIntent::Panels
+    )
+}
+
+/// Whether an intent has an effect.
+pub(super) fn enabled(intent: SceneIntent, state: Option<&SceneState>) -> bool {
+    let some = |fits: &dyn Fn(&SceneState) -> bool| state.is_some_and(fits);
+    match intent {
+        SceneIntent::New
+        | SceneIntent::Open
+        | SceneIntent::Easel
+        | SceneIntent::Quit
+        | SceneIntent::Panels
+        | SceneIntent::FullScreen
+        | SceneIntent::Keys => true,
+        SceneIntent::Undo => some(&|state| !state.events.is_empty()),
+        SceneIntent::Inside => some(&|state| !state.tubes.is_empty()),
+        _ => state.is_some(),
+    }
+}
+
+fn checked(intent: SceneIntent, state: Option<&SceneState>) -> Option<bool> {
+    match intent {
+        SceneIntent::Volumes => Some(state.is_some_and(|state| state.look.show == Show::Volumes)),
+        SceneIntent::Hatching => Some(state.is_some_and(|state| state.look.hatching)),
+        _ => None,
+    }
+}

@@ -1,0 +1,67 @@
+//! The status line of the workspace of scenes.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Align, Label, Layout, RichText, Ui};
+use session::volumes::SceneState;
+
+use super::workspace::Volumes;
+use crate::theme;
+
+impl Volumes {
+    /// Draws the status line.
+    pub(super) fn status_line(&self, ui: &mut Ui) {
+        let Some(state) = &self.state else {
+            ui.weak("preparing the scene");
+            return;
+        };
+        let small = |text: &str| RichText::new(text).small().color(theme::FAINT);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 14.0;
+            if state.time.playing {
+                let speed = format!("{:.0} % of real time", 100.0 * state.time.speed);
+                ui.label(small(&speed)).on_hover_text("Speed of time over the last second");
+            }
+            let moves = self.shown_at.is_some_and(|at| at.elapsed() < Duration::from_secs(1));
+            let rate = if moves { self.frames.rate().frames_a_second } else { 0.0 };
+            ui.label(small(&format!("{rate:.0} pictures/s")))
+                .on_hover_text("Pictures drawn in the last second; none while the scene rests");
+            ui.label(small(&paint_text(state)))
+                .on_hover_text("Paint poured, on the surfaces, taken up, and left in the tubes");
+            ui.label(small(&volumes_text(state)))
+                .on_hover_text("Volumes of paint, and the particles of all of them");
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let message = self.message.as_ref();
+                if let Some(message) =
+                    message.filter(|message| message.is_displayed(Instant::now()))
+                {
+                    ui.add(Label::new(&message.text).truncate()).on_hover_text(&message.text);
+                }
+            });
+        });
+    }
+}
+
+/// Where the paint is.
+fn paint_text(state: &SceneState) -> String {
+    let tally = &state.tally;
+    let mut text = format!("{} poured", cubic(tally.poured_mm3));
+    for (amount, what) in [(tally.lifted_mm3, "taken up"), (tally.left_mm3, "left in the tubes")] {
+        if amount > 0.0 {
+            text.push_str(&format!(", {} {what}", cubic(amount)));
+        }
+    }
+    text
+}
+
+fn volumes_text(state: &SceneState) -> String {
+    match state.tally.volumes {
+        1 => "1 volume".to_owned(),
+        count => format!("{count} volumes"),
+    }
+}
+
+/// A volume with two digits or more.
+fn cubic(mm3: f64) -> String {
+    if mm3 >= 10.0 || mm3 == 0.0 { format!("{mm3:.0} mm3") } else { format!("{mm3:.1} mm3") }
+}

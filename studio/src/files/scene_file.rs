@@ -1,0 +1,38 @@
+//! Files of a scene: what can be made of it, and the painter's answers.
+
+use std::path::PathBuf;
+
+use session::LostSession;
+
+/// A file that a scene makes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SceneExport {
+    /// The picture as it is seen.
+    Picture,
+    /// The painting: an OpenEXR file with its pigments.
+    Painting,
+    /// The script of all events.
+    Script,
+    /// Pictures from the start to the end.
+    Animation,
+}
+
+/// What the painter chose for a scene.
+#[derive(Debug)]
+pub enum SceneAnswer {
+    /// Opens this file.
+    Open(PathBuf),
+    /// Writes this file.
+    Export(SceneExport, PathBuf),
+    /// Opens the scene that a killed program kept.
+    Recover(LostSession),
+}
+
+/// The purpose of a file of a scene that the painter is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ScenePurpose {
+    /// Opens it.
+    Open,
+    /// Writes it.
+    Export(SceneExport),
+}

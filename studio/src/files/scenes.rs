@@ -1,0 +1,200 @@
+//! Scenes: their files, and autosaves of what was done to them.
+//!
+//! A scene is small on the disk: its script. A scene that was not saved when another is opened or
+//! the window closes keeps its autosave, which the next start offers to recover.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use spectra::file::write_whole;
+
+use super::browser::{BrowserOptions, Filter};
+use super::job::{JobError, Progress};
+use super::open_dialog::FilePurpose;
+use super::problem::Problem;
+use super::scene_file::{SceneAnswer, SceneExport, ScenePurpose};
+use super::state::Files;
+use super::work::{Finished, JobKind, file_name};
+use session::volumes::{SceneRecording, SceneState};
+use session::{Autosave, LostSession, SessionMeta, now};
+
+const SCENES: Filter = Filter {
+    label: "Models, photographs and scripts",
+    endings: &["glb", "gltf", "obj", "ply", "png", "jpg", "jpeg", "toml"],
+};
+const SCRIPTS: Filter = Filter { label: "Scripts", endings: &["toml"] };
+const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "exr"] };
+const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
+const ANIMATIONS: Filter = Filter { label: "Animations", endings: &["gif", "png", "apng"] };
+
+/// Longest time between a change and its autosave: a script is written in no time.
+const INTERVAL: Duration = Duration::from_secs(2);
+
+impl Files {
+    /// Removes and returns the oldest answer of the painter about scenes.
+    pub fn take_scene_answer(&mut self) -> Option<SceneAnswer> {
+        self.scenes.answers.pop_front()
+    }
+
+    /// Asks for the file of a scene.
+    pub fn ask_for_scene(&mut self) {
+        const KINDS: [Filter; 3] = [SCENES, SCRIPTS, Filter::ALL];
+        let options = BrowserOptions::open("Open a scene", &KINDS);
+        self.browse(options, FilePurpose::Scene(ScenePurpose::Open));
+    }
+
+    /// Asks where to write a file of the scene.
+    pub fn ask_where_to_export_scene(&mut self, export: SceneExport) {
+        let (title, filters, ending): (_, &[Filter], _) = match export {
+            SceneExport::Picture => ("Save the picture", &[PICTURES, Filter::ALL], "png"),
+            SceneExport::Painting => ("Save the painting", &[PAINTINGS, Filter::ALL], "exr"),
+            SceneExport::Script => ("Save the script", &[SCRIPTS, Filter::ALL], "toml"),
+            SceneExport::Animation => ("Save the animation", &[ANIMATIONS, Filter::ALL], "gif"),
+        };
+        let name = self.scenes.open.as_ref().map_or("scene", |(title, _)| title);
+        let name = format!("{}.{ending}", file_stem(name));
+        let options = BrowserOptions { title, saving: true, filters, ending: Some(ending), name };
+        self.browse(options, FilePurpose::Scene(ScenePurpose::Export(export)));
+    }
+
+    /// Notes the painter's choice of a file.
+    pub(super) fn choose_for_scene(&mut self, purpose: ScenePurpose, path: PathBuf) {
+        self.scenes.answers.push_back(match purpose {
+            ScenePurpose::Open => {
+                self.preferences.remember(&path);
+                SceneAnswer::Open(path)
+            }
+            ScenePurpose::Export(export) => SceneAnswer::Export(export, path),
+        });
+    }
+
+    /// Recovers a lost scene, by its place in the list.
+    pub(super) fn recover_scene(&mut self, index: usize) {
+        let lost = self.scenes.lost.remove(index);
+        self.scenes.answers.push_back(SceneAnswer::Recover(lost));
+    }
+
+    /// Keeps the lost scene that is being opened until it is autosaved again.
+    pub fn recovering_scene(&mut self, lost: LostSession) {
+        self.scenes.opening = Some(lost);
+    }
+
+    /// The worker has opened a scene.
+    pub fn scene_opened(&mut self, state: &SceneState) {
+        self.scenes.end();
+        let begun = Autosave::begin(&self.home.scenes());
+        let autosave = begun.map_err(|failure| self.report(failure.into())).ok();
+        self.scenes.autosave = Arc::new(Mutex::new(autosave));
+        self.scenes.open = Some((state.title.clone(), state.revision));
+        self.scenes.recovered = self.scenes.opening.take();
+        // A recovered scene is in no file.
+        let in_file = self.scenes.recovered.is_none();
+        self.scenes.saved = if in_file { state.revision } else { u64::MAX };
+        self.scenes.autosaved = self.scenes.saved;
+        (self.scenes.awaited, self.scenes.last_autosave) = (false, Instant::now());
+    }
+
+    /// The state of the scene changed.
+    pub fn scene_changed(&mut self, state: &SceneState) {
+        if let Some((_, revision)) = &mut self.scenes.open {
+            *revision = state.revision;
+        }
+    }
+
+    /// Whether the recording is wanted now, for an autosave; otherwise the window is drawn again
+    /// when it will be.
+    pub fn wants_scene_recording(&mut self) -> bool {
+        let Some((_, revision)) = &self.scenes.open else { return false };
+        let changed = self.scenes.is_changed() && self.scenes.autosaved != *revision;
+        if !changed || self.scenes.awaited {
+            return false;
+        }
+        let interval = Duration::from_secs(self.preferences.autosave_seconds).min(INTERVAL);
+        match interval.checked_sub(self.scenes.last_autosave.elapsed()) {
+            Some(left) if !left.is_zero() => {
+                self.ctx.request_repaint_after(left);
+                false
+            }
+            _ => {
+                (self.scenes.awaited, self.scenes.last_autosave) = (true, Instant::now());
+                true
+            }
+        }
+    }
+
+    /// Writes the autosave of a scene.
+    pub fn autosave_scene(&mut self, recording: &SceneRecording) {
+        self.scenes.awaited = false;
+        let Some((title, _)) = self.scenes.open.clone() else { return };
+        self.scenes.autosaved = recording.revision;
+        let meta = SessionMeta { title, path: Some(recording.folder.clone()), seconds: now() };
+        let (autosave, text) = (self.scenes.autosave.clone(), recording.text.clone());
+        self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
+            let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(autosave) = autosave.as_mut() {
+                autosave.keep_script(&text, &meta).map_err(Problem::from)?;
+            }
+            Ok(Finished::SceneAutosaved)
+        });
+    }
+
+    /// An autosave of the scene was written: it holds what the scene was recovered from.
+    pub(super) fn scene_autosaved(&mut self) {
+        if let Some(lost) = self.scenes.recovered.take() {
+            lost.discard();
+        }
+    }
+
+    /// Saves the script of a scene in a file.
+    pub fn save_scene(&mut self, recording: &SceneRecording, path: PathBuf) {
+        let (recording, label) = (recording.clone(), format!("saving {}", file_name(&path)));
+        self.start_job(JobKind::Saving, label, move |_| {
+            if let Some(subject) = &recording.subject {
+                beside(subject, &path)?;
+            }
+            write_whole(&path, recording.text.as_bytes()).map_err(Problem::from)?;
+            Ok(Finished::SceneSaved { path, revision: recording.revision })
+        });
+    }
+
+    /// The script of the scene was saved.
+    pub(super) fn scene_saved(&mut self, path: &Path, revision: u64) {
+        self.scenes.saved = revision;
+        self.preferences.remember(path);
+        self.preferences.last_folder = path.parent().map(ToOwned::to_owned);
+    }
+
+    /// Writes a file of the scene on a thread of its own.
+    pub(crate) fn export_scene(
+        &mut self,
+        path: PathBuf,
+        work: impl FnOnce(&Path, &Progress) -> Result<Option<Problem>, JobError> + Send + 'static,
+    ) {
+        let label = format!("exporting {}", file_name(&path));
+        self.start_job(JobKind::Shown, label, move |progress| {
+            let remark = work(&path, progress)?;
+            Ok(Finished::Exported { path, remark })
+        });
+    }
+}
+
+/// The name of a file without what cannot be in one.
+fn file_stem(title: &str) -> String {
+    let kept = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
+    title.chars().map(kept).collect()
+}
+
+/// Checks that a script in `path` lies beside its subject, which it names without a folder.
+fn beside(subject: &Path, path: &Path) -> Result<(), Problem> {
+    let folder = |path: &Path| {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        path.parent().and_then(|folder| folder.canonicalize().ok())
+    };
+    if folder(subject) == folder(path) {
+        return Ok(());
+    }
+    let text = format!("{}: a script lies beside its subject", path.display());
+    let folder = subject.parent().unwrap_or(Path::new(".")).display();
+    Err(Problem::new(text, format!("save it in {folder}")))
+}

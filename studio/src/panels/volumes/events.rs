@@ -1,0 +1,62 @@
+//! The list of events of a scene.
+
+use std::sync::Arc;
+
+use eframe::egui::{Align, ScrollArea, TextStyle, Ui, vec2};
+use session::volumes::VolumeCommand;
+
+use super::context::SceneContext;
+use super::time_bar::seconds_text;
+use crate::panels::controls::{button, named_button, row, text};
+use crate::theme;
+
+/// Height of a row, in points.
+const ROW: f32 = 22.0;
+
+/// Width of the button that removes an event, with its gap, in points.
+const REMOVE: f32 = 28.0;
+
+/// Draws the list. A click goes to the moment at which an event begins.
+pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
+    let events = Arc::clone(&cx.state.events);
+    ui.horizontal(|ui| {
+        let reason = events.is_empty().then_some("nothing was done yet");
+        let tip = "Takes back what was done last, and replays the scene without it (Ctrl+Z)";
+        if button(ui, "Undo", tip, reason) {
+            cx.command(VolumeCommand::Undo);
+        }
+        ui.weak(match events.len() {
+            0 => "no events yet".to_owned(),
+            1 => "1 event".to_owned(),
+            count => format!("{count} events"),
+        });
+    });
+    ui.spacing_mut().item_spacing.y = 1.0;
+    let list = ScrollArea::vertical().auto_shrink([false, true]);
+    list.show_rows(ui, ROW, events.len(), |ui, rows| {
+        for number in rows {
+            let event = &events[number];
+            let began = seconds_text(event.from);
+            ui.horizontal(|ui| {
+                let runs = event.from <= cx.state.time.step && cx.state.time.step < event.to;
+                let width = ui.available_width() - REMOVE;
+                let line = ui.allocate_ui(vec2(width, ROW), |ui| {
+                    row(ui, ROW, &format!("{} {}", number + 1, event.label), runs)
+                });
+                let response = line.inner;
+                let inner = response.rect.shrink2(vec2(6.0, 0.0));
+                let (time, label) = inner.split_left_right_at_x(inner.left() + 58.0);
+                text(ui, time, Align::Min, TextStyle::Small, theme::FAINT, &began);
+                text(ui, label, Align::Min, TextStyle::Body, theme::TEXT, &event.label);
+                if response.on_hover_text("Goes to the moment at which it begins").clicked() {
+                    cx.command(VolumeCommand::Seek(event.from));
+                }
+                let name = format!("Remove event {}", number + 1);
+                let tip = "Removes it, and replays the scene without it";
+                if named_button(ui, "x", &name, tip, None) {
+                    cx.command(VolumeCommand::Remove(number));
+                }
+            });
+        }
+    });
+}

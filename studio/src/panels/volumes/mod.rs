@@ -1,0 +1,28 @@
+//! The panels of a scene of paint volumes. Each shows the state that the scene's worker last
+//! reported and queues requests.
+
+mod context;
+
+mod tubes;
+
+mod tool;
+
+mod view;
+
+mod light;
+
+mod events;
+
+mod export;
+
+mod time_bar;
+
+mod here;
+
+mod side;
+
+pub use crate::files::SceneExport;
+pub use context::{SceneContext, SceneFileRequest, SceneRequest, SceneTab, SceneTools};
+pub use here::show as show_here;
+pub use side::show as show_side;
+pub use time_bar::{HEIGHT as TIME_BAR_HEIGHT, seconds_text, show as show_time_bar};

@@ -1,0 +1,64 @@
+//! The side panel of a scene: tubes, the tool in hand, and tabs.
+
+use eframe::egui::{Button, CornerRadius, RichText, ScrollArea, Ui, vec2};
+
+use super::context::{SceneContext, SceneTab};
+use super::{events, export, light, tool, tubes, view};
+use crate::theme;
+
+impl SceneTab {
+    /// All tabs.
+    const ALL: [Self; 4] = [Self::View, Self::Light, Self::Events, Self::Export];
+
+    /// Name and description.
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::View => ("View", "The picture that is shown"),
+            Self::Light => ("Light", "Where the light comes from"),
+            Self::Events => ("Events", "All that was done, to go back to and to take back"),
+            Self::Export => ("Export", "Pictures, a painting, the script, an animation"),
+        }
+    }
+}
+
+/// Draws the side panel.
+pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
+    tubes::show(ui, cx);
+    ui.separator();
+    tool::show(ui, cx);
+    ui.add_space(6.0);
+    tabs(ui, &mut cx.tools.tab);
+    ui.add_space(4.0);
+    let tab = cx.tools.tab;
+    let body = ScrollArea::vertical().id_salt(tab.words().0).auto_shrink(false);
+    body.show(ui, |ui| match tab {
+        SceneTab::View => view::show(ui, cx),
+        SceneTab::Light => light::show(ui, cx),
+        SceneTab::Events => events::show(ui, cx),
+        SceneTab::Export => export::show(ui, cx),
+    });
+}
+
+/// Draws the row of tabs.
+fn tabs(ui: &mut Ui, chosen: &mut SceneTab) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 1.0;
+        let count = SceneTab::ALL.len() as f32;
+        let width = (ui.available_width() - (count - 1.0)) / count;
+        for tab in SceneTab::ALL {
+            let (name, description) = tab.words();
+            let here = tab == *chosen;
+            let button = Button::new(RichText::new(name).size(12.0))
+                .fill(if here { theme::CHOSEN } else { theme::BAR })
+                .selected(here)
+                .corner_radius(CornerRadius {
+                    sw: 0,
+                    se: 0,
+                    ..CornerRadius::same(theme::CORNER_RADIUS)
+                });
+            if ui.add_sized(vec2(width, 24.0), button).on_hover_text(description).clicked() {
+                *chosen = tab;
+            }
+        }
+    });
+}

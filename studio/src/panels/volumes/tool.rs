@@ -1,0 +1,42 @@
+//! Settings of the tool in hand.
+
+use eframe::egui::{RichText, Slider, Ui};
+use session::volumes::SceneTool;
+
+use super::context::SceneContext;
+use crate::panels::controls::{percent, slider};
+
+/// Draws the settings of the tool in hand.
+pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
+    let grip = &mut cx.tools.grip;
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(grip.tool.name()).strong());
+        ui.weak(about(grip.tool));
+    });
+    if grip.tool == SceneTool::Pour {
+        let rate = Slider::new(&mut grip.rate_mm3_s, 1.0..=1000.0).logarithmic(true);
+        let tip = "Paint poured in a second, in cubic millimetres, at full pressure ([ and ])";
+        slider(ui, "Rate", tip, rate.fixed_decimals(0).suffix(" mm3/s"));
+        return;
+    }
+    if grip.tool == SceneTool::Dry {
+        return;
+    }
+    let radius = Slider::new(&mut grip.radius_mm, 1.0..=100.0).logarithmic(true);
+    slider(ui, "Radius", "How far the tool reaches, in mm", radius.fixed_decimals(0).suffix(" mm"));
+    let tip = match grip.tool {
+        SceneTool::Lift => "How much paint the sponge takes up at each place",
+        _ => "How strongly the air blows",
+    };
+    percent(ui, "Strength", tip, &mut grip.strength, 1.0..=100.0);
+}
+
+/// What a tool does, in a few words.
+fn about(tool: SceneTool) -> &'static str {
+    match tool {
+        SceneTool::Pour => "the tube in hand, where the pen is held",
+        SceneTool::Push => "paint along the drag, as air does",
+        SceneTool::Lift => "paint, as a sponge does",
+        SceneTool::Dry => "all paint and its shape, by a click",
+    }
+}

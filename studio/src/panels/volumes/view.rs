@@ -1,0 +1,94 @@
+//! What is shown of a scene.
+
+use eframe::egui::{Button, Ui, vec2};
+use session::volumes::{Inside, Show};
+
+use super::context::SceneContext;
+
+/// Choices in a row.
+const ROW: usize = 3;
+
+/// Draws the choice of the picture, the hatching, and what volumes show inside.
+pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
+    let look = cx.state.look;
+    ui.label("Picture");
+    for row in Show::ALL.chunks(ROW) {
+        let choices = row.iter().map(|&one| (one, show_name(one), show_tip(one)));
+        if let Some(show) = choose(ui, choices.collect(), look.show) {
+            cx.change_look(|look| look.show = show);
+        }
+    }
+    ui.add_space(4.0);
+    ui.label("Inside of the volumes");
+    let choices = Inside::ALL.map(|one| (one, inside_name(one), inside_tip(one)));
+    let has_tubes = !cx.state.tubes.is_empty();
+    ui.add_enabled_ui(has_tubes, |ui| {
+        if let Some(inside) = choose(ui, choices.to_vec(), look.inside) {
+            cx.change_look(|look| look.inside = inside);
+        }
+    });
+    ui.add_space(4.0);
+    let mut hatching = look.hatching;
+    let tip = "Pencil strokes that show how the light falls (H)";
+    if ui.checkbox(&mut hatching, "Hatching").on_hover_text(tip).changed() {
+        cx.change_look(|look| look.hatching = hatching);
+    }
+}
+
+/// Draws a row of choices of equal width. Returns the one that was clicked.
+fn choose<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    choices: Vec<(T, &'static str, &'static str)>,
+    chosen: T,
+) -> Option<T> {
+    let mut clicked = None;
+    ui.horizontal(|ui| {
+        let gap = ui.spacing().item_spacing.x;
+        let width = (ui.available_width() - (ROW - 1) as f32 * gap) / ROW as f32;
+        for (one, name, tip) in choices {
+            let button = Button::new(name).selected(one == chosen);
+            if ui.add_sized(vec2(width, 24.0), button).on_hover_text(tip).clicked() {
+                clicked = Some(one);
+            }
+        }
+    });
+    clicked
+}
+
+fn show_name(show: Show) -> &'static str {
+    match show {
+        Show::Final => "Final",
+        Show::Volumes => "Volumes",
+        Show::Mask => "Mask",
+        Show::Grey => "Grey",
+        Show::Color => "Colour",
+        Show::Hatching => "Strokes",
+    }
+}
+
+fn show_tip(show: Show) -> &'static str {
+    match show {
+        Show::Final => "The drawing, with colour inside of the volumes",
+        Show::Volumes => "The volumes themselves over the grey drawing (V)",
+        Show::Mask => "White inside of the volumes, black outside",
+        Show::Grey => "The grey drawing alone",
+        Show::Color => "Colour everywhere",
+        Show::Hatching => "The pencil strokes alone",
+    }
+}
+
+fn inside_name(inside: Inside) -> &'static str {
+    match inside {
+        Inside::OwnColours => "Own",
+        Inside::Glaze => "Glaze",
+        Inside::Both => "Both",
+    }
+}
+
+fn inside_tip(inside: Inside) -> &'static str {
+    match inside {
+        Inside::OwnColours => "The subject's own colours (G)",
+        Inside::Glaze => "A film of the poured pigments over the grey drawing (G)",
+        Inside::Both => "A film of the poured pigments over the subject's own colours (G)",
+    }
+}
