@@ -18,11 +18,18 @@ pub fn linear_from_encoded(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
 /// stays.
 #[must_use]
 pub fn encoded_from_linear(picture: &Field<[f32; 4]>) -> Field<[f32; 4]> {
-    map_pixels(picture, |[r, g, b, a]| {
-        let inside = [r, g, b].map(|value| f64::from(value.clamp(0.0, 1.0)));
-        let [r, g, b] = Rgb(inside).encoded().0.map(|value| value as f32);
-        [r, g, b, a]
-    })
+    map_pixels(picture, encoded)
+}
+
+/// Encodes a picture of linear sRGB like [`encoded_from_linear`], in its own memory.
+pub fn encode(picture: &mut Field<[f32; 4]>) {
+    picture.values_mut().par_iter_mut().for_each(|pixel| *pixel = encoded(*pixel));
+}
+
+fn encoded([r, g, b, a]: [f32; 4]) -> [f32; 4] {
+    let inside = [r, g, b].map(|value| f64::from(value.clamp(0.0, 1.0)));
+    let [r, g, b] = Rgb(inside).encoded().0.map(|value| value as f32);
+    [r, g, b, a]
 }
 
 /// CIELAB, under the white of sRGB, of a picture of linear sRGB.
@@ -78,7 +85,11 @@ mod tests {
     fn encoding_and_linearising_are_inverse_and_keep_the_fourth_value() {
         let values = (0..256).map(|i| [i as f32 / 255.0, 0.5, 1.0 - i as f32 / 255.0, 0.25]);
         let picture = Field::from_values(16, 16, values.collect());
-        let back = encoded_from_linear(&linear_from_encoded(&picture));
+        let linear = linear_from_encoded(&picture);
+        let back = encoded_from_linear(&linear);
+        let mut in_place = linear;
+        encode(&mut in_place);
+        assert_eq!(in_place, back);
         for (found, wanted) in back.values().iter().zip(picture.values()) {
             for (found, wanted) in found.iter().zip(wanted) {
                 assert!((found - wanted).abs() < 1e-6, "{found} {wanted}");

@@ -67,7 +67,7 @@ impl Scene {
             world.pour(pour).unwrap();
         }
         (0..180).for_each(|_| world.step().unwrap());
-        assert_eq!(world.volumes().len(), count);
+        assert_eq!(world.volumes().len(), count, "paint spilled, or cells are missing");
         world
     }
 
@@ -95,7 +95,7 @@ impl Scene {
     }
 }
 
-/// Times of a frame, of its steps alone and of its picture alone.
+/// Frames of a world, each from the same snapshot.
 fn frames(bencher: Bencher<'_, '_>, world: &World, camera: &Camera, mut painter: VolumePainter) {
     bencher.with_inputs(|| world.clone()).bench_local_values(|mut world| {
         (0..STEPS).for_each(|_| world.step().unwrap());

@@ -5,6 +5,7 @@ use graphics::compute::{ColorImage, Compute, Image};
 use graphics::field::Field;
 use graphics::mesh::Mesh;
 use graphics::surface::{Fragment, NO_TRIANGLE, PackedMesh};
+use rayon::prelude::*;
 
 use super::averaged::averaged;
 use super::error::PaintingError;
@@ -23,6 +24,9 @@ use crate::world::World;
 
 /// Most samples of a picture.
 const MOST_SAMPLES: usize = 1 << 28;
+
+/// Samples that share the work of one thread at least.
+const SAMPLES: usize = 8192;
 
 /// Draws one scene with its volumes.
 #[derive(Debug)]
@@ -175,31 +179,36 @@ impl Drawer {
         check_regions(all, self.regions.len())?;
         let in_sight = InSight::new(camera, &image);
         let gate = self.settings.drawing.gate;
-        let mut tint = Field::filled(width, height, 0.0);
+        let mut tint: Option<Field<f32>> = None;
         for (region, surfaces) in self.regions.iter().enumerate().zip(&mut self.surfaces) {
             if region.1.inside.has_own_colors() {
                 surfaces.update(all, region, gate, &in_sight);
                 let counts = surfaces.counts(host, &image, camera)?;
-                lay_tint(&mut tint, counts.host(), region.1.shells.table());
+                let tint = tint.get_or_insert_with(|| Field::filled(width, height, 0.0));
+                lay_tint(tint, counts.host(), region.1.shells.table());
             }
         }
         let sight = (&self.packed, visible, &in_sight, camera);
         let heights = films.heights(world, (&self.regions, &self.settings), sight);
-        let hatching = &self.look.hatching;
-        let (inside, outside) = (hatching.inside, hatching.outside);
-        let mut ink = ink;
-        for (ink, tint) in ink.values_mut().iter_mut().zip(tint.values()) {
-            *ink *= outside + (inside - outside) * tint;
+        let (mut ink, look) = (ink, &self.look.hatching);
+        match &tint {
+            None => each(&mut ink, |ink, _| *ink *= look.outside),
+            Some(tint) => each(&mut ink, |ink, sample| {
+                *ink *= look.outside + (look.inside - look.outside) * tint.values()[sample];
+            }),
         }
-        let covered = visible.values().iter();
-        let covered = covered.map(|seen| f32::from(u8::from(seen.triangle != NO_TRIANGLE)));
-        let cover = Field::from_values(width, height, covered.collect());
+        let mut cover = Field::filled(width, height, 1.0);
+        each(&mut cover, |cover, sample| {
+            if visible.values()[sample].triangle == NO_TRIANGLE {
+                *cover = 0.0;
+            }
+        });
         let samples = self.look.samples;
         Ok(Parts {
             color: averaged(color, samples),
             cover: averaged(cover, samples),
             ink: averaged(ink, samples),
-            tint: averaged(tint, samples),
+            tint: tint.map(|tint| averaged(tint, samples)),
             heights: averaged(heights, samples),
         })
     }
@@ -240,7 +249,13 @@ fn check_regions(all: Volumes<'_>, regions: usize) -> Result<(), PaintingError> 
 
 /// Lays the tint of a region over those before it.
 fn lay_tint(tint: &mut Field<f32>, counts: &Field<i32>, table: &TintTable) {
-    for (below, &count) in tint.values_mut().iter_mut().zip(counts.values()) {
-        *below += (1.0 - *below) * table.tint(count);
-    }
+    each(tint, |below, sample| {
+        *below += (1.0 - *below) * table.tint(counts.values()[sample]);
+    });
+}
+
+/// Changes each sample, which has an index.
+fn each(field: &mut Field<f32>, change: impl Fn(&mut f32, usize) + Sync) {
+    let samples = field.values_mut().par_iter_mut().with_min_len(SAMPLES).enumerate();
+    samples.for_each(|(index, sample)| change(sample, index));
 }

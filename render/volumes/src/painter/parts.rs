@@ -10,8 +10,8 @@ pub(super) struct Parts {
     pub(super) color: Field<[f32; 4]>,
     pub(super) cover: Field<f32>,
     pub(super) ink: Field<f32>,
-    /// Share of the scene's own colours.
-    pub(super) tint: Field<f32>,
+    /// Share of the scene's own colours, if any region shows them.
+    pub(super) tint: Option<Field<f32>>,
     pub(super) heights: Field<FilmHeights>,
 }
 
@@ -21,7 +21,7 @@ impl Parts {
             color: &self.color,
             cover: Some(&self.cover),
             ink: Some(&self.ink),
-            tint: Some(&self.tint),
+            tint: self.tint.as_ref(),
             films: Some(&self.heights),
         }
     }

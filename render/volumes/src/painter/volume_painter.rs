@@ -2,7 +2,7 @@
 
 use graphics::camera::Camera;
 use graphics::compute::Compute;
-use graphics::encoding::encoded_from_linear;
+use graphics::encoding::encode;
 use graphics::field::Field;
 use graphics::mesh::Mesh;
 use paint::document::Document;
@@ -93,8 +93,9 @@ impl VolumePainter {
         let Self { drawer, films } = self;
         if let Some(films) = films {
             let parts = drawer.parts(films, world, camera, size)?;
-            let picture = films.view.picture(&films.painter, &parts.drawing())?;
-            return Ok(encoded_from_linear(&picture));
+            let mut picture = films.view.picture(&films.painter, &parts.drawing())?;
+            encode(&mut picture);
+            return Ok(picture);
         }
         let sight = drawer.sight(world, camera, size)?;
         let regions = drawer.regions_of(&sight);
