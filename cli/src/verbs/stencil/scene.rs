@@ -104,16 +104,22 @@ impl OpenScript {
         }
     }
 
-    /// A failure to read the subject, with the line that names it in the script, if there is one.
-    fn of_subject(&self, failure: Failure) -> Failure {
-        let Some((name, text)) = &self.file else { return failure };
-        let fault = Box::new(Fault {
-            key: KeyPath::of("subject"),
-            wanted: "a model or photograph that can be read".to_owned(),
-            found: self.script.subject.clone(),
-            hint: String::new(),
-        });
-        failure.within(ScriptError::located(name, text, fault).to_string())
+    /// The model or photograph: `path` itself, or what the script there names.
+    fn subject(&self, path: &Path) -> Result<PathBuf> {
+        if self.file.is_none() {
+            return Ok(path.to_owned());
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        match self.script.subject_in(folder).map_err(|fault| self.located(fault))? {
+            ScriptSubject::Shape(shape) => Ok(PathBuf::from(format!("shape:{}", shape.name()))),
+            ScriptSubject::File(file) if file.is_file() => Ok(file),
+            ScriptSubject::File(file) => Err(self.located(Box::new(Fault {
+                key: KeyPath::of("subject"),
+                wanted: "a file that is there".to_owned(),
+                found: self.script.subject.clone(),
+                hint: format!("put it at {}, or name another file", file.display()),
+            }))),
+        }
     }
 
     /// The script before its first step.
@@ -154,17 +160,9 @@ impl OpenScript {
         options: &SubjectOptions,
         frames: usize,
     ) -> Result<Scene> {
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let subject = match is_script(path) {
-            false => path.to_owned(),
-            true => match self.script.subject_in(folder).map_err(|fault| self.located(fault))? {
-                ScriptSubject::Shape(shape) => PathBuf::from(format!("shape:{}", shape.name())),
-                ScriptSubject::File(file) => file,
-            },
-        };
-        let (read, mut inputs) =
-            options.subject(&subject, true).map_err(|failure| self.of_subject(failure))?;
-        if is_script(path) {
+        let subject = self.subject(path)?;
+        let (read, mut inputs) = options.subject(&subject, true)?;
+        if self.file.is_some() {
             inputs.push(path.to_owned());
         }
         let scene = match read {

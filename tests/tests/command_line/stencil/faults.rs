@@ -19,7 +19,8 @@ fn refused(picture: &str, arguments: &[&str], status: u8, words: &[&str]) {
     for word in words {
         assert!(run.err.contains(word), "{arguments:?}: `{word}` is not in {}", run.err);
     }
-    assert!(run.err.contains("hint: ") || run.err.contains("Usage"), "{arguments:?}: {}", run.err);
+    let way_out = run.err.contains("hint: ") || run.err.contains("--help");
+    assert!(way_out, "{arguments:?}: {}", run.err);
     assert!(!Path::new(picture).exists(), "{arguments:?} has written a picture");
 }
 
@@ -64,14 +65,7 @@ fn options_out_of_range_are_refused_by_their_names() {
         (2, &["--pour", "0.5,0.5", "--set", "grid.cell=0.00002"], &["grid.cell", "fits"]),
         (
             1,
-            &[
-                "--pour",
-                "0.5,0.5",
-                "--set",
-                "drawing.shells=[1, 0.9]",
-                "--set",
-                "drawing.tint=[0, 1, 0]",
-            ],
+            &["--pour", "0.5,0.5", "--set", "drawing.tint=[1, 0]"],
             &["drawing.tint", "rise from 0 to 1", "is even"],
         ),
         (1, &["--pour", "0.5,0.5", "--set", "gloss=1"], &["unknown key `gloss`"]),
@@ -121,7 +115,7 @@ fn faults_of_scripts_name_file_line_key_value_and_way_out() {
         ("at = [0.0, 1.0, 0.0]", "at = [0.0, nan, 0.0]", 1, &["line 7", "at", "NaN"]),
         ("at = [0.0, 1.0, 0.0]", "picked = [0.01, 0.02]", 1, &["line 6", "no surface"]),
         ("box.obj", "other.toml", 1, &["line 3", "subject", "`other.toml`"]),
-        ("box.obj", "gone.obj", 2, &["line 3", "subject", "gone.obj"]),
+        ("box.obj", "gone.obj", 1, &["line 3", "subject takes a file", "gone.obj"]),
         ("seconds = 0.5", "seconds = -1", 1, &["line 4", "seconds", "`-1`"]),
         ("cell = 0.2", "cell = 0.00002", 2, &["line 5", "grid.cell", "`0.00002`", "fits"]),
         ("version = 1", "version = 2", 1, &["line 2", "`2`", "newer"]),
