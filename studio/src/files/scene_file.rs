@@ -17,7 +17,7 @@ pub enum SceneExport {
     Animation,
 }
 
-/// What the painter chose for a scene.
+/// A choice of the painter for a scene.
 #[derive(Debug)]
 pub enum SceneAnswer {
     /// Opens this file.
@@ -31,8 +31,8 @@ pub enum SceneAnswer {
 /// The purpose of a file of a scene that the painter is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ScenePurpose {
-    /// Opens it.
+    /// To open it.
     Open,
-    /// Writes it.
+    /// To write it.
     Export(SceneExport),
 }

@@ -12,7 +12,7 @@ use session::{Autosave, LostSession};
 pub(super) struct SceneFiles {
     /// Scenes of programs that ended without saving.
     pub(super) lost: Vec<LostSession>,
-    /// What the painter chose, the oldest first.
+    /// Choices of the painter, the oldest first.
     pub(super) answers: VecDeque<SceneAnswer>,
     pub(super) autosave: Arc<Mutex<Option<Autosave>>>,
     /// Title and counter of changes of the open scene; `None` without one.

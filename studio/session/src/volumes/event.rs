@@ -25,7 +25,7 @@ pub struct ScenePicture {
     pub fine: bool,
 }
 
-/// What is at a place of the picture.
+/// Surface, paint and colour at a place of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Here {
     /// Place on the surface, in the unit of the subject; `None` where there is no surface.
@@ -45,7 +45,7 @@ pub struct Here {
 /// The script of a scene as it would be saved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneRecording {
-    /// The script.
+    /// Text of the script.
     pub text: Arc<str>,
     /// Folder that the subject lies in.
     pub folder: PathBuf,

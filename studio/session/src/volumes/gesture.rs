@@ -28,7 +28,7 @@ const LEAST_WAY: f64 = 0.01;
 /// An action with the steps at which it begins and ends.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Timed {
-    /// First step.
+    /// The first step.
     pub(super) start: u32,
     /// Step before which it ends.
     pub(super) end: u32,

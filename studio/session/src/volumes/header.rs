@@ -1,4 +1,4 @@
-//! What a script says of its scene, and numbers of a world for the window.
+//! Cameras, tubes and picked places of a script, and numbers of a world for the window.
 
 use std::sync::Arc;
 

@@ -9,7 +9,7 @@ use super::command::VolumeCommand;
 /// Message to the thread of a scene.
 #[derive(Debug)]
 pub(super) enum Input {
-    /// A command.
+    /// A command to carry out.
     Command(Box<VolumeCommand>),
     /// The front end received this many pictures.
     Confirmed(usize),

@@ -1,14 +1,20 @@
-//! What is at a place of a scene.
+//! Volumes, paint and colour at a place of a scene.
 
+use glam::Vec3;
 use render::amount::mm_from_quanta;
+use render::field::Field;
 use render::layer::SLOTS;
 use render::volumes::containing::Inside;
 use render::volumes::painter::CELL_MM;
 use render::volumes::pigments::{Film, FilmProfile, FilmScale, FilmSum, SampleLattice};
+use render::volumes::script::RegionTable;
 use render::volumes::volume::Volume;
 use render::volumes::world::World;
+use spectra::color::{ColorCode, Rgb};
 
+use super::event::Here;
 use super::ray::Hit;
+use super::state::SceneTube;
 
 /// Volumes and paint at a place on a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,4 +45,40 @@ pub(super) fn found_at(world: &World, hit: &Hit, profile: FilmProfile) -> Found 
         region: volumes.last().map(|volume| usize::from(volume.region)),
         heights_mm: heights.0.map(|quanta| mm_from_quanta(quanta.max(0) as u32, CELL_MM)),
     }
+}
+
+/// Colour of a picture at a share of its width and height.
+pub(super) fn color_at(picture: &Field<[f32; 4]>, at: [f32; 2]) -> [u8; 3] {
+    let sides = [picture.width(), picture.height()];
+    let index = |axis: usize| {
+        let place = (at[axis] * sides[axis] as f32).max(0.0) as usize;
+        place.min(sides[axis].saturating_sub(1))
+    };
+    let [red, green, blue, _] = picture[(index(0), index(1))];
+    [red, green, blue].map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
+}
+
+/// The answer to the painter: what was found at a place, if there is a surface, and the colour
+/// shown there.
+pub(super) fn told(
+    found: Option<(Vec3, Found)>,
+    srgb: [u8; 3],
+    tubes: &[SceneTube],
+    regions: &[RegionTable],
+) -> Here {
+    let rgb = Rgb(srgb.map(|channel| f64::from(channel) / 255.0));
+    let lab = ColorCode::Srgb(rgb).lab();
+    let lab = [lab.lightness, lab.a, lab.b];
+    let Some((place, found)) = found else {
+        return Here { place: None, volumes: 0, region: None, paint: Vec::new(), lab, srgb };
+    };
+    let mut paint: Vec<(String, f64)> = tubes
+        .iter()
+        .zip(found.heights_mm)
+        .map(|(tube, height_mm)| (tube.name.clone(), height_mm))
+        .collect();
+    paint.push(("clear medium".to_owned(), found.heights_mm[SLOTS]));
+    paint.retain(|(_, height_mm)| *height_mm > 0.0);
+    let region = found.region.and_then(|index| Some(regions.get(index)?.name.clone()));
+    Here { place: Some(place), volumes: found.volumes, region, paint, lab, srgb }
 }

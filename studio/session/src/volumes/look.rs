@@ -1,11 +1,11 @@
-//! What is shown of a scene, and how.
+//! The look of a scene: which picture is shown, and how.
 
 use render::volumes::painter::Show;
 use render::volumes::script::Script;
 use render::volumes::settings::{self, Settings};
 use toml::{Table, Value};
 
-/// What the surfaces show inside the volumes.
+/// The surfaces inside of the volumes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Inside {
     /// Their own colours.
@@ -21,7 +21,7 @@ impl Inside {
     /// All of them, in the order of the panel.
     pub const ALL: [Self; 3] = [Self::OwnColours, Self::Glaze, Self::Both];
 
-    /// As settings name it.
+    /// This choice in the words of settings.
     pub(super) fn as_setting(self) -> settings::Inside {
         match self {
             Self::OwnColours => settings::Inside::OwnColors,
@@ -38,7 +38,7 @@ impl Inside {
         }
     }
 
-    /// As a script writes it.
+    /// This choice in the words of a script.
     fn word(self) -> &'static str {
         match self {
             Self::OwnColours => "own-colours",
@@ -67,16 +67,16 @@ pub struct SceneLight {
     pub elevation_deg: f64,
 }
 
-/// What is shown of a scene, and how.
+/// The look of a scene: which picture is shown, and how.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
     /// The picture that is shown.
     pub show: Show,
     /// Whether surfaces are hatched.
     pub hatching: bool,
-    /// What surfaces show inside the volumes.
+    /// Surfaces inside of the volumes.
     pub inside: Inside,
-    /// The light.
+    /// Where the light stands.
     pub light: SceneLight,
 }
 

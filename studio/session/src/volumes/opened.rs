@@ -24,7 +24,7 @@ pub(super) struct OpenedScene {
     pub(super) script: Script,
     /// Name and text of the script, for messages.
     pub(super) source: (String, String),
-    /// The surfaces.
+    /// The surfaces of the subject.
     pub(super) mesh: Mesh,
     /// Whether the subject is a photograph.
     pub(super) flat: bool,

@@ -27,7 +27,7 @@ impl Pacer {
         self.running.get_or_insert((now, 0));
     }
 
-    /// Ends counting.
+    /// Ends counting: time stands.
     pub(super) fn stop(&mut self) {
         self.running = None;
     }

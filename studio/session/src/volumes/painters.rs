@@ -20,7 +20,7 @@ use crate::failure::FileFailure;
 /// Size of a picture in pixels, and what sees it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sight {
-    /// The camera.
+    /// The camera that sees it.
     pub(super) camera: Camera,
     /// Width and height in pixels.
     pub(super) size: [usize; 2],
@@ -40,7 +40,7 @@ impl Quality {
     pub(super) const BEST: Self = Self { fine: true, share: 1.0 };
 }
 
-/// What a painter is made for.
+/// The purpose of a painter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     /// A drawing whose volumes show the subject's own colours.

@@ -1,4 +1,4 @@
-//! What a ray from the eye meets first.
+//! The surface that a ray from the eye meets first.
 
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ const TRIANGLES: usize = 4096;
 /// A place on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hit {
-    /// The place.
+    /// The place on it.
     pub(super) place: Vec3,
     /// Unit normal of the triangle, towards the eye.
     pub(super) normal: Vec3,

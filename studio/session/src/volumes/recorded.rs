@@ -6,7 +6,7 @@ use super::gesture::Timed;
 use super::state::SceneEvent;
 use super::tool::SceneTool;
 
-/// What one gesture did, or what belongs together in a script.
+/// The actions of one gesture, or those that belong together in a script.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Gesture {
     actions: Vec<Timed>,

@@ -9,7 +9,6 @@ use render::camera::Camera;
 use render::encoding::linear_from_encoded;
 use render::export::frame_of;
 use render::field::Field;
-use render::layer::SLOTS;
 use render::mesh::Mesh;
 use render::paint::document::Document;
 use render::volumes::performance::FirstView;
@@ -17,14 +16,13 @@ use render::volumes::pigments::FilmProfile;
 use render::volumes::script::{Event, Recipe, Script, ScriptError};
 use render::volumes::settings::Settings;
 use render::volumes::toml_text::KeyPath;
-use spectra::color::{ColorCode, Rgb};
 
 use super::event::{Here, SceneRecording};
 use super::gesture::{Hand, Timed};
 use super::header::{
     FIRST_PICTURE, camera_table, first_camera, framed, resolve_picks, script_steps, tally, tubes,
 };
-use super::inspect::found_at;
+use super::inspect::{color_at, found_at, told};
 use super::look::Look;
 use super::opened::OpenedScene;
 use super::painters::{Painters, Quality, Sight};
@@ -293,42 +291,16 @@ impl Scene {
         Ok(frame.values().iter().map(|&[red, green, blue]| [red, green, blue, 255]).collect())
     }
 
-    /// What is at a place of the picture.
+    /// Surface, paint and colour at a place of the picture.
     pub(super) fn here(&self, sight: &Sight, at: [f32; 2]) -> Here {
-        let srgb = self.color_at(at);
-        let rgb = Rgb(srgb.map(|channel| f64::from(channel) / 255.0));
-        let lab = ColorCode::Srgb(rgb).lab();
-        let lab = [lab.lightness, lab.a, lab.b];
-        let none = Here { place: None, volumes: 0, region: None, paint: Vec::new(), lab, srgb };
-        let Some(hit) = self.hit(sight, at) else { return none };
+        let srgb = self.shown.as_ref().map_or([0; 3], |shown| color_at(shown, at));
         let drawing = &self.settings.drawing;
         let profile = FilmProfile { rim: drawing.rim, edge: drawing.edge };
-        let found = found_at(self.timeline.now().world(), &hit, profile);
-        let names = self.tubes.iter().map(|tube| tube.name.clone());
-        let names = names.map(Some).chain(std::iter::repeat(None)).take(SLOTS);
-        let names = names.chain([Some("clear medium".to_owned())]);
-        let paint = names.zip(found.heights_mm).filter_map(|(name, height)| Some((name?, height)));
-        let regions = &self.recorded.base().regions;
-        let region = found.region.and_then(|index| Some(regions.get(index)?.name.clone()));
-        Here {
-            place: Some(hit.place),
-            volumes: found.volumes,
-            region,
-            paint: paint.filter(|(_, height)| *height > 0.0).collect(),
-            ..none
-        }
-    }
-
-    /// Colour of the last picture at a share of its width and height.
-    fn color_at(&self, at: [f32; 2]) -> [u8; 3] {
-        let Some(shown) = &self.shown else { return [0; 3] };
-        let sides = [shown.width(), shown.height()];
-        let index = |axis: usize| {
-            let place = (at[axis] * sides[axis] as f32).max(0.0) as usize;
-            place.min(sides[axis] - 1)
-        };
-        let [red, green, blue, _] = shown[(index(0), index(1))];
-        [red, green, blue].map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
+        let found = self.hit(sight, at).map(|hit| {
+            let found = found_at(self.timeline.now().world(), &hit, profile);
+            (hit.place, found)
+        });
+        told(found, srgb, &self.tubes, &self.recorded.base().regions)
     }
 
     /// The script as it would be saved, seen by `camera`.
@@ -378,7 +350,7 @@ impl Scene {
 
 #[cfg(test)]
 impl Scene {
-    /// The surfaces.
+    /// The surfaces of the subject.
     pub(super) fn mesh(&self) -> &Mesh {
         &self.mesh
     }
@@ -393,7 +365,7 @@ impl Scene {
         self.timeline.now().world().tally().on_scene.iter().sum()
     }
 
-    /// All events.
+    /// All events by time.
     pub(super) fn events(&self) -> Vec<super::state::SceneEvent> {
         self.recorded.events()
     }

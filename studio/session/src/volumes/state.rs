@@ -41,7 +41,7 @@ pub struct SceneTally {
     pub on_surfaces_mm3: f64,
     /// Taken up by the sponge.
     pub lifted_mm3: f64,
-    /// What found no room and stayed in the tubes.
+    /// Left in the tubes, as there was no room for it.
     pub left_mm3: f64,
     /// Number of volumes.
     pub volumes: usize,
@@ -79,9 +79,9 @@ pub struct SceneState {
     pub seen_from: Option<Camera>,
     /// The tubes, at most eight.
     pub tubes: Arc<Vec<SceneTube>>,
-    /// What is shown.
+    /// The look that is shown.
     pub look: Look,
-    /// Time.
+    /// The moment shown, and the last one.
     pub time: SceneTime,
     /// All events by the time at which they begin.
     pub events: Arc<Vec<SceneEvent>>,

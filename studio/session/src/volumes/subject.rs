@@ -1,11 +1,11 @@
-//! What a scene is opened from.
+//! Subjects that a scene is opened from.
 
 use std::path::{Path, PathBuf};
 
 /// Prefix of the names of the models that come with the program.
 pub const SHAPE: &str = "shape:";
 
-/// What a scene is opened from.
+/// A subject that a scene is opened from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Subject {
     /// A model that comes with the program, such as `village`.
@@ -16,7 +16,7 @@ pub enum Subject {
     Script(PathBuf),
     /// The text of a script that was recovered, and the folder of the files that it names.
     Text {
-        /// The script.
+        /// Text of the script.
         text: String,
         /// Folder that its subject lies in.
         folder: PathBuf,

@@ -1,6 +1,6 @@
 //! The tools of a hand in a scene.
 
-/// What the pen does to a scene.
+/// A tool of the pen in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SceneTool {
     /// Pours paint of a tube on the surface.
@@ -33,7 +33,7 @@ impl SceneTool {
 /// A tool and how it is set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grip {
-    /// The tool.
+    /// The tool in hand.
     pub tool: SceneTool,
     /// Tube that is poured, by its number from 0.
     pub tube: usize,

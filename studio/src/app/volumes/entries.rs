@@ -1,6 +1,6 @@
 //! Table of all menu entries of the workspace of scenes.
 
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, Ui};
 use session::volumes::SceneTool;
 
 use super::intent::{SceneEntry, SceneIntent, SceneMenu};
@@ -175,7 +175,7 @@ pub const SCENE_ENTRIES: &[SceneEntry] = &[
     ),
 ];
 
-/// What the pointer does, and keys that are in no menu.
+/// Effects of the pointer, and keys that are in no menu.
 pub(super) const POINTER: &[(&str, &str)] = &[
     ("Hold or draw", "Uses the tool in hand; pressure sets the rate"),
     ("Middle button", "Turns the scene"),
@@ -198,6 +198,41 @@ impl SceneEntry {
     pub fn shortcut_text(&self) -> String {
         self.shortcuts.first().map_or_else(String::new, Shortcut::text)
     }
+}
+
+impl SceneIntent {
+    /// Intent of a key press, if any.
+    #[must_use]
+    pub(super) fn of_key(key: Key, modifiers: Modifiers) -> Option<Self> {
+        const TUBES: [Key; 8] = [
+            Key::Num1,
+            Key::Num2,
+            Key::Num3,
+            Key::Num4,
+            Key::Num5,
+            Key::Num6,
+            Key::Num7,
+            Key::Num8,
+        ];
+        if modifiers.is_none()
+            && let Some(number) = TUBES.iter().position(|tube| *tube == key)
+        {
+            return Some(Self::Tube(number as u8 + 1));
+        }
+        let fits = |entry: &&SceneEntry| {
+            entry.shortcuts.iter().any(|shortcut| shortcut.matches(key, modifiers))
+        };
+        SCENE_ENTRIES.iter().find(fits).map(|entry| entry.intent)
+    }
+}
+
+/// Tooltip of an entry: name, shortcut and description.
+pub(super) fn tip(ui: &mut Ui, entry: &SceneEntry) {
+    ui.horizontal(|ui| {
+        ui.strong(entry.name);
+        ui.weak(entry.shortcut_text());
+    });
+    ui.label(entry.description);
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Intents of the workspace of scenes: everything that keys, menus and toolbar can request.
 
-use eframe::egui::{Key, Modifiers};
 use session::volumes::SceneTool;
 
 use crate::app::intent::Shortcut;
@@ -57,7 +56,7 @@ pub enum SceneMenu {
     File,
     /// Events and time.
     Edit,
-    /// What is shown.
+    /// The picture that is shown.
     View,
     /// Tools, which also stand in the toolbar.
     Tools,
@@ -81,30 +80,6 @@ pub struct SceneEntry {
 }
 
 impl SceneIntent {
-    /// Intent of a key press, if any.
-    #[must_use]
-    pub(super) fn of_key(key: Key, modifiers: Modifiers) -> Option<Self> {
-        const TUBES: [Key; 8] = [
-            Key::Num1,
-            Key::Num2,
-            Key::Num3,
-            Key::Num4,
-            Key::Num5,
-            Key::Num6,
-            Key::Num7,
-            Key::Num8,
-        ];
-        if modifiers.is_none()
-            && let Some(number) = TUBES.iter().position(|tube| *tube == key)
-        {
-            return Some(Self::Tube(number as u8 + 1));
-        }
-        let fits = |entry: &&SceneEntry| {
-            entry.shortcuts.iter().any(|shortcut| shortcut.matches(key, modifiers))
-        };
-        super::entries::SCENE_ENTRIES.iter().find(fits).map(|entry| entry.intent)
-    }
-
     /// Whether a held key repeats it.
     pub(super) fn repeats(self) -> bool {
         matches!(self, Self::Step | Self::More | Self::Less | Self::Undo)

@@ -3,9 +3,8 @@
 use eframe::egui::{Align, Button, Layout, MenuBar, Ui};
 use session::volumes::{SceneState, Show};
 
-use super::entries::SCENE_ENTRIES;
+use super::entries::{SCENE_ENTRIES, tip};
 use super::intent::{SceneIntent, SceneMenu};
-use super::toolbar::tip;
 
 /// Shows the bar with `title` at its right. Returns the entry that was clicked.
 pub(super) fn show(ui: &mut Ui, state: Option<&SceneState>, title: &str) -> Option<SceneIntent> {

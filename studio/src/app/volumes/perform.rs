@@ -14,7 +14,7 @@ const STEP: f64 = 1.25;
 /// Lowest and highest rate in mm3 a second.
 const RATES: [f64; 2] = [1.0, 1000.0];
 
-/// What the window itself must do.
+/// An intent that the window itself carries out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::app) enum WindowIntent {
     /// Shows the easel.

@@ -3,6 +3,7 @@
 use eframe::egui::{Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 use session::volumes::{SceneState, SceneTool, Show};
 
+use super::entries::tip;
 use super::icons;
 use super::intent::{SceneEntry, SceneIntent};
 use super::menus::enabled;
@@ -69,13 +70,4 @@ fn button(ui: &mut Ui, intent: SceneIntent, chosen: bool, enabled: bool) -> bool
         response.on_disabled_hover_ui(|ui| tip(ui, entry)).clicked()
     });
     clicked.inner
-}
-
-/// Tooltip of an entry: name, shortcut and description.
-pub(super) fn tip(ui: &mut Ui, entry: &SceneEntry) {
-    ui.horizontal(|ui| {
-        ui.strong(entry.name);
-        ui.weak(entry.shortcut_text());
-    });
-    ui.label(entry.description);
 }

@@ -38,7 +38,7 @@ const NOWHERE: Camera = Camera {
 pub struct Volumes {
     /// Tools and panels as they are set.
     pub tools: SceneTools,
-    /// The camera.
+    /// The camera, moved by the hand.
     pub orbit: Orbit,
     pub(super) worker: VolumeWorker,
     pub(super) state: Option<Arc<SceneState>>,
@@ -52,7 +52,7 @@ pub struct Volumes {
     pub(super) device: Option<Device>,
     /// Whether the worker knows that it is down.
     pub(super) pours: bool,
-    /// What is at a place of the window, and where it was asked.
+    /// The answer to a right click, and where it was asked.
     pub(super) here: Option<(Pos2, Option<Here>)>,
     pub(super) message: Option<Message>,
     pub(super) requests: Vec<SceneRequest>,
@@ -119,7 +119,7 @@ impl Volumes {
         self.rect
     }
 
-    /// What was found at the place that was asked last, while its card is open.
+    /// The answer to the last right click, while its card is open.
     #[must_use]
     pub fn here(&self) -> Option<&Here> {
         self.here.as_ref()?.1.as_ref()

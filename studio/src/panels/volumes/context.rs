@@ -8,10 +8,10 @@ use session::volumes::{Grip, Look, SceneState, VolumeCommand};
 /// Tabs of the side panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SceneTab {
-    /// What is shown.
+    /// The picture that is shown.
     #[default]
     View,
-    /// The light.
+    /// The direction of the light.
     Light,
     /// The list of events.
     Events,

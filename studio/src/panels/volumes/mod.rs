@@ -11,11 +11,11 @@ mod view;
 
 mod light;
 
+mod time_bar;
+
 mod events;
 
 mod export;
-
-mod time_bar;
 
 mod here;
 

@@ -7,7 +7,7 @@ use super::{events, export, light, tool, tubes, view};
 use crate::theme;
 
 impl SceneTab {
-    /// All tabs.
+    /// All tabs in their order.
     const ALL: [Self; 4] = [Self::View, Self::Light, Self::Events, Self::Export];
 
     /// Name and description.

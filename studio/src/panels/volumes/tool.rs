@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     percent(ui, "Strength", tip, &mut grip.strength, 1.0..=100.0);
 }
 
-/// What a tool does, in a few words.
+/// Effect of a tool in a few words.
 fn about(tool: SceneTool) -> &'static str {
     match tool {
         SceneTool::Pour => "the tube in hand, where the pen is held",

@@ -1,4 +1,4 @@
-//! What is shown of a scene.
+//! The choice of the picture that is shown of a scene.
 
 use eframe::egui::{Button, Ui, vec2};
 use session::volumes::{Inside, Show};
