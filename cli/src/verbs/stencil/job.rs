@@ -10,7 +10,7 @@ use render::volumes::performance::Performance;
 use render::volumes::settings::{Preset, Settings};
 use render::volumes::surfaces::ply_of;
 
-use super::Stencil;
+use super::options::Stencil;
 use super::outputs::OpenOutputs;
 use super::scene::{OpenScript, Scene};
 use super::stills::Stills;

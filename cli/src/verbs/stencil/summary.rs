@@ -1,4 +1,4 @@
-//! What a finished run tells.
+//! The summary of a finished run.
 
 use render::volumes::volume::Volume;
 use render::volumes::world::World;

@@ -1,4 +1,4 @@
-//! What a painting of a scene with its volumes is made of.
+//! The parts of a painting of a scene with its volumes.
 
 use graphics::field::Field;
 

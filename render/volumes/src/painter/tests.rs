@@ -66,7 +66,7 @@ impl Scene {
         visible(&self.mesh, &self.camera, SIZE.0, SIZE.1)
     }
 
-    /// What is shown where, if it is shown.
+    /// Places that are shown, if they are.
     fn place(&self, packed: &PackedMesh, seen: &VisibilityBuffer, pixel: usize) -> Option<Vec3> {
         let fragment = seen.values()[pixel];
         let place = || SurfacePoint::new(packed, fragment).position();

@@ -1,4 +1,4 @@
-//! What can go wrong while a script is played.
+//! Errors of playing a script.
 
 use spectra::hint::{Explain, Fault as FaultKind, Hint};
 
@@ -54,7 +54,7 @@ pub enum PerformanceError {
 }
 
 impl PerformanceError {
-    /// The same error with the file that the script was read from and the line of the event's
+    /// This error with the file that the script was read from and the line of the event's
     /// table in its `text`.
     #[must_use]
     pub fn located(mut self, file: &str, text: &str) -> Self {
@@ -79,7 +79,7 @@ impl PerformanceError {
         }
     }
 
-    /// The same error with other words for the place of the event.
+    /// This error with other words for the place of the event.
     #[must_use]
     pub fn placed(mut self, words: String) -> Self {
         match &mut self {

@@ -12,7 +12,7 @@ pub struct FirstView {
 }
 
 impl FirstView {
-    /// What `camera` sees of `scene` in a picture of this size.
+    /// The view of `scene` by `camera` in a picture of this size.
     ///
     /// # Panics
     /// If a triangle has a corner that the mesh does not have.

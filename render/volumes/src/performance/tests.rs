@@ -32,7 +32,7 @@ fn begun(tables: &str) -> Result<Performance, PerformanceError> {
     Performance::new(&script, &scene, &script.settings().unwrap(), &view)
 }
 
-/// What a script is refused for, with its file and line.
+/// The fault of a refused script, with its file and line.
 fn refused(tables: &str) -> PerformanceError {
     let played = begun(tables).and_then(|mut performance| performance.advance_to(480));
     played.unwrap_err().located("test.toml", &format!("{HEAD}{tables}"))

@@ -11,7 +11,7 @@ pub const QUANTA_PER_FACE: u32 = 1 << 22;
 /// How many times its capacity a cell can hold.
 pub const MOST_FILMS: u32 = 16;
 
-/// What the surface in each cell is like. All lists have one entry a cell.
+/// The surface in each cell. All lists have one entry a cell.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Cells {
     /// Mean place of the surface, in the unit of the scene.

@@ -42,7 +42,7 @@ pub struct Spilling {
     uneven: bool,
     volumes: Vec<u32>,
     heads: Vec<u32>,
-    /// What each cell gives along each of its links, as a share of its paint.
+    /// Gifts of each cell along each of its links, as a share of its paint.
     shares: Vec<u32>,
     /// The share of what is offered to each cell that it has room for.
     accepted: Vec<u32>,

@@ -1,4 +1,4 @@
-//! What can be done to a world over time, as data.
+//! Actions on a world over time, as data.
 
 use glam::Vec3;
 
@@ -16,7 +16,7 @@ pub struct Pour {
     pub rate_mm3_s: f64,
     /// How long it flows in seconds, above 0; infinite until it is stopped.
     pub for_s: f64,
-    /// What flows.
+    /// The paint that flows.
     pub recipe: Recipe,
     /// Region of the volumes that begin where it flows.
     pub region: u16,

@@ -1,4 +1,4 @@
-//! What cannot be done to a world.
+//! Errors of worlds.
 
 use glam::Vec3;
 use spectra::hint::{Explain, Fault, Hint};
@@ -44,7 +44,7 @@ pub enum WorldError {
     /// There are as many volumes as there can be.
     #[error("there is no room for more than {most} {what}")]
     Full {
-        /// What there are too many of: volumes or particles.
+        /// The things of which there are too many: volumes or particles.
         what: &'static str,
         /// Greatest number.
         most: usize,
@@ -56,7 +56,7 @@ pub enum WorldError {
         index: usize,
         /// Number of volumes.
         count: usize,
-        /// What is wrong with it.
+        /// The fault.
         why: &'static str,
     },
 }

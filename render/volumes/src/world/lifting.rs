@@ -60,7 +60,7 @@ impl World {
         }
     }
 
-    /// What all sponges take up in this step.
+    /// Takes up the paint below all sponges for this step.
     pub(super) fn take_up(&mut self) {
         let mut sponges = std::mem::take(&mut self.sponges);
         for sponge in &mut sponges {

@@ -71,7 +71,7 @@ impl World {
         }
     }
 
-    /// What all sources give in this step.
+    /// Lets all sources flow for this step.
     pub(super) fn flow(&mut self) -> Result<(), WorldError> {
         let mut sources = std::mem::take(&mut self.sources);
         let result = sources.iter_mut().try_for_each(|source| self.flow_from(source));

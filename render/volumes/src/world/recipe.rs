@@ -51,7 +51,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// What is to be added so that `amount` quanta have been given in all: each paint's share
+    /// Amounts to be added so that `amount` quanta have been given in all: each paint's share
     /// rounded down, so the rest is carried; at the `end` the rest goes to the greatest share.
     pub(super) fn up_to(&mut self, recipe: &Recipe, amount: f64, end: bool) -> [u64; SLOTS + 1] {
         let mut due = recipe.shares.map(|share| (share * amount) as u64);

@@ -140,7 +140,7 @@ impl World {
         &self.settings
     }
 
-    /// What acts on the volumes from outside at present.
+    /// The forces on the volumes from outside at present.
     #[must_use]
     pub fn surroundings(&self) -> &Surroundings {
         &self.surroundings
