@@ -8,7 +8,7 @@ use crate::drawing::{DrawingLook, ShellError, Shells};
 use crate::hatching::{Coordinates, HatchingLook};
 use crate::pigments::{FilmProfile, InsidePaint};
 use crate::script::RegionStyle;
-use crate::settings::{LightWith, Settings, StrokesAlong};
+use crate::settings::{DrawingTable, LightWith, Settings, StrokesAlong};
 
 /// How a region shows what its volumes hold.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +68,8 @@ pub(super) fn paper(settings: &Settings) -> [f32; 3] {
 
 /// How films stand over their rims.
 pub(super) fn profile(settings: &Settings) -> FilmProfile {
-    FilmProfile { rim: settings.drawing.rim, edge: settings.drawing.edge }
+    let DrawingTable { rim, edge, gate, .. } = settings.drawing;
+    FilmProfile { rim, edge, gate }
 }
 
 /// The insides of the volumes of all regions together.

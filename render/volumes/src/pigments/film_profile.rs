@@ -8,12 +8,15 @@ pub struct FilmProfile {
     pub rim: f32,
     /// How much higher the film is near its rim, 0 to 4.
     pub edge: f32,
+    /// Product of the normals of a point and of its volume's cell below which the film leaves the
+    /// point out, -1 to 1.
+    pub gate: f32,
 }
 
 impl Default for FilmProfile {
-    /// A rim of 0.15 radii and an edge of 0.5.
+    /// A rim of 0.15 radii, an edge of 0.5 and a gate of -0.2.
     fn default() -> Self {
-        Self { rim: 0.15, edge: 0.5 }
+        Self { rim: 0.15, edge: 0.5, gate: -0.2 }
     }
 }
 
@@ -63,7 +66,7 @@ mod tests {
         assert!(at(0.15) > 1.25 && at(0.05) < at(0.1), "{}", at(0.15));
         let most = (0..1000).map(|i| at(i as f32 / 1000.0)).fold(0.0, f32::max);
         assert!(most <= profile.most() && most > 1.2, "{most}");
-        let hard = FilmProfile { rim: 0.0, edge: 0.0 };
+        let hard = FilmProfile { rim: 0.0, edge: 0.0, ..profile };
         assert_eq!(hard.height(0.01), 1.0);
         assert!(hard.height(0.0).is_finite());
     }

@@ -7,9 +7,6 @@ use super::lattice::{SampleLattice, SampledSurface};
 use crate::containing::Inside;
 use crate::volume::Volume;
 
-/// Least product of the normals of a point and of its volume's cell for which the volume wets it.
-const GATE: f32 = -0.2;
-
 /// Held samples below which the surface counts as its tangent plane, and from which the samples
 /// alone count.
 const FEW: f64 = 8.0;
@@ -51,7 +48,7 @@ impl Wetted {
         let from = place - self.center;
         let distance = from.length_squared();
         // Also false for what is no number.
-        let near = distance < self.reach * self.reach && !self.faces_away(normal);
+        let near = distance < self.reach * self.reach && !self.faces_away(profile, normal);
         if !near {
             return 0.0;
         }
@@ -59,8 +56,8 @@ impl Wetted {
     }
 
     #[inline]
-    fn faces_away(&self, normal: Vec3) -> bool {
-        normal.dot(self.facing) < GATE
+    fn faces_away(&self, profile: &FilmProfile, normal: Vec3) -> bool {
+        self.facing != Vec3::ZERO && normal.dot(self.facing) < profile.gate
     }
 
     /// Integral of [`Self::relative_height`] over the surface that the volume holds, in the unit of
@@ -105,7 +102,7 @@ impl Wetted {
         lattice: &SampleLattice,
     ) -> Option<f64> {
         let away = |&index: &usize| surface.places[index].distance_squared(self.center);
-        let wettable = |&index: &usize| !self.faces_away(surface.normals[index]);
+        let wettable = |&index: &usize| !self.faces_away(profile, surface.normals[index]);
         let near = lattice.near(self.center, self.reach).filter(wettable);
         let nearest = near.min_by(|a, b| away(a).total_cmp(&away(b)))?;
         let normal = surface.normals[nearest];

@@ -295,7 +295,7 @@ impl Scene {
     pub(super) fn here(&self, sight: &Sight, at: [f32; 2]) -> Here {
         let srgb = self.shown.as_ref().map_or([0; 3], |shown| color_at(shown, at));
         let drawing = &self.settings.drawing;
-        let profile = FilmProfile { rim: drawing.rim, edge: drawing.edge };
+        let profile = FilmProfile { rim: drawing.rim, edge: drawing.edge, gate: drawing.gate };
         let found = self.hit(sight, at).map(|hit| {
             let found = found_at(self.timeline.now().world(), &hit, profile);
             (hit.place, found)
