@@ -69,7 +69,7 @@ fn faults_of_the_header() {
             "shape:sphere",
             "other.toml",
             "s.toml, line 3: subject takes a model or a photograph, found `other.toml`",
-            "that the other script paints",
+            "name the model or photograph that the other script paints",
         ),
         (
             "shape:sphere",
