@@ -96,8 +96,8 @@ fn letter(script: &mut Script, pigment: &str) -> String {
     if let Some((key, _)) = script.palette.iter().find(|(_, name)| *name == pigment) {
         return key.clone();
     }
-    let key = (1..).map(|number| format!("P{number}"));
-    let key = key.skip_while(|key| script.palette.contains_key(key)).next().unwrap_or_default();
+    let mut keys = (1..).map(|number| format!("P{number}"));
+    let key = keys.find(|key| !script.palette.contains_key(key)).unwrap_or_default();
     script.palette.insert(key.clone(), pigment.to_owned());
     key
 }

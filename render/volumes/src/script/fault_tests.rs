@@ -67,6 +67,12 @@ fn faults_of_the_header() {
         ),
         (
             "shape:sphere",
+            "other.toml",
+            "s.toml, line 3: subject takes a model or a photograph, found `other.toml`",
+            "name the model or photograph that the other script paints",
+        ),
+        (
+            "shape:sphere",
             "",
             "s.toml, line 3: subject takes a path of 1 to 1024 bytes",
             "subject = ",
