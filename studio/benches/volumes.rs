@@ -107,7 +107,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             bench.receive(HAND);
         }
         let pressed = Instant::now();
-        bench.worker.ask(VolumeCommand::PenDown(Grip::default(), pen(0.5, 0.55)));
+        // On grass.
+        bench.worker.ask(VolumeCommand::PenDown(Grip::default(), pen(0.45, 0.8)));
         while bench.colored() == 0 {
             bench.receive(Duration::from_millis(1));
         }
@@ -115,7 +116,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         bench.worker.ask(VolumeCommand::PenUp);
         bench.worker.ask(VolumeCommand::Undo);
         bench.worker.ask(VolumeCommand::Seek(0));
-        while bench.colored() > 0 {
+        let step = |bench: &Bench| bench.state.as_ref().map_or(0, |state| state.time.step);
+        while bench.colored() > 0 || step(&bench) > 0 {
             bench.receive(HAND);
         }
     }

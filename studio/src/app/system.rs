@@ -9,6 +9,7 @@ use eframe::egui::{Align2, Color32, Context, FontId, Id, LayerId, Order, Rect, V
 
 use super::side::Tab;
 use super::studio::Studio;
+use super::volumes::Volumes;
 use crate::files::FrameFigures;
 use crate::panels::eyedropper::Eyedropper;
 use crate::panels::{FileRequest, Request};
@@ -85,7 +86,9 @@ impl Studio {
         let placement = self.canvas.placement();
         let corners = [[0, 0], [width, 0], [0, height], [width, height]];
         let sheet = corners.map(|corner| placement.point(corner.map(|cells| cells as f64)));
-        let sheet = Rect::from_points(&sheet) * context.pixels_per_point();
+        let scene = self.volumes.as_ref().filter(|_| self.shows_volumes);
+        let sheet = scene.map_or_else(|| Rect::from_points(&sheet), Volumes::rect);
+        let sheet = sheet * context.pixels_per_point();
         let frames = FrameFigures {
             frames_a_second: rate.frames_a_second,
             latency_ms: rate.latency_ms,

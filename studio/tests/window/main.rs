@@ -16,6 +16,8 @@ mod painting;
 
 mod recovery;
 
+mod scene;
+
 use std::io::Write;
 
 use render::gpu::{BackendChoice, choose};

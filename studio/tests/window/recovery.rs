@@ -41,7 +41,7 @@ fn wet(document: &Document) -> u64 {
 
 /// Finds the centre of the recover button: the left of two equal buttons below the menu
 /// bar, recognized by the colour of buttons.
-fn recover_button(screen: &Pixels) -> Option<(i32, i32)> {
+pub(crate) fn recover_button(screen: &Pixels) -> Option<(i32, i32)> {
     let fill = [theme::BUTTON.r(), theme::BUTTON.g(), theme::BUTTON.b()];
     for y in 44..120 {
         let row: Vec<usize> = (0..screen.width).filter(|&x| screen.at(x, y) == fill).collect();

@@ -140,6 +140,25 @@ fn an_event_that_is_taken_back_leaves_what_there_was_without_it() {
 }
 
 #[test]
+fn paint_that_is_poured_in_the_past_joins_what_follows() {
+    let mut scene = still_life();
+    gesture(&mut scene, pour(5), [0.45, 0.5], [0.55, 0.5]);
+    // There is a snapshot each second.
+    (0..220).for_each(|_| scene.step().unwrap());
+    let before = picture(&mut scene);
+    scene.go_to(60).unwrap();
+    settle(&mut scene);
+    gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
+    scene.go_to(270).unwrap();
+    settle(&mut scene);
+    assert_ne!(picture(&mut scene), before);
+    assert_eq!(played(&scene, None), scene.volumes());
+    scene.undo().unwrap();
+    settle(&mut scene);
+    assert_eq!(picture(&mut scene), before);
+}
+
+#[test]
 fn a_recording_that_is_opened_again_goes_on_the_same() {
     let mut scene = still_life();
     gesture(&mut scene, pour(5), [0.45, 0.5], [0.55, 0.5]);
