@@ -60,7 +60,7 @@ oils="--pigments measurements/van-gogh-oils.pigments.json"
 for preset in sketch washed tinted bleed; do
     pour "preset-$preset" shape:still-life --preset "$preset" --pour 0.42,0.6,160
 done
-blue="--pour 0.36,0.5,15 --paint Ultramarine=1"
+blue="--pour 0.36,0.5,18 --paint Ultramarine=1"
 red="--pour 0.66,0.66,12 --paint Cochineal\ Lake=1"
 yellow="--pour 0.45,0.8,18 --paint Chrome\ Yellow=1"
 eval "pour preset-grisaille shape:still-life --preset grisaille $oils $blue $red $yellow \
