@@ -22,6 +22,8 @@ pub struct Particles {
 pub struct Volume {
     /// Centre, in the unit of the scene.
     pub center: Vec3,
+    /// Place that its centre moves to.
+    pub target_center: Vec3,
     /// Radius at which it rests at present, above 0, in the unit of the scene.
     pub radius: f32,
     /// Radius that it grows or shrinks to.
@@ -67,6 +69,7 @@ impl Volume {
         let (target_radius, normal, rests_under) = (radius, Vec3::ZERO, 0);
         Self {
             center,
+            target_center: center,
             radius,
             target_radius,
             detail,

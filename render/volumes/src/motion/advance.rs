@@ -23,7 +23,7 @@ const MOST_SUB_STEPS: u32 = 1000;
 /// # Errors
 /// [`MotionError::OutOfRange`] for a setting, surroundings or a time out of range,
 /// [`MotionError::TooStiff`] for more than 1000 sub-steps, [`MotionError::Volume`] for a volume
-/// whose centre or radii are not finite, or whose radius is not above 0. No volume has moved then.
+/// whose centres or radii are not finite, or whose radius is not above 0. No volume has moved then.
 pub fn advance(
     volumes: &mut [Volume],
     settings: &MotionSettings,
@@ -73,9 +73,11 @@ fn sub_steps(stiffness: f32, seconds: f32) -> Result<u32, MotionError> {
 fn check_volume(index: usize, volume: &Volume) -> Result<(), MotionError> {
     const FINITE: RangeInclusive<f32> = -1e15..=1e15;
     let fault = |what, value, must| Err(MotionError::Volume { index, what, value, must });
-    let far = volume.center.to_array().into_iter().find(|along| !FINITE.contains(along));
-    if let Some(value) = far {
-        return fault("centre", value, "finite, at most 1e15");
+    for (what, at) in [("centre", volume.center), ("target centre", volume.target_center)] {
+        let far = at.to_array().into_iter().find(|along| !FINITE.contains(along));
+        if let Some(value) = far {
+            return fault(what, value, "finite, at most 1e15");
+        }
     }
     if !(1e-15..=1e15).contains(&volume.radius) {
         return fault("radius", volume.radius, "above 0, 1e-15 to 1e15");
@@ -114,6 +116,7 @@ mod tests {
             advance(&mut changed, &settings, &surroundings, 0.01).unwrap_err().to_string()
         };
         assert!(moved(|v| v.center.y = f32::NAN).starts_with("volume 1 has centre `NaN`"));
+        assert!(moved(|v| v.target_center.x = f32::NAN).contains("target centre `NaN`"));
         assert!(moved(|v| v.radius = 0.0).starts_with("volume 1 has radius `0`"));
         assert!(moved(|v| v.target_radius = -1.0).contains("target radius `-1`"));
         assert!(advance(&mut volumes, &settings, &surroundings, -1.0).is_err());

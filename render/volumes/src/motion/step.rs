@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::forces::{cohesion, damping, elastic, gravity, pressure, surface_pull, velocity};
-use super::growth::grown;
+use super::growth::moved;
 use super::keep_in::KeepIn;
 use super::microstructure::RestingRadii;
 use super::push::Push;
@@ -67,11 +67,15 @@ pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratc
     let mesh = SphereMesh::of_detail(volume.detail);
     let least = LEAST_RADIUS * surroundings.cell;
     let target = volume.target_radius.max(least);
-    let reach = FARTHEST * volume.radius.max(target) / mesh.inradius;
+    let way = volume.center.distance(volume.target_center);
+    let reach = FARTHEST * volume.radius.max(target) / mesh.inradius + way;
     let reaches = |push: &&Push| push.reaches(volume.center, reach);
     let pushes: Vec<Push> = surroundings.pushes.iter().filter(reaches).copied().collect();
     let rests = volume.rests_under == conditions.fingerprint;
-    if volume.dry || (rests && volume.radius == target && pushes.is_empty()) {
+    let arrived = |volume: &Volume| {
+        volume.radius == target && volume.center == volume.target_center && pushes.is_empty()
+    };
+    if volume.dry || (rests && arrived(volume)) {
         return;
     }
     volume.rests_under = 0;
@@ -90,9 +94,13 @@ pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratc
     );
     let mut still = false;
     for _ in 0..conditions.count {
-        let fastest = settings.fastest * surroundings.cell;
-        volume.radius = grown(volume.radius, target, fastest, conditions.seconds).max(least);
-        resting_radii.radius = volume.radius;
+        let cell = surroundings.cell;
+        let fastest = settings.fastest * cell;
+        let targets = (volume.target_center, target);
+        let now = (volume.center, volume.radius);
+        (volume.center, volume.radius) = moved(now, targets, (fastest, cell), conditions.seconds);
+        volume.radius = volume.radius.max(least);
+        (resting_radii.center, resting_radii.radius) = (volume.center.to_array(), volume.radius);
         let step = SubStep {
             conditions,
             mesh,
@@ -113,7 +121,7 @@ pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratc
             keep_inside(&regions, volume.center, NEAREST * volume.radius, &mut volume.particles);
         }
     }
-    if still && volume.radius == target && pushes.is_empty() {
+    if still && arrived(volume) {
         volume.particles.velocities.iter_mut().for_each(|along| along.fill(0.0));
         volume.rests_under = conditions.fingerprint;
     }
@@ -212,12 +220,15 @@ impl SubStep<'_> {
         let samples = &mut self.particles.samples[..count];
         let forces = self.scratch.forces.each_mut().map(|along| &mut along[..count]);
         for i in 0..count {
-            let place = self.center + Vec3::new(places[0][i], places[1][i], places[2][i]);
+            let from_center = Vec3::new(places[0][i], places[1][i], places[2][i]);
+            let place = self.center + from_center;
             let mut force = Vec3::ZERO;
             if let Some(surface) = surface {
                 let (index, sample) = surface.pulling(place, samples[i]);
                 samples[i] = index;
-                force += surface_pull(sample.unwrap_or(place) - place, pull, radius, cell);
+                // From the centre, as places in the scene are too coarse for small volumes.
+                let way = sample.map_or(Vec3::ZERO, |at| (at - self.center) - from_center);
+                force += surface_pull(way, pull, radius, cell);
             }
             for push in self.pushes {
                 force += push.at(place, cell);

@@ -268,7 +268,7 @@ fn no_colour_shows_beyond_a_region_to_stay_in() {
     let beside = |at: &Vec3| (0.1..0.2).contains(&((at.x - middle.x) / (high.x - low.x)));
     let place = shown.filter(beside).nth(100).unwrap();
     world.pour(Pour::at(place, 400.0, 1.0, Recipe::of_slot(0))).unwrap();
-    (0..240).for_each(|_| world.step().unwrap());
+    (0..420).for_each(|_| world.step().unwrap());
     let (painted, plain) = (scene.painted(&world), scene.plain());
     let (mut held, mut at_wall) = (0, 0);
     for (pixel, found) in painted.values().iter().enumerate() {

@@ -71,10 +71,9 @@ impl Grid {
         found.map(|sample| (sample, least))
     }
 
-    /// The place on the surface of `cell` that is nearest to the middle of its neighbour `giver`.
+    /// The place on the surface of `cell` that is nearest to the place `from`.
     #[must_use]
-    pub fn entrance(&self, cell: usize, giver: usize) -> Vec3 {
-        let from = self.cells.centers[giver];
+    pub fn entrance(&self, cell: usize, from: Vec3) -> Vec3 {
         let own = self.samples.places[self.samples.of_cell(cell)].iter().copied();
         let nearest =
             own.min_by(|a, b| a.distance_squared(from).total_cmp(&b.distance_squared(from)));

@@ -28,8 +28,11 @@ impl World {
         for volume in self.volumes.iter_mut().filter(|volume| !volume.dry) {
             let cell = volume.cell.map_or(0, |cell| cell as usize);
             let wettable = volume.cell.is_some() && grid.cells.capacities[cell] > 0;
+            if wettable && !inside(volume.target_center) {
+                volume.target_center = grid.cells.centers[cell];
+            }
             if wettable && !inside(volume.center) {
-                volume.center = grid.cells.centers[cell];
+                volume.center = volume.target_center;
             }
         }
         self.grid = Arc::new(grid);

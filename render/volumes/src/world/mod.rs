@@ -41,6 +41,9 @@ mod time;
 mod tests;
 
 #[cfg(test)]
+mod outline_tests;
+
+#[cfg(test)]
 mod limit_tests;
 
 pub use actions::{Lift, Pour, Single};

@@ -5,6 +5,11 @@ use paint::layer::Cell;
 
 use super::error::WorldError;
 use super::state::{BIRTH, NONE, World};
+use crate::volume::Volume;
+use crate::wetting::Grid;
+
+/// Share of the giver's radius within which a volume begins: less than its deepest dents, as a rule.
+const HIDDEN: f32 = 0.7;
 
 /// Level of detail of the volumes of the grid.
 const DETAIL: u8 = 2;
@@ -27,6 +32,24 @@ impl World {
         volume.normal = self.grid.cells.normals[cell];
         self.of_cell[cell] = index as u32;
         Ok(index)
+    }
+
+    /// Begins the volume of a cell that paint reaches from a neighbour. It begins inside of the
+    /// giver's volume and moves to where it enters its cell no faster than volumes grow, so that
+    /// paint shows only where it has soaked to.
+    fn soak(&mut self, cell: usize, giver: usize) -> Result<(), WorldError> {
+        let Volume { center, radius, region, .. } = self.volumes[self.of_cell[giver] as usize];
+        let Grid { cells, reach, .. } = &*self.grid;
+        let full = reach.radius(giver, cells.capacities[giver], 0.0);
+        let mut entrance = self.grid.entrance(cell, cells.centers[giver]);
+        if entrance.distance(cells.centers[giver]) > full {
+            // The giver never comes there: its own surface does.
+            entrance = self.grid.entrance(giver, entrance);
+        }
+        let begin = center + (entrance - center).clamp_length_max(HIDDEN * radius);
+        let index = self.volume_in(cell, begin, region)?;
+        self.volumes[index].target_center = entrance;
+        Ok(())
     }
 
     /// One step of spilling between all wet volumes of the grid.
@@ -62,8 +85,7 @@ impl World {
         let born = self.spilling.step(cells, &mut self.paint, births);
         for birth in born {
             let (cell, giver) = (birth.cell as usize, birth.giver as usize);
-            let region = self.volumes[self.of_cell[giver] as usize].region;
-            self.volume_in(cell, grid.entrance(cell, giver), region)?;
+            self.soak(cell, giver)?;
         }
         let mut settled = true;
         for index in 0..self.volumes.len() {
@@ -80,19 +102,23 @@ impl World {
         Ok(())
     }
 
-    /// Gives a volume of the grid its paint, and moves its centre from where it began towards the
+    /// Gives a volume of the grid its paint, and sends its centre from where it enters towards the
     /// middle of its cell as the cell fills: a full cell's volume holds all its surface.
     pub(super) fn set_paint(&mut self, index: usize, paint: Cell) {
         let Some(cell) = self.volumes[index].cell.map(|cell| cell as usize) else { return };
         let capacity = self.grid.cells.capacities[cell].max(1) as f32;
-        let filled = |paint: &Cell| (paint.volume() as f32 / capacity).min(1.0);
+        // Squared: a ball that is as wide as its paint then ends where the paint of its cell does.
+        let filled = |paint: &Cell| {
+            let share = (paint.volume() as f32 / capacity).min(1.0);
+            share * share
+        };
         let volume = &mut self.volumes[index];
         let (before, now) = (filled(&volume.paint), filled(&paint));
         if now > before {
-            let way = self.grid.cells.centers[cell] - volume.center;
+            let way = self.grid.cells.centers[cell] - volume.target_center;
             let share = if now < 1.0 { (now - before) / (1.0 - before) } else { 1.0 };
             if self.grid.cells.capacities[cell] > 0 {
-                volume.center += way * share;
+                volume.target_center += way * share;
             }
         }
         volume.paint = paint;

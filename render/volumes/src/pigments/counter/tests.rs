@@ -124,7 +124,8 @@ fn the_films_of_a_world_are_the_paint_on_its_scene() {
         let place = Vec3::from(mesh.positions[at]);
         world.pour(Pour::at(place, 60.0, 1.0, Recipe::of_slot(slot))).unwrap();
     }
-    (0..150).for_each(|_| world.step().unwrap());
+    // Until volumes are wider than the samples are apart.
+    (0..300).for_each(|_| world.step().unwrap());
     let samples = &world.grid().samples;
     let surface = SampledSurface::from(samples);
     let lattice = SampleLattice::of(surface.places, samples.lattice.cell);
