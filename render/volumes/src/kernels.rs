@@ -3,9 +3,10 @@
 use graphics::gpu::Kernel;
 
 use crate::drawing::{FINISH, REGION, SHADE};
+use crate::motion::STEP;
 
 /// Every compute kernel of volumes.
 #[must_use]
 pub fn kernels() -> Vec<&'static Kernel> {
-    vec![&SHADE, &REGION, &FINISH]
+    vec![&STEP, &SHADE, &REGION, &FINISH]
 }
