@@ -4,9 +4,10 @@ use graphics::gpu::Kernel;
 
 use crate::drawing::{FINISH, REGION, SHADE};
 use crate::motion::STEP;
+use crate::wetting::SPILL;
 
 /// Every compute kernel of volumes.
 #[must_use]
 pub fn kernels() -> Vec<&'static Kernel> {
-    vec![&STEP, &SHADE, &REGION, &FINISH]
+    [&SPILL[..], &[&STEP, &SHADE, &REGION, &FINISH]].concat()
 }
