@@ -33,10 +33,10 @@ fn distances(one: &Volume, other: &Volume) -> impl Iterator<Item = f32> {
 #[test]
 fn a_world_on_a_device_has_the_same_paint_and_nearly_the_same_places() {
     let Some(compute) = device() else { return };
-    let mut device = StepDevice::new(compute).above(0);
+    let mut device = StepDevice::beside(&compute).above(0);
     let [mut own, mut other] = [busy(), busy()];
     let (mut near, mut all) = (0, 0);
-    for step in 0..360 {
+    for step in 0..300 {
         assert!(device.serves(&other) || step == 0);
         own.step().unwrap();
         other.step_on(&mut device).unwrap();
@@ -61,11 +61,17 @@ fn a_world_on_a_device_has_the_same_paint_and_nearly_the_same_places() {
 #[test]
 fn small_worlds_and_those_without_a_device_are_stepped_on_the_processor() {
     let Some(compute) = device() else { return };
-    let mut unused = [StepDevice::new(compute), StepDevice::new(Compute::cpu()).above(0)];
+    let processor = Compute::cpu();
+    let mut unused = [
+        StepDevice::beside(&compute),
+        StepDevice::new(compute),
+        StepDevice::beside(&processor).above(0),
+        StepDevice::new(processor).above(0),
+    ];
     for device in &mut unused {
         let [mut own, mut other] = [busy(), busy()];
         assert!(!device.serves(&other));
-        for _ in 0..60 {
+        for _ in 0..40 {
             own.step().unwrap();
             other.step_on(device).unwrap();
         }

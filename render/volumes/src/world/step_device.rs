@@ -1,7 +1,7 @@
 //! The graphics device of large worlds.
 
 use graphics::compute::Compute;
-use graphics::gpu::Device;
+use graphics::gpu::{Adapter, Device, DeviceError};
 
 use super::state::World;
 use crate::motion::DeviceMotion;
@@ -17,7 +17,15 @@ pub const DEVICE_PARTICLES: usize = 200_000;
 #[derive(Debug)]
 pub struct StepDevice {
     above: usize,
-    opened: Option<OpenedDevice>,
+    opening: Opening,
+}
+
+/// A device that may have to be opened first.
+#[derive(Debug)]
+enum Opening {
+    Processor,
+    Closed(Adapter),
+    Open(Box<OpenedDevice>),
 }
 
 /// The device and its memory.
@@ -28,16 +36,30 @@ pub(super) struct OpenedDevice {
     pub(super) spilling: DeviceSpilling,
 }
 
+impl OpenedDevice {
+    fn new(device: Device) -> Box<Self> {
+        let (motion, spilling) = (DeviceMotion::default(), DeviceSpilling::default());
+        Box::new(Self { device, motion, spilling })
+    }
+}
+
 impl StepDevice {
-    /// The device of `compute`; on the processor all worlds are moved there.
+    /// The device of `compute`; with the processor all worlds are moved there.
     #[must_use]
     pub fn new(compute: Compute) -> Self {
-        let opened = compute.into_device().map(|device| OpenedDevice {
-            device,
-            motion: DeviceMotion::default(),
-            spilling: DeviceSpilling::default(),
-        });
-        Self { above: DEVICE_PARTICLES, opened }
+        let device = compute.into_device();
+        let opening =
+            device.map_or(Opening::Processor, |device| Opening::Open(OpenedDevice::new(device)));
+        Self { above: DEVICE_PARTICLES, opening }
+    }
+
+    /// The adapter of `compute`, which paints meanwhile. It is opened a second time once there is a
+    /// world large enough.
+    #[must_use]
+    pub fn beside(compute: &Compute) -> Self {
+        let adapter = compute.device().map(|device| device.adapter().clone());
+        let opening = adapter.map_or(Opening::Processor, Opening::Closed);
+        Self { above: DEVICE_PARTICLES, opening }
     }
 
     /// Serves worlds of more than `particles` particles, instead of [`DEVICE_PARTICLES`].
@@ -46,19 +68,31 @@ impl StepDevice {
         Self { above: particles, ..self }
     }
 
-    /// The device, if it serves a world of these volumes.
-    pub(super) fn serving(&mut self, volumes: &[Volume]) -> Option<&mut OpenedDevice> {
-        let above = self.above;
-        self.opened.as_mut().filter(|_| particles_of(volumes) > above)
-    }
-
     /// Whether it moves this world.
     #[must_use]
     pub fn serves(&self, world: &World) -> bool {
-        self.opened.is_some() && particles_of(&world.volumes) > self.above
+        self.serves_volumes(&world.volumes)
     }
-}
 
-fn particles_of(volumes: &[Volume]) -> usize {
-    volumes.iter().map(|volume| volume.particles.places[0].len()).sum()
+    fn serves_volumes(&self, volumes: &[Volume]) -> bool {
+        let particles: usize = volumes.iter().map(|v| v.particles.places[0].len()).sum();
+        !matches!(self.opening, Opening::Processor) && particles > self.above
+    }
+
+    /// The device, if it serves a world of these volumes.
+    pub(super) fn serving(
+        &mut self,
+        volumes: &[Volume],
+    ) -> Result<Option<&mut OpenedDevice>, DeviceError> {
+        if !self.serves_volumes(volumes) {
+            return Ok(None);
+        }
+        if let Opening::Closed(adapter) = &self.opening {
+            self.opening = Opening::Open(OpenedDevice::new(Device::open(adapter)?));
+        }
+        match &mut self.opening {
+            Opening::Open(opened) => Ok(Some(opened)),
+            Opening::Processor | Opening::Closed(_) => Ok(None),
+        }
+    }
 }

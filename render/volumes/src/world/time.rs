@@ -26,7 +26,7 @@ impl World {
     /// Those of [`Self::step`], and if the device fails. All paint that has moved until then is in
     /// the tally.
     pub fn step_on(&mut self, device: &mut StepDevice) -> Result<(), WorldError> {
-        let serving = device.serving(&self.volumes);
+        let serving = device.serving(&self.volumes)?;
         self.step_by(serving)
     }
 
