@@ -83,6 +83,12 @@ impl SolidHills {
         Self { seed: random.random() }
     }
 
+    /// The number that tells these hills from others, for twins of this code in shaders.
+    #[must_use]
+    pub fn seed(self) -> u32 {
+        self.seed
+    }
+
     /// The height at a place.
     #[inline(always)]
     #[must_use]

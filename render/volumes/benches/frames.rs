@@ -8,6 +8,8 @@ use std::sync::Arc;
 use divan::Bencher;
 use glam::Vec3;
 use graphics::camera::{Camera, Framing};
+use graphics::compute::Compute;
+use graphics::gpu::{BackendChoice, choose};
 use graphics::mesh::{Mesh, SampleModel};
 use paint::document::Lighting;
 use paint::ground::GroundKind;
@@ -122,6 +124,26 @@ fn hero(bencher: Bencher<'_, '_>) {
     let scene = Scene::new();
     let painter = scene.painter(&[1.0], 0.0, Inside::OwnColors);
     frames(bencher, &scene.hero(), &scene.camera, painter);
+}
+
+/// Frames painted wholly on any graphics device; nothing without one.
+#[divan::bench(args = [0, 64, 256])]
+fn on_a_device(bencher: Bencher<'_, '_>, volumes: usize) {
+    let Ok(Some(device)) = choose(BackendChoice::Gpu) else { return };
+    let scene = Scene::new();
+    let painter = scene.painter(&[1.0], 0.0, Inside::OwnColors);
+    let painter = painter.on(Compute::gpu(device)).unwrap();
+    frames(bencher, &scene.poured(volumes), &scene.camera, painter);
+}
+
+/// The same with hatching and four shells.
+#[divan::bench(args = [64])]
+fn hatched_on_a_device(bencher: Bencher<'_, '_>, volumes: usize) {
+    let Ok(Some(device)) = choose(BackendChoice::Gpu) else { return };
+    let scene = Scene::new();
+    let painter = scene.painter(&SHELLS, 1.0, Inside::OwnColors);
+    let painter = painter.on(Compute::gpu(device)).unwrap();
+    frames(bencher, &scene.poured(volumes), &scene.camera, painter);
 }
 
 /// A film on the surface over a grisaille with hatching: three layers.

@@ -8,7 +8,8 @@ use std::sync::Arc;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use glam::Vec3;
-use volumes::motion::{MotionSettings, SurfaceLattice, Surroundings, advance, kick};
+use graphics::gpu::{BackendChoice, choose};
+use volumes::motion::{DeviceMotion, MotionSettings, SurfaceLattice, Surroundings, advance, kick};
 use volumes::volume::Volume;
 
 const STEP: f32 = 1.0 / 120.0;
@@ -20,11 +21,12 @@ struct Crowd {
     detail: u8,
 }
 
-const CROWDS: [Crowd; 4] = [
+const CROWDS: [Crowd; 5] = [
     Crowd { count: 64, detail: 3 },
     Crowd { count: 256, detail: 2 },
     Crowd { count: 1, detail: 4 },
     Crowd { count: 1000, detail: 3 },
+    Crowd { count: 4000, detail: 2 },
 ];
 
 impl fmt::Display for Crowd {
@@ -85,6 +87,22 @@ fn on_a_surface(bencher: Bencher, crowd: Crowd) {
 fn surface_lattice(bencher: Bencher) {
     let places = Crowd { count: 1000, detail: 2 }.floor();
     bencher.bench(|| SurfaceLattice::of(&places, 1.0).unwrap());
+}
+
+/// The same crowd on any graphics device, with the way there and back; nothing without one.
+#[divan::bench(args = CROWDS)]
+fn on_a_device(bencher: Bencher, crowd: Crowd) {
+    let Ok(Some(mut device)) = choose(BackendChoice::Gpu) else { return };
+    let settings = MotionSettings { fastest: 0.002, ..MotionSettings::default() };
+    let surface = SurfaceLattice::of(&crowd.floor(), 1.0).unwrap();
+    let surroundings =
+        Surroundings { surface: Some(Arc::new(surface)), ..Surroundings::new(1.0, 1) };
+    let mut volumes = crowd.volumes();
+    let particles: usize = volumes.iter().map(|v| v.particles.places[0].len()).sum();
+    let mut motion = DeviceMotion::default();
+    bencher.counter(ItemsCount::new(particles)).bench_local(|| {
+        motion.advance(&mut device, &mut volumes, &settings, &surroundings, STEP).unwrap()
+    });
 }
 
 fn main() {

@@ -2,11 +2,14 @@
 
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
+use std::sync::Arc;
+
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
+use graphics::gpu::{BackendChoice, choose};
 use graphics::mesh::{Material, Mesh, SampleModel, Triangle};
 use paint::layer::Cell;
-use volumes::wetting::{Grid, SAMPLES_PER_CELL, Spilling, SurfaceSamples};
+use volumes::wetting::{DeviceSpilling, Grid, SAMPLES_PER_CELL, Spilling, SurfaceSamples};
 use volumes::world::{Pour, Recipe, World, WorldSettings};
 
 fn still_life() -> (Mesh, f32) {
@@ -45,25 +48,47 @@ fn level(side: f32) -> Mesh {
     }
 }
 
-/// Wet cells of a level square, all of which give and take. Goal: 10 million cell-steps a second.
-#[divan::bench(args = [1, 3, 8], sample_count = 10)]
-fn spill(bencher: Bencher<'_, '_>, pigments: usize) {
-    let side = 400.0;
-    let grid = Grid::of(&level(side), 1.0, SAMPLES_PER_CELL, 1).unwrap();
-    let mut spilling = Spilling::new(&grid.cells, 1.0, 0.04, 0.0).unwrap();
+/// A level square of 400 x 400 wet cells, all of which give and take.
+fn wet(pigments: usize) -> (Grid, Spilling, Vec<Cell>) {
+    let grid = Grid::of(&level(400.0), 1.0, SAMPLES_PER_CELL, 1).unwrap();
+    let spilling = Spilling::new(&grid.cells, 1.0, 0.04, 0.0).unwrap();
     let amount = |cell: usize| {
         let mut own = Cell::default();
         let films = 2 + (cell as u32).wrapping_mul(2_654_435_761) % 12;
         own.pigments[..pigments].fill(grid.cells.capacities[cell] * films / pigments as u32);
         own
     };
-    let paint: Vec<Cell> = (0..grid.cells.len()).map(amount).collect();
+    let paint = (0..grid.cells.len()).map(amount).collect();
+    (grid, spilling, paint)
+}
+
+/// Spilling between wet cells. Goal: 10 million cell-steps a second.
+#[divan::bench(args = [1, 3, 8], sample_count = 10)]
+fn spill(bencher: Bencher<'_, '_>, pigments: usize) {
+    let (grid, mut spilling, paint) = wet(pigments);
     bencher
         .counter(ItemsCount::new(20 * paint.len()))
         .with_inputs(|| paint.clone())
         .bench_local_refs(|paint| {
             for _ in 0..20 {
                 spilling.step((&grid.graph, &grid.cells), paint, true);
+            }
+        });
+}
+
+/// The same cells on any graphics device, with the way there and back; nothing without one.
+#[divan::bench(args = [1, 8], sample_count = 10)]
+fn spill_on_a_device(bencher: Bencher<'_, '_>, pigments: usize) {
+    let Ok(Some(mut device)) = choose(BackendChoice::Gpu) else { return };
+    let (grid, spilling, paint) = wet(pigments);
+    let grid = Arc::new(grid);
+    let mut on_device = DeviceSpilling::default();
+    bencher
+        .counter(ItemsCount::new(20 * paint.len()))
+        .with_inputs(|| paint.clone())
+        .bench_local_refs(|paint| {
+            for _ in 0..20 {
+                on_device.step(&mut device, (&spilling, &grid), paint, true).unwrap();
             }
         });
 }

@@ -3,9 +3,11 @@
 use graphics::gpu::Kernel;
 
 use crate::drawing::{FINISH, REGION, SHADE};
+use crate::motion::STEP;
+use crate::wetting::SPILL;
 
 /// Every compute kernel of volumes.
 #[must_use]
 pub fn kernels() -> Vec<&'static Kernel> {
-    vec![&SHADE, &REGION, &FINISH]
+    [&SPILL[..], &[&STEP, &SHADE, &REGION, &FINISH]].concat()
 }

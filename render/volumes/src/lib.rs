@@ -19,6 +19,11 @@ mod test_volumes;
 #[cfg(test)]
 mod test_surfaces;
 
+#[cfg(test)]
+mod test_device;
+
+mod device_memory;
+
 pub mod containing;
 
 pub mod surfaces;

@@ -9,6 +9,7 @@ use render::volumes::painter::{Show, VolumePainter, VolumePigments};
 use render::volumes::performance::Performance;
 use render::volumes::settings::{Preset, Settings};
 use render::volumes::surfaces::ply_of;
+use render::volumes::world::StepDevice;
 
 use super::options::Stencil;
 use super::outputs::OpenOutputs;
@@ -97,8 +98,9 @@ impl Job {
         let recording = self.animation.take();
         let digest = recording.as_ref().map(|_| self.digest(&backend));
         let lighting = self.pigments.as_ref().map(|own| own.lighting.clone());
+        let mut steps = StepDevice::beside(&self.compute);
         let mut painter = self.painter()?;
-        let still = self.rehearsed(recording.is_some())?;
+        let still = self.rehearsed(recording.is_some(), &mut steps)?;
         let recording = match (recording, digest) {
             (Some(animation), Some(digest)) => {
                 Some(animation.begin(digest, self.times.frames.len(), size)?)
@@ -126,9 +128,9 @@ impl Job {
             play: self.beginning,
             steps: &self.times.frames,
         };
-        film.clone().write_volumes(volumes)?;
+        film.clone().write_volumes(volumes, &mut steps)?;
         if let Some(recording) = recording {
-            let found = film.record(recording, &mut painter, self.show, console)?;
+            let found = film.record(recording, (&mut painter, &mut steps), self.show, console)?;
             summary.frames = Some((self.times.frames.len(), found));
         }
         summary.print(self.json, console)
@@ -158,13 +160,13 @@ impl Job {
 
     /// The script at the time of single pictures. It is played to the last step of all first, so
     /// that an event that cannot be done is told before anything is written.
-    fn rehearsed(&self, has_frames: bool) -> Result<Performance> {
+    fn rehearsed(&self, has_frames: bool, device: &mut StepDevice) -> Result<Performance> {
         let located = |error| self.script.located_event(error);
         let mut play = self.beginning.clone();
-        play.advance_to(self.times.still).map_err(located)?;
+        play.advance_on(device, self.times.still).map_err(located)?;
         let still = play.clone();
         if has_frames || !self.outputs.volumes.is_empty() {
-            play.advance_to(self.times.last()).map_err(located)?;
+            play.advance_on(device, self.times.last()).map_err(located)?;
         }
         Ok(still)
     }
@@ -180,15 +182,16 @@ struct Film<'a> {
 }
 
 impl Film<'_> {
-    fn advance_to(&mut self, frame: usize) -> Result<()> {
+    fn advance_to(&mut self, frame: usize, device: &mut StepDevice) -> Result<()> {
         let step = self.steps[frame];
-        self.play.advance_to(step).map_err(|error| self.script.located_event(error))
+        let played = self.play.advance_on(device, step);
+        played.map_err(|error| self.script.located_event(error))
     }
 
     /// Writes the volumes of each frame.
-    fn write_volumes(mut self, outputs: Vec<Output>) -> Result<()> {
+    fn write_volumes(mut self, outputs: Vec<Output>, device: &mut StepDevice) -> Result<()> {
         for (frame, output) in outputs.into_iter().enumerate() {
-            self.advance_to(frame)?;
+            self.advance_to(frame, device)?;
             output.write(ply_of(self.play.world().volumes())?)?;
         }
         Ok(())
@@ -198,12 +201,12 @@ impl Film<'_> {
     fn record(
         &mut self,
         recording: Recording,
-        painter: &mut VolumePainter,
+        (painter, device): (&mut VolumePainter, &mut StepDevice),
         show: Show,
         console: &Console<'_>,
     ) -> Result<usize> {
         recording.paint(console, |frame| {
-            self.advance_to(frame)?;
+            self.advance_to(frame, device)?;
             let cameras = &self.scene.cameras;
             let camera = &cameras[frame.min(cameras.len() - 1)];
             let picture = painter.shown(self.play.world(), camera, self.scene.size, show)?;

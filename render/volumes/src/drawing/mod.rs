@@ -1,8 +1,5 @@
 //! The picture: a grey drawing into which volumes bring colour.
 
-#[cfg(test)]
-pub(crate) mod test_device;
-
 mod error;
 
 mod grey;

@@ -4,9 +4,10 @@ use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
 
+use super::acting::Conditions;
 use super::error::MotionError;
 use super::settings::{MotionSettings, in_range};
-use super::step::{Conditions, Scratch, advance_volume};
+use super::step::{Scratch, advance_volume};
 use super::surroundings::Surroundings;
 use crate::volume::Volume;
 
@@ -30,6 +31,25 @@ pub fn advance(
     surroundings: &Surroundings,
     seconds: f32,
 ) -> Result<u32, MotionError> {
+    let Some(conditions) = conditions(volumes, settings, surroundings, seconds)? else {
+        return Ok(0);
+    };
+    volumes.par_iter_mut().for_each_init(Scratch::default, |scratch, volume| {
+        advance_volume(volume, conditions, scratch);
+    });
+    Ok(conditions.count)
+}
+
+/// The conditions of a step; none for one of 0 seconds.
+///
+/// # Errors
+/// Those of [`advance`].
+pub(super) fn conditions<'a>(
+    volumes: &[Volume],
+    settings: &'a MotionSettings,
+    surroundings: &'a Surroundings,
+    seconds: f32,
+) -> Result<Option<Conditions<'a>>, MotionError> {
     settings.check()?;
     surroundings.check()?;
     in_range("seconds", seconds, 0.0, 1000.0)?;
@@ -37,16 +57,12 @@ pub fn advance(
         check_volume(index, volume)?;
     }
     if seconds == 0.0 {
-        return Ok(0);
+        return Ok(None);
     }
     let count = sub_steps(surroundings.stiffness(settings), seconds)?;
     let fingerprint = surroundings.fingerprint(settings);
     let seconds = seconds / count as f32;
-    let conditions = Conditions { settings, surroundings, fingerprint, count, seconds };
-    volumes.par_iter_mut().for_each_init(Scratch::default, |scratch, volume| {
-        advance_volume(volume, conditions, scratch);
-    });
-    Ok(count)
+    Ok(Some(Conditions { settings, surroundings, fingerprint, count, seconds }))
 }
 
 /// Number of sub-steps of a step.

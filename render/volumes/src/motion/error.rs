@@ -1,5 +1,6 @@
 //! Why volumes cannot be moved.
 
+use graphics::gpu::DeviceError;
 use spectra::hint::{Explain, Fault, Hint};
 
 /// A setting, a volume or a time does not allow motion.
@@ -67,11 +68,15 @@ pub enum MotionError {
         /// Size of a cell that fits, in the unit of the scene.
         fitting_cell: f32,
     },
+    /// The graphics device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
 }
 
 impl Explain for MotionError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::verbatim(match self {
+            Self::Device(error) => return error.hint(),
             Self::OutOfRange { .. } => "leave the setting out to take its default",
             Self::TooStiff { .. } => {
                 "take shorter steps, or weaker forces: the settings motion.pressure, elastic, cohesion, surface_pull, keep"
@@ -84,6 +89,7 @@ impl Explain for MotionError {
 
     fn fault(&self) -> Fault {
         match self {
+            Self::Device(error) => error.fault(),
             Self::Volume { .. } | Self::Place { .. } => Fault::Input,
             Self::OutOfRange { .. } | Self::TooStiff { .. } | Self::TooFine { .. } => {
                 Fault::Setting

@@ -32,9 +32,15 @@ mod surroundings;
 
 mod star;
 
+mod acting;
+
 mod step;
 
 mod advance;
+
+mod device_form;
+
+mod on_device;
 
 #[cfg(test)]
 mod acceptance;
@@ -42,12 +48,18 @@ mod acceptance;
 #[cfg(test)]
 mod extremes;
 
+#[cfg(test)]
+mod device_tests;
+
 pub use advance::advance;
 pub use error::MotionError;
 pub use keep_in::KeepIn;
 pub use kick::kick;
 pub use microstructure::Microstructure;
+pub use on_device::DeviceMotion;
 pub use push::Push;
 pub use settings::MotionSettings;
 pub use surface_lattice::SurfaceLattice;
 pub use surroundings::Surroundings;
+
+pub(crate) use device_form::STEP;

@@ -6,7 +6,7 @@ use crate::sphere_mesh::SphereMesh;
 
 /// Share of the least cone at rest that every cone keeps at least. It leaves room for the rounding
 /// of places in the scene.
-const LEAST_SHARE: f32 = 1.0 / 64.0;
+pub(super) const LEAST_SHARE: f32 = 1.0 / 64.0;
 
 /// Rounds in which corners of failing faces go half-way to their rays; from then on they go all the
 /// way.

@@ -2,44 +2,14 @@
 
 use glam::Vec3;
 
-use super::forces::{cohesion, damping, elastic, gravity, pressure, surface_pull, velocity};
-use super::growth::moved;
+use super::acting::{Acting, Conditions, FARTHEST, NEAREST};
+use super::forces::{cohesion, damping, elastic, pressure, surface_pull, velocity};
 use super::keep_in::KeepIn;
 use super::microstructure::RestingRadii;
 use super::push::Push;
-use super::settings::MotionSettings;
 use super::star::{Corner, is_star, mend};
-use super::surroundings::Surroundings;
 use crate::sphere_mesh::SphereMesh;
 use crate::volume::{Particles, Volume};
-
-/// Nearest and farthest that particles come to the centre, in resting radii.
-const NEAREST: f32 = 1.0 / 32.0;
-const FARTHEST: f32 = 6.0;
-
-/// Least radius that a volume shrinks to, in cells.
-const LEAST_RADIUS: f32 = 1.0 / 1024.0;
-
-/// Width of the wall of a region before which it pushes back, in cells.
-const WALL: f32 = 1.0 / 16.0;
-
-/// Way to its place of rest, in radii, below which a particle rests; and the most that rounding,
-/// which stops a slow particle early, adds to it.
-const STILL: f32 = 2e-6;
-const STILL_ROUNDED: f32 = 1e-5;
-
-/// All that is the same for every volume in a step.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Conditions<'a> {
-    pub(super) settings: &'a MotionSettings,
-    pub(super) surroundings: &'a Surroundings,
-    /// Fingerprint of both.
-    pub(super) fingerprint: u64,
-    /// Number of sub-steps.
-    pub(super) count: u32,
-    /// Length of a sub-step in seconds.
-    pub(super) seconds: f32,
-}
 
 /// Memory for the steps of volumes, one after another.
 #[derive(Debug, Default)]
@@ -63,68 +33,39 @@ impl Scratch {
 
 /// Moves one volume over all sub-steps. A volume that rested under the same forces stays as it is.
 pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratch: &mut Scratch) {
-    let Conditions { settings, surroundings, .. } = conditions;
+    let Some(acting) = Acting::on(volume, conditions) else { return };
     let mesh = SphereMesh::of_detail(volume.detail);
-    let least = LEAST_RADIUS * surroundings.cell;
-    let target = volume.target_radius.max(least);
-    let way = volume.center.distance(volume.target_center);
-    let reach = FARTHEST * volume.radius.max(target) / mesh.inradius + way;
-    let reaches = |push: &&Push| push.reaches(volume.center, reach);
-    let pushes: Vec<Push> = surroundings.pushes.iter().filter(reaches).copied().collect();
-    let rests = volume.rests_under == conditions.fingerprint;
-    let arrived = |volume: &Volume| {
-        volume.radius == target && volume.center == volume.target_center && pushes.is_empty()
-    };
-    if volume.dry || (rests && arrived(volume)) {
-        return;
-    }
-    volume.rests_under = 0;
     scratch.fit(mesh.directions.len());
     volume.particles.samples.resize(mesh.directions.len(), u32::MAX);
-    let inset = WALL * surroundings.cell;
-    let passes = |region: &&KeepIn| !region.holds_ball(volume.center, reach, inset);
-    let regions: Vec<KeepIn> = surroundings.regions.iter().filter(passes).copied().collect();
-    let center = volume.center.to_array();
     let mut resting_radii = RestingRadii::new(
-        surroundings.microstructure,
-        settings,
-        surroundings.cell,
-        center,
+        conditions.surroundings.microstructure,
+        conditions.settings,
+        conditions.surroundings.cell,
+        volume.center.to_array(),
         mesh.inradius,
     );
     let mut still = false;
     for _ in 0..conditions.count {
-        let cell = surroundings.cell;
-        let fastest = settings.fastest * cell;
-        let targets = (volume.target_center, target);
-        let now = (volume.center, volume.radius);
-        (volume.center, volume.radius) = moved(now, targets, (fastest, cell), conditions.seconds);
-        volume.radius = volume.radius.max(least);
-        (resting_radii.center, resting_radii.radius) = (volume.center.to_array(), volume.radius);
+            (volume.center, volume.radius) = acting.moved((volume.center, volume.radius), volume, conditions);
+            (resting_radii.center, resting_radii.radius) = (volume.center.to_array(), volume.radius);
         let step = SubStep {
             conditions,
             mesh,
             resting_radii,
             center: volume.center,
-            constant: gravity(
-                settings.gravity * surroundings.cell,
-                surroundings.down,
-                volume.normal,
-            ),
-            pushes: &pushes,
-            regions: &regions,
+            constant: acting.constant,
+            pushes: &acting.pushes,
+            regions: &acting.regions,
             particles: &mut volume.particles,
             scratch,
         };
         still = pulp::Arch::new().dispatch(step);
-        if !regions.is_empty() {
-            keep_inside(&regions, volume.center, NEAREST * volume.radius, &mut volume.particles);
+        if !acting.regions.is_empty() {
+            let least = NEAREST * volume.radius;
+            keep_inside(&acting.regions, volume.center, least, &mut volume.particles);
         }
     }
-    if still && arrived(volume) {
-        volume.particles.velocities.iter_mut().for_each(|along| along.fill(0.0));
-        volume.rests_under = conditions.fingerprint;
-    }
+    acting.end(volume, still, conditions);
 }
 
 /// One sub-step of one volume.
@@ -210,7 +151,7 @@ impl SubStep<'_> {
         let Conditions { settings, surroundings, .. } = self.conditions;
         let pull = settings.surface_pull;
         let surface = surroundings.surface.as_deref().filter(|_| pull > 0.0);
-        let (cell, inset) = (surroundings.cell, WALL * surroundings.cell);
+        let (cell, inset) = (surroundings.cell, self.conditions.inset());
         let radius = self.resting_radii.radius;
         if surface.is_none() && self.pushes.is_empty() && self.regions.is_empty() {
             return;
@@ -256,10 +197,8 @@ impl SubStep<'_> {
         let distances = &mut self.scratch.distances[..count];
         let radius = self.resting_radii.radius * self.resting_radii.scale;
         let (nearest, farthest) = (NEAREST * radius, FARTHEST * radius);
-        let weakest = settings.pressure.min(settings.elastic);
-        // Friction lets a force move a particle by h F / k_f a step, which rounding may swallow.
-        let swallowed = f32::EPSILON * settings.friction / (seconds * weakest);
-        let still = (STILL + swallowed).min(STILL_ROUNDED) * radius;
+        let weakest = self.conditions.weakest();
+        let still = self.conditions.still() * radius;
         let (most_force, most_speed) =
             ((weakest * still) * (weakest * still), weakest * still * still);
         let mut moving = 0_u32;

@@ -9,7 +9,7 @@ use super::error::MotionError;
 use super::settings::in_range;
 
 /// Boxes along each side of a cell.
-const BOXES: usize = 4;
+pub(super) const BOXES: usize = 4;
 
 /// Boxes in a cell.
 const BOXES_OF_CELL: usize = BOXES * BOXES * BOXES;
@@ -27,16 +27,16 @@ const NONE: u32 = u32::MAX;
 /// than the nearest of all by at most the diagonal of a box, 0.43 cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceLattice {
-    cell: f32,
+    pub(super) cell: f32,
     /// Corner of the first cell.
-    low: Vec3,
+    pub(super) low: Vec3,
     /// Cells along x, y and z.
-    counts: [usize; 3],
+    pub(super) counts: [usize; 3],
     /// For every cell, the index of its boxes, or [`NONE`].
-    tables: Vec<u32>,
+    pub(super) tables: Vec<u32>,
     /// For every box, the index of its sample, or [`NONE`].
-    boxes: Vec<u32>,
-    places: Vec<Vec3>,
+    pub(super) boxes: Vec<u32>,
+    pub(super) places: Vec<Vec3>,
     print: [u32; 2],
 }
 

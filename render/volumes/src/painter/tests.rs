@@ -18,11 +18,12 @@ use pigment::PigmentLibrary;
 
 use super::*;
 use crate::containing::Inside;
-use crate::drawing::{shade, test_device};
+use crate::drawing::shade;
 use crate::hatching::{Hatching, ThresholdTexture};
 use crate::motion::KeepIn;
 use crate::script::RegionStyle;
 use crate::settings::{self, Settings};
+use crate::test_device;
 use crate::test_surfaces::{joined, sheet};
 use crate::world::{Pour, Recipe, Single, World, WorldSettings};
 

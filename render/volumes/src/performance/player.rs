@@ -10,7 +10,9 @@ use crate::script::{self, Action, Event, KeepTable, Place, Quantity, Script, sec
 use crate::settings::Settings;
 use crate::toml_text::KeyStep;
 use crate::wetting::WettingError;
-use crate::world::{Lift, Pour, Recipe, Single, Track, World, WorldError, WorldSettings};
+use crate::world::{
+    Lift, Pour, Recipe, Single, StepDevice, Track, World, WorldError, WorldSettings,
+};
 
 /// A script being played. A clone is a snapshot that goes on to the same bytes.
 #[derive(Debug, Clone)]
@@ -83,6 +85,27 @@ impl Performance {
     /// # Errors
     /// [`PerformanceError`] for an event that cannot be done, such as paint poured off the surface.
     pub fn advance_to(&mut self, step: u64) -> Result<(), PerformanceError> {
+        self.play(step, World::step)
+    }
+
+    /// Plays on like [`Self::advance_to`], large worlds on a graphics device
+    /// ([`World::step_on`]).
+    ///
+    /// # Errors
+    /// Those of [`Self::advance_to`], and if the device fails.
+    pub fn advance_on(
+        &mut self,
+        device: &mut StepDevice,
+        step: u64,
+    ) -> Result<(), PerformanceError> {
+        self.play(step, |world| world.step_on(device))
+    }
+
+    fn play(
+        &mut self,
+        step: u64,
+        mut go_on: impl FnMut(&mut World) -> Result<(), WorldError>,
+    ) -> Result<(), PerformanceError> {
         while self.world.steps() < step {
             while let Some(event) = self.events.get(self.next) {
                 if u64::from(event.start) > self.world.steps() {
@@ -92,7 +115,7 @@ impl Performance {
                 self.act(&event)?;
                 self.next += 1;
             }
-            self.world.step()?;
+            go_on(&mut self.world)?;
         }
         Ok(())
     }

@@ -2,12 +2,15 @@
 
 use glam::Vec3;
 use graphics::camera::{Camera, Framing};
+use graphics::compute::Compute;
 use graphics::mesh::{Mesh, SampleModel};
 use spectra::hint::Explain;
 
 use super::*;
 use crate::containing::Inside;
 use crate::script::Script;
+use crate::test_device::device;
+use crate::world::StepDevice;
 
 const SIZE: (usize, usize) = (75, 57);
 
@@ -93,6 +96,29 @@ fn a_script_played_in_pieces_or_from_a_snapshot_ends_in_the_same_bytes() {
     // Time that is over does not come back.
     whole.advance_to(12).unwrap();
     assert_eq!(whole.step(), 240);
+}
+
+#[test]
+fn a_script_played_on_a_device_pours_the_same_paint() {
+    let Some(compute) = device() else { return };
+    let mut on_device = StepDevice::new(compute).above(0);
+    let [mut own, mut other] = [begun(BUSY).unwrap(), begun(BUSY).unwrap()];
+    own.advance_to(240).unwrap();
+    other.advance_on(&mut on_device, 120).unwrap();
+    assert!(other.step() == 120 && on_device.serves(other.world()));
+    other.advance_on(&mut on_device, 240).unwrap();
+    assert_eq!(own.world().tally(), other.world().tally());
+    let paint = |played: &Performance| {
+        let volumes = played.world().volumes().iter();
+        volumes.map(|volume| (volume.paint, volume.center, volume.radius)).collect::<Vec<_>>()
+    };
+    assert_eq!(paint(&own), paint(&other));
+    // Without one it is played on the processor.
+    let [mut small, mut usual] = [begun(BUSY).unwrap(), begun(BUSY).unwrap()];
+    let mut on_device = StepDevice::beside(&Compute::cpu());
+    small.advance_on(&mut on_device, 60).unwrap();
+    usual.advance_to(60).unwrap();
+    assert_eq!(small.world().volumes(), usual.world().volumes());
 }
 
 #[test]

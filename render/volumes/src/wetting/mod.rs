@@ -21,6 +21,8 @@ mod spill;
 
 mod grid;
 
+mod spill_on_device;
+
 pub use cells::{Cells, MOST_FILMS, QUANTA_PER_FACE};
 pub use fault::{MOST_CELLS, WettingError};
 pub use graph::Graph;
@@ -29,6 +31,9 @@ pub use lattice::Lattice;
 pub use reach::Reach;
 pub use samples::{SAMPLES_PER_CELL, SurfaceSamples};
 pub use spill::{Birth, FASTEST_RATE, Spilling};
+pub use spill_on_device::DeviceSpilling;
+
+pub(crate) use spill_on_device::SPILL;
 
 #[cfg(test)]
 mod tests;

@@ -35,11 +35,11 @@ pub struct Birth {
 pub struct Spilling {
     /// Share of a difference of heads that crosses a face, an edge and a corner in a step, in
     /// parts of 65536.
-    rates: [u64; 3],
+    pub(super) rates: [u64; 3],
     /// Height of each cell as a head, in parts of 65536.
-    lifts: Vec<u32>,
+    pub(super) lifts: Vec<u32>,
     /// Whether cells lie at different heights, or hold less than 16 films.
-    uneven: bool,
+    pub(super) uneven: bool,
     volumes: Vec<u32>,
     heads: Vec<u32>,
     /// Gifts of each cell along each of its links, as a share of its paint.

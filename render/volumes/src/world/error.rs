@@ -1,6 +1,7 @@
 //! Errors of worlds.
 
 use glam::Vec3;
+use graphics::gpu::DeviceError;
 use spectra::hint::{Explain, Fault, Hint};
 
 use crate::motion::MotionError;
@@ -15,6 +16,9 @@ pub enum WorldError {
     /// The volumes cannot be moved.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// The graphics device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
     /// A number is out of its range.
     #[error("{key} is {range}, found `{found}`")]
     Number {
@@ -66,6 +70,7 @@ impl Explain for WorldError {
         Some(match self {
             Self::Wetting(error) => return error.hint(),
             Self::Motion(error) => return error.hint(),
+            Self::Device(error) => return error.hint(),
             Self::Number { .. } => return None,
             Self::Recipe { .. } => Hint::new("name a pigment with a share above 0"),
             Self::OffSurface { .. } => Hint::new("pour at a place of the model's surface"),
@@ -80,6 +85,7 @@ impl Explain for WorldError {
         match self {
             Self::Wetting(error) => error.fault(),
             Self::Motion(error) => error.fault(),
+            Self::Device(error) => error.fault(),
             Self::Number { .. } | Self::Full { .. } => Fault::Setting,
             Self::Recipe { .. } | Self::OffSurface { .. } | Self::Volume { .. } => Fault::Input,
         }

@@ -16,13 +16,13 @@ fn a_full_world_keeps_paint_where_it_is_or_in_the_tube() {
     world.pour(Pour::at(Vec3::ZERO, 1.0, 1.0, Recipe::of_slot(0))).unwrap();
     let far = Vec3::new(4.0, 0.0, 4.0);
     for _ in 0..60 {
-        world.move_paint().unwrap();
+        world.move_paint(None).unwrap();
     }
     world.add_volume(&dot).unwrap();
     world.add_volume(&dot).unwrap();
     world.pour(Pour::at(far, 1.0, 0.5, Recipe::of_slot(1))).unwrap();
     for _ in 0..60 {
-        world.move_paint().unwrap();
+        world.move_paint(None).unwrap();
     }
     assert_eq!(world.volumes().len(), MOST_VOLUMES);
     assert!(is_exact(&world));

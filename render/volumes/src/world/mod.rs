@@ -23,6 +23,8 @@ mod tally;
 
 mod state;
 
+mod step_device;
+
 mod spreading;
 
 mod keeping;
@@ -46,10 +48,14 @@ mod outline_tests;
 #[cfg(test)]
 mod limit_tests;
 
+#[cfg(test)]
+mod device_tests;
+
 pub use actions::{Lift, Pour, Single};
 pub use error::WorldError;
 pub use recipe::Recipe;
 pub use settings::{MOST_PARTICLES, MOST_VOLUMES, STEPS_PER_SECOND, WorldSettings};
 pub use state::World;
+pub use step_device::{DEVICE_PARTICLES, StepDevice};
 pub use tally::Tally;
 pub use track::Track;

@@ -5,6 +5,7 @@ use paint::layer::Cell;
 
 use super::error::WorldError;
 use super::state::{BIRTH, NONE, World};
+use super::step_device::OpenedDevice;
 use crate::volume::Volume;
 use crate::wetting::Grid;
 
@@ -53,7 +54,7 @@ impl World {
     }
 
     /// One step of spilling between all wet volumes of the grid.
-    pub(super) fn spill(&mut self) -> Result<(), WorldError> {
+    pub(super) fn spill(&mut self, device: Option<&mut OpenedDevice>) -> Result<(), WorldError> {
         if self.settled {
             return Ok(());
         }
@@ -81,8 +82,15 @@ impl World {
         reached.dedup();
         // Near the limit paint stays where it is wet.
         let births = self.has_room(reached.len(), DETAIL).is_ok();
-        let cells = (&grid.graph, &grid.cells);
-        let born = self.spilling.step(cells, &mut self.paint, births);
+        let born = match device {
+            None => {
+                let cells = (&grid.graph, &grid.cells);
+                self.spilling.step(cells, &mut self.paint, births)
+            }
+            Some(OpenedDevice { device, spilling, .. }) => {
+                spilling.step(device, (&self.spilling, &grid), &mut self.paint, births)?
+            }
+        };
         for birth in born {
             let (cell, giver) = (birth.cell as usize, birth.giver as usize);
             self.soak(cell, giver)?;

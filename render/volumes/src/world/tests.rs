@@ -95,7 +95,7 @@ fn random_actions_keep_every_quantum() {
                 let _ = world.split(index);
             }
             _ => {
-                world.move_paint().unwrap();
+                world.move_paint(None).unwrap();
                 for volume in &mut world.volumes {
                     volume.radius = volume.target_radius.max(0.01);
                 }

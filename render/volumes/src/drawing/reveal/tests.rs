@@ -1,7 +1,7 @@
 //! Tests of composing: exactness, order, samples, paper, and the twin on a device.
 
 use super::*;
-use crate::drawing::test_device::{device, far};
+use crate::test_device::{device, far};
 
 fn field<T>(width: usize, height: usize, value: impl Fn(usize, usize) -> T) -> Field<T> {
     let at = |i: usize| value(i % width, i / width);

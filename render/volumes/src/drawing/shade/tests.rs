@@ -5,9 +5,9 @@ use graphics::coherence::{NoiseFrame, Popping, Projection, depth_field};
 use graphics::mesh::{Mesh, SampleModel};
 
 use super::*;
-use crate::drawing::test_device::{device, far};
 use crate::drawing::{grey_of, reveal};
 use crate::hatching::{HatchingLook, ThresholdTexture};
+use crate::test_device::{device, far};
 use graphics::distant_light::DistantLight;
 
 struct Scene {

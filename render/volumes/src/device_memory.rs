@@ -1,0 +1,51 @@
+//! Memory of a graphics device that is kept from step to step.
+
+use graphics::gpu::{Buffer, Device, DeviceError, Rows};
+
+/// A buffer that grows with what it has to hold.
+#[derive(Debug, Default)]
+pub(crate) struct DeviceMemory {
+    buffer: Option<(Buffer, u64)>,
+}
+
+impl DeviceMemory {
+    /// A buffer of at least `bytes`, whose content is that of the last call or zeros; `what` names
+    /// it in errors.
+    ///
+    /// # Errors
+    /// [`DeviceError`] for more than the device lends or has left.
+    pub(crate) fn of_bytes(
+        &mut self,
+        device: &Device,
+        what: &'static str,
+        bytes: usize,
+    ) -> Result<Buffer, DeviceError> {
+        let bytes = bytes as u64;
+        if let Some((buffer, size)) = &self.buffer
+            && *size >= bytes
+        {
+            return Ok(buffer.clone());
+        }
+        // The old one is given back first.
+        self.buffer = None;
+        let enlarged = (bytes + bytes / 2).min(device.adapter().limits.binding_bytes).max(bytes);
+        let buffer = device.buffer(what, enlarged)?;
+        self.buffer = Some((buffer.clone(), enlarged));
+        Ok(buffer)
+    }
+
+    /// A buffer that begins with these values.
+    ///
+    /// # Errors
+    /// [`DeviceError`] as [`Self::of_bytes`], and if the device was lost.
+    pub(crate) fn holding<T: bytemuck::Pod>(
+        &mut self,
+        device: &mut Device,
+        what: &'static str,
+        values: &[T],
+    ) -> Result<Buffer, DeviceError> {
+        let buffer = self.of_bytes(device, what, size_of_val(values))?;
+        device.write(&buffer, Rows::start(values.len()), values)?;
+        Ok(buffer)
+    }
+}
