@@ -46,8 +46,9 @@ pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratc
     );
     let mut still = false;
     for _ in 0..conditions.count {
-            (volume.center, volume.radius) = acting.moved((volume.center, volume.radius), volume, conditions);
-            (resting_radii.center, resting_radii.radius) = (volume.center.to_array(), volume.radius);
+        (volume.center, volume.radius) =
+            acting.moved((volume.center, volume.radius), volume, conditions);
+        (resting_radii.center, resting_radii.radius) = (volume.center.to_array(), volume.radius);
         let step = SubStep {
             conditions,
             mesh,
