@@ -136,7 +136,7 @@ fn on_a_device(bencher: Bencher<'_, '_>, volumes: usize) {
     frames(bencher, &scene.poured(volumes), &scene.camera, painter);
 }
 
-/// The same with hatching and four shells.
+/// Such frames with hatching and four shells.
 #[divan::bench(args = [64])]
 fn hatched_on_a_device(bencher: Bencher<'_, '_>, volumes: usize) {
     let Ok(Some(device)) = choose(BackendChoice::Gpu) else { return };

@@ -89,7 +89,7 @@ fn surface_lattice(bencher: Bencher) {
     bencher.bench(|| SurfaceLattice::of(&places, 1.0).unwrap());
 }
 
-/// The same crowd on any graphics device, with the way there and back; nothing without one.
+/// Particles moved on any graphics device, with the way there and back; nothing without one.
 #[divan::bench(args = CROWDS)]
 fn on_a_device(bencher: Bencher, crowd: Crowd) {
     let Ok(Some(mut device)) = choose(BackendChoice::Gpu) else { return };

@@ -76,7 +76,7 @@ fn spill(bencher: Bencher<'_, '_>, pigments: usize) {
         });
 }
 
-/// The same cells on any graphics device, with the way there and back; nothing without one.
+/// Spilling on any graphics device, with the way there and back; nothing without one.
 #[divan::bench(args = [1, 8], sample_count = 10)]
 fn spill_on_a_device(bencher: Bencher<'_, '_>, pigments: usize) {
     let Ok(Some(mut device)) = choose(BackendChoice::Gpu) else { return };

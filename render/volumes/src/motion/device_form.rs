@@ -111,7 +111,7 @@ impl MovedVolume {
         numbers: &mut Vec<f32>,
     ) -> Self {
         let mesh = volume.mesh();
-        let (neighbours, faces) = PackedSpheres::places(volume.detail);
+        let (neighbours, faces) = places_of_sphere(volume.detail);
         let balls = numbers.len() as u32;
         let mut ball = (volume.center, volume.radius);
         for _ in 0..conditions.count {
@@ -195,35 +195,29 @@ pub(super) fn unpack(moved: &[MovedParticle], volume: &mut Volume) {
     }
 }
 
-/// All spheres in one list.
-#[derive(Debug)]
-pub(super) struct PackedSpheres;
-
-impl PackedSpheres {
-    /// Directions of the finest sphere as bits, three each, which are also those of all others;
-    /// then six neighbours a vertex and three corners a face of every sphere.
-    pub(super) fn words() -> Vec<u32> {
-        let finest = SphereMesh::of_detail(MOST_DETAIL);
-        let mut words: Vec<u32> =
-            finest.directions.as_flattened().iter().map(|along| along.to_bits()).collect();
-        for mesh in (0..=MOST_DETAIL).map(SphereMesh::of_detail) {
-            words.extend(mesh.neighbours.as_flattened());
-            words.extend(mesh.faces.as_flattened());
-        }
-        words
+/// Directions of the finest sphere as bits, three each, which are also those of all others; then six
+/// neighbours a vertex and three corners a face of every sphere.
+pub(super) fn words_of_spheres() -> Vec<u32> {
+    let finest = SphereMesh::of_detail(MOST_DETAIL);
+    let mut words: Vec<u32> =
+        finest.directions.as_flattened().iter().map(|along| along.to_bits()).collect();
+    for mesh in (0..=MOST_DETAIL).map(SphereMesh::of_detail) {
+        words.extend(mesh.neighbours.as_flattened());
+        words.extend(mesh.faces.as_flattened());
     }
+    words
+}
 
-    /// Where the neighbours and the faces of a sphere begin.
-    fn places(detail: u8) -> (u32, u32) {
-        let sizes = |detail: u8| {
-            let fours = 4_u32.pow(detail.into());
-            (6 * (10 * fours + 2), 60 * fours)
-        };
-        let before = (0..detail).map(sizes).map(|(neighbours, faces)| neighbours + faces);
-        let finest = sizes(MOST_DETAIL).0 / 2;
-        let neighbours = finest + before.sum::<u32>();
-        (neighbours, neighbours + sizes(detail).0)
-    }
+/// Where the neighbours and the faces of a sphere begin in [`words_of_spheres`].
+fn places_of_sphere(detail: u8) -> (u32, u32) {
+    let sizes = |detail: u8| {
+        let fours = 4_u32.pow(detail.into());
+        (6 * (10 * fours + 2), 60 * fours)
+    };
+    let before = (0..detail).map(sizes).map(|(neighbours, faces)| neighbours + faces);
+    let directions = sizes(MOST_DETAIL).0 / 2;
+    let neighbours = directions + before.sum::<u32>();
+    (neighbours, neighbours + sizes(detail).0)
 }
 
 /// Where the parts of the look-up of samples begin in its words.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::acting::{Acting, Conditions};
 use super::advance::conditions;
 use super::device_form::{
-    MovedParticle, MovedVolume, PackedLattice, PackedSpheres, STEP, StepParams, pack, unpack,
+    MovedParticle, MovedVolume, PackedLattice, STEP, StepParams, pack, unpack, words_of_spheres,
 };
 use super::error::MotionError;
 use super::settings::MotionSettings;
@@ -135,7 +135,7 @@ impl DeviceMotion {
         let spheres = match &self.spheres {
             Some(spheres) => spheres.clone(),
             None => {
-                let spheres = device.buffer_of("spheres", &PackedSpheres::words())?;
+                let spheres = device.buffer_of("spheres", &words_of_spheres())?;
                 self.spheres.insert(spheres).clone()
             }
         };

@@ -8,8 +8,8 @@ use crate::motion::DeviceMotion;
 use crate::volume::Volume;
 use crate::wetting::DeviceSpilling;
 
-/// Number of particles above which a world is moved by a device that it is given. Below, the way to
-/// the device and back takes longer than the step.
+/// Number of particles above which a world is moved by a device that it is given. Smaller worlds
+/// stay on the processor, with the same bytes on every machine.
 pub const DEVICE_PARTICLES: usize = 200_000;
 
 /// A graphics device for the steps of large worlds ([`World::step_on`]), with the memory that it
