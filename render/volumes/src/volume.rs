@@ -34,6 +34,8 @@ pub struct Volume {
     pub region: u16,
     /// Cell of the grid that it stands in; none for a single volume.
     pub cell: Option<u32>,
+    /// Number of the body that it colours, see `wetting::Bodies`; 0 for all.
+    pub body: u32,
     /// Mean unit normal of the surface that it lies on, or zero.
     pub normal: Vec3,
     /// Seed of its kicks.
@@ -75,6 +77,7 @@ impl Volume {
             detail,
             region,
             cell,
+            body: 0,
             normal,
             seed,
             dry,

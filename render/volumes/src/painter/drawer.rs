@@ -124,6 +124,7 @@ impl Drawer {
         let facing = world.facing();
         let all = Volumes { volumes: world.volumes(), facing: &facing };
         check_regions(all, self.regions.len())?;
+        self.scene.tell_bodies(&self.facets, &world.grid().bodies.of_triangles)?;
         let in_sight = InSight::new(camera, visible);
         let gate = self.settings.drawing.gate;
         let mut counts = Vec::with_capacity(self.regions.len());
@@ -170,6 +171,7 @@ impl Drawer {
         let (width, height) = self.samples(size)?;
         self.load_on_host()?;
         let host = self.host.as_mut().unwrap_or(&mut self.scene);
+        host.tell_bodies(&self.facets, &world.grid().bodies.of_triangles)?;
         let LoadedScene { compute, model, hatching, .. } = &mut *host;
         let image = model.visible(compute, camera, width, height)?;
         let visible = image.host();

@@ -87,6 +87,7 @@ impl Films {
             .counter
             .get_or_insert_with(|| FilmCounter::new(scene, &surface, world.cell(), profile, scale));
         counter.profile = profile;
+        counter.tell_bodies(&world.grid().bodies.of_triangles);
         let kind = settings.drawing.film;
         let wanted = |volume: &&Volume| {
             let region = regions.get(usize::from(volume.region));

@@ -14,8 +14,9 @@ pub(super) struct LoadedScene {
     pub(super) compute: Compute,
     pub(super) model: Model,
     pub(super) hatching: Hatching,
-    /// Normals of the triangles.
+    /// Normals of the triangles, and the body of each.
     pub(super) normals: Image<[f32; 4]>,
+    bodies: Vec<u32>,
     pub(super) counter: InsideCounter,
 }
 
@@ -26,16 +27,27 @@ impl LoadedScene {
         facets: &Facets,
         texture: &ThresholdTexture,
     ) -> Result<Self, DeviceError> {
-        let normals = facets.normals().iter().map(|normal| normal.extend(0.0).to_array());
-        let normals: Vec<_> = normals.collect();
-        let normals = Field::from_values(normals.len(), 1, normals);
         Ok(Self {
             model: Model::new(&mut compute, packed.clone())?,
             hatching: Hatching::new(&mut compute, texture, packed)?,
-            normals: compute.upload(&normals)?,
+            normals: compute.upload(&gated(facets, &[]))?,
+            bodies: Vec::new(),
             counter: InsideCounter::default(),
             compute,
         })
+    }
+
+    /// Tells the bodies of the triangles, 0 for those that volumes of any body may hold.
+    pub(super) fn tell_bodies(
+        &mut self,
+        facets: &Facets,
+        bodies: &[u32],
+    ) -> Result<(), DeviceError> {
+        if self.bodies != bodies {
+            self.normals = self.compute.upload(&gated(facets, bodies))?;
+            self.bodies = bodies.to_vec();
+        }
+        Ok(())
     }
 
     /// Whether it is in the processor's memory.
@@ -47,4 +59,12 @@ impl LoadedScene {
     pub(super) fn gates(&self) -> bool {
         self.compute.device().is_none_or(Device::scatters)
     }
+}
+
+/// What gates ask of each triangle: its normal and its body.
+fn gated(facets: &Facets, bodies: &[u32]) -> Field<[f32; 4]> {
+    let bodies = bodies.iter().copied().chain(std::iter::repeat(0));
+    let own = facets.normals().iter().zip(bodies);
+    let own: Vec<_> = own.map(|(normal, body)| normal.extend(body as f32).to_array()).collect();
+    Field::from_values(own.len(), 1, own)
 }

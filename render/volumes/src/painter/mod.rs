@@ -31,6 +31,9 @@ mod stages;
 #[cfg(test)]
 mod tests;
 
+#[cfg(test)]
+mod bodies_tests;
+
 pub use error::PaintingError;
 pub use films::{CELL_MM, VolumePigments};
 pub use shown::{Show, ShowError};

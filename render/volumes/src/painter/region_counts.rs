@@ -12,8 +12,8 @@ use super::looks::RegionLook;
 use crate::surfaces::VolumeSurfaces;
 use crate::volume::Volume;
 
-/// The gate of a surface that holds what faces any way.
-const OPEN: [f32; 4] = [0.0, 0.0, 0.0, -2.0];
+/// The gate of a surface that holds what faces any way, of any body.
+const OPEN: [f32; 8] = [0.0, 0.0, 0.0, -2.0, 0.0, 0.0, 0.0, 0.0];
 
 /// All volumes at one time.
 #[derive(Debug, Clone, Copy)]
@@ -27,13 +27,14 @@ pub(super) struct Volumes<'a> {
 #[derive(Debug, Clone, Default)]
 pub(super) struct RegionSurfaces {
     surfaces: VolumeSurfaces,
-    /// Of each surface what it faces, and the least cosine.
-    gates: Vec<[f32; 4]>,
+    /// Of each surface what it faces, the least cosine, and its body.
+    gates: Vec<[f32; 8]>,
 }
 
 impl RegionSurfaces {
     /// Replaces the surfaces by those of region `number` that may hold what is seen. Volumes of the
-    /// grid hold only what faces as their cell does, by a cosine of `gate` at least.
+    /// grid hold only what is of the body of their cell and faces as it does, by a cosine of `gate`
+    /// at least.
     pub(super) fn update(
         &mut self,
         all: Volumes<'_>,
@@ -47,7 +48,11 @@ impl RegionSurfaces {
             if usize::from(volume.region) != number || !in_sight.may_hold(volume) {
                 continue;
             }
-            let own = if facing == Vec3::ZERO { OPEN } else { facing.extend(gate).to_array() };
+            let mut own = OPEN;
+            if facing != Vec3::ZERO {
+                own[..4].copy_from_slice(&facing.extend(gate).to_array());
+            }
+            own[4] = volume.body as f32;
             for &scale in look.shells.scales() {
                 self.surfaces.add(volume, scale, self.gates.len() as u32);
                 self.gates.push(own);

@@ -95,7 +95,7 @@ impl Scene {
         for (slot, place) in [shown[shown.len() / 4], shown[shown.len() / 2]].iter().enumerate() {
             world.pour(Pour::at(*place, 60.0, 1.0, Recipe::of_slot(slot))).unwrap();
         }
-        (0..150).for_each(|_| world.step().unwrap());
+        (0..240).for_each(|_| world.step().unwrap());
         world
     }
 }
@@ -209,14 +209,16 @@ fn regions_are_laid_one_over_the_other() {
     assert!(matches!(refused, PaintingError::Region { region: 1, regions: 1 }), "{refused}");
 }
 
-/// Two plates of 12 by 12 cells, nearly a cell apart, that face away from each other.
+/// A wall nearly a cell thick: two plates of 12 by 12 cells, and the side between them.
 fn plates() -> Mesh {
-    let plate = |height: f32, up: f32| {
-        let mut mesh = sheet(12, |u, v| [12.0 * u - 6.0, height, 12.0 * v - 6.0]);
-        mesh.normals.fill([0.0, up, 0.0]);
+    let part = |normal: [f32; 3], at: fn(f32, f32) -> [f32; 3]| {
+        let mut mesh = sheet(12, |u, v| at(12.0 * u - 6.0, 12.0 * v - 6.0));
+        mesh.normals.fill(normal);
         mesh
     };
-    joined(plate(0.0, 1.0), &plate(-0.9, -1.0))
+    let top = part([0.0, 1.0, 0.0], |x, z| [x, 0.0, z]);
+    let below = part([0.0, -1.0, 0.0], |x, z| [x, -0.9, z]);
+    joined(joined(top, &below), &part([-1.0, 0.0, 0.0], |x, z| [-6.0, (x + 6.0) / 12.0 * -0.9, z]))
 }
 
 #[test]
@@ -266,8 +268,10 @@ fn no_colour_shows_beyond_a_region_to_stay_in() {
     let wall = KeepIn::Above { point: middle, normal: Vec3::X };
     world.keep(wall).unwrap();
     let shown = (0..SIZE.0 * SIZE.1).filter_map(|pixel| scene.place(&packed, &seen, pixel));
-    let beside = |at: &Vec3| (0.1..0.2).contains(&((at.x - middle.x) / (high.x - low.x)));
-    let place = shown.filter(beside).nth(100).unwrap();
+    let beside = |at: &Vec3| {
+        at.y.abs() < 1e-3 && (0.1..0.2).contains(&((at.x - middle.x) / (high.x - low.x)))
+    };
+    let place = shown.filter(beside).nth(10).unwrap();
     world.pour(Pour::at(place, 400.0, 1.0, Recipe::of_slot(0))).unwrap();
     (0..420).for_each(|_| world.step().unwrap());
     let (painted, plain) = (scene.painted(&world), scene.plain());

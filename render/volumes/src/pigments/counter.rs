@@ -58,6 +58,11 @@ impl FilmCounter {
         Self { facets, lattice, profile, scale, surfaces, crossings }
     }
 
+    /// Tells the body of each triangle, 0 for those that films of all bodies lie on.
+    pub fn tell_bodies(&mut self, bodies: &[u32]) {
+        self.facets.tell_bodies(bodies);
+    }
+
     /// Heights of the films of `volumes` at each pixel of `visible`, which is what `camera` sees of
     /// `mesh`. `mesh` and `surface` are those that the counter was made with.
     ///

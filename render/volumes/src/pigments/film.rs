@@ -154,9 +154,17 @@ impl FilmSum<'_> {
     /// Heights at a place on a surface with this normal: the sum over all volumes that hold it.
     #[must_use]
     pub fn at(&self, place: Vec3, normal: Vec3) -> FilmHeights {
+        self.on_body(place, normal, 0)
+    }
+
+    /// Heights at a place on a surface with this normal, of the body with this number; 0 is that of
+    /// all volumes.
+    #[must_use]
+    pub fn on_body(&self, place: Vec3, normal: Vec3, body: u32) -> FilmHeights {
         let mut sum = FilmHeights::default();
         for (film, inside) in self.films.iter().zip(self.insides) {
             if let Some(heights) = film.at(place, normal)
+                && !film.wetted.is_foreign(body)
                 && inside.holds(place)
             {
                 sum.add(&heights, 1);

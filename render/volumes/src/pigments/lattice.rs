@@ -13,12 +13,14 @@ pub struct SampledSurface<'a> {
     pub normals: &'a [Vec3],
     /// Area that each sample stands for, in the unit of the scene squared.
     pub areas: &'a [f32],
+    /// Numbers of the bodies that they lie on, 0 where volumes of all bodies have films.
+    pub bodies: &'a [u32],
 }
 
 impl<'a> From<&'a SurfaceSamples> for SampledSurface<'a> {
     fn from(samples: &'a SurfaceSamples) -> Self {
-        let SurfaceSamples { places, normals, areas, .. } = samples;
-        Self { places, normals, areas }
+        let SurfaceSamples { places, normals, areas, bodies, .. } = samples;
+        Self { places, normals, areas, bodies }
     }
 }
 

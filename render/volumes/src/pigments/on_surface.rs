@@ -23,7 +23,8 @@ impl CrossingSum for FilmOnSurface<'_> {
     fn add(&self, sum: &mut FilmHeights, crossing: &Crossing) {
         let (place, normal) = self.seen.at(crossing.pixel);
         let film = &self.films[crossing.surface as usize];
-        if let Some(heights) = film.at(place, normal) {
+        let foreign = film.wetted.is_foreign(self.seen.body(crossing.pixel));
+        if let Some(heights) = film.at(place, normal).filter(|_| !foreign) {
             sum.add(&heights, crossing.sign);
         }
     }

@@ -13,6 +13,8 @@ const PIXELS: usize = 8192;
 pub struct Facets {
     /// Of length 1, on the side of the normals of the corners; zero for triangles without area.
     normals: Vec<Vec3>,
+    /// Numbers of their bodies; 0 beyond the end.
+    bodies: Vec<u32>,
 }
 
 impl Facets {
@@ -27,7 +29,15 @@ impl Facets {
             if side.dot(facet) < 0.0 { -facet } else { facet }
         };
         let triangles = mesh.triangles.par_iter().with_min_len(PIXELS);
-        Self { normals: triangles.map(|triangle| normal(triangle.corners)).collect() }
+        let normals = triangles.map(|triangle| normal(triangle.corners)).collect();
+        Self { normals, bodies: Vec::new() }
+    }
+
+    /// Tells the body of each triangle, 0 for those that films of all bodies lie on.
+    pub fn tell_bodies(&mut self, bodies: &[u32]) {
+        if self.bodies != bodies {
+            self.bodies = bodies.to_vec();
+        }
     }
 
     /// The normal of each triangle: of length 1, or zero for one without area.
@@ -74,6 +84,14 @@ impl<'a> SeenPlaces<'a> {
     pub fn normal(&self, pixel: usize) -> Vec3 {
         let triangle = self.visible.values()[pixel].triangle as usize;
         self.facets.normals.get(triangle).copied().unwrap_or(Vec3::ZERO)
+    }
+
+    /// The body of the triangle that the pixel with this index shows, 0 for all.
+    #[must_use]
+    #[inline]
+    pub fn body(&self, pixel: usize) -> u32 {
+        let triangle = self.visible.values()[pixel].triangle as usize;
+        self.facets.bodies.get(triangle).copied().unwrap_or(0)
     }
 
     /// Place and normal of the triangle that the pixel with this index, counted row by row, shows.

@@ -28,6 +28,8 @@ pub struct Wetted {
     /// Mean normal of the surface that the volume lies on; surfaces that face away from it are not
     /// wetted. Zero for a volume that wets all that it holds.
     pub facing: Vec3,
+    /// Number of the only body that it wets; 0 for all.
+    pub body: u32,
 }
 
 impl Wetted {
@@ -35,8 +37,8 @@ impl Wetted {
     #[must_use]
     pub fn of(volume: &Volume, inside: &Inside) -> Self {
         let reach = inside.farthest() as f32;
-        let Volume { center, radius, normal, .. } = *volume;
-        Self { center, reach, per_radius: 1.0 / radius, facing: normal }
+        let Volume { center, radius, normal, body, .. } = *volume;
+        Self { center, reach, per_radius: 1.0 / radius, facing: normal, body }
     }
 
     /// Height of the film of `profile` at a place on a surface with this normal, relative to that
@@ -53,6 +55,13 @@ impl Wetted {
             return 0.0;
         }
         profile.height((self.reach - distance.sqrt()) * self.per_radius)
+    }
+
+    /// Whether surface of this body is never wetted; 0 may be any body.
+    #[must_use]
+    #[inline]
+    pub fn is_foreign(&self, body: u32) -> bool {
+        self.body != 0 && body != 0 && body != self.body
     }
 
     #[inline]
@@ -72,7 +81,8 @@ impl Wetted {
         lattice: &SampleLattice,
     ) -> f64 {
         let (mut count, mut area) = (0.0, 0.0);
-        for index in lattice.near(self.center, self.reach) {
+        let own = |index: &usize| !self.is_foreign(surface.bodies[*index]);
+        for index in lattice.near(self.center, self.reach).filter(own) {
             let (place, normal) = (surface.places[index], surface.normals[index]);
             let patch = surface.areas[index];
             let height = self.relative_height(profile, place, normal);
@@ -102,7 +112,10 @@ impl Wetted {
         lattice: &SampleLattice,
     ) -> Option<f64> {
         let away = |&index: &usize| surface.places[index].distance_squared(self.center);
-        let wettable = |&index: &usize| !self.faces_away(profile, surface.normals[index]);
+        let wettable = |&index: &usize| {
+            !self.faces_away(profile, surface.normals[index])
+                && !self.is_foreign(surface.bodies[index])
+        };
         let near = lattice.near(self.center, self.reach).filter(wettable);
         let nearest = near.min_by(|a, b| away(a).total_cmp(&away(b)))?;
         let normal = surface.normals[nearest];

@@ -1,16 +1,9 @@
 //! Which cells are joined by surface, so that paint can spill from one to the other.
 
-use glam::DVec3;
-use graphics::mesh::Mesh;
 use rayon::prelude::*;
 
-use super::entering::{entered, in_cells, touches};
-use super::fault::WettingError;
-use super::lattice::{Lattice, rounded_up};
-use super::samples::SurfaceSamples;
-
-/// Greatest number of cells entered by all triangles together.
-const MOST_ENTERED: f64 = (1 << 26) as f64;
+use super::lattice::Lattice;
+use super::pieces::Pieces;
 
 /// The cells joined to each cell by surface, in ascending order: a list of links over all cells.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -27,31 +20,32 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The links between the cells of `samples`.
+    /// The links between cells: the piece of each, in ascending order, is in `of_cells`.
     ///
-    /// Two cells with a common face, edge or corner are joined if a triangle enters both, or one
-    /// of two triangles at a common edge each, where this edge touches both cells; and if steps
-    /// through joined faces of the cells between them lead from one to the other. The last rule
-    /// makes the links the same for any cut into triangles.
-    ///
-    /// # Errors
-    /// If the triangles enter too many cells.
-    pub fn of(mesh: &Mesh, samples: &SurfaceSamples) -> Result<Self, WettingError> {
-        let surface = Surface::of(mesh, &samples.lattice)?;
-        let coordinates =
-            |cell: usize| samples.lattice.coordinates(samples.places[samples.of_cell(cell).start]);
-        let cells: Vec<[i32; 3]> = (0..samples.cell_count()).map(coordinates).collect();
-        let keys: Vec<u64> = cells.iter().map(|&at| Lattice::key(at)).collect();
+    /// Two pieces in cells with a common face, edge or corner are joined if a triangle enters both,
+    /// or one of two triangles at a common edge each, where this edge touches both cells; and if
+    /// steps through joined pieces across faces of the cells between them lead from one to the
+    /// other. The last rule makes the links the same for any cut into triangles.
+    pub(super) fn of(pieces: &Pieces, of_cells: &[u32]) -> Self {
+        let surface = Surface { keys: &pieces.keys, pairs: &pieces.pairs };
         let onwards = |cell: usize| {
-            let at = cells[cell];
-            let joined = forward_steps().filter_map(|step| {
-                let other = keys.binary_search(&Lattice::key(plus(at, step))).ok()?;
-                surface.joins(at, step).then_some((cell as u32, other as u32, axes_of(step)))
+            let piece = of_cells[cell];
+            let at = Lattice::coordinates_of(pieces.keys[piece as usize]);
+            let joined = forward_steps().flat_map(|step| {
+                let key = Lattice::key(plus(at, step));
+                let first = pieces.keys.partition_point(|other| *other < key) as u32;
+                let last = pieces.keys.partition_point(|other| *other <= key) as u32;
+                let taken = of_cells.partition_point(|other| *other < first)
+                    ..of_cells.partition_point(|other| *other < last);
+                let surface = &surface;
+                let joined =
+                    taken.filter(move |&other| surface.leads(piece, of_cells[other], step));
+                joined.map(move |other| (cell as u32, other as u32, axes_of(step)))
             });
             joined.collect::<Vec<_>>()
         };
-        let onwards: Vec<_> = (0..cells.len()).into_par_iter().flat_map_iter(onwards).collect();
-        Ok(Self::of_links(&onwards, cells.len()))
+        let onwards: Vec<_> = (0..of_cells.len()).into_par_iter().flat_map_iter(onwards).collect();
+        Self::of_links(&onwards, of_cells.len())
     }
 
     /// The graph with each of these links in both directions.
@@ -105,68 +99,40 @@ impl Graph {
     }
 }
 
-/// Pairs of cells that share a piece of surface, by key, lower key first, in ascending order.
-struct Surface {
-    pairs: Vec<(u64, u64)>,
+/// Which pieces share surface.
+struct Surface<'a> {
+    keys: &'a [u64],
+    /// Both directions, in ascending order.
+    pairs: &'a [(u32, u32)],
 }
 
-impl Surface {
-    fn of(mesh: &Mesh, lattice: &Lattice) -> Result<Self, WettingError> {
-        let places: Vec<DVec3> =
-            mesh.positions.iter().map(|&position| in_cells(lattice, position)).collect();
-        let corners = |triangle: usize| mesh.triangles[triangle].corners;
-        let at = |triangle: usize| corners(triangle).map(|corner| places[corner as usize]);
-        let length = |[a, b, c]: [DVec3; 3]| a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let most =
-            (0..mesh.triangles.len()).map(|triangle| 1.0 + length(at(triangle))).sum::<f64>();
-        if most > MOST_ENTERED {
-            let cell = lattice.cell;
-            let fits = rounded_up(cell * (most / MOST_ENTERED) as f32);
-            return Err(WettingError::TooManyCells { cell, fits });
+impl Surface<'_> {
+    /// Pieces that share surface with one.
+    fn beside(&self, piece: u32) -> impl Iterator<Item = u32> + '_ {
+        let from = self.pairs.partition_point(|pair| pair.0 < piece);
+        self.pairs[from..].iter().take_while(move |pair| pair.0 == piece).map(|pair| pair.1)
+    }
+
+    /// Whether a piece shares surface with another at `step` from it, or steps along single axes,
+    /// in any order, lead there through pieces that do.
+    fn leads(&self, piece: u32, to: u32, step: [i32; 3]) -> bool {
+        self.pairs.binary_search(&(piece, to)).is_ok() || self.walks(piece, to, step)
+    }
+
+    fn walks(&self, piece: u32, to: u32, step: [i32; 3]) -> bool {
+        if step == [0; 3] {
+            return piece == to;
         }
-        let flat = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length_squared() == 0.0;
-        let lists = (0..mesh.triangles.len()).into_par_iter().map(|triangle| {
-            let mut found = Vec::new();
-            if !flat(at(triangle)) {
-                entered(at(triangle), &mut found);
-                found.sort_unstable();
-            }
-            found
-        });
-        let cells: Vec<Vec<[i32; 3]>> = lists.collect();
-        let mut pairs: Vec<(u64, u64)> =
-            cells.par_iter().flat_map_iter(|own| within(own)).collect();
-        pairs.extend(across_edges(mesh, &places, &cells));
-        pairs.par_sort_unstable();
-        pairs.dedup();
-        Ok(Self { pairs })
+        let at = Lattice::coordinates_of(self.keys[piece as usize]);
+        (0..3).filter(|&axis| step[axis] != 0).any(|axis| {
+            let (mut next, mut rest) = (at, step);
+            next[axis] += step[axis];
+            rest[axis] = 0;
+            let key = Lattice::key(next);
+            let mut beside = self.beside(piece).filter(|other| self.keys[*other as usize] == key);
+            beside.any(|other| self.walks(other, to, rest))
+        })
     }
-
-    /// Whether surface leads from the cell `at` to the one at `step` from it.
-    fn joins(&self, at: [i32; 3], step: [i32; 3]) -> bool {
-        self.shares(at, plus(at, step)) || self.leads(at, step)
-    }
-
-    fn shares(&self, a: [i32; 3], b: [i32; 3]) -> bool {
-        self.pairs.binary_search(&pair(a, b)).is_ok()
-    }
-
-    /// Whether steps along single axes, in any order, lead through cells that share surface.
-    fn leads(&self, at: [i32; 3], step: [i32; 3]) -> bool {
-        let mut axes = (0..3).filter(|&axis| step[axis] != 0).peekable();
-        axes.peek().is_none()
-            || axes.any(|axis| {
-                let (mut next, mut rest) = (at, step);
-                next[axis] += step[axis];
-                rest[axis] = 0;
-                self.shares(at, next) && self.leads(next, rest)
-            })
-    }
-}
-
-fn pair(a: [i32; 3], b: [i32; 3]) -> (u64, u64) {
-    let [a, b] = [a, b].map(Lattice::key);
-    (a.min(b), a.max(b))
 }
 
 fn plus(at: [i32; 3], step: [i32; 3]) -> [i32; 3] {
@@ -177,65 +143,7 @@ fn axes_of(step: [i32; 3]) -> u8 {
     step.iter().map(|value| value.unsigned_abs() as u8).sum()
 }
 
-fn adjacent(a: [i32; 3], b: [i32; 3]) -> bool {
-    a != b && (0..3).all(|axis| (a[axis] - b[axis]).abs() <= 1)
-}
-
 /// One of the two directions to each of the 26 cells around a cell.
 fn forward_steps() -> impl Iterator<Item = [i32; 3]> {
     (14..27).map(|i| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1])
-}
-
-/// The pairs of neighbours among the cells of one triangle, which are in ascending order.
-fn within(cells: &[[i32; 3]]) -> Vec<(u64, u64)> {
-    let mut pairs = Vec::new();
-    if cells.len() > 1 {
-        for &cell in cells {
-            for step in forward_steps() {
-                let other = plus(cell, step);
-                if cells.binary_search(&other).is_ok() {
-                    pairs.push(pair(cell, other));
-                }
-            }
-        }
-    }
-    pairs
-}
-
-/// The pairs of neighbours of which two triangles with a common edge enter one each, where the
-/// edge touches both.
-fn across_edges(mesh: &Mesh, places: &[DVec3], cells: &[Vec<[i32; 3]>]) -> Vec<(u64, u64)> {
-    // Adding 0 turns -0 into 0.
-    let bits = |corner: u32| mesh.positions[corner as usize].map(|value| (value + 0.0).to_bits());
-    let mut edges = Vec::new();
-    for (triangle, (own, found)) in (0_u32..).zip(mesh.triangles.iter().zip(cells)) {
-        let [a, b, c] = own.corners;
-        for [from, to] in [[a, b], [b, c], [c, a]] {
-            if !found.is_empty() && is_near_wall([from, to].map(|corner| places[corner as usize])) {
-                let ends = [bits(from), bits(to)];
-                edges.push((ends[0].min(ends[1]), ends[0].max(ends[1]), triangle, [from, to]));
-            }
-        }
-    }
-    edges.par_sort_unstable();
-    let mut pairs = Vec::new();
-    for shared in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        let line = shared[0].3.map(|corner| places[corner as usize]);
-        for (i, one) in shared.iter().enumerate() {
-            for other in &shared[i + 1..] {
-                let [own, others] = [one, other].map(|edge| &cells[edge.2 as usize]);
-                for &a in own.iter().filter(|&&cell| touches(line, cell)) {
-                    let near = others.iter().filter(|&&b| adjacent(a, b) && touches(line, b));
-                    pairs.extend(near.map(|&b| pair(a, b)));
-                }
-            }
-        }
-    }
-    pairs
-}
-
-/// Whether the line between two places (in widths of a cell) may touch a wall between cells.
-fn is_near_wall([a, b]: [DVec3; 2]) -> bool {
-    let margin = DVec3::splat(1e-3);
-    (a.min(b) - margin).floor() != (a.max(b) + margin).floor()
 }

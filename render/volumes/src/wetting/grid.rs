@@ -3,9 +3,11 @@
 use glam::Vec3;
 use graphics::mesh::Mesh;
 
+use super::bodies::Bodies;
 use super::cells::Cells;
 use super::fault::WettingError;
 use super::graph::Graph;
+use super::pieces::Pieces;
 use super::reach::Reach;
 use super::samples::SurfaceSamples;
 
@@ -20,6 +22,8 @@ pub struct Grid {
     pub graph: Graph,
     /// Radii of volumes by their amount of paint.
     pub reach: Reach,
+    /// What is one surface for paint.
+    pub bodies: Bodies,
 }
 
 impl Grid {
@@ -29,11 +33,16 @@ impl Grid {
     /// # Errors
     /// If the mesh has no surface, the cells have no size, or cells or samples are too many.
     pub fn of(mesh: &Mesh, cell: f32, per_cell: usize, seed: u64) -> Result<Self, WettingError> {
-        let samples = SurfaceSamples::of(mesh, cell, per_cell, seed)?;
+        let cubes = SurfaceSamples::of(mesh, cell, per_cell, seed)?;
+        let pieces = Pieces::of(mesh, &cubes)?;
+        let (mut samples, of_cells) = cubes.by_piece(&pieces.of_samples(&cubes));
         let cells = Cells::of(&samples);
-        let graph = Graph::of(mesh, &samples)?;
+        let graph = Graph::of(&pieces, &of_cells);
+        let bodies = Bodies::of(&pieces, &of_cells);
+        let body = |&cell: &u32| bodies.of_cells[cell as usize];
+        samples.bodies = samples.cells.iter().map(body).collect();
         let reach = Reach::of(&samples, &cells);
-        Ok(Self { samples, cells, graph, reach })
+        Ok(Self { samples, cells, graph, reach, bodies })
     }
 
     /// The grid of the surface where `kept` is true. The numbers of cells stay; cells without
@@ -44,7 +53,7 @@ impl Grid {
         let cells = Cells::of(&samples);
         let graph = self.graph.cut(|cell| cells.capacities[cell] > 0);
         let reach = Reach::of(&samples, &cells);
-        Self { samples, cells, graph, reach }
+        Self { samples, cells, graph, reach, bodies: self.bodies.clone() }
     }
 
     /// The sample nearest to `place`, the first of several, and its distance in the unit of the

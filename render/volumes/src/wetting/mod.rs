@@ -13,6 +13,10 @@ mod cells;
 
 mod entering;
 
+mod pieces;
+
+mod bodies;
+
 mod graph;
 
 mod reach;
@@ -23,6 +27,7 @@ mod grid;
 
 mod spill_on_device;
 
+pub use bodies::Bodies;
 pub use cells::{Cells, MOST_FILMS, QUANTA_PER_FACE};
 pub use fault::{MOST_CELLS, WettingError};
 pub use graph::Graph;

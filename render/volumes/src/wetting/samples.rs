@@ -31,10 +31,13 @@ pub struct SurfaceSamples {
     pub areas: Vec<f32>,
     /// Index of the triangle of each sample.
     pub triangles: Vec<u32>,
-    /// The cell that holds each sample, counted from 0 in ascending order of [`Lattice::key`].
+    /// The cell that holds each sample, counted from 0 in ascending order of [`Lattice::key`]. In a
+    /// [`Grid`](super::Grid) surfaces that are not connected have cells of their own in one cube.
     pub cells: Vec<u32>,
     /// Index of the first sample of each cell, and at last the number of samples.
     pub starts: Vec<u32>,
+    /// Number of the body of each sample, see [`Bodies`](super::Bodies); 0 outside of a grid.
+    pub bodies: Vec<u32>,
 }
 
 impl SurfaceSamples {
@@ -92,10 +95,36 @@ impl SurfaceSamples {
             places: order.iter().map(|at| sample(at).1).collect(),
             normals: triangles.iter().map(|&triangle| normal(mesh, triangle as usize)).collect(),
             areas: vec![area; triangles.len()],
+            bodies: vec![0; triangles.len()],
             triangles,
             cells,
             starts,
         }
+    }
+
+    /// Cells of their own for the pieces of surface in one cube, in ascending order: `pieces` has
+    /// one for each sample. Returns the piece of each cell as well.
+    pub(super) fn by_piece(&self, pieces: &[u32]) -> (Self, Vec<u32>) {
+        let mut order: Vec<(u32, u32)> = pieces.iter().copied().zip(0..).collect();
+        order.sort_unstable();
+        let (mut cells, mut starts, mut of_cells) = (Vec::new(), vec![0], Vec::new());
+        for (members, cell) in order.chunk_by(|a, b| a.0 == b.0).zip(0..) {
+            cells.resize(cells.len() + members.len(), cell);
+            starts.push(cells.len() as u32);
+            of_cells.push(members[0].0);
+        }
+        let from = |at: &(u32, u32)| at.1 as usize;
+        let samples = Self {
+            lattice: self.lattice,
+            places: order.iter().map(|at| self.places[from(at)]).collect(),
+            normals: order.iter().map(|at| self.normals[from(at)]).collect(),
+            areas: order.iter().map(|at| self.areas[from(at)]).collect(),
+            triangles: order.iter().map(|at| self.triangles[from(at)]).collect(),
+            bodies: order.iter().map(|at| self.bodies[from(at)]).collect(),
+            cells,
+            starts,
+        };
+        (samples, of_cells)
     }
 
     /// The samples whose place is `kept`. The numbers of cells stay, so that some may be empty.
@@ -110,6 +139,7 @@ impl SurfaceSamples {
             areas: all.iter().map(|&sample| self.areas[sample]).collect(),
             triangles: all.iter().map(|&sample| self.triangles[sample]).collect(),
             cells: all.iter().map(|&sample| self.cells[sample]).collect(),
+            bodies: all.iter().map(|&sample| self.bodies[sample]).collect(),
             starts: self.starts.iter().map(before).collect(),
         }
     }
@@ -132,7 +162,7 @@ impl SurfaceSamples {
         self.starts.len() - 1
     }
 
-    /// The cell that holds a place, if there is surface in it.
+    /// The cell that holds a place, if there is surface in it; the first of several.
     #[must_use]
     pub fn cell_at(&self, place: Vec3) -> Option<usize> {
         let key = |place: Vec3| Lattice::key(self.lattice.coordinates(place));
@@ -160,7 +190,7 @@ fn area(mesh: &Mesh, triangle: usize) -> f64 {
 }
 
 /// Unit normal of a triangle, on the side of the normals of its corners.
-fn normal(mesh: &Mesh, triangle: usize) -> Vec3 {
+pub(super) fn normal(mesh: &Mesh, triangle: usize) -> Vec3 {
     let [a, b, c] = corners(mesh, triangle).map(Vec3::as_dvec3);
     let facet = (b - a).cross(c - a).normalize_or_zero().as_vec3();
     let own = mesh.triangles[triangle].corners;

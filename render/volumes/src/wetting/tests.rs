@@ -114,21 +114,49 @@ fn the_nearest_sample_is_that_of_a_search_through_all() {
 
 #[test]
 fn cells_of_parallel_plates_are_not_joined() {
-    for height in [1.0, 0.7, 1.3] {
+    for height in [1.0, 0.7, 1.3, 0.2] {
         let plates = joined(level(6.0, 0.0, 3), &level(6.0, height, 2));
         let grid = Grid::of(&plates, 1.0, SAMPLES_PER_CELL, 1).unwrap();
-        let upper = |cell: usize| grid.cells.centers[cell].y > 0.5 * height;
-        let both = (0..grid.cells.len()).filter(|&cell| {
+        let upper = |cell: usize| {
             let own = &grid.samples.places[grid.samples.of_cell(cell)];
-            own.iter().any(|at| at.y > 0.0) && own.iter().any(|at| at.y == 0.0)
-        });
-        if both.count() > 0 {
-            assert!(height < 1.0, "plates {height} apart share cells");
-            continue;
-        }
+            assert!(own.iter().all(|at| (at.y > 0.0) == (own[0].y > 0.0)), "a cell of both");
+            own[0].y > 0.0
+        };
         for cell in 0..grid.cells.len() {
             for link in grid.graph.links(cell) {
                 assert_eq!(upper(cell), upper(grid.graph.others[link] as usize));
+            }
+        }
+        assert_eq!(grid.bodies.of_triangles.iter().max(), Some(&2));
+    }
+}
+
+#[test]
+fn surfaces_touch_where_an_open_corner_is_between_them() {
+    // A ball of radius 1 sunk into a sheet.
+    for (sunk, bodies) in [(0.0, 2), (0.1, 2), (0.9, 1), (1.4, 1)] {
+        let floor = level(6.0, sunk - 1.0, 12);
+        let ball = Mesh::sphere(3000);
+        let moved = |mesh: &Mesh, by: Vec3| {
+            let mut mesh = mesh.clone();
+            mesh.positions.iter_mut().for_each(|at| *at = (Vec3::from(*at) + by).to_array());
+            mesh
+        };
+        let both = joined(moved(&floor, Vec3::new(-3.0, 0.0, -3.0)), &ball);
+        let grid = Grid::of(&both, 0.5, SAMPLES_PER_CELL, 1).unwrap();
+        let most = grid.bodies.of_triangles.iter().max();
+        assert_eq!(most, Some(&bodies), "{sunk}");
+        // A pane just over the sheet is one with it.
+        let pane = moved(&level(1.0, sunk - 0.99, 1), Vec3::new(1.5, 0.0, 1.5));
+        let grid = Grid::of(&joined(both, &pane), 0.5, SAMPLES_PER_CELL, 1).unwrap();
+        let of = &grid.bodies.of_triangles;
+        assert_eq!((of[0], of.iter().max()), (of[of.len() - 1], Some(&bodies)), "{sunk}");
+        for cell in 0..grid.cells.len() {
+            let own = &grid.samples.triangles[grid.samples.of_cell(cell)];
+            let body = grid.bodies.of_cells[cell];
+            assert!(own.iter().all(|&triangle| of[triangle as usize] == body));
+            for link in grid.graph.links(cell) {
+                assert_eq!(grid.bodies.of_cells[grid.graph.others[link] as usize], body);
             }
         }
     }

@@ -31,6 +31,7 @@ impl World {
         volume.cell = Some(cell as u32);
         volume.region = region;
         volume.normal = self.grid.cells.normals[cell];
+        volume.body = self.grid.bodies.of_cells[cell];
         self.of_cell[cell] = index as u32;
         Ok(index)
     }

@@ -30,7 +30,11 @@ pub(super) struct Found {
 /// Volumes of `world` that hold a place on its surface, and the films of their paint there.
 pub(super) fn found_at(world: &World, hit: &Hit, profile: FilmProfile) -> Found {
     let Hit { place, normal } = *hit;
-    let holding = world.volumes().iter().filter(|volume| Inside::of(volume).holds(place));
+    let nearest = world.grid().nearest(place);
+    let body = nearest.map_or(0, |(sample, _)| world.grid().samples.bodies[sample]);
+    let of_body = |volume: &&Volume| volume.body == 0 || body == 0 || volume.body == body;
+    let own = world.volumes().iter().filter(of_body);
+    let holding = own.filter(|volume| Inside::of(volume).holds(place));
     let volumes: Vec<Volume> = holding.cloned().collect();
     let samples = &world.grid().samples;
     let lattice = SampleLattice::of(&samples.places, world.cell());

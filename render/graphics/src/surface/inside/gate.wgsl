@@ -11,9 +11,9 @@ struct Fragment {
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
 @group(0) @binding(3) var<storage, read> fragments: array<Fragment>;
-// Of each surface: what it faces, and the least cosine.
+// Of each surface: what it faces, and the least cosine; then its body, 0 for any.
 @group(0) @binding(4) var<storage, read> gates: array<vec4<f32>>;
-// Of each triangle of the scene.
+// Of each triangle of the scene: its normal and its body, 0 for any.
 @group(0) @binding(5) var<storage, read> normals: array<vec4<f32>>;
 @group(0) @binding(6) var<storage, read_write> sums: array<atomic<i32>>;
 
@@ -24,8 +24,11 @@ fn pixel(at: Corner, @builtin(front_facing) front: bool) {
     if seen.triangle == NO_TRIANGLE || at.position.z * params.depth_scale < seen.depth {
         return;
     }
-    let gate = gates[at.surface];
-    if dot(normals[seen.triangle].xyz, gate.xyz) >= gate.w {
+    let gate = gates[2u * at.surface];
+    let body = gates[2u * at.surface + 1u].x;
+    let own = normals[seen.triangle];
+    let is_own = body == 0.0 || own.w == 0.0 || body == own.w;
+    if is_own && dot(own.xyz, gate.xyz) >= gate.w {
         atomicAdd(&sums[cell], select(1, -1, front));
     }
 }

@@ -125,7 +125,7 @@ fn the_films_of_a_world_are_the_paint_on_its_scene() {
         world.pour(Pour::at(place, 60.0, 1.0, Recipe::of_slot(slot))).unwrap();
     }
     // Until volumes are wider than the samples are apart.
-    (0..300).for_each(|_| world.step().unwrap());
+    (0..400).for_each(|_| world.step().unwrap());
     let samples = &world.grid().samples;
     let surface = SampledSurface::from(samples);
     let lattice = SampleLattice::of(surface.places, samples.lattice.cell);
@@ -138,8 +138,9 @@ fn the_films_of_a_world_are_the_paint_on_its_scene() {
     let fine = SurfaceSamples::of(&mesh, 0.2 * samples.lattice.cell, SAMPLES_PER_CELL, 6).unwrap();
     let patch_mm2 = f64::from(fine.areas[0]) * unit_mm * unit_mm;
     let mut laid = [0.0; SLOTS + 1];
-    for (&place, &normal) in fine.places.iter().zip(&fine.normals) {
-        let heights = sum.at(place, normal).0;
+    for (sample, (&place, &normal)) in fine.places.iter().zip(&fine.normals).enumerate() {
+        let body = world.grid().bodies.of_triangles[fine.triangles[sample] as usize];
+        let heights = sum.on_body(place, normal, body).0;
         laid.iter_mut().zip(heights).for_each(|(laid, height)| *laid += f64::from(height));
     }
     let on_scene = world.tally().on_scene;

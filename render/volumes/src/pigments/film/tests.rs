@@ -33,7 +33,7 @@ impl Plane {
 
     fn films(&self, volumes: &[Volume], profile: FilmProfile) -> Vec<Film> {
         let Self { places, normals, areas, lattice } = self;
-        let surface = SampledSurface { places, normals, areas };
+        let surface = SampledSurface { places, normals, areas, bodies: &vec![0; places.len()] };
         Film::of_volumes(volumes, profile, (&surface, lattice), &SCALE)
     }
 }

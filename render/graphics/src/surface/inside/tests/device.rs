@@ -61,7 +61,7 @@ impl Scene {
     fn gated_of(
         &self,
         compute: &mut Compute,
-        surfaces: &[[f32; 4]],
+        surfaces: &[[f32; 8]],
         normals: &[[f32; 4]],
     ) -> Field<i32> {
         let (camera, size) = (&self.camera, self.size);
@@ -145,9 +145,12 @@ fn the_device_gates_as_the_processor_does() {
     let (mut held, mut kept_out) = (0, 0);
     for seed in 90..94 {
         let scene = random_scene(seed);
-        let gate = |i: usize| turned(i).normalize().extend([-2.0, -0.2, 0.3][i % 3]).to_array();
-        let gates: Vec<[f32; 4]> = (0..scene.surfaces.count as usize).map(gate).collect();
-        let normal = |i: usize| turned(7 * i).normalize().extend(0.0).to_array();
+        let gate = |i: usize| {
+            let [x, y, z] = turned(i).normalize().to_array();
+            [x, y, z, [-2.0, -0.2, 0.3][i % 3], (i % 4) as f32, 9.0, 9.0, 9.0]
+        };
+        let gates: Vec<[f32; 8]> = (0..scene.surfaces.count as usize).map(gate).collect();
+        let normal = |i: usize| turned(7 * i).normalize().extend((i / 50 % 4) as f32).to_array();
         let normals: Vec<[f32; 4]> = (0..scene.mesh.triangles.len()).map(normal).collect();
         let on_cpu = scene.gated_of(&mut Compute::cpu(), &gates, &normals);
         let found = scene.gated_of(&mut on_gpu, &gates, &normals);

@@ -1,0 +1,335 @@
+//! The pieces of surface in each cell: what is connected within the cell, so that a cell does not
+//! mix bodies that only come near each other.
+
+use glam::{DVec3, Vec3};
+use graphics::mesh::Mesh;
+use rayon::prelude::*;
+
+use super::entering::{entered, in_cells, touches};
+use super::fault::WettingError;
+use super::lattice::{Lattice, rounded_up};
+use super::samples::SurfaceSamples;
+
+/// Greatest number of cells entered by all triangles together.
+const MOST_ENTERED: f64 = (1 << 26) as f64;
+
+/// Distance below which surfaces touch, in cells.
+const NEAR: f32 = 1.0 / 16.0;
+
+/// Least cosine between the normals of surfaces that touch: a wall touches its ground, and a pane
+/// its wall, but not a fruit the cloth that it lies on, whose sides face each other.
+const FACING: f32 = -0.2;
+
+/// The pieces of surface in all cells that triangles enter.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Pieces {
+    /// Index of the first entry of each triangle, and at last the number of entries.
+    starts: Vec<u32>,
+    /// The cells that each triangle enters, in ascending order.
+    cells: Vec<[i32; 3]>,
+    /// The piece that each entry belongs to.
+    of_entries: Vec<u32>,
+    /// [`Lattice::key`] of the cell of each piece, in ascending order.
+    pub(super) keys: Vec<u64>,
+    /// Pairs of pieces in neighbouring cells that share surface, in both directions and ascending
+    /// order.
+    pub(super) pairs: Vec<(u32, u32)>,
+}
+
+impl Pieces {
+    /// The pieces of the surface of `samples`. Triangles with a common edge in a cell are of one
+    /// piece, and so are surfaces that touch there.
+    ///
+    /// # Errors
+    /// If the triangles enter too many cells.
+    pub(super) fn of(mesh: &Mesh, samples: &SurfaceSamples) -> Result<Self, WettingError> {
+        let lattice = &samples.lattice;
+        let places: Vec<DVec3> =
+            mesh.positions.par_iter().map(|&position| in_cells(lattice, position)).collect();
+        let (starts, cells) = entries(mesh, &places, lattice.cell)?;
+        let mut pieces = Self { starts, cells, ..Self::default() };
+        let edges = shared_edges(mesh, &pieces);
+        let mut roots: Vec<u32> = (0..pieces.cells.len() as u32).collect();
+        for edge in &edges {
+            pieces.connect(edge, &places, &mut roots);
+        }
+        for (one, other) in pieces.touching(mesh, samples, &roots) {
+            unite(&mut roots, one, other);
+        }
+        pieces.number(&mut roots);
+        pieces.pair(&edges, &places);
+        Ok(pieces)
+    }
+
+    /// The piece of each sample.
+    pub(super) fn of_samples(&self, samples: &SurfaceSamples) -> Vec<u32> {
+        let mut last = 0;
+        let piece = |sample: usize| {
+            let entry = self.entry_of(samples, sample);
+            // Rounding may leave a sample outside of all cells that its triangle enters.
+            last = entry.map_or(last, |entry| self.of_entries[entry]);
+            last
+        };
+        (0..samples.len()).map(piece).collect()
+    }
+
+    /// Number of triangles.
+    pub(super) fn triangles(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// The piece of a triangle in each cell that it enters.
+    pub(super) fn of_triangle(&self, triangle: usize) -> &[u32] {
+        &self.of_entries[self.entries_of(triangle)]
+    }
+
+    fn entries_of(&self, triangle: usize) -> std::ops::Range<usize> {
+        self.starts[triangle] as usize..self.starts[triangle + 1] as usize
+    }
+
+    /// The entry of the triangle of a sample into the cell of the sample.
+    fn entry_of(&self, samples: &SurfaceSamples, sample: usize) -> Option<usize> {
+        let at = samples.lattice.coordinates(samples.places[sample]);
+        let own = self.entries_of(samples.triangles[sample] as usize);
+        let found = self.cells[own.clone()].binary_search(&at);
+        found.ok().map(|index| own.start + index)
+    }
+
+    /// Unites the entries of two triangles into the cells that their common edge touches.
+    fn connect(&self, edge: &SharedEdge, places: &[DVec3], roots: &mut [u32]) {
+        let line = edge.line.map(|corner| places[corner as usize]);
+        let [own, others] = edge.triangles.map(|triangle| self.entries_of(triangle as usize));
+        for one in own {
+            let cell = self.cells[one];
+            let found = self.cells[others.clone()].binary_search(&cell);
+            if let Ok(index) = found
+                && ((edge.is_inside(self)) || touches(line, cell))
+            {
+                unite(roots, one as u32, (others.start + index) as u32);
+            }
+        }
+    }
+
+    /// Pairs of entries that touch in their cell.
+    fn touching(&self, mesh: &Mesh, samples: &SurfaceSamples, roots: &[u32]) -> Vec<(u32, u32)> {
+        let mut order: Vec<(u64, u32, u32)> = Vec::with_capacity(self.cells.len());
+        for triangle in 0..mesh.triangles.len() {
+            let own = self.entries_of(triangle);
+            order.extend(
+                own.map(|entry| (Lattice::key(self.cells[entry]), entry as u32, triangle as u32)),
+            );
+        }
+        order.par_sort_unstable();
+        let near = NEAR * samples.lattice.cell;
+        let cells = (0..samples.cell_count()).into_par_iter().flat_map_iter(|cell| {
+            let own = samples.of_cell(cell);
+            let key = Lattice::key(samples.lattice.coordinates(samples.places[own.start]));
+            let from = order.partition_point(|entry| entry.0 < key);
+            let to = from + order[from..].partition_point(|entry| entry.0 == key);
+            let inside = &order[from..to];
+            let root = |entry: u32| root_of(roots, entry);
+            let single = inside.iter().all(|entry| root(entry.1) == root(inside[0].1));
+            let mut found: Vec<(u32, u32)> = Vec::new();
+            for sample in own.filter(|_| !single) {
+                let Some(entry) = self.entry_of(samples, sample) else { continue };
+                let (one, place) = (root(entry as u32), samples.places[sample]);
+                for &(_, entry, triangle) in inside {
+                    let other = root(entry);
+                    let pair = (one.min(other), one.max(other));
+                    if one == other || found.contains(&pair) {
+                        continue;
+                    }
+                    let corners = mesh.triangles[triangle as usize].corners;
+                    let corners = corners.map(|at| Vec3::from(mesh.positions[at as usize]));
+                    let normal = super::samples::normal(mesh, triangle as usize);
+                    if normal.dot(samples.normals[sample]) >= FACING
+                        && distance(place, corners) < near
+                    {
+                        found.push(pair);
+                    }
+                }
+            }
+            found
+        });
+        cells.collect()
+    }
+
+    /// Numbers the pieces in the order of their cells, and in each by their first triangle.
+    fn number(&mut self, roots: &mut [u32]) {
+        for entry in 0..roots.len() {
+            // Roots are the lowest entries of their pieces.
+            roots[entry] = roots[roots[entry] as usize];
+        }
+        let firsts = (0..roots.len() as u32).filter(|&entry| root_of(roots, entry) == entry);
+        let mut order: Vec<(u64, u32)> =
+            firsts.map(|entry| (Lattice::key(self.cells[entry as usize]), entry)).collect();
+        order.par_sort_unstable();
+        let mut numbers = vec![0; roots.len()];
+        for (&(_, entry), number) in order.iter().zip(0..) {
+            numbers[entry as usize] = number;
+        }
+        let number = |entry| numbers[root_of(roots, entry) as usize];
+        self.of_entries = (0..roots.len() as u32).map(number).collect();
+        self.keys = order.into_iter().map(|(key, _)| key).collect();
+    }
+
+    /// Fills `pairs`: two pieces share surface if a triangle enters both, or one of two triangles
+    /// at a common edge each, where this edge touches both cells.
+    fn pair(&mut self, edges: &[SharedEdge], places: &[DVec3]) {
+        let mut pairs = Vec::new();
+        for triangle in 0..self.starts.len() - 1 {
+            let own = self.entries_of(triangle);
+            for one in own.clone().filter(|_| own.len() > 1) {
+                let others = own.clone().filter(|&other| self.adjacent(one, other));
+                pairs.extend(others.map(|other| (self.of_entries[one], self.of_entries[other])));
+            }
+        }
+        for edge in edges {
+            let line = edge.line.map(|corner| places[corner as usize]);
+            if !is_near_wall(line) {
+                continue;
+            }
+            let [own, others] = edge.triangles.map(|triangle| self.entries_of(triangle as usize));
+            for one in own.filter(|&one| touches(line, self.cells[one])) {
+                let near = others
+                    .clone()
+                    .filter(|&other| self.adjacent(one, other) && touches(line, self.cells[other]));
+                for other in near {
+                    let [a, b] = [one, other].map(|entry| self.of_entries[entry]);
+                    pairs.extend([(a, b), (b, a)]);
+                }
+            }
+        }
+        pairs.par_sort_unstable();
+        pairs.dedup();
+        self.pairs = pairs;
+    }
+
+    /// Whether two entries are into neighbouring cells.
+    fn adjacent(&self, one: usize, other: usize) -> bool {
+        let [a, b] = [one, other].map(|entry| self.cells[entry]);
+        a != b && (0..3).all(|axis| (a[axis] - b[axis]).abs() <= 1)
+    }
+}
+
+/// The cells that all triangles enter; none for those without area.
+fn entries(
+    mesh: &Mesh,
+    places: &[DVec3],
+    cell: f32,
+) -> Result<(Vec<u32>, Vec<[i32; 3]>), WettingError> {
+    let at =
+        |triangle: usize| mesh.triangles[triangle].corners.map(|corner| places[corner as usize]);
+    let length = |[a, b, c]: [DVec3; 3]| a.distance(b).max(b.distance(c)).max(c.distance(a));
+    let most = (0..mesh.triangles.len()).map(|triangle| 1.0 + length(at(triangle))).sum::<f64>();
+    if most > MOST_ENTERED {
+        let fits = rounded_up(cell * (most / MOST_ENTERED) as f32);
+        return Err(WettingError::TooManyCells { cell, fits });
+    }
+    let flat = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).length_squared() == 0.0;
+    let lists = (0..mesh.triangles.len()).into_par_iter().map(|triangle| {
+        let mut found = Vec::new();
+        if !flat(at(triangle)) {
+            entered(at(triangle), &mut found);
+            found.sort_unstable();
+        }
+        found
+    });
+    let lists: Vec<Vec<[i32; 3]>> = lists.collect();
+    let mut starts = vec![0];
+    let mut count = 0;
+    for list in &lists {
+        count += list.len() as u32;
+        starts.push(count);
+    }
+    Ok((starts, lists.concat()))
+}
+
+/// A common edge of two triangles.
+struct SharedEdge {
+    triangles: [u32; 2],
+    /// Vertices at its ends.
+    line: [u32; 2],
+}
+
+impl SharedEdge {
+    /// Whether both triangles lie in one cell each.
+    fn is_inside(&self, pieces: &Pieces) -> bool {
+        self.triangles.iter().all(|&triangle| pieces.entries_of(triangle as usize).len() == 1)
+    }
+}
+
+/// The common edges of all pairs of triangles with area. Vertices at one place are the same.
+fn shared_edges(mesh: &Mesh, pieces: &Pieces) -> Vec<SharedEdge> {
+    // Adding 0 turns -0 into 0.
+    let bits = |at: u32| mesh.positions[at as usize].map(|value| (value + 0.0).to_bits());
+    let mut order: Vec<([u32; 3], u32)> =
+        (0..mesh.positions.len() as u32).map(|vertex| (bits(vertex), vertex)).collect();
+    order.par_sort_unstable();
+    let mut first = vec![0; order.len()];
+    for same in order.chunk_by(|a, b| a.0 == b.0) {
+        same.iter().for_each(|&(_, vertex)| first[vertex as usize] = same[0].1);
+    }
+    let mut edges = Vec::with_capacity(3 * mesh.triangles.len());
+    for (triangle, own) in (0_u32..).zip(&mesh.triangles) {
+        if !pieces.entries_of(triangle as usize).is_empty() {
+            let [a, b, c] = own.corners.map(|corner| first[corner as usize]);
+            let edge = |from: u32, to: u32| (from.min(to), from.max(to), triangle);
+            edges.extend([edge(a, b), edge(b, c), edge(c, a)]);
+        }
+    }
+    edges.par_sort_unstable();
+    let mut shared = Vec::with_capacity(edges.len() / 2);
+    for same in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        for (index, &(from, to, one)) in same.iter().enumerate() {
+            let others = same[index + 1..].iter();
+            shared.extend(
+                others.map(|other| SharedEdge { triangles: [one, other.2], line: [from, to] }),
+            );
+        }
+    }
+    shared
+}
+
+/// Whether the line between two places (in widths of a cell) may touch a wall between cells.
+fn is_near_wall([a, b]: [DVec3; 2]) -> bool {
+    let margin = DVec3::splat(1e-3);
+    (a.min(b) - margin).floor() != (a.max(b) + margin).floor()
+}
+
+/// The root of an entry.
+pub(super) fn root_of(roots: &[u32], mut entry: u32) -> u32 {
+    while roots[entry as usize] != entry {
+        entry = roots[entry as usize];
+    }
+    entry
+}
+
+/// Makes two entries of one piece; its root is the lowest of them.
+pub(super) fn unite(roots: &mut [u32], one: u32, other: u32) {
+    let [a, b] = [one, other].map(|entry| root_of(roots, entry));
+    let root = a.min(b);
+    for end in [one, other] {
+        let mut entry = end;
+        // Shortens the way for the next search.
+        while roots[entry as usize] != entry {
+            entry = std::mem::replace(&mut roots[entry as usize], root);
+        }
+        roots[entry as usize] = root;
+    }
+}
+
+/// Distance from a place to a triangle.
+fn distance(place: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
+    let normal = (b - a).cross(c - a);
+    let inside = |from: Vec3, to: Vec3| (to - from).cross(place - from).dot(normal) >= 0.0;
+    if inside(a, b) && inside(b, c) && inside(c, a) {
+        return (place - a).dot(normal).abs() / normal.length();
+    }
+    let to_edge = |from: Vec3, to: Vec3| {
+        let along = to - from;
+        let share = (place - from).dot(along) / along.length_squared().max(f32::MIN_POSITIVE);
+        place.distance(from + along * share.clamp(0.0, 1.0))
+    };
+    to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
+}
