@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::output::Output;
+use crate::output::{Output, OutputFolder};
 use crate::progress::Progress;
 
 #[derive(Debug, Args)]
@@ -70,6 +70,9 @@ impl AnimationOptions {
         };
         let beside = self.animation.as_ref().map(|path| path.with_extension("frames"));
         let frames = self.frames.clone().or(beside);
+        if let Some(folder) = &frames {
+            OutputFolder::open(folder, inputs)?;
+        }
         Ok(frames.map(|frames| Animation { file, frames, rate }))
     }
 }
@@ -91,7 +94,7 @@ fn format(path: &Path) -> Result<Format> {
 }
 
 /// SHA-256 digest of all inputs of the frames. Frames of another digest are painted again.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct FramesDigest(Sha256);
 
 impl FramesDigest {
@@ -101,6 +104,11 @@ impl FramesDigest {
         let _ = write!(self, "{input:?}");
         self.0.update([0]);
         self
+    }
+
+    /// Its hexadecimal digits.
+    pub(crate) fn text(self) -> String {
+        self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }
 
@@ -117,6 +125,11 @@ impl Animation {
         self.file.as_ref().map(|(output, _)| output)
     }
 
+    /// The folder of frames.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.frames
+    }
+
     /// Opens the folder of frames. Frames of this digest are kept, all others are removed.
     pub(crate) fn begin(
         self,
@@ -124,9 +137,7 @@ impl Animation {
         frames: usize,
         size: (usize, usize),
     ) -> Result<Recording> {
-        let digest = digest.0.finalize();
-        let settings = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        let (width, height) = size;
+        let (settings, (width, height)) = (digest.text(), size);
         let sequence =
             Sequence::open(&self.frames, SequenceSettings { settings, frames, width, height })?;
         Ok(Recording { animation: self, sequence, frames, size })

@@ -39,7 +39,8 @@ pub(crate) struct Stencil {
     #[arg(long, value_name = "SECONDS", value_parser = value_parser!(f64))]
     pub(super) at: Option<f64>,
     /// Print JSON: size, backend, seconds, volumes, particles, cells, paint in mm3, frames,
-    /// frames_found
+    /// frames_found, from_seconds (of the snapshot that an interrupted run went on from),
+    /// steps_computed
     #[arg(long)]
     pub(super) json: bool,
     #[command(flatten)]
