@@ -8,7 +8,7 @@ use render::export::{Apng, ColorTable, Frame, FrameRate, Gif, Sequence, Sequence
 use sha2::{Digest, Sha256};
 
 use crate::console::Console;
-use crate::failure::{Failure, Result};
+use crate::failure::{Context, Failure, Result};
 use crate::output::{Output, OutputFolder};
 use crate::progress::Progress;
 
@@ -23,7 +23,7 @@ pub(crate) struct AnimationOptions {
     #[arg(long, value_name = "FOLDER")]
     frames: Option<PathBuf>,
     /// Frames per second
-    #[arg(long, value_name = "RATE", default_value_t = 25.0)]
+    #[arg(long, value_name = "RATE", default_value_t = 25.0, allow_negative_numbers = true)]
     rate: f64,
 }
 
@@ -63,7 +63,7 @@ impl AnimationOptions {
 
     /// Checks that the animation can be written. Returns `None` if no frames are requested.
     pub(crate) fn open(&self, inputs: &[PathBuf]) -> Result<Option<Animation>> {
-        let rate = FrameRate::new(self.rate)?;
+        let rate = FrameRate::new(self.rate).context(|| "--rate takes another value")?;
         let file = match &self.animation {
             None => None,
             Some(path) => Some((Output::open(path, inputs)?, format(path)?)),

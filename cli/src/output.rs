@@ -25,10 +25,15 @@ impl OutputFolder {
     pub(crate) fn open(folder: &Path, inputs: &[PathBuf]) -> Result<Self> {
         let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let there = whole.ancestors().find(|part| part.exists()).unwrap_or(&whole);
-        check_writable(&there.join(".impasto")).context(|| match there == whole {
+        let words = match there == whole {
             true => format!("{}: nothing can be written into this folder", folder.display()),
             false => format!("{}: this folder cannot be created", folder.display()),
-        })?;
+        };
+        if there.is_file() {
+            let reason = format!("{words}: {} is a file", there.display());
+            return Err(Failure::usage(reason, "name another folder"));
+        }
+        check_writable(&there.join(".impasto")).context(|| words)?;
         Ok(Self { folder: folder.to_owned(), inputs: inputs.to_vec() })
     }
 

@@ -19,14 +19,14 @@ const SECONDS: f64 = 4.0;
 pub(super) struct PourOptions {
     /// Pour paint at a place of the first picture: shares of its width and height, and the amount in
     /// mm3 [default: 60], such as `0.5,0.6` or `0.5,0.6,200`; may be repeated
-    #[arg(long = "pour", value_name = "X,Y[,MM3]")]
+    #[arg(long = "pour", value_name = "X,Y[,MM3]", allow_hyphen_values = true)]
     pours: Vec<String>,
     /// Paint of the pours, as pigments with their parts, such as `Ultramarine=2,White=1`: one for all
     /// of them, or one for each [default: the pigments of --palette, or of the script, in turn]
     #[arg(long = "paint", value_name = "RECIPE", requires = "pigments")]
     paints: Vec<String>,
     /// How long paint spreads, in seconds [default: 4, or as the script says]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     seconds: Option<f64>,
 }
 

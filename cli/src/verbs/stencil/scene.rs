@@ -73,7 +73,12 @@ impl OpenScript {
     pub(super) fn located(&self, fault: Box<Fault>) -> Failure {
         if let Some(option) = self.option_of(&fault.key) {
             let Fault { wanted, found, hint, .. } = *fault;
-            return Failure::data(format!("{option} takes {wanted}, found `{found}`"), hint);
+            let message = format!("{option} takes {wanted}, found `{found}`");
+            // Names of pigments depend on the library.
+            return match option.starts_with("--palette") {
+                true => Failure::data(message, hint),
+                false => Failure::usage(message, hint),
+            };
         }
         match &self.file {
             Some((name, text)) => ScriptError::located(name, text, fault).into(),

@@ -151,6 +151,10 @@ fn a_script_that_cannot_be_played_leaves_nothing_behind() {
     for option in ["--stages", "--volumes", "--pigment-maps", "--frames"] {
         let run = stencil(&[&[&script[..]], &paint[..], &[option, &inside]].concat());
         let told = run.err.contains("inside: this folder cannot be created");
-        assert!(run.status == 2 && told && run.err.contains("because"), "{option}: {}", run.err);
+        assert!(
+            run.status == 2 && told && run.err.contains("hint: name another"),
+            "{option}: {}",
+            run.err
+        );
     }
 }
