@@ -25,7 +25,7 @@ impl OutputFolder {
     pub(crate) fn open(folder: &Path, inputs: &[PathBuf]) -> Result<Self> {
         let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let there = whole.ancestors().find(|part| part.exists()).unwrap_or(&whole);
-        let words = match there == whole {
+        let words = match there == whole && there.is_dir() {
             true => format!("{}: nothing can be written into this folder", folder.display()),
             false => format!("{}: this folder cannot be created", folder.display()),
         };

@@ -48,6 +48,14 @@ pub(crate) fn listed<'t>(
     parts
 }
 
+/// The name in a part of a recipe, `NAME=SHARE` or a name alone.
+pub(crate) fn name_in_recipe(part: &str) -> &str {
+    match part.rsplit_once('=') {
+        Some((name, share)) if !share.contains(',') => name,
+        _ => part,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -69,10 +77,7 @@ mod tests {
         assert_eq!([names(""), names("Red,")], ["", "Red|"]);
         let lists = ["Red".to_owned(), "Viridian,Red, dark".to_owned()];
         assert_eq!(pigment_names(&lists, &library), ["Red", "Viridian", "Red, dark"]);
-        fn before_equals(part: &str) -> &str {
-            part.rsplit_once('=').map_or(part, |(name, _)| name)
-        }
-        let parts = listed("Red, dark=2, Viridian=1,Red", &library, before_equals);
+        let parts = listed("Red, dark=2, Viridian=1,Red", &library, name_in_recipe);
         assert_eq!(parts, ["Red, dark=2", "Viridian=1", "Red"]);
     }
 }

@@ -5,7 +5,7 @@ use clap::Args;
 use render::volumes::script::{PourTable, Row, Script};
 
 use crate::failure::{Failure, Result};
-use crate::palette::{listed, pigment_names};
+use crate::palette::{listed, name_in_recipe, pigment_names};
 
 /// Paint of a pour whose amount is not given, in mm3: a film of 0.02 mm on a disc 60 mm wide.
 const AMOUNT_MM3: f64 = 60.0;
@@ -147,8 +147,5 @@ fn parts(text: &str, library: &PigmentLibrary) -> Result<Vec<(String, f64)>> {
         let fits = !name.is_empty() && share > 0.0 && share.is_finite();
         if fits { Ok((name.to_owned(), share)) } else { Err(wrong()) }
     };
-    fn name_of(part: &str) -> &str {
-        part.rsplit_once('=').map_or(part, |(name, _)| name)
-    }
-    listed(text, library, name_of).into_iter().map(part).collect()
+    listed(text, library, name_in_recipe).into_iter().map(part).collect()
 }

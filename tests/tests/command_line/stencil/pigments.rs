@@ -62,7 +62,7 @@ fn pours_take_the_palette_in_turn_and_recipes_mix() {
     for words in ["preset = \"grisaille\"", "P1 = 1.0", "P2 = 1.0", "P1 = \"Ultramarine\""] {
         assert!(in_turn.contains(words), "{words}: {in_turn}");
     }
-    let recipe = ["--paint", "Eosin Lake (lead, wax)=1, Ultramarine=2, Ultramarine=1"];
+    let recipe = ["--paint", "Eosin Lake (lead, wax)=1, Ultramarine=2, Ultramarine"];
     let (mixed, other) = text(&recipe);
     for words in ["P1 = 1.0", "P2 = 3.0", "P1 = \"Eosin Lake (lead, wax)\""] {
         assert!(mixed.contains(words), "{words}: {mixed}");
