@@ -8,8 +8,8 @@ use render::export::{Apng, ColorTable, Frame, FrameRate, Gif, Sequence, Sequence
 use sha2::{Digest, Sha256};
 
 use crate::console::Console;
-use crate::failure::{Failure, Result};
-use crate::output::Output;
+use crate::failure::{Context, Failure, Result};
+use crate::output::{Output, OutputFolder};
 use crate::progress::Progress;
 
 #[derive(Debug, Args)]
@@ -23,7 +23,7 @@ pub(crate) struct AnimationOptions {
     #[arg(long, value_name = "FOLDER")]
     frames: Option<PathBuf>,
     /// Frames per second
-    #[arg(long, value_name = "RATE", default_value_t = 25.0)]
+    #[arg(long, value_name = "RATE", default_value_t = 25.0, allow_negative_numbers = true)]
     rate: f64,
 }
 
@@ -63,13 +63,16 @@ impl AnimationOptions {
 
     /// Checks that the animation can be written. Returns `None` if no frames are requested.
     pub(crate) fn open(&self, inputs: &[PathBuf]) -> Result<Option<Animation>> {
-        let rate = FrameRate::new(self.rate)?;
+        let rate = FrameRate::new(self.rate).context(|| "--rate takes another value")?;
         let file = match &self.animation {
             None => None,
             Some(path) => Some((Output::open(path, inputs)?, format(path)?)),
         };
         let beside = self.animation.as_ref().map(|path| path.with_extension("frames"));
         let frames = self.frames.clone().or(beside);
+        if let Some(folder) = &frames {
+            OutputFolder::open(folder, inputs)?;
+        }
         Ok(frames.map(|frames| Animation { file, frames, rate }))
     }
 }
@@ -91,7 +94,7 @@ fn format(path: &Path) -> Result<Format> {
 }
 
 /// SHA-256 digest of all inputs of the frames. Frames of another digest are painted again.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct FramesDigest(Sha256);
 
 impl FramesDigest {
@@ -101,6 +104,11 @@ impl FramesDigest {
         let _ = write!(self, "{input:?}");
         self.0.update([0]);
         self
+    }
+
+    /// Its hexadecimal digits.
+    pub(crate) fn text(self) -> String {
+        self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }
 
@@ -117,6 +125,11 @@ impl Animation {
         self.file.as_ref().map(|(output, _)| output)
     }
 
+    /// The folder of frames.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.frames
+    }
+
     /// Opens the folder of frames. Frames of this digest are kept, all others are removed.
     pub(crate) fn begin(
         self,
@@ -124,9 +137,7 @@ impl Animation {
         frames: usize,
         size: (usize, usize),
     ) -> Result<Recording> {
-        let digest = digest.0.finalize();
-        let settings = digest.iter().map(|byte| format!("{byte:02x}")).collect();
-        let (width, height) = size;
+        let (settings, (width, height)) = (digest.text(), size);
         let sequence =
             Sequence::open(&self.frames, SequenceSettings { settings, frames, width, height })?;
         Ok(Recording { animation: self, sequence, frames, size })

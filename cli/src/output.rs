@@ -13,6 +13,60 @@ pub(crate) fn create_folder(folder: &Path) -> Result<()> {
         .context(|| format!("{}: this folder cannot be created", folder.display()))
 }
 
+/// A folder for outputs, checked to be writable. It is made when the first of them is written, so
+/// that a failure before leaves nothing behind.
+pub(crate) struct OutputFolder {
+    folder: PathBuf,
+    inputs: Vec<PathBuf>,
+}
+
+impl OutputFolder {
+    /// Checks that `folder` can be written to, or can be made where it is missing.
+    pub(crate) fn open(folder: &Path, inputs: &[PathBuf]) -> Result<Self> {
+        let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        let there = whole.ancestors().find(|part| part.exists()).unwrap_or(&whole);
+        let words = match there == whole && there.is_dir() {
+            true => format!("{}: nothing can be written into this folder", folder.display()),
+            false => format!("{}: this folder cannot be created", folder.display()),
+        };
+        if there.is_file() {
+            let reason = format!("{words}: {} is a file", there.display());
+            return Err(Failure::usage(reason, "name another folder"));
+        }
+        check_writable(&there.join(".impasto")).context(|| words)?;
+        Ok(Self { folder: folder.to_owned(), inputs: inputs.to_vec() })
+    }
+
+    /// Path of a file in it.
+    pub(crate) fn file(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Checks that files of these names can be written.
+    pub(crate) fn check(&self, names: impl IntoIterator<Item = String>) -> Result<()> {
+        if !self.folder.exists() {
+            return Ok(());
+        }
+        names.into_iter().try_for_each(|name| self.output(&name).map(drop))
+    }
+
+    /// Makes the folder.
+    pub(crate) fn make(&self) -> Result<()> {
+        create_folder(&self.folder)
+    }
+
+    /// Makes the folder and returns outputs of these names. All are opened first, so that nothing
+    /// is written if one cannot be.
+    pub(crate) fn outputs(&self, names: impl IntoIterator<Item = String>) -> Result<Vec<Output>> {
+        self.make()?;
+        names.into_iter().map(|name| self.output(&name)).collect()
+    }
+
+    fn output(&self, name: &str) -> Result<Output> {
+        Output::open(&self.file(name), &self.inputs)
+    }
+}
+
 /// An output file that was checked to be writable.
 pub(crate) struct Output {
     /// Path as the user gave it.

@@ -11,7 +11,7 @@ use spectra::hint::Explain;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::output::{Output, create_folder};
+use crate::output::{Output, OutputFolder};
 
 /// Bits of a channel of a PNG.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -72,6 +72,7 @@ pub(crate) struct OpenExports {
     picture: Option<Output>,
     spectral: Option<Output>,
     painting: Option<Output>,
+    pigment_maps: Option<OutputFolder>,
 }
 
 impl Exports {
@@ -111,11 +112,12 @@ impl Exports {
                 ));
             }
         }
-        if let Some(folder) = &self.pigment_maps {
-            create_folder(folder)?;
-            Output::open(&folder.join("painting.csv"), inputs)?;
+        let maps = self.pigment_maps.as_deref();
+        let pigment_maps = maps.map(|folder| OutputFolder::open(folder, inputs)).transpose()?;
+        if let Some(folder) = &pigment_maps {
+            folder.check(["painting.csv".to_owned()])?;
         }
-        Ok(OpenExports { picture, spectral, painting, options: self })
+        Ok(OpenExports { picture, spectral, painting, pigment_maps, options: self })
     }
 }
 
@@ -148,6 +150,9 @@ impl OpenExports {
     /// Computes all exports of `painting` and writes their files.
     pub(crate) fn write(self, painting: &mut Painting, console: &mut Console<'_>) -> Result<()> {
         let Exports { bits, bands, pigment_maps, supersample, .. } = self.options;
+        if let Some(folder) = &self.pigment_maps {
+            folder.make()?;
+        }
         let path = |output: &Output| output.path().to_owned();
         let bands = match bands {
             Bands::Nodes => SpectralBands::Nodes,

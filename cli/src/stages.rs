@@ -7,30 +7,26 @@ use render::export::{frame_of, frame_png};
 use render::field::Field;
 
 use crate::failure::Result;
-use crate::output::{Output, create_folder};
+use crate::output::{Output, OutputFolder};
 
 /// The name of a stage and its picture, encoded sRGB with coverage.
 pub(crate) type NamedStage = (String, Field<[f32; 4]>);
 
-/// A folder that stages can be written to.
-pub(crate) struct StageFolder {
-    folder: PathBuf,
-    inputs: Vec<PathBuf>,
-}
+/// A folder that stages can be written to; it is made with the first.
+pub(crate) struct StageFolder(OutputFolder);
 
 impl StageFolder {
-    /// Makes the folder, and checks that files in it can be written.
+    /// Checks that files in the folder can be written.
     pub(crate) fn open(folder: &Path, inputs: &[PathBuf]) -> Result<Self> {
-        create_folder(folder)?;
-        let own = Self { folder: folder.to_owned(), inputs: inputs.to_vec() };
-        own.output(1, "stage")?;
-        Ok(own)
+        let folder = OutputFolder::open(folder, inputs)?;
+        folder.check([file_name(1, "stage")])?;
+        Ok(Self(folder))
     }
 
     /// Outputs of stages of these names, numbered from 1. All are opened first, so that nothing is
     /// written if one cannot be.
     pub(crate) fn outputs<'a>(&self, names: impl Iterator<Item = &'a str>) -> Result<Vec<Output>> {
-        (1..).zip(names).map(|(number, name)| self.output(number, name)).collect()
+        self.0.outputs((1..).zip(names).map(|(number, name)| file_name(number, name)))
     }
 
     /// Writes the stages.
@@ -41,8 +37,8 @@ impl StageFolder {
         }
         Ok(())
     }
+}
 
-    fn output(&self, number: usize, name: &str) -> Result<Output> {
-        Output::open(&self.folder.join(format!("{number:02}-{name}.png")), &self.inputs)
-    }
+fn file_name(number: usize, name: &str) -> String {
+    format!("{number:02}-{name}.png")
 }

@@ -18,6 +18,8 @@ const LEAST: u64 = 16;
 const MOST: u64 = 16_384;
 /// Degrees by which the camera of a picture swings to both sides.
 const SWING_DEG: f32 = 8.0;
+/// Degrees that a camera stands away from straight before a picture at most.
+pub(crate) const FARTHEST_DEG: f32 = 80.0;
 /// Default width of a picture of a mesh, in pixels.
 const WIDTH: usize = 1000;
 
@@ -105,39 +107,51 @@ impl SubjectOptions {
         self.camera.is_some() || self.turntable.is_some()
     }
 
+    /// The same subject in the same size, seen by the usual camera.
+    pub(crate) fn without_camera(&self) -> Self {
+        Self { width: self.width, height: self.height, camera: None, turntable: None }
+    }
+
+    /// Number of frames of `--turntable`.
+    pub(crate) fn turntable(&self) -> Option<u64> {
+        self.turntable
+    }
+
     /// The file of keyframes of `--camera`, if it names one.
-    pub(crate) fn camera_file(&self) -> Option<&Path> {
-        self.camera.as_deref().filter(|text| text.ends_with(".toml")).map(Path::new)
+    pub(crate) fn camera_file(&self) -> Result<Option<&Path>> {
+        let text = self.camera.as_deref().filter(|text| text.ends_with(".toml"));
+        let Some(path) = text.map(Path::new) else { return Ok(None) };
+        match self.turntable {
+            None => Ok(Some(path)),
+            Some(_) => Err(Failure::usage(
+                format!("--turntable and {} both move the camera", path.display()),
+                "leave one of them out",
+            )),
+        }
     }
 
     /// Where cameras stand that turn a picture, in degrees to the right and upwards from straight
     /// before it: one, or those of a swing around that place.
     pub(crate) fn picture_turns(&self) -> Result<Vec<[f32; 2]>> {
-        let way = match &self.camera {
-            None if self.turntable.is_some() => [SWING_DEG, SWING_DEG / 2.0],
-            None => [0.0; 2],
-            Some(text) => {
-                let numbers: Result<Vec<f32>, _> =
-                    text.split(',').map(|number| number.trim().parse()).collect();
-                match numbers.as_deref() {
-                    Ok(&[right, up]) if right.abs() <= 80.0 && up.abs() <= 80.0 => [right, up],
-                    _ => {
-                        return Err(Failure::usage(
-                            format!(
-                                "--camera of a picture takes degrees to the right and upwards (-80 to 80), found `{text}`"
-                            ),
-                            "try --camera 8,4",
-                        ));
-                    }
-                }
+        Ok(picture_turns(self.picture_camera()?, self.turntable))
+    }
+
+    /// Degrees to the right and upwards that `--camera` gives for a picture.
+    pub(crate) fn picture_camera(&self) -> Result<Option<[f32; 2]>> {
+        let Some(text) = &self.camera else { return Ok(None) };
+        let numbers: Result<Vec<f32>, _> =
+            text.split(',').map(|number| number.trim().parse()).collect();
+        match numbers.as_deref() {
+            Ok(&[right, up]) if right.abs() <= FARTHEST_DEG && up.abs() <= FARTHEST_DEG => {
+                Ok(Some([right, up]))
             }
-        };
-        let Some(frames) = self.turntable else { return Ok(vec![way]) };
-        let swung = |frame: u64| {
-            let (sin, cos) = (std::f32::consts::TAU * frame as f32 / frames as f32).sin_cos();
-            [way[0] * sin, way[1] * cos]
-        };
-        Ok((0..frames).map(swung).collect())
+            _ => Err(Failure::usage(
+                format!(
+                    "--camera of a picture takes degrees to the right and upwards (-80 to 80), found `{text}`"
+                ),
+                "try --camera 8,4",
+            )),
+        }
     }
 
     fn mesh(&self, mesh: Mesh, mut inputs: Vec<PathBuf>) -> Result<(Subject, Vec<PathBuf>)> {
@@ -145,20 +159,14 @@ impl SubjectOptions {
         let height = self.height.map_or(width * 3 / 4, |height| height as usize).max(1);
         let bounds = mesh.bounds();
         let aspect = width as f32 / height as f32;
-        let cameras = match (self.camera_file(), self.turntable) {
-            (Some(path), None) => {
+        let cameras = match self.camera_file()? {
+            Some(path) => {
                 inputs.push(path.into());
                 CameraPath::open(path)?.cameras(bounds)
             }
-            (Some(path), Some(_)) => {
-                return Err(Failure::usage(
-                    format!("--turntable and {} both move the camera", path.display()),
-                    "leave one of them out",
-                ));
-            }
-            (None, turntable) => {
+            None => {
                 let framing = self.framing(aspect)?;
-                match turntable {
+                match self.turntable {
                     Some(frames) => framing.fit_turntable(&mesh.positions, frames as usize),
                     None => vec![framing.fit(&mesh.positions)],
                 }
@@ -194,4 +202,17 @@ impl SubjectOptions {
         }
         Ok(Framing { azimuth_deg, elevation_deg, field_of_view_deg, aspect })
     }
+}
+
+/// Degrees to the right and upwards of the cameras before a picture: `way`, or as many as `frames`
+/// of a swing around that place. Without a `way` it is straight before it, and a swing is a small
+/// one.
+pub(crate) fn picture_turns(way: Option<[f32; 2]>, frames: Option<u64>) -> Vec<[f32; 2]> {
+    let Some(frames) = frames else { return vec![way.unwrap_or_default()] };
+    let [right, up] = way.unwrap_or([SWING_DEG, SWING_DEG / 2.0]);
+    let swung = |frame: u64| {
+        let (sin, cos) = (std::f32::consts::TAU * frame as f32 / frames as f32).sin_cos();
+        [right * sin, up * cos]
+    };
+    (0..frames).map(swung).collect()
 }

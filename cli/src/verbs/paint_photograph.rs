@@ -18,6 +18,7 @@ use crate::console::Console;
 use crate::engine::EngineOptions;
 use crate::failure::{Failure, Result, with_options};
 use crate::output::Output;
+use crate::palette::pigment_names;
 use crate::pictures::Exports;
 use crate::progress::{Progress, Waiting};
 
@@ -30,7 +31,7 @@ pub(crate) struct PhotographOptions {
     from: Option<PathBuf>,
     /// Up to eight pigments of the library, separated by commas [default: those that come nearest
     /// to the photograph's colours]
-    #[arg(long, value_name = "PIGMENTS", value_delimiter = ',', conflicts_with = "script")]
+    #[arg(long, value_name = "PIGMENTS", conflicts_with = "script")]
     palette: Vec<String>,
     /// Width of the painting; its height follows the photograph's shape
     #[arg(long, value_name = "MM", default_value_t = 200.0, conflicts_with = "script")]
@@ -81,7 +82,7 @@ impl PhotographOptions {
                 "add --picture painting.png, --output painting.exr, or --separate FOLDER",
             ));
         }
-        let settings = self.settings();
+        let settings = self.settings(&library);
         settings.check().map_err(settings_failure)?;
         if paints && self.thin {
             return Err(Failure::usage(
@@ -125,14 +126,14 @@ impl PhotographOptions {
     }
 
     /// Settings of the painter.
-    fn settings(&self) -> StrokeSettings {
+    fn settings(&self, library: &PigmentLibrary) -> StrokeSettings {
         let from = self.from.as_deref().and_then(|from| from.file_stem());
         StrokeSettings {
             title: from.map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default(),
             width_mm: self.width_mm,
             cell_mm: self.cell_mm,
             ground: self.ground,
-            palette: self.palette.clone(),
+            palette: pigment_names(&self.palette, library),
             brushes_mm: self.brushes.clone(),
             tolerance: self.tolerance,
             seed: self.seed,

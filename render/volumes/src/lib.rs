@@ -9,6 +9,8 @@
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
+pub mod saved;
+
 pub mod sphere_mesh;
 
 pub mod volume;

@@ -25,7 +25,7 @@ pub(super) struct PigmentOptions {
     #[arg(long, value_name = "LIBRARY")]
     pigments: Option<PathBuf>,
     /// Up to eight pigments for those colours, separated by commas [default: those that come nearest]
-    #[arg(long, value_name = "PIGMENTS", value_delimiter = ',')]
+    #[arg(long, value_name = "PIGMENTS")]
     palette: Vec<String>,
     /// Ground: linen, paper or panel
     #[arg(long, value_name = "KIND", default_value = "panel", value_parser = grounds())]

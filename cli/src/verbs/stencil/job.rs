@@ -2,25 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
+use calibrate::library::PigmentLibrary;
 use render::compute::Compute;
-use render::encoding::over_white;
-use render::export::frame_of;
 use render::volumes::painter::{Show, VolumePainter, VolumePigments};
 use render::volumes::performance::Performance;
 use render::volumes::settings::{Preset, Settings};
-use render::volumes::surfaces::ply_of;
 use render::volumes::world::StepDevice;
 
+use super::film::Film;
 use super::options::Stencil;
 use super::outputs::OpenOutputs;
 use super::scene::{OpenScript, Scene};
+use super::snapshots::Snapshots;
 use super::stills::Stills;
 use super::summary::Summary;
 use super::times::Times;
-use crate::animation::{Animation, FramesDigest, Recording};
+use crate::animation::{Animation, FramesDigest};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::output::Output;
 
 /// A scene, its script and its outputs.
 pub(super) struct Job {
@@ -46,7 +45,8 @@ impl Job {
     pub(super) fn of(verb: Stencil, console: &mut Console<'_>) -> Result<Self> {
         check_outputs(&verb)?;
         let path = verb.subject.clone().unwrap_or_default();
-        let mut script = script(&verb, &path)?;
+        let library = verb.pigments.library()?;
+        let mut script = script(&verb, &path, library.as_ref())?;
         let rate = verb.animation.rate();
         let frames = Times::frames(&script, rate).map_err(|fault| script.located(fault))?;
         let scene = script.scene(&path, &verb.subject_options, frames)?;
@@ -57,22 +57,21 @@ impl Job {
         let frames = if scene.cameras.len() > 1 { scene.cameras.len() } else { frames };
         let times = Times::of(script.script.seconds, verb.at, rate, frames)?;
         let located = |fault| script.located(fault);
-        let pigments = verb.pigments.materials(&script.script, located, console)?;
+        let pigments = verb.pigments.materials(&script.script, library, located, console)?;
         let mut inputs: Vec<PathBuf> = scene.inputs.clone();
         inputs.extend(verb.settings.input().into_iter().chain(verb.pigments.input()).cloned());
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let own_title = Some(script.script.title.clone()).filter(|title| !title.is_empty());
+        let title = own_title.or(stem).unwrap_or_default();
         let script_text = match verb.outputs.script_folder() {
             None => String::new(),
-            Some(folder) => script.text(&scene, &verb.subject_options, &folder)?,
+            Some(folder) => script.text(&scene, &title, &folder)?,
         };
         let beginning = script.beginning(&scene, &settings)?;
         let compute = verb.backend.compute()?;
         let animation = verb.animation.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
-        // Last, because it creates folders.
         let outputs = verb.outputs.open(&inputs, frames, file)?;
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let own_title = Some(script.script.title.clone()).filter(|title| !title.is_empty());
-        let title = own_title.or(stem).unwrap_or_default();
         let (show, json) = (verb.show, verb.json);
         Ok(Self {
             compute,
@@ -95,13 +94,20 @@ impl Job {
     pub(super) fn run(mut self, console: &mut Console<'_>) -> Result<()> {
         let backend = self.compute.name().to_owned();
         let size = self.scene.size;
-        let recording = self.animation.take();
-        let digest = recording.as_ref().map(|_| self.digest(&backend));
         let lighting = self.pigments.as_ref().map(|own| own.lighting.clone());
-        let mut steps = StepDevice::beside(&self.compute);
+        let animation = self.animation.take();
+        let digest = animation.as_ref().map(|_| self.digest(&backend));
+        let device = StepDevice::beside(&self.compute);
+        let mut snapshots = match (&animation, &digest) {
+            (Some(animation), Some(digest)) => {
+                let wish = digest.clone().text();
+                Snapshots::find(animation.folder(), wish, (&self.beginning, device), console)?
+            }
+            _ => Snapshots::none(device),
+        };
         let mut painter = self.painter()?;
-        let still = self.rehearsed(recording.is_some(), &mut steps)?;
-        let recording = match (recording, digest) {
+        let still = self.rehearsed(animation.is_some(), &mut snapshots)?;
+        let recording = match (animation, digest) {
             (Some(animation), Some(digest)) => {
                 Some(animation.begin(digest, self.times.frames.len(), size)?)
             }
@@ -125,14 +131,18 @@ impl Job {
         let mut film = Film {
             script: &self.script,
             scene: &self.scene,
-            play: self.beginning,
+            beginning: &self.beginning,
             steps: &self.times.frames,
+            snapshots: &mut snapshots,
         };
-        film.clone().write_volumes(volumes, &mut steps)?;
+        if let Some(folder) = volumes {
+            film.write_volumes(&folder)?;
+        }
         if let Some(recording) = recording {
-            let found = film.record(recording, (&mut painter, &mut steps), self.show, console)?;
+            let found = film.record(recording, &mut painter, self.show, console)?;
             summary.frames = Some((self.times.frames.len(), found));
         }
+        (summary.from_s, summary.played) = (snapshots.from_s, snapshots.played);
         summary.print(self.json, console)
     }
 
@@ -159,59 +169,17 @@ impl Job {
     }
 
     /// The script at the time of single pictures. It is played to the last step of all first, so
-    /// that an event that cannot be done is told before anything is written.
-    fn rehearsed(&self, has_frames: bool, device: &mut StepDevice) -> Result<Performance> {
+    /// that an event that cannot be done is told before anything is written. A run that left
+    /// snapshots has done so already.
+    fn rehearsed(&self, has_frames: bool, snapshots: &mut Snapshots) -> Result<Performance> {
         let located = |error| self.script.located_event(error);
         let mut play = self.beginning.clone();
-        play.advance_on(device, self.times.still).map_err(located)?;
+        snapshots.advance(&mut play, self.times.still).map_err(located)?;
         let still = play.clone();
-        if has_frames || !self.outputs.volumes.is_empty() {
-            play.advance_on(device, self.times.last()).map_err(located)?;
+        if (has_frames || self.outputs.volumes.is_some()) && !snapshots.any() {
+            snapshots.advance(&mut play, self.times.last()).map_err(located)?;
         }
         Ok(still)
-    }
-}
-
-/// The frames of a script in their order.
-#[derive(Clone)]
-struct Film<'a> {
-    script: &'a OpenScript,
-    scene: &'a Scene,
-    play: Performance,
-    steps: &'a [u64],
-}
-
-impl Film<'_> {
-    fn advance_to(&mut self, frame: usize, device: &mut StepDevice) -> Result<()> {
-        let step = self.steps[frame];
-        let played = self.play.advance_on(device, step);
-        played.map_err(|error| self.script.located_event(error))
-    }
-
-    /// Writes the volumes of each frame.
-    fn write_volumes(mut self, outputs: Vec<Output>, device: &mut StepDevice) -> Result<()> {
-        for (frame, output) in outputs.into_iter().enumerate() {
-            self.advance_to(frame, device)?;
-            output.write(ply_of(self.play.world().volumes())?)?;
-        }
-        Ok(())
-    }
-
-    /// Paints the missing frames and returns how many existed already.
-    fn record(
-        &mut self,
-        recording: Recording,
-        (painter, device): (&mut VolumePainter, &mut StepDevice),
-        show: Show,
-        console: &Console<'_>,
-    ) -> Result<usize> {
-        recording.paint(console, |frame| {
-            self.advance_to(frame, device)?;
-            let cameras = &self.scene.cameras;
-            let camera = &cameras[frame.min(cameras.len() - 1)];
-            let picture = painter.shown(self.play.world(), camera, self.scene.size, show)?;
-            Ok(frame_of(&over_white(&picture)))
-        })
     }
 }
 
@@ -240,11 +208,13 @@ fn check_outputs(verb: &Stencil) -> Result<()> {
 }
 
 /// The script with all that options change of it.
-fn script(verb: &Stencil, path: &Path) -> Result<OpenScript> {
+fn script(verb: &Stencil, path: &Path, library: Option<&PigmentLibrary>) -> Result<OpenScript> {
     let mut open = OpenScript::of(path, &verb.pours)?;
     let usual = (verb.pigments.any() && !open.is_file()).then_some(Preset::Grisaille);
     verb.settings.apply(&mut open.script, usual)?;
-    verb.pours.apply(&mut open.script, verb.pigments.palette())?;
+    verb.pours.apply(&mut open.script, verb.pigments.palette(), library)?;
+    // A script that is written plays the same.
+    open.script = open.script.rounded();
     open.script.check().map_err(|fault| open.located(fault))?;
     if open.script.events().is_empty() {
         return Err(Failure::usage(

@@ -7,6 +7,8 @@ mod pigments;
 
 mod pours;
 
+mod cameras;
+
 mod scene;
 
 mod outputs;
@@ -14,6 +16,10 @@ mod outputs;
 mod options;
 
 mod times;
+
+mod snapshots;
+
+mod film;
 
 mod stills;
 

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, value_parser};
 use render::volumes::painter::Show;
 use render::volumes::settings::Preset;
 
@@ -36,10 +36,11 @@ pub(crate) struct Stencil {
     #[arg(long, value_name = "WHAT", default_value = "final", value_parser = shows())]
     pub(super) show: Show,
     /// Time of single pictures in seconds [default: the end]
-    #[arg(long, value_name = "SECONDS", value_parser = value_parser!(f64))]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub(super) at: Option<f64>,
     /// Print JSON: size, backend, seconds, volumes, particles, cells, paint in mm3, frames,
-    /// frames_found
+    /// frames_found, from_seconds (of the snapshot that an interrupted run went on from),
+    /// steps_computed
     #[arg(long)]
     pub(super) json: bool,
     #[command(flatten)]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::failure::{Failure, Result};
-use crate::output::{Output, create_folder};
+use crate::output::{Output, OutputFolder};
 use crate::pictures::{Exports, OpenExports};
 use crate::plain_picture::refuse_same;
 use crate::stages::StageFolder;
@@ -45,8 +45,7 @@ pub(super) struct PictureFiles {
 pub(super) struct OpenOutputs {
     pub(super) pictures: PictureFiles,
     pub(super) script: Option<Output>,
-    /// One file for each frame, or none.
-    pub(super) volumes: Vec<Output>,
+    pub(super) volumes: Option<MeshFolder>,
 }
 
 impl OutputOptions {
@@ -66,7 +65,7 @@ impl OutputOptions {
         self.script_out.as_ref().map(|path| path.parent().unwrap_or(Path::new("")).to_owned())
     }
 
-    /// Checks that all files can be written, for `frames` frames.
+    /// Checks that all files can be written, for `frames` frames, and makes none.
     pub(super) fn open(
         self,
         inputs: &[PathBuf],
@@ -88,16 +87,8 @@ impl OutputOptions {
                 "give each output its own file name",
             ));
         }
-        let volumes = match &self.volumes {
-            None => Vec::new(),
-            Some(folder) => {
-                create_folder(folder)?;
-                let file = |index: usize| folder.join(format!("frame-{:04}.ply", index + 1));
-                refuse_beyond(&file(frames))?;
-                let outputs = (0..frames).map(|index| Output::open(&file(index), inputs));
-                outputs.collect::<Result<_>>()?
-            }
-        };
+        let volumes = self.volumes.as_deref();
+        let volumes = volumes.map(|folder| MeshFolder::open(folder, frames, inputs)).transpose()?;
         let stages = self.stages.as_deref();
         let stages = stages.map(|folder| StageFolder::open(folder, inputs)).transpose()?;
         let pictures = PictureFiles { exports, passes, mask, stages };
@@ -105,13 +96,35 @@ impl OutputOptions {
     }
 }
 
-/// Refuses a folder that has a frame beyond the last one, which would be of another animation.
-fn refuse_beyond(path: &Path) -> Result<()> {
-    match path.exists() {
-        false => Ok(()),
-        true => Err(Failure::usage(
-            format!("{}: a frame of another animation", path.display()),
-            "name an empty folder, or remove its frames",
-        )),
+/// A folder for the volumes of each frame.
+pub(super) struct MeshFolder {
+    folder: OutputFolder,
+    frames: usize,
+}
+
+impl MeshFolder {
+    /// Checks that `frames` files can be written, and that the folder has no frame beyond the last,
+    /// which would be of another animation.
+    fn open(folder: &Path, frames: usize, inputs: &[PathBuf]) -> Result<Self> {
+        let folder = OutputFolder::open(folder, inputs)?;
+        let beyond = folder.file(&file_name(frames));
+        if beyond.exists() {
+            return Err(Failure::usage(
+                format!("{}: a frame of another animation", beyond.display()),
+                "name an empty folder, or remove its frames",
+            ));
+        }
+        folder.check((0..frames).map(file_name))?;
+        Ok(Self { folder, frames })
     }
+
+    /// One file for each frame.
+    pub(super) fn outputs(&self) -> Result<Vec<Output>> {
+        self.folder.outputs((0..self.frames).map(file_name))
+    }
+}
+
+/// Name of the file of a frame; indices count from 0, names from 1.
+fn file_name(index: usize) -> String {
+    format!("frame-{:04}.ply", index + 1)
 }

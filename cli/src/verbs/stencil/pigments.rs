@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use calibrate::Backing;
+use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::paint::document::Lighting;
 use render::paint::ground::{GroundKind, MeasuredPrimer, Primer, PrimerSpectrum};
@@ -25,7 +26,7 @@ pub(super) struct PigmentOptions {
     #[arg(long, value_name = "LIBRARY")]
     pigments: Option<PathBuf>,
     /// Up to eight pigments of the volumes, separated by commas
-    #[arg(long, value_name = "PIGMENTS", value_delimiter = ',', requires = "pigments")]
+    #[arg(long, value_name = "PIGMENTS", requires = "pigments")]
     palette: Vec<String>,
     /// Ground: linen, paper or panel
     #[arg(
@@ -56,9 +57,14 @@ impl PigmentOptions {
         self.pigments.is_some()
     }
 
-    /// The pigments of `--palette` by name.
+    /// The lists of `--palette`.
     pub(super) fn palette(&self) -> &[String] {
         &self.palette
+    }
+
+    /// The library, if one is given.
+    pub(super) fn library(&self) -> Result<Option<PigmentLibrary>> {
+        self.pigments.as_deref().map(library).transpose()
     }
 
     /// Pigments, ground and light of a script's palette, if a library is given. `located` adds file
@@ -66,11 +72,11 @@ impl PigmentOptions {
     pub(super) fn materials(
         &self,
         script: &Script,
+        library: Option<PigmentLibrary>,
         located: impl FnOnce(Box<Fault>) -> Failure,
         console: &mut Console<'_>,
     ) -> Result<Option<VolumePigments>> {
-        let Some(path) = &self.pigments else { return Ok(None) };
-        let library = library(path)?;
+        let (Some(path), Some(library)) = (&self.pigments, library) else { return Ok(None) };
         if script.palette.is_empty() {
             return Err(Failure::usage(
                 format!("{}: no pigment of this library is chosen", path.display()),

@@ -1,9 +1,11 @@
 //! Options for what is poured, and for how long.
 
+use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::volumes::script::{PourTable, Row, Script};
 
 use crate::failure::{Failure, Result};
+use crate::palette::{listed, name_in_recipe, pigment_names};
 
 /// Paint of a pour whose amount is not given, in mm3: a film of 0.02 mm on a disc 60 mm wide.
 const AMOUNT_MM3: f64 = 60.0;
@@ -17,14 +19,14 @@ const SECONDS: f64 = 4.0;
 pub(super) struct PourOptions {
     /// Pour paint at a place of the first picture: shares of its width and height, and the amount in
     /// mm3 [default: 60], such as `0.5,0.6` or `0.5,0.6,200`; may be repeated
-    #[arg(long = "pour", value_name = "X,Y[,MM3]")]
+    #[arg(long = "pour", value_name = "X,Y[,MM3]", allow_hyphen_values = true)]
     pours: Vec<String>,
     /// Paint of the pours, as pigments with their parts, such as `Ultramarine=2,White=1`: one for all
     /// of them, or one for each [default: the pigments of --palette, or of the script, in turn]
     #[arg(long = "paint", value_name = "RECIPE", requires = "pigments")]
     paints: Vec<String>,
     /// How long paint spreads, in seconds [default: 4, or as the script says]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     seconds: Option<f64>,
 }
 
@@ -39,20 +41,28 @@ impl PourOptions {
         self.seconds.is_some()
     }
 
-    /// Adds what is poured to a script. `palette` are the pigments by name.
-    pub(super) fn apply(&self, script: &mut Script, palette: &[String]) -> Result<()> {
+    /// Adds what is poured to a script. `palette` are lists of pigments of the library, if one is
+    /// given.
+    pub(super) fn apply(
+        &self,
+        script: &mut Script,
+        palette: &[String],
+        library: Option<&PigmentLibrary>,
+    ) -> Result<()> {
         self.check_counts()?;
         if let Some(seconds) = self.seconds {
             script.seconds = seconds;
         }
-        for name in palette {
+        let names = library.map(|library| pigment_names(palette, library)).unwrap_or_default();
+        for name in &names {
             letter(script, name);
         }
-        let in_turn: Vec<String> = match palette {
-            [] => script.palette.values().cloned().collect(),
-            own => own.to_vec(),
+        let in_turn: Vec<String> = match names.is_empty() {
+            true => script.palette.values().cloned().collect(),
+            false => names,
         };
-        let paints = self.paints.iter().map(|text| parts(text)).collect::<Result<Vec<_>>>()?;
+        let parts = |text: &String| library.map(|library| parts(text, library));
+        let paints = self.paints.iter().filter_map(parts).collect::<Result<Vec<_>>>()?;
         for (index, text) in self.pours.iter().enumerate() {
             let recipe = match &paints[..] {
                 [] => in_turn.iter().cycle().nth(index).map(|name| vec![(name.clone(), 1.0)]),
@@ -123,7 +133,7 @@ fn place(text: &str) -> Result<([f64; 2], f64)> {
 }
 
 /// Reads `NAME=PART,NAME=PART`; a name alone has one part.
-fn parts(text: &str) -> Result<Vec<(String, f64)>> {
+fn parts(text: &str, library: &PigmentLibrary) -> Result<Vec<(String, f64)>> {
     let wrong = || {
         Failure::usage(
             format!("--paint takes pigments with their parts above 0, found `{text}`"),
@@ -131,21 +141,11 @@ fn parts(text: &str) -> Result<Vec<(String, f64)>> {
         )
     };
     let part = |part: &str| {
-        let (name, share) = part.split_once('=').unwrap_or((part, "1"));
+        let (name, share) = part.rsplit_once('=').unwrap_or((part, "1"));
         let share: f64 = share.trim().parse().map_err(|_| wrong())?;
         let name = name.trim();
         let fits = !name.is_empty() && share > 0.0 && share.is_finite();
         if fits { Ok((name.to_owned(), share)) } else { Err(wrong()) }
     };
-    // Names of pigments may have commas in brackets.
-    let mut open = 0_usize;
-    let outside = |letter: char| {
-        match letter {
-            '(' => open += 1,
-            ')' => open = open.saturating_sub(1),
-            _ => {}
-        }
-        letter == ',' && open == 0
-    };
-    text.split(outside).map(part).collect()
+    listed(text, library, name_in_recipe).into_iter().map(part).collect()
 }

@@ -2,15 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use render::camera::{Camera, CameraPath, Framing, Keyframe, PictureView};
+use render::camera::{Camera, PictureView};
 use render::mesh::Mesh;
 use render::volumes::performance::{FirstView, Performance, PerformanceError};
-use render::volumes::script::{
-    CameraTable, KeyframeTable, Row, Script, ScriptCamera, ScriptError, Subject as ScriptSubject,
-};
+use render::volumes::script::{Script, ScriptError, Subject as ScriptSubject};
 use render::volumes::settings::Settings;
 use render::volumes::toml_text::{Fault, KeyPath, KeyStep};
 
+use super::cameras::{camera_table, model_cameras, picture_cameras};
 use super::pours::PourOptions;
 use crate::failure::{Context, Failure, Result};
 use crate::subject::{Subject, SubjectOptions};
@@ -24,6 +23,8 @@ pub(super) struct OpenScript {
     own_pours: usize,
     /// Whether the command line gives the duration.
     seconds_given: bool,
+    /// Whether the command line gives the camera.
+    camera_given: bool,
 }
 
 /// A scene ready to be painted.
@@ -47,14 +48,20 @@ impl OpenScript {
         let seconds_given = pours.has_seconds();
         if !is_script(subject) {
             let script = Script::new(&subject.to_string_lossy(), pours.usual_seconds());
-            return Ok(Self { script, file: None, own_pours: 0, seconds_given });
+            return Ok(Self {
+                script,
+                file: None,
+                own_pours: 0,
+                seconds_given,
+                camera_given: false,
+            });
         }
         let name = subject.display().to_string();
         let text = std::fs::read_to_string(subject)
             .context(|| format!("{name}: this file cannot be read"))?;
         let script = Script::open_own(subject)?;
         let own_pours = script.pours.len();
-        Ok(Self { script, file: Some((name, text)), own_pours, seconds_given })
+        Ok(Self { script, file: Some((name, text)), own_pours, seconds_given, camera_given: false })
     }
 
     /// Whether it was read from a file.
@@ -66,7 +73,12 @@ impl OpenScript {
     pub(super) fn located(&self, fault: Box<Fault>) -> Failure {
         if let Some(option) = self.option_of(&fault.key) {
             let Fault { wanted, found, hint, .. } = *fault;
-            return Failure::data(format!("{option} takes {wanted}, found `{found}`"), hint);
+            let message = format!("{option} takes {wanted}, found `{found}`");
+            // Names of pigments depend on the library.
+            return match option.starts_with("--palette") {
+                true => Failure::data(message, hint),
+                false => Failure::usage(message, hint),
+            };
         }
         match &self.file {
             Some((name, text)) => ScriptError::located(name, text, fault).into(),
@@ -88,6 +100,7 @@ impl OpenScript {
             ("pour", Some(index)) if index >= self.own_pours => {
                 Some(format!("--pour number {}", index + 1 - self.own_pours))
             }
+            ("camera", _) if self.camera_given => Some("--camera".to_owned()),
             ("palette", _) if self.file.is_none() => Some("--palette or --paint".to_owned()),
             _ => None,
         }
@@ -137,46 +150,40 @@ impl OpenScript {
         })
     }
 
-    /// The script as text, to be written into `folder`: with the subject's path from there, and the
-    /// camera of a mesh that options choose.
-    pub(super) fn text(
-        &self,
-        scene: &Scene,
-        options: &SubjectOptions,
-        folder: &Path,
-    ) -> Result<String> {
+    /// The script as text, to be written into `folder`: with the subject's path from there.
+    pub(super) fn text(&self, scene: &Scene, title: &str, folder: &Path) -> Result<String> {
         let mut script = self.script.clone();
         script.subject = path_from(&scene.subject, folder);
-        if !scene.photograph && options.has_camera() {
-            script.camera = Some(camera_table(options)?);
-        }
+        script.title = title.to_owned();
         Ok(script.to_text()?)
     }
 
-    /// Reads the scene. `frames` is the number of frames of a camera path of the script.
+    /// Reads the scene. `frames` is the number of frames of a camera path of the script. A camera
+    /// of the options becomes that of the script.
     pub(super) fn scene(
-        &self,
+        &mut self,
         path: &Path,
         options: &SubjectOptions,
         frames: usize,
     ) -> Result<Scene> {
         let subject = self.subject(path)?;
-        let (read, mut inputs) = options.subject(&subject, true)?;
+        let (read, mut inputs) = options.without_camera().subject(&subject, true)?;
         if self.file.is_some() {
             inputs.push(path.to_owned());
         }
-        let scene = match read {
-            Subject::Mesh(mesh, cameras, size) => {
-                let aspect = size.0 as f32 / size.1 as f32;
-                let own = self.script.camera.as_ref().filter(|_| !options.has_camera());
-                let cameras = match own.map(|camera| camera.camera(frames)) {
-                    None => cameras,
-                    Some(ScriptCamera::Path(path)) => path_cameras(&path, &mesh),
-                    Some(ScriptCamera::Framing(framing)) => {
-                        vec![Framing { aspect, ..framing }.fit(&mesh.positions)]
-                    }
-                };
-                Scene { mesh: *mesh, cameras, size, photograph: false, subject, inputs }
+        let photograph = matches!(read, Subject::Photograph(..));
+        if options.has_camera() {
+            inputs.extend(options.camera_file()?.map(Path::to_owned));
+            self.script.camera = Some(camera_table(options, photograph)?);
+            self.script = self.script.rounded();
+            self.camera_given = true;
+            self.script.check().map_err(|fault| self.located(fault))?;
+        }
+        let table = self.script.camera.clone().unwrap_or_default();
+        let (mesh, size, cameras) = match read {
+            Subject::Mesh(mesh, _, size) => {
+                let cameras = model_cameras(&table, &mesh, size, frames);
+                (*mesh, size, cameras)
             }
             Subject::Photograph(photograph, width) => {
                 let (own_width, own_height) = photograph.size();
@@ -184,13 +191,12 @@ impl OpenScript {
                 let size = (width, rows.max(1));
                 let mesh = Mesh::of_picture(&photograph.with_opacity(size.0, size.1));
                 let view = PictureView::of(photograph.size());
-                let turns = options.picture_turns()?.into_iter();
-                let cameras = turns.map(|[right, up]| view.turned(right, up)).collect();
-                Scene { mesh, cameras, size, photograph: true, subject, inputs }
+                let cameras = picture_cameras(&table, view, &mesh, frames);
+                (mesh, size, cameras.map_err(|fault| self.located(fault))?)
             }
         };
-        match scene.cameras.is_empty() {
-            false => Ok(scene),
+        match cameras.is_empty() {
+            false => Ok(Scene { mesh, cameras, size, photograph, subject, inputs }),
             true => Err(Failure::data("the camera path has no frames", "give frames = 60")),
         }
     }
@@ -207,32 +213,6 @@ fn path_from(subject: &Path, folder: &Path) -> String {
         _ => subject.to_owned(),
     };
     path.to_string_lossy().into_owned()
-}
-
-/// The camera of a mesh that options choose.
-fn camera_table(options: &SubjectOptions) -> Result<CameraTable> {
-    let Some(path) = options.camera_file() else {
-        let Framing { azimuth_deg, elevation_deg, field_of_view_deg, .. } = options.framing(1.0)?;
-        return Ok(CameraTable {
-            azimuth_deg: Some(azimuth_deg.into()),
-            elevation_deg: Some(elevation_deg.into()),
-            field_of_view_deg: Some(field_of_view_deg.into()),
-            ..CameraTable::default()
-        });
-    };
-    let CameraPath { closed, keyframes, .. } = CameraPath::open(path)?;
-    let keyframe = |own: Keyframe| KeyframeTable {
-        eye: Row(own.eye.map(f64::from)),
-        target: Row(own.target.map(f64::from)),
-        up: Some(Row(own.up.map(f64::from))),
-        field_of_view_deg: Some(own.field_of_view_deg.into()),
-    };
-    let keyframes = keyframes.into_iter().map(keyframe).collect();
-    Ok(CameraTable { closed, keyframes, ..CameraTable::default() })
-}
-
-fn path_cameras(path: &CameraPath, mesh: &Mesh) -> Vec<Camera> {
-    path.cameras(mesh.bounds())
 }
 
 /// Whether a subject is a script.

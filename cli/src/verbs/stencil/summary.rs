@@ -19,6 +19,10 @@ pub(super) struct Summary {
     paint_mm3: [f64; 3],
     /// Number of frames, and how many of them existed already.
     pub(super) frames: Option<(usize, usize)>,
+    /// Seconds of the snapshot that the run went on from.
+    pub(super) from_s: Option<f64>,
+    /// Steps of the world that were computed.
+    pub(super) played: u64,
 }
 
 impl Summary {
@@ -36,6 +40,8 @@ impl Summary {
             cells: world.grid().cells.len(),
             paint_mm3: [tally.on_scene, tally.lifted, tally.in_tube].map(mm3),
             frames: None,
+            from_s: None,
+            played: 0,
         }
     }
 
@@ -58,6 +64,8 @@ impl Summary {
             "paint_mm3": { "on_scene": on_scene, "lifted": lifted, "in_tube": in_tube },
             "frames": self.frames.map(|(frames, _)| frames),
             "frames_found": self.frames.map(|(_, found)| found),
+            "from_seconds": self.from_s,
+            "steps_computed": self.played,
         })
     }
 
@@ -76,7 +84,8 @@ impl Summary {
         if let Some((frames, found)) = self.frames {
             line += &format!(", {frames} frames");
             if found > 0 {
-                line += &format!(" ({found} of them existed already)");
+                let from = self.from_s.map_or("the beginning".to_owned(), |s| format!("{s:.2} s"));
+                line += &format!(" ({found} of them existed already; played from {from})");
             }
         }
         line

@@ -25,7 +25,7 @@ pub(super) struct PigmentOptions {
     pigments: Option<PathBuf>,
     /// Up to eight pigments of the library, separated by commas [default: those that come nearest
     /// to the picture's colours]
-    #[arg(long, value_name = "PIGMENTS", value_delimiter = ',', requires = "pigments")]
+    #[arg(long, value_name = "PIGMENTS", requires = "pigments")]
     palette: Vec<String>,
     /// Reflectance of the paper as measured: 0 to 1, or a file of spectra (FILE#SAMPLE)
     /// [default: computed from the setting paper.colour]

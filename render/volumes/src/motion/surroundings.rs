@@ -79,7 +79,7 @@ impl Surroundings {
 
     /// A number above 0 that tells all lasting forces apart: settings and surroundings without
     /// pushes.
-    pub(super) fn fingerprint(&self, settings: &MotionSettings) -> u64 {
+    pub(crate) fn fingerprint(&self, settings: &MotionSettings) -> u64 {
         // FNV-1a (Fowler, Noll, Vo 1991) over words.
         let mut print = 0xcbf2_9ce4_8422_2325_u64;
         let mut add = |word: u32| print = (print ^ u64::from(word)).wrapping_mul(0x0100_0000_01b3);

@@ -8,6 +8,8 @@ mod settings;
 
 mod player;
 
+mod saved;
+
 #[cfg(test)]
 mod tests;
 

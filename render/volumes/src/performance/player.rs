@@ -17,15 +17,15 @@ use crate::world::{
 /// A script being played. A clone is a snapshot that goes on to the same bytes.
 #[derive(Debug, Clone)]
 pub struct Performance {
-    world: World,
-    script: Script,
-    events: Vec<Event>,
+    pub(super) world: World,
+    pub(super) script: Script,
+    pub(super) events: Vec<Event>,
     /// Index of the next event.
-    next: usize,
+    pub(super) next: usize,
     /// Places of events that pick one in the first picture.
-    picked: Vec<Option<Vec3>>,
+    pub(super) picked: Vec<Option<Vec3>>,
     /// Seeds of the single volumes of the script, in its order, once they are born.
-    singles: Vec<Option<u64>>,
+    pub(super) singles: Vec<Option<u64>>,
 }
 
 impl Performance {

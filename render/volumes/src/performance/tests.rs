@@ -8,6 +8,7 @@ use spectra::hint::Explain;
 
 use super::*;
 use crate::containing::Inside;
+use crate::saved::SavedError;
 use crate::script::Script;
 use crate::test_device::device;
 use crate::world::StepDevice;
@@ -93,6 +94,15 @@ fn a_script_played_in_pieces_or_from_a_snapshot_ends_in_the_same_bytes() {
     }
     assert!(whole.world().volumes().len() > 5);
     assert!(whole.world().tally().lifted.iter().sum::<u64>() > 0, "the sponge took nothing");
+    for played in [1, 31, 60, 150, 239] {
+        let mut before = begun(BUSY).unwrap();
+        before.advance_to(played).unwrap();
+        let file = before.saved("busy");
+        let mut resumed = begun(BUSY).unwrap().resumed(&file, "busy").unwrap();
+        assert_eq!((resumed.step(), resumed.saved("busy")), (played, file));
+        resumed.advance_to(240).unwrap();
+        assert_eq!(resumed.saved("busy"), whole.saved("busy"), "from step {played}");
+    }
     // Time that is over does not come back.
     whole.advance_to(12).unwrap();
     assert_eq!(whole.step(), 240);
@@ -119,6 +129,25 @@ fn a_script_played_on_a_device_pours_the_same_paint() {
     small.advance_on(&mut on_device, 60).unwrap();
     usual.advance_to(60).unwrap();
     assert_eq!(small.world().volumes(), usual.world().volumes());
+}
+
+#[test]
+fn a_moment_of_another_script_or_wish_is_refused() {
+    let mut played = begun(BUSY).unwrap();
+    played.advance_to(20).unwrap();
+    let file = played.saved("busy");
+    let others = [BUSY.replace("0.45, 0.6", "0.45, 0.58"), BUSY.replace("= 60", "= 61")];
+    for script in others {
+        let refused = begun(&script).unwrap().resumed(&file, "busy").map(|own| own.step());
+        assert_eq!(refused, Err(SavedError::Other));
+    }
+    let other = played.resumed(&file, "").map(|own| own.step());
+    assert_eq!(other, Err(SavedError::Other));
+    let world = played.world().saved("busy");
+    let refused = played.resumed(&world, "busy").map(|own| own.step()).unwrap_err();
+    assert!(refused.hint().is_some() && refused.to_string().starts_with("not a saved"));
+    let damaged = played.resumed(&file[..file.len() - 40], "busy").map(|own| own.step());
+    assert_eq!(damaged, Err(SavedError::Damaged));
 }
 
 #[test]

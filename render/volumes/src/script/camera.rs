@@ -3,6 +3,7 @@
 use graphics::camera::{CameraPath, Framing, Keyframe};
 use serde::{Deserialize, Serialize};
 
+use super::limits::MOST_FRAMES;
 use super::ranges::check_range;
 use super::rows::Row;
 use crate::toml_text::{Checked, Fault, KeyPath};
@@ -10,19 +11,27 @@ use crate::toml_text::{Checked, Fault, KeyPath};
 /// Most keyframes of a path.
 const MOST_KEYFRAMES: usize = 10_000;
 
-/// `[camera]`: degrees of a camera that shows all of the subject, or keyframes.
+/// `[camera]`: degrees of a camera that shows all of the subject, or keyframes. Of a photograph the
+/// degrees are those to the right and upwards from straight before it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraTable {
-    /// Degrees around the subject, -360 to 360; 30 without it.
+    /// Degrees around the subject, -360 to 360; 30 without it, of a photograph 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub azimuth_deg: Option<f64>,
-    /// Degrees above the horizon, -90 to 90; 20 without it.
+    /// Degrees above the horizon, -90 to 90; 20 without it, of a photograph 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elevation_deg: Option<f64>,
     /// Vertical field of view in degrees, 1 to 170; 30 without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub field_of_view_deg: Option<f64>,
+    /// Number of frames of one turn around the subject, or of a swing before a photograph, 1 to
+    /// 100,000; without it the camera stands still.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turntable: Option<u32>,
+    /// Number of frames of a path, 1 to 100,000; without it a path is as long as the script.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frames: Option<u32>,
     /// Whether a path leads from the last keyframe back to the first.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub closed: bool,
@@ -57,11 +66,13 @@ pub enum ScriptCamera {
 }
 
 impl CameraTable {
-    /// The camera of an animation of `frames` frames.
+    /// The camera of an animation, of `frames` frames unless the path has a number of its own. That
+    /// of a turntable is its first.
     #[must_use]
     pub fn camera(&self, frames: usize) -> ScriptCamera {
         if !self.keyframes.is_empty() {
             let keyframes = self.keyframes.iter().map(KeyframeTable::keyframe).collect();
+            let frames = self.frames.map_or(frames, |frames| frames as usize);
             return ScriptCamera::Path(CameraPath { frames, closed: self.closed, keyframes });
         }
         let usual = Framing::default();
@@ -80,6 +91,7 @@ impl CameraTable {
             ("azimuth_deg", self.azimuth_deg, [-360.0, 360.0]),
             ("elevation_deg", self.elevation_deg, [-90.0, 90.0]),
             ("field_of_view_deg", self.field_of_view_deg, [1.0, 170.0]),
+            ("turntable", self.turntable.map(f64::from), [1.0, MOST_FRAMES as f64]),
         ];
         for (key, value, range) in degrees {
             let Some(value) = value else { continue };
@@ -90,9 +102,14 @@ impl CameraTable {
             }
             check_range(&key, value, range)?;
         }
-        if self.closed && self.keyframes.is_empty() {
-            let hint = "add [[camera.keyframe]] tables, or leave it out";
-            return Err(Fault::new(&base.key("closed"), "keyframes beside it", "none", hint));
+        for (key, given) in [("closed", self.closed), ("frames", self.frames.is_some())] {
+            if given && self.keyframes.is_empty() {
+                let hint = "add [[camera.keyframe]] tables, or leave it out";
+                return Err(Fault::new(&base.key(key), "keyframes beside it", "none", hint));
+            }
+        }
+        if let Some(frames) = self.frames {
+            check_range(&base.key("frames"), frames.into(), [1.0, MOST_FRAMES as f64])?;
         }
         let base = base.key("keyframe");
         if self.keyframes.len() > MOST_KEYFRAMES {

@@ -26,6 +26,7 @@
 //! [camera]                          # degrees, or `[[camera.keyframe]]` as of camera paths
 //! azimuth_deg = 30.0
 //! elevation_deg = 20.0
+//! turntable = 60                    # frames of one turn; left out: it stands still
 //!
 //! [[region]]                        # left out: one region with the settings' own drawing
 //! name = "glow"

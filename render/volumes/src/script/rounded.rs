@@ -92,6 +92,8 @@ fn camera(camera: &CameraTable) -> CameraTable {
         azimuth_deg: camera.azimuth_deg.map(six),
         elevation_deg: camera.elevation_deg.map(six),
         field_of_view_deg: camera.field_of_view_deg.map(six),
+        turntable: camera.turntable,
+        frames: camera.frames,
         closed: camera.closed,
         keyframes: camera.keyframes.iter().map(keyframe).collect(),
     }

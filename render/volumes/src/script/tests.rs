@@ -218,4 +218,11 @@ fn the_camera_is_that_of_the_verbs_or_a_path() {
     let ScriptCamera::Framing(framing) = degrees.camera.unwrap().camera(1) else { panic!() };
     let usual = graphics::camera::Framing::default();
     assert_eq!((framing.azimuth_deg, framing.elevation_deg), (75.0, usual.elevation_deg));
+    let of_its_own = WHOLE.replace("[camera]\n", "[camera]\nframes = 7\n");
+    let camera = script(&of_its_own).camera.unwrap();
+    let ScriptCamera::Path(path) = camera.camera(145) else { panic!("{camera:?}") };
+    assert_eq!(path.frames, 7);
+    let turning = script(&format!("{SHORT}[camera]\nturntable = 48"));
+    let written = script(&turning.to_text().unwrap());
+    assert_eq!(written.camera.unwrap().turntable, Some(48));
 }

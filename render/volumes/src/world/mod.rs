@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Paint is only moved, in whole quanta: [`Tally`] says where it is. A world is data: its clone is
-//! a snapshot from which it goes on to the same bytes.
+//! a snapshot from which it goes on to the same bytes, and so is [`World::saved`] on a disk.
 //!
 //! Modules are declared in order of dependence: each uses only those above it.
 
@@ -39,11 +39,16 @@ mod splitting;
 
 mod time;
 
+mod saved;
+
 #[cfg(test)]
 mod tests;
 
 #[cfg(test)]
 mod outline_tests;
+
+#[cfg(test)]
+mod saved_tests;
 
 #[cfg(test)]
 mod limit_tests;

@@ -4,6 +4,7 @@ use paint::amount::MAX_COLUMN;
 use paint::layer::{Cell, SLOTS};
 
 use super::error::WorldError;
+use crate::saved::stored;
 
 /// Shares of the paints of eight slots and of vehicle, which sum to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,6 +69,9 @@ impl Measured {
         added
     }
 }
+
+stored!(Recipe { shares });
+stored!(Measured { given });
 
 /// These amounts as a cell, which holds no more than a column of paint.
 pub(super) fn as_cell(amounts: [u64; SLOTS + 1]) -> Cell {

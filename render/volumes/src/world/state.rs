@@ -69,7 +69,7 @@ pub struct World {
     pub(super) in_tube: [u64; SLOTS + 1],
     pub(super) steps: u64,
     /// How many things have been given a number.
-    numbered: u64,
+    pub(super) numbered: u64,
 }
 
 impl World {

@@ -69,11 +69,16 @@ impl World {
         });
         if self.volumes.len() < count {
             self.settled = false;
-            self.of_cell.fill(NONE);
-            for (index, volume) in (0..).zip(&self.volumes) {
-                if let (Some(cell), false) = (volume.cell, volume.dry) {
-                    self.of_cell[cell as usize] = index;
-                }
+            self.index_cells();
+        }
+    }
+
+    /// Finds the wet volume in each cell.
+    pub(super) fn index_cells(&mut self) {
+        self.of_cell.fill(NONE);
+        for (index, volume) in (0..).zip(&self.volumes) {
+            if let (Some(cell), false) = (volume.cell, volume.dry) {
+                self.of_cell[cell as usize] = index;
             }
         }
     }

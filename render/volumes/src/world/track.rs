@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use super::error::WorldError;
+use crate::saved::{Reader, Stored};
 
 /// A place, or places at times with straight lines between.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,6 +58,16 @@ impl Track {
     /// The places that it turns at.
     pub fn places(&self) -> impl Iterator<Item = Vec3> + '_ {
         self.knots.iter().map(|(_, place)| *place)
+    }
+}
+
+impl Stored for Track {
+    fn store(&self, bytes: &mut Vec<u8>) {
+        self.knots.store(bytes);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Self::along(Stored::read(from)?).ok()
     }
 }
 

@@ -61,6 +61,10 @@ fn options_out_of_range_are_refused_by_their_names() {
         (2, &["--pour", "0.01,0.02", "--width", "64"][..], &[][..]),
         (1, &["--pour", "0.5,0.5", "--pour", "0.01,0.02"], &["--pour number 2", "0.010, 0.020"]),
         (2, &["--pour", "0.5"], &["X,Y,MM3", "`0.5`", "--pour 0.5,0.6"]),
+        (2, &["--pour", "-0.1,0.5"], &["shares of 0 to 1", "`-0.1,0.5`"]),
+        (2, &["--pour", "0.5,0.5", "--at", "-1"], &["--at takes 0 to", "`-1`"]),
+        (2, &["--pour", "0.5,0.5", "--rate", "-5"], &["--rate", "0.1 to 100", "`-5`"]),
+        (2, &["--pour", "0.5,0.5", "--stages", &model], &["box.obj is a file"]),
         (2, &["--pour", "0.5,0.5,-3"], &["more than 0 mm3", "`0.5,0.5,-3`"]),
         (2, &["--pour", "0.5,0.5", "--set", "grid.cell=0.00002"], &["grid.cell", "fits"]),
         (
@@ -100,7 +104,9 @@ fn options_out_of_range_are_refused_by_their_names() {
     }
     let long = ["--seconds", "3600", "--rate", "60", "--animation", &gif];
     let words = ["--seconds", "100000 frames", "1666.6 seconds fit"];
-    refused(&picture, &[&[&model, "--pour", "0.5,0.5"], &long[..]].concat(), 1, &words);
+    refused(&picture, &[&[&model, "--pour", "0.5,0.5"], &long[..]].concat(), 2, &words);
+    let early = [&model, "--pour", "0.5,0.5", "--seconds", "-1"];
+    refused(&picture, &early, 2, &["--seconds takes 0 to 3600", "`-1`"]);
     let run = stencil(&[&model, "--pour", "0.5,0.5"]);
     assert!(run.status == 2 && run.err.contains("nothing would be written"), "{}", run.err);
     assert!(run.err.contains("--picture") && run.err.contains("--animation"), "{}", run.err);

@@ -2,6 +2,10 @@
 
 mod scenes;
 
+mod cameras;
+
+mod resuming;
+
 mod pigments;
 
 mod faults;

@@ -62,12 +62,17 @@ fn pours_take_the_palette_in_turn_and_recipes_mix() {
     for words in ["preset = \"grisaille\"", "P1 = 1.0", "P2 = 1.0", "P1 = \"Ultramarine\""] {
         assert!(in_turn.contains(words), "{words}: {in_turn}");
     }
-    let recipe = ["--paint", "Eosin Lake (lead, wax)=1, Ultramarine=2, Ultramarine=1"];
+    let recipe = ["--paint", "Eosin Lake (lead, wax)=1, Ultramarine=2, Ultramarine"];
     let (mixed, other) = text(&recipe);
     for words in ["P1 = 1.0", "P2 = 3.0", "P1 = \"Eosin Lake (lead, wax)\""] {
         assert!(mixed.contains(words), "{words}: {mixed}");
     }
     assert!(picture_of_two != other);
+    let own = ["--palette", "Eosin Lake (lead, wax),Ultramarine", "--pour", "0.6,0.4"];
+    let (commas, _) = text(&own);
+    for words in ["P1 = \"Eosin Lake (lead, wax)\"", "P2 = \"Ultramarine\"", "P2 = 1.0"] {
+        assert!(commas.contains(words), "{words}: {commas}");
+    }
     // Parts of a painting are shown too, but not written as one.
     done(&[&scene[..], &palette, &["--show", "mask", "--picture", &picture]].concat());
     assert!(pixels(&picture).pixels().all(|pixel| [0, 255].contains(&pixel.0[1])));

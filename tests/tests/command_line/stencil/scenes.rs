@@ -3,7 +3,10 @@
 use std::path::Path;
 
 use image::{Rgb, RgbImage};
+use render::camera::Framing;
 use render::mesh::Mesh;
+use render::volumes::performance::{FirstView, Performance};
+use render::volumes::script::Script;
 use suite::adapter::device;
 
 use super::{POUR, SMALL, done, files, folder, path, pixels};
@@ -128,17 +131,44 @@ fn an_animation_that_was_interrupted_ends_in_the_same_bytes() {
 }
 
 #[test]
-fn volumes_of_each_frame_are_meshes_and_a_turntable_turns() {
+fn volumes_of_each_frame_are_those_of_the_library_at_that_moment() {
     let folder = folder();
-    let [model, meshes, frames] = ["box.obj", "v", "f"].map(|name| path(&folder, name));
-    let scene = [&[&model[..]], &SMALL[..], &POUR, &["--json"]].concat();
+    let [model, meshes, script] = ["box.obj", "v", "s.toml"].map(|name| path(&folder, name));
+    let scene = [&[&model[..]], &SMALL[..], &POUR, &["--json", "--script-out", &script]].concat();
     let told = done(&[&scene[..], &["--volumes", &meshes, "--rate", "4"]].concat()).json();
     let names = files(&meshes, ".ply");
     assert_eq!(names, ["frame-0001.ply", "frame-0002.ply", "frame-0003.ply"]);
-    let mesh = Mesh::open(&Path::new(&meshes).join(&names[2])).unwrap();
-    let count = |key: &str| told[key].as_u64().unwrap() as usize;
-    // Euler: a closed mesh has two faces a vertex, less four.
-    assert_eq!(mesh.triangles.len(), 2 * count("particles") - 4 * count("volumes"));
+    let (script, model) = (Script::open(Path::new(&script)).unwrap(), Path::new(&model));
+    let model = Mesh::open(model).unwrap();
+    let camera = Framing { aspect: 64.0 / 48.0, ..Framing::default() }.fit(&model.positions);
+    let view = FirstView::new(&model, &camera, (64, 48));
+    let settings = script.settings().unwrap();
+    let mut play = Performance::new(&script, &model, &settings, &view).unwrap();
+    // The first frame is the beginning, without volumes.
+    for (name, step) in names[1..].iter().zip([30, 60]) {
+        play.advance_to(step).unwrap();
+        let volumes = play.world().volumes();
+        let mesh = Mesh::open(&Path::new(&meshes).join(name)).unwrap();
+        let places: Vec<[f32; 3]> = volumes.iter().flat_map(|own| own.vertices()).collect();
+        assert!(places.len() > 100 && mesh.positions == places, "{name}");
+        let mut corners = mesh.triangles.iter().map(|triangle| triangle.corners);
+        let mut first = 0;
+        for volume in volumes {
+            for face in &volume.mesh().faces {
+                assert_eq!(corners.next(), Some(face.map(|corner| first + corner)), "{name}");
+            }
+            first += volume.vertices().len() as u32;
+        }
+        assert_eq!(corners.next(), None);
+    }
+    assert_eq!(told["volumes"].as_u64(), Some(play.world().volumes().len() as u64));
+}
+
+#[test]
+fn a_turntable_turns() {
+    let folder = folder();
+    let [model, frames] = ["box.obj", "f"].map(|name| path(&folder, name));
+    let scene = [&[&model[..]], &SMALL[..], &POUR, &["--json"]].concat();
     let turning = ["--frames", &frames, "--turntable", "3", "--height", "40"];
     let told = done(&[&scene[..], &turning].concat()).json();
     assert_eq!((&told["frames"], &told["size"]), (&3.into(), &serde_json::json!([64, 40])));

@@ -1,0 +1,147 @@
+//! Worlds as files, from which they go on to the same bytes.
+
+use super::actions::{Lift, Pour, Source, Timed};
+use super::settings::{MOST_PARTICLES, MOST_VOLUMES};
+use super::state::World;
+use crate::motion::Push;
+use crate::saved::{Kind, Reader, SavedError, Stored, identity, opened, sealed, stored};
+use crate::sphere_mesh::{MOST_DETAIL, SphereMesh};
+use crate::volume::{Particles, Volume};
+
+/// Files with a world.
+const WORLD: Kind = Kind { format: b"impasto-world\0\0\0", version: 1, name: "world" };
+
+stored!(Particles { places, velocities, samples });
+stored!(Volume {
+    center,
+    target_center,
+    radius,
+    target_radius,
+    detail,
+    region,
+    cell,
+    normal,
+    seed,
+    dry,
+    paint,
+    particles,
+    rests_under,
+});
+stored!(Pour { track, rate_mm3_s, for_s, recipe, region });
+stored!(Lift { track, radius, rate, for_s });
+stored!(Push { center, direction, radius, strength });
+stored!(Source { pour, measured, flowing, into });
+
+impl<T: Stored> Stored for Timed<T> {
+    fn store(&self, bytes: &mut Vec<u8>) {
+        let Self { number, what, steps, most } = self;
+        number.store(bytes);
+        what.store(bytes);
+        (*steps, *most).store(bytes);
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let (number, what) = Stored::read(from)?;
+        let (steps, most) = Stored::read(from)?;
+        Some(Self { number, what, steps, most })
+    }
+}
+
+impl World {
+    /// The whole state of this world as the bytes of a file: volumes with their particles, paint,
+    /// all that flows or pushes, the tally and the time. `wish` are words for what it is the world
+    /// of, such as a digest of all that led to it; [`World::resumed`] wants the same.
+    ///
+    /// ```
+    /// use graphics::mesh::SampleModel;
+    /// use volumes::world::{Pour, Recipe, World, WorldSettings};
+    ///
+    /// let mesh = SampleModel::Sphere.mesh(500);
+    /// let beginning = World::of(&mesh, &WorldSettings::default())?;
+    /// let mut world = beginning.clone();
+    /// world.pour(Pour::at(mesh.positions[100].into(), 40.0, 0.5, Recipe::of_slot(0)))?;
+    /// for _ in 0..30 {
+    ///     world.step()?;
+    /// }
+    /// let file = world.saved("a red spot");
+    /// let mut again = beginning.resumed(&file, "a red spot")?;
+    /// world.step()?;
+    /// again.step()?;
+    /// assert_eq!(again.volumes(), world.volumes());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn saved(&self, wish: &str) -> Vec<u8> {
+        let mut state = Vec::new();
+        self.store_state(&mut state);
+        sealed(WORLD, &identity([wish, &self.print()]), &state)
+    }
+
+    /// The world that [`World::saved`] gave as `file`, over the scene of this one. It goes on to
+    /// the same bytes as the world that was saved.
+    ///
+    /// # Errors
+    /// [`SavedError`] if the file holds no world or one of another version, is damaged, or was
+    /// saved over another scene, with other settings, in other regions, or under another wish.
+    pub fn resumed(&self, file: &[u8], wish: &str) -> Result<Self, SavedError> {
+        let state = opened(WORLD, &identity([wish, &self.print()]), file)?;
+        let mut reader = Reader::new(state);
+        let world = self.with_state(&mut reader).ok_or(SavedError::Damaged)?;
+        if reader.is_empty() { Ok(world) } else { Err(SavedError::Damaged) }
+    }
+
+    /// Words that tell worlds of different scenes, settings and regions apart.
+    pub(crate) fn print(&self) -> String {
+        let forces = self.surroundings.fingerprint(&self.settings.motion);
+        let (cells, samples) = (self.grid.cells.len(), self.whole.samples.len());
+        format!("{:?} {:?} {forces:x} {cells} {samples}", self.settings, self.scale)
+    }
+
+    /// Appends all that changes as time goes on.
+    pub(crate) fn store_state(&self, bytes: &mut Vec<u8>) {
+        self.volumes.store(bytes);
+        self.settled.store(bytes);
+        self.sources.store(bytes);
+        self.sponges.store(bytes);
+        self.pushes.store(bytes);
+        self.surroundings.pushes.store(bytes);
+        [self.poured, self.lifted, self.in_tube].store(bytes);
+        [self.steps, self.numbered].store(bytes);
+    }
+
+    /// This world in a state that [`World::store_state`] wrote; none if it is no state of it.
+    pub(crate) fn with_state(&self, from: &mut Reader<'_>) -> Option<Self> {
+        let volumes: Vec<Volume> = Stored::read(from)?;
+        if !self.can_hold(&volumes) {
+            return None;
+        }
+        let mut world = Self { volumes, ..self.clone() };
+        world.settled = Stored::read(from)?;
+        world.sources = Stored::read(from)?;
+        world.sponges = Stored::read(from)?;
+        world.pushes = Stored::read(from)?;
+        world.surroundings.pushes = Stored::read(from)?;
+        [world.poured, world.lifted, world.in_tube] = Stored::read(from)?;
+        [world.steps, world.numbered] = Stored::read(from)?;
+        world.index_cells();
+        Some(world)
+    }
+
+    /// Whether volumes have whole meshes, and cells that there are.
+    fn can_hold(&self, volumes: &[Volume]) -> bool {
+        let cells = self.grid.cells.len();
+        let mut particles = 0;
+        let whole = volumes.iter().all(|volume| {
+            if volume.detail > MOST_DETAIL {
+                return false;
+            }
+            let count = SphereMesh::of_detail(volume.detail).directions.len();
+            particles += count;
+            let Particles { places, velocities, samples } = &volume.particles;
+            let lists = places.iter().chain(velocities);
+            lists.map(Vec::len).chain([samples.len()]).all(|length| length == count)
+                && volume.cell.is_none_or(|cell| (cell as usize) < cells)
+        });
+        whole && volumes.len() <= MOST_VOLUMES && particles <= MOST_PARTICLES
+    }
+}
