@@ -116,7 +116,7 @@ fn grey_of(color: vec3<f32>) -> f32 {
 
 // Change of a value with this gradient from pixel to pixel, at most.
 fn per_px(gradient: vec3<f32>, ray: vec3<f32>, normal: vec3<f32>, size: f32) -> f32 {
-    let cosine = min(dot(ray, normal), -0.35);
+    let cosine = min(dot(ray, normal), -0.58);
     return length(gradient - normal * (dot(gradient, ray) / cosine)) * size;
 }
 

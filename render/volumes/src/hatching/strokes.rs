@@ -10,7 +10,7 @@ pub const SIDE: usize = 512;
 pub(super) const WIDTH_TEXELS: f32 = 4.0;
 
 /// Half the width of a stroke of size 1 at full pressure, as a share of the tile's side.
-const HALF_WIDTH: f32 = 1.98 / SIDE as f32;
+const HALF_WIDTH: f32 = 2.02 / SIDE as f32;
 
 /// How far the tone of a stroke's rim lies below that of its middle: a stroke grows from a thin
 /// line to its full width while the tone falls by about as much.

@@ -8,13 +8,13 @@ use super::slices::{Drawn, SIZES, slices};
 use super::strokes::SIDE;
 
 /// Tone that the grain of the paper takes from all texels, at most.
-const GRAIN: f32 = 0.16;
+const GRAIN: f32 = 0.12;
 
 /// Height of the grain, 0 to 1, over which a valley of the paper begins that takes little lead.
 const VALLEY: f32 = 0.6;
 
 /// Tone that a valley takes for each square of its depth.
-const DEPTH: f32 = 7.0;
+const DEPTH: f32 = 4.0;
 
 /// Parts of the range of thresholds that are counted.
 const BINS: usize = 1024;

@@ -71,7 +71,6 @@ fn strokes_on_a_village_are_2_to_4_pixels_wide_from_near_and_far() {
             within(x, width) && within(y, height) && ink[(x as usize, y as usize)] > 0.5
         };
         let found = width_of_strips((width as i32, height as i32), dark);
-        println!("{width} x {height}, x{zoom}, tone {tone}: {found}");
         assert!((2.0..4.0).contains(&found), "{width} x {height}, x{zoom}, tone {tone}: {found}");
     }
 }
