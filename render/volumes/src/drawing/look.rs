@@ -18,7 +18,8 @@ pub struct DrawingLook {
     /// Tone by the cosine between light and surface.
     pub tones: ToneRamp,
     /// Whether light falls on surfaces. If not, as for a photograph on a plane, colours stay as
-    /// they are and the tones of hatching are those of the colours' own grey.
+    /// they are and the tones of hatching are those of the colours' own grey, lifted between
+    /// black and white: what is seen of a colour between the strokes is dark itself.
     pub lit: bool,
     /// Share of its colour that a surface loses in full shade, 0 to 1, beside the hatching.
     pub shade: f32,

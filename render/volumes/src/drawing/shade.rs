@@ -166,7 +166,7 @@ impl<'a> Shader<'a> {
             let light = look.tones.grey(normal.dot(self.light));
             (color * (1.0 - look.shade * (1.0 - light)), light)
         } else {
-            (color, look.tones.grey(self.transfer.grey(color, look.weights)))
+            (color, look.tones.grey(lifted(self.transfer.grey(color, look.weights))))
         };
         let ink = match hatched {
             true => self.ink(fragment, point.position(), normal, light),
@@ -191,6 +191,13 @@ impl<'a> Shader<'a> {
         }
         ink.min(1.0)
     }
+}
+
+/// Light by the grey of a colour that is not lit: lighter between black and white, as the colour
+/// that is seen between the strokes is dark itself.
+#[inline(always)]
+pub(super) fn lifted(grey: f32) -> f32 {
+    grey * (2.0 - grey)
 }
 
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -300,3 +307,6 @@ fn shade_on_gpu(
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod stroke_widths;

@@ -116,7 +116,7 @@ fn grey_of(color: vec3<f32>) -> f32 {
 
 // Change of a value with this gradient from pixel to pixel, at most.
 fn per_px(gradient: vec3<f32>, ray: vec3<f32>, normal: vec3<f32>, size: f32) -> f32 {
-    let cosine = min(dot(ray, normal), -0.12);
+    let cosine = min(dot(ray, normal), -0.58);
     return length(gradient - normal * (dot(gradient, ray) / cosine)) * size;
 }
 
@@ -137,9 +137,9 @@ fn ink_of_plane(
     let from_eye = position - params.eye;
     let ray = normalize(from_eye);
     let size = params.pixel * length(from_eye) * params.tiles;
-    let change_u = per_px(along_u, ray, normal, size);
+    let across = per_px(2.0 * along_u + along_v, ray, normal, size);
     let change_v = per_px(along_v, ray, normal, size);
-    let place = Patch(dot(along_u, at), dot(along_v, at), change_u, change_v, 1.0);
+    let place = Patch(dot(along_u, at), dot(along_v, at), across, change_v, 1.0);
     return ink_on(place, tone, params.softness, params.scale);
 }
 
@@ -189,7 +189,7 @@ fn ink_of_texture(
     let place = Patch(
         a.u + du.x * at.second + du.y * at.third,
         a.v + dv.x * at.second + dv.y * at.third,
-        per_px(of_b * du.x + of_c * du.y, ray, normal, size),
+        per_px(of_b * (2.0 * du.x + dv.x) + of_c * (2.0 * du.y + dv.y), ray, normal, size),
         per_px(of_b * dv.x + of_c * dv.y, ray, normal, size),
         1.0,
     );
@@ -220,7 +220,8 @@ fn color_and_grey(at: Fragment) -> vec4<f32> {
         light = grey(dot(normal, params.light));
         color *= 1.0 - params.shade * (1.0 - light);
     } else {
-        light = grey(grey_of(color));
+        let own = grey_of(color);
+        light = grey(own * (2.0 - own));
     }
     let tone = params.darkest + (1.0 - params.darkest) * light;
     let position = between(at, a.position, b.position, c.position);

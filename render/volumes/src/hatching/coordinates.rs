@@ -12,8 +12,9 @@ const TILES: f32 = 2.0;
 /// Share of the greatest component of a normal at which a plane begins to count.
 const PLANE_FROM: f32 = 0.8;
 
-/// Least cosine between sight and surface that strokes follow; beyond they lie closer together.
-const LEAST_COSINE: f32 = 0.12;
+/// Least cosine between sight and surface that strokes follow. Beyond they lie closer together, as
+/// a draughtsman's do towards an outline, and do not change fast while a model turns.
+const LEAST_COSINE: f32 = 0.58;
 
 /// Greatest stretch of coordinates, length along u to that along v or back, that is useful.
 const MOST_STRETCH: f32 = 4.0;
@@ -26,8 +27,9 @@ const USEFUL_SHARE: f32 = 0.9;
 pub(crate) struct Patch {
     pub(crate) u: f32,
     pub(crate) v: f32,
-    /// Change of u from pixel to pixel, at most.
-    pub(crate) u_per_px: f32,
+    /// Change of 2 u + v from pixel to pixel, at most: the strokes across lie along its contours,
+    /// turned by 63 degrees from those along, so that the tile still repeats.
+    pub(crate) across_per_px: f32,
     /// Change of v from pixel to pixel, at most.
     pub(crate) v_per_px: f32,
     /// 0 to 1.
@@ -71,7 +73,7 @@ impl Placing {
     }
 
     /// The patches of a point with a unit normal towards the eye; unused ones weigh 0. The change
-    /// of u is told only if strokes are `crossed`.
+    /// across is told only if strokes are `crossed`.
     #[inline(always)]
     pub(crate) fn patches(
         &self,
@@ -106,7 +108,11 @@ impl Placing {
             Patch {
                 u: along_u.dot(at),
                 v: along_v.dot(at),
-                u_per_px: if crossed { sight.per_px(along_u) * self.tiles } else { 0.0 },
+                across_per_px: if crossed {
+                    sight.per_px(2.0 * along_u + along_v) * self.tiles
+                } else {
+                    0.0
+                },
                 v_per_px: sight.per_px(along_v) * self.tiles,
                 weight,
             }
@@ -164,7 +170,7 @@ fn own(mesh: &PackedMesh, fragment: Fragment, sight: &Sight, crossed: bool) -> P
     Patch {
         u: a.u + du[0] * fragment.second + du[1] * fragment.third,
         v: a.v + dv[0] * fragment.second + dv[1] * fragment.third,
-        u_per_px: if crossed { sight.per_px(along_u) } else { 0.0 },
+        across_per_px: if crossed { sight.per_px(2.0 * along_u + along_v) } else { 0.0 },
         v_per_px: sight.per_px(along_v),
         weight: 1.0,
     }
@@ -231,14 +237,14 @@ mod tests {
         assert_eq!(facing.weight, 1.0);
         // A tile is one unit, 10 away: its pixels by the lens.
         let wanted = 10.0 * 2.0 * 15.0_f32.to_radians().tan() / 570.0;
-        assert!((facing.u_per_px / wanted - 1.0).abs() < 1e-5);
+        assert!((facing.across_per_px / wanted - 5.0_f32.sqrt()).abs() < 1e-4);
         assert!((facing.v_per_px / wanted - 1.0).abs() < 1e-5);
-        // A floor seen at 30 degrees: depth passes twice as fast.
-        let tilted = Vec3::new(0.0, 0.75_f32.sqrt(), 0.5);
+        // A floor that the eye looks down on: depth passes faster.
+        let tilted = Vec3::new(0.0, 0.8, 0.6);
+        let slope: f32 = 4.0 / 3.0;
         let [_, floor, _] = placing.patches(&mesh, fragment, (Vec3::ZERO, tilted), true);
         assert_eq!(floor.weight, 1.0);
-        assert!((floor.u_per_px / wanted - 1.0).abs() < 1e-5);
-        let slope = 3.0_f32.sqrt();
+        assert!((floor.across_per_px / wanted - 2.0_f32.hypot(slope)).abs() < 1e-4, "{floor:?}");
         assert!((floor.v_per_px / wanted / slope - 1.0).abs() < 1e-5, "{floor:?}");
         // Planes pass into each other with weights that sum to 1.
         let corner = Vec3::ONE.normalize();

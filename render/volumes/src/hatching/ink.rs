@@ -1,20 +1,17 @@
 //! The ink that hatching puts on a point; the twin in WGSL is `ink.wgsl`.
 
 use super::coordinates::Patch;
-use super::threshold::{COARSEST_SIDE, LEVELS};
+use super::slices::SLICES;
+use super::strokes::{SIDE, WIDTH_TEXELS};
 
 /// Tone below which strokes across are laid over those along: the two darkest of six tones.
-pub const DIRECTIONS_MEET: f32 = 1.0 / 3.0;
+pub const DIRECTIONS_MEET: f32 = 0.4;
 
-/// Width of a stroke of the texture in texels.
-const WIDTH_TEXELS: f32 = 2.8;
+/// Octaves of the density beyond which coordinates are no longer scaled.
+const OCTAVES: [i32; 2] = [-8, 14];
 
-/// Powers of two of the density beyond which coordinates are no longer scaled.
-const DENSITIES: [i32; 2] = [-8, 14];
-
-/// Quarter octaves between which one density of strokes gives way to the next: 2^(1/4) and the
-/// inverse of 2^(3/4) - 2^(1/4).
-const GIVES_WAY: [f32; 2] = [1.189_207_1, 2.031_087_6];
+/// Magnification of the second slice.
+const SECOND: f32 = std::f32::consts::SQRT_2;
 
 /// Where the strokes across are taken from the texture, so that they are not those along again.
 const ACROSS_FROM: f32 = 0.37;
@@ -27,8 +24,10 @@ pub fn crossed_tones(tone: f32) -> [f32; 2] {
     if tone >= DIRECTIONS_MEET {
         return [tone, 1.0];
     }
-    let tone = if tone > 0.0 { tone } else { 0.0 };
-    [(tone * DIRECTIONS_MEET).sqrt(), (tone / DIRECTIONS_MEET).sqrt()]
+    let part = if tone > 0.0 { tone / DIRECTIONS_MEET } else { 0.0 };
+    let root = part.sqrt();
+    let fourth = root.sqrt();
+    [DIRECTIONS_MEET * fourth, root * fourth]
 }
 
 /// Strokes and figures that ink a point.
@@ -38,22 +37,21 @@ pub(crate) struct Inking<'a> {
     quads: &'a [u32],
     /// Inverse of the range of tone over which a texel takes ink.
     sharpness: f32,
-    /// Tiles of the coarsest level per texel on the screen, in pixels.
+    /// [`Inking::scale`].
     scale: f32,
 }
 
 impl<'a> Inking<'a> {
     /// # Panics
-    /// If there are not the quads of all levels.
+    /// If there are not the quads of all slices.
     pub(crate) fn new(quads: &'a [u32], softness: f32, width_px: f32) -> Self {
-        let texels = (0..LEVELS).map(|level| (COARSEST_SIDE << level).pow(2)).sum::<usize>();
-        assert_eq!(quads.len(), texels, "texels of a threshold texture");
+        assert_eq!(quads.len(), SLICES * SIDE * SIDE, "texels of a threshold texture");
         Self { quads, sharpness: 0.5 / softness, scale: Self::scale(width_px) }
     }
 
-    /// Side of the coarsest level in pixels where its strokes are `width_px` wide, inverted.
+    /// Tiles per pixel where strokes of the first slice are `width_px` wide.
     pub(crate) fn scale(width_px: f32) -> f32 {
-        WIDTH_TEXELS / (width_px * COARSEST_SIDE as f32)
+        WIDTH_TEXELS / (width_px * SIDE as f32)
     }
 
     /// Ink of a tone (0 dark, 1 bare paper) on a patch of a surface, 0 to 1.
@@ -67,7 +65,11 @@ impl<'a> Inking<'a> {
         if across >= 1.0 {
             return ink;
         }
-        let crossed = self.strokes([patch.v + ACROSS_FROM, patch.u], patch.u_per_px, across);
+        let crossed = self.strokes(
+            [patch.u - 2.0 * patch.v + ACROSS_FROM, 2.0 * patch.u + patch.v],
+            patch.across_per_px,
+            across,
+        );
         1.0 - (1.0 - ink) * (1.0 - crossed)
     }
 
@@ -75,37 +77,34 @@ impl<'a> Inking<'a> {
     /// pixel to pixel.
     #[inline(always)]
     fn strokes(&self, at: [f32; 2], per_px: f32, tone: f32) -> f32 {
-        // Density of strokes, 1 at the coarsest level and coordinates as they are.
+        // Density of strokes, 1 in the first slice and with coordinates as they are.
         let density = (self.scale / per_px.max(1e-12)).to_bits();
         let octave = (density >> 23) as i32 - 127;
         let part = f32::from_bits((density & 0x7f_ffff) | 0x3f80_0000);
-        let passed = ((part - GIVES_WAY[0]) * GIVES_WAY[1]).clamp(0.0, 1.0);
-        let mut ink = 0.0;
-        if passed < 1.0 {
-            ink = self.inked(self.threshold(at, octave), tone);
-        }
-        if passed > 0.0 {
-            let finer = self.inked(self.threshold(at, octave + 1), tone);
-            ink += (finer - ink) * passed;
-        }
+        // A slice gives way to the next all the time: slow change is not seen.
+        let (slice, passed) = match part < SECOND {
+            true => (0, (part - 1.0) / (SECOND - 1.0)),
+            false => (1, (part - SECOND) / (2.0 - SECOND)),
+        };
+        let ink = self.inked(self.threshold(at, octave, slice), tone);
+        let next = self.inked(self.threshold(at, octave + slice as i32, 1 - slice), tone);
+        let ink = ink + (next - ink) * passed;
         // The lightest tones fade, so that light itself is bare paper.
         ink * ((1.0 - tone) * self.sharpness * 4.0).min(1.0)
     }
 
-    /// The threshold, 0 to 1, at a place of the tile, for strokes of a density in octaves.
+    /// The threshold, 0 to 1, at a place of the tile, in a slice and an octave of density.
     #[inline(always)]
-    fn threshold(&self, at: [f32; 2], octave: i32) -> f32 {
-        let octave = octave.clamp(DENSITIES[0], DENSITIES[1]);
-        let level = octave.clamp(0, LEVELS as i32 - 1);
-        let side = (COARSEST_SIDE as i32) << level;
-        // 2^(octave - level) tiles in one.
-        let texels = f32::from_bits(((octave - level + 127) as u32) << 23) * side as f32;
+    fn threshold(&self, at: [f32; 2], octave: i32, slice: usize) -> f32 {
+        let octave = octave.clamp(OCTAVES[0], OCTAVES[1]);
+        // 2^octave tiles in one.
+        let texels = f32::from_bits(((octave + 127) as u32) << 23) * SIDE as f32;
         let [x, y] = at.map(|at| at * texels - 0.5);
         let [column, row] = [x, y].map(floor);
         let [right, down] = [x - column as f32, y - row as f32].map(|part| part.clamp(0.0, 1.0));
-        let mask = side - 1;
-        let first = (side * side - (COARSEST_SIDE * COARSEST_SIDE) as i32) / 3;
-        let quad = self.quads[(first + (row & mask) * side + (column & mask)) as usize];
+        let mask = SIDE as i32 - 1;
+        let texel = (row & mask) as usize * SIDE + (column & mask) as usize;
+        let quad = self.quads[slice * SIDE * SIDE + texel];
         let [a, b, c, d] = quad.to_le_bytes().map(f32::from);
         let above = a + (b - a) * right;
         let below = c + (d - c) * right;
@@ -130,9 +129,12 @@ fn floor(value: f32) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hatching::ThresholdTexture;
+    use crate::hatching::{ThresholdTexture, sample_texture};
 
     const SOFTNESS: f32 = 0.12;
+
+    /// Side of the texture on the screen in the first slice, for strokes 2.8 pixels wide.
+    const TEXTURE_PX: f32 = 2.8 * SIDE as f32 / WIDTH_TEXELS;
 
     fn inking(texture: &ThresholdTexture) -> Inking<'_> {
         Inking::new(texture.quads(), SOFTNESS, 2.8)
@@ -141,13 +143,13 @@ mod tests {
     /// The patch at (x, y) of a tile whose side is shown in `side_px` pixels.
     fn patch([x, y]: [f32; 2], side_px: f32) -> Patch {
         let [u, v] = [x, y].map(|at| at / side_px);
-        Patch { u, v, u_per_px: 1.0 / side_px, v_per_px: 1.0 / side_px, weight: 1.0 }
+        let per_px = 1.0 / side_px;
+        Patch { u, v, across_per_px: 5.0_f32.sqrt() * per_px, v_per_px: per_px, weight: 1.0 }
     }
 
     #[test]
     fn ink_of_a_tone_is_part_of_that_of_every_darker_one() {
-        let texture = ThresholdTexture::new(1);
-        let inking = inking(&texture);
+        let inking = inking(sample_texture());
         for y in 0..256 {
             for x in 0..256 {
                 let patch = patch([x as f32 + 0.5, y as f32 + 0.5], 280.0);
@@ -164,16 +166,17 @@ mod tests {
 
     #[test]
     fn mean_ink_is_the_tone_at_every_zoom() {
-        let texture = ThresholdTexture::new(1);
-        let inking = inking(&texture);
-        for side_px in [32.0, 45.0, 100.0, 256.0, 300.0, 700.0] {
+        let inking = inking(sample_texture());
+        for side_px in [32.0, 45.0, 100.0, 256.0, 300.0, 700.0, 1500.0] {
             let pixels = 160;
+            // All of the texture, of which a tile of the model is a part or many.
+            let whole = side_px * (TEXTURE_PX / side_px).log2().ceil().exp2();
             for tone in 0..=64 {
                 let tone = tone as f32 / 64.0;
                 let mut sum = 0.0;
                 for y in 0..pixels {
                     for x in 0..pixels {
-                        let share = |at: i32| (at as f32 + 0.5) / pixels as f32 * side_px;
+                        let share = |at: i32| (at as f32 + 0.5) / pixels as f32 * whole;
                         let ink = inking.ink(&patch([share(x), share(y)], side_px), tone);
                         sum += f64::from(ink);
                     }
@@ -186,24 +189,26 @@ mod tests {
 
     #[test]
     fn strokes_keep_their_width_on_the_screen() {
-        let texture = ThresholdTexture::new(1);
-        let inking = inking(&texture);
-        // The tile is zoomed to eight times its size, through all levels.
-        for zoom in 0..=24 {
-            let side_px = 36.0 * 8.0_f32.powf(zoom as f32 / 24.0);
-            let (mut inked, mut runs) = (0.0, 0.0);
-            for column in 0..160 {
-                let mut last = 0.0;
-                for row in 0..320 {
-                    let at = [column as f32 * 3.0 + 0.5, row as f32 + 0.5];
-                    let ink = f32::from(u8::from(inking.ink(&patch(at, side_px), 0.8) > 0.5));
-                    inked += ink;
-                    runs += f32::from(u8::from(ink > last));
-                    last = ink;
+        let inking = inking(sample_texture());
+        // Tiles of 37 to 1500 px, through all slices of all octaves between.
+        for zoom in 0..=48 {
+            let side_px = 37.0 * (1500.0_f32 / 37.0).powf(zoom as f32 / 48.0);
+            for tone in [0.8, 0.7, 0.6] {
+                let (mut inked, mut runs) = (0.0, 0.0);
+                for column in 0..160 {
+                    let mut last = 0.0;
+                    for row in 0..480 {
+                        let at = [column as f32 * 4.0 + 0.5, row as f32 + 0.5];
+                        let dark = inking.ink(&patch(at, side_px), tone) > 0.5;
+                        let ink = f32::from(u8::from(dark));
+                        inked += ink;
+                        runs += f32::from(u8::from(ink > last));
+                        last = ink;
+                    }
                 }
+                let width = inked / runs;
+                assert!((2.0..4.0).contains(&width), "{side_px} px, tone {tone}: {width}");
             }
-            let width = inked / runs;
-            assert!((2.0..4.0).contains(&width), "side of {side_px} px: {width}");
         }
     }
 
@@ -220,12 +225,12 @@ mod tests {
 
     #[test]
     fn strange_coordinates_take_ink_of_0_to_1() {
-        let texture = ThresholdTexture::new(1);
-        let inking = inking(&texture);
+        let inking = inking(sample_texture());
         let numbers = [0.0, -0.0, 1e-30, -3.7, 1e9, -1e30, f32::MAX];
         for u in numbers {
             for per_px in [0.0, 1e-30, 1e-3, 1.0, 1e9, f32::INFINITY] {
-                let patch = Patch { u, v: -u, u_per_px: per_px, v_per_px: per_px, weight: 1.0 };
+                let patch =
+                    Patch { u, v: -u, across_per_px: per_px, v_per_px: per_px, weight: 1.0 };
                 let ink = inking.ink(&patch, 0.2);
                 assert!((0.0..=1.0).contains(&ink), "{u} {per_px}: {ink}");
             }

@@ -8,6 +8,10 @@
 
 mod strokes;
 
+mod coverage;
+
+mod slices;
+
 mod threshold;
 
 mod look;
@@ -21,8 +25,13 @@ mod uploaded;
 pub use coordinates::has_useful_coordinates;
 pub use ink::{DIRECTIONS_MEET, crossed_tones};
 pub use look::{Coordinates, HatchingLook};
-pub use threshold::{COARSEST_SIDE, FINEST_SIDE, LEVELS, ThresholdTexture};
+pub use slices::SLICES;
+pub use strokes::SIDE;
+pub use threshold::ThresholdTexture;
 pub use uploaded::Hatching;
 
 pub(crate) use coordinates::Placing;
 pub(crate) use ink::Inking;
+
+#[cfg(test)]
+pub(crate) use threshold::sample_texture;

@@ -7,7 +7,8 @@ use graphics::gpu::DeviceError;
 use graphics::surface::PackedMesh;
 
 use super::coordinates::has_useful_coordinates;
-use super::threshold::{FINEST_SIDE, ThresholdTexture};
+use super::strokes::SIDE;
+use super::threshold::ThresholdTexture;
 
 /// Strokes in the memory of a [`Compute`], and how they lie on one model. Made once for a model.
 #[derive(Debug, Clone)]
@@ -29,7 +30,7 @@ impl Hatching {
         mesh: &PackedMesh,
     ) -> Result<Self, DeviceError> {
         let quads = texture.quads().to_vec();
-        let quads = Field::from_values(FINEST_SIDE, quads.len() / FINEST_SIDE, quads);
+        let quads = Field::from_values(SIDE, quads.len() / SIDE, quads);
         Ok(Self {
             quads: compute.upload(&quads)?,
             mesh_is_useful: has_useful_coordinates(mesh),

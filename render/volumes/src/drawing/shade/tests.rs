@@ -6,7 +6,7 @@ use graphics::mesh::{Mesh, SampleModel};
 
 use super::*;
 use crate::drawing::{grey_of, reveal};
-use crate::hatching::{HatchingLook, ThresholdTexture};
+use crate::hatching::{HatchingLook, sample_texture};
 use crate::test_device::{device, far};
 use graphics::distant_light::DistantLight;
 
@@ -19,8 +19,7 @@ struct Scene {
 impl Scene {
     fn new(mut compute: Compute, mesh: &Mesh) -> Self {
         let packed = PackedMesh::new(mesh);
-        let texture = ThresholdTexture::new(1);
-        let hatching = Hatching::new(&mut compute, &texture, &packed).unwrap();
+        let hatching = Hatching::new(&mut compute, sample_texture(), &packed).unwrap();
         let model = Model::new(&mut compute, packed).unwrap();
         Self { compute, model, hatching }
     }
@@ -119,7 +118,7 @@ fn without_light_colours_stay_and_their_grey_sets_the_tone() {
     look.hatching.darkest = 0.0;
     let (hatched, _) = scene.shade(&camera, (200, 200), &look);
     let grey = grey_of([0.2, 0.6, 0.4], GreyWeights::Luminance);
-    let tone = look.tones.grey(grey);
+    let tone = look.tones.grey(lifted(grey));
     let (mut ink, mut seen) = (0.0, 0.0);
     for pixel in hatched.values().iter().filter(|pixel| **pixel != [1.0; 4]) {
         ink += (1.0 - pixel[1] / 0.6) / 0.85;
