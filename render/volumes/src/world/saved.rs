@@ -20,6 +20,7 @@ stored!(Volume {
     detail,
     region,
     cell,
+    body,
     normal,
     seed,
     dry,
