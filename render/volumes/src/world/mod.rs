@@ -43,6 +43,9 @@ mod tests;
 #[cfg(test)]
 mod limit_tests;
 
+#[cfg(test)]
+mod random_actions;
+
 pub use actions::{Lift, Pour, Single};
 pub use error::WorldError;
 pub use recipe::Recipe;
