@@ -231,6 +231,21 @@ fn two_equal_cells_share_what_is_over_their_capacities() {
 }
 
 #[test]
+fn the_giver_of_a_new_volume_is_the_neighbour_that_gave_most() {
+    let grid = Grid::of(&level(12.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap();
+    let [left, middle, right] = [5.0, 6.0, 7.0].map(|x| cell_at(&grid, [x, 0.0, 6.0]));
+    for (most, least) in [(left, right), (right, left)] {
+        let mut paint = vec![Cell::default(); grid.cells.len()];
+        paint[most] = of_slot(0, 12 * grid.cells.capacities[most]);
+        paint[least] = of_slot(1, 4 * grid.cells.capacities[least]);
+        let mut spilling = Spilling::new(&grid.cells, 1.0, 0.04, 0.0).unwrap();
+        let born = spilling.step((&grid.graph, &grid.cells), &mut paint, true);
+        let birth = Birth { cell: middle as u32, giver: most as u32 };
+        assert!(born.contains(&birth), "{birth:?} of {born:?}");
+    }
+}
+
+#[test]
 fn with_a_slope_paint_runs_down() {
     let tilted = sheet(1, |u, v| [16.0 * u, 8.0 * v, 16.0 * v]);
     let grid = Grid::of(&tilted, 1.0, SAMPLES_PER_CELL, 1).unwrap();
@@ -352,6 +367,8 @@ fn regions_cut_cells_out() {
     for (cell, own) in paint.iter().enumerate() {
         let first = grid.samples.places[grid.samples.of_cell(cell)].iter().all(|at| at.x >= 6.0);
         assert_eq!(first, kept.cells.capacities[cell] == 0);
+        let mut others = kept.graph.links(cell).map(|link| kept.graph.others[link] as usize);
+        assert!(others.all(|other| !first && kept.cells.capacities[other] > 0));
         assert!(!first || own.volume() == 0);
     }
 }
