@@ -89,14 +89,18 @@ fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
             world.pour(pour.clone()).unwrap();
             run(&mut world, 1);
             let moving = across(&world);
+            // Paint flows for 60 steps, but kicks once.
+            run(&mut world, 30);
+            let flowing = across(&world);
             run(&mut world, rest);
-            (moving, across(&world))
+            [moving, flowing, across(&world)]
         })
     };
-    for (moving, resting) in kicked(0.3) {
+    for [moving, flowing, resting] in kicked(0.3) {
         assert!(moving > 0.1 && resting < 0.01, "{moving} {resting}");
+        assert!(flowing < 0.25 * moving, "{moving} {flowing}");
     }
-    for (moving, _) in kicked(0.0) {
+    for [moving, ..] in kicked(0.0) {
         assert!(moving < 1e-3, "{moving}");
     }
 }
@@ -192,6 +196,10 @@ fn dry_paint_stays_as_it_is_under_new_paint() {
     world.dry();
     let before = world.volumes().to_vec();
     assert!(before.len() > 1 && before.iter().all(|volume| volume.dry));
+    let track = Track::at(Vec3::ZERO);
+    world.lift(Lift { track, radius: 9.0, rate: 20.0, for_s: 0.2 }).unwrap();
+    run(&mut world, 24);
+    assert_eq!(world.volumes(), before, "a sponge took dry paint");
     world.pour(pour(1)).unwrap();
     run(&mut world, 60);
     assert_eq!(world.volumes()[..before.len()], before);
@@ -213,6 +221,12 @@ fn a_split_volume_leaves_its_paint_in_the_cells_it_held() {
     assert_eq!(world.tally().on_scene[2], u64::from(whole.pigments[2]));
     assert_eq!(world.volumes().len(), cells + 1);
     assert!(world.volumes()[1..].iter().all(|volume| volume.detail == 2 && volume.region == 1));
+    // Cells at the rim hold less of the surface than those in the middle.
+    let amounts = world.volumes()[1..].iter().map(|volume| volume.paint.volume());
+    let most = f64::from(amounts.clone().max().unwrap());
+    assert!(amounts.min().unwrap() < whole.volume() / cells as u32 / 2);
+    let full = f64::from(crate::wetting::QUANTA_PER_FACE);
+    assert!((most / full - 1.0).abs() < 0.2, "{most} of {full}");
     run(&mut world, 400);
     assert_eq!(world.volumes().len(), cells, "the whole vanishes");
     for wrong in [0, 99] {

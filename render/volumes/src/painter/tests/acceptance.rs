@@ -139,3 +139,40 @@ fn films_lie_on_the_surface_of_each_world() {
     let kept = paint(&mut used, &world);
     assert!(kept != whole && kept == paint(&mut painter(), &world));
 }
+
+#[test]
+fn films_of_single_volumes_lie_on_all_that_they_hold() {
+    let framing = Framing { elevation_deg: -40.0, ..Framing::default() };
+    let mut scene = Scene::new(plates(), framing);
+    scene.settings.unit_mm = 1.0;
+    scene.styles[0].inside = settings::Inside::Glaze;
+    let mut painter = scene.painter().with_pigments(pigments()).unwrap();
+    // More of the upper plate than of the lower one, which alone is seen.
+    let mut below = |recipe: Option<Recipe>| {
+        let mut world = scene.world();
+        let own = Single { recipe, ..single(Vec3::new(0.0, 0.3, 0.0), 2.0, 0) };
+        world.add_volume(&own).unwrap();
+        steps(&mut world, 30);
+        painter.paint(&world, &scene.camera, SIZE).unwrap()
+    };
+    let (painted, bare) = (below(Some(Recipe::of_slot(0))), below(None));
+    let differ = painted.values().iter().zip(bare.values()).filter(|(a, b)| a != b).count();
+    assert!(differ > 100, "{differ}");
+}
+
+#[test]
+fn regions_count_their_own_volumes_alone() {
+    let mut scene = Scene::still_life();
+    scene.styles = vec![style(&[1.0], &[0.0, 0.3]), style(&[1.0], &[0.0, 1.0])];
+    let [low, high] = scene.mesh.bounds();
+    let mut world = scene.world();
+    world.add_volume(&single((low + high) / 2.0, 2.0 * (high - low).length(), 0)).unwrap();
+    let (painted, plain, seen) = (scene.painted(&world), scene.plain(), scene.seen());
+    for (pixel, found) in painted.values().iter().enumerate() {
+        if seen.values()[pixel].triangle != NO_TRIANGLE {
+            let [r, g, b, grey] = plain.values()[pixel];
+            let [r, g, b] = [r, g, b].map(|color| grey * (1.0 - 0.3) + color * 0.3);
+            assert_eq!(*found, [r, g, b, 1.0]);
+        }
+    }
+}

@@ -162,3 +162,28 @@ fn settings_of_films_change_the_picture() {
         assert!(picture != usual, "{change}");
     }
 }
+
+#[test]
+fn strokes_have_strengths_of_their_own_inside_and_outside() {
+    let scene = Scene::still_life();
+    let [low, high] = scene.mesh.bounds();
+    let (outside, mut inside) = (scene.world(), scene.world());
+    let radius = 2.0 * (high - low).length();
+    inside.add_volume(&single((low + high) / 2.0, radius, 0)).unwrap();
+    let in_pigments = scene.painter().with_pigments(pigments()).unwrap();
+    for mut painter in [scene.painter(), in_pigments] {
+        let mut paint = |world: &World, settings: &Settings| {
+            painter.set_drawing(settings).unwrap();
+            bits(&painter.paint(world, &scene.camera, SIZE).unwrap())
+        };
+        for (change, of_inside) in
+            [("hatching.inside = 0.3", true), ("hatching.outside = 0.3", false)]
+        {
+            let settings = changed(&scene.settings, change);
+            for (world, is_inside) in [(&inside, true), (&outside, false)] {
+                let same = paint(world, &settings) == paint(world, &scene.settings);
+                assert_eq!(same, of_inside != is_inside, "{change}");
+            }
+        }
+    }
+}
