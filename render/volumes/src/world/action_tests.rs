@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
-use super::tests::{flat, is_exact, run, single};
+use super::tests::{flat, is_exact, level, run, single};
 use super::*;
-use crate::motion::Push;
+use crate::motion::{MotionSettings, Push};
 
 #[test]
 fn a_sponge_takes_the_paint_below_it() {
@@ -33,7 +33,10 @@ fn a_sponge_takes_the_paint_below_it() {
 
 #[test]
 fn a_push_ends_and_its_volume_returns() {
-    let mut world = flat();
+    // Pulled to the surface, particles may come to rest at other samples.
+    let motion = MotionSettings { surface_pull: 0.0, ..MotionSettings::default() };
+    let settings = WorldSettings { motion, ..*flat().settings() };
+    let mut world = World::of(&level(12.0, 0.0), &settings).unwrap();
     world.add_volume(&single(Vec3::ZERO, 1.5)).unwrap();
     run(&mut world, 1200);
     let before: Vec<[f32; 3]> = world.volumes()[0].vertices().collect();

@@ -66,7 +66,7 @@ impl Played {
 
     /// Moves paint, and volumes at once to where they would grow.
     fn go_on(&mut self, action: usize) {
-        if action.is_multiple_of(50) {
+        if action.is_multiple_of(100) {
             return self.world.step().unwrap();
         }
         self.world.move_paint().unwrap();

@@ -10,7 +10,7 @@ use crate::test_surfaces::{joined, sheet};
 use crate::volume::Volume;
 use crate::wetting::{SAMPLES_PER_CELL, SurfaceSamples};
 
-fn level(side: f32, height: f32) -> Mesh {
+pub(super) fn level(side: f32, height: f32) -> Mesh {
     sheet(1, |u, v| [side * (u - 0.5), height, side * (v - 0.5)])
 }
 
