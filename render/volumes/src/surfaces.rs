@@ -124,6 +124,11 @@ mod tests {
             let outward = (Vec3::from(*at) - Vec3::X).normalize();
             assert!(normal.dot(outward) > 0.99, "{normal}");
         }
+        surfaces.add(&volumes[0], 0.5, 2);
+        for at in &surfaces.vertices[42 + 162..] {
+            let distance = Vec3::from(*at).distance(volumes[0].center) / volumes[0].radius;
+            assert!((0.5..0.55).contains(&distance), "{distance}");
+        }
         surfaces.update(&volumes[1..]);
         assert_eq!((surfaces.vertices.len(), surfaces.triangles.len()), (162, 320));
         assert!(surfaces.triangles.iter().all(|triangle| triangle.material == 0));

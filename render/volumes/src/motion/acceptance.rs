@@ -88,6 +88,19 @@ fn energy(volume: &Volume, settings: &MotionSettings) -> f64 {
 }
 
 #[test]
+fn cohesion_is_as_strong_with_five_neighbours_as_with_six() {
+    let settings =
+        MotionSettings { pressure: 0.0, elastic: 0.0, cohesion: 120.0, friction: 0.0, ..smooth() };
+    for particle in [3, 100] {
+        let mut volumes = [Volume::ball(Vec3::ZERO, 1.0, 2, 1)];
+        volumes[0].particles.places[1][particle] += 0.01;
+        advance(&mut volumes, &settings, &Surroundings::new(1.0, 1), STEP).unwrap();
+        let speed = volumes[0].particles.velocities[1][particle];
+        assert!((speed + 0.01).abs() < 1e-4, "{particle}: {speed}");
+    }
+}
+
+#[test]
 fn energy_falls_at_every_step() {
     for friction in [10.0, 20.0, 40.0] {
         let settings = MotionSettings { friction, ..smooth() };

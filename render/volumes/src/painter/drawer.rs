@@ -261,3 +261,17 @@ fn each(field: &mut Field<f32>, change: impl Fn(&mut f32, usize) + Sync) {
     let samples = field.values_mut().par_iter_mut().with_min_len(SAMPLES).enumerate();
     samples.for_each(|(index, sample)| change(sample, index));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tints_of_regions_are_laid_one_over_the_other() {
+        let half = TintTable::new(vec![0.0, 0.5, 1.0]).unwrap();
+        let mut tint = Field::filled(3, 1, 0.0);
+        lay_tint(&mut tint, &Field::from_values(3, 1, vec![0, 1, 1]), &half);
+        lay_tint(&mut tint, &Field::from_values(3, 1, vec![0, 1, 2]), &half);
+        assert_eq!(tint.values(), [0.0, 0.75, 1.0]);
+    }
+}

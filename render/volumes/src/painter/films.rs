@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::field::Field;
 use graphics::surface::{PackedMesh, VisibilityBuffer};
@@ -18,6 +19,7 @@ use crate::pigments::{
 };
 use crate::settings::Settings;
 use crate::volume::Volume;
+use crate::wetting::Grid;
 use crate::world::World;
 
 /// Width of a cell of a painting in mm.
@@ -44,8 +46,8 @@ pub struct VolumePigments {
 pub(super) struct Films {
     pub(super) painter: FilmPainter,
     pub(super) view: FilmView,
-    /// Made for the first world that is painted.
-    counter: Option<FilmCounter>,
+    /// With the grid that it was made for.
+    counter: Option<(Arc<Grid>, FilmCounter)>,
 }
 
 impl Films {
@@ -83,19 +85,26 @@ impl Films {
             unit_mm: world.unit_mm(),
             cell_mm: CELL_MM,
         };
-        let counter = self
-            .counter
-            .get_or_insert_with(|| FilmCounter::new(scene, &surface, world.cell(), profile, scale));
-        counter.profile = profile;
-        counter.tell_bodies(&world.grid().bodies.of_triangles);
+        let grid = world.shared_grid();
+        self.counter.take_if(|(made_for, _)| !Arc::ptr_eq(made_for, grid));
+        let (_, counter) = self.counter.get_or_insert_with(|| {
+            let counter = FilmCounter::new(scene, &surface, world.cell(), profile, scale);
+            (Arc::clone(grid), counter)
+        });
+        (counter.profile, counter.scale) = (profile, scale);
+        counter.tell_bodies(&grid.bodies.of_triangles);
         let kind = settings.drawing.film;
-        let wanted = |volume: &&Volume| {
+        let wanted = |volume: &Volume| {
             let region = regions.get(usize::from(volume.region));
             // Films through volumes are seen before surfaces too.
             region.is_some_and(|region| region.inside.has_films())
                 && (kind == FilmKind::Through || in_sight.may_hold(volume))
         };
-        let volumes: Vec<Volume> = world.volumes().iter().filter(wanted).cloned().collect();
+        let volumes = world.volumes().iter().zip(world.facing());
+        let volumes = volumes.filter(|(volume, _)| wanted(volume));
+        // Films keep to what the cells of their volumes face, as colours do.
+        let facing = |(volume, normal): (&Volume, Vec3)| Volume { normal, ..volume.clone() };
+        let volumes: Vec<Volume> = volumes.map(facing).collect();
         counter.heights((scene, &surface), &volumes, kind, camera, visible)
     }
 }

@@ -27,6 +27,10 @@ use crate::test_device;
 use crate::test_surfaces::{joined, sheet};
 use crate::world::{Pour, Recipe, Single, World, WorldSettings};
 
+mod acceptance;
+
+mod every_setting;
+
 const SIZE: (usize, usize) = (150, 114);
 
 /// A scene, seen from one side, and how it is painted.
@@ -289,20 +293,6 @@ fn no_colour_shows_beyond_a_region_to_stay_in() {
 }
 
 #[test]
-fn pictures_do_not_depend_on_the_number_of_threads() {
-    let mut scene = Scene::still_life();
-    scene.settings.picture.samples = 2;
-    scene.styles = vec![style(&[1.0, 0.9, 0.8], &[0.0, 0.4, 0.7, 1.0])];
-    let world = scene.poured();
-    let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| bits(&scene.painted(&world)))
-    };
-    let one = with(1);
-    assert!(one == with(2) && one == with(8));
-}
-
-#[test]
 fn a_picture_does_not_depend_on_the_pictures_before() {
     let scene = Scene::still_life();
     let (empty, full) = (scene.world(), scene.poured());
@@ -362,6 +352,18 @@ fn a_device_paints_what_the_processor_paints() {
     }
 }
 
+fn pigments() -> VolumePigments {
+    let library = Arc::new(PigmentLibrary::van_gogh_oils());
+    let names = ["Ultramarine", "Chrome Yellow"].map(str::to_owned);
+    VolumePigments {
+        slots: palette_slots(&names, &library).unwrap(),
+        library,
+        own_colors: None,
+        ground: GroundKind::Panel.spec(1),
+        lighting: Lighting { relief: 0.0, ..Lighting::default() },
+    }
+}
+
 fn shown(document: &Document) -> Field<[f32; 4]> {
     let Lighting { illuminant, observer, .. } = &document.lighting;
     let light = Light::named(&document.library, illuminant, observer).unwrap();
@@ -372,18 +374,9 @@ fn shown(document: &Document) -> Field<[f32; 4]> {
 fn a_painting_is_the_picture_also_after_its_file() {
     let mut scene = Scene::still_life();
     scene.styles[0].inside = settings::Inside::Glaze;
-    let library = Arc::new(PigmentLibrary::van_gogh_oils());
-    let names = ["Ultramarine", "Chrome Yellow"].map(str::to_owned);
-    let pigments = VolumePigments {
-        slots: palette_slots(&names, &library).unwrap(),
-        library,
-        own_colors: None,
-        ground: GroundKind::Panel.spec(1),
-        lighting: Lighting { relief: 0.0, ..Lighting::default() },
-    };
     let missing = scene.painter().painting(&scene.world(), &scene.camera, SIZE, "").unwrap_err();
     assert!(matches!(missing, PaintingError::NoPigments));
-    let mut painter = scene.painter().with_pigments(pigments).unwrap();
+    let mut painter = scene.painter().with_pigments(pigments()).unwrap();
     let world = scene.poured();
     let painted = painter.paint(&world, &scene.camera, SIZE).unwrap();
     let document = painter.painting(&world, &scene.camera, SIZE, "A jug").unwrap();
@@ -394,7 +387,7 @@ fn a_painting_is_the_picture_also_after_its_file() {
         let pairs = a.values().iter().flatten().zip(b.values().iter().flatten());
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
     };
-    assert!(most(&painted, &shown(&read)) <= 0.0005);
+    assert!(most(&painted, &shown(&read)) <= 0.0002);
     let bare = painter.paint(&scene.world(), &scene.camera, SIZE).unwrap();
     let glazed = painted.values().iter().zip(bare.values()).filter(|(a, b)| a != b).count();
     assert!(glazed > 300, "{glazed}");

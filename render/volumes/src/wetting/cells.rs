@@ -11,6 +11,10 @@ pub const QUANTA_PER_FACE: u32 = 1 << 22;
 /// How many times its capacity a cell can hold.
 pub const MOST_FILMS: u32 = 16;
 
+/// Cosine between the mean normal of a cell and that of a sample below which the sample faces away.
+/// Surface between the samples may face away somewhat more.
+const AWAY: f32 = 0.0;
+
 /// The surface in each cell. All lists have one entry a cell.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Cells {
@@ -18,6 +22,9 @@ pub struct Cells {
     pub centers: Vec<Vec3>,
     /// Mean unit normal of the surface; zero where its sides cancel out.
     pub normals: Vec<Vec3>,
+    /// What the surface faces: its mean normal, or zero where some of it faces away from that, as in
+    /// a cell with both sides of a thin wall.
+    pub facing: Vec<Vec3>,
     /// Quanta of a film that covers all surface in the cell: 2^22 for an area as large as a face
     /// of the cell. 0 for a cell that takes no paint.
     pub capacities: Vec<u32>,
@@ -36,7 +43,11 @@ impl Cells {
                 normal += samples.normals[sample];
             }
             cells.centers.push(place / count.max(1) as f32);
-            cells.normals.push(normal.normalize_or_zero());
+            let mean = normal.normalize_or_zero();
+            let away = |sample: usize| samples.normals[sample].dot(mean) < AWAY;
+            let two_sided = samples.of_cell(cell).any(away);
+            cells.facing.push(if two_sided { Vec3::ZERO } else { mean });
+            cells.normals.push(mean);
             cells.capacities.push(capacity(samples, count));
         }
         cells

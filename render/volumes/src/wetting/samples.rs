@@ -255,6 +255,15 @@ mod tests {
     }
 
     #[test]
+    fn samples_face_as_the_normals_of_the_mesh_do() {
+        let mut mesh = Mesh::sphere(500);
+        mesh.triangles.iter_mut().step_by(3).for_each(|triangle| triangle.corners.swap(0, 1));
+        let samples = SurfaceSamples::of(&mesh, 0.5, SAMPLES_PER_CELL, 1).unwrap();
+        let mut facing = samples.places.iter().zip(&samples.normals);
+        assert!(facing.all(|(place, normal)| place.normalize().dot(*normal) > 0.9));
+    }
+
+    #[test]
     fn every_part_of_a_surface_has_its_share() {
         // A triangle cut by lines into parts: each part has as many samples as its area wants.
         let mesh = bare(&[[0.0; 3], [8.0, 0.0, 0.0], [0.0, 0.0, 8.0]], &[[0, 2, 1]]);

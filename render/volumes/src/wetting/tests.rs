@@ -208,7 +208,8 @@ fn random_spills_keep_every_quantum_and_every_limit() {
                 assert!(graph.links(cell as usize).any(|link| graph.others[link] == giver));
             }
             for (cell, (own, wet)) in paint.iter().zip(&wet).enumerate() {
-                assert!(own.volume() <= cells.room(cell), "{cell} of slope {slope}");
+                let most = (16 * u64::from(cells.capacities[cell])).min(1 << 30);
+                assert!(u64::from(own.volume()) <= most, "{cell} of slope {slope}");
                 assert_eq!(own.volume() > 0, *wet);
             }
             assert_eq!(totals(&paint), before);
@@ -255,6 +256,42 @@ fn two_equal_cells_share_what_is_over_their_capacities() {
         // Shares are whole parts of 65536.
         assert!((found / wanted - 1.0).abs() < 5e-3, "{found} for {wanted}");
     }
+}
+
+#[test]
+fn the_giver_of_a_new_volume_is_the_neighbour_that_gave_most() {
+    let grid = Grid::of(&level(12.0, 0.0, 1), 1.0, SAMPLES_PER_CELL, 1).unwrap();
+    let [left, middle, right] = [5.0, 6.0, 7.0].map(|x| cell_at(&grid, [x, 0.0, 6.0]));
+    for (most, least) in [(left, right), (right, left)] {
+        let mut paint = vec![Cell::default(); grid.cells.len()];
+        paint[most] = of_slot(0, 12 * grid.cells.capacities[most]);
+        paint[least] = of_slot(1, 4 * grid.cells.capacities[least]);
+        let mut spilling = Spilling::new(&grid.cells, 1.0, 0.04, 0.0).unwrap();
+        let born = spilling.step((&grid.graph, &grid.cells), &mut paint, true);
+        let birth = Birth { cell: middle as u32, giver: most as u32 };
+        assert!(born.contains(&birth), "{birth:?} of {born:?}");
+    }
+}
+
+#[test]
+fn with_a_slope_paint_runs_down() {
+    let tilted = sheet(1, |u, v| [16.0 * u, 8.0 * v, 16.0 * v]);
+    let grid = Grid::of(&tilted, 1.0, SAMPLES_PER_CELL, 1).unwrap();
+    let source = cell_at(&grid, [8.0, 4.0, 8.0]);
+    let mean_height = |slope: f32| {
+        let mut paint = vec![Cell::default(); grid.cells.len()];
+        paint[source] = of_slot(0, grid.cells.room(source));
+        let mut spilling = Spilling::new(&grid.cells, 1.0, 0.04, slope).unwrap();
+        for _ in 0..600 {
+            spilling.step((&grid.graph, &grid.cells), &mut paint, true);
+        }
+        let all: f64 = paint.iter().map(|own| f64::from(own.volume())).sum();
+        let heights = paint.iter().zip(&grid.cells.centers);
+        heights.map(|(own, at)| f64::from(own.volume()) * f64::from(at.y)).sum::<f64>() / all
+    };
+    let [level, steep] = [0.0, 20.0].map(mean_height);
+    assert!((level - 4.0).abs() < 0.4, "{level}");
+    assert!(steep < level - 0.6, "{steep} {level}");
 }
 
 /// The places that the volumes at rest hold.
@@ -358,6 +395,8 @@ fn regions_cut_cells_out() {
     for (cell, own) in paint.iter().enumerate() {
         let first = grid.samples.places[grid.samples.of_cell(cell)].iter().all(|at| at.x >= 6.0);
         assert_eq!(first, kept.cells.capacities[cell] == 0);
+        let mut others = kept.graph.links(cell).map(|link| kept.graph.others[link] as usize);
+        assert!(others.all(|other| !first && kept.cells.capacities[other] > 0));
         assert!(!first || own.volume() == 0);
     }
 }

@@ -56,6 +56,12 @@ mod limit_tests;
 #[cfg(test)]
 mod device_tests;
 
+#[cfg(test)]
+mod random_actions;
+
+#[cfg(test)]
+mod action_tests;
+
 pub use actions::{Lift, Pour, Single};
 pub use error::WorldError;
 pub use recipe::Recipe;

@@ -121,10 +121,19 @@ impl World {
         &self.grid
     }
 
-    /// Mean normal of each volume's cell, in the order of the volumes; zero for a single one.
+    /// [`Self::grid`] as it is shared by snapshots, until a region to stay in changes it.
+    pub(crate) fn shared_grid(&self) -> &Arc<Grid> {
+        &self.grid
+    }
+
+    /// What each volume's cell faces, in the order of the volumes; zero for a volume that colours
+    /// all that it holds: a single one, or one in a cell with surface that faces opposite ways.
     #[must_use]
     pub fn facing(&self) -> Vec<Vec3> {
-        let facing = |volume: &Volume| volume.cell.map_or(Vec3::ZERO, |_| volume.normal);
+        let facing = |volume: &Volume| {
+            let cell = volume.cell.map(|cell| self.grid.cells.facing[cell as usize]);
+            cell.filter(|facing| *facing != Vec3::ZERO).map_or(Vec3::ZERO, |_| volume.normal)
+        };
         self.volumes.iter().map(facing).collect()
     }
 

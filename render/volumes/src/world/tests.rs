@@ -2,16 +2,15 @@
 
 use glam::Vec3;
 use graphics::mesh::{Mesh, SampleModel};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::containing::Inside;
-use crate::motion::{KeepIn, Push};
+use crate::motion::{KeepIn, MotionSettings, Push};
 use crate::test_surfaces::{joined, sheet};
+use crate::volume::Volume;
 use crate::wetting::{SAMPLES_PER_CELL, SurfaceSamples};
 
-fn level(side: f32, height: f32) -> Mesh {
+pub(super) fn level(side: f32, height: f32) -> Mesh {
     sheet(1, |u, v| [side * (u - 0.5), height, side * (v - 0.5)])
 }
 
@@ -66,64 +65,44 @@ fn what_is_poured_arrives_to_the_quantum_and_covers_its_area() {
 }
 
 #[test]
-fn random_actions_keep_every_quantum() {
-    let random = &mut ChaCha8Rng::seed_from_u64(3);
-    let settings = WorldSettings { cell: 0.3, slope: 0.5, rate: 0.06, ..WorldSettings::default() };
-    let mut world = World::of(&Mesh::sphere(500), &settings).unwrap();
-    for action in 0..100_000 {
-        let [x, y, z] = [(); 3].map(|()| random.random_range(-1.0..1.0_f32));
-        let place = Vec3::new(x, y, z).normalize_or(Vec3::Y);
-        let for_s = random.random_range(0.001..0.1);
-        match random.random_range(0..1000) {
-            0..300 => {
-                let parts = [(); 9].map(|()| random.random_range(0.0..1.0_f64));
-                let rate = random.random_range(0.0..3e4_f64);
-                let recipe = Recipe::of_parts(parts).unwrap();
-                world.pour(Pour::at(place, rate, for_s, recipe)).unwrap();
-            }
-            300..500 => {
-                let radius = random.random_range(0.05..0.8);
-                let rate = random.random_range(0.0..120.0);
-                world.lift(Lift { track: Track::at(place), radius, rate, for_s }).unwrap();
-            }
-            500 => world.dry(),
-            501 => {
-                let radius = random.random_range(0.05..0.6);
-                let own = Single { detail: 1, ..single(place, radius) };
-                let index = world.add_volume(&own).unwrap();
-                // Too small a volume may hold no sample.
-                let _ = world.split(index);
-            }
-            _ => {
-                world.move_paint(None).unwrap();
-                for volume in &mut world.volumes {
-                    volume.radius = volume.target_radius.max(0.01);
-                }
-            }
-        }
-        if action % 100 == 0 {
-            assert!(is_exact(&world), "{action}");
-            for volume in world.volumes() {
-                let room = volume.cell.map_or(1 << 30, |cell| world.grid.cells.room(cell as usize));
-                assert!(volume.paint.volume() <= room);
-            }
-            // Dried volumes would fill the world.
-            world.volumes.retain(|volume| !volume.dry || volume.paint.volume() > 0);
-            if world.volumes.len() > 1000 {
-                world.step().unwrap();
-                let settings = *world.settings();
-                world = World::of(&Mesh::sphere(500), &settings).unwrap();
-            }
-            world.of_cell.fill(state::NONE);
-            for (index, volume) in (0..).zip(&world.volumes) {
-                if let (Some(cell), false) = (volume.cell, volume.dry) {
-                    world.of_cell[cell as usize] = index;
-                }
-            }
-        }
+fn particles_are_kicked_at_birth_and_wherever_paint_is_poured() {
+    let across = |world: &World| {
+        let Volume { particles, radius, .. } = &world.volumes()[0];
+        let [places, speeds] = [&particles.places, &particles.velocities]
+            .map(|[x, y, z]| (0..x.len()).map(|i| Vec3::new(x[i], y[i], z[i])).collect::<Vec<_>>());
+        let pairs = places.iter().zip(&speeds);
+        // Growth moves particles along their rays.
+        pairs.map(|(place, speed)| place.normalize().cross(*speed).length()).fold(0.0, f32::max)
+            / radius
+    };
+    let kicked = |kick: f32| {
+        let motion = MotionSettings {
+            kick,
+            microstructure: 0.0,
+            surface_pull: 0.0,
+            ..MotionSettings::default()
+        };
+        let settings = WorldSettings { unit_mm: Some(1.0), motion, ..WorldSettings::default() };
+        let mut world = World::of(&level(12.0, 0.0), &settings).unwrap();
+        let pour = Pour::at(Vec3::new(0.5, 0.0, 0.5), 0.005, 0.5, Recipe::of_slot(0));
+        [240, 600].map(|rest| {
+            world.pour(pour.clone()).unwrap();
+            run(&mut world, 1);
+            let moving = across(&world);
+            // Paint flows for 60 steps, but kicks once.
+            run(&mut world, 30);
+            let flowing = across(&world);
+            run(&mut world, rest);
+            [moving, flowing, across(&world)]
+        })
+    };
+    for [moving, flowing, resting] in kicked(0.3) {
+        assert!(moving > 0.1 && resting < 0.01, "{moving} {resting}");
+        assert!(flowing < 0.25 * moving, "{moving} {flowing}");
     }
-    let tally = world.tally();
-    assert!(tally.poured.iter().all(|amount| *amount > 0) && tally.lifted[0] > 0);
+    for [moving, ..] in kicked(0.0) {
+        assert!(moving < 1e-3, "{moving}");
+    }
 }
 
 #[test]
@@ -217,6 +196,10 @@ fn dry_paint_stays_as_it_is_under_new_paint() {
     world.dry();
     let before = world.volumes().to_vec();
     assert!(before.len() > 1 && before.iter().all(|volume| volume.dry));
+    let track = Track::at(Vec3::ZERO);
+    world.lift(Lift { track, radius: 9.0, rate: 20.0, for_s: 0.2 }).unwrap();
+    run(&mut world, 24);
+    assert_eq!(world.volumes(), before, "a sponge took dry paint");
     world.pour(pour(1)).unwrap();
     run(&mut world, 60);
     assert_eq!(world.volumes()[..before.len()], before);
@@ -238,6 +221,12 @@ fn a_split_volume_leaves_its_paint_in_the_cells_it_held() {
     assert_eq!(world.tally().on_scene[2], u64::from(whole.pigments[2]));
     assert_eq!(world.volumes().len(), cells + 1);
     assert!(world.volumes()[1..].iter().all(|volume| volume.detail == 2 && volume.region == 1));
+    // Cells at the rim hold less of the surface than those in the middle.
+    let amounts = world.volumes()[1..].iter().map(|volume| volume.paint.volume());
+    let most = f64::from(amounts.clone().max().unwrap());
+    assert!(amounts.min().unwrap() < whole.volume() / cells as u32 / 2);
+    let full = f64::from(crate::wetting::QUANTA_PER_FACE);
+    assert!((most / full - 1.0).abs() < 0.2, "{most} of {full}");
     run(&mut world, 400);
     assert_eq!(world.volumes().len(), cells, "the whole vanishes");
     for wrong in [0, 99] {

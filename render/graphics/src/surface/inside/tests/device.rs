@@ -110,8 +110,38 @@ fn the_device_counts_as_the_processor_does() {
         differ += here;
         all += on_cpu.values().len();
         most = most.max(*on_cpu.values().iter().max().unwrap());
+        scene.surfaces.triangles.shuffle(&mut ChaCha8Rng::seed_from_u64(seed));
+        assert_eq!(scene.counts_of(&mut on_gpu, &mut counter), found, "scene {seed} shuffled");
     }
     assert!(differ * 500 <= all && most > 2, "{differ} of {all}, up to {most}");
+}
+
+#[test]
+fn nothing_holds_what_is_not_seen_on_the_device() {
+    let Some(mut on_gpu) = device() else { return };
+    let mut surfaces = Surfaces::default();
+    // The far sides of these are beyond what depths tell apart.
+    for radius in [1.0, 100.0, 1e7] {
+        surfaces.add_ball(Vec3::new(0.1, 0.0, 0.0), radius);
+    }
+    let camera = camera(Vec3::ZERO, Vec3::NEG_Z);
+    let scene = Scene { mesh: wall(-3.0, 0.7, 2), surfaces, camera, size: (97, 61) };
+    let [counts, weighed] = [
+        scene.counts_of(&mut on_gpu, &mut InsideCounter::default()),
+        match on_gpu.device().is_some_and(crate::gpu::Device::scatters) {
+            true => scene.weighed_of(&mut on_gpu, &[1; 3]),
+            false => scene.counts(),
+        },
+    ];
+    let mut shown = 0;
+    for ((seen, count), weighed) in
+        scene.visible().values().iter().zip(counts.values()).zip(weighed.values())
+    {
+        let wanted = if *seen == Fragment::EMPTY { 0 } else { 2 };
+        assert_eq!((*count, *weighed), (wanted, wanted));
+        shown += usize::from(wanted > 0);
+    }
+    assert!((300..3000).contains(&shown), "{shown}");
 }
 
 #[test]

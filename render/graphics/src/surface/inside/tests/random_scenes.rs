@@ -52,16 +52,8 @@ fn compared(seeds: std::ops::Range<u64>) -> Found {
 }
 
 #[test]
-fn counts_are_winding_numbers() {
-    let found = compared(0..10);
-    assert!(found.samples > 20_000 && found.most >= 3, "{found:?}");
-    assert!(found.differ * 1000 <= found.samples, "{found:?}");
-}
-
-#[test]
-#[ignore = "takes a minute"]
 fn counts_of_two_hundred_scenes_are_winding_numbers() {
     let found = compared(0..200);
-    assert!(found.samples > 400_000, "{found:?}");
+    assert!(found.samples > 400_000 && found.most >= 5, "{found:?}");
     assert!(found.differ * 1000 <= found.samples, "{found:?}");
 }

@@ -1,0 +1,178 @@
+//! Pictures of whole worlds: order, threads, the cut into triangles, full grids, other worlds.
+
+use super::*;
+
+fn steps(world: &mut World, count: usize) {
+    (0..count).for_each(|_| world.step().unwrap());
+}
+
+#[test]
+fn pictures_do_not_depend_on_the_number_of_threads() {
+    let mut scene = Scene::still_life();
+    scene.settings.picture.samples = 2;
+    scene.styles = vec![style(&[1.0, 0.9, 0.8], &[0.0, 0.4, 0.7, 1.0])];
+    let world = scene.poured();
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| bits(&scene.painted(&world)))
+    };
+    let one = with(1);
+    assert!(one == with(2) && one == with(8));
+}
+
+#[test]
+fn pictures_do_not_depend_on_the_order_of_volumes() {
+    let mut scene = Scene::still_life();
+    scene.styles = vec![style(&[1.0, 0.8], &[0.0, 0.5, 1.0]), style(&[1.0], &[0.0, 0.6])];
+    // Kicks differ with the number of a volume.
+    scene.settings.motion.kick = 0.0;
+    let [low, high] = scene.mesh.bounds();
+    let side = (high - low).max_element();
+    let own = |i: usize| {
+        let at = |by: usize| (i * by % 25) as f32 / 25.0;
+        let center = low + (high - low) * Vec3::new(at(7), at(11), at(3));
+        single(center, side * (0.06 + 0.1 * at(9)), (i % 2) as u16)
+    };
+    let painted = |order: &[usize]| {
+        let mut world = scene.world();
+        for &i in order {
+            world.add_volume(&own(i)).unwrap();
+        }
+        steps(&mut world, 30);
+        bits(&scene.painted(&world))
+    };
+    let mut order: Vec<usize> = (0..24).collect();
+    let one = painted(&order);
+    order.rotate_left(7);
+    order.swap(1, 12);
+    assert!(painted(&order) == one);
+    order.reverse();
+    assert!(painted(&order) == one);
+    assert!(painted(&order[1..]) != one);
+}
+
+#[test]
+fn a_full_grid_colours_all_that_is_seen() {
+    for shape in SampleModel::ALL {
+        let mut scene = Scene::new(shape.mesh(6000), Framing::default());
+        scene.settings.grid.cell = 0.125;
+        let mut world = scene.world();
+        for cell in 0..world.grid().cells.len() {
+            let samples = &world.grid().samples;
+            let place = samples.places[samples.of_cell(cell).start];
+            let capacity = f64::from(world.grid().cells.capacities[cell]);
+            let rate = 120.0 * capacity * world.quantum_mm3();
+            world.pour(Pour::at(place, rate, 1.0 / 120.0, Recipe::of_slot(0))).unwrap();
+        }
+        steps(&mut world, 150);
+        for azimuth_deg in [30.0, 210.0] {
+            let aspect = SIZE.0 as f32 / SIZE.1 as f32;
+            let framing = Framing { azimuth_deg, aspect, ..Framing::default() };
+            scene.camera = framing.fit(&scene.mesh.positions);
+            let (plain, seen) = (scene.plain(), scene.seen());
+            let mut bare = |gate: f32| {
+                scene.settings.drawing.gate = gate;
+                let painted = scene.painted(&world);
+                let pixels = painted.values().iter().zip(plain.values()).zip(seen.values());
+                let shown = pixels.filter(|(_, seen)| seen.triangle != NO_TRIANGLE);
+                let wrong = |found: [f32; 4], plain: [f32; 4]| found[..3] != plain[..3];
+                shown.filter(|((found, plain), _)| wrong(**found, **plain)).count()
+            };
+            let found = [bare(-1.0), bare(-0.2)];
+            assert_eq!(found, [0, 0], "{} from {azimuth_deg}", shape.name());
+        }
+    }
+}
+
+/// Pixels whose masks differ, of those inside of a volume and all, on a plane of two triangles and
+/// one of 20,000.
+fn differing(act: impl Fn(&mut World)) -> [usize; 3] {
+    let scenes = [1, 100].map(|squares| {
+        let mesh = sheet(squares, |u, v| [12.0 * u - 6.0, 0.0, 12.0 * v - 6.0]);
+        let mut scene = Scene::new(mesh, Framing { elevation_deg: 50.0, ..Framing::default() });
+        scene.settings.unit_mm = 1.0;
+        scene
+    });
+    let size = (750, 570);
+    let masks = scenes.each_ref().map(|scene| {
+        let mut world = scene.world();
+        act(&mut world);
+        steps(&mut world, 240);
+        scene.painter().shown(&world, &scenes[0].camera, size, Show::Mask).unwrap()
+    });
+    let pairs = masks[0].values().iter().zip(masks[1].values());
+    let differ = pairs.filter(|(few, many)| few != many).count();
+    let inside = masks[0].values().iter().filter(|mask| mask[0] > 0.5).count();
+    [differ, inside, size.0 * size.1]
+}
+
+#[test]
+fn masks_do_not_depend_on_the_cut_into_triangles() {
+    let [differ, inside, all] = differing(|world| {
+        for (x, z) in [(-3.0, -2.0), (0.4, 1.0), (2.0, -3.1)] {
+            world.add_volume(&single(Vec3::new(x, 0.2, z), 1.5, 0)).unwrap();
+        }
+    });
+    assert!(inside > 20_000 && differ * 2000 <= all, "{differ} of {inside}");
+    // Where paint is poured the radii are those of other samples of the surface.
+    let [differ, inside, all] = differing(|world| {
+        let pour = Pour::at(Vec3::new(0.5, 0.0, 0.5), 0.8, 1.0, Recipe::of_slot(0));
+        world.pour(pour).unwrap();
+    });
+    assert!(inside > 40_000 && differ * 200 <= all, "{differ} of {inside}");
+}
+
+#[test]
+fn films_lie_on_the_surface_of_each_world() {
+    let mut scene = Scene::still_life();
+    scene.styles[0].inside = settings::Inside::Glaze;
+    let [low, high] = scene.mesh.bounds();
+    let painter = || scene.painter().with_pigments(pigments()).unwrap();
+    let mut used = painter();
+    let mut world = scene.poured();
+    let paint = |painter: &mut VolumePainter, world: &World| {
+        bits(&painter.paint(world, &scene.camera, SIZE).unwrap())
+    };
+    let whole = paint(&mut used, &world);
+    world.keep(KeepIn::Above { point: (low + high) / 2.0, normal: Vec3::X }).unwrap();
+    steps(&mut world, 30);
+    let kept = paint(&mut used, &world);
+    assert!(kept != whole && kept == paint(&mut painter(), &world));
+}
+
+#[test]
+fn films_of_single_volumes_lie_on_all_that_they_hold() {
+    let framing = Framing { elevation_deg: -40.0, ..Framing::default() };
+    let mut scene = Scene::new(plates(), framing);
+    scene.settings.unit_mm = 1.0;
+    scene.styles[0].inside = settings::Inside::Glaze;
+    let mut painter = scene.painter().with_pigments(pigments()).unwrap();
+    // More of the upper plate than of the lower one, which alone is seen.
+    let mut below = |recipe: Option<Recipe>| {
+        let mut world = scene.world();
+        let own = Single { recipe, ..single(Vec3::new(0.0, 0.3, 0.0), 2.0, 0) };
+        world.add_volume(&own).unwrap();
+        steps(&mut world, 30);
+        painter.paint(&world, &scene.camera, SIZE).unwrap()
+    };
+    let (painted, bare) = (below(Some(Recipe::of_slot(0))), below(None));
+    let differ = painted.values().iter().zip(bare.values()).filter(|(a, b)| a != b).count();
+    assert!(differ > 100, "{differ}");
+}
+
+#[test]
+fn regions_count_their_own_volumes_alone() {
+    let mut scene = Scene::still_life();
+    scene.styles = vec![style(&[1.0], &[0.0, 0.3]), style(&[1.0], &[0.0, 1.0])];
+    let [low, high] = scene.mesh.bounds();
+    let mut world = scene.world();
+    world.add_volume(&single((low + high) / 2.0, 2.0 * (high - low).length(), 0)).unwrap();
+    let (painted, plain, seen) = (scene.painted(&world), scene.plain(), scene.seen());
+    for (pixel, found) in painted.values().iter().enumerate() {
+        if seen.values()[pixel].triangle != NO_TRIANGLE {
+            let [r, g, b, grey] = plain.values()[pixel];
+            let [r, g, b] = [r, g, b].map(|color| grey * (1.0 - 0.3) + color * 0.3);
+            assert_eq!(*found, [r, g, b, 1.0]);
+        }
+    }
+}
