@@ -1,8 +1,8 @@
 //! Colour of paint: eight wavelengths against the full spectrum, and mixtures of pigments against
 //! mixtures of lights.
 
-use calibrate::PigmentId;
 use calibrate::evaluate::{Summary, Viewing, percentile};
+use calibrate::{Curves, PigmentId};
 use render::light::{Light, Mixer};
 use render::paint::document::{Document, DryLayer};
 use render::paint::scene::{SpectralDocument, picture, scene};
