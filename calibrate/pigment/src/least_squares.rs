@@ -47,6 +47,30 @@ impl NormalEquations {
     }
 }
 
+impl NormalEquations {
+    /// Adds one residual that depends only on the parameters at `places`, in rising order, with its
+    /// derivatives over them.
+    pub(crate) fn add_at(&mut self, residual: f64, places: &[usize], derivatives: &[f64]) {
+        self.cost += 0.5 * residual * residual;
+        let count = self.gradient.len();
+        let columns = self.matrix.as_mut_slice();
+        for (index, (&j, &d)) in places.iter().zip(derivatives).enumerate() {
+            self.gradient[j] += d * residual;
+            let column = &mut columns[j * count..(j + 1) * count];
+            for (&i, other) in places[index..].iter().zip(&derivatives[index..]) {
+                column[i] += d * other;
+            }
+        }
+    }
+
+    /// Adds the residuals of `other`.
+    pub(crate) fn join(&mut self, other: &Self) {
+        self.cost += other.cost;
+        self.gradient += &other.gradient;
+        self.matrix += &other.matrix;
+    }
+}
+
 /// Stopping rule of [`minimise`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stop {

@@ -2,9 +2,14 @@
 
 use std::path::PathBuf;
 
-use calibrate::quadrature::{MixtureSet, Quadrature as Rule};
+use calibrate::evaluate::Viewing;
+use calibrate::library::PigmentLibrary;
+use calibrate::quadrature::{
+    EffectiveQuadrature, FilmSet, MixtureSet, Quadrature as Rule, QuadratureError,
+};
 use clap::{Args, ValueEnum};
-use serde_json::json;
+use serde_json::{Value, json};
+use spectra::TristimulusWeights;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -19,12 +24,16 @@ enum MethodName {
     Moments,
     /// Nodes and weights fitted to mixtures of the library
     Library,
+    /// Nodes of `library`, with weights and with K and S of every pigment fitted to films of the library:
+    /// what painting computes with
+    Effective,
 }
 
 /// Choose wavelengths and weights that give XYZ under a light
 ///
 /// With a library, prints the colour error against full integration over random mixtures (films
-/// that hide, of one to four pigments) that no method was fitted to.
+/// that hide, of one to four pigments) that no method was fitted to; for `effective` also over thin films on
+/// coloured grounds.
 #[derive(Debug, Args)]
 pub(crate) struct Quadrature {
     /// The pigment library (JSON)
@@ -43,7 +52,8 @@ pub(crate) struct Quadrature {
     mixtures: usize,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON: nodes_nm, weights, error (null without a library)
+    /// Print JSON: nodes_nm, weights, error (null without a library); for `effective` also pigments (name,
+    /// absorption, scattering at the nodes) and error_over_grounds
     #[arg(long)]
     json: bool,
 }
@@ -56,13 +66,18 @@ impl Quadrature {
             Some(_) => MethodName::Library,
             None => MethodName::Moments,
         });
+        if method == MethodName::Effective
+            && let Some(library) = &library
+        {
+            return self.effective(&viewing, library, console);
+        }
         let rule = match (method, &library) {
             (MethodName::Gauss, _) => Rule::gauss(&viewing, self.nodes)?,
             (MethodName::Moments, _) => Rule::moments(&viewing, self.nodes)?,
             (MethodName::Library, Some(library)) => Rule::library(&viewing, library, self.nodes)?,
-            (MethodName::Library, None) => {
+            (MethodName::Library | MethodName::Effective, _) => {
                 return Err(Failure::usage(
-                    "--method library needs a pigment library",
+                    "--method library and --method effective need a pigment library",
                     "try impasto quadrature LIBRARY.json",
                 ));
             }
@@ -82,22 +97,69 @@ impl Quadrature {
                 "error": error,
             }));
         }
-        console.line(format!(
-            "{} wavelengths for {}, observer {}",
-            rule.nodes_nm.len(),
-            viewing.illuminant.name(),
-            viewing.observer
-        ))?;
-        console.line("     nm          X          Y          Z")?;
-        for (nm, [x, y, z]) in rule.nodes_nm.iter().zip(&rule.weights) {
-            console.line(format!("{nm:7.2} {x:10.4} {y:10.4} {z:10.4}"))?;
+        rows(&rule, &viewing, console)?;
+        match error {
+            Some(error) => console.line(self.told("random mixtures", &error)),
+            None => Ok(()),
         }
-        if let Some(error) = error {
-            console.line(format!(
-                "CIEDE2000 over {} random mixtures (seed {}): mean {:.3}, 95 % below {:.3}, largest {:.3}",
-                self.mixtures, self.seed, error.mean, error.p95, error.max
-            ))?;
+    }
+
+    /// The method `effective`.
+    fn effective(
+        &self,
+        viewing: &Viewing,
+        library: &PigmentLibrary,
+        console: &mut Console<'_>,
+    ) -> Result<()> {
+        let effective = EffectiveQuadrature::of(viewing, library, self.nodes)?;
+        let weights = color_weights(viewing, library.grid, console)?;
+        let draw = |films: fn(&PigmentLibrary, &TristimulusWeights, usize, u64) -> FilmSet| {
+            let count = self.mixtures;
+            (count > 0)
+                .then(|| effective.error(library, &films(library, &weights, count, self.seed)))
+        };
+        let (hiding, over) = (draw(FilmSet::hiding), draw(FilmSet::over_grounds));
+        if self.json {
+            let curves = effective.absorption.iter().zip(&effective.scattering);
+            let pigments: Vec<Value> = library
+                .pigments
+                .iter()
+                .zip(curves)
+                .map(|(p, (k, s))| json!({ "name": p.name, "absorption": k, "scattering": s }))
+                .collect();
+            return console.json(&json!({
+                "nodes_nm": effective.rule.nodes_nm,
+                "weights": effective.rule.weights,
+                "error": hiding,
+                "error_over_grounds": over,
+                "pigments": pigments,
+            }));
+        }
+        rows(&effective.rule, viewing, console)?;
+        for (error, of) in [(hiding, "random mixtures"), (over, "films over random grounds")] {
+            if let Some(error) = error {
+                console.line(self.told(of, &error))?;
+            }
         }
         Ok(())
     }
+
+    fn told(&self, of: &str, error: &QuadratureError) -> String {
+        let (count, seed) = (self.mixtures, self.seed);
+        let QuadratureError { mean, p95, max } = error;
+        format!(
+            "CIEDE2000 over {count} {of} (seed {seed}): mean {mean:.3}, 95 % below {p95:.3}, largest {max:.3}"
+        )
+    }
+}
+
+/// Prints the wavelengths with their weights.
+fn rows(rule: &Rule, viewing: &Viewing, console: &mut Console<'_>) -> Result<()> {
+    let (count, light) = (rule.nodes_nm.len(), viewing.illuminant.name());
+    console.line(format!("{count} wavelengths for {light}, observer {}", viewing.observer))?;
+    console.line("     nm          X          Y          Z")?;
+    for (nm, [x, y, z]) in rule.nodes_nm.iter().zip(&rule.weights) {
+        console.line(format!("{nm:7.2} {x:10.4} {y:10.4} {z:10.4}"))?;
+    }
+    Ok(())
 }

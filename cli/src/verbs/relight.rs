@@ -165,7 +165,7 @@ fn print(painting: &Painting, as_json: bool, console: &mut Console<'_>) -> Resul
     }
     layers.push(("wet".to_owned(), 1.0, names(LayerRef::Wet)?));
     let lighting = &painting.state().lighting;
-    let nodes = &painting.light().quadrature.nodes_nm;
+    let nodes = &painting.light().quadrature.rule.nodes_nm;
     if as_json {
         let layers: Vec<_> = layers
             .iter()

@@ -1,8 +1,7 @@
 //! K and S of pigments at the quadrature's nodes in f32: the only place where the
 //! library's f64 becomes the f32 of painting.
 
-use pigment::library::PigmentLibrary;
-use pigment::quadrature::Quadrature;
+use pigment::quadrature::{EffectiveQuadrature, Quadrature};
 use spectra::Grid;
 use spectra::optics::Surface;
 
@@ -24,36 +23,43 @@ pub fn thickness_per_quantum(cell_mm: f64, scattering_per_mm: f64) -> f64 {
 /// If the quadrature does not have [`NODES`] nodes.
 #[must_use]
 pub fn at_nodes(quadrature: &Quadrature, grid: Grid, values: &[f64], scale: f64) -> [f32; NODES] {
-    let at_nodes = quadrature.at_nodes(grid, values);
+    scaled(&quadrature.at_nodes(grid, values), scale)
+}
+
+/// Values at the nodes times `scale`.
+///
+/// # Panics
+/// If there are not [`NODES`] values.
+#[must_use]
+pub(crate) fn scaled(at_nodes: &[f64], scale: f64) -> [f32; NODES] {
     assert_eq!(at_nodes.len(), NODES, "painting needs a quadrature of {NODES} nodes");
     std::array::from_fn(|i| (at_nodes[i] * scale) as f32)
 }
 
-/// Computes K and S of a layer per quantum. `slots` holds pigments of the
-/// library, `thickness_per_quantum` is that of [`thickness_per_quantum`], and `opacity`
-/// multiplies all K and S (1 leaves them as measured).
+/// Computes K and S of a layer per quantum. `slots` holds pigments of the library that
+/// `quadrature` was made for, `thickness_per_quantum` is that of [`thickness_per_quantum`],
+/// and `opacity` multiplies all K and S (1 leaves them as measured).
 ///
 /// # Panics
-/// If a slot holds a pigment that the library lacks, or if the quadrature does not have
+/// If a slot holds a pigment that the quadrature lacks, or if the quadrature does not have
 /// [`NODES`] nodes.
 #[must_use]
 pub fn layer_optics(
-    library: &PigmentLibrary,
     slots: &Slots,
-    quadrature: &Quadrature,
+    quadrature: &EffectiveQuadrature,
     thickness_per_quantum: f64,
     opacity: f64,
 ) -> LayerOptics {
-    let table = |spectrum: fn(&pigment::library::Pigment) -> &[f64]| {
+    let table = |curves: &[Vec<f64>]| {
         slots.map(|slot| match slot {
-            Some(pigment) => {
-                let values = spectrum(&library[pigment]);
-                at_nodes(quadrature, library.grid, values, thickness_per_quantum * opacity)
-            }
+            Some(pigment) => scaled(&curves[pigment.index()], thickness_per_quantum * opacity),
             None => [0.0; NODES],
         })
     };
-    LayerOptics { absorption: table(|p| &p.absorption), scattering: table(|p| &p.scattering) }
+    LayerOptics {
+        absorption: table(&quadrature.absorption),
+        scattering: table(&quadrature.scattering),
+    }
 }
 
 /// Converts the surface of a library's films to f32.

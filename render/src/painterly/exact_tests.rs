@@ -58,7 +58,7 @@ fn differences(document: &Document) -> Vec<f64> {
     let cell = |index: usize| {
         let (x, y) = (index % seen.width(), index / seen.width());
         let xyz = weights.xyz(&spectral.measured_reflectance(x, y));
-        let white = light.quadrature.white;
+        let white = light.quadrature.rule.white;
         let exact = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford).0;
         let [r, g, b, _] = seen[(x, y)].map(f64::from);
         delta_e_ciede2000(lab(exact), lab([r, g, b]))

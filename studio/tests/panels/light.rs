@@ -273,7 +273,7 @@ fn without_a_second_light_there_is_nothing_to_swap() {
 fn white_point_numbers_equal_those_of_the_library() {
     let mut stage = stage(made_painting());
     let light = stage.state().painting.light.clone();
-    let xyz = light.quadrature.white;
+    let xyz = light.quadrature.rule.white;
     let sum = xyz.x + xyz.y + xyz.z;
     let temperature = ColorTemperature::of(&light.viewing.illuminant).unwrap();
     let lines = [

@@ -225,6 +225,13 @@ fn quadrature_prints_its_keys_and_its_error_on_unseen_mixtures() {
     let other = json(&["quadrature", &library(), "--seed", "4", "--json"]);
     assert_eq!(other["nodes_nm"], rule["nodes_nm"], "the seed only selects the unseen mixtures");
     assert_ne!(other["error"], rule["error"]);
+    let effective = json(&["quadrature", &library(), "--method", "effective", "--json"]);
+    assert_eq!(effective["nodes_nm"], rule["nodes_nm"]);
+    let of = |key: &str| effective[key]["mean"].as_f64().unwrap();
+    assert!(of("error") < 0.1 && of("error_over_grounds") < 0.15, "{effective}");
+    assert!(of("error_over_grounds") > of("error"), "{effective}");
+    assert_eq!(effective["pigments"][1]["name"], "Zinc White");
+    assert_eq!(effective["pigments"][1]["absorption"].as_array().unwrap().len(), 8);
     let paper =
         json(&["quadrature", "--method", "gauss", "-n", "4", "--illuminant", "5600K", "--json"]);
     assert_eq!(paper["nodes_nm"].as_array().unwrap().len(), 4);

@@ -32,7 +32,7 @@ fn an_eye_that_adapted_in_part_keeps_some_of_the_color_of_the_light() {
         // Without adaptation, white has the chromaticity of the light itself.
         let found: Xyz =
             RgbSpace::Srgb.xyz_from_linear().apply(white(&light.rgb_at_degree(0.0))).into();
-        let wanted = light.quadrature.white;
+        let wanted = light.quadrature.rule.white;
         let [found, wanted] =
             [found, wanted].map(|v| [v.x / (v.x + v.y + v.z), v.y / (v.x + v.y + v.z)]);
         for (found, wanted) in found.iter().zip(wanted) {

@@ -1,8 +1,8 @@
 //! Colour of paint: eight wavelengths against the full spectrum, and mixtures of pigments against
 //! mixtures of lights.
 
-use calibrate::PigmentId;
 use calibrate::evaluate::{Summary, Viewing, percentile};
+use calibrate::{Curves, PigmentId};
 use render::light::{Light, Mixer};
 use render::paint::document::{Document, DryLayer};
 use render::paint::scene::{SpectralDocument, picture, scene};
@@ -34,7 +34,7 @@ fn exact_xyz(document: &Document, viewing: &Viewing) -> Vec<Xyz> {
 /// sRGB.
 fn errors(document: &Document, name: &str) -> Vec<f64> {
     let light = light(&document.library, name);
-    let white = light.quadrature.white;
+    let white = light.quadrature.rule.white;
     let exact = exact_xyz(document, &viewing(name));
     let pairs = labs(document, &light).into_iter().zip(&exact);
     pairs
@@ -65,8 +65,8 @@ fn the_spectrum_at_the_nodes_has_the_color_of_the_picture() {
     let picture = picture(&document, &scene(&document, &light));
     for y in [0, 17, 47] {
         for x in 0..picture.width() {
-            let xyz = light.quadrature.xyz(&at_nodes.measured_reflectance(x, y));
-            let white = light.quadrature.white;
+            let xyz = light.quadrature.rule.xyz(&at_nodes.measured_reflectance(x, y));
+            let white = light.quadrature.rule.white;
             let exact = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford).0;
             let found = picture[(x, y)];
             for channel in 0..3 {
@@ -86,7 +86,7 @@ fn a_perfect_diffuse_is_white_under_every_light() {
             assert!((sum - 1.0).abs() < 2e-6, "{name}: {sum}");
         }
         let full = viewing(name).weights(crate::made_up::oils().grid).unwrap().white();
-        let ours = light.quadrature.white;
+        let ours = light.quadrature.rule.white;
         let near = full.to_array().into_iter().zip(ours.to_array()).all(|(a, b)| a == b);
         assert!(near, "{name}: {full:?} {ours:?}");
     }
@@ -138,12 +138,10 @@ fn a_mixer_mixes_as_the_library_does() {
                 assert_eq!(found, mixer.mix(share));
                 let t = f64::from(share);
                 let parts = [(first, 1.0 - t), (second, 0.5 * t), (PigmentId(9), 0.5 * t)];
-                let mut mixture = library.mix(parts).unwrap();
-                for values in [&mut mixture.absorption, &mut mixture.scattering] {
-                    *values = light.quadrature.at_nodes(library.grid, values);
-                }
-                let xyz = light.quadrature.xyz(&mixture.hiding(library.saunderson));
-                let white = light.quadrature.white;
+                let [absorption, scattering] = light.quadrature.mixed(&parts);
+                let mixture = Curves { grid: library.grid, absorption, scattering };
+                let xyz = light.quadrature.rule.xyz(&mixture.hiding(library.saunderson));
+                let white = light.quadrature.rule.white;
                 let Rgb(exact) = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford);
                 for channel in 0..3 {
                     let error = (f64::from(found[channel]) - exact[channel]).abs();

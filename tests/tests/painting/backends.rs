@@ -89,7 +89,7 @@ fn eight_wavelengths_show_a_finished_painting_as_the_full_spectrum_does() {
     let weights = Viewing::default().weights(document.library.grid).unwrap();
     let cells = (0..130 * 100).map(|i| (i % 130, i / 130));
     let light = painting.light();
-    let white = light.quadrature.white;
+    let white = light.quadrature.rule.white;
     let exact = cells.map(|(x, y)| {
         let xyz = weights.xyz(&spectral.measured_reflectance(x, y));
         let linear =

@@ -180,7 +180,7 @@ fn a_spectral_export_at_the_nodes_has_the_colors_that_were_shown() {
         })
         .collect();
     let bytes =
-        render::export::spectral_exr(&flat, &quadrature.nodes_nm, &planes, CELL_MM).unwrap();
+        render::export::spectral_exr(&flat, &quadrature.rule.nodes_nm, &planes, CELL_MM).unwrap();
     let channels = exr_channels(&bytes);
     let mut nodes: Vec<(f64, &Vec<f32>)> = channels
         .iter()
@@ -193,13 +193,13 @@ fn a_spectral_export_at_the_nodes_has_the_colors_that_were_shown() {
     assert_eq!(nodes.len(), 8, "{:?}", channels.iter().map(|c| &c.0).collect::<Vec<_>>());
     let cells = (0..130 * 100).map(|cell| {
         let mut xyz = [0.0; 3];
-        for ((_, values), weights) in nodes.iter().zip(&quadrature.weights) {
+        for ((_, values), weights) in nodes.iter().zip(&quadrature.rule.weights) {
             for (sum, weight) in xyz.iter_mut().zip(weights) {
                 *sum += f64::from(values[cell]) * weight;
             }
         }
         let rgb =
-            RgbSpace::Srgb.linear_from_xyz(xyz.into(), quadrature.white, Adaptation::Bradford);
+            RgbSpace::Srgb.linear_from_xyz(xyz.into(), quadrature.rule.white, Adaptation::Bradford);
         let [r, g, b] = rgb.0.map(|v| v as f32);
         [r, g, b, 1.0]
     });

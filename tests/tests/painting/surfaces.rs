@@ -194,8 +194,8 @@ fn light_gloss_stiffness_and_wet_swaps_are_those_of_both_surfaces() {
             assert_eq!(painting.medium().wet, wet);
             assert_eq!(painting.medium().stiffness, 0.25);
             assert!(painting.state().slots.contains(&Some(pigment("Cobalt Blue"))));
-            let nodes = session.canvas().light().quadrature.nodes_nm.clone();
-            assert_eq!(painting.light().quadrature.nodes_nm, nodes);
+            let nodes = session.canvas().light().quadrature.rule.nodes_nm.clone();
+            assert_eq!(painting.light().quadrature.rule.nodes_nm, nodes);
         }
         assert_eq!(
             session.history().0,

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
-use calibrate::quadrature::Quadrature;
+use calibrate::quadrature::EffectiveQuadrature;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use render::layer::SLOTS;
@@ -16,7 +16,7 @@ use suite::program::repository;
 pub(crate) struct Studio {
     pub(crate) library: PigmentLibrary,
 
-    pub(crate) quadrature: Quadrature,
+    pub(crate) quadrature: EffectiveQuadrature,
     pub(crate) ground: Vec<f64>,
     /// White, black, three yellows to reds, two blues and a green.
     pub(crate) slots: Slots,
@@ -26,7 +26,7 @@ pub(crate) static STUDIO: LazyLock<Studio> = LazyLock::new(|| {
     let path = repository("measurements/van-gogh-oils.pigments.json");
     let text = std::fs::read_to_string(&path).unwrap();
     let library = PigmentLibrary::from_json(&path, &text).unwrap();
-    let quadrature = Quadrature::library(&Viewing::default(), &library, 8).unwrap();
+    let quadrature = EffectiveQuadrature::of(&Viewing::default(), &library, 8).unwrap();
     let ground = vec![0.85; library.grid.count()];
     let slots = [
         "Zinc White",

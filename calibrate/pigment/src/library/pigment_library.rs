@@ -269,6 +269,22 @@ impl PigmentLibrary {
     /// # Panics
     /// If a pigment belongs to a larger library.
     pub fn mix(&self, recipe: impl AsRef<[(PigmentId, f64)]>) -> Result<Curves, RecipeError> {
+        let parts = self.parts(recipe)?;
+        let weighted = parts.iter().map(|&(id, part)| {
+            let pigment = &self[id];
+            (part, pigment.absorption.as_slice(), pigment.scattering.as_slice())
+        });
+        Ok(Curves::weighted_sum(self.grid, weighted))
+    }
+
+    /// Parts of a recipe as K and S are weighted by them: normalised to sum 1 in a relative library.
+    ///
+    /// # Errors
+    /// [`RecipeError::Parts`] unless every part is 0 to 1e12 and they sum to 1e-12 or more.
+    pub fn parts(
+        &self,
+        recipe: impl AsRef<[(PigmentId, f64)]>,
+    ) -> Result<Vec<(PigmentId, f64)>, RecipeError> {
         let parts = recipe.as_ref();
         if let Some((_, part)) = parts.iter().find(|(_, part)| !PARTS.contains(part)) {
             return Err(RecipeError::Parts { parts: *part });
@@ -278,11 +294,7 @@ impl PigmentLibrary {
             return Err(RecipeError::Parts { parts: total });
         }
         let scale = if self.amounts == AmountKind::Relative { 1.0 / total } else { 1.0 };
-        let weighted = parts.iter().map(|&(id, part)| {
-            let pigment = &self[id];
-            (part * scale, pigment.absorption.as_slice(), pigment.scattering.as_slice())
-        });
-        Ok(Curves::weighted_sum(self.grid, weighted))
+        Ok(parts.iter().map(|&(id, part)| (id, part * scale)).collect())
     }
 }
 

@@ -9,6 +9,9 @@
 //! | `gauss` | Gaussian nodes of the weight (x + y + z) E | as published: the weight of each node, divided among X, Y and Z in the ratio of x, y and z there |
 //! | `moments` | the nodes of `gauss` | exact for polynomials of degree n - 1 under each of x E, y E and z E |
 //! | `library` | fitted together with the weights to the mixtures of a pigment library | fitted |
+//!
+//! [`EffectiveQuadrature`] begins with `library` and fits, besides the weights, K and S of every pigment at
+//! the nodes. Painting computes with it.
 
 mod gauss;
 
@@ -16,10 +19,18 @@ mod mixtures;
 
 mod rule;
 
+mod films;
+
+mod effective;
+
 mod fitted;
+
+mod effective_fit;
 
 mod trial;
 
+pub use effective::EffectiveQuadrature;
+pub use films::FilmSet;
 pub use gauss::GaussRule;
 pub use mixtures::MixtureSet;
 pub use rule::{Quadrature, QuadratureError, QuadratureFailure};

@@ -114,10 +114,17 @@ impl Quadrature {
                 )
             })
             .collect();
-        QuadratureError {
+        QuadratureError::of(&errors)
+    }
+}
+
+impl QuadratureError {
+    /// Summary of the errors of several colours.
+    pub(super) fn of(errors: &[f64]) -> Self {
+        Self {
             mean: errors.iter().sum::<f64>() / errors.len().max(1) as f64,
-            p95: percentile(&errors, 95.0),
-            max: percentile(&errors, 100.0),
+            p95: percentile(errors, 95.0),
+            max: percentile(errors, 100.0),
         }
     }
 }

@@ -37,7 +37,7 @@ pub fn spectral_file(
     let (wavelengths_nm, spectral) = match bands {
         SpectralBands::Nodes => {
             let spectral = SpectralDocument::at_nodes(document, &light.quadrature);
-            (light.quadrature.nodes_nm.clone(), spectral)
+            (light.quadrature.rule.nodes_nm.clone(), spectral)
         }
         SpectralBands::Full => {
             let wavelengths_nm = document.library.grid.wavelengths_nm().collect();

@@ -5,7 +5,7 @@ use pigment::library::{PigmentLibrary, RecipeError};
 use pulp::Simd;
 
 use super::node_light::Light;
-use crate::node_pigments::{at_nodes, scene_surface};
+use crate::node_pigments::{scaled, scene_surface};
 use crate::optics::{NODES, SceneSurface};
 use graphics::lanes::{greater, lesser, multiply_add};
 
@@ -35,14 +35,16 @@ impl Mixer {
         first: &[(PigmentId, f64)],
         second: &[(PigmentId, f64)],
     ) -> Result<Self, RecipeError> {
-        let (first, second) = (library.mix(first)?, library.mix(second)?);
+        let (first, second) = (library.parts(first)?, library.parts(second)?);
+        let [k_first, s_first] = light.quadrature.mixed(&first);
+        let [k_second, s_second] = light.quadrature.mixed(&second);
         let pair = |first: &[f64], second: &[f64]| {
             let more: Vec<f64> = second.iter().zip(first).map(|(b, a)| b - a).collect();
-            [first, &more].map(|values| at_nodes(&light.quadrature, library.grid, values, 1.0))
+            [scaled(first, 1.0), scaled(&more, 1.0)]
         };
         Ok(Self {
-            absorption: pair(&first.absorption, &second.absorption),
-            scattering: pair(&first.scattering, &second.scattering),
+            absorption: pair(&k_first, &k_second),
+            scattering: pair(&s_first, &s_second),
             surface: scene_surface(&library.saunderson),
             rgb_from_nodes: light.rgb_from_nodes,
         })

@@ -3,7 +3,7 @@
 
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
-use pigment::quadrature::{Quadrature, QuadratureFailure};
+use pigment::quadrature::{EffectiveQuadrature, Quadrature, QuadratureFailure};
 use spectra::color::{Adaptation, RgbSpace};
 use spectra::hint::{Explain, Fault, Hint};
 use spectra::{LightError, Observer, ObserverError, light_from_text};
@@ -15,23 +15,22 @@ use crate::optics::NODES;
 pub struct Light {
     /// Illuminant and observer.
     pub viewing: Viewing,
-    /// Wavelengths and their weights in XYZ, fitted to the library's mixtures
-    /// ([`Quadrature::library`]). Their white is that of the full spectrum.
-    pub quadrature: Quadrature,
+    /// Wavelengths, their weights in XYZ, and K and S of every pigment, fitted to films of the
+    /// library ([`EffectiveQuadrature::of`]). Their white is that of the full spectrum.
+    pub quadrature: EffectiveQuadrature,
     /// Linear sRGB of reflectance 1 at each wavelength, adapted from the light's white to D65
     /// by Bradford's transform. They sum to (1, 1, 1) up to rounding.
     pub rgb_from_nodes: [[f32; 3]; NODES],
 }
 
 impl Light {
-    /// Prepares the light of `viewing` for painting with `library`. Takes a good part of a
-    /// second.
+    /// Prepares the light of `viewing` for painting with `library`. Takes about a second.
     ///
     /// # Errors
     /// [`PaintLightError::Quadrature`] if the light has fewer than eight usable wavelengths.
     pub fn new(library: &PigmentLibrary, viewing: &Viewing) -> Result<Self, PaintLightError> {
-        let quadrature = Quadrature::library(viewing, library, NODES)?;
-        let rgb_from_nodes = rgb_from_nodes(&quadrature, 1.0).map(|rgb| rgb.map(|v| v as f32));
+        let quadrature = EffectiveQuadrature::of(viewing, library, NODES)?;
+        let rgb_from_nodes = rgb_from_nodes(&quadrature.rule, 1.0).map(|rgb| rgb.map(|v| v as f32));
         Ok(Self { viewing: viewing.clone(), quadrature, rgb_from_nodes })
     }
 
@@ -46,7 +45,7 @@ impl Light {
         if degree >= 1.0 {
             return self.rgb_from_nodes;
         }
-        let rgb = rgb_from_nodes(&self.quadrature, degree);
+        let rgb = rgb_from_nodes(&self.quadrature.rule, degree);
         let white = |channel: usize| rgb.iter().map(|rgb| rgb[channel]).sum::<f64>();
         let greatest = (0..3).map(white).fold(f64::MIN_POSITIVE, f64::max);
         rgb.map(|rgb| rgb.map(|value| (value / greatest) as f32))

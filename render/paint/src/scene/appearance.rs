@@ -53,11 +53,10 @@ impl<'a> Appearance<'a> {
     pub fn scene(&self, light: &Light) -> Scene {
         let Self { library, medium, ground, lighting, .. } = *self;
         let thickness = thickness_per_quantum(self.cell_mm, medium.scattering_per_mm);
-        let optics =
-            |slots, opacity| layer_optics(library, slots, &light.quadrature, thickness, opacity);
+        let optics = |slots, opacity| layer_optics(slots, &light.quadrature, thickness, opacity);
         let below = internal_ground(library, &ground.reflectance);
         Scene {
-            ground: at_nodes(&light.quadrature, library.grid, &below, 1.0),
+            ground: at_nodes(&light.quadrature.rule, library.grid, &below, 1.0),
             dry: self.dry.iter().map(|(slots, opacity)| optics(slots, *opacity)).collect(),
             wet: optics(self.slots, 1.0),
             surface: scene_surface(&library.saunderson),

@@ -1,7 +1,8 @@
 //! Reflectance of every cell by wavelength in f64: the reference for the eight
 //! wavelengths of the engine, used for spectral files and the eyedropper.
 
-use pigment::quadrature::Quadrature;
+use pigment::PigmentId;
+use pigment::quadrature::EffectiveQuadrature;
 use rayon::prelude::*;
 use spectra::optics::{Layer as Film, Surface};
 
@@ -28,20 +29,42 @@ impl SpectralStack {
     /// The stack at all wavelengths of the library.
     #[must_use]
     pub fn full(appearance: &Appearance<'_>) -> Self {
-        Self::new(appearance, |values| values.to_vec())
+        let library = appearance.library;
+        Self::new(
+            appearance,
+            |ground| ground,
+            |pigment| [&library[pigment].absorption, &library[pigment].scattering],
+        )
     }
 
-    fn new(appearance: &Appearance<'_>, at: impl Fn(&[f64]) -> Vec<f64>) -> Self {
+    /// The stack at the nodes of `quadrature`.
+    fn at_nodes(appearance: &Appearance<'_>, quadrature: &EffectiveQuadrature) -> Self {
+        let grid = appearance.library.grid;
+        Self::new(
+            appearance,
+            |ground| quadrature.rule.at_nodes(grid, &ground),
+            |pigment| {
+                [&quadrature.absorption, &quadrature.scattering]
+                    .map(|curves| &curves[pigment.index()])
+            },
+        )
+    }
+
+    fn new<'a>(
+        appearance: &Appearance<'_>,
+        ground_at: impl Fn(Vec<f64>) -> Vec<f64>,
+        curves: impl Fn(PigmentId) -> [&'a Vec<f64>; 2],
+    ) -> Self {
         let Appearance { library, medium, cell_mm, .. } = *appearance;
         let thickness = thickness_per_quantum(cell_mm, medium.scattering_per_mm);
-        let ground = at(&internal_ground(library, &appearance.ground.reflectance));
+        let ground = ground_at(internal_ground(library, &appearance.ground.reflectance));
         let optics = |slots: &Slots, opacity: f64| {
             let mut optics = vec![[[0.0; 2]; SLOTS]; ground.len()];
             for (slot, pigment) in slots.iter().enumerate() {
                 let Some(pigment) = *pigment else { continue };
-                let pigment = &library[pigment];
-                let both = at(&pigment.absorption).into_iter().zip(at(&pigment.scattering));
-                for (optics, (k, s)) in optics.iter_mut().zip(both) {
+                let [absorption, scattering] = curves(pigment);
+                let both = absorption.iter().zip(scattering);
+                for (optics, (&k, &s)) in optics.iter_mut().zip(both) {
                     optics[slot] = [k, s].map(|v| v * thickness * opacity);
                 }
             }
@@ -96,18 +119,19 @@ impl<'a> SpectralDocument<'a> {
     /// Reflectance at all wavelengths of the document's library.
     #[must_use]
     pub fn full(document: &'a Document) -> Self {
-        Self::new(document, |values| values.to_vec())
+        Self::new(document, SpectralStack::full)
     }
 
-    /// Reflectance at the nodes of `quadrature`.
+    /// Reflectance at the nodes of `quadrature`, as pictures are computed. With K and S that stand
+    /// for bands, it is near the reflectance at these wavelengths, but has the colour of the whole.
     #[must_use]
-    pub fn at_nodes(document: &'a Document, quadrature: &Quadrature) -> Self {
-        Self::new(document, |values| quadrature.at_nodes(document.library.grid, values))
+    pub fn at_nodes(document: &'a Document, quadrature: &EffectiveQuadrature) -> Self {
+        Self::new(document, |appearance| SpectralStack::at_nodes(appearance, quadrature))
     }
 
-    fn new(document: &'a Document, at: impl Fn(&[f64]) -> Vec<f64>) -> Self {
+    fn new(document: &'a Document, stack: impl Fn(&Appearance<'_>) -> SpectralStack) -> Self {
         let dry: Vec<_> = document.dry.iter().map(|layer| (layer.slots, layer.opacity)).collect();
-        let stack = SpectralStack::new(&Appearance::of(document, &dry), at);
+        let stack = stack(&Appearance::of(document, &dry));
         let layers = document.dry.iter().map(|layer| &layer.paint).chain([&document.wet]);
         Self { document, stack, layers: layers.collect() }
     }

@@ -6,7 +6,7 @@
 //! to the white of the light by Bradford's transform, as everywhere in impasto.
 
 use pigment::library::PigmentLibrary;
-use pigment::quadrature::Quadrature;
+use pigment::quadrature::EffectiveQuadrature;
 use spectra::color::{Adaptation, Lab, Matrix3, RgbSpace, Xyz};
 use spectra::optics::{Layer, Surface};
 
@@ -65,17 +65,17 @@ impl PaintFilm {
     /// If the ground's reflectance is not on the library's grid, or a slot refers to a
     /// pigment that the library lacks.
     #[must_use]
-    pub fn at_nodes(materials: FilmMaterials<'_>, quadrature: &Quadrature) -> Self {
+    pub fn at_nodes(materials: FilmMaterials<'_>, quadrature: &EffectiveQuadrature) -> Self {
         let FilmMaterials { library, slots, ground, scattering_per_mm } = materials;
         assert_eq!(
             ground.len(),
             library.grid.count(),
             "the ground's reflectance is not on the library's grid"
         );
-        let at = |values: &[f64]| quadrature.at_nodes(library.grid, values);
-        let (surface, white) = (library.saunderson, quadrature.white);
-        let ground = at(ground);
+        let (surface, white) = (library.saunderson, quadrature.rule.white);
+        let ground = quadrature.rule.at_nodes(library.grid, ground);
         let mut bands: Vec<Band> = quadrature
+            .rule
             .weights
             .iter()
             .zip(&ground)
@@ -90,9 +90,10 @@ impl PaintFilm {
         let mut used = Vec::new();
         for (slot, pigment) in slots.iter().enumerate() {
             let Some(pigment) = pigment else { continue };
-            let pigment = &library[*pigment];
             used.push(slot);
-            let planes = at(&pigment.absorption).into_iter().zip(at(&pigment.scattering));
+            let [absorption, scattering] =
+                [&quadrature.absorption, &quadrature.scattering].map(|c| &c[pigment.index()]);
+            let planes = absorption.iter().zip(scattering);
             for (band, (k, s)) in bands.iter_mut().zip(planes) {
                 band.absorption[slot] = scattering_per_mm * k;
                 band.scattering[slot] = scattering_per_mm * s;

@@ -15,7 +15,7 @@ const STEP_NM: usize = 2;
 pub(super) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
     let mut curves: Vec<Curve> = others.iter().map(|(other, color)| curve(other, *color)).collect();
     curves.push(curve(&light.viewing.illuminant, theme::TEXT));
-    let marks = &light.quadrature.nodes_nm;
+    let marks = &light.quadrature.rule.nodes_nm;
     let chart = Chart { curves: &curves, marks, quantity: "relative power", max: None };
     let nodes: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
     let size = vec2(ui.available_width(), 120.0);

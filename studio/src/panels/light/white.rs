@@ -18,7 +18,7 @@ pub(super) struct White {
 impl White {
     /// Computes the white point of `light`.
     pub(super) fn of(light: &Arc<Light>) -> Self {
-        let white = light.quadrature.white;
+        let white = light.quadrature.rule.white;
         let xyy = white.to_xyy(white);
         Self {
             light: Arc::clone(light),

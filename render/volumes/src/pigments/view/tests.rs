@@ -182,7 +182,8 @@ fn blue_and_yellow_that_overlap_have_the_colour_of_their_mixture() {
     let color = Field::filled(1, 1, [0.5; 4]);
     let none = Drawing { color: &color, cover: None, ink: None, tint: None, films: None };
     // Pictures are computed at eight wavelengths, whose error differs from mixture to mixture.
-    for (blue, in_picture) in [("Prussian Blue", 0.2), ("Ultramarine", 0.4), ("Cobalt Blue", 0.8)] {
+    for (blue, in_picture) in [("Prussian Blue", 0.2), ("Ultramarine", 0.2), ("Cobalt Blue", 0.85)]
+    {
         let names = [blue, "Chrome Yellow"].map(str::to_owned);
         let painter = bare.clone().with_slots(palette_slots(&names, library).unwrap());
         let view = FilmView::new(&painter, &level_light()).unwrap();
