@@ -33,12 +33,17 @@ mod pouring;
 
 mod lifting;
 
+mod drying;
+
 mod splitting;
 
 mod time;
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod drying_tests;
 
 #[cfg(test)]
 mod limit_tests;

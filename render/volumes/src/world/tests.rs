@@ -94,6 +94,9 @@ fn random_actions_keep_every_quantum() {
                 // Too small a volume may hold no sample.
                 let _ = world.split(index);
             }
+            502 => {
+                world.dry_within(place, random.random_range(0.05..0.8)).unwrap();
+            }
             _ => {
                 world.move_paint().unwrap();
                 for volume in &mut world.volumes {

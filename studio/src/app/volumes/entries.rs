@@ -47,6 +47,13 @@ pub const SCENE_ENTRIES: &[SceneEntry] = &[
         &[key(CTRL, Key::S)],
     ),
     entry(
+        SceneIntent::Library,
+        SceneMenu::File,
+        "Open library...",
+        "Fills the tubes from a pigment library (.json); what was poured is paint of its pigments",
+        &[key(CTRL, Key::L)],
+    ),
+    entry(
         SceneIntent::Easel,
         SceneMenu::File,
         "Back to the easel",
@@ -163,8 +170,15 @@ pub const SCENE_ENTRIES: &[SceneEntry] = &[
         SceneIntent::Tool(SceneTool::Dry),
         SceneMenu::Tools,
         "Dry",
-        "A click dries all paint and its shape",
+        "The pen dries the volumes below it, paint and shape",
         &[key(NONE, Key::D)],
+    ),
+    entry(
+        SceneIntent::DryAll,
+        SceneMenu::Tools,
+        "Dry all paint",
+        "Dries all paint and its shape at once",
+        &[key(Modifiers::SHIFT, Key::D)],
     ),
     entry(
         SceneIntent::Keys,

@@ -6,6 +6,8 @@ mod pigments;
 
 mod faults;
 
+mod recordings;
+
 use std::path::Path;
 
 use image::RgbImage;
