@@ -10,10 +10,11 @@ use render::volumes::script::{
 };
 use render::volumes::settings::Settings;
 use render::volumes::toml_text::{Fault, KeyPath, KeyStep};
+use render::watercolor::PhotographPainter;
 
 use super::pours::PourOptions;
 use crate::failure::{Context, Failure, Result};
-use crate::subject::{Subject, SubjectOptions};
+use crate::subject::{PictureViews, Subject, SubjectOptions};
 
 /// A script with the file that it was read from, if any.
 pub(super) struct OpenScript {
@@ -161,15 +162,20 @@ impl OpenScript {
         frames: usize,
     ) -> Result<Scene> {
         let subject = self.subject(path)?;
-        let (read, mut inputs) = options.subject(&subject, true)?;
+        let own = self.script.camera.as_ref().filter(|_| !options.has_camera());
+        let own = own.map(|camera| camera.camera(frames));
+        let views = match own {
+            Some(ScriptCamera::Path(_)) => PictureViews::Free,
+            _ => PictureViews::Turned,
+        };
+        let (read, mut inputs) = options.subject(&subject, views)?;
         if self.file.is_some() {
             inputs.push(path.to_owned());
         }
         let scene = match read {
             Subject::Mesh(mesh, cameras, size) => {
                 let aspect = size.0 as f32 / size.1 as f32;
-                let own = self.script.camera.as_ref().filter(|_| !options.has_camera());
-                let cameras = match own.map(|camera| camera.camera(frames)) {
+                let cameras = match own {
                     None => cameras,
                     Some(ScriptCamera::Path(path)) => path_cameras(&path, &mesh),
                     Some(ScriptCamera::Framing(framing)) => {
@@ -181,6 +187,24 @@ impl OpenScript {
             Subject::Photograph(photograph, width) => {
                 let (own_width, own_height) = photograph.size();
                 let rows = (width as f64 * own_height as f64 / own_width as f64).round() as usize;
+                if let Some(ScriptCamera::Path(path)) = own {
+                    // As the studio shows it: with the pixels that it has by itself.
+                    let columns = PhotographPainter::usual_width_px(&photograph);
+                    let height = columns as f64 * own_height as f64 / own_width as f64;
+                    let picture =
+                        photograph.with_opacity(columns, (height.round() as usize).max(1));
+                    let mesh = Mesh::of_picture(&picture);
+                    let cameras = path_cameras(&path, &mesh);
+                    let size = (width, options.height().unwrap_or(rows).max(1));
+                    return with_cameras(Scene {
+                        mesh,
+                        cameras,
+                        size,
+                        photograph: true,
+                        subject,
+                        inputs,
+                    });
+                }
                 let size = (width, rows.max(1));
                 let mesh = Mesh::of_picture(&photograph.with_opacity(size.0, size.1));
                 let view = PictureView::of(photograph.size());
@@ -189,10 +213,15 @@ impl OpenScript {
                 Scene { mesh, cameras, size, photograph: true, subject, inputs }
             }
         };
-        match scene.cameras.is_empty() {
-            false => Ok(scene),
-            true => Err(Failure::data("the camera path has no frames", "give frames = 60")),
-        }
+        with_cameras(scene)
+    }
+}
+
+/// A scene that some camera sees.
+fn with_cameras(scene: Scene) -> Result<Scene> {
+    match scene.cameras.is_empty() {
+        false => Ok(scene),
+        true => Err(Failure::data("the camera path has no frames", "give frames = 60")),
     }
 }
 

@@ -202,3 +202,23 @@ fn a_recording_of_the_studio_replayed_by_the_verb_has_the_same_bytes() {
     assert!(by_lamp != by_day, "another green, another light");
     assert!(by_lamp == replayed(&recording, &exact, &[]), "other pigments by lamplight");
 }
+
+#[test]
+fn a_recording_on_a_photograph_is_replayed_from_its_own_camera() {
+    let folder = TempDir::new().unwrap();
+    let [photo, recording, picture] =
+        ["photo.png", "r.toml", "p.exr"].map(|name| path(&folder, name));
+    let own = |x: u32, y: u32| image::Rgb([200, (3 * x) as u8, (5 * y) as u8]);
+    image::RgbImage::from_fn(60, 40, own).save(&photo).unwrap();
+    let mut session = Session::open(Subject::File(photo.into()));
+    session.orbit(9.87);
+    let pour = Grip { tube: 2, rate_mm3_s: 222.0, ..Grip::default() };
+    session.gesture(pour, [0.4, 0.5], [0.6, 0.55]);
+    let end = session.state().time.end;
+    session.seek(end);
+    session.save(&recording);
+    let shown = session.exported(PictureFormat::LinearExr);
+    assert!(shown == replayed(&recording, &picture, &[]), "the same bytes");
+    session.orbit(-9.0);
+    assert!(shown != session.exported(PictureFormat::LinearExr), "it is seen from its camera");
+}
