@@ -62,7 +62,7 @@ fn the_dryer_dries_below_the_pen_and_its_key_dries_all() {
     rest(&mut window);
     window.key(Modifiers::NONE, Key::D);
     assert_eq!(volumes(&window).tools.grip.tool, SceneTool::Dry);
-    assert!(window.harness().query_by_label("Radius").is_some(), "it has a radius");
+    assert!(window.harness().query_all_by_label("Radius").next().is_some(), "it has a radius");
     window.save("volumes-dry");
     let (from, to) = (at(&window, 0.5, 0.55), at(&window, 0.56, 0.58));
     window.pen_stroke(&[from, from + 0.5 * (to - from), to]);

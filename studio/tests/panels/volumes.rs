@@ -233,11 +233,11 @@ fn a_right_click_tells_what_is_there() {
     let height: f64 = paint.amounts_mm.iter().sum();
     assert!(height > 0.0 && height == paint.amounts_mm[0], "{here:?}");
     window.frame(Vec::new());
-    window.save("volumes-here");
+    window.save("volumes-card");
     // The card and the panel tell CIELAB, recipe, height and region as the easel's eyedropper does.
     let lab = here.lab.map(|value| format!("{value:.2}")).join(" ");
     let told = |window: &mut Window| {
-        let found = |label: &str| window.harness().query_all_by_label(label).count();
+        let mut found = |label: &str| window.harness().query_all_by_label(label).count();
         [found(&lab), found("Zinc White"), found(&format!("{height:.3} mm")), found("Copy Paint")]
     };
     assert!(told(&mut window).into_iter().all(|count| count > 0), "{:?}", told(&mut window));

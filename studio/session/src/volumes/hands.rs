@@ -76,7 +76,10 @@ impl Scene {
     }
 
     /// Plays to the moment that is sought.
-    fn reach_moment(&mut self) -> Result<(), FileFailure> {
+    ///
+    /// # Errors
+    /// [`FileFailure`] for an event that cannot be done.
+    pub(super) fn reach_moment(&mut self) -> Result<(), FileFailure> {
         while self.is_behind() {
             self.timeline.step()?;
         }

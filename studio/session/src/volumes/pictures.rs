@@ -1,7 +1,7 @@
 //! What a scene shows: pictures, its painting, what is at a place, and its script.
 
 use render::camera::Camera;
-use render::encoding::linear_from_encoded;
+use render::encoding::{linear_from_encoded, over_white};
 use render::export::frame_of;
 use render::field::Field;
 use render::paint::document::Document;
@@ -26,6 +26,8 @@ impl Scene {
     /// # Errors
     /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn image(&mut self, sight: &Sight) -> Result<SceneImage, FileFailure> {
+        // Asked for while the moment is sought, it is that of the moment.
+        self.reach_moment()?;
         if self.painters.paints(&self.look) {
             return SceneImage::of_painting(self.painting(sight)?);
         }
@@ -39,7 +41,8 @@ impl Scene {
     pub(super) fn picture(&mut self, sight: &Sight) -> Result<Field<[f32; 4]>, FileFailure> {
         let world = self.timeline.now().world();
         let picture = self.painters.picture(world, sight, &self.look, Quality::BEST)?;
-        Ok(linear_from_encoded(&picture))
+        // As the command line writes it, to the bit.
+        Ok(linear_from_encoded(&over_white(&picture)))
     }
 
     /// The painting that the scene makes.
@@ -47,6 +50,7 @@ impl Scene {
     /// # Errors
     /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn painting(&mut self, sight: &Sight) -> Result<Document, FileFailure> {
+        self.reach_moment()?;
         let world = self.timeline.now().world();
         let title = &self.recorded.base().title;
         self.painters.painting(world, sight, &self.look, title)
