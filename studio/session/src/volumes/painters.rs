@@ -59,6 +59,9 @@ struct Made {
     painter: VolumePainter,
 }
 
+/// A painter that is being made, with its kind and the number of its pigments.
+type InMaking = (Kind, u64, Making<Result<VolumePainter, PaintingError>>);
+
 /// The painters of a scene.
 #[derive(Debug)]
 pub(super) struct Painters {
@@ -72,7 +75,7 @@ pub(super) struct Painters {
     /// Kind and pigments of the painter that could not be made last.
     failed: Option<(Kind, u64)>,
     /// A painter that is being made.
-    making: Option<(Kind, u64, Making<Result<VolumePainter, PaintingError>>)>,
+    making: Option<InMaking>,
 }
 
 impl Painters {
