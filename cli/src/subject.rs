@@ -43,6 +43,17 @@ pub(crate) struct SubjectOptions {
     turntable: Option<u64>,
 }
 
+/// Cameras that may see a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PictureViews {
+    /// The whole picture from the front.
+    Front,
+    /// Also cameras that options turn.
+    Turned,
+    /// Any camera, with pictures of any shape.
+    Free,
+}
+
 /// A model or picture to paint.
 pub(crate) enum Subject {
     /// A photograph, and the width of the picture in pixels.
@@ -52,9 +63,14 @@ pub(crate) enum Subject {
 }
 
 impl SubjectOptions {
-    /// Reads the subject. Returns it with the paths of the files that it was read from. `turned` says
-    /// that cameras may turn a picture too.
-    pub(crate) fn subject(&self, path: &Path, turned: bool) -> Result<(Subject, Vec<PathBuf>)> {
+    /// Reads the subject. Returns it with the paths of the files that it was read from. `views` says
+    /// how a picture may be seen.
+    pub(crate) fn subject(
+        &self,
+        path: &Path,
+        views: PictureViews,
+    ) -> Result<(Subject, Vec<PathBuf>)> {
+        let (turned, free) = (views != PictureViews::Front, views == PictureViews::Free);
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
             let Some(shape) = SampleModel::from_name(name) else {
@@ -73,7 +89,7 @@ impl SubjectOptions {
         for (option, present) in [
             ("--camera", self.camera.is_some() && !turned),
             ("--turntable", self.turntable.is_some() && !turned),
-            ("--height", self.height.is_some()),
+            ("--height", self.height.is_some() && !free),
         ] {
             if present {
                 return Err(Failure::usage(
@@ -100,6 +116,11 @@ impl SubjectOptions {
             ));
         }
         Ok((Subject::Photograph(photograph, width), vec![path.to_owned()]))
+    }
+
+    /// Height of the picture in pixels, if it is given.
+    pub(crate) fn height(&self) -> Option<usize> {
+        self.height.map(|height| height as usize)
     }
 
     /// Whether options choose the camera.

@@ -13,7 +13,8 @@ use std::time::{Duration, Instant};
 
 use render::camera::Framing;
 use session::volumes::{
-    Grip, ScenePen, ScenePicture, SceneState, Subject, VolumeCommand, VolumeEvent, VolumeWorker,
+    Grip, Inside, Look, ScenePen, ScenePicture, SceneState, Subject, VolumeCommand, VolumeEvent,
+    VolumeWorker,
 };
 
 /// The picture's size in a window of 1280 x 800.
@@ -81,6 +82,33 @@ impl Bench {
             100.0 * steps as f64 / (120.0 * seconds),
         );
     }
+
+    /// Turns the scene while volumes show something else inside: prints the longest time without a
+    /// picture, and the time until the paint is mixed.
+    fn switch_to(&mut self, inside: Inside) {
+        let Some(look) = self.state.as_ref().map(|state| state.look) else { return };
+        self.worker.ask(VolumeCommand::Look(Look { inside, ..look }));
+        let start = Instant::now();
+        let (mut last, mut longest, mut mixed) = (start, Duration::ZERO, Duration::ZERO);
+        while start.elapsed() < LASTS {
+            self.turn(20.0 * start.elapsed().as_secs_f32());
+            let pictures = self.pictures;
+            self.receive(HAND);
+            let now = Instant::now();
+            if self.pictures > pictures {
+                longest = longest.max(now - last);
+                last = now;
+            }
+            if self.state.as_ref().is_some_and(|state| state.prepares) {
+                mixed = now - start;
+            }
+        }
+        let ms = |time: Duration| 1e3 * time.as_secs_f64();
+        let (longest, mixed) = (ms(longest.max(last.elapsed())), ms(mixed));
+        println!(
+            "switching to {inside:?}: at most {longest:.0} ms without a picture, mixed after {mixed:.0} ms"
+        );
+    }
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -135,5 +163,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     });
     bench.worker.ask(VolumeCommand::PenUp);
     bench.measure("turning the coloured drawing", |bench, seconds| bench.turn(20.0 * seconds));
+    for inside in [Inside::Glaze, Inside::Both, Inside::Glaze] {
+        bench.switch_to(inside);
+    }
+    bench.measure("turning a glaze", |bench, seconds| bench.turn(20.0 * seconds));
     Ok(())
 }

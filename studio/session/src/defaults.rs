@@ -10,7 +10,7 @@ use render::paint::strokes::{Action, BrushSpec, Canvas, Load, PaletteSpec, Strok
 use super::command::{Command, Origin};
 
 /// Pigments of the default palette: white, a cool and a warm one of each primary, black.
-pub(super) const TUBES: [&str; 8] = [
+const TUBES: [&str; 8] = [
     "Zinc White",
     "Chrome Yellow (Otero)",
     "Chrome Yellow",
@@ -57,20 +57,24 @@ pub fn blank_canvas(
     height_mm: f64,
     cell_mm: f64,
 ) -> Origin {
-    let mixed = library.pigments.iter().filter(|pigment| pigment.identified);
-    let mut names: Vec<&str> = mixed.map(|pigment| pigment.name.as_str()).collect();
-    names.sort_by_key(|name| Some(*name) != library.reference.as_deref());
-    let tubes = if TUBES.iter().all(|tube| names.contains(tube)) {
-        PaletteSpec::from_names(TUBES)
-    } else {
-        PaletteSpec::from_names(names.into_iter().take(TUBES.len()))
-    };
+    let tubes = tubes_of(&library);
+    let tubes = PaletteSpec::from_names(tubes.iter().map(String::as_str));
     let canvas = Canvas { width_mm, height_mm, cell_mm, ground: GroundSpec::default() };
     let mut script = StrokeScript::new("untitled", "", canvas, tubes);
     script.library = Some(library.title.clone());
     script.mixing = Some(default_mixing_canvas(cell_mm));
     script.brushes = default_brushes();
     Origin::Blank { script: Box::new(script), library: Box::new(library) }
+}
+
+/// The usual tubes of a library: see [`blank_canvas`].
+pub(super) fn tubes_of(library: &PigmentLibrary) -> Vec<String> {
+    let mixed = library.pigments.iter().filter(|pigment| pigment.identified);
+    let mut names: Vec<&str> = mixed.map(|pigment| pigment.name.as_str()).collect();
+    names.sort_by_key(|name| Some(*name) != library.reference.as_deref());
+    let own = TUBES.iter().all(|tube| names.contains(tube));
+    let tubes = if own { TUBES.to_vec() } else { names };
+    tubes.into_iter().take(TUBES.len()).map(str::to_owned).collect()
 }
 
 /// First commands of a front end: a linen canvas of 1920 x 1080 cells (192 x 108 mm), and blue

@@ -15,7 +15,7 @@ use crate::panels::eyedropper::Eyedropper;
 use crate::panels::{FileRequest, Request};
 use crate::theme;
 use session::Command;
-use session::volumes::Subject;
+use session::volumes::{Subject, VolumeCommand};
 
 impl Studio {
     /// Prepares to close: stores the tool settings in the preferences, waits for files
@@ -41,6 +41,13 @@ impl Studio {
             if Eyedropper::takes(&path) {
                 self.panels.eyedropper.open_swatches(&path);
                 self.panels.select(Tab::Color);
+                continue;
+            }
+            let is_library = path.extension().is_some_and(|ending| ending == "json");
+            if let Some(volumes) =
+                self.volumes.as_mut().filter(|_| self.shows_volumes && is_library)
+            {
+                volumes.ask(VolumeCommand::Library(path));
                 continue;
             }
             if let Some(subject) = self.scene_subject(&path) {

@@ -22,6 +22,8 @@ pub enum SceneExport {
 pub enum SceneAnswer {
     /// Opens this file.
     Open(PathBuf),
+    /// Fills the tubes from this library.
+    Library(PathBuf),
     /// Writes this file.
     Export(SceneExport, PathBuf),
     /// Opens the scene that a killed program kept.
@@ -33,6 +35,8 @@ pub enum SceneAnswer {
 pub(super) enum ScenePurpose {
     /// To open it.
     Open,
+    /// To fill the tubes from it.
+    Library,
     /// To write it.
     Export(SceneExport),
 }

@@ -7,8 +7,6 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use spectra::file::write_whole;
-
 use super::browser::{BrowserOptions, Filter};
 use super::job::{JobError, Progress};
 use super::open_dialog::FilePurpose;
@@ -23,6 +21,7 @@ const SCENES: Filter = Filter {
     label: "Models, photographs and scripts",
     endings: &["glb", "gltf", "obj", "ply", "png", "jpg", "jpeg", "toml"],
 };
+const LIBRARIES: Filter = Filter { label: "Pigment libraries", endings: &["json"] };
 const SCRIPTS: Filter = Filter { label: "Scripts", endings: &["toml"] };
 const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "exr"] };
 const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
@@ -42,6 +41,13 @@ impl Files {
         const KINDS: [Filter; 3] = [SCENES, SCRIPTS, Filter::ALL];
         let options = BrowserOptions::open("Open a scene", &KINDS);
         self.browse(options, FilePurpose::Scene(ScenePurpose::Open));
+    }
+
+    /// Asks for the library of a scene's tubes.
+    pub fn ask_for_scene_library(&mut self) {
+        const KINDS: [Filter; 2] = [LIBRARIES, Filter::ALL];
+        let options = BrowserOptions::open("Open a pigment library", &KINDS);
+        self.browse(options, FilePurpose::Scene(ScenePurpose::Library));
     }
 
     /// Asks where to write a file of the scene.
@@ -65,6 +71,7 @@ impl Files {
                 self.preferences.remember(&path);
                 SceneAnswer::Open(path)
             }
+            ScenePurpose::Library => SceneAnswer::Library(path),
             ScenePurpose::Export(export) => SceneAnswer::Export(export, path),
         });
     }
@@ -150,10 +157,7 @@ impl Files {
     pub fn save_scene(&mut self, recording: &SceneRecording, path: PathBuf) {
         let (recording, label) = (recording.clone(), format!("saving {}", file_name(&path)));
         self.start_job(JobKind::Saving, label, move |_| {
-            if let Some(subject) = &recording.subject {
-                beside(subject, &path)?;
-            }
-            write_whole(&path, recording.text.as_bytes()).map_err(Problem::from)?;
+            recording.save(&path).map_err(Problem::from)?;
             Ok(Finished::SceneSaved { path, revision: recording.revision })
         });
     }
@@ -183,18 +187,4 @@ impl Files {
 fn file_stem(title: &str) -> String {
     let kept = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
     title.chars().map(kept).collect()
-}
-
-/// Checks that a script in `path` lies beside its subject, which it names without a folder.
-fn beside(subject: &Path, path: &Path) -> Result<(), Problem> {
-    let folder = |path: &Path| {
-        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        path.parent().and_then(|folder| folder.canonicalize().ok())
-    };
-    if folder(subject) == folder(path) {
-        return Ok(());
-    }
-    let text = format!("{}: a script lies beside its subject", path.display());
-    let folder = subject.parent().unwrap_or(Path::new(".")).display();
-    Err(Problem::new(text, format!("save it in {folder}")))
 }

@@ -38,3 +38,5 @@ mod tubes;
 mod volumes;
 
 mod whole;
+
+mod volume_paint;

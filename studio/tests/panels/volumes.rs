@@ -15,7 +15,7 @@ use super::harness::{Window, button};
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// A window that shows a scene on the village.
-fn scene(name: &'static str) -> Window {
+pub(super) fn scene(name: &'static str) -> Window {
     let mut window = Window::open(name);
     let context = window.harness().ctx.clone();
     window.studio_mut().open_scene(&context, Subject::Shape("village".to_owned()));
@@ -23,12 +23,12 @@ fn scene(name: &'static str) -> Window {
     window
 }
 
-fn volumes(window: &Window) -> &Volumes {
+pub(super) fn volumes(window: &Window) -> &Volumes {
     window.studio().volumes.as_ref().unwrap()
 }
 
 /// Draws frames until `done`.
-fn wait(window: &mut Window, what: &str, done: impl Fn(&Volumes) -> bool) {
+pub(super) fn wait(window: &mut Window, what: &str, done: impl Fn(&Volumes) -> bool) {
     let start = Instant::now();
     while !done(volumes(window)) {
         assert!(start.elapsed() < PATIENCE, "{what} does not come");
@@ -38,7 +38,7 @@ fn wait(window: &mut Window, what: &str, done: impl Fn(&Volumes) -> bool) {
 }
 
 /// A point of the picture by its share of width and height.
-fn at(window: &Window, x: f32, y: f32) -> Pos2 {
+pub(super) fn at(window: &Window, x: f32, y: f32) -> Pos2 {
     let rect = volumes(window).rect();
     rect.min + vec2(x, y) * rect.size()
 }
@@ -66,7 +66,7 @@ fn in_color(window: &Window) -> Pos2 {
 }
 
 /// Holds the pen down until colour has come, moves it, and lifts it.
-fn pour(window: &mut Window) {
+pub(super) fn pour(window: &mut Window) {
     let from = at(window, 0.5, 0.55);
     window.frame(vec![Event::PointerMoved(from)]);
     window.frame(vec![button(from, true)]);
@@ -82,7 +82,7 @@ fn pour(window: &mut Window) {
 }
 
 /// Stops time and waits for the picture with all pixels and samples.
-fn rest(window: &mut Window) {
+pub(super) fn rest(window: &mut Window) {
     if volumes(window).state().unwrap().time.playing {
         window.key(Modifiers::NONE, Key::P);
     }
@@ -227,19 +227,36 @@ fn a_right_click_tells_what_is_there() {
     wait(&mut window, "the answer", |volumes| volumes.here().is_some());
     let here = volumes(&window).here().unwrap().clone();
     assert!(here.place.is_some() && here.volumes > 0, "{here:?}");
-    assert_eq!(here.paint[0].0, "Zinc White", "{here:?}");
+    let paint = here.paint.as_ref().unwrap();
+    let library = &volumes(&window).state().unwrap().library;
+    assert_eq!(library[paint.slots[0].unwrap()].name, "Zinc White");
+    let height: f64 = paint.amounts_mm.iter().sum();
+    assert!(height > 0.0 && height == paint.amounts_mm[0], "{here:?}");
     window.frame(Vec::new());
-    window.save("volumes-here");
+    window.save("volumes-card");
+    // The card and the panel tell CIELAB, recipe, height and region as the easel's eyedropper does.
+    let lab = here.lab.map(|value| format!("{value:.2}")).join(" ");
+    let told = |window: &mut Window| {
+        let mut found = |label: &str| window.harness().query_all_by_label(label).count();
+        [found(&lab), found("Zinc White"), found(&format!("{height:.3} mm")), found("Copy Paint")]
+    };
+    assert!(told(&mut window).into_iter().all(|count| count > 0), "{:?}", told(&mut window));
+    assert!(window.harness().query_by_label_contains("inside of").is_some());
     assert_eq!(volumes(&window).state().unwrap().events.len(), 1, "it pours nothing");
     key(&mut window, Key::Escape);
     assert!(volumes(&window).here().is_none(), "Escape closes the card");
+    window.frame(Vec::new());
+    assert_eq!(told(&mut window)[3], 0, "the card is closed");
+    window.click("Here");
+    assert!(told(&mut window).into_iter().all(|count| count > 0), "the panel keeps it");
+    window.save("volumes-here-panel");
 }
 
 #[test]
 fn every_part_of_the_workspace_is_within_the_window() {
     let mut window = scene("volumes-layout");
     let whole = window.whole();
-    for tab in ["Light", "Events", "Export"] {
+    for tab in ["Light", "Here", "Events", "Export"] {
         window.click(tab);
         window.save(&format!("volumes-{}", tab.to_lowercase()));
     }

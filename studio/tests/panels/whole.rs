@@ -47,7 +47,7 @@ impl DroppedFile for Dropped {
     }
 }
 
-fn drop_file(window: &mut Window, path: &Path) {
+pub(super) fn drop_file(window: &mut Window, path: &Path) {
     let dropped = Arc::new(Dropped(path.to_owned()));
     window.harness().input_mut().dropped_files.push(dropped);
     window.harness().step();

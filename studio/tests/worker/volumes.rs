@@ -5,11 +5,10 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use render::camera::{Camera, Framing};
-use render::field::Field;
 use render::volumes::script::Script;
 use session::volumes::{
-    Grip, ScenePen, ScenePicture, SceneRecording, SceneState, Subject, VolumeCommand, VolumeEvent,
-    VolumeWorker,
+    Grip, Inside, Look, SceneImage, ScenePen, ScenePicture, SceneRecording, SceneState, Subject,
+    VolumeCommand, VolumeEvent, VolumeWorker,
 };
 
 /// Time limit of every wait.
@@ -24,7 +23,7 @@ struct Client {
     state: Option<Arc<SceneState>>,
     picture: Option<Arc<ScenePicture>>,
     recording: Option<Arc<SceneRecording>>,
-    drawn: Option<Arc<Field<[f32; 4]>>>,
+    drawn: Option<Arc<SceneImage>>,
     problems: Vec<String>,
     pictures: usize,
 }
@@ -119,7 +118,7 @@ impl Client {
     }
 
     /// The picture with all samples at the present moment.
-    fn draw(&mut self) -> Arc<Field<[f32; 4]>> {
+    fn draw(&mut self) -> Arc<SceneImage> {
         self.drawn = None;
         self.ask(VolumeCommand::Draw(1, SIZE));
         self.wait(|client| client.drawn.is_some());
@@ -256,4 +255,39 @@ fn an_animation_is_written_whole_or_not_at_all() {
         session::volumes::animation(&recording, [80, 60], &given_up, |_| false).unwrap();
         assert!(!given_up.exists(), "it was given up");
     }
+}
+
+#[test]
+fn time_runs_on_and_pictures_come_while_paint_is_mixed() {
+    let mut client = Client::open(village());
+    client.press(0.5, 0.55);
+    client.wait_until_step(12);
+    let inside = Inside::Glaze;
+    client.ask(VolumeCommand::Look(Look { inside, ..client.state().look }));
+    client.wait(|client| client.state().prepares);
+    let (step, pictures) = (client.state().time.step, client.pictures);
+    // What takes long is done beside the scene: it is not awaited.
+    client.wait(|client| client.pictures > pictures + 1 || !client.state().prepares);
+    assert!(client.state().prepares, "a picture comes before the paint is mixed");
+    client.wait(|client| client.state().time.step > step + 2);
+    client.wait(|client| !client.state().prepares);
+    client.ask(VolumeCommand::PenUp);
+    let last = client.state().time.end;
+    client.seek(last);
+    let glaze = client.draw();
+    client.wait(|client| {
+        client.picture.as_ref().is_some_and(|shown| shown.fine && shown.step == last)
+    });
+    let shown = client.picture.clone().unwrap();
+    let rounded = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
+    let off = shown.pixels.iter().zip(glaze.pixels.values()).filter(|(pixel, linear)| {
+        let encoded = |value: f32| match value {
+            value if value <= 0.003_130_8 => 12.92 * value,
+            value => 1.055 * value.powf(1.0 / 2.4) - 0.055,
+        };
+        (0..3).any(|i| pixel[i].abs_diff(rounded(encoded(linear[i]))) > 1)
+    });
+    assert_eq!(off.count(), 0, "the picture at rest is the one that is exported");
+    client.ask(VolumeCommand::Look(Look { inside: Inside::OwnColours, ..client.state().look }));
+    assert_ne!(client.draw(), glaze);
 }

@@ -24,7 +24,7 @@ use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
 use crate::pictures::Exports;
 use crate::stages::StageFolder;
-use crate::subject::{Subject, SubjectOptions};
+use crate::subject::{PictureViews, Subject, SubjectOptions};
 use brushwork::BrushworkOptions;
 use exr_frames::ExrFrames;
 use form::FormOptions;
@@ -98,7 +98,11 @@ impl Painterly {
         }
         let settings = self.settings.settings()?;
         let path = self.subject.clone().unwrap_or_default();
-        let (subject, mut inputs) = self.subject_options.subject(&path, self.form.has_depth())?;
+        let views = match self.form.has_depth() {
+            true => PictureViews::Turned,
+            false => PictureViews::Front,
+        };
+        let (subject, mut inputs) = self.subject_options.subject(&path, views)?;
         inputs.extend(self.brushwork.inputs());
         inputs.extend(self.form.inputs().chain(self.settings.input().cloned()));
         inputs.extend(self.pigments.input());

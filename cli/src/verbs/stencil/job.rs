@@ -57,7 +57,10 @@ impl Job {
         let frames = if scene.cameras.len() > 1 { scene.cameras.len() } else { frames };
         let times = Times::of(script.script.seconds, verb.at, rate, frames)?;
         let located = |fault| script.located(fault);
-        let pigments = verb.pigments.materials(&script.script, library, located, console)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let of_script = (&script.script, &settings);
+        let pigments = verb.pigments.materials(of_script, (library, folder), located, console)?;
+        check_layers(&verb, pigments.is_some())?;
         let mut inputs: Vec<PathBuf> = scene.inputs.clone();
         inputs.extend(verb.settings.input().into_iter().chain(verb.pigments.input()).cloned());
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -183,7 +186,7 @@ impl Job {
     }
 }
 
-/// Refuses options that ask for nothing, and layers of a painting that there are none of.
+/// Refuses options that ask for nothing.
 fn check_outputs(verb: &Stencil) -> Result<()> {
     if !verb.outputs.any() && !verb.animation.any() {
         return Err(Failure::usage(
@@ -191,8 +194,13 @@ fn check_outputs(verb: &Stencil) -> Result<()> {
             "add --picture spread.png, --animation spread.gif, or --output painting.exr",
         ));
     }
+    Ok(())
+}
+
+/// Refuses layers of a painting without pigments, and of pictures that are none.
+fn check_layers(verb: &Stencil, has_pigments: bool) -> Result<()> {
     let Some(option) = verb.outputs.layer_option() else { return Ok(()) };
-    if !verb.pigments.any() {
+    if !has_pigments {
         return Err(Failure::usage(
             format!("{option} needs pigments, but no library is given"),
             "add --pigments LIBRARY and --palette",

@@ -1,6 +1,6 @@
 //! Options for painting with measured pigments.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use calibrate::Backing;
@@ -10,6 +10,7 @@ use render::paint::document::Lighting;
 use render::paint::ground::{GroundKind, MeasuredPrimer, Primer, PrimerSpectrum};
 use render::volumes::painter::VolumePigments;
 use render::volumes::script::Script;
+use render::volumes::settings::{Inside, Settings};
 use render::volumes::toml_text::Fault;
 
 use crate::canvas::grounds;
@@ -22,7 +23,8 @@ use crate::input::{library, viewing};
 #[command(next_help_heading = "Pigments")]
 pub(super) struct PigmentOptions {
     /// Paint with this library: volumes become films of measured pigments, and the picture a painting.
-    /// The setting drawing.inside is then glaze or both, as in the preset grisaille
+    /// The setting drawing.inside is then glaze or both, as in the preset grisaille [default: the
+    /// library that a script names, if its volumes show glazes]
     #[arg(long, value_name = "LIBRARY")]
     pigments: Option<PathBuf>,
     /// Up to eight pigments of the volumes, separated by commas
@@ -41,9 +43,9 @@ pub(super) struct PigmentOptions {
     /// library]
     #[arg(long, value_name = "GROUND", requires = "pigments")]
     over: Option<String>,
-    /// Light: D65, A, FL11, 5600K, or the file of a lamp
-    #[arg(long, value_name = "LIGHT", default_value = "D65", requires = "pigments")]
-    illuminant: String,
+    /// Light: D65, A, FL11, 5600K, or the file of a lamp [default: that of the script, or D65]
+    #[arg(long, value_name = "LIGHT", requires = "pigments")]
+    illuminant: Option<String>,
 }
 
 impl PigmentOptions {
@@ -67,17 +69,26 @@ impl PigmentOptions {
         self.pigments.as_deref().map(library).transpose()
     }
 
-    /// Pigments, ground and light of a script's palette, if a library is given. `located` adds file
-    /// and line to a fault of the script.
+    /// Pigments, ground and light of a script's palette, if a `library` is given, or named by the
+    /// script, which lies in `folder`, and seen by `settings`. `located` adds file and line to a
+    /// fault of the script.
     pub(super) fn materials(
         &self,
-        script: &Script,
-        library: Option<PigmentLibrary>,
+        (script, settings): (&Script, &Settings),
+        (given, folder): (Option<PigmentLibrary>, &Path),
         located: impl FnOnce(Box<Fault>) -> Failure,
         console: &mut Console<'_>,
     ) -> Result<Option<VolumePigments>> {
-        let (Some(path), Some(library)) = (&self.pigments, library) else { return Ok(None) };
+        let styles = script.region_styles(settings);
+        let shows_films = styles.iter().any(|style| style.inside != Inside::OwnColors);
+        let library = match given {
+            Some(library) => Some(library),
+            None if shows_films && !script.palette.is_empty() => script.open_library(folder)?,
+            None => None,
+        };
+        let Some(library) = library else { return Ok(None) };
         if script.palette.is_empty() {
+            let path = self.pigments.as_deref().unwrap_or(folder);
             return Err(Failure::usage(
                 format!("{}: no pigment of this library is chosen", path.display()),
                 "add --palette with up to eight of its pigments, or --paint for each pour",
@@ -95,7 +106,9 @@ impl PigmentOptions {
             });
         }
         // Films are thinner than the relief of a ground, which would only hide the drawing.
-        let illuminant = self.illuminant.clone();
+        let usual = Lighting::default();
+        let illuminant = self.illuminant.clone().or_else(|| script.illuminant.clone());
+        let illuminant = illuminant.unwrap_or(usual.illuminant);
         let lighting = Lighting { illuminant, relief: 0.0, ..Lighting::default() };
         // An unknown light is refused before anything is painted.
         viewing(&lighting.illuminant, &lighting.observer)?;

@@ -5,14 +5,17 @@ use std::path::{Path, PathBuf};
 use render::camera::{Camera, PictureView};
 use render::mesh::Mesh;
 use render::volumes::performance::{FirstView, Performance, PerformanceError};
-use render::volumes::script::{Script, ScriptError, Subject as ScriptSubject};
+use render::volumes::script::{
+    CameraTable, Script, ScriptCamera, ScriptError, Subject as ScriptSubject,
+};
 use render::volumes::settings::Settings;
 use render::volumes::toml_text::{Fault, KeyPath, KeyStep};
+use render::watercolor::PhotographPainter;
 
 use super::cameras::{camera_table, model_cameras, picture_cameras};
 use super::pours::PourOptions;
 use crate::failure::{Context, Failure, Result};
-use crate::subject::{Subject, SubjectOptions};
+use crate::subject::{PictureViews, Subject, SubjectOptions};
 
 /// A script with the file that it was read from, if any.
 pub(super) struct OpenScript {
@@ -167,7 +170,11 @@ impl OpenScript {
         frames: usize,
     ) -> Result<Scene> {
         let subject = self.subject(path)?;
-        let (read, mut inputs) = options.without_camera().subject(&subject, true)?;
+        // Before a path of the script a photograph is seen as the studio shows it.
+        let is_path = |camera: &CameraTable| matches!(camera.camera(frames), ScriptCamera::Path(_));
+        let free = !options.has_camera() && self.script.camera.as_ref().is_some_and(is_path);
+        let views = if free { PictureViews::Free } else { PictureViews::Turned };
+        let (read, mut inputs) = options.without_camera().subject(&subject, views)?;
         if self.file.is_some() {
             inputs.push(path.to_owned());
         }
@@ -187,9 +194,12 @@ impl OpenScript {
             }
             Subject::Photograph(photograph, width) => {
                 let (own_width, own_height) = photograph.size();
-                let rows = (width as f64 * own_height as f64 / own_width as f64).round() as usize;
-                let size = (width, rows.max(1));
-                let mesh = Mesh::of_picture(&photograph.with_opacity(size.0, size.1));
+                let shape = own_height as f64 / own_width as f64;
+                let rows = |columns: usize| ((columns as f64 * shape).round() as usize).max(1);
+                let columns =
+                    if free { PhotographPainter::usual_width_px(&photograph) } else { width };
+                let mesh = Mesh::of_picture(&photograph.with_opacity(columns, rows(columns)));
+                let size = (width, options.height().filter(|_| free).unwrap_or(rows(width)));
                 let view = PictureView::of(photograph.size());
                 let cameras = picture_cameras(&table, view, &mesh, frames);
                 (mesh, size, cameras.map_err(|fault| self.located(fault))?)

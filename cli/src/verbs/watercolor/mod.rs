@@ -22,7 +22,7 @@ use crate::animation::{Animation, AnimationOptions};
 use crate::console::Console;
 use crate::engine::BackendOption;
 use crate::failure::{Failure, Result};
-use crate::subject::{Subject, SubjectOptions};
+use crate::subject::{PictureViews, Subject, SubjectOptions};
 use job::{Job, Summary};
 use outputs::OutputOptions;
 use pigments::PigmentOptions;
@@ -75,7 +75,7 @@ impl Watercolor {
         }
         let (settings, mut inputs) = self.style.settings()?;
         inputs.extend(self.pigments.input().cloned());
-        let (subject, files) = self.subject_options.subject(&path, false)?;
+        let (subject, files) = self.subject_options.subject(&path, PictureViews::Front)?;
         inputs.extend(files);
         inputs.extend(self.outputs.inputs());
         let still = match &subject {

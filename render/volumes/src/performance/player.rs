@@ -6,7 +6,9 @@ use graphics::mesh::Mesh;
 use super::error::PerformanceError;
 use super::picked::FirstView;
 use crate::motion::{KeepIn, MotionError, Push};
-use crate::script::{self, Action, Event, KeepTable, Place, Quantity, Script, seconds_of};
+use crate::script::{
+    self, Action, Ball, Dry, Event, KeepTable, Place, Quantity, Script, seconds_of,
+};
 use crate::settings::Settings;
 use crate::toml_text::KeyStep;
 use crate::wetting::WettingError;
@@ -196,7 +198,11 @@ impl Performance {
                 self.world.lift(Lift { track, radius, rate, for_s }).map_err(failed)?;
             }
             Action::Split(split) => self.split(event, split.volume)?,
-            Action::Dry => self.world.dry(),
+            Action::Dry(Dry { ball: None }) => self.world.dry(),
+            Action::Dry(Dry { ball: Some(Ball { center, radius }) }) => {
+                let dried = self.world.dry_within(narrow(*center), *radius as f32);
+                dried.map(|_| ()).map_err(failed)?;
+            }
         }
         Ok(())
     }

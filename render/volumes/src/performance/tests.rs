@@ -240,6 +240,28 @@ recipe = { B = 1 }
 }
 
 #[test]
+fn a_dryer_with_a_radius_dries_what_lies_below_it() {
+    let pour = "[[pour]]\npicked = [0.45, 0.6]\nfor_s = 1.0\namount_mm3 = 60\n";
+    let mut played = begun(pour).unwrap();
+    played.advance_to(240).unwrap();
+    let cell = played.world().cell();
+    let fullest = played.world().volumes().iter().max_by_key(|volume| volume.paint.volume());
+    let place = fullest.unwrap().center;
+    let radius = 1.5 * cell;
+    let dry = format!("[[dry]]\nat_s = 2.0\nat = {:?}\nradius = {radius}\n", place.to_array());
+    let mut played = begun(&format!("{pour}{dry}")).unwrap();
+    played.advance_to(240).unwrap();
+    assert!(played.world().volumes().iter().all(|volume| !volume.dry));
+    played.advance_to(241).unwrap();
+    let volumes = played.world().volumes();
+    let (dry, wet): (Vec<_>, Vec<_>) = volumes.iter().partition(|volume| volume.dry);
+    assert!(!dry.is_empty() && !wet.is_empty(), "{} and {}", dry.len(), wet.len());
+    let away = |volume: &crate::volume::Volume| volume.center.distance(place);
+    assert!(dry.iter().all(|volume| away(volume) < radius + cell));
+    assert!(wet.iter().all(|volume| away(volume) > radius - cell));
+}
+
+#[test]
 fn volumes_of_a_script_stay_in_its_regions() {
     let tables = "[[keep]]\nabove = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\n\
                   [[pour]]\npicked = [0.6, 0.6]\nfor_s = 1.0\namount_mm3 = 400\n";

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::rows::Ball;
+
 /// Pigments by their letters in the palette, with their parts; empty without a palette.
 pub type Recipe = BTreeMap<String, f64>;
 
@@ -19,8 +21,8 @@ pub enum Action {
     Lift(Lift),
     /// Single volumes become volumes of the grid.
     Split(Split),
-    /// All paint on the scene dries.
-    Dry,
+    /// Paint on the scene dries.
+    Dry(Dry),
 }
 
 /// Where paint is poured or lifted.
@@ -111,6 +113,13 @@ pub struct Split {
     pub volume: Option<usize>,
 }
 
+/// Paint that dries.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Dry {
+    /// The ball whose volumes dry, in the unit of the scene; all of them without it.
+    pub ball: Option<Ball>,
+}
+
 impl Action {
     /// Rank among the actions of one step.
     pub(crate) fn rank(&self) -> usize {
@@ -120,7 +129,7 @@ impl Action {
             Self::Push(_) => 2,
             Self::Lift(_) => 3,
             Self::Split(_) => 4,
-            Self::Dry => 5,
+            Self::Dry(_) => 5,
         }
     }
 }

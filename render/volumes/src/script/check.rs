@@ -23,6 +23,7 @@ impl Script {
             check_positive(&KeyPath::of("unit_mm"), unit_mm, 1e6)?;
         }
         self.check_palette()?;
+        self.check_materials()?;
         self.check_counts()?;
         let settings = self.settings()?;
         if let Some(camera) = &self.camera {

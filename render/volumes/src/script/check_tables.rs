@@ -7,7 +7,9 @@ use super::ranges::{
     MOST_LENGTH, check_direction, check_place, check_positive, check_range, check_time,
 };
 use super::rows::{Ball, Pair, Row};
-use super::tables::{KeepTable, LiftTable, PourTable, PushTable, SplitTable, VolumeTable};
+use super::tables::{
+    DryTable, KeepTable, LiftTable, PourTable, PushTable, SplitTable, VolumeTable,
+};
 use crate::sphere_mesh::MOST_DETAIL;
 use crate::toml_text::{Checked, Fault, KeyPath};
 
@@ -40,7 +42,7 @@ impl Script {
             self.check_split(&each("split", index), split)?;
         }
         for (index, dry) in self.dries.iter().enumerate() {
-            check_time(&each("dry", index).key("at_s"), dry.at_s)?;
+            check_dry(&each("dry", index), dry)?;
         }
         Ok(())
     }
@@ -121,6 +123,22 @@ fn check_lift(key: &KeyPath, lift: &LiftTable) -> Checked {
     check_positive(&key.key("radius"), lift.radius, MOST_LENGTH)?;
     check_span(key, [lift.from_s, lift.for_s])?;
     check_range(&key.key("rate"), lift.rate, [0.0, 120.0])
+}
+
+fn check_dry(key: &KeyPath, dry: &DryTable) -> Checked {
+    check_time(&key.key("at_s"), dry.at_s)?;
+    match (dry.at, dry.radius) {
+        (None, None) => Ok(()),
+        (Some(Row(at)), Some(radius)) => {
+            check_place(&key.key("at"), at)?;
+            check_positive(&key.key("radius"), radius, MOST_LENGTH)
+        }
+        (at, _) => {
+            let (own, other) = if at.is_some() { ("at", "radius") } else { ("radius", "at") };
+            let hint = format!("add {other}, or leave {own} out: then all paint dries");
+            Err(Fault::new(&key.key(own), format!("{other} beside it"), "none", hint))
+        }
+    }
 }
 
 fn check_keep(key: &KeyPath, keep: &KeepTable) -> Checked {

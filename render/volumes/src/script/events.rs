@@ -1,8 +1,8 @@
 //! A script as actions in time.
 
-use super::action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
+use super::action::{Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
 use super::file::Script;
-use super::rows::Row;
+use super::rows::{Ball, Row};
 use crate::toml_text::KeyPath;
 use crate::world::STEPS_PER_SECOND;
 
@@ -80,7 +80,9 @@ impl Script {
             add("split", index, [table.at_s, 0.0], Action::Split(Split { volume }));
         }
         for (index, table) in self.dries.iter().enumerate() {
-            add("dry", index, [table.at_s, 0.0], Action::Dry);
+            let ball = table.at.zip(table.radius);
+            let ball = ball.map(|(Row(center), radius)| Ball { center, radius });
+            add("dry", index, [table.at_s, 0.0], Action::Dry(Dry { ball }));
         }
         events.sort_by_key(|event| (event.start, event.action.rank()));
         events

@@ -34,6 +34,13 @@ pub struct Script {
     /// Settings to start from; without it [`Preset::Sketch`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub preset: Option<Preset>,
+    /// Library of the pigments: its file beside the script, or the title of the one that comes with
+    /// the program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub library: Option<String>,
+    /// Light that pigments are seen under, such as `A` or `5600K`; without it D65.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub illuminant: Option<String>,
     /// Pigments by their letters, at most eight; slots of paint are in the order of the letters.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub palette: BTreeMap<String, String>,
@@ -84,6 +91,8 @@ impl Script {
             unit_mm: None,
             seconds,
             preset: None,
+            library: None,
+            illuminant: None,
             palette: BTreeMap::new(),
             grid: Table::new(),
             settings: Table::new(),

@@ -12,6 +12,8 @@
 //! unit_mm = 100.0                   # left out: the longest side is 200 mm
 //! seconds = 6.0
 //! preset = "washed"                 # left out: sketch
+//! library = "mine.pigments.json"    # of the palette, beside the script
+//! illuminant = "A"                  # light on pigments; left out: D65
 //!
 //! [palette]                         # left out: colours are the subject's own
 //! B = "Ultramarine"
@@ -70,8 +72,10 @@
 //! at_s = 4.5
 //! volume = 1
 //!
-//! [[dry]]                           # all paint on the scene
+//! [[dry]]                           # all paint, or with `at` and `radius` that of a ball
 //! at_s = 5.0
+//! at = [0.1, 0.6, 0.3]
+//! radius = 0.2
 //! ```
 //!
 //! Scripts are untrusted: unknown keys, numbers out of range and files that are too long are
@@ -93,6 +97,8 @@ mod file;
 mod rounded;
 
 mod subject;
+
+mod materials;
 
 mod regions;
 
@@ -126,7 +132,9 @@ mod fault_tests;
 #[cfg(test)]
 mod fuzz_tests;
 
-pub use action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Recipe, Split};
+pub use action::{
+    Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Recipe, Split,
+};
 pub use camera::{CameraTable, KeyframeTable, ScriptCamera};
 pub use error::ScriptError;
 pub use events::{Event, seconds_of, steps_of};
@@ -134,6 +142,7 @@ pub use file::Script;
 pub use limits::{
     MOST_EVENTS, MOST_FRAMES, MOST_SECONDS, cells_too_small, frames_fit, samples_too_many,
 };
+pub use materials::is_light;
 pub use record::Recorder;
 pub use regions::RegionStyle;
 pub use rows::{Ball, Pair, Row};

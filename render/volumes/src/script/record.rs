@@ -1,9 +1,9 @@
 //! Recording of what a session does as a script.
 
-use super::action::{Action, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
+use super::action::{Action, Dry, Lift, NewVolume, PathPoint, Place, Pour, Push, Quantity, Split};
 use super::events::seconds_of;
 use super::file::Script;
-use super::rounded::{point, recipe, six, time};
+use super::rounded::{ball, point, recipe, six, time};
 use super::rows::Row;
 use super::tables::{
     DryTable, LiftTable, PourTable, PushTable, RegionTable, SplitTable, VolumeTable,
@@ -46,7 +46,7 @@ impl Action {
                 rate: six(own.rate),
             }),
             Self::Split(own) => Self::Split(own.clone()),
-            Self::Dry => Self::Dry,
+            Self::Dry(own) => Self::Dry(Dry { ball: own.ball.map(ball) }),
         }
     }
 }
@@ -139,7 +139,10 @@ impl Recorder {
                 let volume = volume.and_then(|index| u32::try_from(index + 1).ok());
                 script.splits.push(SplitTable { at_s, volume });
             }
-            Action::Dry => script.dries.push(DryTable { at_s }),
+            Action::Dry(Dry { ball }) => {
+                let (at, radius) = (ball.map(|own| Row(own.center)), ball.map(|own| own.radius));
+                script.dries.push(DryTable { at_s, at, radius });
+            }
         }
     }
 

@@ -35,6 +35,11 @@ pub(super) fn point(Row([seconds, x, y, z]): Row<4>) -> Row<4> {
     Row([time(seconds), six(x), six(y), six(z)])
 }
 
+/// A ball with six digits.
+pub(super) fn ball(Ball { center, radius }: Ball) -> Ball {
+    Ball { center: center.map(six), radius: six(radius) }
+}
+
 /// The parts of a recipe with six digits.
 pub(super) fn recipe(parts: &BTreeMap<String, f64>) -> BTreeMap<String, f64> {
     parts.iter().map(|(letter, part)| (letter.clone(), six(*part))).collect()
@@ -62,7 +67,7 @@ impl Script {
                 .iter()
                 .map(|split| SplitTable { at_s: time(split.at_s), volume: split.volume })
                 .collect(),
-            dries: self.dries.iter().map(|dry| DryTable { at_s: time(dry.at_s) }).collect(),
+            dries: self.dries.iter().map(dry).collect(),
             ..self.clone()
         }
     }
@@ -112,9 +117,7 @@ fn keep(keep: &KeepTable) -> KeepTable {
     let pair = |Pair(rows): Pair| Pair(rows.map(|row| row.map(six)));
     KeepTable {
         cuboid: keep.cuboid.map(pair),
-        sphere: keep
-            .sphere
-            .map(|Ball { center, radius }| Ball { center: center.map(six), radius: six(radius) }),
+        sphere: keep.sphere.map(ball),
         above: keep.above.map(pair),
     }
 }
@@ -164,4 +167,8 @@ fn lift(lift: &LiftTable) -> LiftTable {
         for_s: time(lift.for_s),
         rate: six(lift.rate),
     }
+}
+
+fn dry(dry: &DryTable) -> DryTable {
+    DryTable { at_s: time(dry.at_s), at: dry.at.map(row), radius: dry.radius.map(six) }
 }

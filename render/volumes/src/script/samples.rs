@@ -8,6 +8,8 @@ subject = "shape:still-life"
 unit_mm = 100.0
 seconds = 6.0
 preset = "washed"
+library = "oils/mine.pigments.json"
+illuminant = "5600K"
 
 [palette]
 B = "Ultramarine"
@@ -97,6 +99,8 @@ at_s = 5.0
 
 [[dry]]
 at_s = 5.5
+at = [0.1, 0.6, 0.3]
+radius = 0.25
 "#;
 
 /// The shortest script.

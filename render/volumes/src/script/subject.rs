@@ -66,23 +66,27 @@ impl Script {
         }
     }
 
-    /// Checks that a path leads to a file in the script's folder or below it.
-    pub(super) fn check_subject_beside(&self) -> Checked {
-        if self.subject.starts_with("shape:") {
-            return Ok(());
+    /// Checks that all paths lead to files in the script's folder or below it.
+    pub(super) fn check_files_beside(&self) -> Checked {
+        if !self.subject.starts_with("shape:") {
+            check_beside("subject", &self.subject)?;
         }
-        let mut parts = Path::new(&self.subject).components();
-        // Colons and backslashes lead elsewhere on Windows.
-        let below = parts.all(|part| matches!(part, Component::Normal(_)))
-            && !self.subject.contains(['\\', ':']);
-        match below {
-            true => Ok(()),
-            false => Err(Fault::new(
-                &KeyPath::of("subject"),
-                "a path below the script's folder",
-                &self.subject,
-                "put the file beside the script",
-            )),
-        }
+        self.library.as_deref().map_or(Ok(()), |library| check_beside("library", library))
+    }
+}
+
+fn check_beside(key: &str, path: &str) -> Checked {
+    let mut parts = Path::new(path).components();
+    // Colons and backslashes lead elsewhere on Windows.
+    let below =
+        parts.all(|part| matches!(part, Component::Normal(_))) && !path.contains(['\\', ':']);
+    match below {
+        true => Ok(()),
+        false => Err(Fault::new(
+            &KeyPath::of(key),
+            "a path below the script's folder",
+            path,
+            "put the file beside the script",
+        )),
     }
 }

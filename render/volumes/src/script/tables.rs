@@ -155,12 +155,19 @@ pub struct SplitTable {
     pub volume: Option<u32>,
 }
 
-/// `[[dry]]`: all paint on the scene dries.
+/// `[[dry]]`: paint on the scene dries: all of it, or that of the volumes in a ball, which `at` and
+/// `radius` give together.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DryTable {
     /// Time in seconds, 0 to 3600.
     pub at_s: f64,
+    /// Centre of the ball in the unit of the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<Row<3>>,
+    /// Radius of the ball in the unit of the scene, above 0 up to 1e6.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
 }
 
 fn all_at_once() -> f64 {

@@ -43,7 +43,8 @@ fn odd_figures_are_rounded_once() {
     own.seconds = 1.0 / 3.0;
     own.unit_mm = Some(1_234.567_89);
     own.settings = "motion.kick = 0.12345678\nseed = 1234567\ngrid.film_mm = 1e-3".parse().unwrap();
-    own.dries.push(DryTable { at_s: 0.1234567 });
+    let (at, radius) = (Row([1.0 / 3.0, -0.0, 1e-9]), 2.0 / 3.0);
+    own.dries.push(DryTable { at_s: 0.1234567, at: Some(at), radius: Some(radius) });
     own.keeps.push(KeepTable {
         sphere: Some(Ball { center: [-0.0, 1e-9, 1.0 / 7.0], radius: 2.0 / 3.0 }),
         ..KeepTable::default()
@@ -54,6 +55,8 @@ fn odd_figures_are_rounded_once() {
     assert_eq!((read.seconds, read.unit_mm), (0.3333, Some(1234.57)));
     let ball = Ball { center: [0.0, 1e-9, 0.142857], radius: 0.666667 };
     assert_eq!((read.dries[0].at_s, read.keeps[0].sphere), (0.1235, Some(ball)));
+    let dry = (read.dries[0].at, read.dries[0].radius);
+    assert_eq!(dry, (Some(Row([0.333333, 0.0, 1e-9])), Some(0.666667)));
     let settings = read.settings().unwrap();
     assert_eq!((settings.motion.kick, settings.seed), (0.123457, 1_234_567));
 }
@@ -114,7 +117,9 @@ fn events_are_sorted_by_steps_of_a_hundred_and_twentieth_second() {
     let Action::Pour(pour) = &events[2].action else { panic!("{:?}", events[2]) };
     assert_eq!((pour.region, pour.quantity), (1, Quantity::Rate(40.0)));
     assert_eq!(pour.place.at(0.5), Some([0.2, 0.6, 0.275]));
-    assert_eq!(events[7].action, Action::Dry);
+    assert_eq!(events[6].action, Action::Dry(Dry::default()));
+    let ball = Ball { center: [0.1, 0.6, 0.3], radius: 0.25 };
+    assert_eq!(events[7].action, Action::Dry(Dry { ball: Some(ball) }));
 }
 
 #[test]
@@ -192,6 +197,22 @@ fn pigments_are_found_by_their_letters() {
         let told = spectra::hint::Explain::hint(&error).unwrap().to_string();
         assert!(told.starts_with(hint), "{told}");
     }
+}
+
+#[test]
+fn a_library_is_that_of_the_program_or_a_file() {
+    let opened = |name: &str, folder: &Path| {
+        script(&format!("{SHORT}library = {name:?}\n")).open_library(folder)
+    };
+    let (folder, shipped) = (tempfile::tempdir().unwrap(), PigmentLibrary::van_gogh_oils());
+    assert_eq!(script(SHORT).open_library(folder.path()).unwrap(), None);
+    assert_eq!(opened(&shipped.title, folder.path()).unwrap().as_ref(), Some(&shipped));
+    let mut mine = shipped;
+    mine.title = "mine".to_owned();
+    std::fs::write(folder.path().join("mine.json"), mine.to_json()).unwrap();
+    assert_eq!(opened("mine.json", folder.path()).unwrap(), Some(mine));
+    let error = opened("none.json", folder.path()).unwrap_err().to_string();
+    assert!(error.contains("none.json"), "{error}");
 }
 
 #[test]

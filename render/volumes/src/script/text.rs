@@ -33,8 +33,7 @@ impl Script {
     /// # Errors
     /// [`ScriptError`] with file, line, key and the way out.
     pub fn open_own(path: &Path) -> Result<Self, ScriptError> {
-        let (name, text) = (path.display().to_string(), read_text(path)?);
-        Ok(parsed(&name, &text)?.0)
+        Self::from_own_text(&path.display().to_string(), &read_text(path)?)
     }
 
     /// Parses the text of a script, which errors call `name`. The subject lies beside it.
@@ -43,8 +42,16 @@ impl Script {
     /// [`ScriptError`] with line, key and the way out.
     pub fn from_text(name: &str, text: &str) -> Result<Self, ScriptError> {
         let (script, source) = parsed(name, text)?;
-        script.check_subject_beside().map_err(|fault| source.located(fault))?;
+        script.check_files_beside().map_err(|fault| source.located(fault))?;
         Ok(script)
+    }
+
+    /// Parses the text of a script of the user's own, whose files may lie in any folder.
+    ///
+    /// # Errors
+    /// [`ScriptError`] with line, key and the way out.
+    pub fn from_own_text(name: &str, text: &str) -> Result<Self, ScriptError> {
+        Ok(parsed(name, text)?.0)
     }
 
     /// The text of a script: figures with six digits, times with four decimals. Reading it gives

@@ -88,7 +88,7 @@ impl World {
     }
 
     /// Share of the surface with paint of a volume that lies where `below` is true.
-    fn share_below(&self, index: usize, below: impl Fn(glam::Vec3) -> bool) -> f32 {
+    pub(super) fn share_below(&self, index: usize, below: impl Fn(glam::Vec3) -> bool) -> f32 {
         let volume = &self.volumes[index];
         let samples = &self.grid.samples;
         let own = match volume.cell {

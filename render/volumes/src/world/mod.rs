@@ -35,6 +35,8 @@ mod pouring;
 
 mod lifting;
 
+mod drying;
+
 mod splitting;
 
 mod time;
@@ -49,6 +51,9 @@ mod outline_tests;
 
 #[cfg(test)]
 mod saved_tests;
+
+#[cfg(test)]
+mod drying_tests;
 
 #[cfg(test)]
 mod limit_tests;

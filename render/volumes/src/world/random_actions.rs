@@ -118,6 +118,10 @@ fn random_actions_on_a_grid_keep_every_quantum() {
                 // Too small a volume may hold no sample.
                 split += usize::from(played.world.split(index).is_ok());
             }
+            2006 => {
+                let (place, radius) = (played.place(), played.random.random_range(0.05..0.8));
+                played.world.dry_within(place, radius).unwrap();
+            }
             _ => played.go_on(action),
         }
         most = most.max(played.world.volumes().len());

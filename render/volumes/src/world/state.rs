@@ -203,14 +203,6 @@ impl World {
         Ok(number)
     }
 
-    /// Dries all paint on the scene: from now on its shape and its amounts are frozen. Wet paint
-    /// poured later lies over it, in volumes of its own.
-    pub fn dry(&mut self) {
-        self.volumes.iter_mut().for_each(|volume| volume.dry = true);
-        self.of_cell.fill(NONE);
-        self.settled = false;
-    }
-
     /// Ends a flow, a sponge or a push before its time; numbers of what has ended do nothing.
     pub fn stop(&mut self, number: u64) {
         self.sources.retain(|timed| timed.number != number);

@@ -1,5 +1,7 @@
 //! Commands of the front end to a scene.
 
+use std::path::PathBuf;
+
 use render::camera::Camera;
 
 use super::look::Look;
@@ -32,6 +34,14 @@ pub enum VolumeCommand {
     Size([usize; 2]),
     /// Sets what is shown.
     Look(Look),
+    /// Dries all paint.
+    DryAll,
+    /// Sees pigments under this light: an illuminant's name, or a temperature such as `5600K`.
+    Illuminant(String),
+    /// Fills the tubes from the library in this file.
+    Library(PathBuf),
+    /// Puts the pigment of this name into a tube, by its number from 0.
+    Tube(usize, String),
     /// Removes the event that was added last, and replays the scene without it.
     Undo,
     /// Removes an event by its number in the list, and replays the scene without it.
@@ -57,6 +67,7 @@ impl VolumeCommand {
             (Self::Camera(_), Self::Camera(_))
                 | (Self::Size(_), Self::Size(_))
                 | (Self::Look(_), Self::Look(_))
+                | (Self::Illuminant(_), Self::Illuminant(_))
                 | (Self::Seek(_), Self::Seek(_))
                 | (Self::PenMove(_), Self::PenMove(_))
         )

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::Vec3;
-use render::field::Field;
 use render::paint::document::Document;
 use spectra::hint::Hint;
 
+use super::image::SceneImage;
 use super::state::SceneState;
+use crate::event::PickedLayer;
 
 /// The picture of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,8 +35,8 @@ pub struct Here {
     pub volumes: usize,
     /// Region of the paint there; `None` where there is no paint.
     pub region: Option<String>,
-    /// Paint by name, each with its height in mm; empty where there is none.
-    pub paint: Vec<(String, f64)>,
+    /// Paint of the volumes there; `None` where there is none.
+    pub paint: Option<PickedLayer>,
     /// CIELAB of the colour shown there, against the white of the screen.
     pub lab: [f64; 3],
     /// sRGB of the colour shown there.
@@ -51,6 +52,8 @@ pub struct SceneRecording {
     pub folder: PathBuf,
     /// File of the subject; `None` for a model that comes with the program.
     pub subject: Option<PathBuf>,
+    /// File of the library; `None` for the one that comes with the program.
+    pub library: Option<PathBuf>,
     /// Counter of changes that it holds.
     pub revision: u64,
 }
@@ -66,8 +69,8 @@ pub enum VolumeEvent {
     Picture(Arc<ScenePicture>),
     /// Answer to [`VolumeCommand::Pick`](super::VolumeCommand::Pick).
     Here(Box<Here>),
-    /// Answer to [`VolumeCommand::Draw`](super::VolumeCommand::Draw): linear sRGB and opacity.
-    Drawn(u64, Arc<Field<[f32; 4]>>),
+    /// Answer to [`VolumeCommand::Draw`](super::VolumeCommand::Draw).
+    Drawn(u64, Arc<SceneImage>),
     /// Answer to [`VolumeCommand::Paint`](super::VolumeCommand::Paint).
     Painted(u64, Arc<Document>),
     /// Answer to [`VolumeCommand::Recording`](super::VolumeCommand::Recording).

@@ -6,7 +6,7 @@
 //! [`PORTION`] steps after the pen was lifted.
 
 use glam::DVec3;
-use render::volumes::script::{Action, Lift, Place, Pour, Push, Quantity, Recipe};
+use render::volumes::script::{Action, Ball, Dry, Lift, Place, Pour, Push, Quantity, Recipe};
 
 use super::tool::{Grip, SceneTool};
 
@@ -36,6 +36,9 @@ pub(super) struct Timed {
     pub(super) action: Action,
 }
 
+/// Way after which a dryer dries again, by its radius.
+const DRYING_WAY: f64 = 0.25;
+
 /// A tool that is held down.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hand {
@@ -64,11 +67,6 @@ impl Hand {
         Self { grip, recipe, unit_mm, place, pressure, last: None, next: step }
     }
 
-    /// The tool in hand.
-    pub(super) fn tool(&self) -> SceneTool {
-        self.grip.tool
-    }
-
     /// Moves it on the surface.
     pub(super) fn move_to(&mut self, place: DVec3, pressure: f64) {
         (self.place, self.pressure) = (place, pressure);
@@ -81,8 +79,8 @@ impl Hand {
         }
         let action = self.action()?.rounded();
         self.last = Some(self.place);
-        let length = if action == Action::Dry { 1 } else { PORTION };
-        self.next = if action == Action::Dry { u32::MAX } else { step + length };
+        let length = if matches!(action, Action::Dry(_)) { 1 } else { PORTION };
+        self.next = step + length;
         Some(Timed { start: step, end: step + length, action })
     }
 
@@ -108,13 +106,19 @@ impl Hand {
                 let lift = Lift { place: Place::At(at), radius, rate };
                 (rate > 0.0).then_some(Action::Lift(lift))
             }
-            SceneTool::Dry => Some(Action::Dry),
+            SceneTool::Dry => {
+                let again = |last: DVec3| self.place.distance(last) >= DRYING_WAY * radius;
+                let ball = Some(Ball { center: at, radius });
+                self.last.is_none_or(again).then_some(Action::Dry(Dry { ball }))
+            }
         }
     }
 
     /// Notes where the air begins to be drawn, so that its first way has a direction.
     pub(super) fn rest(&mut self) {
-        self.last.get_or_insert(self.place);
+        if self.grip.tool == SceneTool::Push {
+            self.last.get_or_insert(self.place);
+        }
     }
 }
 
@@ -170,10 +174,18 @@ mod tests {
     }
 
     #[test]
-    fn all_paint_dries_once() {
+    fn a_dryer_dries_at_once_and_again_where_it_has_moved() {
         let mut hand = hand(SceneTool::Dry);
-        let dry = Timed { start: 12, end: 13, action: Action::Dry };
-        assert_eq!(hand.next_action(12), Some(dry));
-        assert_eq!(hand.next_action(500), None);
+        let dry = |step, x| {
+            let ball = Some(Ball { center: [x, 1.0, 2.0], radius: 0.4 });
+            Some(Timed { start: step, end: step + 1, action: Action::Dry(Dry { ball }) })
+        };
+        assert_eq!(hand.next_action(12), dry(12, 0.123_457));
+        assert_eq!(hand.next_action(13), None, "it rests");
+        hand.move_to(DVec3::new(0.21, 1.0, 2.0), 1.0);
+        assert_eq!(hand.next_action(14), None, "it has hardly moved");
+        hand.move_to(DVec3::new(0.23, 1.0, 2.0), 1.0);
+        assert_eq!(hand.next_action(15), dry(15, 0.23));
+        assert_eq!(hand.next_action(16), None);
     }
 }

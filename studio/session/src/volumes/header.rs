@@ -1,20 +1,13 @@
-//! Cameras, tubes and picked places of a script, and numbers of a world for the window.
-
-use std::sync::Arc;
+//! Cameras and picked places of a script, and numbers of a world for the window.
 
 use glam::Vec3;
-use pigment::library::PigmentLibrary;
 use render::camera::{Camera, Framing};
-use render::light::Light;
 use render::mesh::Mesh;
-use render::paint::document::{Lighting, Slots};
 use render::volumes::performance::FirstView;
 use render::volumes::script::{self, CameraTable, KeyframeTable, Row, Script, ScriptCamera};
 use render::volumes::world::Tally;
 
-use super::state::{SceneTally, SceneTube};
-use crate::colors::Colors;
-use crate::failure::FileFailure;
+use super::state::SceneTally;
 
 /// Size of the picture in which scripts pick places, as the command line makes it.
 pub(super) const FIRST_PICTURE: (usize, usize) = (1000, 750);
@@ -60,6 +53,14 @@ pub(super) fn camera_table(camera: &Camera) -> CameraTable {
     CameraTable { keyframes: vec![keyframe], ..CameraTable::default() }
 }
 
+/// A camera as a recording keeps it, with the digits of a file, and as it is played: so that the
+/// recording shows the same bytes.
+pub(super) fn recorded_camera(camera: &Camera, mesh: &Mesh) -> Camera {
+    let mut script = Script::new("", 0.0);
+    script.camera = Some(camera_table(camera));
+    first_camera(&script.rounded(), mesh)
+}
+
 /// Replaces places picked in the first picture by places of the subject, so that a recording does
 /// not depend on its camera. Picks of nothing stay, and are refused when they are played.
 pub(super) fn resolve_picks(script: &mut Script, mesh: &Mesh, view: &FirstView) {
@@ -71,26 +72,6 @@ pub(super) fn resolve_picks(script: &mut Script, mesh: &Mesh, view: &FirstView) 
     };
     script.pours.iter_mut().for_each(|pour| resolve(&mut pour.at, &mut pour.picked));
     script.lifts.iter_mut().for_each(|lift| resolve(&mut lift.at, &mut lift.picked));
-}
-
-/// The tubes of a script's palette under daylight.
-pub(super) fn tubes(
-    script: &Script,
-    library: &Arc<PigmentLibrary>,
-    slots: &Slots,
-) -> Result<Vec<SceneTube>, FileFailure> {
-    let Lighting { illuminant, observer, .. } = Lighting::default();
-    let light = Light::named(library, &illuminant, &observer);
-    let light = Arc::new(light.map_err(|error| FileFailure::explained(&error))?);
-    let colors = Colors::new(Arc::clone(library), light);
-    let (masstones, tints) = (colors.masstones(slots), colors.tints(slots));
-    let names = script.palette.values().zip(masstones).zip(tints);
-    let tube = |((name, masstone), tint): ((&String, _), _)| SceneTube {
-        name: name.clone(),
-        masstone,
-        tint,
-    };
-    Ok(names.map(tube).collect())
 }
 
 /// Where the paint is, in mm3.

@@ -4,6 +4,7 @@ use glam::Vec3;
 use render::amount::mm_from_quanta;
 use render::field::Field;
 use render::layer::SLOTS;
+use render::paint::document::Slots;
 use render::volumes::containing::Inside;
 use render::volumes::painter::CELL_MM;
 use render::volumes::pigments::{Film, FilmProfile, FilmScale, FilmSum, SampleLattice};
@@ -14,7 +15,7 @@ use spectra::color::{ColorCode, Rgb};
 
 use super::event::Here;
 use super::ray::Hit;
-use super::state::SceneTube;
+use crate::event::PickedLayer;
 
 /// Volumes and paint at a place on a surface.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,26 +64,22 @@ pub(super) fn color_at(picture: &Field<[f32; 4]>, at: [f32; 2]) -> [u8; 3] {
 }
 
 /// The answer to the painter: what was found at a place, if there is a surface, and the colour
-/// shown there.
+/// shown there. `slots` are the pigments of the volumes.
 pub(super) fn told(
     found: Option<(Vec3, Found)>,
     srgb: [u8; 3],
-    tubes: &[SceneTube],
+    slots: Slots,
     regions: &[RegionTable],
 ) -> Here {
     let rgb = Rgb(srgb.map(|channel| f64::from(channel) / 255.0));
     let lab = ColorCode::Srgb(rgb).lab();
     let lab = [lab.lightness, lab.a, lab.b];
     let Some((place, found)) = found else {
-        return Here { place: None, volumes: 0, region: None, paint: Vec::new(), lab, srgb };
+        return Here { place: None, volumes: 0, region: None, paint: None, lab, srgb };
     };
-    let mut paint: Vec<(String, f64)> = tubes
-        .iter()
-        .zip(found.heights_mm)
-        .map(|(tube, height_mm)| (tube.name.clone(), height_mm))
-        .collect();
-    paint.push(("clear medium".to_owned(), found.heights_mm[SLOTS]));
-    paint.retain(|(_, height_mm)| *height_mm > 0.0);
+    let amounts_mm = found.heights_mm;
+    let has_paint = amounts_mm.iter().any(|height_mm| *height_mm > 0.0);
+    let paint = has_paint.then_some(PickedLayer { slots, amounts_mm, opacity: 1.0 });
     let region = found.region.and_then(|index| Some(regions.get(index)?.name.clone()));
     Here { place: Some(place), volumes: found.volumes, region, paint, lab, srgb }
 }

@@ -1,5 +1,6 @@
 //! The look of a scene: which picture is shown, and how.
 
+use pigment::digits;
 use render::volumes::painter::Show;
 use render::volumes::script::Script;
 use render::volumes::settings::{self, Settings};
@@ -102,6 +103,16 @@ impl Look {
                 elevation_deg: light.elevation_deg.into(),
             },
         }
+    }
+
+    /// This look with the digits of a file, so that the recording shows the same bytes.
+    pub(super) fn rounded(self) -> Self {
+        let SceneLight { azimuth_deg, elevation_deg } = self.light;
+        let light = SceneLight {
+            azimuth_deg: digits::rounded(azimuth_deg) + 0.0,
+            elevation_deg: digits::rounded(elevation_deg) + 0.0,
+        };
+        Self { light, ..self }
     }
 
     /// Settings as this look changes them. Strokes that are shown have their strength of

@@ -18,6 +18,8 @@ mod subject;
 
 mod state;
 
+mod image;
+
 mod event;
 
 mod command;
@@ -32,6 +34,8 @@ mod recorded;
 
 mod inbox;
 
+mod materials;
+
 mod opened;
 
 mod header;
@@ -40,9 +44,19 @@ mod timeline;
 
 mod inspect;
 
+mod making;
+
 mod painters;
 
 mod scene;
+
+mod hands;
+
+mod pictures;
+
+mod paints;
+
+mod saving;
 
 mod animation;
 
@@ -53,9 +67,13 @@ mod thread;
 #[cfg(test)]
 mod scene_tests;
 
+#[cfg(test)]
+mod paint_tests;
+
 pub use animation::animation;
 pub use command::VolumeCommand;
 pub use event::{Here, ScenePicture, SceneRecording, VolumeEvent};
+pub use image::SceneImage;
 pub use look::{Inside, Look, SceneLight};
 pub use pacer::STEPS_A_SECOND;
 pub use render::volumes::painter::Show;

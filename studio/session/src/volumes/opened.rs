@@ -2,20 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
+use pigment::library::PigmentLibrary;
 use render::mesh::Mesh;
 use render::picture::Photograph;
 use render::volumes::script::{self, Script, ScriptError};
 use render::watercolor::PhotographPainter;
 
+use super::materials::{Materials, fill_tubes};
 use super::subject::{SHAPE, Subject};
-use crate::defaults::TUBES;
 use crate::failure::FileFailure;
 
 /// Number of triangles of a model that comes with the program, as the command line makes it.
 const TRIANGLES: usize = 60_000;
-
-/// Letters of the tubes of a new scene.
-const LETTERS: &str = "ABCDEFGH";
 
 /// A scene that was read.
 #[derive(Debug)]
@@ -24,6 +22,8 @@ pub(super) struct OpenedScene {
     pub(super) script: Script,
     /// Name and text of the script, for messages.
     pub(super) source: (String, String),
+    /// Its pigments.
+    pub(super) materials: Materials,
     /// The surfaces of the subject.
     pub(super) mesh: Mesh,
     /// Whether the subject is a photograph.
@@ -42,7 +42,7 @@ impl OpenedScene {
     pub(super) fn read(subject: &Subject) -> Result<Self, FileFailure> {
         match subject {
             Subject::Shape(name) => Self::of_script(
-                new_script(&format!("{SHAPE}{name}"), name),
+                new_script(&format!("{SHAPE}{name}"), name)?,
                 (format!("{SHAPE}{name}"), String::new()),
                 Path::new(""),
             ),
@@ -52,7 +52,7 @@ impl OpenedScene {
                 let title = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
                 let folder = path.parent().unwrap_or(Path::new(""));
                 let source = (path.display().to_string(), String::new());
-                Self::of_script(new_script(name, title), source, folder)
+                Self::of_script(new_script(name, title)?, source, folder)
             }
             Subject::Script(path) => {
                 let path = absolute(path);
@@ -63,7 +63,7 @@ impl OpenedScene {
             }
             Subject::Text { text, folder } => {
                 let name = "the recovered scene";
-                let script = Script::from_text(name, text);
+                let script = Script::from_own_text(name, text);
                 let script = script.map_err(|error| FileFailure::explained(&error))?;
                 Self::of_script(script, (name.to_owned(), text.clone()), folder)
             }
@@ -86,21 +86,25 @@ impl OpenedScene {
             }
             script::Subject::File(path) => (photograph(&path)?, true, Some(path)),
         };
+        let materials = Materials::of(&script, (&source.0, &source.1), folder)?;
         let mut script = script;
         if flat {
             script.light_of_its_own();
         }
-        Ok(Self { script, source, mesh, flat, folder: folder.to_owned(), file })
+        // What is shown is what is saved.
+        let script = script.rounded();
+        Ok(Self { script, source, materials, mesh, flat, folder: folder.to_owned(), file })
     }
 }
 
 /// The script of a scene in which nothing has happened.
-fn new_script(subject: &str, title: &str) -> Script {
+fn new_script(subject: &str, title: &str) -> Result<Script, FileFailure> {
     let mut script = Script::new(subject, 0.0);
     script.title = title.to_owned();
-    let letters = LETTERS.chars().map(String::from);
-    script.palette = letters.zip(TUBES.map(str::to_owned)).collect();
-    script
+    let library = PigmentLibrary::van_gogh_oils();
+    fill_tubes(&mut script, &library)?;
+    script.library = Some(library.title);
+    Ok(script)
 }
 
 /// Whether a file's name has the ending of a model.

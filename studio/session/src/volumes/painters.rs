@@ -1,20 +1,19 @@
-//! Pictures of a scene: a drawing, and paintings in pigments, whose painters are made when they are
-//! first needed.
+//! Pictures of a scene: a drawing, and paintings in pigments, whose painters are made beside the
+//! thread of the scene when they are first needed.
 
 use std::sync::Arc;
 
-use pigment::library::PigmentLibrary;
 use render::camera::Camera;
 use render::field::Field;
 use render::mesh::Mesh;
-use render::paint::document::{Document, Lighting, Slots};
-use render::paint::ground::GroundKind;
-use render::volumes::painter::{Show, VolumePainter, VolumePigments};
+use render::paint::document::Document;
+use render::volumes::painter::{PaintingError, Show, VolumePainter, VolumePigments};
 use render::volumes::script::{RegionStyle, Script};
 use render::volumes::settings::Settings;
 use render::volumes::world::World;
 
 use super::look::{Inside, Look};
+use super::making::Making;
 use crate::failure::FileFailure;
 
 /// Size of a picture in pixels, and what sees it.
@@ -33,11 +32,13 @@ pub(super) struct Quality {
     pub(super) fine: bool,
     /// Its width by that of the picture that it stands for, whose strokes it has.
     pub(super) share: f32,
+    /// Whether it waits for its painter; otherwise it is the drawing until that is made.
+    pub(super) waits: bool,
 }
 
 impl Quality {
     /// A picture as it is exported.
-    pub(super) const BEST: Self = Self { fine: true, share: 1.0 };
+    pub(super) const BEST: Self = Self { fine: true, share: 1.0, waits: true };
 }
 
 /// The purpose of a painter.
@@ -49,62 +50,116 @@ enum Kind {
     Painting(Inside),
 }
 
+/// A painter that was made.
+#[derive(Debug)]
+struct Made {
+    kind: Kind,
+    /// Number of the pigments that it was made of.
+    version: u64,
+    painter: VolumePainter,
+}
+
+/// A painter that is being made, with its kind and the number of its pigments.
+type InMaking = (Kind, u64, Making<Result<VolumePainter, PaintingError>>);
+
 /// The painters of a scene.
 #[derive(Debug)]
 pub(super) struct Painters {
+    scene: Arc<Mesh>,
     settings: Settings,
     styles: Vec<RegionStyle>,
     pigments: Option<VolumePigments>,
-    made: Vec<(Kind, VolumePainter)>,
+    /// Counter of changes of the pigments.
+    version: u64,
+    made: Vec<Made>,
+    /// Kind and pigments of the painter that could not be made last.
+    failed: Option<(Kind, u64)>,
+    /// A painter that is being made.
+    making: Option<InMaking>,
 }
 
 impl Painters {
-    /// Painters with the settings and regions of a script, and the pigments of its palette if it
-    /// has one, on the ground that the command line takes.
+    /// Painters of a scene with the settings and regions of a script, and these pigments if there
+    /// are any.
     pub(super) fn new(
+        scene: &Arc<Mesh>,
         script: &Script,
         settings: &Settings,
-        (library, slots): (&Arc<PigmentLibrary>, Slots),
+        pigments: Option<VolumePigments>,
     ) -> Self {
-        let pigments = (!script.palette.is_empty()).then(|| VolumePigments {
-            library: Arc::clone(library),
-            slots,
-            own_colors: None,
-            ground: GroundKind::Panel.spec(1),
-            // Films are thinner than the relief of a ground, which would only hide the drawing.
-            lighting: Lighting { relief: 0.0, ..Lighting::default() },
-        });
-        let styles = script.region_styles(settings);
-        Self { settings: settings.clone(), styles, pigments, made: Vec::new() }
+        Self {
+            scene: Arc::clone(scene),
+            settings: settings.clone(),
+            styles: script.region_styles(settings),
+            pigments,
+            version: 1,
+            made: Vec::new(),
+            failed: None,
+            making: None,
+        }
     }
 
-    /// The painter of a kind, which draws with these settings.
-    fn painter(
-        &mut self,
-        scene: &Mesh,
-        kind: Kind,
-        settings: &Settings,
-    ) -> Result<&mut VolumePainter, FileFailure> {
-        let known = self.made.iter().position(|(own, _)| *own == kind);
-        let index = match known {
-            Some(index) => index,
-            None => {
-                let painter = self.make(scene, kind, settings)?;
-                self.made.push((kind, painter));
-                self.made.len() - 1
-            }
-        };
-        let painter = &mut self.made[index].1;
-        painter.set_drawing(settings).map_err(|error| FileFailure::explained(&error))?;
-        Ok(painter)
+    /// Paints with other pigments, or under another light, from now on. Until painters are made
+    /// of them pictures are those of before.
+    pub(super) fn set_pigments(&mut self, pigments: Option<VolumePigments>) {
+        self.pigments = pigments;
+        self.version += 1;
     }
 
-    fn make(
-        &self,
-        scene: &Mesh,
-        kind: Kind,
-        settings: &Settings,
-    ) -> Result<VolumePainter, FileFailure> {
+    /// Whether the picture of a look is that of a painting.
+    pub(super) fn paints(&self, look: &Look) -> bool {
+        let shows_films = look.show == Show::Final && look.inside != Inside::OwnColours;
+        shows_films && self.pigments.is_some()
+    }
+
+    /// Whether a painter is being made.
+    pub(super) fn is_making(&self) -> bool {
+        self.making.is_some()
+    }
+
+    /// Takes the painter that was being made, if it is ready. Returns whether it is.
+    ///
+    /// # Errors
+    /// [`FileFailure`] for settings or pigments that cannot be used.
+    pub(super) fn take_made(&mut self) -> Result<bool, FileFailure> {
+        match &self.making {
+            Some((.., making)) if making.is_ready() => self.await_made().map(|()| true),
+            _ => Ok(false),
+        }
+    }
+
+    /// Waits for the painter that is being made.
+    fn await_made(&mut self) -> Result<(), FileFailure> {
+        let Some((kind, version, making)) = self.making.take() else { return Ok(()) };
+        self.failed = Some((kind, version));
+        let what = "the paint could not be mixed by a fault of the program".to_owned();
+        let made = making.result().ok_or(FileFailure { what, hint: None })?;
+        let painter = made.map_err(|error| FileFailure::explained(&error))?;
+        self.failed = None;
+        self.made.retain(|made| made.kind != kind);
+        self.made.push(Made { kind, version, painter });
+        Ok(())
+    }
+
+    /// Number of the pigments that a painter of this kind is made of now.
+    fn wanted(&self, kind: Kind) -> u64 {
+        if kind == Kind::Drawing { 0 } else { self.version }
+    }
+
+    fn index(&self, kind: Kind) -> Option<usize> {
+        self.made.iter().position(|made| made.kind == kind)
+    }
+
+    fn is_made(&self, kind: Kind) -> bool {
+        let wanted = self.wanted(kind);
+        self.index(kind).is_some_and(|index| self.made[index].version == wanted)
+    }
+
+    /// Begins to make a painter, unless it is there or another is being made.
+    fn begin(&mut self, kind: Kind) {
+        if self.is_made(kind) || self.making.is_some() {
+            return;
+        }
         let inside = match kind {
             Kind::Drawing => Inside::OwnColours,
             Kind::Painting(inside) => inside,
@@ -112,14 +167,53 @@ impl Painters {
         let style =
             |style: &RegionStyle| RegionStyle { inside: inside.as_setting(), ..style.clone() };
         let styles: Vec<RegionStyle> = self.styles.iter().map(style).collect();
-        let painter = VolumePainter::new(scene, settings, &styles);
-        let painter = painter.map_err(|error| FileFailure::explained(&error))?;
-        match self.pigments.clone().filter(|_| kind != Kind::Drawing) {
-            Some(pigments) => {
-                painter.with_pigments(pigments).map_err(|error| FileFailure::explained(&error))
+        let pigments = self.pigments.clone().filter(|_| kind != Kind::Drawing);
+        let (scene, settings) = (Arc::clone(&self.scene), self.settings.clone());
+        let making = Making::begin(move || {
+            let painter = VolumePainter::new(&scene, &settings, &styles)?;
+            match pigments {
+                Some(pigments) => painter.with_pigments(pigments),
+                None => Ok(painter),
             }
-            None => Ok(painter),
+        });
+        self.making = Some((kind, self.wanted(kind), making));
+    }
+
+    /// The painter of a kind, which draws with these settings. It waits until it is made; without
+    /// `waits` one of earlier pigments will do, or else that of the drawing.
+    fn painter(
+        &mut self,
+        kind: Kind,
+        waits: bool,
+        settings: &Settings,
+    ) -> Result<&mut VolumePainter, FileFailure> {
+        let mut kind = kind;
+        if !waits && kind != Kind::Drawing {
+            if self.failed != Some((kind, self.version)) {
+                self.begin(kind);
+            }
+            if self.index(kind).is_none() {
+                kind = Kind::Drawing;
+            }
         }
+        let will_do = |own: &Self| own.is_made(kind) || !waits && own.index(kind).is_some();
+        while !will_do(self) {
+            // One of another kind may be in the making.
+            let others = self.making.as_ref().is_some_and(|(own, ..)| *own != kind);
+            if others && kind == Kind::Drawing {
+                let waiting = self.making.take();
+                self.begin(kind);
+                self.await_made()?;
+                self.making = waiting;
+                continue;
+            }
+            self.begin(kind);
+            self.await_made()?;
+        }
+        let index = self.index(kind).unwrap_or_default();
+        let painter = &mut self.made[index].painter;
+        painter.set_drawing(settings).map_err(|error| FileFailure::explained(&error))?;
+        Ok(painter)
     }
 
     /// The picture of a world: encoded sRGB.
@@ -128,7 +222,7 @@ impl Painters {
     /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn picture(
         &mut self,
-        (scene, world): (&Mesh, &World),
+        world: &World,
         sight: &Sight,
         look: &Look,
         quality: Quality,
@@ -139,9 +233,8 @@ impl Painters {
         }
         let hatching = &mut settings.hatching;
         hatching.width_px = (hatching.width_px * quality.share).max(1.0);
-        let drawn = look.show != Show::Final || look.inside == Inside::OwnColours;
-        let kind = if drawn { Kind::Drawing } else { Kind::Painting(look.inside) };
-        let painter = self.painter(scene, kind, &settings)?;
+        let kind = if self.paints(look) { Kind::Painting(look.inside) } else { Kind::Drawing };
+        let painter = self.painter(kind, quality.waits, &settings)?;
         let picture = painter.shown(world, &sight.camera, sight.size.into(), look.show);
         picture.map_err(|error| FileFailure::explained(&error))
     }
@@ -152,13 +245,13 @@ impl Painters {
     /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn painting(
         &mut self,
-        (scene, world): (&Mesh, &World),
+        world: &World,
         sight: &Sight,
         look: &Look,
         title: &str,
     ) -> Result<Document, FileFailure> {
         let settings = look.applied_to(&self.settings);
-        let painter = self.painter(scene, Kind::Painting(look.inside), &settings)?;
+        let painter = self.painter(Kind::Painting(look.inside), true, &settings)?;
         let painting = painter.painting(world, &sight.camera, sight.size.into(), title);
         painting.map_err(|error| FileFailure::explained(&error))
     }

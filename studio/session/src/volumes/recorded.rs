@@ -1,10 +1,14 @@
 //! The recording of a scene: its script, sorted by gestures.
 
-use render::volumes::script::{Action, Event, Recipe, Recorder, Script};
+use glam::DVec3;
+use render::volumes::script::{Action, Ball, Dry, Event, Recipe, Recorder, Script};
 
 use super::gesture::Timed;
 use super::state::SceneEvent;
 use super::tool::SceneTool;
+
+/// Most steps between two actions of a dryer that is drawn over the surface.
+const DRYING: u32 = 24;
 
 /// The actions of one gesture, or those that belong together in a script.
 #[derive(Debug, Clone, PartialEq)]
@@ -140,7 +144,10 @@ impl Recorded {
             Action::Push(_) => (Some(SceneTool::Push), "push".to_owned()),
             Action::Lift(_) => (Some(SceneTool::Lift), "lift".to_owned()),
             Action::Split(_) => (None, "split".to_owned()),
-            Action::Dry => (Some(SceneTool::Dry), "dry all paint".to_owned()),
+            Action::Dry(dry) => {
+                let what = if dry.ball.is_some() { "dry" } else { "dry all paint" };
+                (Some(SceneTool::Dry), what.to_owned())
+            }
         }
     }
 
@@ -167,6 +174,9 @@ impl Gesture {
     /// Whether `next` follows at once with the same tool and paint.
     fn goes_on_with(&self, next: &Timed) -> bool {
         let Some(last) = self.actions.last() else { return false };
+        if let (Action::Dry(last_dry), Action::Dry(next_dry)) = (&last.action, &next.action) {
+            return next.start - last.start <= DRYING && are_near(last_dry, next_dry);
+        }
         let alike = match (&last.action, &next.action) {
             (Action::Pour(one), Action::Pour(other)) => one.recipe == other.recipe,
             (Action::Push(_), Action::Push(_)) | (Action::Lift(_), Action::Lift(_)) => true,
@@ -176,10 +186,16 @@ impl Gesture {
     }
 }
 
+/// Whether two dryers are so near that one drag may have made both.
+fn are_near(one: &Dry, other: &Dry) -> bool {
+    let (Some(one), Some(other)) = (one.ball, other.ball) else { return false };
+    let Ball { center, radius } = one;
+    let apart = DVec3::from(center).distance(DVec3::from(other.center));
+    radius == other.radius && apart <= radius
+}
+
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
     use crate::volumes::gesture::Hand;
     use crate::volumes::tool::Grip;
@@ -199,7 +215,7 @@ mod tests {
             recorded.end();
         }
         recorded.begin();
-        recorded.add(Timed { start: 6, end: 7, action: Action::Dry });
+        recorded.add(Timed { start: 6, end: 7, action: Action::Dry(Dry::default()) });
         recorded.begin();
         recorded.end();
         recorded
@@ -238,5 +254,26 @@ mod tests {
         let again = Recorded::of(&read);
         assert_eq!(again.events(), recorded.events());
         assert_eq!(again.script(240).events(), read.events(), "in the same order");
+    }
+
+    #[test]
+    fn a_drag_of_the_dryer_is_one_gesture_also_after_it_is_read() {
+        let mut recorded = Recorded::of(&Script::new("shape:village", 2.0));
+        let dry = |start: u32, x: f64| {
+            let ball = Some(Ball { center: [x, 0.0, 0.0], radius: 0.5 });
+            Timed { start, end: start + 1, action: Action::Dry(Dry { ball }) }
+        };
+        for drag in [vec![dry(5, 0.0), dry(9, 0.2), dry(30, 0.4)], vec![dry(40, 3.0)]] {
+            recorded.begin();
+            drag.into_iter().for_each(|action| recorded.add(action));
+        }
+        recorded.begin();
+        recorded.add(Timed { start: 41, end: 42, action: Action::Dry(Dry::default()) });
+        let labels: Vec<String> = recorded.events().into_iter().map(|event| event.label).collect();
+        assert_eq!(labels, ["dry", "dry", "dry all paint"]);
+        let text = recorded.script(60).to_text().unwrap();
+        let read = Recorded::of(&Script::from_text("text", &text).unwrap());
+        assert_eq!(read.events(), recorded.events());
+        assert_eq!(read.script(60), recorded.script(60));
     }
 }

@@ -4,55 +4,45 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use pigment::library::PigmentLibrary;
 use render::camera::Camera;
-use render::encoding::linear_from_encoded;
-use render::export::frame_of;
 use render::field::Field;
 use render::mesh::Mesh;
-use render::paint::document::Document;
 use render::volumes::performance::FirstView;
-use render::volumes::pigments::FilmProfile;
-use render::volumes::script::{Event, Recipe, Script, ScriptError};
+use render::volumes::script::{Event, Script, ScriptError};
 use render::volumes::settings::Settings;
 use render::volumes::toml_text::KeyPath;
 
-use super::event::{Here, SceneRecording};
 use super::gesture::{Hand, Timed};
-use super::header::{
-    FIRST_PICTURE, camera_table, first_camera, framed, resolve_picks, script_steps, tally, tubes,
-};
-use super::inspect::{color_at, found_at, told};
+use super::header::{FIRST_PICTURE, first_camera, framed, resolve_picks, script_steps, tally};
 use super::look::Look;
+use super::materials::Materials;
 use super::opened::OpenedScene;
-use super::painters::{Painters, Quality, Sight};
-use super::ray::{Hit, surface_at};
+use super::painters::Painters;
 use super::recorded::Recorded;
-use super::state::{SceneState, SceneTime, SceneTube};
+use super::state::{SceneState, SceneTime};
 use super::subject::Subject;
 use super::timeline::Timeline;
-use super::tool::{Grip, ScenePen, SceneTool};
 use crate::failure::FileFailure;
 
 /// A scene at work.
 #[derive(Debug)]
 pub(super) struct Scene {
-    mesh: Mesh,
+    pub(super) mesh: Arc<Mesh>,
     flat: bool,
     /// The camera that frames the subject.
     framed: Camera,
-    folder: PathBuf,
-    file: Option<PathBuf>,
-    settings: Settings,
+    pub(super) folder: PathBuf,
+    pub(super) file: Option<PathBuf>,
+    pub(super) settings: Settings,
     view: FirstView,
-    recorded: Recorded,
-    timeline: Timeline,
-    hand: Option<Hand>,
-    painters: Painters,
-    tubes: Arc<Vec<SceneTube>>,
-    look: Look,
+    pub(super) recorded: Recorded,
+    pub(super) timeline: Timeline,
+    pub(super) hand: Option<Hand>,
+    pub(super) painters: Painters,
+    pub(super) materials: Materials,
+    pub(super) look: Look,
     /// The last picture, in encoded sRGB.
-    shown: Option<Field<[f32; 4]>>,
+    pub(super) shown: Option<Field<[f32; 4]>>,
 }
 
 impl Scene {
@@ -61,13 +51,12 @@ impl Scene {
     /// # Errors
     /// [`FileFailure`] that names the file, the place in a script, and the way out.
     pub(super) fn open(subject: &Subject) -> Result<Self, FileFailure> {
-        let OpenedScene { mut script, source, mesh, flat, folder, file } =
+        let OpenedScene { mut script, source, materials, mesh, flat, folder, file } =
             OpenedScene::read(subject)?;
+        let mesh = Arc::new(mesh);
         let located =
             |fault| FileFailure::explained(&ScriptError::located(&source.0, &source.1, fault));
         let settings = script.settings().map_err(located)?;
-        let library = Arc::new(PigmentLibrary::van_gogh_oils());
-        let slots = script.slots(&library).map_err(located)?;
         let first = first_camera(&script, &mesh);
         let view = FirstView::new(&mesh, &first, FIRST_PICTURE);
         resolve_picks(&mut script, &mesh, &view);
@@ -75,8 +64,7 @@ impl Scene {
         let played = recorded.script(recorded.end_step());
         let mut timeline = Timeline::new(&played, &mesh, &settings, &view)?;
         timeline.reach(script_steps(&script).max(recorded.end_step().into()));
-        let tubes = Arc::new(tubes(&script, &library, &slots)?);
-        let painters = Painters::new(&script, &settings, (&library, slots));
+        let painters = Painters::new(&mesh, &script, &settings, materials.painted(&script));
         let look = Look::of(&script, &settings);
         let (hand, shown) = (None, None);
         Ok(Self {
@@ -91,7 +79,7 @@ impl Scene {
             timeline,
             hand,
             painters,
-            tubes,
+            materials,
             look,
             shown,
         })
@@ -100,6 +88,7 @@ impl Scene {
     /// Changes what is shown.
     pub(super) fn set_look(&mut self, look: Look) {
         let (before, settings) = (self.look, &self.settings);
+        let look = look.rounded();
         self.look = look;
         // The picture that is shown is no part of the script.
         if (Look { show: before.show, ..look }) != before {
@@ -147,7 +136,7 @@ impl Scene {
     }
 
     /// Adds an action of the hand to the recording and to what is played.
-    fn add(&mut self, timed: Timed) {
+    pub(super) fn add(&mut self, timed: Timed) {
         let Timed { start, end, action } = timed.clone();
         self.recorded.add(timed);
         self.timeline.add(Event { start, end, action, table: KeyPath::of("hand") });
@@ -164,160 +153,18 @@ impl Scene {
         self.timeline.seek(goal, (&script, &self.mesh, &self.view))
     }
 
-    /// Sets the pen down with a tool. Returns whether there is a surface below it.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the moment that is sought cannot be reached.
-    pub(super) fn pen_down(
-        &mut self,
-        sight: &Sight,
-        grip: Grip,
-        pen: ScenePen,
-    ) -> Result<bool, FileFailure> {
-        self.pen_up()?;
-        while self.is_behind() {
-            self.timeline.step()?;
-        }
-        let Some(hit) = self.hit(sight, pen.at) else { return Ok(false) };
-        let letter = self.recorded.base().palette.keys().nth(grip.tube);
-        let recipe = letter.map(|letter| (letter.clone(), 1.0)).into_iter().collect::<Recipe>();
-        let step = u32::try_from(self.timeline.moment()).unwrap_or(u32::MAX);
-        let at = (hit.place.as_dvec3(), f64::from(pen.pressure));
-        let unit_mm = self.timeline.now().world().unit_mm();
-        let mut hand = Hand::down(grip, recipe, unit_mm, at, step);
-        hand.rest();
-        self.hand = Some(hand);
-        self.recorded.begin();
-        Ok(true)
-    }
-
-    /// Moves the pen that is down. Off the surface it stays where it was.
-    pub(super) fn pen_move(&mut self, sight: &Sight, pen: ScenePen) {
-        let hit = self.hit(sight, pen.at);
-        if let (Some(hand), Some(hit)) = (&mut self.hand, hit) {
-            hand.move_to(hit.place.as_dvec3(), f64::from(pen.pressure));
-        }
-    }
-
-    /// Lifts the pen. A gesture that was shorter than a step still acts once.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for a gesture that cannot be done.
-    pub(super) fn pen_up(&mut self) -> Result<(), FileFailure> {
-        if self.hand.is_some() && self.recorded.last_is_empty() {
-            self.step()?;
-        }
-        if self.hand.take().is_some() {
-            self.recorded.end();
-        }
-        Ok(())
-    }
-
-    /// Whether the pen is down with a tool that works as long as it is.
-    pub(super) fn is_at_work(&self) -> bool {
-        self.hand.as_ref().is_some_and(|hand| hand.tool() != SceneTool::Dry)
-    }
-
-    fn hit(&self, sight: &Sight, at: [f32; 2]) -> Option<Hit> {
-        let [width, height] = sight.size;
-        surface_at(&self.mesh, &sight.camera, width as f32 / height as f32, at)
-    }
-
-    /// Takes back the event that was added last.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the rest cannot be played.
-    pub(super) fn undo(&mut self) -> Result<(), FileFailure> {
-        self.pen_up()?;
-        let from = self.recorded.undo();
-        self.replay_without(from)
-    }
-
-    /// Takes back an event by its number in the list.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the rest cannot be played.
-    pub(super) fn remove(&mut self, number: usize) -> Result<(), FileFailure> {
-        self.pen_up()?;
-        let from = self.recorded.remove(number);
-        self.replay_without(from)
-    }
-
     /// Plays the recording again from step `from` on, after an event that began there was removed.
-    fn replay_without(&mut self, from: Option<u32>) -> Result<(), FileFailure> {
-        let Some(from) = from else { return Ok(()) };
+    ///
+    /// # Errors
+    /// [`FileFailure`] if it cannot be played.
+    pub(super) fn replay_from(&mut self, from: u32) -> Result<(), FileFailure> {
         let script = self.script();
         self.timeline.replay(from.into(), (&script, &self.mesh, &self.view))
     }
 
     /// The script of all events so far.
-    fn script(&self) -> Script {
+    pub(super) fn script(&self) -> Script {
         self.recorded.script(u32::try_from(self.end()).unwrap_or(u32::MAX))
-    }
-
-    /// The picture with all samples, in linear sRGB.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
-    pub(super) fn picture(&mut self, sight: &Sight) -> Result<Field<[f32; 4]>, FileFailure> {
-        let scene = (&self.mesh, self.timeline.now().world());
-        let picture = self.painters.picture(scene, sight, &self.look, Quality::BEST)?;
-        Ok(linear_from_encoded(&picture))
-    }
-
-    /// The painting that the scene makes.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
-    pub(super) fn painting(&mut self, sight: &Sight) -> Result<Document, FileFailure> {
-        let scene = (&self.mesh, self.timeline.now().world());
-        let title = &self.recorded.base().title;
-        self.painters.painting(scene, sight, &self.look, title)
-    }
-
-    /// The bytes of the picture.
-    ///
-    /// # Errors
-    /// [`FileFailure`] for settings or pigments that cannot be used.
-    pub(super) fn pixels(
-        &mut self,
-        sight: &Sight,
-        quality: Quality,
-    ) -> Result<Vec<[u8; 4]>, FileFailure> {
-        let scene = (&self.mesh, self.timeline.now().world());
-        let picture = self.painters.picture(scene, sight, &self.look, quality)?;
-        let frame = frame_of(&picture);
-        self.shown = Some(picture);
-        Ok(frame.values().iter().map(|&[red, green, blue]| [red, green, blue, 255]).collect())
-    }
-
-    /// Surface, paint and colour at a place of the picture.
-    pub(super) fn here(&self, sight: &Sight, at: [f32; 2]) -> Here {
-        let srgb = self.shown.as_ref().map_or([0; 3], |shown| color_at(shown, at));
-        let drawing = &self.settings.drawing;
-        let profile = FilmProfile { rim: drawing.rim, edge: drawing.edge, gate: drawing.gate };
-        let found = self.hit(sight, at).map(|hit| {
-            let found = found_at(self.timeline.now().world(), &hit, profile);
-            (hit.place, found)
-        });
-        told(found, srgb, &self.tubes, &self.recorded.base().regions)
-    }
-
-    /// The script as it would be saved, seen by `camera`.
-    ///
-    /// # Errors
-    /// [`FileFailure`] if the script is longer than one can be.
-    pub(super) fn recording(&self, camera: Option<Camera>) -> Result<SceneRecording, FileFailure> {
-        let mut script = self.script();
-        script.camera = camera.map(|camera| camera_table(&camera)).or(script.camera);
-        let text = script.to_text().map_err(|error| FileFailure::explained(&error))?;
-        let (folder, subject) = (self.folder.clone(), self.file.clone());
-        Ok(SceneRecording { text: text.into(), folder, subject, revision: self.revision() })
-    }
-
-    /// Counter of changes of the recording.
-    fn revision(&self) -> u64 {
-        self.recorded.revision()
     }
 
     /// The camera that the script names, if it does.
@@ -338,12 +185,16 @@ impl Scene {
             flat: self.flat,
             framed: self.framed,
             seen_from: self.seen_from(),
-            tubes: Arc::clone(&self.tubes),
+            library: Arc::clone(&self.materials.library),
+            light: Arc::clone(&self.materials.light),
+            illuminant: self.materials.illuminant.clone(),
+            tubes: Arc::clone(&self.materials.tubes),
+            prepares: self.painters.is_making(),
             look: self.look,
             time,
             events: Arc::new(self.recorded.events()),
             tally: tally(&world.tally(), world.quantum_mm3(), world.volumes().len()),
-            revision: self.revision(),
+            revision: self.recorded.revision(),
         }
     }
 }

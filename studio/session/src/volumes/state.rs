@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use glam::Vec3;
+use pigment::library::PigmentLibrary;
 use render::camera::Camera;
+use render::light::Light;
 
 use super::look::Look;
 use super::tool::SceneTool;
@@ -77,6 +79,14 @@ pub struct SceneState {
     pub framed: Camera,
     /// The camera that its script names, if it does.
     pub seen_from: Option<Camera>,
+    /// The library of the tubes.
+    pub library: Arc<PigmentLibrary>,
+    /// The light on pigments.
+    pub light: Arc<Light>,
+    /// Its name.
+    pub illuminant: String,
+    /// Whether paint is being mixed for the picture, which shows it when that is done.
+    pub prepares: bool,
     /// The tubes, at most eight.
     pub tubes: Arc<Vec<SceneTube>>,
     /// The look that is shown.

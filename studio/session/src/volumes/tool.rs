@@ -10,7 +10,7 @@ pub enum SceneTool {
     Push,
     /// Takes paint up, as a sponge does.
     Lift,
-    /// Dries paint and shape.
+    /// Dries the volumes below it, paint and shape.
     Dry,
 }
 

@@ -32,6 +32,9 @@ const SMALLEST: f64 = 0.5;
 /// Time after the last change at which a picture is drawn with all samples.
 const REST: Duration = Duration::from_millis(160);
 
+/// Time between two looks whether paint is mixed.
+const MIXING: Duration = Duration::from_millis(20);
+
 /// Steps after which time stops by itself while nothing is done: 10 s. Paint has come to rest.
 const RUN_ON: u64 = 10 * STEPS_A_SECOND;
 
@@ -93,6 +96,8 @@ impl<'a> SceneLoop<'a> {
                 let done = self.carry_out(command);
                 self.report(done);
             }
+            let made = self.take_made();
+            self.report(made);
             let advanced = self.advance();
             if advanced.is_err() {
                 self.play(false);
@@ -116,7 +121,9 @@ impl<'a> SceneLoop<'a> {
         }
         let rests = self.moved.map(|moved| moved + REST).filter(|_| may_draw);
         let state = self.state_stale.then_some(self.state_due);
-        [self.pacer.next(), rests, state].into_iter().flatten().min()
+        let makes = self.scene.as_ref().is_some_and(|scene| scene.painters.is_making());
+        let made = makes.then(|| now + MIXING);
+        [self.pacer.next(), rests, state, made].into_iter().flatten().min()
     }
 
     fn report(&mut self, result: Result<(), FileFailure>) {
@@ -150,7 +157,10 @@ impl<'a> SceneLoop<'a> {
                 state.into_iter().for_each(|state| (self.send)(VolumeEvent::Opened(state)));
                 return Ok(());
             }
-            VolumeCommand::Camera(camera) => self.camera = Some(camera),
+            VolumeCommand::Camera(camera) => {
+                let scene = self.scene.as_ref();
+                self.camera = Some(scene.map_or(camera, |scene| scene.recorded_camera(&camera)));
+            }
             VolumeCommand::Size(size) => self.size = size,
             VolumeCommand::Look(look) => {
                 if let Some(scene) = &mut self.scene {
@@ -185,11 +195,8 @@ impl<'a> SceneLoop<'a> {
             VolumeCommand::PenDown(grip, pen) => {
                 let Some(sight) = sight else { return Ok(()) };
                 if scene.pen_down(&sight, grip, pen)? {
-                    let works = scene.is_at_work();
                     self.play(true);
-                    if works {
-                        self.stops_at = u64::MAX;
-                    }
+                    self.stops_at = u64::MAX;
                 }
             }
             VolumeCommand::PenMove(pen) => {
@@ -218,11 +225,15 @@ impl<'a> SceneLoop<'a> {
                 scene.go_to(step)?;
                 self.play(false);
             }
+            VolumeCommand::DryAll => scene.dry_all()?,
+            VolumeCommand::Illuminant(light) => scene.set_illuminant(&light)?,
+            VolumeCommand::Library(path) => scene.set_library(&path)?,
+            VolumeCommand::Tube(number, pigment) => scene.set_tube(number, &pigment)?,
             VolumeCommand::Undo => scene.undo()?,
             VolumeCommand::Remove(event) => scene.remove(event)?,
             VolumeCommand::Draw(number, size) => {
                 let Some(sight) = sight else { return Ok(()) };
-                let picture = scene.picture(&Sight { size, ..sight })?;
+                let picture = scene.image(&Sight { size, ..sight })?;
                 (self.send)(VolumeEvent::Drawn(number, Arc::new(picture)));
                 return Ok(());
             }
@@ -241,6 +252,18 @@ impl<'a> SceneLoop<'a> {
         }
         self.changed();
         Ok(())
+    }
+
+    /// Takes paint that was mixed, which the next picture shows.
+    fn take_made(&mut self) -> Result<(), FileFailure> {
+        let Some(scene) = &mut self.scene else { return Ok(()) };
+        let before = scene.painters.is_making();
+        let taken = scene.painters.take_made();
+        if before && !scene.painters.is_making() {
+            self.state_stale = true;
+            self.changed();
+        }
+        taken.map(|_| ())
     }
 
     /// Takes the steps that are due, as many as there is time for.
@@ -295,8 +318,10 @@ impl<'a> SceneLoop<'a> {
         if !moves {
             self.moved = None;
         }
-        let quality = Quality { fine: !moves, share: share as f32 };
+        let quality = Quality { fine: !moves, share: share as f32, waits: false };
+        let mixed = scene.painters.is_making();
         let pixels = scene.pixels(&Sight { size, ..sight }, quality)?;
+        self.state_stale |= scene.painters.is_making() != mixed;
         let [width, height] = size;
         let (step, fine) = (scene.moment(), !moves);
         let picture = ScenePicture { width, height, pixels, step, fine };

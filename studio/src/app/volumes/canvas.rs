@@ -64,7 +64,7 @@ impl Volumes {
         let Some(state) = &self.state else { return };
         let grip = self.tools.grip;
         let radius = match grip.tool {
-            SceneTool::Pour | SceneTool::Dry => 4.0,
+            SceneTool::Pour => 4.0,
             _ => self.orbit.points(grip.radius_mm / state.unit_mm, self.rect.height()),
         };
         let painter = ui.painter_at(self.rect);
@@ -75,8 +75,8 @@ impl Volumes {
 
     /// Asks what is under a click of the right button, and shows the answer.
     fn ask_here(&mut self, ui: &Ui, response: &Response) {
-        if let Some((at, Some(here))) = &self.here
-            && !show_here(ui.ctx(), *at, here)
+        if let (Some((at, Some(here))), Some(state)) = (&self.here, &self.state)
+            && !show_here(ui.ctx(), *at, here, state)
         {
             self.here = None;
         }

@@ -47,6 +47,13 @@ pub const SCENE_ENTRIES: &[SceneEntry] = &[
         &[key(CTRL, Key::S)],
     ),
     entry(
+        SceneIntent::Library,
+        SceneMenu::File,
+        "Open library...",
+        "Fills the tubes from a pigment library (.json); what was poured is paint of its pigments",
+        &[key(CTRL, Key::L)],
+    ),
+    entry(
         SceneIntent::Easel,
         SceneMenu::File,
         "Back to the easel",
@@ -163,8 +170,15 @@ pub const SCENE_ENTRIES: &[SceneEntry] = &[
         SceneIntent::Tool(SceneTool::Dry),
         SceneMenu::Tools,
         "Dry",
-        "A click dries all paint and its shape",
+        "The pen dries the volumes below it, paint and shape",
         &[key(NONE, Key::D)],
+    ),
+    entry(
+        SceneIntent::DryAll,
+        SceneMenu::Tools,
+        "Dry all paint",
+        "Dries all paint and its shape at once",
+        &[key(Modifiers::SHIFT, Key::D)],
     ),
     entry(
         SceneIntent::Keys,
@@ -254,5 +268,41 @@ mod tests {
         assert!(seen.len() > 20, "{seen:?}");
         assert_eq!(SceneIntent::of_key(Key::Num8, NONE), Some(SceneIntent::Tube(8)));
         assert_eq!(SceneIntent::of_key(Key::Num9, NONE), None, "there are eight tubes");
+    }
+
+    #[test]
+    fn every_key_does_what_the_table_of_keys_says() {
+        const SHIFT: Modifiers = Modifiers::SHIFT;
+        let keys = [
+            (NONE, Key::P, SceneIntent::Play),
+            (NONE, Key::Period, SceneIntent::Step),
+            (NONE, Key::R, SceneIntent::Start),
+            (NONE, Key::V, SceneIntent::Volumes),
+            (NONE, Key::H, SceneIntent::Hatching),
+            (NONE, Key::G, SceneIntent::Inside),
+            (NONE, Key::OpenBracket, SceneIntent::Less),
+            (NONE, Key::CloseBracket, SceneIntent::More),
+            (NONE, Key::Home, SceneIntent::Frame),
+            (NONE, Key::Q, SceneIntent::Tool(SceneTool::Pour)),
+            (NONE, Key::W, SceneIntent::Tool(SceneTool::Push)),
+            (NONE, Key::E, SceneIntent::Tool(SceneTool::Lift)),
+            (NONE, Key::D, SceneIntent::Tool(SceneTool::Dry)),
+            (SHIFT, Key::D, SceneIntent::DryAll),
+            (NONE, Key::Tab, SceneIntent::Panels),
+            (NONE, Key::F1, SceneIntent::Keys),
+            (NONE, Key::F11, SceneIntent::FullScreen),
+            (CTRL, Key::Z, SceneIntent::Undo),
+            (CTRL, Key::N, SceneIntent::New),
+            (CTRL, Key::O, SceneIntent::Open),
+            (CTRL, Key::S, SceneIntent::Save),
+            (CTRL, Key::L, SceneIntent::Library),
+            (CTRL, Key::E, SceneIntent::Easel),
+            (CTRL, Key::Q, SceneIntent::Quit),
+        ];
+        for (modifiers, key, wanted) in keys {
+            assert_eq!(SceneIntent::of_key(key, modifiers), Some(wanted), "{modifiers:?} {key:?}");
+        }
+        let told = SCENE_ENTRIES.iter().filter(|entry| !entry.shortcuts.is_empty());
+        assert_eq!(told.count(), keys.len(), "each entry is here");
     }
 }

@@ -30,7 +30,7 @@ impl Volumes {
                 let seen_from = state.seen_from.as_ref();
                 self.orbit = seen_from.map_or(orbit, |camera| orbit.seen_by(camera));
                 self.told.0 = None;
-                self.here = None;
+                (self.here, self.tools.here) = (None, None);
                 self.message = None;
                 files.scene_opened(&state);
                 self.state = Some(state);
@@ -41,6 +41,7 @@ impl Volumes {
             }
             VolumeEvent::Picture(picture) => self.show_picture(picture),
             VolumeEvent::Here(here) => {
+                self.tools.here = Some((*here).clone());
                 if let Some((_, answer)) = &mut self.here {
                     *answer = Some(*here);
                 }

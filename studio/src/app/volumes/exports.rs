@@ -3,26 +3,23 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use render::export::{PictureFormat, picture_file};
-use render::field::Field;
+use render::export::PictureFormat;
 use render::paint::document::Document;
 use spectra::file::write_whole;
 
 use super::workspace::Volumes;
 use crate::files::{Files, Problem, SceneAnswer, SceneExport};
-use session::volumes::{SceneRecording, Subject, VolumeCommand};
+use session::volumes::{SceneImage, SceneRecording, Subject, VolumeCommand};
 
 /// Number of the request for the recording of an autosave.
 const AUTOSAVE: u64 = 0;
-
-/// Pixels a mm of exported pictures: 254 to the inch.
-const PIXEL_MM: f64 = 0.1;
 
 impl Volumes {
     /// Carries out what the painter chose for a scene.
     pub(in crate::app) fn answer(&mut self, answer: SceneAnswer, files: &mut Files) {
         match answer {
             SceneAnswer::Open(path) => self.open(Subject::of_file(&path)),
+            SceneAnswer::Library(path) => self.ask(VolumeCommand::Library(path)),
             SceneAnswer::Export(export, path) => self.export(export, path),
             SceneAnswer::Recover(lost) => {
                 let folder = lost.meta.path.clone().unwrap_or_default();
@@ -96,15 +93,14 @@ impl Volumes {
     pub(super) fn write_picture(
         &mut self,
         number: u64,
-        picture: Arc<Field<[f32; 4]>>,
+        picture: Arc<SceneImage>,
         files: &mut Files,
     ) {
         let Some((_, path)) = self.take_awaited(number) else { return };
         files.export_scene(path, move |path, _| {
             let format = PictureFormat::from_path(path).unwrap_or(PictureFormat::Png8);
-            let file = picture_file(&picture, PIXEL_MM, format);
-            let file = file.map_err(|error| Problem::from_error(&error))?;
-            write_whole(path, &file.bytes).map_err(Problem::from)?;
+            let bytes = picture.file(format).map_err(Problem::from)?;
+            write_whole(path, &bytes).map_err(Problem::from)?;
             Ok(None)
         });
     }

@@ -107,6 +107,7 @@ impl Volumes {
                 SceneRequest::File(SceneFileRequest::Open(Some(path))) => {
                     self.open(session::volumes::Subject::of_file(&path));
                 }
+                SceneRequest::File(SceneFileRequest::Library) => files.ask_for_scene_library(),
                 SceneRequest::File(SceneFileRequest::Export(export)) => {
                     files.ask_where_to_export_scene(export);
                 }

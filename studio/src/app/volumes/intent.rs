@@ -29,6 +29,10 @@ pub enum SceneIntent {
     Volumes,
     /// Hatches, or not.
     Hatching,
+    /// Dries all paint.
+    DryAll,
+    /// Fills the tubes from a library.
+    Library,
     /// Changes what volumes show inside.
     Inside,
     /// Frames the whole scene.

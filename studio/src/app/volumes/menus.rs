@@ -50,8 +50,10 @@ fn begins_group(intent: SceneIntent) -> bool {
     matches!(
         intent,
         SceneIntent::Save
+            | SceneIntent::Library
             | SceneIntent::Easel
             | SceneIntent::Quit
+            | SceneIntent::DryAll
             | SceneIntent::Play
             | SceneIntent::More
             | SceneIntent::Frame

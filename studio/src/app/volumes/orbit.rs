@@ -231,4 +231,39 @@ mod tests {
             assert!(0.0 < near && near < far && far.is_finite(), "{near} {far}");
         }
     }
+
+    #[test]
+    fn the_near_and_the_far_plane_hold_the_scene_from_all_sides() {
+        let mut orbit = framed_box();
+        for turn in 0..24_u8 {
+            orbit.turn(vec2(71.0, if turn % 2 == 0 { 60.0 } else { -45.0 }));
+            let camera = orbit.camera();
+            let [_, _, back] = camera.axes();
+            for corner in 0..8 {
+                let side = |bit: usize| BOX[usize::from(corner & bit != 0)];
+                let place = Vec3::new(side(1).x, side(2).y, side(4).z);
+                let depth = (camera.eye - place).dot(back);
+                assert!(camera.near < depth && depth < camera.far, "{depth} of {camera:?}");
+            }
+            assert!(camera.near > 0.005 * camera.far, "depth keeps its precision: {camera:?}");
+        }
+    }
+
+    #[test]
+    fn a_drag_to_the_side_turns_about_the_upright_and_one_upwards_lowers_the_eye() {
+        let mut orbit = framed_box();
+        let start = orbit.camera();
+        orbit.turn(vec2(40.0, 0.0));
+        let aside = orbit.camera();
+        assert!((aside.eye.y - start.eye.y).abs() < 1e-4, "{aside:?}");
+        orbit.turn(vec2(0.0, -40.0));
+        let lower = orbit.camera();
+        assert!(lower.eye.y < aside.eye.y, "{lower:?}");
+        let flat = |camera: Camera| (camera.eye - camera.target) * Vec3::new(1.0, 0.0, 1.0);
+        let [before, after] = [aside, lower].map(|camera| flat(camera).normalize());
+        assert!(before.distance(after) < 1e-4, "{before} {after}");
+        // A drag of one point turns by 0.35 degrees.
+        let turned = flat(start).angle_between(flat(aside)).to_degrees();
+        assert!((turned - 14.0).abs() < 0.01, "{turned}");
+    }
 }

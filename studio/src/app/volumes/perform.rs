@@ -70,6 +70,8 @@ impl Volumes {
             SceneIntent::Save => self.file(SceneFileRequest::Export(SceneExport::Script)),
             SceneIntent::Easel => return Some(WindowIntent::Easel),
             SceneIntent::Quit => context.send_viewport_cmd(ViewportCommand::Close),
+            SceneIntent::Library => self.file(SceneFileRequest::Library),
+            SceneIntent::DryAll => self.ask(VolumeCommand::DryAll),
             SceneIntent::Undo => self.ask(VolumeCommand::Undo),
             SceneIntent::Play => {
                 let playing = self.state().is_some_and(|state| state.time.playing);

@@ -31,6 +31,12 @@ impl Volumes {
             ui.label(small(&volumes_text(state)))
                 .on_hover_text("Volumes of paint, and the particles of all of them");
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                if state.prepares {
+                    ui.spinner();
+                    ui.label("mixing the paint").on_hover_text(
+                        "The pigments are prepared for the picture, which shows them when it is done",
+                    );
+                }
                 let message = self.message.as_ref();
                 if let Some(message) =
                     message.filter(|message| message.is_displayed(Instant::now()))

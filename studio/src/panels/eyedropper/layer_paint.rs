@@ -22,9 +22,9 @@ const NEAR: f64 = 0.005;
 
 /// Paint of one layer at a picked place.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct LayerPaint {
+pub(in crate::panels) struct LayerPaint {
     /// Pairs of pigment index and share, largest first; the shares sum to 1.
-    pub(super) shares: Vec<(PigmentId, f64)>,
+    pub(in crate::panels) shares: Vec<(PigmentId, f64)>,
     /// Shares as small whole numbers, if these are close enough.
     pub(super) parts: Option<Vec<u32>>,
     /// Indices of pigments present only as traces.
@@ -39,7 +39,7 @@ pub(super) struct LayerPaint {
 
 impl LayerPaint {
     /// Describes the paint of a picked layer; `None` if it has none there.
-    pub(super) fn of(layer: &PickedLayer) -> Option<Self> {
+    pub(in crate::panels) fn of(layer: &PickedLayer) -> Option<Self> {
         let mut amounts: BTreeMap<PigmentId, f64> = BTreeMap::new();
         for (slot, amount) in layer.slots.iter().zip(layer.amounts_mm) {
             if let Some(pigment) = slot.filter(|_| amount > 0.0) {

@@ -15,5 +15,8 @@ mod search;
 
 mod panel;
 
+pub(super) use layer_paint::LayerPaint;
 pub use panel::Eyedropper;
+pub(super) use picked::layer;
+pub(super) use swatch::swatch;
 pub use target::{Color, TargetColor};

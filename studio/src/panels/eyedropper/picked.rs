@@ -1,7 +1,9 @@
 //! Colour, spectrum and paint at the last picked place.
 
 use eframe::egui::{Button, Grid, Ui, vec2};
+use pigment::library::PigmentLibrary;
 use pigment::palette::Appearance;
+use render::paint::document::Medium;
 use render::paint::strokes::SurfaceId;
 
 use super::super::context::PanelContext;
@@ -35,7 +37,8 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
     }
     for (index, paint) in paints.iter().enumerate().rev() {
         if let Some(paint) = paint {
-            layer(ui, cx, &layer_name(index, wet), paint);
+            let known = (cx.painting.library.as_ref(), &cx.painting.medium);
+            layer(ui, known, &layer_name(index, wet), paint);
         }
     }
     let mut recipes_requested = false;
@@ -87,8 +90,13 @@ fn layer_name(index: usize, wet: usize) -> String {
     if index == wet { "Wet".to_owned() } else { format!("Dry {}", index + 1) }
 }
 
-fn layer(ui: &mut Ui, cx: &PanelContext<'_>, name: &str, paint: &LayerPaint) {
-    let library = &cx.painting.library;
+/// Draws height and recipe of a layer's paint, with a button that copies it.
+pub(in crate::panels) fn layer(
+    ui: &mut Ui,
+    (library, medium): (&PigmentLibrary, &Medium),
+    name: &str,
+    paint: &LayerPaint,
+) {
     ui.separator();
     ui.horizontal(|ui| {
         ui.label(name);
@@ -100,7 +108,7 @@ fn layer(ui: &mut Ui, cx: &PanelContext<'_>, name: &str, paint: &LayerPaint) {
             details += &format!(", opacity {:.2}", paint.opacity);
         }
         ui.weak(details).on_hover_text("Height of the paint, and how much of it is clear medium");
-        if let Some(text) = paint.mix_text(library, &cx.painting.medium) {
+        if let Some(text) = paint.mix_text(library, medium) {
             let copy = ui.small_button("Copy").accessible_name(format!("Copy {name}"));
             let hover = format!("Copies the recipe as `impasto mix LIBRARY` takes it:\n{text}");
             if copy.on_hover_text(hover).clicked() {

@@ -11,7 +11,7 @@ const USUAL_KELVIN: f64 = 6500.0;
 
 /// Controls that choose one illuminant.
 #[derive(Debug)]
-pub(super) struct IlluminantControl {
+pub(in crate::panels) struct IlluminantControl {
     picker: Picker,
     temperature_name: &'static str,
     temperature: Temperature,
@@ -21,7 +21,7 @@ pub(super) struct IlluminantControl {
 
 impl IlluminantControl {
     /// Creates the controls with their accessible names.
-    pub(super) fn new(name: &'static str, temperature_name: &'static str) -> Self {
+    pub(in crate::panels) fn new(name: &'static str, temperature_name: &'static str) -> Self {
         Self {
             picker: Picker::new(name),
             temperature_name,
@@ -31,7 +31,7 @@ impl IlluminantControl {
     }
 
     /// Draws the controls. Returns the name of the illuminant that was chosen.
-    pub(super) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
+    pub(in crate::panels) fn show(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
         if self.known.0 != chosen {
             let light = light_from_text(chosen).ok();
             let temperature = light.as_ref().and_then(ColorTemperature::of);
@@ -43,7 +43,7 @@ impl IlluminantControl {
     }
 
     /// Name of the illuminant at the slider while it is being moved.
-    pub(super) fn preview(&self) -> Option<String> {
+    pub(in crate::panels) fn preview(&self) -> Option<String> {
         self.temperature.preview()
     }
 }

@@ -21,4 +21,7 @@ mod gloss_pad;
 mod panel;
 
 pub(super) use direction::{Direction, direction_control, direction_text};
+pub(super) use illuminant::IlluminantControl;
 pub use panel::LightPanel;
+pub(super) use power_chart::power_chart;
+pub(super) use white::White;

@@ -1,6 +1,6 @@
 //! Draws the light panel.
 
-use eframe::egui::{Button, Color32, ComboBox, Grid, Slider, Ui, vec2};
+use eframe::egui::{Button, Color32, ComboBox, Slider, Ui, vec2};
 use render::optics::Gloss;
 use render::paint::document::Lighting;
 use render::paint::strokes::Action;
@@ -158,18 +158,9 @@ impl LightPanel {
         if !self.white.as_ref().is_some_and(|white| white.is_of(light)) {
             self.white = Some(White::of(light));
         }
-        let Some(white) = &self.white else { return };
-        Grid::new("white").num_columns(2).spacing(vec2(10.0, 2.0)).show(ui, |ui| {
-            ui.weak("White").on_hover_text("Chromaticity of the light for the observer");
-            ui.monospace(white.chromaticity_text());
-            ui.end_row();
-            ui.weak("Looks like").on_hover_text(
-                "Correlated colour temperature, and distance from the black body of \
-                 that temperature: above 0 greener, below 0 pinker",
-            );
-            ui.monospace(white.temperature_text());
-            ui.end_row();
-        });
+        if let Some(white) = &self.white {
+            white.show(ui);
+        }
     }
 
     fn direction(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, mut lighting: Lighting) {

@@ -12,7 +12,7 @@ const STEP_NM: usize = 2;
 
 /// Draws the current light with its quadrature wavelengths, and other lights in their
 /// colours. All curves are scaled to mean 1.
-pub(super) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
+pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
     let mut curves: Vec<Curve> = others.iter().map(|(other, color)| curve(other, *color)).collect();
     curves.push(curve(&light.viewing.illuminant, theme::TEXT));
     let marks = &light.quadrature.rule.nodes_nm;

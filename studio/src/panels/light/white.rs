@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
+use eframe::egui::{Grid, Ui, vec2};
 use render::light::Light;
 use spectra::ColorTemperature;
 
 /// Chromaticity and correlated colour temperature of a light.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct White {
+pub(in crate::panels) struct White {
     light: Arc<Light>,
     /// CIE x, y for the light's observer.
     pub(super) chromaticity: [f64; 2],
@@ -17,7 +18,7 @@ pub(super) struct White {
 
 impl White {
     /// Computes the white point of `light`.
-    pub(super) fn of(light: &Arc<Light>) -> Self {
+    pub(in crate::panels) fn of(light: &Arc<Light>) -> Self {
         let white = light.quadrature.rule.white;
         let xyy = white.to_xyy(white);
         Self {
@@ -28,7 +29,7 @@ impl White {
     }
 
     /// Whether this was computed for the same `light` object.
-    pub(super) fn is_of(&self, light: &Arc<Light>) -> bool {
+    pub(in crate::panels) fn is_of(&self, light: &Arc<Light>) -> bool {
         Arc::ptr_eq(&self.light, light)
     }
 
@@ -44,5 +45,20 @@ impl White {
             || "none: too far from any black body".to_owned(),
             |temperature| format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv),
         )
+    }
+
+    /// Draws the white point in two lines.
+    pub(in crate::panels) fn show(&self, ui: &mut Ui) {
+        Grid::new("white").num_columns(2).spacing(vec2(10.0, 2.0)).show(ui, |ui| {
+            ui.weak("White").on_hover_text("Chromaticity of the light for the observer");
+            ui.monospace(self.chromaticity_text());
+            ui.end_row();
+            ui.weak("Looks like").on_hover_text(
+                "Correlated colour temperature, and distance from the black body of \
+                 that temperature: above 0 greener, below 0 pinker",
+            );
+            ui.monospace(self.temperature_text());
+            ui.end_row();
+        });
     }
 }

@@ -130,7 +130,12 @@ impl CatalogueCache {
         self.under(&painting.library, &painting.light)
     }
 
-    fn under(&mut self, library: &Arc<PigmentLibrary>, light: &Arc<Light>) -> Arc<Catalogue> {
+    /// The catalogue of a library under a light, recomputed if they have changed.
+    pub(in crate::panels) fn under(
+        &mut self,
+        library: &Arc<PigmentLibrary>,
+        light: &Arc<Light>,
+    ) -> Arc<Catalogue> {
         match &self.0 {
             Some(known) if known.is_of(library, light) => Arc::clone(known),
             _ => Arc::clone(self.0.insert(Arc::new(Catalogue::new(library, light)))),

@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use super::chooser::TubeChooser;
+use super::illuminant::SceneIlluminant;
 use crate::files::SceneExport;
-use session::volumes::{Grip, Look, SceneState, VolumeCommand};
+use session::volumes::{Grip, Here, Look, SceneState, VolumeCommand};
 
 /// Tabs of the side panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -11,8 +13,10 @@ pub enum SceneTab {
     /// The picture that is shown.
     #[default]
     View,
-    /// The direction of the light.
+    /// The light.
     Light,
+    /// What was found by the last right click.
+    Here,
     /// The list of events.
     Events,
     /// Files that a scene makes.
@@ -20,12 +24,18 @@ pub enum SceneTab {
 }
 
 /// Tools and panels as they are set.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub struct SceneTools {
     /// The tool in hand and how it is set.
     pub grip: Grip,
     /// The tab of the side panel.
     pub tab: SceneTab,
+    /// Controls of the illuminant.
+    pub illuminant: SceneIlluminant,
+    /// Window that chooses the pigments of tubes.
+    pub chooser: TubeChooser,
+    /// The last answer to a right click.
+    pub here: Option<Here>,
 }
 
 /// An action on files that menus and panels can request.
@@ -33,6 +43,8 @@ pub struct SceneTools {
 pub enum SceneFileRequest {
     /// Opens a scene; asks for its file if none is given.
     Open(Option<PathBuf>),
+    /// Fills the tubes from a library; asks for its file.
+    Library,
     /// Writes a file; asks where.
     Export(SceneExport),
 }

@@ -1,20 +1,25 @@
-//! The card that tells what is at a place of a scene.
+//! What is at a place of a scene: a card beside the pointer, and the panel that keeps it.
 
-use eframe::egui::{Area, Context, Frame, Grid, Id, Key, Order, Pos2, Sense, Ui, vec2};
-use session::volumes::Here;
+use eframe::egui::{Area, Context, Frame, Grid, Id, Key, Order, Pos2, Ui, vec2};
+use pigment::library::PigmentLibrary;
+use render::paint::document::Medium;
+use session::volumes::{Here, SceneState};
+use spectra::color::Rgb;
 
-use crate::panels::controls::{millimetres, patch};
+use super::context::SceneContext;
+use crate::chart::{Chart, Curve};
+use crate::panels::eyedropper::{LayerPaint, layer, swatch};
 
 /// Draws the card beside `at`. Returns whether it stays: Escape and a click elsewhere close it.
-pub fn show(context: &Context, at: Pos2, here: &Here) -> bool {
+pub fn show(context: &Context, at: Pos2, here: &Here, state: &SceneState) -> bool {
     let area = Area::new(Id::unique("here"))
         .order(Order::Foreground)
         .constrain(true)
         .fixed_pos(at + vec2(14.0, 14.0));
     let shown = area.show(context, |ui| {
         Frame::popup(ui.style()).show(ui, |ui| {
-            ui.set_max_width(240.0);
-            card(ui, here);
+            ui.set_max_width(250.0);
+            found(ui, here, &state.library);
         });
     });
     let elsewhere = context.input(|input| input.pointer.any_pressed())
@@ -24,21 +29,39 @@ pub fn show(context: &Context, at: Pos2, here: &Here) -> bool {
     !elsewhere && !context.input(|input| input.key_pressed(Key::Escape))
 }
 
-fn card(ui: &mut Ui, here: &Here) {
-    ui.horizontal(|ui| {
-        let (rect, _) = ui.allocate_exact_size(vec2(34.0, 34.0), Sense::hover());
-        patch(ui.painter(), rect, Some(here.srgb));
-        ui.vertical(|ui| {
-            let [lightness, a, b] = here.lab;
-            ui.label(format!("L* {lightness:.1}  a* {a:.1}  b* {b:.1}"));
-            let [red, green, blue] = here.srgb;
-            ui.weak(format!("#{red:02x}{green:02x}{blue:02x}"));
-        });
+/// Draws the panel with the last answer.
+pub(super) fn show_panel(ui: &mut Ui, cx: &SceneContext<'_>) {
+    let Some(here) = &cx.tools.here else {
+        ui.weak("Right-click the scene to tell which paint lies there, and its colour.");
+        return;
+    };
+    let library = &cx.state.library;
+    found(ui, here, library);
+    let paint = here.paint.as_ref().and_then(LayerPaint::of);
+    let Some(paint) = paint.filter(|paint| !paint.shares.is_empty()) else { return };
+    let Ok(mixture) = library.mix(&paint.shares) else { return };
+    ui.separator();
+    let reflectance = mixture.hiding(library.saunderson);
+    let curve = Curve::new("this paint", library.grid, &reflectance);
+    let chart = Chart { curves: &[curve], marks: &[], quantity: "reflectance", max: Some(1.0) };
+    let chart = chart.show(ui, vec2(ui.available_width(), 110.0));
+    chart.on_hover_text(
+        "Reflectance of this paint over wavelength, where it is so thick that it hides",
+    );
+}
+
+/// Draws colour, place, region and paint.
+fn found(ui: &mut Ui, here: &Here, library: &PigmentLibrary) {
+    ui.horizontal_top(|ui| {
+        let rgb = Rgb(here.srgb.map(|channel| f64::from(channel) / 255.0));
+        let patch = swatch(ui, "Colour here", vec2(52.0, 52.0), &[rgb]);
+        patch.on_hover_text("The colour as the screen shows it");
+        numbers(ui, here);
     });
-    if here.place.is_none() {
+    let Some(place) = here.place else {
         ui.label("There is no surface here.");
         return;
-    }
+    };
     let volumes = match here.volumes {
         0 => "outside of all volumes".to_owned(),
         1 => "inside of 1 volume".to_owned(),
@@ -47,15 +70,22 @@ fn card(ui: &mut Ui, here: &Here) {
     ui.label(match &here.region {
         Some(region) => format!("{volumes}, region {region}"),
         None => volumes,
-    });
-    if !here.paint.is_empty() {
-        ui.separator();
-        Grid::new("paint here").num_columns(2).spacing([14.0, 3.0]).show(ui, |ui| {
-            for (name, height_mm) in &here.paint {
-                ui.label(name);
-                ui.label(millimetres(*height_mm));
-                ui.end_row();
-            }
-        });
+    })
+    .on_hover_text(format!("At {:.3}, {:.3}, {:.3} of the model", place.x, place.y, place.z));
+    if let Some(paint) = here.paint.as_ref().and_then(LayerPaint::of) {
+        layer(ui, (library, &Medium::of(library)), "Paint", &paint);
     }
+}
+
+fn numbers(ui: &mut Ui, here: &Here) {
+    let grid = Grid::new("numbers here").num_columns(2).min_row_height(16.0);
+    grid.spacing(vec2(8.0, 1.0)).show(ui, |ui| {
+        ui.weak("Lab").on_hover_text("CIELAB of the colour shown, against the white of the screen");
+        ui.monospace(here.lab.map(|value| format!("{value:.2}")).join(" "));
+        ui.end_row();
+        ui.weak("sRGB").on_hover_text("As shown on the screen");
+        let [red, green, blue] = here.srgb;
+        ui.monospace(format!("#{red:02x}{green:02x}{blue:02x}"));
+        ui.end_row();
+    });
 }

@@ -1,6 +1,7 @@
-//! The light of a scene.
+//! The light of a scene: its direction, and the illuminant that pigments are seen under.
 
 use eframe::egui::Ui;
+use session::volumes::VolumeCommand;
 
 use super::context::SceneContext;
 use crate::panels::light::{Direction, direction_control, direction_text};
@@ -11,7 +12,7 @@ const SIZE: f32 = 128.0;
 /// Share of the light that comes from everywhere, as the control shows it.
 const AMBIENT: f64 = 0.1;
 
-/// Draws the direction of the light.
+/// Draws direction and illuminant of the light.
 pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let light = &cx.state.look.light;
     let mut direction =
@@ -31,5 +32,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
             look.light.azimuth_deg = direction.azimuth_deg;
             look.light.elevation_deg = direction.elevation_deg;
         });
+    }
+    if !cx.state.tubes.is_empty() {
+        ui.separator();
+        if let Some(chosen) = cx.tools.illuminant.show(ui, cx.state) {
+            cx.command(VolumeCommand::Illuminant(chosen));
+        }
     }
 }

@@ -3,18 +3,19 @@
 use eframe::egui::{Button, CornerRadius, RichText, ScrollArea, Ui, vec2};
 
 use super::context::{SceneContext, SceneTab};
-use super::{events, export, light, tool, tubes, view};
+use super::{events, export, here, light, tool, tubes, view};
 use crate::theme;
 
 impl SceneTab {
     /// All tabs in their order.
-    const ALL: [Self; 4] = [Self::View, Self::Light, Self::Events, Self::Export];
+    const ALL: [Self; 5] = [Self::View, Self::Light, Self::Here, Self::Events, Self::Export];
 
     /// Name and description.
     fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::View => ("View", "The picture that is shown"),
-            Self::Light => ("Light", "Where the light comes from"),
+            Self::Light => ("Light", "Where the light comes from, and the light on pigments"),
+            Self::Here => ("Here", "Colour and paint at the last right click"),
             Self::Events => ("Events", "All that was done, to go back to and to take back"),
             Self::Export => ("Export", "Pictures, a painting, the script, an animation"),
         }
@@ -34,6 +35,7 @@ pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     body.show(ui, |ui| match tab {
         SceneTab::View => view::show(ui, cx),
         SceneTab::Light => light::show(ui, cx),
+        SceneTab::Here => here::show_panel(ui, cx),
         SceneTab::Events => events::show(ui, cx),
         SceneTab::Export => export::show(ui, cx),
     });

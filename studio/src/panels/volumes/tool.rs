@@ -1,10 +1,10 @@
 //! Settings of the tool in hand.
 
 use eframe::egui::{RichText, Slider, Ui};
-use session::volumes::SceneTool;
+use session::volumes::{SceneTool, VolumeCommand};
 
 use super::context::SceneContext;
-use crate::panels::controls::{percent, slider};
+use crate::panels::controls::{button, percent, slider};
 
 /// Draws the settings of the tool in hand.
 pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
@@ -19,11 +19,14 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
         slider(ui, "Rate", tip, rate.fixed_decimals(0).suffix(" mm3/s"));
         return;
     }
-    if grip.tool == SceneTool::Dry {
-        return;
-    }
     let radius = Slider::new(&mut grip.radius_mm, 1.0..=100.0).logarithmic(true);
     slider(ui, "Radius", "How far the tool reaches, in mm", radius.fixed_decimals(0).suffix(" mm"));
+    if grip.tool == SceneTool::Dry {
+        if button(ui, "Dry all paint", "Dries all paint and its shape (Shift+D)", None) {
+            cx.command(VolumeCommand::DryAll);
+        }
+        return;
+    }
     let tip = match grip.tool {
         SceneTool::Lift => "How much paint the sponge takes up at each place",
         _ => "How strongly the air blows",
@@ -37,6 +40,6 @@ fn about(tool: SceneTool) -> &'static str {
         SceneTool::Pour => "the tube in hand, where the pen is held",
         SceneTool::Push => "paint along the drag, as air does",
         SceneTool::Lift => "paint, as a sponge does",
-        SceneTool::Dry => "all paint and its shape, by a click",
+        SceneTool::Dry => "paint below the pen, and its shape",
     }
 }

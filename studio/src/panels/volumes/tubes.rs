@@ -1,10 +1,11 @@
 //! The tubes of a scene.
 
-use eframe::egui::{RichText, Sense, Ui, vec2};
-use session::volumes::SceneTool;
+use eframe::egui::{Align, Layout, RichText, Sense, Ui, vec2};
+use session::volumes::{SceneTool, VolumeCommand};
 
-use super::context::SceneContext;
-use crate::panels::controls::button_background;
+use super::chooser::TubeChoice;
+use super::context::{SceneContext, SceneFileRequest};
+use crate::panels::controls::{button, button_background, item};
 use crate::panels::tubes::{TUBE_SIZE, draw_tube};
 
 /// Tubes in a row.
@@ -31,17 +32,41 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
                         cx.tools.grip.tube = number;
                         cx.tools.grip.tool = SceneTool::Pour;
                     }
+                    response.context_menu(|ui| {
+                        let tip = "Puts another pigment of the library into this tube";
+                        if item(ui, "Put another here...", tip, None) {
+                            cx.tools.chooser.open(number);
+                        }
+                        let tip = "Fills all tubes from another pigment library (.json)";
+                        if item(ui, "Open a library...", tip, None) {
+                            cx.file(SceneFileRequest::Library);
+                        }
+                    });
                     response.on_hover_ui(|ui| {
                         ui.horizontal(|ui| {
                             ui.strong(&tube.name);
                             ui.weak(format!("{}", number + 1));
                         });
-                        ui.label("Takes this tube in hand, to pour it");
+                        ui.label("Takes this tube in hand, to pour it; a right click changes it");
                     });
                 }
             });
         }
     });
     let chosen = tubes.get(cx.tools.grip.tube).map(|tube| tube.name.as_str());
-    ui.label(RichText::new(chosen.unwrap_or("no tube in hand")).strong());
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(chosen.unwrap_or("no tube in hand")).strong());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let tip = "Chooses the pigment of the tube in hand, or another library";
+            let reason = chosen.is_none().then_some("no tube is in hand");
+            if button(ui, "Tube...", tip, reason) {
+                cx.tools.chooser.open(cx.tools.grip.tube);
+            }
+        });
+    });
+    match cx.tools.chooser.show(ui.ctx(), cx.state) {
+        Some(TubeChoice::Pigment(tube, name)) => cx.command(VolumeCommand::Tube(tube, name)),
+        Some(TubeChoice::Library) => cx.file(SceneFileRequest::Library),
+        None => {}
+    }
 }

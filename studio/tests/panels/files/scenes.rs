@@ -8,7 +8,9 @@ use eframe::egui::{Ui, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use glam::Vec3;
+use pigment::library::PigmentLibrary;
 use render::camera::Framing;
+use render::light::Light;
 use session::LostSession;
 use session::volumes::{Look, SceneRecording, SceneState, SceneTally, SceneTime};
 use studio::files::{Files, Home, Preferences, SceneAnswer};
@@ -17,6 +19,7 @@ use studio::files::{Files, Home, Preferences, SceneAnswer};
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn state(revision: u64) -> SceneState {
+    let library = Arc::new(PigmentLibrary::van_gogh_oils());
     SceneState {
         title: "village".to_owned(),
         bounds: [Vec3::ZERO, Vec3::ONE],
@@ -25,6 +28,10 @@ fn state(revision: u64) -> SceneState {
         flat: false,
         framed: Framing::default().camera([Vec3::ZERO, Vec3::ONE]),
         seen_from: None,
+        library: Arc::clone(&library),
+        light: Arc::new(Light::named(&library, "D65", "1931-2").unwrap()),
+        illuminant: "D65".to_owned(),
+        prepares: false,
         tubes: Arc::default(),
         look: Look::default(),
         time: SceneTime::default(),
@@ -35,7 +42,8 @@ fn state(revision: u64) -> SceneState {
 }
 
 fn recording(text: &str, folder: &Path, revision: u64) -> SceneRecording {
-    SceneRecording { text: text.into(), folder: folder.to_owned(), subject: None, revision }
+    let folder = folder.to_owned();
+    SceneRecording { text: text.into(), folder, subject: None, library: None, revision }
 }
 
 /// The files of a window whose home is `home`.

@@ -10,6 +10,8 @@ mod pigments;
 
 mod faults;
 
+mod recordings;
+
 use std::path::Path;
 
 use image::RgbImage;

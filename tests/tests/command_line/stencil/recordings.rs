@@ -1,0 +1,224 @@
+//! Recordings of sessions of the studio, played again by the verb.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+use glam::Vec3;
+use render::camera::Camera;
+use render::export::PictureFormat;
+use session::volumes::{
+    Grip, Inside, Look, SceneImage, SceneLight, ScenePen, SceneRecording, SceneState, SceneTool,
+    Subject, VolumeCommand, VolumeEvent, VolumeWorker,
+};
+use suite::program::repository;
+use tempfile::TempDir;
+
+use super::{done, path};
+
+/// Time limit of every wait.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// Width and height of the pictures in pixels.
+const SIZE: [usize; 2] = [161, 113];
+
+/// A session of the studio and what it reported last.
+struct Session {
+    worker: VolumeWorker,
+    woken: Receiver<()>,
+    state: Option<Arc<SceneState>>,
+    recording: Option<Arc<SceneRecording>>,
+    drawn: Option<Arc<SceneImage>>,
+}
+
+impl Session {
+    /// A session that has opened `subject`.
+    fn open(subject: Subject) -> Self {
+        let (wake, woken) = channel();
+        let worker = VolumeWorker::start(move || wake.send(()).unwrap_or(()));
+        let mut session = Self { worker, woken, state: None, recording: None, drawn: None };
+        session.ask(VolumeCommand::Open(subject));
+        session.wait(|session| session.state.is_some());
+        session.ask(VolumeCommand::Size(SIZE));
+        session
+    }
+
+    fn ask(&self, command: VolumeCommand) {
+        self.worker.ask(command);
+    }
+
+    fn wait(&mut self, done: impl Fn(&Self) -> bool) {
+        let start = Instant::now();
+        while !done(self) {
+            assert!(start.elapsed() < PATIENCE, "it does not come");
+            let _ = self.woken.recv_timeout(Duration::from_millis(50));
+            for event in self.worker.events() {
+                match event {
+                    VolumeEvent::Opened(state) | VolumeEvent::State(state) => {
+                        self.state = Some(state);
+                    }
+                    VolumeEvent::Recording(_, recording) => self.recording = Some(recording),
+                    VolumeEvent::Drawn(_, picture) => self.drawn = Some(picture),
+                    VolumeEvent::Message { text, failed: true, .. } => panic!("{text}"),
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    fn state(&self) -> &SceneState {
+        self.state.as_ref().unwrap()
+    }
+
+    /// Sees the scene from a camera that a hand has turned by some degrees: its numbers have more
+    /// digits than a file.
+    fn orbit(&self, turned_deg: f32) {
+        let home = self.state().framed;
+        let (sin, cos) = turned_deg.to_radians().sin_cos();
+        let [x, y, z] = (home.eye - home.target).to_array();
+        let turned = [cos * x + sin * z, 1.07 * y, cos * z - sin * x];
+        let eye = home.target + 0.93 * Vec3::from(turned);
+        self.ask(VolumeCommand::Camera(Camera { eye, near: 0.9 * home.near, ..home }));
+    }
+
+    /// Draws a tool over the picture for some steps of time, and lets go.
+    fn gesture(&mut self, grip: Grip, from: [f32; 2], to: [f32; 2]) {
+        let began = self.state().time.step;
+        let pen = |share: f32, pressure: f32| {
+            let between = |axis: usize| from[axis] + (to[axis] - from[axis]) * share;
+            ScenePen { at: [between(0), between(1)], pressure }
+        };
+        self.ask(VolumeCommand::PenDown(grip, pen(0.0, 0.731)));
+        for (share, steps) in [(0.31, 8), (0.64, 16), (1.0, 24)] {
+            self.ask(VolumeCommand::PenMove(pen(share, 0.5 + 0.5 * share)));
+            self.wait(|session| session.state().time.step >= began + steps);
+        }
+        self.ask(VolumeCommand::PenUp);
+        let events = self.state().events.len();
+        self.wait(|session| session.state().time.step >= began + 36);
+        assert!(events > 0, "{} has done something", grip.tool.name());
+    }
+
+    /// Stops time at a step.
+    fn seek(&mut self, step: u64) {
+        self.ask(VolumeCommand::Seek(step));
+        self.wait(|session| {
+            let time = session.state().time;
+            time.step == step && !time.playing
+        });
+    }
+
+    /// The file of the picture that the studio exports now.
+    fn exported(&mut self, format: PictureFormat) -> Vec<u8> {
+        self.drawn = None;
+        self.ask(VolumeCommand::Draw(1, SIZE));
+        self.wait(|session| session.drawn.is_some());
+        self.drawn.as_ref().unwrap().file(format).unwrap()
+    }
+
+    /// Writes the recording in a file.
+    fn save(&mut self, file: &str) {
+        self.recording = None;
+        self.ask(VolumeCommand::Recording(1));
+        self.wait(|session| session.recording.is_some());
+        self.recording.as_ref().unwrap().save(Path::new(file)).unwrap();
+    }
+}
+
+/// A hand at work on the village: it pours along two drags, blows, takes up, dries, pours and takes
+/// that back, and turns the scene between all of them.
+fn painted() -> Session {
+    let mut session = Session::open(Subject::Shape("village".to_owned()));
+    session.orbit(0.0);
+    let pour = |tube| Grip { tube, rate_mm3_s: 333.0, ..Grip::default() };
+    let with = |tool| Grip { tool, strength: 0.77, radius_mm: 31.7, ..Grip::default() };
+    session.gesture(pour(5), [0.45, 0.55], [0.55, 0.6]);
+    session.orbit(12.34);
+    session.gesture(pour(3), [0.5, 0.62], [0.41, 0.58]);
+    session.gesture(with(SceneTool::Push), [0.42, 0.57], [0.58, 0.6]);
+    session.orbit(-23.456);
+    session.gesture(with(SceneTool::Lift), [0.5, 0.58], [0.53, 0.58]);
+    session.gesture(with(SceneTool::Dry), [0.5, 0.58], [0.5, 0.58]);
+    session.gesture(pour(1), [0.5, 0.58], [0.56, 0.62]);
+    session.gesture(pour(4), [0.44, 0.6], [0.4, 0.62]);
+    session.ask(VolumeCommand::Undo);
+    session.wait(|session| session.state().events.len() == 6);
+    session.orbit(7.891_234);
+    session
+}
+
+/// The picture that the verb makes of a recording, with more options.
+fn replayed(recording: &str, picture: &str, options: &[&str]) -> Vec<u8> {
+    let [width, height] = SIZE.map(|side| side.to_string());
+    let size = ["--width", &width, "--height", &height, "--backend", "cpu"];
+    done(&[&[recording, "--picture", picture], &size[..], options].concat());
+    std::fs::read(picture).unwrap()
+}
+
+#[test]
+fn a_recording_of_the_studio_replayed_by_the_verb_has_the_same_bytes() {
+    let folder = TempDir::new().unwrap();
+    let [recording, picture, exact] = ["r.toml", "p.png", "p.exr"].map(|name| path(&folder, name));
+    let mut session = painted();
+    let light = SceneLight { azimuth_deg: 123.456_789_1, elevation_deg: 34.567_891 };
+    let look = Look { light, ..session.state().look };
+    session.ask(VolumeCommand::Look(look));
+    let end = session.state().time.end;
+    session.seek(end);
+    let end = session.state().time.end;
+    session.save(&recording);
+    let shown = session.exported(PictureFormat::Png8);
+    assert!(shown == replayed(&recording, &picture, &[]), "at the end");
+    let shown = session.exported(PictureFormat::LinearExr);
+    assert!(shown == replayed(&recording, &exact, &[]), "at the end, all bits");
+    // A moment before: while the sponge works.
+    session.seek(117);
+    let before = session.exported(PictureFormat::LinearExr);
+    assert!(before != shown && end > 200, "the moment is another");
+    assert!(before == replayed(&recording, &exact, &["--at", "0.975"]), "at 0.975 s");
+    // Opened again and played to that moment.
+    let mut again = Session::open(Subject::Script(recording.clone().into()));
+    let camera = again.state().seen_from.unwrap();
+    again.ask(VolumeCommand::Camera(camera));
+    again.seek(117);
+    assert!(again.exported(PictureFormat::LinearExr) == before, "opened again");
+    // Without strokes, and with glazes of the pigments, which the recording names.
+    let look = Look { hatching: false, inside: Inside::Glaze, ..session.state().look };
+    session.ask(VolumeCommand::Look(look));
+    session.seek(end);
+    session.save(&recording);
+    let by_day = session.exported(PictureFormat::LinearExr);
+    assert!(by_day == replayed(&recording, &exact, &[]), "in pigments");
+    // Other pigments of a library of the painter's own, by lamplight.
+    let library = path(&folder, "mine.pigments.json");
+    std::fs::copy(repository("measurements/van-gogh-oils.pigments.json"), &library).unwrap();
+    session.ask(VolumeCommand::Library(library.into()));
+    session.ask(VolumeCommand::Tube(5, "Viridian".to_owned()));
+    session.ask(VolumeCommand::Illuminant("A".to_owned()));
+    session.wait(|session| session.state().illuminant == "A");
+    session.save(&recording);
+    let by_lamp = session.exported(PictureFormat::LinearExr);
+    assert!(by_lamp != by_day, "another green, another light");
+    assert!(by_lamp == replayed(&recording, &exact, &[]), "other pigments by lamplight");
+}
+
+#[test]
+fn a_recording_on_a_photograph_is_replayed_from_its_own_camera() {
+    let folder = TempDir::new().unwrap();
+    let [photo, recording, picture] =
+        ["photo.png", "r.toml", "p.exr"].map(|name| path(&folder, name));
+    let own = |x: u32, y: u32| image::Rgb([200, (3 * x) as u8, (5 * y) as u8]);
+    image::RgbImage::from_fn(60, 40, own).save(&photo).unwrap();
+    let mut session = Session::open(Subject::File(photo.into()));
+    session.orbit(9.87);
+    let pour = Grip { tube: 2, rate_mm3_s: 222.0, ..Grip::default() };
+    session.gesture(pour, [0.4, 0.5], [0.6, 0.55]);
+    let end = session.state().time.end;
+    session.seek(end);
+    session.save(&recording);
+    let shown = session.exported(PictureFormat::LinearExr);
+    assert!(shown == replayed(&recording, &picture, &[]), "the same bytes");
+    session.orbit(-9.0);
+    assert!(shown != session.exported(PictureFormat::LinearExr), "it is seen from its camera");
+}
