@@ -61,7 +61,7 @@ impl LoadedScene {
     }
 }
 
-/// What gates ask of each triangle: its normal and its body.
+/// The normal and the body of each triangle, for gates.
 fn gated(facets: &Facets, bodies: &[u32]) -> Field<[f32; 4]> {
     let bodies = bodies.iter().copied().chain(std::iter::repeat(0));
     let own = facets.normals().iter().zip(bodies);

@@ -22,7 +22,7 @@ pub struct Grid {
     pub graph: Graph,
     /// Radii of volumes by their amount of paint.
     pub reach: Reach,
-    /// What is one surface for paint.
+    /// Parts that are one surface for paint.
     pub bodies: Bodies,
 }
 

@@ -13,8 +13,8 @@ use super::samples::SurfaceSamples;
 /// Greatest number of cells entered by all triangles together.
 const MOST_ENTERED: f64 = (1 << 26) as f64;
 
-/// Distance below which surfaces touch, in cells.
-const NEAR: f32 = 1.0 / 16.0;
+/// Distance below which surfaces touch, in cells: that between samples.
+const NEAR: f32 = 1.0 / 8.0;
 
 /// Least cosine between the normals of surfaces that touch: a wall touches its ground, and a pane
 /// its wall, but not a fruit the cloth that it lies on, whose sides face each other.
@@ -141,10 +141,16 @@ impl Pieces {
                     }
                     let corners = mesh.triangles[triangle as usize].corners;
                     let corners = corners.map(|at| Vec3::from(mesh.positions[at as usize]));
+                    let [low, high] = [Vec3::min, Vec3::max].map(|end| {
+                        let [a, b, c] = corners;
+                        end(end(a, b), c)
+                    });
+                    let beside = place.clamp(low, high).distance_squared(place) >= near * near;
+                    if beside || distance(place, corners) >= near {
+                        continue;
+                    }
                     let normal = super::samples::normal(mesh, triangle as usize);
-                    if normal.dot(samples.normals[sample]) >= FACING
-                        && distance(place, corners) < near
-                    {
+                    if normal.dot(samples.normals[sample]) >= FACING {
                         found.push(pair);
                     }
                 }

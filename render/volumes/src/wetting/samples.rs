@@ -32,11 +32,11 @@ pub struct SurfaceSamples {
     /// Index of the triangle of each sample.
     pub triangles: Vec<u32>,
     /// The cell that holds each sample, counted from 0 in ascending order of [`Lattice::key`]. In a
-    /// [`Grid`](super::Grid) surfaces that are not connected have cells of their own in one cube.
+    /// grid surfaces that are not connected have cells of their own in one cube.
     pub cells: Vec<u32>,
     /// Index of the first sample of each cell, and at last the number of samples.
     pub starts: Vec<u32>,
-    /// Number of the body of each sample, see [`Bodies`](super::Bodies); 0 outside of a grid.
+    /// Number of the body of each sample, see `Bodies`; 0 outside of a grid.
     pub bodies: Vec<u32>,
 }
 

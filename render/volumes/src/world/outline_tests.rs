@@ -9,7 +9,7 @@ use crate::containing::Inside;
 /// Places along each side of the sheet at which it is looked at.
 const SIDE: usize = 240;
 
-/// What is wet of the sheet at a moment.
+/// The wet part of the sheet at a moment.
 struct Outline {
     /// Share of the wet area that is not joined to where paint is poured.
     apart: f64,
