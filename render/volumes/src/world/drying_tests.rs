@@ -10,7 +10,7 @@ use crate::volume::Volume;
 fn spread() -> World {
     let mut world = flat();
     world.pour(Pour::at(Vec3::ZERO, 2.0, 0.5, Recipe::of_slot(0))).unwrap();
-    run(&mut world, 240);
+    run(&mut world, 360);
     assert!(world.volumes().len() > 30, "{}", world.volumes().len());
     world
 }

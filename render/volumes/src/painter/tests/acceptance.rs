@@ -64,7 +64,7 @@ fn a_full_grid_colours_all_that_is_seen() {
             let rate = 120.0 * capacity * world.quantum_mm3();
             world.pour(Pour::at(place, rate, 1.0 / 120.0, Recipe::of_slot(0))).unwrap();
         }
-        steps(&mut world, 150);
+        steps(&mut world, 300);
         for azimuth_deg in [30.0, 210.0] {
             let aspect = SIZE.0 as f32 / SIZE.1 as f32;
             let framing = Framing { azimuth_deg, aspect, ..Framing::default() };
@@ -91,6 +91,7 @@ fn differing(act: impl Fn(&mut World)) -> [usize; 3] {
         let mesh = sheet(squares, |u, v| [12.0 * u - 6.0, 0.0, 12.0 * v - 6.0]);
         let mut scene = Scene::new(mesh, Framing { elevation_deg: 50.0, ..Framing::default() });
         scene.settings.unit_mm = 1.0;
+        scene.settings.motion.fastest = 3.0;
         scene
     });
     let size = (750, 570);
