@@ -27,8 +27,8 @@ fn paint_dries_below_the_dryer_and_flows_on_beside_it() {
     let dried = world.dry_within(place, radius).unwrap();
     let dry = with(&world, true);
     assert_eq!(dry.len(), dried);
-    // Cells of 1 mm: those whose middle lies below are 8 in the mean.
-    assert!((5..=13).contains(&dried), "{dried}");
+    // Cells of 1 mm: 12 have their middle below, and paint in others may lie near.
+    assert!((8..=16).contains(&dried), "{dried}");
     for volume in &dry {
         assert!(volume.center.distance(place) < radius + 0.5, "{:?}", volume.center);
     }
