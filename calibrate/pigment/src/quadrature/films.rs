@@ -23,14 +23,18 @@ const LEAST_TINT: f64 = 0.003;
 /// Internal reflectances of the even grounds that films are fitted over: black and white paper.
 const EVEN_GROUNDS: [f64; 2] = [0.0, 0.85];
 
+/// Pigments with their shares, which sum to 1, or with their amounts.
+type Parts = Vec<(PigmentId, f64)>;
+
+/// Thickness of a film, and the internal reflectance of its ground on the library's grid.
+type Over = (f64, Vec<f64>);
+
 /// A film of several pigments.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Film {
-    /// Pigments with their shares, which sum to 1, or with their amounts.
-    pub(super) parts: Vec<(PigmentId, f64)>,
-    /// Thickness and the internal reflectance of the ground on the library's grid; `None` for a
-    /// film that hides its ground.
-    pub(super) over: Option<(f64, Vec<f64>)>,
+    pub(super) parts: Parts,
+    /// `None` for a film that hides its ground.
+    pub(super) over: Option<Over>,
     /// Colour by full integration over the library's grid.
     pub(super) xyz: Xyz,
 }
@@ -128,7 +132,7 @@ impl FilmSet {
     pub(super) fn of(
         library: &PigmentLibrary,
         weights: &TristimulusWeights,
-        films: Vec<(Vec<(PigmentId, f64)>, Option<(f64, Vec<f64>)>)>,
+        films: Vec<(Parts, Option<Over>)>,
     ) -> Self {
         let surface = library.saunderson;
         let colored = films.into_par_iter().map(|(parts, over)| {
@@ -151,7 +155,7 @@ impl<'a> Draw<'a> {
     }
 
     /// One to four pigments with shares that sum to 1.
-    fn shares(&mut self) -> Vec<(PigmentId, f64)> {
+    fn shares(&mut self) -> Parts {
         let pigments = self.library.pigments.len();
         let count = self.random.random_range(1..=pigments.min(4));
         let drawn: Vec<(usize, f64)> = index::sample(&mut self.random, pigments, count)
@@ -164,7 +168,7 @@ impl<'a> Draw<'a> {
     }
 
     /// Two pigments, of which one has a small share; each order of magnitude is equally likely.
-    fn tint(&mut self) -> Vec<(PigmentId, f64)> {
+    fn tint(&mut self) -> Parts {
         let pigments = self.library.pigments.len();
         if pigments < 2 {
             return vec![(PigmentId(0), 1.0)];

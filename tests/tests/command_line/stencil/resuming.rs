@@ -45,7 +45,7 @@ fn copied(from: &str, to: &str) {
 #[track_caller]
 fn same_frames(whole: &str, other: &str) {
     let names = files(whole, ".png");
-    assert_eq!((names.len(), &names), (157, &files(other, ".png")));
+    assert_eq!((names.len(), &names), (157, &files(other, ".png")), "all frames, in both folders");
     let read = |folder: &str, name: &String| fs::read(Path::new(folder).join(name)).unwrap();
     for name in &names {
         assert!(read(whole, name) == read(other, name), "{other}: {name}");
