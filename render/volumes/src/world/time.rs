@@ -18,9 +18,9 @@ impl World {
     }
 
     /// Goes on by one step like [`Self::step`], on a graphics device if the world has more
-    /// particles than [`super::DEVICE_PARTICLES`]. Paint is the same to the quantum, unless a volume is
-    /// split; places of particles agree with those of the processor within 1e-4 radii, but for single particles
-    /// that the surface pulls to another of two equally near samples.
+    /// particles than [`super::DEVICE_PARTICLES`]. Paint is the same to the quantum, unless a
+    /// volume is split; places of particles agree with those of the processor within 1e-4 radii,
+    /// but for single particles that the surface pulls to another of two equally near samples.
     ///
     /// # Errors
     /// Those of [`Self::step`], and if the device fails. All paint that has moved until then is in
