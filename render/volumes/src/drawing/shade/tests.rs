@@ -171,13 +171,14 @@ fn popping(mesh: &Mesh, look: &DrawingLook, steps: usize) -> f64 {
 fn strokes_stay_on_a_turning_model() {
     let light = DistantLight::WithModel(Vec3::new(-0.5, 0.7, 0.5));
     let mut look = DrawingLook { light, shade: 0.0, ..DrawingLook::default() };
-    // Strokes along the turn, as on the sphere's own coordinates, hardly differ from those that
-    // stand still, so that they cannot be measured against them.
-    for (shape, coordinates) in [
-        (SampleModel::Sphere, Coordinates::ThreePlanes),
-        (SampleModel::StillLife, Coordinates::ThreePlanes),
-        (SampleModel::StillLife, Coordinates::Own),
-        (SampleModel::TorusKnot, Coordinates::Own),
+    // On the sphere's own coordinates strokes run along the turn and hardly differ from those that
+    // stand still, against which they are measured.
+    for (shape, coordinates, most) in [
+        (SampleModel::Sphere, Coordinates::Own, 0.28),
+        (SampleModel::Sphere, Coordinates::ThreePlanes, 0.25),
+        (SampleModel::StillLife, Coordinates::ThreePlanes, 0.25),
+        (SampleModel::StillLife, Coordinates::Own, 0.25),
+        (SampleModel::TorusKnot, Coordinates::Own, 0.25),
     ] {
         let mut mesh = shape.mesh(8000);
         // Strokes alone: colours that stay where they are would flatter the measure.
@@ -188,7 +189,7 @@ fn strokes_stay_on_a_turning_model() {
         });
         look.hatching.coordinates = Some(coordinates);
         let found = popping(&mesh, &look, 6);
-        assert!(found <= 0.25, "{} {coordinates:?}: {found}", shape.name());
+        assert!(found <= most, "{} {coordinates:?}: {found}", shape.name());
     }
 }
 
