@@ -27,7 +27,7 @@ pub enum ShellError {
     Scale {
         /// Index of the scale, from 0.
         index: usize,
-        /// The scale.
+        /// The scale that was given.
         found: f32,
     },
     /// A shell is not smaller than the one before.
@@ -35,7 +35,7 @@ pub enum ShellError {
     NotFalling {
         /// Index of the scale, from 0.
         index: usize,
-        /// The scale.
+        /// The scale that was given.
         found: f32,
     },
     /// A tint is outside of its range, or no number.
@@ -43,7 +43,7 @@ pub enum ShellError {
     Tint {
         /// Index of the tint, from 0.
         index: usize,
-        /// The tint.
+        /// The tint that was given.
         found: f32,
     },
     /// A tint is below the one before it.
@@ -51,13 +51,13 @@ pub enum ShellError {
     NotRising {
         /// Index of the tint, from 0.
         index: usize,
-        /// The tint.
+        /// The tint that was given.
         found: f32,
     },
     /// The tint outside of all volumes is not 0.
     #[error("the first tint is that outside of all volumes, which is 0, found `{found}`")]
     Outside {
-        /// The tint.
+        /// The tint that was given.
         found: f32,
     },
 }

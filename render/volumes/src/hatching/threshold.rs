@@ -27,8 +27,9 @@ const ROUNDS: usize = 3;
 ///
 /// A texel is inked at all tones below its threshold (tone 0 is black, 1 is white), so the ink of
 /// a lighter tone is part of that of every darker one. The strokes of a slice are kept in the
-/// next, narrower as the magnification is greater, with others in the gaps between them. The thresholds of a slice are spread evenly over 0 to 1, so the share of inked texels at
-/// tone t is 1 - t.
+/// next, narrower as the magnification is greater, with others in the gaps between them. The
+/// thresholds of a slice are spread evenly over 0 to 1, so the share of inked texels at tone t is
+/// 1 - t.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ThresholdTexture {
     quads: Vec<u32>,

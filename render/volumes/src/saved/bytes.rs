@@ -5,7 +5,7 @@ use paint::layer::Cell;
 
 /// A value that is stored as bytes and read again to the bit.
 pub(crate) trait Stored: Sized {
-    /// Appends it.
+    /// Appends it to `bytes`.
     fn store(&self, bytes: &mut Vec<u8>);
 
     /// Reads one; none if the bytes end before, or are no such value.

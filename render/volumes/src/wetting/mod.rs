@@ -42,3 +42,6 @@ pub(crate) use spill_on_device::SPILL;
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod joining_tests;
