@@ -1,7 +1,7 @@
 //! Cameras and picked places of a script, and numbers of a world for the window.
 
 use glam::Vec3;
-use render::camera::{Camera, Framing};
+use render::camera::{Camera, Framing, PictureView};
 use render::mesh::Mesh;
 use render::volumes::performance::FirstView;
 use render::volumes::script::{self, CameraTable, KeyframeTable, Row, Script, ScriptCamera};
@@ -10,7 +10,7 @@ use render::volumes::world::Tally;
 use super::state::SceneTally;
 
 /// Size of the picture in which scripts pick places, as the command line makes it.
-pub(super) const FIRST_PICTURE: (usize, usize) = (1000, 750);
+const FIRST_PICTURE: (usize, usize) = (1000, 750);
 
 /// Steps of the duration of a script.
 pub(super) fn script_steps(script: &Script) -> u64 {
@@ -27,8 +27,23 @@ pub(super) fn framed(mesh: &Mesh, flat: bool) -> Camera {
     }
 }
 
-/// The camera of the first picture of a script.
-pub(super) fn first_camera(script: &Script, mesh: &Mesh) -> Camera {
+/// Size of the first picture of a scene; that of a `flat` one, a photograph, has its shape.
+pub(super) fn first_size(mesh: &Mesh, flat: bool) -> (usize, usize) {
+    let [low, high] = mesh.bounds();
+    let [width, height] = [high.x - low.x, high.y - low.y];
+    let rows = (FIRST_PICTURE.0 as f32 * height / width).round();
+    if flat && rows >= 1.0 { (FIRST_PICTURE.0, rows as usize) } else { FIRST_PICTURE }
+}
+
+/// The camera of the first picture of a script. A `flat` scene, a photograph, fills its picture, or
+/// is seen from degrees beside its middle, as on the command line.
+pub(super) fn first_camera(script: &Script, mesh: &Mesh, flat: bool) -> Camera {
+    let table = script.camera.clone().unwrap_or_default();
+    if flat && table.keyframes.is_empty() {
+        let [right, up] = [table.azimuth_deg, table.elevation_deg].map(Option::unwrap_or_default);
+        let view = PictureView::of(first_size(mesh, flat));
+        return view.turned(right as f32, up as f32);
+    }
     let aspect = FIRST_PICTURE.0 as f32 / FIRST_PICTURE.1 as f32;
     let framed = |framing: Framing| Framing { aspect, ..framing }.fit(&mesh.positions);
     match script.camera.as_ref().map(|camera| camera.camera(1)) {
@@ -58,7 +73,7 @@ pub(super) fn camera_table(camera: &Camera) -> CameraTable {
 pub(super) fn recorded_camera(camera: &Camera, mesh: &Mesh) -> Camera {
     let mut script = Script::new("", 0.0);
     script.camera = Some(camera_table(camera));
-    first_camera(&script.rounded(), mesh)
+    first_camera(&script.rounded(), mesh, false)
 }
 
 /// Replaces places picked in the first picture by places of the subject, so that a recording does

@@ -13,7 +13,7 @@ use render::volumes::settings::Settings;
 use render::volumes::toml_text::KeyPath;
 
 use super::gesture::{Hand, Timed};
-use super::header::{FIRST_PICTURE, first_camera, framed, resolve_picks, script_steps, tally};
+use super::header::{first_camera, first_size, framed, resolve_picks, script_steps, tally};
 use super::look::Look;
 use super::materials::Materials;
 use super::opened::OpenedScene;
@@ -57,8 +57,8 @@ impl Scene {
         let located =
             |fault| FileFailure::explained(&ScriptError::located(&source.0, &source.1, fault));
         let settings = script.settings().map_err(located)?;
-        let first = first_camera(&script, &mesh);
-        let view = FirstView::new(&mesh, &first, FIRST_PICTURE);
+        let first = first_camera(&script, &mesh, flat);
+        let view = FirstView::new(&mesh, &first, first_size(&mesh, flat));
         resolve_picks(&mut script, &mesh, &view);
         let recorded = Recorded::of(&script);
         let played = recorded.script(recorded.end_step());
@@ -170,7 +170,7 @@ impl Scene {
     /// The camera that the script names, if it does.
     pub(super) fn seen_from(&self) -> Option<Camera> {
         let base = self.recorded.base();
-        base.camera.as_ref().map(|_| first_camera(base, &self.mesh))
+        base.camera.as_ref().map(|_| first_camera(base, &self.mesh, self.flat))
     }
 
     /// State besides the picture.
@@ -223,6 +223,6 @@ impl Scene {
 
     /// The camera of the first picture.
     pub(super) fn usual_camera(&self) -> Camera {
-        first_camera(self.recorded.base(), &self.mesh)
+        first_camera(self.recorded.base(), &self.mesh, self.flat)
     }
 }

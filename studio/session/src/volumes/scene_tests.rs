@@ -206,3 +206,20 @@ fn a_place_tells_its_paint_and_its_colour() {
     assert!((0.001..1.0).contains(&paint.amounts_mm[5]), "{wet:?}");
     assert!(wet.volumes > 0 && wet.lab[0] > 0.0, "{wet:?}");
 }
+
+#[test]
+fn places_picked_on_a_photograph_are_those_of_the_command_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wide.png");
+    image::RgbImage::from_pixel(64, 16, image::Rgb([90, 120, 60])).save(&path).unwrap();
+    let text = "format = \"paint-volumes\"\nversion = 1\nsubject = \"wide.png\"\nseconds = 1.0\n\
+                [[pour]]\npicked = [0.75, 0.25]\nfor_s = 0.5\namount_mm3 = 1.0\n";
+    let subject = Subject::Text { text: text.to_owned(), folder: folder.path().to_owned() };
+    let scene = Scene::open(&subject).unwrap();
+    let script = scene.script();
+    let at = script.pours[0].at.unwrap().0;
+    // The picture is 1 x 0.25 around the origin, with y upwards.
+    let wanted = [0.25, 0.0625, 0.0];
+    let near = at.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-3);
+    assert!(near, "{at:?}");
+}
