@@ -61,14 +61,19 @@ impl Job {
         let of_script = (&script.script, &settings);
         let pigments = verb.pigments.materials(of_script, (library, folder), located, console)?;
         check_layers(&verb, pigments.is_some())?;
+        let own_library = || script.script.library_file(folder).filter(|_| pigments.is_some());
+        let library = verb.pigments.input().cloned().or_else(own_library);
         let mut inputs: Vec<PathBuf> = scene.inputs.clone();
-        inputs.extend(verb.settings.input().into_iter().chain(verb.pigments.input()).cloned());
+        inputs.extend(verb.settings.input().into_iter().chain(&library).cloned());
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let own_title = Some(script.script.title.clone()).filter(|title| !title.is_empty());
         let title = own_title.or(stem).unwrap_or_default();
         let script_text = match verb.outputs.script_folder() {
             None => String::new(),
-            Some(folder) => script.text(&scene, &title, &folder)?,
+            Some(folder) => {
+                let materials = (library.as_deref(), verb.pigments.illuminant());
+                script.text(&scene, &title, &folder, materials)?
+            }
         };
         let beginning = script.beginning(&scene, &settings)?;
         let compute = verb.backend.compute()?;

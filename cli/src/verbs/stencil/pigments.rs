@@ -41,10 +41,10 @@ pub(super) struct PigmentOptions {
     ground: GroundKind,
     /// Reflectance of the ground as measured, 0 to 1, white or black [default: the white of the
     /// library]
-    #[arg(long, value_name = "GROUND", requires = "pigments")]
+    #[arg(long, value_name = "GROUND")]
     over: Option<String>,
     /// Light: D65, A, FL11, 5600K, or the file of a lamp [default: that of the script, or D65]
-    #[arg(long, value_name = "LIGHT", requires = "pigments")]
+    #[arg(long, value_name = "LIGHT")]
     illuminant: Option<String>,
 }
 
@@ -57,6 +57,11 @@ impl PigmentOptions {
     /// Whether a library is given.
     pub(super) fn any(&self) -> bool {
         self.pigments.is_some()
+    }
+
+    /// The light of `--illuminant`.
+    pub(super) fn illuminant(&self) -> Option<&str> {
+        self.illuminant.as_deref()
     }
 
     /// The lists of `--palette`.
@@ -86,7 +91,7 @@ impl PigmentOptions {
             None if shows_films && !script.palette.is_empty() => script.open_library(folder)?,
             None => None,
         };
-        let Some(library) = library else { return Ok(None) };
+        let Some(library) = library else { return self.without_library() };
         if script.palette.is_empty() {
             let path = self.pigments.as_deref().unwrap_or(folder);
             return Err(Failure::usage(
@@ -114,5 +119,17 @@ impl PigmentOptions {
         viewing(&lighting.illuminant, &lighting.observer)?;
         let library = Arc::new(library);
         Ok(Some(VolumePigments { library, slots, own_colors: None, ground: ground_spec, lighting }))
+    }
+
+    /// No pigments; refuses options that are of pigments.
+    fn without_library(&self) -> Result<Option<VolumePigments>> {
+        let given = [("--over", &self.over), ("--illuminant", &self.illuminant)];
+        match given.iter().find(|(_, value)| value.is_some()) {
+            None => Ok(None),
+            Some((option, _)) => Err(Failure::usage(
+                format!("{option} needs pigments, but no library is given"),
+                "add --pigments LIBRARY and --palette",
+            )),
+        }
     }
 }

@@ -6,7 +6,7 @@ use render::camera::{Camera, PictureView};
 use render::mesh::Mesh;
 use render::volumes::performance::{FirstView, Performance, PerformanceError};
 use render::volumes::script::{
-    CameraTable, Script, ScriptCamera, ScriptError, Subject as ScriptSubject,
+    CameraTable, Script, ScriptCamera, ScriptError, Subject as ScriptSubject, is_light,
 };
 use render::volumes::settings::Settings;
 use render::volumes::toml_text::{Fault, KeyPath, KeyStep};
@@ -153,10 +153,21 @@ impl OpenScript {
         })
     }
 
-    /// The script as text, to be written into `folder`: with the subject's path from there.
-    pub(super) fn text(&self, scene: &Scene, title: &str, folder: &Path) -> Result<String> {
+    /// The script as text, to be written into `folder`: with the paths of the subject and of the
+    /// `library` from there, if it has a file, and with the light of its paint.
+    pub(super) fn text(
+        &self,
+        scene: &Scene,
+        title: &str,
+        folder: &Path,
+        (library, light): (Option<&Path>, Option<&str>),
+    ) -> Result<String> {
         let mut script = self.script.clone();
         script.subject = path_from(&scene.subject, folder);
+        script.library = library.map(|file| path_from(file, folder)).or(script.library);
+        // The files of lamps have no place in a script.
+        let light = light.filter(|light| is_light(light)).map(str::to_owned);
+        script.illuminant = light.or(script.illuminant);
         script.title = title.to_owned();
         Ok(script.to_text()?)
     }

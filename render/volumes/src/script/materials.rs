@@ -1,6 +1,6 @@
 //! The library of a script, and the light on its pigments.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use pigment::PigmentLibrary;
 use pigment::library::LibraryError;
@@ -30,12 +30,17 @@ impl Script {
     /// # Errors
     /// [`LibraryError`] if its file is missing, or is no library.
     pub fn open_library(&self, folder: &Path) -> Result<Option<PigmentLibrary>, LibraryError> {
-        let Some(name) = &self.library else { return Ok(None) };
-        let shipped = PigmentLibrary::van_gogh_oils();
-        match *name == shipped.title {
-            true => Ok(Some(shipped)),
-            false => PigmentLibrary::open(folder.join(name)).map(Some),
+        match self.library_file(folder) {
+            Some(file) => PigmentLibrary::open(file).map(Some),
+            None => Ok(self.library.as_ref().map(|_| PigmentLibrary::van_gogh_oils())),
         }
+    }
+
+    /// The file of the library that the script names; none if it names none, or the oils that ship.
+    #[must_use]
+    pub fn library_file(&self, folder: &Path) -> Option<PathBuf> {
+        let name = self.library.as_ref()?;
+        (*name != PigmentLibrary::van_gogh_oils().title).then(|| folder.join(name))
     }
 
     /// Checks the name of the library and the light.

@@ -80,3 +80,35 @@ fn pours_take_the_palette_in_turn_and_recipes_mix() {
     let run = stencil(&[&scene[..], &palette, &["--show", "mask", "--output", &output]].concat());
     assert!(run.status == 2 && run.err.contains("--output is of the painting"), "{}", run.err);
 }
+
+#[test]
+fn a_written_script_knows_its_pigments_and_guards_them() {
+    let folder = folder();
+    std::fs::copy(library(), path(&folder, "own.toml")).unwrap();
+    let [model, pigments] = ["box.obj", "own.toml"].map(|name| path(&folder, name));
+    let [script, one, other] = ["s.toml", "1.png", "2.png"].map(|name| path(&folder, name));
+    let scene = [&[&model[..]], &SMALL[..], &POUR, &["--pigments", &pigments]].concat();
+    let paint = ["--palette", "Viridian", "--illuminant", "A"];
+    done(&[&scene[..], &paint, &["--picture", &one, "--script-out", &script]].concat());
+    let text = std::fs::read_to_string(&script).unwrap();
+    assert!(
+        text.contains("library = \"own.toml\"") && text.contains("illuminant = \"A\""),
+        "{text}"
+    );
+    done(&[&script, "--width", "64", "--picture", &other]);
+    assert_eq!(pixels(&one), pixels(&other), "the script alone makes the same picture");
+    done(&[&script, "--width", "64", "--picture", &other, "--illuminant", "D65"]);
+    assert_ne!(pixels(&one), pixels(&other), "another light");
+    let before = std::fs::read(&pigments).unwrap();
+    let refused = stencil(&[&script, "--width", "64", "--script-out", &pigments]);
+    assert_eq!(refused.status, 2, "{}", refused.err);
+    assert!(refused.err.contains("own.toml") && std::fs::read(&pigments).unwrap() == before);
+    let alone =
+        [&[&model[..]], &SMALL[..], &POUR, &["--picture", &one, "--illuminant", "A"]].concat();
+    let refused = stencil(&alone);
+    assert!(
+        refused.status == 2 && refused.err.contains("--illuminant needs pigments"),
+        "{}",
+        refused.err
+    );
+}
