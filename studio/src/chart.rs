@@ -20,16 +20,16 @@ pub struct Curve {
     pub name: String,
     /// Pairs of wavelength in nm (increasing) and value.
     pub points: Vec<(f64, f64)>,
-    /// Line colour; for a pigment its own colour.
-    pub color: Color32,
+    /// Line colour; for a pigment its own colour. `None` is the colour of text.
+    pub color: Option<Color32>,
 }
 
 impl Curve {
-    /// Creates a light grey curve from values on a wavelength grid.
+    /// Creates a curve in the colour of text from values on a wavelength grid.
     #[must_use]
     pub fn new(name: &str, grid: Grid, values: &[f64]) -> Self {
         let points = grid.wavelengths_nm().zip(values.iter().copied()).collect();
-        Self { name: name.to_owned(), points, color: theme::TEXT }
+        Self { name: name.to_owned(), points, color: None }
     }
 
     /// Returns the curve with a line colour in sRGB. Dark colours are brightened so
@@ -38,7 +38,7 @@ impl Curve {
     pub fn colored(mut self, [red, green, blue]: [u8; 3]) -> Self {
         let seen = red.max(green).max(blue) >= 96;
         let lift = |value: u8| if seen { value } else { value.saturating_add(96) };
-        self.color = Color32::from_rgb(lift(red), lift(green), lift(blue));
+        self.color = Some(Color32::from_rgb(lift(red), lift(green), lift(blue)));
         self
     }
 
@@ -80,20 +80,27 @@ impl Chart<'_> {
         }
         let axes = Axes::new(whole, self.max());
         let painter = ui.painter_at(whole);
-        painter.rect_filled(whole, theme::CORNER_RADIUS, theme::WELL);
+        painter.rect_filled(whole, theme::CORNER_RADIUS, theme::colors(ui.ctx()).well);
         axes.frame(&painter, self.quantity);
         for &nm in self.marks {
             let line = [axes.place(nm, 0.0), axes.place(nm, axes.max)];
-            painter.line_segment(line, Stroke::new(1.0, theme::FAINT.gamma_multiply(0.6)));
+            painter.line_segment(
+                line,
+                Stroke::new(1.0, theme::colors(ui.ctx()).faint.gamma_multiply(0.6)),
+            );
         }
         let inner = painter.with_clip_rect(axes.inner.expand(1.0));
         for curve in self.curves {
             let line = curve.points.iter().map(|&(nm, value)| axes.place(nm, value)).collect();
-            inner.line(line, Stroke::new(1.5, curve.color));
+            inner.line(line, Stroke::new(1.5, curve.color.unwrap_or(theme::colors(ui.ctx()).text)));
         }
         let Some(pointer) = response.hover_pos() else { return response };
         let nm = axes.wavelength(pointer.x);
-        painter.vline(pointer.x, axes.inner.y_range(), Stroke::new(1.0, theme::FAINT));
+        painter.vline(
+            pointer.x,
+            axes.inner.y_range(),
+            Stroke::new(1.0, theme::colors(ui.ctx()).faint),
+        );
         response.on_hover_text_at_pointer(self.tooltip(nm))
     }
 
@@ -142,14 +149,15 @@ impl Axes {
     }
 
     fn frame(&self, painter: &Painter, quantity: &str) {
+        let colors = theme::colors(painter.ctx());
         let font = FontId::proportional(10.0);
-        let line = Stroke::new(1.0, theme::LINE);
+        let line = Stroke::new(1.0, colors.line);
         for share in [0.0, 0.5, 1.0] {
             let value = self.max * share;
             let y = self.place(400.0, value).y;
             painter.hline(self.inner.x_range(), y, line);
             let beside = pos2(self.inner.left() - 4.0, y);
-            painter.text(beside, Align2::RIGHT_CENTER, short(value), font.clone(), theme::FAINT);
+            painter.text(beside, Align2::RIGHT_CENTER, short(value), font.clone(), colors.faint);
         }
         for nm in [400.0, 500.0, 600.0, 700.0] {
             let foot = self.place(nm, 0.0);
@@ -157,10 +165,10 @@ impl Axes {
             let last = nm == 700.0;
             let text = if last { "700 nm".to_owned() } else { format!("{nm:.0}") };
             let below = pos2(foot.x, foot.y + 3.0);
-            painter.text(below, Align2::CENTER_TOP, text, font.clone(), theme::FAINT);
+            painter.text(below, Align2::CENTER_TOP, text, font.clone(), colors.faint);
         }
         let above = pos2(self.inner.left(), self.inner.top() - 14.0);
-        painter.text(above, Align2::LEFT_TOP, quantity, font, theme::FAINT);
+        painter.text(above, Align2::LEFT_TOP, quantity, font, colors.faint);
     }
 }
 
@@ -223,7 +231,7 @@ mod tests {
 
     #[test]
     fn dark_colors_are_brightened() {
-        let drawn = |rgb| ramp().colored(rgb).color;
+        let drawn = |rgb| ramp().colored(rgb).color.unwrap();
         assert_eq!(drawn([10, 20, 30]), Color32::from_rgb(106, 116, 126));
         assert_eq!(drawn([200, 0, 30]), Color32::from_rgb(200, 0, 30));
     }

@@ -10,32 +10,63 @@ use eframe::egui::{
 /// Surround of canvas and palette: 18 % reflectance, which is 118 in sRGB.
 pub const SURROUND: Color32 = Color32::from_gray(118);
 
-/// Background of panels.
-pub const PANEL: Color32 = Color32::from_gray(46);
+/// Greys of one theme.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Colors {
+    /// Background of panels.
+    pub panel: Color32,
+    /// Background of menu bar, toolbar and status line.
+    pub bar: Color32,
+    /// Background of text fields, charts and lists.
+    pub well: Color32,
+    /// Separator lines and edges.
+    pub line: Color32,
+    /// Fill of buttons that are neither hovered nor pressed.
+    pub button: Color32,
+    /// Fill of selected items.
+    pub chosen: Color32,
+    /// Secondary text and marks.
+    pub faint: Color32,
+    /// Normal text and marks.
+    pub text: Color32,
+    /// Emphasized text and marks.
+    pub strong: Color32,
+}
 
-/// Background of menu bar, toolbar and status line.
-pub const BAR: Color32 = Color32::from_gray(38);
+/// Light text on dark panels.
+pub const DARK: Colors = Colors {
+    panel: Color32::from_gray(46),
+    bar: Color32::from_gray(38),
+    well: Color32::from_gray(30),
+    line: Color32::from_gray(66),
+    button: Color32::from_gray(64),
+    chosen: Color32::from_gray(104),
+    faint: Color32::from_gray(150),
+    text: Color32::from_gray(214),
+    strong: Color32::from_gray(245),
+};
 
-/// Background of text fields, charts and lists.
-pub const WELL: Color32 = Color32::from_gray(30);
+/// Dark text on light panels.
+pub const LIGHT: Colors = Colors {
+    panel: Color32::from_gray(212),
+    bar: Color32::from_gray(200),
+    well: Color32::from_gray(232),
+    line: Color32::from_gray(172),
+    button: Color32::from_gray(190),
+    chosen: Color32::from_gray(240),
+    faint: Color32::from_gray(72),
+    text: Color32::from_gray(32),
+    strong: Color32::from_gray(8),
+};
 
-/// Separator lines and edges.
-pub const LINE: Color32 = Color32::from_gray(66);
-
-/// Fill of buttons that are neither hovered nor pressed.
-pub const BUTTON: Color32 = Color32::from_gray(64);
-
-/// Fill of selected items.
-pub const CHOSEN: Color32 = Color32::from_gray(104);
-
-/// Secondary text and marks.
-pub const FAINT: Color32 = Color32::from_gray(150);
-
-/// Normal text and marks.
-pub const TEXT: Color32 = Color32::from_gray(214);
-
-/// Emphasized text and marks.
-pub const STRONG: Color32 = Color32::from_gray(245);
+/// Greys of the theme that the window shows.
+#[must_use]
+pub fn colors(context: &Context) -> Colors {
+    match context.theme() {
+        Theme::Dark => DARK,
+        Theme::Light => LIGHT,
+    }
+}
 
 /// Corner radius of buttons, in points.
 pub const CORNER_RADIUS: u8 = 4;
@@ -76,29 +107,30 @@ fn style() -> Style {
 fn visuals() -> Visuals {
     let mut visuals = Visuals::dark();
     visuals.widgets = Widgets {
-        noninteractive: widget_visuals(PANEL, LINE, TEXT),
-        inactive: widget_visuals(BUTTON, Color32::TRANSPARENT, TEXT),
-        hovered: widget_visuals(Color32::from_gray(78), Color32::from_gray(120), STRONG),
+        noninteractive: widget_visuals(DARK.panel, DARK.line, DARK.text),
+        inactive: widget_visuals(DARK.button, Color32::TRANSPARENT, DARK.text),
+        hovered: widget_visuals(Color32::from_gray(78), Color32::from_gray(120), DARK.strong),
         active: widget_visuals(Color32::from_gray(92), Color32::from_gray(160), Color32::WHITE),
-        open: widget_visuals(Color32::from_gray(58), LINE, TEXT),
+        open: widget_visuals(Color32::from_gray(58), DARK.line, DARK.text),
     };
-    visuals.selection = Selection { bg_fill: CHOSEN, stroke: Stroke::new(1.0, Color32::WHITE) };
-    visuals.hyperlink_color = STRONG;
-    visuals.weak_text_color = Some(FAINT);
+    visuals.selection =
+        Selection { bg_fill: DARK.chosen, stroke: Stroke::new(1.0, Color32::WHITE) };
+    visuals.hyperlink_color = DARK.strong;
+    visuals.weak_text_color = Some(DARK.faint);
     visuals.faint_bg_color = Color32::from_gray(52);
-    visuals.extreme_bg_color = WELL;
-    visuals.code_bg_color = WELL;
-    visuals.warn_fg_color = STRONG;
+    visuals.extreme_bg_color = DARK.well;
+    visuals.code_bg_color = DARK.well;
+    visuals.warn_fg_color = DARK.strong;
     visuals.error_fg_color = Color32::WHITE;
-    visuals.panel_fill = PANEL;
+    visuals.panel_fill = DARK.panel;
     visuals.window_fill = Color32::from_gray(50);
     visuals.window_stroke = Stroke::new(1.0, Color32::from_gray(82));
     visuals.window_corner_radius = CornerRadius::same(6);
     visuals.menu_corner_radius = CornerRadius::same(CORNER_RADIUS);
     visuals.slider_trailing_fill = true;
-    visuals.text_cursor.stroke.color = STRONG;
-    visuals.ime_composition.active_underline_stroke.color = STRONG;
-    visuals.ime_composition.inactive_underline_stroke.color = FAINT;
+    visuals.text_cursor.stroke.color = DARK.strong;
+    visuals.ime_composition.active_underline_stroke.color = DARK.strong;
+    visuals.ime_composition.inactive_underline_stroke.color = DARK.faint;
     visuals
 }
 

@@ -27,13 +27,13 @@ impl Studio {
             let state = menus::State { open: painting.is_some(), scene, history, shown, mirror };
             let title = self.title.clone();
             Panel::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| {
-                fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
+                fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
                 intent = menus::show(ui, state, &title);
             });
             Panel::bottom("line").frame(bar).exact_size(24.0).show_separator_line(false).show(
                 ui,
                 |ui| {
-                    fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
                     self.status_line(ui);
                 },
             );
@@ -44,7 +44,7 @@ impl Studio {
                 .exact_size(42.0)
                 .show_separator_line(false)
                 .show(ui, |ui| {
-                    fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
                     let mode = self.keys.mode(self.tools.mode);
                     let state = toolbar::State { mode, mirror, history };
                     intent = intent.or(toolbar::show(ui, state));
@@ -56,7 +56,7 @@ impl Studio {
                 .exact_size(theme::PANEL_WIDTH)
                 .show_separator_line(false)
                 .show(ui, |ui| {
-                    fill_rect(ui.painter(), ui.clip_rect(), theme::PANEL);
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).panel);
                     let Some(painting) = &painting else { return };
                     let requests = &mut self.requests;
                     let mut cx = PanelContext { painting, tools: &mut self.tools, requests };

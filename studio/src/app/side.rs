@@ -158,7 +158,8 @@ fn tabs(ui: &mut Ui, all: &[Tab], mut chosen: Tab) -> Tab {
         let width = (ui.available_width() - (all.len() - 1) as f32) / all.len() as f32;
         for &tab in all {
             let here = tab == chosen;
-            let fill = if here { theme::CHOSEN } else { theme::BAR };
+            let fill =
+                if here { theme::colors(ui.ctx()).chosen } else { theme::colors(ui.ctx()).bar };
             let button = Button::new(RichText::new(tab.name()).size(12.0))
                 .fill(fill)
                 .selected(here)

@@ -48,7 +48,8 @@ pub(super) struct State<'a> {
 /// Draws the status line. Returns whether the message was dismissed.
 pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
     let mut dismissed = false;
-    let small = |text: &str| RichText::new(text).small().color(theme::FAINT);
+    let faint = theme::colors(ui.ctx()).faint;
+    let small = |text: &str| RichText::new(text).small().color(faint);
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 14.0;
         ui.label(small(state.backend))
@@ -68,7 +69,11 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
                 .hint
                 .as_ref()
                 .map_or_else(|| message.text.clone(), |hint| format!("{}: {hint}", message.text));
-            let color = if message.failed { theme::STRONG } else { theme::TEXT };
+            let color = if message.failed {
+                theme::colors(ui.ctx()).strong
+            } else {
+                theme::colors(ui.ctx()).text
+            };
             let mut text = RichText::new(&words).color(color);
             if message.failed {
                 text = text.strong();

@@ -47,7 +47,7 @@ impl Studio {
                 .default_size(0.3 * ui.available_width())
                 .size_range(160.0..=0.6 * ui.available_width())
                 .show(ui, |ui| {
-                    fill_rect(ui.painter(), ui.clip_rect(), theme::PANEL);
+                    fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).panel);
                     let before = self.tools.reference_color;
                     self.with_panels(|panels, cx| panels.reference.show(ui, cx));
                     if self.tools.reference_color != before {
@@ -91,8 +91,8 @@ impl Studio {
         let mut ui = ui.new_child(UiBuilder::new().max_rect(tubes_rect));
         // A plain rectangle, which is cheap, and a thick outline for the rounded
         // corners.
-        fill_rect(ui.painter(), tubes_rect.shrink(1.0), theme::PANEL);
-        let edge = Stroke::new(3.0, theme::PANEL);
+        fill_rect(ui.painter(), tubes_rect.shrink(1.0), theme::colors(ui.ctx()).panel);
+        let edge = Stroke::new(3.0, theme::colors(ui.ctx()).panel);
         ui.painter().rect_stroke(tubes_rect, 6, edge, StrokeKind::Inside);
         let shelf = Frame::new().inner_margin(Margin::same(8));
         shelf.show(&mut ui, |ui| {

@@ -61,7 +61,13 @@ impl Studio {
             let (painter, whole) = (context.layer_painter(layer), context.content_rect());
             painter.rect_filled(whole, 0.0, Color32::from_black_alpha(150));
             let (font, text) = (FontId::proportional(18.0), "Drop to open");
-            painter.text(whole.center(), Align2::CENTER_CENTER, text, font, theme::STRONG);
+            painter.text(
+                whole.center(),
+                Align2::CENTER_CENTER,
+                text,
+                font,
+                theme::colors(context).strong,
+            );
         }
     }
 

@@ -95,18 +95,19 @@ pub(super) fn button_background(ui: &Ui, response: &Response, name: &str, chosen
     let enabled = ui.is_enabled();
     response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, name));
     let fill = match (chosen, response.hovered() || response.has_focus()) {
-        (true, _) => theme::CHOSEN,
+        (true, _) => theme::colors(ui.ctx()).chosen,
         (false, true) => ui.visuals().widgets.hovered.bg_fill,
         (false, false) => Color32::TRANSPARENT,
     };
-    let edge = if response.has_focus() { theme::FAINT } else { Color32::TRANSPARENT };
+    let edge =
+        if response.has_focus() { theme::colors(ui.ctx()).faint } else { Color32::TRANSPARENT };
     let edge = Stroke::new(1.0, edge);
     ui.painter().rect(response.rect, theme::CORNER_RADIUS, fill, edge, StrokeKind::Inside);
 }
 
 /// Draws a patch of colour in sRGB; `None` is crossed out.
 pub(super) fn patch(painter: &Painter, rect: Rect, color: Option<[u8; 3]>) {
-    let line = Stroke::new(1.0, theme::WELL);
+    let line = Stroke::new(1.0, theme::colors(painter.ctx()).well);
     let corners = CornerRadius::same(2);
     match color {
         Some([red, green, blue]) => {
@@ -114,9 +115,15 @@ pub(super) fn patch(painter: &Painter, rect: Rect, color: Option<[u8; 3]>) {
             painter.rect(rect, corners, fill, line, StrokeKind::Outside);
         }
         None => {
-            painter.rect(rect, corners, theme::PANEL, line, StrokeKind::Outside);
+            painter.rect(
+                rect,
+                corners,
+                theme::colors(painter.ctx()).panel,
+                line,
+                StrokeKind::Outside,
+            );
             let diagonal = [rect.left_bottom(), rect.right_top()];
-            painter.line_segment(diagonal, Stroke::new(1.0, theme::LINE));
+            painter.line_segment(diagonal, Stroke::new(1.0, theme::colors(painter.ctx()).line));
         }
     }
 }

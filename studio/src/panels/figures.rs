@@ -40,16 +40,18 @@ pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Performance, backen
     let font = FontId::proportional(size);
     let painter = ui.painter().with_clip_rect(over);
     let lines = lines(rate, worker, backend);
-    let galley = |text: &str| painter.layout_no_wrap(text.to_owned(), font.clone(), theme::TEXT);
+    let galley = |text: &str| {
+        painter.layout_no_wrap(text.to_owned(), font.clone(), theme::colors(ui.ctx()).text)
+    };
     let widest = lines.iter().map(|(_, value)| galley(value).size().x).fold(60.0, f32::max);
     let size = vec2(value_at + widest + 12.0, row * lines.len() as f32 + 10.0);
     let board = Rect::from_min_size(over.min + vec2(10.0, 10.0), size);
     painter.rect_filled(board, theme::CORNER_RADIUS, Color32::from_black_alpha(190));
     for (index, (name, value)) in lines.iter().enumerate() {
         let place = board.min + vec2(8.0, 5.0 + row * index as f32);
-        painter.text(place, Align2::LEFT_TOP, name, font.clone(), theme::FAINT);
+        painter.text(place, Align2::LEFT_TOP, name, font.clone(), theme::colors(ui.ctx()).faint);
         let place = place + vec2(value_at - 8.0, 0.0);
-        painter.text(place, Align2::LEFT_TOP, value, font.clone(), theme::STRONG);
+        painter.text(place, Align2::LEFT_TOP, value, font.clone(), theme::colors(ui.ctx()).strong);
     }
 }
 

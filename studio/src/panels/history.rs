@@ -48,10 +48,21 @@ impl History {
                     _ => cx.painting.history[index - 1].as_str(),
                 };
                 let response = row(ui, ROW, &format!("{index} {label}"), index == done);
-                let color = if index > done { theme::FAINT } else { theme::TEXT };
+                let color = if index > done {
+                    theme::colors(ui.ctx()).faint
+                } else {
+                    theme::colors(ui.ctx()).text
+                };
                 let inner = response.rect.shrink2(vec2(6.0, 0.0));
                 let (number, label_rect) = inner.split_left_right_at_x(inner.left() + 34.0);
-                text(ui, number, Align::Min, TextStyle::Small, theme::FAINT, &index.to_string());
+                text(
+                    ui,
+                    number,
+                    Align::Min,
+                    TextStyle::Small,
+                    theme::colors(ui.ctx()).faint,
+                    &index.to_string(),
+                );
                 text(ui, label_rect, Align::Min, TextStyle::Body, color, label);
                 if response.clicked() && index != done {
                     clicked = Some(index);
@@ -100,7 +111,7 @@ fn memory(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     ui.horizontal(|ui| {
         let used_text = format!("{:.0} MiB", used as f64 / MIB);
         let bar = ProgressBar::new(share).desired_width(ui.available_width() - 110.0);
-        let bar = bar.desired_height(14.0).fill(theme::CHOSEN).text(used_text);
+        let bar = bar.desired_height(14.0).fill(theme::colors(ui.ctx()).chosen).text(used_text);
         ui.add(bar).accessible_name("Memory of undo").on_hover_text(
             "Memory used by undo. When it is full, the oldest actions can no longer be undone.",
         );

@@ -271,18 +271,24 @@ impl SurfaceView {
         }
         let painter = ui.painter_at(self.rect);
         painter.line_segment(ends(*split.at), Stroke::new(3.0, Color32::from_black_alpha(90)));
-        painter.line_segment(ends(*split.at), Stroke::new(1.0, theme::STRONG));
+        painter.line_segment(ends(*split.at), Stroke::new(1.0, theme::colors(ui.ctx()).strong));
         let centre = middle(*split.at);
-        let fill = if response.hovered() { theme::CHOSEN } else { theme::PANEL };
-        painter.circle(centre, 10.0, fill, Stroke::new(1.0, theme::STRONG));
+        let fill = if response.hovered() {
+            theme::colors(ui.ctx()).chosen
+        } else {
+            theme::colors(ui.ctx()).panel
+        };
+        painter.circle(centre, 10.0, fill, Stroke::new(1.0, theme::colors(ui.ctx()).strong));
         // Arrows along the rows of the surface, however it is rotated.
         let along = placement.direction([1.0, 0.0]).normalized();
         for side in [-1.0, 1.0] {
             let tip = centre + along * (6.0 * side);
             let wing = along.rot90() * 3.0;
             let back = tip - along * (3.0 * side);
-            painter.line_segment([back + wing, tip], Stroke::new(1.2, theme::STRONG));
-            painter.line_segment([back - wing, tip], Stroke::new(1.2, theme::STRONG));
+            painter
+                .line_segment([back + wing, tip], Stroke::new(1.2, theme::colors(ui.ctx()).strong));
+            painter
+                .line_segment([back - wing, tip], Stroke::new(1.2, theme::colors(ui.ctx()).strong));
         }
         for (light, side) in split.lights.into_iter().zip([-1.0, 1.0]) {
             let at = centre + along * (16.0 * side) + vec2(0.0, 24.0);
@@ -299,8 +305,8 @@ impl SurfaceView {
 /// Draws a label over the picture.
 fn draw_label(painter: &eframe::egui::Painter, at: Pos2, align: Align2, text: &str) {
     let font = FontId::proportional(11.0);
-    let galley = painter.layout_no_wrap(text.to_owned(), font, theme::STRONG);
+    let galley = painter.layout_no_wrap(text.to_owned(), font, theme::colors(painter.ctx()).strong);
     let rect = align.anchor_size(at, galley.size());
     painter.rect_filled(rect.expand2(vec2(5.0, 2.0)), 3.0, Color32::from_black_alpha(150));
-    painter.galley(pos2(rect.left(), rect.top()), galley, theme::STRONG);
+    painter.galley(pos2(rect.left(), rect.top()), galley, theme::colors(painter.ctx()).strong);
 }

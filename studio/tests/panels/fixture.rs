@@ -136,7 +136,7 @@ pub(crate) fn show_panel<P: 'static>(
         .with_max_steps(60);
     let mut harness = builder.with_context_setup(theme::apply).build_ui_state(
         move |ui, table: &mut Fixture<P>| {
-            ui.painter().rect_filled(ui.max_rect(), 0.0, theme::PANEL);
+            ui.painter().rect_filled(ui.max_rect(), 0.0, theme::DARK.panel);
             let room = Rect::from_min_size(
                 Pos2::new(8.0, 8.0),
                 Vec2::new(theme::PANEL_WIDTH - 16.0, 680.0),

@@ -91,6 +91,6 @@ fn history_is_drawn() {
     let Some(drawn) = picture(&mut harness, "history") else { return };
     let row = harness.get_by_label("3 dry 50 %").rect();
     let at = drawn.get_pixel(row.right() as u32 - 8, row.center().y as u32).0;
-    let chosen = studio::theme::CHOSEN.to_array();
+    let chosen = studio::theme::DARK.chosen.to_array();
     assert_eq!(at, chosen, "the current entry is marked");
 }

@@ -47,7 +47,7 @@ impl<P> PanelWindow<P> {
                 move |ui, scene: &mut PanelState<P>| {
                     let PanelState { panel, painting, tools, requests } = scene;
                     let mut cx = PanelContext { painting, tools, requests };
-                    let frame = Frame::new().fill(theme::PANEL).inner_margin(Margin::same(10));
+                    let frame = Frame::new().fill(theme::DARK.panel).inner_margin(Margin::same(10));
                     frame.show(ui, |ui| {
                         ui.take_available_space();
                         show(panel, ui, &mut cx);

@@ -42,7 +42,7 @@ fn wet(document: &Document) -> u64 {
 /// Finds the centre of the recover button: the left of two equal buttons below the menu
 /// bar, recognized by the colour of buttons.
 pub(crate) fn recover_button(screen: &Pixels) -> Option<(i32, i32)> {
-    let fill = [theme::BUTTON.r(), theme::BUTTON.g(), theme::BUTTON.b()];
+    let fill = [theme::DARK.button.r(), theme::DARK.button.g(), theme::DARK.button.b()];
     for y in 44..120 {
         let row: Vec<usize> = (0..screen.width).filter(|&x| screen.at(x, y) == fill).collect();
         let runs = row.chunk_by(|left, right| right - left == 1);

@@ -69,7 +69,7 @@ impl Volumes {
         };
         let painter = ui.painter_at(self.rect);
         painter.circle_stroke(pointer, radius, Stroke::new(3.0, Color32::from_black_alpha(90)));
-        painter.circle_stroke(pointer, radius, Stroke::new(1.0, theme::STRONG));
+        painter.circle_stroke(pointer, radius, Stroke::new(1.0, theme::colors(ui.ctx()).strong));
         ui.ctx().set_cursor_icon(CursorIcon::Crosshair);
     }
 

@@ -57,13 +57,13 @@ impl Volumes {
         let mut intent = None;
         let title = self.title();
         Panel::top("scene menus").frame(bar).show_separator_line(false).show(ui, |ui| {
-            fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
+            fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
             intent = menus::show(ui, state, &title);
         });
         Panel::bottom("scene line").frame(bar).exact_size(24.0).show_separator_line(false).show(
             ui,
             |ui| {
-                fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
+                fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
                 self.status_line(ui);
             },
         );
@@ -74,7 +74,7 @@ impl Volumes {
             .exact_size(42.0)
             .show_separator_line(false)
             .show(ui, |ui| {
-                fill_rect(ui.painter(), ui.clip_rect(), theme::BAR);
+                fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
                 intent = intent.or(toolbar::show(ui, self.tools.grip.tool, state));
             });
         let side = Frame::new().inner_margin(Margin::symmetric(8, 6));
@@ -84,7 +84,7 @@ impl Volumes {
             .exact_size(theme::PANEL_WIDTH)
             .show_separator_line(false)
             .show(ui, |ui| {
-                fill_rect(ui.painter(), ui.clip_rect(), theme::PANEL);
+                fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).panel);
                 self.with_panels(|cx| show_side(ui, cx));
             });
         Panel::bottom("scene time")
@@ -92,7 +92,7 @@ impl Volumes {
             .exact_size(TIME_BAR_HEIGHT)
             .show_separator_line(false)
             .show(ui, |ui| {
-                fill_rect(ui.painter(), ui.clip_rect(), theme::PANEL);
+                fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).panel);
                 self.with_panels(|cx| show_time_bar(ui, cx));
             });
         intent

@@ -15,7 +15,8 @@ impl Volumes {
             ui.weak("preparing the scene");
             return;
         };
-        let small = |text: &str| RichText::new(text).small().color(theme::FAINT);
+        let faint = theme::colors(ui.ctx()).faint;
+        let small = |text: &str| RichText::new(text).small().color(faint);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 14.0;
             if state.time.playing {

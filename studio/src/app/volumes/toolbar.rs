@@ -58,13 +58,13 @@ fn button(ui: &mut Ui, intent: SceneIntent, chosen: bool, enabled: bool) -> bool
         response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, entry.name));
         let visuals = ui.style().interact(&response);
         let fill = match (chosen, response.hovered()) {
-            (true, _) => theme::CHOSEN,
+            (true, _) => theme::colors(ui.ctx()).chosen,
             (false, true) => visuals.bg_fill,
-            (false, false) => theme::BAR,
+            (false, false) => theme::colors(ui.ctx()).bar,
         };
         let corner = theme::CORNER_RADIUS;
         ui.painter().rect(rect, corner, fill, Stroke::NONE, StrokeKind::Inside);
-        let color = if chosen { theme::STRONG } else { visuals.fg_stroke.color };
+        let color = if chosen { theme::colors(ui.ctx()).strong } else { visuals.fg_stroke.color };
         icons::draw(ui.painter(), rect, intent, color);
         let response = response.on_hover_ui(|ui| tip(ui, entry));
         response.on_disabled_hover_ui(|ui| tip(ui, entry)).clicked()

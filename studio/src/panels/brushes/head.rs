@@ -32,7 +32,7 @@ pub(super) fn draw(painter: &Painter, area: Rect, shape: HeadShape, color: Optio
         (None, HeadShape::Knife) => Color32::from_gray(190),
         (None, _) => Color32::from_gray(112),
     };
-    let edge = Stroke::new(1.0, theme::WELL);
+    let edge = Stroke::new(1.0, theme::colors(painter.ctx()).well);
     painter.add(Shape::convex_polygon(outline(&contour, foot, scale), hair, edge));
 }
 

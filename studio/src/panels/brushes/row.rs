@@ -31,7 +31,11 @@ impl Row<'_> {
         let between = |left: f32, right: f32| {
             Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
         };
-        let faint = if self.is_selected { theme::TEXT } else { theme::FAINT };
+        let faint = if self.is_selected {
+            theme::colors(ui.ctx()).text
+        } else {
+            theme::colors(ui.ctx()).faint
+        };
         if self.number <= 9 {
             let key = between(inner.left(), inner.left() + 12.0);
             let number = self.number.to_string();
@@ -42,7 +46,7 @@ impl Row<'_> {
         head::draw(ui.painter(), icon_rect, self.spec.shape, color);
         let (name, below) =
             between(inner.left() + 50.0, inner.right() - 84.0).split_top_bottom_at_fraction(0.55);
-        text(ui, name, Align::Min, TextStyle::Body, theme::STRONG, self.label);
+        text(ui, name, Align::Min, TextStyle::Body, theme::colors(ui.ctx()).strong, self.label);
         let kind = format!("{} {}", self.spec.shape, millimetres(self.spec.size_mm));
         text(ui, below, Align::Min, TextStyle::Small, faint, &kind);
         let (amount, bar) =
@@ -87,7 +91,7 @@ fn paint(painting: &PaintingState, state: &BrushState) -> String {
 
 /// Draws a bar of the amount of paint at the tip: pigment in its colour, then medium in grey.
 fn paint_bar(painter: &Painter, bar: Rect, state: &BrushState) {
-    painter.rect_filled(bar, 2.0, theme::WELL);
+    painter.rect_filled(bar, 2.0, theme::colors(painter.ctx()).well);
     let filled = (state.tip_mm / FULL_MM).clamp(0.0, 1.0) as f32;
     let (paint, _) = bar.split_left_right_at_fraction(filled);
     let (pigment, medium) = paint.split_left_right_at_fraction(1.0 - state.vehicle as f32);

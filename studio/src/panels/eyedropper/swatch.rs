@@ -24,6 +24,11 @@ pub(in crate::panels) fn swatch(ui: &mut Ui, name: &str, size: Vec2, colors: &[R
         let part = Rect::from_x_y_ranges(left..=left + width, rect.y_range());
         ui.painter().rect_filled(part, 0.0, on_screen(rgb));
     }
-    ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, theme::WELL), StrokeKind::Outside);
+    ui.painter().rect_stroke(
+        rect,
+        0.0,
+        Stroke::new(1.0, theme::colors(ui.ctx()).well),
+        StrokeKind::Outside,
+    );
     response
 }

@@ -10,7 +10,8 @@ pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(24.0, 24.0), Sense::click());
     button_background(ui, &response, name, false);
     let lens = Rect::from_center_size(rect.center(), vec2(16.0, 10.0));
-    let color = if visible { theme::STRONG } else { theme::FAINT };
+    let color =
+        if visible { theme::colors(ui.ctx()).strong } else { theme::colors(ui.ctx()).faint };
     let line = Stroke::new(1.5, color);
     ui.painter().add(Shape::line(lid(lens, 1.0), line));
     if visible {

@@ -92,13 +92,22 @@ pub(in crate::panels) fn direction_control(
     });
     if ui.is_rect_visible(rect) {
         ui.painter().add(shaded(centre, radius, *direction, ambient));
-        ui.painter().circle_stroke(centre, radius, Stroke::new(1.0, theme::LINE));
+        ui.painter().circle_stroke(centre, radius, Stroke::new(1.0, theme::colors(ui.ctx()).line));
         let [x, y] = direction.on_disc();
         let handle = centre + radius * vec2(x as f32, y as f32);
-        ui.painter().line_segment([centre, handle], Stroke::new(1.0, theme::BAR));
-        ui.painter().circle(handle, 5.0, theme::STRONG, Stroke::new(1.5, theme::BAR));
+        ui.painter().line_segment([centre, handle], Stroke::new(1.0, theme::colors(ui.ctx()).bar));
+        ui.painter().circle(
+            handle,
+            5.0,
+            theme::colors(ui.ctx()).strong,
+            Stroke::new(1.5, theme::colors(ui.ctx()).bar),
+        );
         if response.has_focus() {
-            ui.painter().circle_stroke(centre, radius + 2.0, Stroke::new(1.0, theme::STRONG));
+            ui.painter().circle_stroke(
+                centre,
+                radius + 2.0,
+                Stroke::new(1.0, theme::colors(ui.ctx()).strong),
+            );
         }
     }
     let edit = Edit::of(&response);

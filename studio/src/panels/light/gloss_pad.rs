@@ -42,11 +42,20 @@ pub(super) fn gloss_pad(
     });
     if ui.is_rect_visible(rect) {
         let painter = ui.painter_at(rect);
-        painter.rect_filled(rect, theme::CORNER_RADIUS, theme::WELL);
+        painter.rect_filled(rect, theme::CORNER_RADIUS, theme::colors(ui.ctx()).well);
         painter.add(highlight(rect.shrink(1.0), *gloss));
         let handle = place_of(inner, *gloss);
-        painter.circle(handle, 4.5, theme::STRONG, Stroke::new(1.5, theme::BAR));
-        let edge = if response.has_focus() { theme::STRONG } else { theme::LINE };
+        painter.circle(
+            handle,
+            4.5,
+            theme::colors(ui.ctx()).strong,
+            Stroke::new(1.5, theme::colors(ui.ctx()).bar),
+        );
+        let edge = if response.has_focus() {
+            theme::colors(ui.ctx()).strong
+        } else {
+            theme::colors(ui.ctx()).line
+        };
         let line = Stroke::new(1.0, edge);
         painter.rect_stroke(rect, theme::CORNER_RADIUS, line, eframe::egui::StrokeKind::Inside);
     }

@@ -151,9 +151,9 @@ impl LightPanel {
         };
         add(
             cx.painting.second_lighting.as_ref().map(|second| second.illuminant.clone()),
-            theme::FAINT,
+            theme::colors(ui.ctx()).faint,
         );
-        add(self.first.preview().or(self.second.preview()), theme::STRONG);
+        add(self.first.preview().or(self.second.preview()), theme::colors(ui.ctx()).strong);
         power_chart(ui, light, &others);
         if !self.white.as_ref().is_some_and(|white| white.is_of(light)) {
             self.white = Some(White::of(light));

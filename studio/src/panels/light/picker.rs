@@ -34,7 +34,11 @@ impl Picker {
         let response = ui.add_sized([width, ui.spacing().interact_size.y], button);
         let tip = response.rect.right_center() - vec2(13.0, -2.5);
         let corners = vec![tip, tip + vec2(-4.0, -5.0), tip + vec2(4.0, -5.0)];
-        ui.painter().add(Shape::convex_polygon(corners, theme::FAINT, Stroke::NONE));
+        ui.painter().add(Shape::convex_polygon(
+            corners,
+            theme::colors(ui.ctx()).faint,
+            Stroke::NONE,
+        ));
         response.widget_info(|| {
             let label = format!("{}: {text}", self.name);
             eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, label)
@@ -92,7 +96,9 @@ impl Picker {
                 let mut of_kind = found.iter().filter(|lamp| lamp.kind == kind).peekable();
                 if of_kind.peek().is_some() {
                     ui.add_space(3.0);
-                    ui.label(RichText::new(kind.name()).small().color(theme::FAINT));
+                    ui.label(
+                        RichText::new(kind.name()).small().color(theme::colors(ui.ctx()).faint),
+                    );
                 }
                 for lamp in of_kind {
                     if entry(ui, lamp, lamp.name.eq_ignore_ascii_case(chosen)) {
@@ -110,7 +116,7 @@ impl Picker {
 
 /// Draws a line of the list. Returns whether it was clicked.
 fn entry(ui: &mut Ui, lamp: &ListedIlluminant, chosen: bool) -> bool {
-    let note = RichText::new(lamp.note).small().color(theme::FAINT);
+    let note = RichText::new(lamp.note).small().color(theme::colors(ui.ctx()).faint);
     let line = Button::selectable(chosen, lamp.name).right_text(note);
     let response = ui.with_layout(Layout::top_down_justified(Align::Min), |ui| ui.add(line)).inner;
     let enabled = response.enabled();

@@ -5,7 +5,6 @@ use render::light::Light;
 use spectra::Illuminant;
 
 use crate::chart::{BAND_NM, Chart, Curve};
-use crate::theme;
 
 /// Distance of the points of a curve, in nm.
 const STEP_NM: usize = 2;
@@ -13,8 +12,9 @@ const STEP_NM: usize = 2;
 /// Draws the current light with its quadrature wavelengths, and other lights in their
 /// colours. All curves are scaled to mean 1.
 pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
-    let mut curves: Vec<Curve> = others.iter().map(|(other, color)| curve(other, *color)).collect();
-    curves.push(curve(&light.viewing.illuminant, theme::TEXT));
+    let mut curves: Vec<Curve> =
+        others.iter().map(|(other, color)| curve(other, Some(*color))).collect();
+    curves.push(curve(&light.viewing.illuminant, None));
     let marks = &light.quadrature.rule.nodes_nm;
     let chart = Chart { curves: &curves, marks, quantity: "relative power", max: None };
     let nodes: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
@@ -25,7 +25,7 @@ pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illu
     ));
 }
 
-fn curve(light: &Illuminant, color: Color32) -> Curve {
+fn curve(light: &Illuminant, color: Option<Color32>) -> Curve {
     let grid = light.power().grid();
     let shown = |point: &(f64, f64)| BAND_NM.contains(&point.0);
     let values = light.power().values().iter().copied();
@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn a_curve_is_scaled_to_mean_one() {
         let light = Illuminant::d65();
-        let shown = curve(&light, theme::TEXT);
+        let shown = curve(&light, None);
         let power = |nm: f64| light.power().values()[(nm - 360.0) as usize];
         let (first, last) = (shown.points[0], *shown.points.last().unwrap());
         assert_eq!((first.0, last.0), (380.0, 730.0));

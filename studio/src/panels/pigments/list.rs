@@ -94,13 +94,21 @@ fn heads(ui: &mut Ui, catalogue: &Catalogue) {
         (index, Align::Min, if any_marked { "index" } else { "" }),
         (hides, Align::Max, "hides from"),
     ] {
-        text(ui, place.expand2(vec2(0.0, 3.0)), align, TextStyle::Small, theme::FAINT, words);
+        text(
+            ui,
+            place.expand2(vec2(0.0, 3.0)),
+            align,
+            TextStyle::Small,
+            theme::colors(ui.ctx()).faint,
+            words,
+        );
     }
 }
 
 fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: PigmentId, scattering_per_mm: f64) {
     let [swatch, name, index, hides] = places(rect);
-    let color = if ui.is_enabled() { theme::TEXT } else { theme::FAINT };
+    let color =
+        if ui.is_enabled() { theme::colors(ui.ctx()).text } else { theme::colors(ui.ctx()).faint };
     let colors = catalogue.colors(pigment);
     let (full, tint) = swatch.split_left_right_at_fraction(0.55);
     // A disabled row must not change the colour of its swatch.
@@ -110,9 +118,9 @@ fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: PigmentId, scatteri
     patch(&painter, full, Some(colors.masstone_srgb));
     text(ui, name, Align::Min, TextStyle::Body, color, catalogue.name(pigment));
     let marked = mark(catalogue, pigment);
-    text(ui, index, Align::Min, TextStyle::Small, theme::FAINT, marked);
+    text(ui, index, Align::Min, TextStyle::Small, theme::colors(ui.ctx()).faint, marked);
     let words = catalogue.hiding(pigment, scattering_per_mm);
-    text(ui, hides, Align::Max, TextStyle::Small, theme::FAINT, &words);
+    text(ui, hides, Align::Max, TextStyle::Small, theme::colors(ui.ctx()).faint, &words);
 }
 
 /// The colour index, or `guessed` for a pigment that was not measured.

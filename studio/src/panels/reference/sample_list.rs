@@ -55,7 +55,7 @@ impl Reference {
             ui.label(RichText::new("Draw a line over a passage whose strokes you like").weak());
         }
         if let Some(fault) = self.samples.fault() {
-            ui.label(RichText::new(&fault.text).color(theme::STRONG));
+            ui.label(RichText::new(&fault.text).color(theme::colors(ui.ctx()).strong));
             ui.label(RichText::new(fault.hint.as_deref().unwrap_or_default()).weak());
         } else if let Some(file) = self.samples.file() {
             next_step(ui, "Takes the samples", &sample_command(&path, file));
@@ -120,7 +120,7 @@ fn patch(ui: &mut Ui, name: &str, index: usize, selected: bool) -> bool {
     let words = format!("Select {name}");
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, &words));
     let width = if selected { 2.0 } else { 0.0 };
-    let edge = Stroke::new(width, theme::STRONG);
+    let edge = Stroke::new(width, theme::colors(ui.ctx()).strong);
     ui.painter().rect(rect.shrink(2.0), 2, screen_color(index), edge, StrokeKind::Outside);
     response.on_hover_text("Selects the sample; Spacing is for the selected one").clicked()
 }

@@ -86,7 +86,7 @@ impl Chooser {
         let color = held.map(|pigment| catalogue.colors(pigment).masstone_srgb);
         patch(ui.painter(), upper, color);
         let number = (slot + 1).to_string();
-        text(ui, lower, Align::Center, TextStyle::Small, theme::TEXT, &number);
+        text(ui, lower, Align::Center, TextStyle::Small, theme::colors(ui.ctx()).text, &number);
         if response.clicked() {
             self.slot = slot;
         }

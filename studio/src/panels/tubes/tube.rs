@@ -54,9 +54,9 @@ pub(in crate::panels) fn draw(
 pub(super) fn draw_empty(ui: &Ui, area: Rect) {
     let body = body(area).shrink(1.0);
     let painter = ui.painter();
-    let line = Stroke::new(1.0, theme::LINE);
+    let line = Stroke::new(1.0, theme::colors(ui.ctx()).line);
     painter.rect(body, CornerRadius::same(3), Color32::TRANSPARENT, line, StrokeKind::Inside);
-    let plus = Stroke::new(1.5, theme::FAINT);
+    let plus = Stroke::new(1.5, theme::colors(ui.ctx()).faint);
     let middle = body.center();
     painter.hline(middle.x - 6.0..=middle.x + 6.0, middle.y, plus);
     painter.vline(middle.x, middle.y - 6.0..=middle.y + 6.0, plus);
@@ -66,7 +66,12 @@ pub(super) fn draw_empty(ui: &Ui, area: Rect) {
 /// Draws the drop of paint that follows the pointer while a tube is dragged.
 pub(super) fn draw_drop(painter: &Painter, at: Pos2, [red, green, blue]: [u8; 3]) {
     let drop = at + vec2(14.0, 14.0);
-    painter.circle(drop, 8.0, Color32::from_rgb(red, green, blue), Stroke::new(1.5, theme::STRONG));
+    painter.circle(
+        drop,
+        8.0,
+        Color32::from_rgb(red, green, blue),
+        Stroke::new(1.5, theme::colors(painter.ctx()).strong),
+    );
 }
 
 fn body(area: Rect) -> Rect {
@@ -125,6 +130,6 @@ fn names(ui: &Ui, area: Rect, name: &str) {
         None => (name, ""),
     };
     for (line, words) in [(upper, first), (lower, second)] {
-        text(ui, line, Align::Center, TextStyle::Small, theme::TEXT, words);
+        text(ui, line, Align::Center, TextStyle::Small, theme::colors(ui.ctx()).text, words);
     }
 }

@@ -46,8 +46,15 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
                 let response = line.inner;
                 let inner = response.rect.shrink2(vec2(6.0, 0.0));
                 let (time, label) = inner.split_left_right_at_x(inner.left() + 58.0);
-                text(ui, time, Align::Min, TextStyle::Small, theme::FAINT, &began);
-                text(ui, label, Align::Min, TextStyle::Body, theme::TEXT, &event.label);
+                text(ui, time, Align::Min, TextStyle::Small, theme::colors(ui.ctx()).faint, &began);
+                text(
+                    ui,
+                    label,
+                    Align::Min,
+                    TextStyle::Body,
+                    theme::colors(ui.ctx()).text,
+                    &event.label,
+                );
                 if response.on_hover_text("Goes to the moment at which it begins").clicked() {
                     cx.command(VolumeCommand::Seek(event.from));
                 }

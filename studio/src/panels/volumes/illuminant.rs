@@ -31,7 +31,8 @@ impl SceneIlluminant {
         let chosen = self.control.show(ui, &state.illuminant);
         let light = &state.light;
         let preview = self.control.preview().and_then(|name| light_from_text(&name).ok());
-        let others: Vec<_> = preview.into_iter().map(|other| (other, theme::STRONG)).collect();
+        let others: Vec<_> =
+            preview.into_iter().map(|other| (other, theme::colors(ui.ctx()).strong)).collect();
         power_chart(ui, light, &others);
         if !self.white.as_ref().is_some_and(|white| white.is_of(light)) {
             self.white = Some(White::of(light));

@@ -51,7 +51,11 @@ fn tabs(ui: &mut Ui, chosen: &mut SceneTab) {
             let (name, description) = tab.words();
             let here = tab == *chosen;
             let button = Button::new(RichText::new(name).size(12.0))
-                .fill(if here { theme::CHOSEN } else { theme::BAR })
+                .fill(if here {
+                    theme::colors(ui.ctx()).chosen
+                } else {
+                    theme::colors(ui.ctx()).bar
+                })
                 .selected(here)
                 .corner_radius(CornerRadius {
                     sw: 0,

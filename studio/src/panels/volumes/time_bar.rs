@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
         let words = format!("{} of {}", seconds_text(time.step), seconds_text(time.end));
         let at = pos2(rect.right() + TEXT - 4.0, rect.center().y);
         let font = FontId::proportional(12.0);
-        ui.painter().text(at, Align2::RIGHT_CENTER, words, font, theme::TEXT);
+        ui.painter().text(at, Align2::RIGHT_CENTER, words, font, theme::colors(ui.ctx()).text);
     });
 }
 
@@ -140,21 +140,26 @@ fn track(ui: &Ui, rect: Rect, response: Response, cx: &mut SceneContext<'_>) {
         }
     }
     let painter = ui.painter_at(rect);
-    painter.rect_filled(line, 3, theme::WELL);
+    painter.rect_filled(line, 3, theme::colors(ui.ctx()).well);
     let reached = Rect::from_x_y_ranges(line.left()..=x(time.end), line.y_range());
-    painter.rect_filled(reached, 3, theme::BUTTON);
+    painter.rect_filled(reached, 3, theme::colors(ui.ctx()).button);
     for event in cx.state.events.iter() {
         let ends = x(event.to).max(x(event.from) + 3.0);
         let mark = Rect::from_x_y_ranges(x(event.from)..=ends, line.y_range().expand(3.0));
         let fill = match event.tool {
-            Some(SceneTool::Pour) | None => theme::TEXT,
-            Some(_) => theme::FAINT,
+            Some(SceneTool::Pour) | None => theme::colors(ui.ctx()).text,
+            Some(_) => theme::colors(ui.ctx()).faint,
         };
         painter.rect_filled(mark, 1, fill);
     }
     let knob = pos2(x(time.step), line.center().y);
-    painter.vline(knob.x, rect.y_range(), Stroke::new(2.0, theme::STRONG));
-    painter.circle(knob, 6.0, theme::STRONG, Stroke::new(1.5, theme::BAR));
+    painter.vline(knob.x, rect.y_range(), Stroke::new(2.0, theme::colors(ui.ctx()).strong));
+    painter.circle(
+        knob,
+        6.0,
+        theme::colors(ui.ctx()).strong,
+        Stroke::new(1.5, theme::colors(ui.ctx()).bar),
+    );
     response.on_hover_text("Drag to go to a moment; the scene is replayed to the bit");
 }
 

@@ -72,7 +72,7 @@ impl Studio {
         let Some(painting) = self.painting.clone() else { return };
         let Self { tools, requests, panels, .. } = self;
         let mut cx = PanelContext { painting: &painting, tools, requests };
-        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::PANEL);
+        ui.painter().rect_filled(ui.max_rect(), 0.0, theme::DARK.panel);
         for column in 0..4_u8 {
             let corner = pos2(8.0 + f32::from(column) * theme::PANEL_WIDTH, 8.0);
             let room = eframe::egui::Rect::from_min_size(
