@@ -340,7 +340,8 @@ impl PaintEngine {
     }
 
     /// Downloads a view in `rect` as last rendered: linear sRGB with white at 1, and 1 as
-    /// the fourth component; black where nothing was rendered. Time is proportional to the
+    /// the fourth component; black where nothing was rendered. Where paint changed since, either
+    /// the earlier or the present paint is seen. Time is proportional to the
     /// area of `rect`.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 //! penetration of the head need not sum the pigments.
 
 use crate::layer::{Cell, Layer, SLOTS};
+use graphics::tile::{Rect, TileSet};
 
 /// A layer and the volume of each of its cells; 40 bytes a cell.
 #[derive(Debug, Clone)]
@@ -12,8 +13,14 @@ pub(super) struct Columns {
 
 impl Columns {
     pub(super) fn new(layer: Layer) -> Self {
-        let cells = layer.vehicle.values().len();
-        let volume = (0..cells).map(|index| layer.cell(index).volume()).collect();
+        // Memory of zeros is only taken where it is written.
+        let mut volume = vec![0; layer.vehicle.values().len()];
+        for (index, volume) in volume.iter_mut().enumerate() {
+            let found = layer.cell(index).volume();
+            if found > 0 {
+                *volume = found;
+            }
+        }
         Self { layer, volume }
     }
 
@@ -24,6 +31,29 @@ impl Columns {
     /// Width in cells.
     pub(super) fn width(&self) -> usize {
         self.layer.width()
+    }
+
+    /// Copies the paint in `rect`. Tiles without paint are not copied, so that the memory of a
+    /// large canvas with little paint stays small.
+    ///
+    /// # Panics
+    /// If `rect` reaches beyond the canvas.
+    pub(super) fn part(&self, rect: Rect) -> Layer {
+        let bounds = self.layer.vehicle.bounds();
+        assert_eq!(rect.intersection(bounds), rect, "a rectangle must lie within {bounds:?}");
+        let mut part = Layer::empty(rect.width, rect.height);
+        let mut covered = TileSet::default();
+        covered.insert(rect);
+        for tile in covered.iter() {
+            let inside = tile.rect(bounds).intersection(rect);
+            let mut rows = inside.y..inside.y + inside.height;
+            let row = |y: usize| &self.volume[y * self.width() + inside.x..][..inside.width];
+            if rows.any(|y| row(y).iter().any(|&volume| volume > 0)) {
+                let at = (inside.x - rect.x, inside.y - rect.y);
+                part.put(at, &self.layer.part(inside));
+            }
+        }
+        part
     }
 
     /// Volume of each cell in quanta, row by row.

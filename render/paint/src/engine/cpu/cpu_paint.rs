@@ -4,6 +4,7 @@ use super::bed::Bed;
 use super::columns::Columns;
 use super::head_paint::HeadPaint;
 use super::render::{PaintLayers, RenderedView};
+use super::saved_tile::SavedTile;
 use super::sparse::SparseLayer;
 use super::sub_steps::SubStepRunner;
 use crate::contact::Contact;
@@ -28,7 +29,7 @@ pub struct CpuPaint {
     pub(super) brushes: Vec<HeadPaint>,
     /// Dry layers, lowest first.
     pub(super) dry: Vec<SparseLayer>,
-    saved_tiles: Vec<Option<Layer>>,
+    saved_tiles: Vec<Option<SavedTile>>,
     /// By [`View`].
     views: [RenderedView; 2],
     runner: SubStepRunner,
@@ -88,7 +89,7 @@ impl CpuPaint {
     }
 
     pub(crate) fn wet_in(&self, rect: Rect) -> Layer {
-        self.wet.layer().part(rect)
+        self.wet.part(rect)
     }
 
     pub(crate) fn set_wet_in(&mut self, rect: Rect, paint: &Layer) {
@@ -151,20 +152,19 @@ impl CpuPaint {
     pub(crate) fn save_tile(&mut self, tile: Tile, slot: UndoSlot) {
         let rect = self.rect_of(tile);
         self.saved_tiles.resize(self.saved_tiles.len().max(slot.0 + 1), None);
-        self.saved_tiles[slot.0] = Some(self.wet.layer().part(rect));
+        self.saved_tiles[slot.0] = Some(SavedTile::of(&self.wet.layer().part(rect)));
     }
 
     pub(crate) fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) {
         let (rect, bounds) = (self.rect_of(tile), self.bounds());
         let saved = self.saved_tiles.get_mut(slot.0).and_then(Option::as_mut);
         let saved = saved.expect("a tile is saved to a slot before it is swapped with it");
-        let size = (saved.width(), saved.height());
-        assert_eq!(size, (rect.width, rect.height), "{tile:?} was not saved to {slot:?}");
+        let size = (rect.width, rect.height);
+        assert_eq!(saved.size(), size, "{tile:?} was not saved to {slot:?}");
+        let now = SavedTile::of(&self.wet.layer().part(rect));
+        let before = std::mem::replace(saved, now);
         for index in 0..rect.width * rect.height {
-            let at = canvas_index(rect, index, bounds);
-            let cell = self.wet.cell(at);
-            self.wet.set_cell(at, saved.cell(index));
-            saved.set_cell(index, cell);
+            self.wet.set_cell(canvas_index(rect, index, bounds), before.cell(index));
         }
     }
 
@@ -173,9 +173,11 @@ impl CpuPaint {
         views[view as usize].render(scene, &PaintLayers { ground, floor, wet, dry }, baked, shown);
     }
 
-    pub(crate) fn picture_in(&mut self, view: View, rect: Rect) -> Field<[f32; 4]> {
+    pub(crate) fn picture_in(&self, view: View, rect: Rect) -> Field<[f32; 4]> {
         let bounds = self.bounds();
-        self.views[view as usize].picture(bounds).part(rect)
+        assert_eq!(rect.intersection(bounds), rect, "a rectangle must lie within {bounds:?}");
+        let Self { ground, floor, wet, dry, views, .. } = self;
+        views[view as usize].picture_in(&PaintLayers { ground, floor, wet, dry }, rect)
     }
 
     pub(crate) fn forget_view(&mut self, view: View) {

@@ -1,9 +1,10 @@
 //! The paint engine on the processor, using all cores.
 //!
 //! The result does not depend on the number of threads. Memory: 44 bytes per canvas
-//! cell (wet paint 36, its volume 4, floor 4) and 4 for the ground; 48 more for each
-//! view that has been rendered; a dry layer takes 36 bytes for each cell of its
-//! painted tiles.
+//! cell (wet paint 36, its volume 4, floor 4) and 4 for the ground, of which the first 40 are
+//! taken only where there was paint; 4 more for each view that has been rendered, and 32
+//! for each of its cells in tiles with dry paint; a dry layer takes 36 bytes for each cell
+//! of its painted tiles.
 
 mod columns;
 
@@ -33,7 +34,11 @@ mod sub_steps;
 
 mod sparse;
 
+mod baked_tiles;
+
 mod render;
+
+mod saved_tile;
 
 mod cpu_paint;
 

@@ -1,17 +1,18 @@
-//! Rendering on the processor: the reflectance of ground and dry layers is baked, the
-//! wet paint is composited over it and shaded.
+//! Rendering on the processor: the reflectance of ground and dry layers is baked, and where a
+//! picture is read, the wet paint is composited over it and shaded.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::baked_tiles::BakedTiles;
 use super::columns::Columns;
 use super::sparse::SparseLayer;
 use crate::composite::composite_row;
 use crate::optics::{NODES, Scene};
 use crate::shade::{TopMaterial, Tops, shade_row};
 use graphics::field::Field;
-use graphics::tile::{Rect, TILE, Tile, TileSet};
+use graphics::tile::{Rect, TILE, TileSet};
 
 /// The layers to be rendered.
 #[derive(Debug, Clone, Copy)]
@@ -25,40 +26,23 @@ pub(super) struct PaintLayers<'a> {
     pub(super) dry: &'a [SparseLayer],
 }
 
-/// The last rendered state of a view. Allocated when first rendered or read.
-#[derive(Debug)]
+/// What a view needs to compute its picture: the picture itself is not kept, as it would take
+/// 16 bytes a cell and is read once after it changed. Allocated when first rendered.
+#[derive(Debug, Default)]
 pub(super) struct RenderedView {
+    /// The scene of the last rendering; `None` before the first.
+    scene: Option<Scene>,
     /// Internal reflectance of ground and dry layers.
-    baked: Field<[f32; NODES]>,
+    baked: BakedTiles,
     /// Height of the surface.
     tops: Tops,
-    /// Linear sRGB, with 1 as the fourth component.
-    picture: Field<[f32; 4]>,
-}
-
-impl Default for RenderedView {
-    fn default() -> Self {
-        Self {
-            baked: Field::filled(0, 0, [0.0; NODES]),
-            tops: Tops::default(),
-            picture: Field::filled(0, 0, BLACK),
-        }
-    }
 }
 
 const BLACK: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
 impl RenderedView {
-    /// The picture as last rendered; black where it never was.
-    pub(super) fn picture(&mut self, bounds: Rect) -> &Field<[f32; 4]> {
-        if self.picture.bounds() != bounds {
-            self.picture = Field::filled(bounds.width, bounds.height, BLACK);
-        }
-        &self.picture
-    }
-
-    /// Renders the tiles of `shown` and `baked`, after baking those of `baked`. Rows
-    /// are distributed over all cores.
+    /// Bakes the tiles of `baked`, and takes over the surface of these and of `shown`. Distributed
+    /// over all cores.
     pub(super) fn render(
         &mut self,
         scene: &Scene,
@@ -72,11 +56,11 @@ impl RenderedView {
         if bounds.is_empty() {
             return;
         }
-        self.picture(bounds);
-        if self.baked.bounds() != bounds {
-            self.baked = Field::filled(bounds.width, bounds.height, scene.ground);
+        if self.tops.size() != (bounds.width, bounds.height) {
             self.tops = Tops::level(bounds.width, bounds.height);
         }
+        self.scene = Some(scene.clone());
+        self.baked.bake(scene, layers.dry, bounds, baked);
         let mut both = shown.clone();
         for tile in baked.iter() {
             both.insert_tile(tile);
@@ -86,24 +70,49 @@ impl RenderedView {
         };
         // Only rows between the first and the last tile are visited.
         let (first, end) = (highest.row * TILE, ((lowest.row + 1) * TILE).min(bounds.height));
-        let cells = first * bounds.width..end * bounds.width;
-        let (baked_spans, shown_spans) = (spans(baked, bounds), spans(&both, bounds));
+        let spans = spans(&both, bounds);
         let PaintLayers { floor, wet, .. } = *layers;
         let top = |x, y| floor[(x, y)] + wet.volume()[y * bounds.width + x] as i32;
-        self.tops.set(first..end, |y| &shown_spans[y / TILE], top);
-        let tops = &self.tops;
-        let baked = self.baked.values_mut()[cells.clone()].par_chunks_mut(bounds.width);
-        let picture = self.picture.values_mut()[cells].par_chunks_mut(bounds.width);
-        let rows = baked.zip(picture).enumerate();
-        rows.for_each_init(Buffers::default, |buffers, (row, (baked, picture))| {
-            let y = first + row;
-            for span in &baked_spans[y / TILE] {
-                bake(scene, layers, y, span, baked);
-            }
-            for span in &shown_spans[y / TILE] {
-                show(scene, layers, (tops, y), span, baked, picture, buffers);
-            }
+        self.tops.set(first..end, |y| &spans[y / TILE], top);
+    }
+
+    /// The picture in `rect`: linear sRGB, with 1 as the fourth component; black before the first
+    /// rendering. Rows are distributed over all cores.
+    pub(super) fn picture_in(&self, layers: &PaintLayers<'_>, rect: Rect) -> Field<[f32; 4]> {
+        let mut picture = Field::filled(rect.width, rect.height, BLACK);
+        let Some(scene) = self.scene.as_ref().filter(|_| !rect.is_empty()) else { return picture };
+        let rows = picture.values_mut().par_chunks_mut(rect.width).enumerate();
+        rows.for_each_init(Buffers::default, |buffers, (row, picture)| {
+            let (y, span) = (rect.y + row, rect.x..rect.x + rect.width);
+            self.shade(scene, layers, y, span, picture, buffers);
         });
+        picture
+    }
+
+    /// Composites the wet paint over the baked reflectance in `span` of row `y`, and shades it.
+    fn shade(
+        &self,
+        scene: &Scene,
+        layers: &PaintLayers<'_>,
+        y: usize,
+        span: Range<usize>,
+        picture: &mut [[f32; 4]],
+        buffers: &mut Buffers,
+    ) {
+        let PaintLayers { ground, floor, wet, .. } = *layers;
+        let Buffers { internal, materials } = buffers;
+        let width = floor.width();
+        internal.clear();
+        internal.resize(span.len(), scene.ground);
+        self.baked.copy_row(y, span.start, internal);
+        composite_row(&scene.wet, wet.layer().pigments.row(y, span.start, span.len()), internal);
+        materials.clear();
+        materials.extend(span.clone().map(|x| match wet.volume()[y * width + x] {
+            0 if floor[(x, y)] == ground[(x, y)] => TopMaterial::Ground,
+            0 => TopMaterial::Dry,
+            _ => TopMaterial::Wet,
+        }));
+        shade_row(scene, (&self.tops, (span.start, y)), internal, materials, picture);
     }
 }
 
@@ -122,54 +131,9 @@ fn spans(tiles: &TileSet, bounds: Rect) -> Vec<Vec<Range<usize>>> {
     rows
 }
 
-/// Computes the internal reflectance of ground and dry layers over `span` of row `y`.
-fn bake(
-    scene: &Scene,
-    layers: &PaintLayers<'_>,
-    y: usize,
-    span: &Range<usize>,
-    baked: &mut [[f32; NODES]],
-) {
-    baked[span.clone()].fill(scene.ground);
-    for (layer, optics) in layers.dry.iter().zip(&scene.dry) {
-        for column in span.start / TILE..span.end.div_ceil(TILE) {
-            let Some(part) = layer.tile(Tile { row: y / TILE, column }) else { continue };
-            let backing = &mut baked[column * TILE..][..part.width()];
-            composite_row(optics, part.pigments.row(y % TILE, 0, part.width()), backing);
-        }
-    }
-}
-
 /// Buffers of one thread for one row.
 #[derive(Debug, Default)]
 struct Buffers {
     internal: Vec<[f32; NODES]>,
     materials: Vec<TopMaterial>,
-}
-
-/// Composites the wet paint over the baked reflectance in `span` of row `y`, and
-/// shades it.
-fn show(
-    scene: &Scene,
-    layers: &PaintLayers<'_>,
-    (tops, y): (&Tops, usize),
-    span: &Range<usize>,
-    baked: &[[f32; NODES]],
-    picture: &mut [[f32; 4]],
-    buffers: &mut Buffers,
-) {
-    let PaintLayers { ground, floor, wet, .. } = *layers;
-    let Buffers { internal, materials } = buffers;
-    let width = floor.width();
-    internal.clear();
-    internal.extend_from_slice(&baked[span.clone()]);
-    composite_row(&scene.wet, wet.layer().pigments.row(y, span.start, span.len()), internal);
-    materials.clear();
-    materials.extend(span.clone().map(|x| match wet.volume()[y * width + x] {
-        0 if floor[(x, y)] == ground[(x, y)] => TopMaterial::Ground,
-        0 => TopMaterial::Dry,
-        _ => TopMaterial::Wet,
-    }));
-    let first = (span.start, y);
-    shade_row(scene, (tops, first), internal, materials, &mut picture[span.clone()]);
 }
