@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use render::export::{Apng, ColorTable, Frame, FrameRate, Gif, Sequence, SequenceSettings};
+use render::export::{AnimationFormat, Frame, FrameRate, Sequence, SequenceSettings};
 use sha2::{Digest, Sha256};
 
 use crate::console::Console;
@@ -27,15 +27,9 @@ pub(crate) struct AnimationOptions {
     rate: f64,
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Format {
-    Gif,
-    Apng,
-}
-
 /// Outputs of frames: a folder, and an animation file that was checked to be writable.
 pub(crate) struct Animation {
-    file: Option<(Output, Format)>,
+    file: Option<(Output, AnimationFormat)>,
     frames: PathBuf,
     rate: FrameRate,
 }
@@ -78,19 +72,16 @@ impl AnimationOptions {
 }
 
 /// Format of an animation, from the extension of `path`.
-fn format(path: &Path) -> Result<Format> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    match ending.as_deref() {
-        Some("gif") => Ok(Format::Gif),
-        Some("png" | "apng") => Ok(Format::Apng),
-        _ => Err(Failure::usage(
+pub(crate) fn format(path: &Path) -> Result<AnimationFormat> {
+    AnimationFormat::from_path(path).ok_or_else(|| {
+        Failure::usage(
             format!(
                 "{}: expected an animation whose name ends in .gif, .png or .apng",
                 path.display()
             ),
             format!("try {}", path.with_extension("gif").display()),
-        )),
-    }
+        )
+    })
 }
 
 /// SHA-256 digest of all inputs of the frames. Frames of another digest are painted again.
@@ -161,36 +152,11 @@ impl Recording {
         }
         bar.done();
         if let Some((output, format)) = animation.file {
-            let bytes = match format {
-                Format::Gif => gif(&sequence, size, animation.rate)?,
-                Format::Apng => apng(&sequence, size, animation.rate, frames)?,
-            };
-            output.write(bytes)?;
+            let encoded = format.encode::<Failure, _>((size, frames), (animation.rate, 1), || {
+                sequence.frames().map(|frame| frame.map_err(Failure::from))
+            });
+            output.write(encoded?)?;
         }
         Ok(frames - remaining.len())
     }
-}
-
-fn gif(sequence: &Sequence, size: (usize, usize), rate: FrameRate) -> Result<Vec<u8>> {
-    let table = ColorTable::of(sequence.frames())?;
-    let mut gif = Gif::new(Vec::new(), size, rate, &table)?;
-    for frame in sequence.frames() {
-        gif.push(&frame?)?;
-    }
-    Ok(gif.finish()?)
-}
-
-fn apng(
-    sequence: &Sequence,
-    size: (usize, usize),
-    rate: FrameRate,
-    frames: usize,
-) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let mut apng = Apng::new(&mut bytes, size, rate, frames)?;
-    for frame in sequence.frames() {
-        apng.push(&frame?)?;
-    }
-    apng.finish()?;
-    Ok(bytes)
 }

@@ -50,6 +50,8 @@ mod progress;
 
 mod animation;
 
+mod timelapse;
+
 mod verbs;
 
 use std::ffi::OsString;

@@ -122,6 +122,14 @@ impl Output {
         &self.path
     }
 
+    /// Failure for an output whose file another one has.
+    pub(crate) fn used_twice(&self) -> Failure {
+        Failure::usage(
+            format!("{}: two outputs have this file name", self.path.display()),
+            "give each output its own file name",
+        )
+    }
+
     /// Whether both outputs are the same file.
     pub(crate) fn is_same_as(&self, other: &Self) -> bool {
         self.target == other.target

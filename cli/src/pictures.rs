@@ -34,7 +34,7 @@ enum Bands {
 /// Options for the files that a painting is exported to.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct Exports {
-    /// Write the picture: .png (sRGB) or .exr (linear sRGB, as computed)
+    /// Write the picture: .png (sRGB), .tif (sRGB, 16 bits) or .exr (linear sRGB, as computed)
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     picture: Option<PathBuf>,
     /// Bits of a channel of a PNG picture
@@ -51,6 +51,11 @@ pub(crate) struct Exports {
         help_heading = "Exports"
     )]
     supersample: u8,
+    /// Write the layers for programs that paint in layers: OpenRaster (.ora) of 16 bits, with the
+    /// ground, each dry layer and the wet paint. By normal opacity they show the picture; films
+    /// themselves do not mix by opacity, so other orders and modes are not those of paint
+    #[arg(long, value_name = "FILE", help_heading = "Exports")]
+    layers: Option<PathBuf>,
     /// Write a spectral OpenEXR: the reflectance of every cell, without relief and gloss
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     spectral: Option<PathBuf>,
@@ -70,6 +75,7 @@ pub(crate) struct Exports {
 pub(crate) struct OpenExports {
     options: Exports,
     picture: Option<Output>,
+    layers: Option<Output>,
     spectral: Option<Output>,
     painting: Option<Output>,
     pigment_maps: Option<OutputFolder>,
@@ -79,6 +85,7 @@ impl Exports {
     /// Whether any export is requested.
     pub(crate) fn any(&self) -> bool {
         self.picture.is_some()
+            || self.layers.is_some()
             || self.spectral.is_some()
             || self.pigment_maps.is_some()
             || self.output.is_some()
@@ -88,6 +95,7 @@ impl Exports {
     pub(crate) fn layer_option(&self) -> Option<&'static str> {
         let options = [
             ("--supersample", self.supersample != 1),
+            ("--layers", self.layers.is_some()),
             ("--spectral", self.spectral.is_some()),
             ("--pigment-maps", self.pigment_maps.is_some()),
             ("--output", self.output.is_some()),
@@ -100,10 +108,12 @@ impl Exports {
         let open = |path: &Option<PathBuf>, endings: &[&str]| {
             path.as_ref().map(|path| Output::with_ending(path, endings, inputs)).transpose()
         };
-        let picture = open(&self.picture, &["png", "exr"])?;
+        let picture = open(&self.picture, &["png", "tif", "tiff", "exr"])?;
+        let layers = open(&self.layers, &["ora"])?;
         let spectral = open(&self.spectral, &["exr"])?;
         let painting = open(&self.output, &["exr"])?;
-        let all: Vec<&Output> = [&picture, &spectral, &painting].into_iter().flatten().collect();
+        let all = [&picture, &layers, &spectral, &painting];
+        let all: Vec<&Output> = all.into_iter().flatten().collect();
         for (index, output) in all.iter().enumerate() {
             if all[..index].iter().any(|other| output.is_same_as(other)) {
                 return Err(Failure::usage(
@@ -117,7 +127,7 @@ impl Exports {
         if let Some(folder) = &pigment_maps {
             folder.check(["painting.csv".to_owned()])?;
         }
-        Ok(OpenExports { picture, spectral, painting, pigment_maps, options: self })
+        Ok(OpenExports { picture, layers, spectral, painting, pigment_maps, options: self })
     }
 }
 
@@ -129,7 +139,7 @@ impl OpenExports {
 
     /// Whether `other` is one of the export files.
     pub(crate) fn writes(&self, other: &Output) -> bool {
-        let all = [&self.picture, &self.spectral, &self.painting];
+        let all = [&self.picture, &self.layers, &self.spectral, &self.painting];
         all.into_iter().flatten().any(|output| output.is_same_as(other))
     }
 
@@ -161,13 +171,15 @@ impl OpenExports {
         let exports = PaintingExports {
             picture: self.picture.as_ref().map(|output| (path(output), bits.format(output.path()))),
             pixels_per_cell: PixelsPerCell::new(supersample)?,
+            layers: self.layers.as_ref().map(path),
             spectral: self.spectral.as_ref().map(|output| (path(output), bands)),
             pigment_maps,
             painting: self.painting.as_ref().map(path),
         };
         let outside = exports.write(painting)?;
-        match &exports.picture {
-            Some((path, _)) => remark_gamut(path, outside, console),
+        let picture = exports.picture.as_ref().map(|(path, _)| path);
+        match picture.or(exports.layers.as_ref()) {
+            Some(path) => remark_gamut(path, outside, console),
             None => Ok(()),
         }
     }
@@ -177,7 +189,7 @@ impl Bits {
     /// File format of a picture at `path`, from its extension and the bits of a PNG.
     fn format(self, path: &Path) -> PictureFormat {
         match (PictureFormat::from_path(path), self) {
-            (Some(PictureFormat::LinearExr), _) => PictureFormat::LinearExr,
+            (Some(format @ (PictureFormat::LinearExr | PictureFormat::Tiff16)), _) => format,
             (_, Self::Eight) => PictureFormat::Png8,
             (_, Self::Sixteen) => PictureFormat::Png16,
         }

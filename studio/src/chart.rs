@@ -8,7 +8,7 @@ use eframe::egui::{
 };
 use spectra::Grid;
 
-use crate::theme;
+use crate::theme::{self, contrast};
 
 /// Wavelength range of every chart, in nm.
 pub const BAND_NM: RangeInclusive<f64> = 380.0..=730.0;
@@ -92,7 +92,9 @@ impl Chart<'_> {
         let inner = painter.with_clip_rect(axes.inner.expand(1.0));
         for curve in self.curves {
             let line = curve.points.iter().map(|&(nm, value)| axes.place(nm, value)).collect();
-            inner.line(line, Stroke::new(1.5, curve.color.unwrap_or(theme::colors(ui.ctx()).text)));
+            let colors = theme::colors(ui.ctx());
+            let color = curve.color.map_or(colors.text, |color| legible(color, colors.well));
+            inner.line(line, Stroke::new(1.5, color));
         }
         let Some(pointer) = response.hover_pos() else { return response };
         let nm = axes.wavelength(pointer.x);
@@ -121,6 +123,15 @@ impl Chart<'_> {
         }
         lines.join("\n")
     }
+}
+
+/// A line colour, darkened if it cannot be told from a light background.
+fn legible(color: Color32, well: Color32) -> Color32 {
+    if contrast(color, well) >= 1.5 {
+        return color;
+    }
+    let [red, green, blue, _] = color.to_array().map(|value| value.saturating_sub(96));
+    Color32::from_rgb(red, green, blue)
 }
 
 /// Conversion between wavelength and value and screen position.
@@ -227,6 +238,16 @@ mod tests {
         let chart = Chart { curves: &curves, marks: &[], quantity: "power", max: None };
         assert_eq!(chart.tooltip(450.0), "450 nm\nramp 0.500");
         assert_eq!(chart.tooltip(390.0), "390 nm");
+    }
+
+    #[test]
+    fn light_lines_are_darkened_on_a_light_background() {
+        let (white, yellow) = (Color32::from_gray(240), Color32::from_rgb(250, 230, 60));
+        for line in [white, yellow] {
+            let shown = legible(line, theme::LIGHT.well);
+            assert!(contrast(shown, theme::LIGHT.well) > 2.0, "{line:?} as {shown:?}");
+            assert_eq!(legible(line, theme::DARK.well), line);
+        }
     }
 
     #[test]

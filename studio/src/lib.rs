@@ -9,9 +9,17 @@
 
 pub mod theme;
 
+mod floating;
+
+pub mod arrangement;
+
 pub mod chart;
 
 pub mod recipe_search;
+
+pub mod keymap;
+
+pub mod wheel_maker;
 
 pub mod pen;
 

@@ -8,10 +8,11 @@ use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::export::{PictureFormat, picture_file};
 use render::paint::document::Document;
+use render::paint::file;
 use render::paint::painting::Painting;
 use render::paint::session::{PaintingSession, ReplayError, ReplayReport};
-use render::paint::strokes::{Action, ScriptLibrary, StrokeScript};
-use serde_json::json;
+use render::paint::strokes::{Action, ScriptLibrary, SideTable, StrokeScript};
+use serde_json::{Map, Value, json};
 
 use super::paint_photograph::PhotographOptions;
 use crate::console::Console;
@@ -21,6 +22,7 @@ use crate::input::{built_in_library, library};
 use crate::output::{Output, create_folder};
 use crate::pictures::{Exports, gamut_remark};
 use crate::progress::Progress;
+use crate::timelapse::{TimelapseOptions, TimelapseReport};
 
 /// Paint a script of strokes, or a photograph, with calibrated pigments
 ///
@@ -44,9 +46,12 @@ pub(crate) struct Paint {
     engine: EngineOptions,
     #[command(flatten)]
     exports: Exports,
-    /// Print JSON: actions, strokes, substeps, cells, backend, canvas
+    /// Print JSON: actions, strokes, substeps, cells, backend, canvas; of a timelapse its frames,
+    /// frames_found and size
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    timelapse: TimelapseOptions,
     // Must be last: its help heading applies to all options that follow.
     #[command(flatten)]
     photograph: PhotographOptions,
@@ -78,48 +83,55 @@ impl Paint {
         let folder = folder.unwrap_or(Path::new(".")).to_owned();
         let start = self.start(&script, &folder)?;
         let library = match &start {
-            Some((_, start)) => start.library.clone(),
+            Some((_, start, _)) => start.library.clone(),
             None => self.script_library(&script, &folder, console)?,
         };
         script.resolve(&library)?;
         let saves = script.actions.iter().any(|action| matches!(action, Action::Save { .. }));
-        if !self.exports.any() && !saves {
+        let mut inputs = vec![path.to_owned()];
+        inputs.extend(self.library.clone());
+        inputs.extend(script.complete_picture_paths(&folder));
+        inputs.extend(start.iter().map(|(path, ..)| path.clone()));
+        let (paints, json) = (self.exports.any() || saves, self.json);
+        let exports = self.exports.open(&inputs)?;
+        let timelapse = self.timelapse.open(&inputs, |output| exports.writes(output))?;
+        if !paints && timelapse.is_none() {
             return Err(Failure::usage(
                 "nothing would be written",
                 "add --picture painting.png, or --output painting.exr",
             ));
         }
-        let mut inputs = vec![path.to_owned()];
-        inputs.extend(self.library.clone());
-        inputs.extend(script.complete_picture_paths(&folder));
-        inputs.extend(start.iter().map(|(path, _)| path.clone()));
-        let (canvas, palette) = script.surfaces(&library, start.map(|(_, start)| start))?;
-        let exports = self.exports.open(&inputs)?;
+        let plan = timelapse.as_ref().map(|timelapse| timelapse.plan(&script)).transpose()?;
         check_saves(&script, &folder, &inputs).context(|| name.clone())?;
-        let mut session = open_session(&self.engine, canvas, palette, console)?;
-        let bar = Progress::new(script.actions.len(), "painting", console.screen.progress);
-        let mut remarks = Vec::new();
-        let report = script.replay(
-            &mut session,
-            |path, painting| {
-                save(&folder, path, &inputs, painting, &mut remarks).map_err(SaveFailure)
-            },
-            || {
-                bar.step();
-                ControlFlow::Continue(())
-            },
-        );
-        bar.done();
-        for remark in remarks {
-            console.remark(remark)?;
+        let (start, table) = start.map(|(_, start, table)| (start, table)).unzip();
+        let (canvas, palette, brushes) =
+            script.surfaces_with_table(&library, start, table.flatten())?;
+        let mut summary = Map::new();
+        if let (Some(timelapse), Some(plan)) = (&timelapse, &plan) {
+            let (canvas, palette) = (canvas.clone(), palette.clone());
+            let mut session = open_session(&self.engine, canvas, palette, console)?;
+            session.take_up(&brushes)?;
+            let report = timelapse.write(plan, &mut session, console);
+            let report = report.map_err(|failure| failure.within(&name))?;
+            print_timelapse(&report, session.canvas(), &mut summary, json, console)?;
         }
-        let report = report.map_err(|error| replay_failure(error).within(name))?;
-        exports.write(session.canvas_mut(), console)?;
-        print(&report, session.canvas(), self.json, console)
+        if paints {
+            let mut session = open_session(&self.engine, canvas, palette, console)?;
+            for brush in session.take_up(&brushes)? {
+                console
+                    .remark(format!("the brush `{brush}` has another head now and begins clean"))?;
+            }
+            let report = play(&script, &mut session, (&folder, &inputs), console);
+            let report = report.map_err(|failure| failure.within(&name))?;
+            exports.write(session.canvas_mut(), console)?;
+            print(&report, session.canvas(), &mut summary, json, console)?;
+        }
+        if json { console.json(&Value::Object(summary)) } else { Ok(()) }
     }
 
-    /// Opens the painting that the script continues, if it continues one.
-    fn start(&self, script: &StrokeScript, folder: &Path) -> Result<Option<(PathBuf, Document)>> {
+    /// Opens the painting that the script continues, if it continues one, and the table beside it
+    /// if the script asks for that.
+    fn start(&self, script: &StrokeScript, folder: &Path) -> Result<Option<Start>> {
         let Some(start) = &script.start else { return Ok(None) };
         if self.library.is_some() {
             return Err(Failure::usage(
@@ -128,8 +140,10 @@ impl Paint {
             ));
         }
         let path = folder.join(start);
-        let document = Document::open(&path)?;
-        Ok(Some((path, document)))
+        let (name, bytes) = (path.display().to_string(), spectra::file::read(&path)?);
+        let document = file::read(&name, &bytes)?;
+        let table = if script.table { file::read_table(&name, &bytes)? } else { None };
+        Ok(Some((path, document, table)))
     }
 
     /// The library of `--library`, else the one that the script names, else the shipped oils.
@@ -152,6 +166,31 @@ impl Paint {
     }
 }
 
+/// Plays the script on `session`. Its files are saved below `folder`, and none of `inputs` is
+/// overwritten.
+fn play(
+    script: &StrokeScript,
+    session: &mut PaintingSession,
+    (folder, inputs): (&Path, &[PathBuf]),
+    console: &mut Console<'_>,
+) -> Result<ReplayReport> {
+    let bar = Progress::new(script.actions.len(), "painting", console.screen.progress);
+    let mut remarks = Vec::new();
+    let report = script.replay(
+        session,
+        |path, painting| save(folder, path, inputs, painting, &mut remarks).map_err(SaveFailure),
+        || {
+            bar.step();
+            ControlFlow::Continue(())
+        },
+    );
+    bar.done();
+    for remark in remarks {
+        console.remark(remark)?;
+    }
+    report.map_err(replay_failure)
+}
+
 /// Opens a painting session with the canvas and, if given, the palette.
 fn open_session(
     engine: &EngineOptions,
@@ -169,6 +208,9 @@ fn open_session(
     session.set_undo_bytes(undo_bytes);
     Ok(session)
 }
+
+/// Path of the painting that a script continues, the painting, and the table beside it.
+type Start = (PathBuf, Document, Option<SideTable>);
 
 /// Failure of a save action, in the form that the replay of a script returns.
 #[derive(Debug, thiserror::Error)]
@@ -226,15 +268,16 @@ fn save(
         remarks.extend(file.outside_gamut().map(|outside| gamut_remark(path, outside)));
         file.bytes
     } else {
-        render::paint::file::write(&painting.document()?)?
+        file::write(&painting.document()?)?
     };
     output.write(bytes)
 }
 
-/// Prints the summary of a replay.
+/// Prints the summary of a replay, or adds it to `summary`.
 fn print(
     report: &ReplayReport,
     painting: &Painting,
+    summary: &mut Map<String, Value>,
     as_json: bool,
     console: &mut Console<'_>,
 ) -> Result<()> {
@@ -249,14 +292,12 @@ fn print(
         )])?;
     }
     if as_json {
-        return console.json(&json!({
-            "actions": actions,
-            "strokes": strokes,
-            "substeps": substeps,
-            "cells": cells,
-            "backend": painting.backend(),
-            "canvas": [bounds.width, bounds.height],
-        }));
+        let counts = [("actions", actions), ("strokes", strokes), ("substeps", substeps)];
+        for (name, count) in counts.into_iter().chain([("cells", cells)]) {
+            summary.insert(name.to_owned(), count.into());
+        }
+        add_canvas(summary, painting);
+        return Ok(());
     }
     console.line(format!(
         "{} x {} cells, {actions} actions, {strokes} strokes of {substeps} sub-steps, {} dry layers, on {}",
@@ -265,4 +306,30 @@ fn print(
         painting.state().dry.len(),
         painting.backend(),
     ))
+}
+
+/// Prints the summary of a timelapse, or adds it to `summary`.
+fn print_timelapse(
+    report: &TimelapseReport,
+    painting: &Painting,
+    summary: &mut Map<String, Value>,
+    as_json: bool,
+    console: &mut Console<'_>,
+) -> Result<()> {
+    let TimelapseReport { frames, found, size: (width, height) } = *report;
+    if as_json {
+        summary.insert("frames".to_owned(), frames.into());
+        summary.insert("frames_found".to_owned(), found.into());
+        summary.insert("size".to_owned(), json!([width, height]));
+        add_canvas(summary, painting);
+        return Ok(());
+    }
+    let found = if found > 0 { format!(", {found} found") } else { String::new() };
+    console.line(format!("{frames} frames of {width} x {height} pixels{found}"))
+}
+
+fn add_canvas(summary: &mut Map<String, Value>, painting: &Painting) {
+    let bounds = painting.bounds();
+    summary.insert("backend".to_owned(), painting.backend().into());
+    summary.insert("canvas".to_owned(), json!([bounds.width, bounds.height]));
 }

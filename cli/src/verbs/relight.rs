@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use render::light::Light;
 use render::paint::document::{Document, Lighting};
-use render::paint::painting::{LayerRef, Painting};
+use render::paint::painting::{DryLayerState, LayerRef, Painting};
 use serde_json::json;
 
 use crate::console::Console;
@@ -151,6 +151,21 @@ fn opacity(painting: &mut Painting, text: &str) -> Result<()> {
     Ok(painting.set_opacity(LayerRef::Dry(layer), value)?)
 }
 
+/// Opacity, visibility and name of a dry layer, where they are not as painted.
+fn about(dry: &DryLayerState) -> String {
+    let mut about = String::new();
+    if dry.opacity != 1.0 {
+        about += &format!(", opacity {}", dry.opacity);
+    }
+    if !dry.visible {
+        about += ", hidden";
+    }
+    if !dry.name.is_empty() {
+        about += &format!(" ({})", dry.name);
+    }
+    about
+}
+
 /// Prints size, layers and lighting of a painting.
 fn print(painting: &Painting, as_json: bool, console: &mut Console<'_>) -> Result<()> {
     let bounds = painting.bounds();
@@ -161,16 +176,21 @@ fn print(painting: &Painting, as_json: bool, console: &mut Console<'_>) -> Resul
     };
     let mut layers = Vec::new();
     for (index, dry) in painting.state().dry.iter().enumerate() {
-        layers.push((format!("dry {index}"), dry.opacity, names(LayerRef::Dry(index))?));
+        let dry = (format!("dry {index}"), Some(dry), names(LayerRef::Dry(index))?);
+        layers.push(dry);
     }
-    layers.push(("wet".to_owned(), 1.0, names(LayerRef::Wet)?));
+    layers.push(("wet".to_owned(), None, names(LayerRef::Wet)?));
     let lighting = &painting.state().lighting;
     let nodes = &painting.light().quadrature.rule.nodes_nm;
     if as_json {
         let layers: Vec<_> = layers
             .iter()
-            .map(|(name, opacity, pigments)| {
-                json!({"layer": name, "opacity": opacity, "pigments": pigments})
+            .map(|(layer, dry, pigments)| match dry {
+                None => json!({"layer": layer, "opacity": 1.0, "pigments": pigments}),
+                Some(dry) => json!({
+                    "layer": layer, "opacity": dry.opacity, "pigments": pigments,
+                    "id": dry.id.0, "name": dry.name, "visible": dry.visible,
+                }),
             })
             .collect();
         return console.json(&json!({
@@ -183,9 +203,9 @@ fn print(painting: &Painting, as_json: bool, console: &mut Console<'_>) -> Resul
     }
     let (width, height) = (bounds.width, bounds.height);
     console.line(format!("{width} x {height} cells of {} mm", painting.cell_mm()))?;
-    for (name, opacity, pigments) in &layers {
-        let opacity = if *opacity == 1.0 { String::new() } else { format!(", opacity {opacity}") };
-        console.line(format!("{name:>7}: {}{opacity}", pigments.join(", ")))?;
+    for (layer, dry, pigments) in &layers {
+        let about = dry.map_or_else(String::new, about);
+        console.line(format!("{layer:>7}: {}{about}", pigments.join(", ")))?;
     }
     let nodes: Vec<String> = nodes.iter().map(|nm| format!("{nm:.0}")).collect();
     console.line(format!(

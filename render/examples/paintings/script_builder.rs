@@ -8,7 +8,8 @@ use rand_chacha::ChaCha8Rng;
 use render::paint::brush::HeadShape;
 use render::paint::pose::Sample;
 use render::paint::strokes::{
-    Action, BrushSpec, Canvas, Load, PaletteSpec, Recipe, Stroke, StrokeScript, SurfaceId,
+    Action, BrushSpec, Canvas, Load, PaletteSpec, Recipe, Stroke, StrokeScript, StrokeTool,
+    SurfaceId,
 };
 
 /// Position on the canvas in mm.
@@ -126,6 +127,7 @@ impl ScriptBuilder {
         self.built.actions.push(Action::Stroke(Stroke {
             brush: brush.to_owned(),
             on: SurfaceId::Canvas,
+            tool: StrokeTool::Paint,
             samples,
         }));
     }
@@ -145,6 +147,7 @@ impl ScriptBuilder {
         self.built.actions.push(Action::Stroke(Stroke {
             brush,
             on: SurfaceId::Canvas,
+            tool: StrokeTool::Paint,
             samples: vec![sample],
         }));
     }

@@ -44,6 +44,8 @@ pub mod encoding;
 
 pub mod picture;
 
+pub mod exr_picture;
+
 pub mod orientation;
 
 pub mod tones;

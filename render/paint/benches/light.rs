@@ -5,7 +5,7 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use graphics::field::Field;
 use paint::composite::composite_row;
-use paint::document::{Document, DryLayer, Lighting, Medium};
+use paint::document::{Document, DryLayer, LayerId, Lighting, Medium};
 use paint::ground::Ground;
 use paint::layer::{Layer, SLOTS};
 use paint::light::{Light, Mixer};
@@ -44,7 +44,7 @@ fn painting(width: usize, height: usize) -> (Document, Scene) {
     let library = library();
     let light = Light::new(&library, &Viewing::default()).expect("eight wavelengths of D65");
     let slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
-    let dry = |seed| DryLayer { slots, opacity: 1.0, paint: layer(width, height, seed) };
+    let dry = |id| DryLayer::new(LayerId(id), slots, layer(width, height, u64::from(id)));
     let document = Document {
         title: String::new(),
         cell_mm: 0.1,
@@ -57,6 +57,7 @@ fn painting(width: usize, height: usize) -> (Document, Scene) {
         library,
         medium: Medium::default(),
         dry: vec![dry(1), dry(2)],
+        next_layer: LayerId(3),
         slots,
         wet: layer(width, height, 3),
         lighting: Lighting::default(),

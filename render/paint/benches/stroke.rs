@@ -19,7 +19,7 @@ use divan::Bencher;
 use divan::counter::{CyclesCount, ItemsCount};
 use paint::amount::QUANTA_PER_CELL;
 use paint::brush::HeadShape;
-use paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use paint::document::{Document, Lighting, Medium, Slots};
 use paint::engine::PaintEngine;
 use paint::ground::GroundSpec;
 use paint::layer::{Cell, Layer, SLOTS};
@@ -61,8 +61,9 @@ fn painting(width: usize, height: usize, dry: usize) -> Painting {
     let (medium, lighting) = (Medium::default(), Lighting::default());
     let mut document = Document::bare("", CELL_MM, ground, library, medium, slots, lighting);
     document.wet = paint(width, height, 0);
-    let layer = |seed| DryLayer { slots, opacity: 1.0, paint: paint(width, height, seed) };
-    document.dry = (1..=dry).map(layer).collect();
+    for seed in 1..=dry {
+        document.push_dry(slots, paint(width, height, seed));
+    }
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     Painting::open(document, engine, UNDO_BYTES).expect("a painting")
 }

@@ -66,6 +66,12 @@ impl Touch {
         (self.weights >> 9) & 0x7f
     }
 
+    /// Replaces [`Touch::transfer_weight`].
+    #[inline(always)]
+    pub(crate) fn set_transfer_weight(&mut self, weight: u32) {
+        self.weights = self.weights & !0x1ff | weight;
+    }
+
     /// Replaces [`Touch::release`].
     #[inline(always)]
     pub(crate) fn set_release(&mut self, release: u32) {

@@ -7,18 +7,8 @@ use crate::ground::Ground;
 use crate::layer::Layer;
 use crate::optics::Gloss;
 
+pub use crate::dry_layer::{DryLayer, LayerId};
 pub use crate::layer::Slots;
-
-/// A dry layer of paint.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DryLayer {
-    /// Pigments of the layer.
-    pub slots: Slots,
-    /// Factor on the optical thickness of the paint: 1 as painted, 0 invisible.
-    pub opacity: f64,
-    /// Amounts of paint in every cell.
-    pub paint: Layer,
-}
 
 /// Light that a painting is viewed under.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -131,6 +121,8 @@ pub struct Document {
     pub medium: Medium,
     /// Dry layers, lowest first.
     pub dry: Vec<DryLayer>,
+    /// Identity of the next dry layer, above those of all layers so far.
+    pub next_layer: LayerId,
     /// Pigments of the wet layer.
     pub slots: Slots,
     /// Amounts of wet paint in every cell.
@@ -152,7 +144,34 @@ impl Document {
         lighting: Lighting,
     ) -> Self {
         let wet = Layer::empty(ground.height.width(), ground.height.height());
-        let title = title.to_owned();
-        Self { title, cell_mm, ground, library, medium, dry: Vec::new(), slots, wet, lighting }
+        Self {
+            title: title.to_owned(),
+            cell_mm,
+            ground,
+            library,
+            medium,
+            dry: Vec::new(),
+            next_layer: LayerId::FIRST,
+            slots,
+            wet,
+            lighting,
+        }
+    }
+
+    /// Whether this can be the palette of `canvas`: library, pigments, light, medium and width of
+    /// a cell are the same.
+    #[must_use]
+    pub fn belongs_to(&self, canvas: &Self) -> bool {
+        self.library == canvas.library
+            && self.slots == canvas.slots
+            && self.lighting == canvas.lighting
+            && self.medium == canvas.medium
+            && self.cell_mm == canvas.cell_mm
+    }
+
+    /// Adds a dry layer on top, with an identity of its own.
+    pub fn push_dry(&mut self, slots: Slots, paint: Layer) {
+        self.dry.push(DryLayer::new(self.next_layer, slots, paint));
+        self.next_layer = self.next_layer.next();
     }
 }

@@ -44,6 +44,8 @@ pub mod amount;
 
 pub mod layer;
 
+pub mod dry_layer;
+
 pub mod optics;
 
 pub mod node_pigments;
@@ -60,11 +62,15 @@ pub mod contact;
 
 pub mod motion;
 
+pub mod mask;
+
 pub mod engine;
 
 pub mod ground;
 
 pub mod document;
+
+pub mod crop;
 
 pub mod canvas;
 
@@ -89,6 +95,8 @@ pub mod file;
 pub mod session;
 
 pub mod export;
+
+pub mod timelapse;
 
 pub use brush::HeadShape;
 pub use canvas::Canvas;

@@ -3,7 +3,7 @@
 use artmap::sample::PaintOfSamples;
 use graphics::camera::Camera;
 use graphics::field::Field;
-use paint::document::{Document, DryLayer, Lighting, Medium};
+use paint::document::{Document, Lighting, Medium};
 use paint::ground::GroundSpec;
 
 use super::amounts::amounts;
@@ -52,17 +52,14 @@ impl Painter {
         let Mixed { of: PaintOfSamples { library, slots }, layers } = mixed;
         let cell_mm = self.cell_mm(size);
         let ground = BuiltGround::kept(&mut self.ground, ground, (size, cell_mm), &library)?;
-        let layer = |amounts: &Field<Amounts>| DryLayer {
-            slots,
-            opacity: 1.0,
-            paint: paint_layer(amounts, cell_mm),
-        };
-        let dry = layers.iter().map(layer).collect();
         let medium = Medium::of(&library);
         let library = library.as_ref().clone();
         let lighting = Lighting::default();
-        let bare = Document::bare(title, cell_mm, ground, library, medium, slots, lighting);
-        Ok(Document { dry, ..bare })
+        let mut document = Document::bare(title, cell_mm, ground, library, medium, slots, lighting);
+        for amounts in &layers {
+            document.push_dry(slots, paint_layer(amounts, cell_mm));
+        }
+        Ok(document)
     }
 
     /// The paint that strokes of the maps show.

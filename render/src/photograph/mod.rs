@@ -9,6 +9,8 @@
 
 mod tones;
 
+mod first_layer;
+
 mod plan;
 
 mod trace;
@@ -27,6 +29,7 @@ mod stroke_painter;
 
 mod separated_files;
 
+pub use first_layer::{FirstLayerError, first_layer};
 pub use graphics::orientation::OrientationField;
 pub use graphics::picture::{MOST_PIXELS, Photograph, PhotographError, Picture};
 pub use paint::separation::{

@@ -16,7 +16,9 @@ use paint::brush::HeadShape;
 use paint::painting::{Painting, PaintingError};
 use paint::separation::{ColorErrors, Separation};
 use paint::session::{PaintingSession, ReplayError, ReplayReport};
-use paint::strokes::{Action, BrushSpec, Load, Recipe, Stroke, StrokeScript, SurfaceId};
+use paint::strokes::{
+    Action, BrushSpec, Load, Recipe, Stroke, StrokeScript, StrokeTool, SurfaceId,
+};
 use rayon::prelude::*;
 use spectra::color::delta_e_ciede2000;
 use spectra::hint::{Explain, Fault, Hint};
@@ -236,6 +238,7 @@ fn round_script(
             Action::Stroke(Stroke {
                 brush: brush.clone(),
                 on: SurfaceId::Canvas,
+                tool: StrokeTool::Paint,
                 samples: stroke.samples.clone(),
             }),
         ]);

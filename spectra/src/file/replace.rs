@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+/// Beginning of the names of temporary files.
+const PREFIX: &str = ".impasto-";
+
 /// Flushes the directory entries of `folder` to the disk, so that a renamed file keeps
 /// its new name after a power failure. Does nothing on systems without this operation.
 pub fn sync_folder(folder: &Path) {
@@ -18,11 +21,15 @@ pub fn sync_folder(folder: &Path) {
 pub(super) fn check(path: &Path) -> io::Result<()> {
     let (target, folder) = target(path)?;
     regular_file(&target)?;
-    temporary(&folder).map(drop)
+    temporary(&folder).map(drop).map_err(unnamed)
 }
 
 /// Writes `bytes` to a temporary file beside `path` and renames it to `path`.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    replace_named(path, bytes).map_err(unnamed)
+}
+
+fn replace_named(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let (target, folder) = target(path)?;
     let before = regular_file(&target)?;
     let mut file = temporary(&folder)?;
@@ -56,7 +63,7 @@ fn regular_file(target: &Path) -> io::Result<Option<std::fs::Metadata>> {
 /// Creates a temporary file in `folder` that is removed when dropped.
 fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".impasto-");
+    builder.prefix(PREFIX);
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
@@ -64,4 +71,14 @@ fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(folder)
+}
+
+/// An error without the name of a temporary file, which the crate `tempfile` adds: nobody chose
+/// that name, and the file is gone.
+fn unnamed(error: io::Error) -> io::Error {
+    let text = error.to_string();
+    match text.split_once(" at path ") {
+        Some((reason, path)) if path.contains(PREFIX) => io::Error::new(error.kind(), reason),
+        _ => error,
+    }
 }

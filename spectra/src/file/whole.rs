@@ -132,6 +132,10 @@ mod tests {
         let error = write_whole(&inside, b"one").unwrap_err();
         assert!(error.to_string().ends_with("a.txt: cannot be written"), "{error}");
         assert!(error.hint().is_some(), "the folder is missing");
+        for error in [error, check_writable(&inside).unwrap_err()] {
+            let reason = error.reason.to_string();
+            assert!(!reason.is_empty() && !reason.contains(".impasto-"), "{reason}");
+        }
         std::fs::create_dir(folder.path().join("b.exr")).unwrap();
         write_whole(&folder.path().join("b.exr"), b"one").unwrap_err();
         check_writable(&folder.path().join("b.exr")).unwrap_err();

@@ -1,7 +1,7 @@
 //! A simulated hand that records its actions as a script.
 
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, Load, Recipe, Squeeze, Stroke, SurfaceId};
+use render::paint::strokes::{Action, Load, Recipe, Squeeze, Stroke, StrokeTool, SurfaceId};
 
 /// Speed of the pen in mm per second.
 const SPEED: f64 = 60.0;
@@ -56,14 +56,16 @@ impl Hand {
     /// Paints a stroke on the canvas.
     pub(crate) fn stroke(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
-        let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Canvas, samples };
+        let (on, tool) = (SurfaceId::Canvas, StrokeTool::Paint);
+        let stroke = Stroke { brush: brush.to_owned(), on, tool, samples };
         self.actions.push(Action::Stroke(stroke));
     }
 
     /// Paints a stroke on the palette.
     pub(crate) fn mix(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
-        let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Palette, samples };
+        let (on, tool) = (SurfaceId::Palette, StrokeTool::Paint);
+        let stroke = Stroke { brush: brush.to_owned(), on, tool, samples };
         self.actions.push(Action::Stroke(stroke));
     }
 }

@@ -16,9 +16,9 @@ const TINT: f64 = 9.0;
 /// Colours of the paint of tubes and brushes under one light.
 #[derive(Debug, Clone)]
 pub(super) struct Colors {
-    library: Arc<PigmentLibrary>,
+    pub(super) library: Arc<PigmentLibrary>,
     light: Arc<Light>,
-    weights: TristimulusWeights,
+    pub(super) weights: TristimulusWeights,
     /// Pigment used to lighten.
     white: Option<PigmentId>,
 }

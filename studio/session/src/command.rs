@@ -5,7 +5,10 @@ use std::time::Instant;
 use pigment::library::PigmentLibrary;
 use render::paint::document::{Document, Lighting};
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, BrushSpec, Recipe, SampleDecimals, StrokeScript, SurfaceId};
+use render::paint::session::KeptSession;
+use render::paint::strokes::{
+    Action, BrushSpec, Recipe, SampleDecimals, SideTable, StrokeScript, StrokeTool, SurfaceId,
+};
 
 use super::event::Picked;
 
@@ -39,12 +42,22 @@ pub enum Origin {
     },
     /// A painting that was read from a file.
     Painting(Box<Document>),
+    /// A painting that was read from a file, with the palette and the brushes that were saved with
+    /// it.
+    WithTable {
+        /// Document of the canvas.
+        canvas: Box<Document>,
+        /// Palette and brushes as they were left.
+        table: Box<SideTable>,
+    },
     /// Canvas and palette recovered from an autosave.
     Recovered {
         /// Document of the canvas.
         canvas: Box<Document>,
         /// Document of the palette.
         palette: Box<Document>,
+        /// Brushes and recording; without them the painting has clean brushes, and is not recorded.
+        kept: Option<Box<KeptSession>>,
     },
 }
 
@@ -68,6 +81,16 @@ pub enum Command {
         brush: String,
         /// Decimals that the samples of the stroke are rounded to.
         decimals: SampleDecimals,
+    },
+    /// Sets the head of a brush down as a tool that works the wet paint; samples follow. They are
+    /// rounded to [`SampleDecimals::PEN`].
+    ToolDown {
+        /// The tool that the head is used as.
+        tool: StrokeTool,
+        /// Surface to work on.
+        surface: SurfaceId,
+        /// Name of the brush.
+        brush: String,
     },
     /// Adds samples to the open stroke.
     PenMove(Vec<PenSample>),
@@ -99,6 +122,14 @@ pub enum Command {
     /// Asks for the documents as they are now, for saving and exporting. The answer is
     /// [`Event::Snapshot`](super::Event::Snapshot) with this number.
     Snapshot(u64),
+    /// Asks for all that a later session needs to go on from here. The answer is
+    /// [`Event::Kept`](super::Event::Kept) with this number.
+    Keep {
+        /// Number of the request.
+        number: u64,
+        /// Number of actions of the recording that are known already: the answer has the others.
+        recorded: usize,
+    },
     /// Asks for the recording since the painting was opened. The answer is
     /// [`Event::Recording`](super::Event::Recording) with this number.
     Recording(u64),
@@ -148,13 +179,15 @@ impl Command {
         match self {
             Self::Open(_) => "opening",
             Self::SetBrush { .. } => "taking a brush",
-            Self::PenDown { .. } | Self::PenMove(_) | Self::PenUp => "a stroke",
+            Self::PenDown { .. } | Self::ToolDown { .. } | Self::PenMove(_) | Self::PenUp => {
+                "a stroke"
+            }
             Self::Apply(action) | Self::Adjust(action) => action.kind(),
             Self::EndAdjustment => "settling",
             Self::GoTo(_) => "going through the history",
             Self::SetSecondLight(_) => "a second light",
             Self::Pick { .. } => "picking a colour",
-            Self::Snapshot(_) => "saving",
+            Self::Snapshot(_) | Self::Keep { .. } => "saving",
             Self::Recording(_) => "a recording",
             Self::Replay { .. } => "a replay",
             Self::Cancel => "cancelling",

@@ -5,16 +5,18 @@ use std::sync::Arc;
 use spectra::hint::Hint;
 
 use render::layer::SLOTS;
+use render::paint::painting::OpenStroke;
 use render::paint::session::{Outcome, PaintingSession, SessionError};
-use render::paint::strokes::{Action, Load, Squeeze, SurfaceId};
+use render::paint::strokes::{Action, Load, SampleDecimals, Squeeze, StrokeTool, SurfaceId};
 
 use super::command::{Command, PenSample};
-use super::event::{Event, Picked, Snapshot};
+use super::event::{Event, KeptPainting, Picked, Snapshot};
 use super::free_space::freest_place;
 use super::pick::{Place, pick};
 use super::report::WorkerStatus;
 use super::state::PaintingState;
 use super::stroke_timing::{StrokeTiming, is_lifted, waiting_substeps};
+use super::tally::tally;
 use super::worker::{OpenPainting, WorkerLoop};
 
 /// Message of a broken invariant: every session of the worker has a palette.
@@ -49,6 +51,7 @@ impl WorkerLoop<'_> {
             matches!(
                 command,
                 Command::Snapshot(_)
+                    | Command::Keep { .. }
                     | Command::Recording(_)
                     | Command::Pick { .. }
                     | Command::SetUndoBytes(_)
@@ -104,9 +107,17 @@ impl WorkerLoop<'_> {
         self.revision += u64::from(painted);
         if is_lifted(session) && waiting_substeps(session) == 0 {
             let brush = session.open_stroke().map(|(_, brush)| brush.to_owned());
+            let tool = session.stroke_progress().map_or(StrokeTool::Paint, OpenStroke::tool);
             self.stroke = None;
-            session.end_stroke()?;
-            if let Some(brush) = brush
+            let report = session.end_stroke()?;
+            if let (Some(report), false) = (report, tool.is_paint()) {
+                // A replay would tell it of every stroke.
+                if self.playing.is_none() {
+                    let (text, hint) = tally(tool, &report.taken, session.canvas());
+                    (self.send)(Event::Message { text, hint, failed: false });
+                }
+                brush.iter().for_each(|brush| open.reporter.tool_ended(brush));
+            } else if let Some(brush) = brush
                 && open.reporter.is_dirty_after_stroke(session, &brush)?
                 && !std::mem::replace(&mut self.dirty_told, true)
             {
@@ -144,6 +155,12 @@ impl WorkerLoop<'_> {
     /// Executes a command that needs a painting.
     fn execute_on_painting(&mut self, command: Command) -> Result<(), SessionError> {
         match command {
+            Command::ToolDown { tool, surface, brush } => {
+                self.session().begin_stroke_as(tool, surface, &brush, SampleDecimals::PEN)?;
+                self.stroke = Some(StrokeTiming::default());
+                self.state_stale = true;
+                Ok(())
+            }
             Command::PenDown { surface, brush, decimals } => {
                 self.session().begin_rounded_stroke(surface, &brush, decimals)?;
                 let OpenPainting { prepared, reporter, .. } = self.open_mut();
@@ -169,7 +186,10 @@ impl WorkerLoop<'_> {
                 result
             }
             Command::SetSecondLight(lighting) => {
-                self.session().canvas_mut().set_second_light(lighting)?;
+                self.session().canvas_mut().set_second_light(lighting.clone())?;
+                if let Some(palette) = self.session().painting_mut(SurfaceId::Palette) {
+                    palette.set_second_light(lighting)?;
+                }
                 (self.picture_stale, self.state_stale) = (true, true);
                 Ok(())
             }
@@ -203,6 +223,7 @@ impl WorkerLoop<'_> {
                     Action::Dry { .. } => "there is no wet paint to dry",
                     Action::Undo {} => "there is nothing to undo",
                     Action::Redo {} => "there is nothing to redo",
+                    Action::Mask(_) => "there is no mask",
                     _ => "there is nothing to do",
                 };
                 self.send_message(text.to_owned(), None, false);
@@ -244,12 +265,17 @@ impl WorkerLoop<'_> {
         }
         match question {
             Command::Snapshot(number) => {
-                let revision = self.revision;
-                let (canvas, palette) = self.session().documents()?;
-                let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.expect(PALETTE)));
-                let snapshot = Snapshot { number, canvas, palette, revision };
-                self.keep(&snapshot);
+                let snapshot = self.snapshot(number)?;
                 (self.send)(Event::Snapshot(snapshot));
+            }
+            Command::Keep { number, recorded } => {
+                let snapshot = self.snapshot(number)?;
+                let session = self.session();
+                let agrees = waiting_substeps(session) == 0 && !is_lifted(session);
+                let recording = session.recording_from(recorded).filter(|_| agrees);
+                let brushes = session.kept_heads()?;
+                let kept = KeptPainting { snapshot, recording, brushes };
+                (self.send)(Event::Kept(Arc::new(kept)));
             }
             Command::Recording(number) => match self.session().recording().cloned() {
                 Some(script) => {
@@ -280,19 +306,33 @@ impl WorkerLoop<'_> {
             }
             Command::EndAdjustment => {
                 self.session().end_adjustment();
-                self.state_stale = true;
+                (self.state_stale, self.shot_revision) = (true, None);
             }
             other => unreachable!("`{}` changes paint", other.name()),
         }
         Ok(())
     }
 
+    /// Canvas and palette as they are now.
+    fn snapshot(&mut self, number: u64) -> Result<Snapshot, SessionError> {
+        let revision = self.revision;
+        let (canvas, palette) = self.session().documents()?;
+        let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.expect(PALETTE)));
+        let brushes = Arc::new(self.session().kept_brushes()?);
+        let snapshot = Snapshot { number, canvas, palette, brushes, revision };
+        self.keep(&snapshot);
+        Ok(snapshot)
+    }
+
     /// State of the painting besides its pixels.
     pub(super) fn state(&mut self) -> Result<Option<Arc<PaintingState>>, SessionError> {
-        let Some(OpenPainting { prepared, reporter, .. }) = &mut self.open else {
+        let Some(OpenPainting { prepared, reporter, shots, .. }) = &mut self.open else {
             return Ok(None);
         };
-        let status = WorkerStatus { revision: self.revision, stroke_open: self.stroke.is_some() };
+        shots.follow(&prepared.session.history_numbers());
+        let history_shots = shots.report();
+        let (revision, stroke_open) = (self.revision, self.stroke.is_some());
+        let status = WorkerStatus { revision, stroke_open, history_shots };
         Ok(Some(Arc::new(reporter.state(prepared, &status, self.outbox.bytes())?)))
     }
 

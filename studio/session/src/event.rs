@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use render::layer::SLOTS;
 use render::paint::document::{Document, Slots};
-use render::paint::strokes::{StrokeScript, SurfaceId};
+use render::paint::session::{KeptHead, RecordingTail};
+use render::paint::strokes::{KeptBrush, StrokeScript, SurfaceId};
 use render::tile::Rect;
 use spectra::hint::Hint;
 
@@ -23,11 +24,13 @@ pub struct TilePixels {
 /// Mean paint of one layer in a picked circle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PickedLayer {
+    /// Label of the layer: its name, its number, or `Wet`.
+    pub label: String,
     /// Pigment of each slot.
     pub slots: Slots,
     /// Mean height of each slot and, last, of the vehicle, in mm.
     pub amounts_mm: [f64; SLOTS + 1],
-    /// Factor of the optical thickness.
+    /// Factor of the optical thickness; 0 if the layer is hidden.
     pub opacity: f64,
 }
 
@@ -56,9 +59,23 @@ pub struct Snapshot {
     pub canvas: Arc<Document>,
     /// Document of the palette.
     pub palette: Arc<Document>,
+    /// All brushes with the paint that they hold.
+    pub brushes: Arc<Vec<KeptBrush>>,
     /// Counter of changes of the painting. If two snapshots have the same value, nothing changed
     /// between them.
     pub revision: u64,
+}
+
+/// All that a later session needs to go on from one moment.
+#[derive(Debug, Clone)]
+pub struct KeptPainting {
+    /// Canvas and palette.
+    pub snapshot: Snapshot,
+    /// The recording from the action that was asked for; `None` if nothing is recorded, or if
+    /// samples of a stroke that is played wait to be painted.
+    pub recording: Option<RecordingTail>,
+    /// All heads, with the paint on them.
+    pub brushes: Vec<KeptHead>,
 }
 
 /// A message of the worker.
@@ -87,6 +104,8 @@ pub enum Event {
     Picked(Arc<Picked>),
     /// Answer to [`Command::Snapshot`](super::Command::Snapshot).
     Snapshot(Snapshot),
+    /// Answer to [`Command::Keep`](super::Command::Keep).
+    Kept(Arc<KeptPainting>),
     /// Answer to [`Command::Recording`](super::Command::Recording).
     Recording {
         /// Number of the request.

@@ -27,6 +27,12 @@ impl FileFailure {
         Self { what, hint: error.hint() }
     }
 
+    /// A failure of the operating system with something that the painter knows by another name
+    /// than its file, such as an autosave.
+    pub(crate) fn about(thing: &str, participle: &str, error: &std::io::Error) -> Self {
+        Self { what: format!("{thing}: cannot be {participle}: {error}"), hint: error.hint() }
+    }
+
     /// A failure without advice, with the causes of `error`.
     pub(crate) fn without_hint(error: &dyn std::error::Error) -> Self {
         Self { what: with_causes(error), hint: None }

@@ -101,7 +101,10 @@ impl Inbox {
         let is_question = |command: &Command| {
             matches!(
                 command,
-                Command::Snapshot(_) | Command::Pick { .. } | Command::SetUndoBytes(_)
+                Command::Snapshot(_)
+                    | Command::Keep { .. }
+                    | Command::Pick { .. }
+                    | Command::SetUndoBytes(_)
             )
         };
         let (questions, others) = self.waiting.drain(..).partition(is_question);

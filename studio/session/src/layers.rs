@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use render::light::Light;
-use render::paint::painting::{Painting, PaintingError};
+use render::paint::document::LayerId;
+use render::paint::painting::{DryLayerState, Painting, PaintingError};
 
 use super::srgb::SrgbBytes;
 use super::state::{LayerState, Thumbnail};
@@ -12,6 +13,7 @@ use super::thumbnail::LayerSummary;
 /// Summary of one layer.
 #[derive(Debug)]
 struct LayerEntry {
+    id: LayerId,
     /// Whether the summary describes the dry paint as it is now.
     current: bool,
     summary: Option<LayerSummary>,
@@ -28,17 +30,23 @@ pub(super) struct Layers {
 
 impl Layers {
     /// Marks all summaries as outdated if dry paint of `painting` changed. Outdated summaries are
-    /// used until [`Self::summarize_next`] replaces them.
+    /// used until [`Self::summarize_next`] replaces them, each for the layer that it was made of,
+    /// wherever that lies now.
     pub(super) fn update(&mut self, painting: &Painting) {
-        let count = painting.state().dry.len();
-        if painting.dry_changes() != self.changes || count != self.entries.len() {
-            self.changes = painting.dry_changes();
-            let new = || LayerEntry { current: false, summary: None, sent: None };
-            self.entries.resize_with(count, new);
-            for entry in &mut self.entries {
-                entry.current = false;
-            }
+        let dry = &painting.state().dry;
+        let same = dry.iter().map(|layer| layer.id).eq(self.entries.iter().map(|entry| entry.id));
+        if painting.dry_changes() == self.changes && same {
+            return;
         }
+        self.changes = painting.dry_changes();
+        let mut former = std::mem::take(&mut self.entries);
+        let entry = |layer: &DryLayerState| {
+            let known = former.iter().position(|entry| entry.id == layer.id);
+            let known = known.map(|index| former.swap_remove(index));
+            let new = || LayerEntry { id: layer.id, current: false, summary: None, sent: None };
+            LayerEntry { current: false, ..known.unwrap_or_else(new) }
+        };
+        self.entries = dry.iter().map(entry).collect();
     }
 
     /// Whether a summary is outdated.
@@ -55,7 +63,8 @@ impl Layers {
         let Some(index) = outdated else { return Ok(()) };
         let (bounds, cell_mm) = (painting.bounds(), painting.cell_mm());
         let summary = LayerSummary::new(bounds, cell_mm, |rect| painting.dry_in(index, rect))?;
-        self.entries[index] = LayerEntry { current: true, summary: Some(summary), sent: None };
+        let entry = &mut self.entries[index];
+        (entry.current, entry.summary, entry.sent) = (true, Some(summary), None);
         Ok(())
     }
 
@@ -64,15 +73,17 @@ impl Layers {
         self.update(painting);
         let light = painting.light();
         let layers = self.entries.iter_mut().zip(&painting.state().dry);
-        let state = |(entry, dry): (&mut LayerEntry, &render::paint::painting::DryLayerState)| {
-            let Some(summary) = &entry.summary else { return blank(dry.slots, dry.opacity) };
-            if let Some((sent, under)) = &entry.sent
+        let state = |(entry, dry): (&mut LayerEntry, &DryLayerState)| {
+            let Some(summary) = &entry.summary else { return blank(dry) };
+            if let Some((sent, under)) = &mut entry.sent
                 && (sent.slots, sent.opacity) == (dry.slots, dry.opacity)
                 && Arc::ptr_eq(under, light)
             {
+                dry.name.clone_into(&mut sent.name);
+                sent.visible = dry.visible;
                 return sent.clone();
             }
-            let state = summary.state(dry.slots, dry.opacity, painting, bytes);
+            let state = summary.state(dry, painting, bytes);
             entry.sent = Some((state.clone(), Arc::clone(light)));
             state
         };
@@ -80,7 +91,17 @@ impl Layers {
     }
 }
 
-fn blank(slots: render::paint::document::Slots, opacity: f64) -> LayerState {
-    let thumbnail = Arc::new(Thumbnail { width: 1, height: 1, pixels: vec![[0; 4]] });
-    LayerState { slots, opacity, mean_mm: 0.0, max_mm: 0.0, coverage: 0.0, thumbnail }
+/// State of a layer that was not summarized yet.
+fn blank(dry: &DryLayerState) -> LayerState {
+    LayerState {
+        id: dry.id,
+        name: dry.name.clone(),
+        visible: dry.visible,
+        slots: dry.slots,
+        opacity: dry.opacity,
+        mean_mm: 0.0,
+        max_mm: 0.0,
+        coverage: 0.0,
+        thumbnail: Arc::new(Thumbnail { width: 1, height: 1, pixels: vec![[0; 4]] }),
+    }
 }

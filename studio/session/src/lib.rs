@@ -58,9 +58,17 @@ mod tiles;
 
 mod colors;
 
+mod films;
+
 mod thumbnail;
 
+mod miniature;
+
+mod shots;
+
 mod layers;
+
+mod masks;
 
 mod pick;
 
@@ -78,6 +86,8 @@ mod report;
 
 mod stroke_timing;
 
+mod tally;
+
 mod replay;
 
 mod worker;
@@ -92,15 +102,22 @@ mod failure;
 
 mod autosave;
 
+pub mod brushes;
+
+pub mod swatches;
+
 pub mod volumes;
 
 #[cfg(test)]
 mod tests;
 
-pub use autosave::{Autosave, LostSession, SessionMeta, now};
+pub use autosave::{Autosave, LostSession, RecoveredWork, SessionMeta, now};
 pub use command::{Command, Origin, Pace, PenSample};
 pub use defaults::{blank_canvas, default_brushes, default_mixing_canvas, initial_commands};
-pub use event::{Event, HeadOnCanvas, Picked, PickedLayer, Snapshot, TilePixels};
+pub use event::{Event, HeadOnCanvas, KeptPainting, Picked, PickedLayer, Snapshot, TilePixels};
 pub use failure::FileFailure;
-pub use state::{BrushState, LayerState, PaintingState, Performance, Thumbnail};
+pub use state::{
+    BrushState, BrushSwatch, FilmColor, HistoryShot, HistoryShots, LayerState, MaskState,
+    PaintingState, Performance, Thumbnail,
+};
 pub use thread::{Worker, WorkerOptions};

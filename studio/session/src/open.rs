@@ -12,7 +12,25 @@ use super::event::{Event, Snapshot};
 use super::prepare::{OpenError, PreparedPainting, prepare, prepare_script};
 use super::replay::{Replay, Step};
 use super::report::Reporter;
+use super::shots::Shots;
 use super::worker::{OpenPainting, WorkerLoop};
+
+/// Advice after a recording that was played to its end.
+const GO_ON: &str = "paint on, or save the painting";
+
+/// Advice after a recording that was not played to its end.
+const STAYS: &str = "what was played stays, open the recording again to play it from its start";
+
+/// How a replay ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ending {
+    /// All actions were played.
+    Played,
+    /// The painter stopped it.
+    Stopped,
+    /// An action was refused.
+    Refused,
+}
 
 impl WorkerLoop<'_> {
     /// Opens a painting in place of the open one. If that fails, the error is reported and the open
@@ -36,7 +54,10 @@ impl WorkerLoop<'_> {
             self.send_message(remark, None, false);
         }
         let reporter = Reporter::new(&prepared);
-        self.open = Some(OpenPainting { prepared, reporter, recording_stop_reported: false });
+        let shots = Shots::default();
+        self.open =
+            Some(OpenPainting { prepared, reporter, shots, recording_stop_reported: false });
+        self.shot_revision = None;
         self.stroke = None;
         self.kept = None;
         self.revision += 1;
@@ -88,11 +109,16 @@ impl WorkerLoop<'_> {
             }
             Ok(Step::Wait(then)) => self.pause = Some(then),
             Ok(Step::Next) => self.all_changed(),
-            Ok(Step::End) => return self.end_replay(),
+            Ok(Step::End) => return self.end_replay(Ending::Played),
             Err(error) => {
-                let text = format!("the recording ends at {}: {error}", playing.current_action());
-                self.send_message(text, error.hint(), true);
-                return self.end_replay();
+                let hint = error.hint().unwrap_or_else(|| Hint::new(STAYS));
+                let text = format!(
+                    "the recording cannot go on after {}, at {}: {error}",
+                    playing.count(),
+                    playing.current_action()
+                );
+                self.send_message(text, Some(hint), true);
+                return self.end_replay(Ending::Refused);
             }
         }
         if let Some(event) = self.playing.as_mut().and_then(|p| p.progress(Instant::now())) {
@@ -104,22 +130,33 @@ impl WorkerLoop<'_> {
     /// Ends a replay early. What was played so far stays in the painting.
     pub(super) fn cancel(&mut self) {
         if self.playing.is_some()
-            && let Err(error) = self.end_replay()
+            && let Err(error) = self.end_replay(Ending::Stopped)
         {
             self.report_failure(&error);
         }
     }
 
-    fn end_replay(&mut self) -> Result<(), SessionError> {
+    /// Ends the replay, and says how far it came and what to do.
+    fn end_replay(&mut self, ending: Ending) -> Result<(), SessionError> {
         self.pause = None;
         let Some(playing) = self.playing.take() else { return Ok(()) };
         // The samples of the open stroke that were already added are still painted.
         self.lift()?;
         (self.send)(playing.progress_now());
-        if playing.unsaved > 0 {
-            let text =
-                format!("{} files that the recording saves were not written", playing.unsaved);
-            self.send_message(text, Some(Hint::new("save the painting yourself")), false);
+        let unwritten = match playing.unsaved {
+            0 => String::new(),
+            1 => "; 1 file that it saves was not written".to_owned(),
+            files => format!("; {files} files that it saves were not written"),
+        };
+        let count = playing.count();
+        let told = match ending {
+            Ending::Played => Some((format!("the recording was played, {count}"), GO_ON)),
+            Ending::Stopped => Some((format!("the recording was stopped after {count}"), STAYS)),
+            // The reason was told.
+            Ending::Refused => None,
+        };
+        if let Some((text, hint)) = told {
+            self.send_message(format!("{text}{unwritten}"), Some(Hint::new(hint)), false);
         }
         self.state_stale = true;
         (self.send)(Event::Replayed);
@@ -146,6 +183,7 @@ impl WorkerLoop<'_> {
         let session = Origin::Recovered {
             canvas: Box::new((*canvas).clone()),
             palette: Box::new((*palette).clone()),
+            kept: None,
         };
         self.open(session);
         let text = "the painting was taken up on the processor as it was last saved".to_owned();
@@ -191,7 +229,8 @@ mod tests {
         worker.session().apply(&heap).unwrap();
         let (canvas, palette) = worker.session().documents().unwrap();
         let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.unwrap()));
-        let snapshot = Snapshot { number: 1, canvas, palette, revision: 1 };
+        let brushes = Arc::new(worker.session().kept_brushes().unwrap());
+        let snapshot = Snapshot { number: 1, canvas, palette, brushes, revision: 1 };
         // Set by hand, because a worker without a graphics device keeps no snapshot.
         worker.kept = saved.then(|| snapshot.clone());
         events.borrow_mut().clear();

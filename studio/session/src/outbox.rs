@@ -11,7 +11,9 @@ use render::tile::{Rect, TileSet};
 
 use super::event::{Event, HeadOnCanvas};
 use super::meter::Meter;
+use super::miniature::Miniature;
 use super::srgb::SrgbBytes;
+use super::state::Thumbnail;
 use super::tiles::encode;
 
 /// Maximum number of parts sent and not confirmed: a little more than two frames. Without this
@@ -35,11 +37,34 @@ struct UnsentTiles {
     unsent: TileSet,
 }
 
+impl UnsentTiles {
+    /// Renders what changed. The tiles must be sent, and read anew for the small picture.
+    fn refresh(
+        &mut self,
+        painting: &mut Painting,
+        small: &mut Option<Miniature>,
+    ) -> Result<(), PaintingError> {
+        let tiles = painting.refresh(self.second)?;
+        if let Some(small) = small
+            && self.surface.is_canvas()
+            && !self.second
+        {
+            small.change(&tiles);
+        }
+        for tile in tiles.iter() {
+            self.unsent.insert_tile(tile);
+        }
+        Ok(())
+    }
+}
+
 /// Parts of all pictures that must be sent.
 #[derive(Debug)]
 pub(super) struct Outbox {
     bytes: SrgbBytes,
-    views: [UnsentTiles; 3],
+    views: [UnsentTiles; 4],
+    /// Small picture of the canvas; `None` until it was needed.
+    small: Option<Miniature>,
     /// Number of parts sent and not confirmed.
     unconfirmed: usize,
     next: Instant,
@@ -56,7 +81,9 @@ impl Outbox {
                 view(SurfaceId::Canvas, false),
                 view(SurfaceId::Palette, false),
                 view(SurfaceId::Canvas, true),
+                view(SurfaceId::Palette, true),
             ],
+            small: None,
             unconfirmed: 0,
             next: Instant::now(),
             arrived: VecDeque::new(),
@@ -72,6 +99,7 @@ impl Outbox {
         for view in &mut self.views {
             view.unsent = TileSet::default();
         }
+        self.small = None;
         self.arrived.clear();
     }
 
@@ -106,6 +134,24 @@ impl Outbox {
         self.views.iter().any(|view| !view.unsent.is_empty())
     }
 
+    /// Small picture of the canvas as it is now.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub(super) fn small_picture(
+        &mut self,
+        canvas: &mut Painting,
+    ) -> Result<&Thumbnail, PaintingError> {
+        let [first, ..] = &mut self.views;
+        first.refresh(canvas, &mut self.small)?;
+        let bounds = canvas.bounds();
+        let small = self.small.get_or_insert_with(|| Miniature::new(bounds));
+        if small.bounds() != bounds {
+            *small = Miniature::new(bounds);
+        }
+        small.picture(&self.bytes, |rect| canvas.picture_in(false, rect))
+    }
+
     /// Renders the changed tiles and sends as many as the front end can receive.
     ///
     /// # Errors
@@ -126,9 +172,7 @@ impl Outbox {
                 continue;
             };
             let bounds = painting.bounds();
-            for tile in painting.refresh(view.second)?.iter() {
-                view.unsent.insert_tile(tile);
-            }
+            view.refresh(painting, &mut self.small)?;
             while self.unconfirmed < MOST_UNCONFIRMED && !view.unsent.is_empty() {
                 let part = take_first_tiles(&mut view.unsent, PART_TILES);
                 let read = |rect: Rect| painting.picture_in(view.second, rect);

@@ -40,10 +40,12 @@ pub(super) fn pick(painting: &mut Painting, place: Place) -> Result<Option<Picke
     let mut layers = Vec::with_capacity(state.dry.len() + 1);
     for (index, dry) in state.dry.iter().enumerate() {
         let amounts_mm = mean_mm(&rows, cell_mm, |row| painting.dry_in(index, row))?;
-        layers.push(PickedLayer { slots: dry.slots, amounts_mm, opacity: dry.opacity });
+        let (label, opacity) = (dry.label(), dry.shown_opacity());
+        layers.push(PickedLayer { label, slots: dry.slots, amounts_mm, opacity });
     }
     let amounts_mm = mean_mm(&rows, cell_mm, |row| painting.wet_in(row))?;
-    layers.push(PickedLayer { slots: state.slots, amounts_mm, opacity: 1.0 });
+    let label = "Wet".to_owned();
+    layers.push(PickedLayer { label, slots: state.slots, amounts_mm, opacity: 1.0 });
     let Place { surface, x_mm, y_mm, .. } = place;
     Ok(Some(Picked { surface, x_mm, y_mm, reflectance, layers }))
 }

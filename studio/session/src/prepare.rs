@@ -5,10 +5,10 @@ use std::sync::Arc;
 use pigment::library::PigmentLibrary;
 use render::light::Light;
 use render::paint::document::{Document, Lighting};
-use render::paint::file::PaintingFileError;
+use render::paint::file::{self, PaintingFileError};
 use render::paint::painting::{Painting, PaintingError};
-use render::paint::session::{PaintingSession, SessionError};
-use render::paint::strokes::{ScriptStartError, StrokeScript};
+use render::paint::session::{KeptSession, PaintingSession, SessionError};
+use render::paint::strokes::{KeptBrush, ScriptStartError, SideTable, StrokeScript};
 use spectra::hint::{Explain, Hint};
 
 use super::backend::Backend;
@@ -67,14 +67,30 @@ pub(super) fn prepare(
         Origin::Painting(canvas) => {
             let script = continue_from(&canvas);
             let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
-            let surfaces = || Ok(script.surfaces(&canvas.library.clone(), Some(*canvas))?);
+            let surfaces = || Ok(script.surfaces_with_table(&library, Some(*canvas), None)?);
             let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
-            surfaces.into_session(Some(&script), backend, undo_bytes)
+            surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
         }
-        Origin::Recovered { canvas, palette } => {
+        Origin::WithTable { canvas, table } if !table.palette.belongs_to(&canvas) => {
+            let mut prepared = prepare(Origin::Painting(canvas), backend, undo_bytes)?;
+            let remark = "the palette in the file belongs to another painting; it begins bare";
+            prepared.remarks.push(remark.to_owned());
+            Ok(prepared)
+        }
+        Origin::WithTable { canvas, table } => {
+            let script = StrokeScript::continue_with_table(&path_of(&canvas), &canvas, &table);
             let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
-            let surfaces = Surfaces::new(&library, &lighting, || Ok((*canvas, Some(*palette))))?;
-            surfaces.into_session(None, backend, undo_bytes)
+            let surfaces =
+                || Ok(script.surfaces_with_table(&library, Some(*canvas), Some(*table))?);
+            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
+        }
+        Origin::Recovered { canvas, palette, kept } => {
+            let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
+            let surfaces = || Ok((*canvas, Some(*palette), Vec::new()));
+            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            let kept = kept.unwrap_or_default();
+            surfaces.into_session(Beginning::Kept(kept), backend, undo_bytes)
         }
     }
 }
@@ -92,37 +108,63 @@ pub(super) fn prepare_script(
 ) -> Result<PreparedPainting, OpenError> {
     let mut script = script.header();
     script.mixing.get_or_insert_with(|| default_mixing_canvas(script.canvas.cell_mm));
-    let start = script.start.as_deref().map(read).transpose()?;
+    let (start, table) = match &script.start {
+        Some(start) => {
+            let (painting, table) = read(start, script.table)?;
+            (Some(painting), table)
+        }
+        None => (None, None),
+    };
     let library = start.as_ref().map_or(library, |start| &start.library).clone();
     let lighting = match &start {
         Some(start) => start.lighting.clone(),
         None => script.lighting.clone().unwrap_or_default(),
     };
-    let surfaces = Surfaces::new(&library, &lighting, || Ok(script.surfaces(&library, start)?))?;
-    surfaces.into_session(Some(&script), backend, undo_bytes)
+    let surfaces = || Ok(script.surfaces_with_table(&library, start, table)?);
+    let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+    surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
 }
 
-fn read(path: &str) -> Result<Document, OpenError> {
+/// Reads a painting, and the palette and the brushes saved with it if they are asked for.
+fn read(path: &str, with_table: bool) -> Result<(Document, Option<SideTable>), OpenError> {
     let bytes = std::fs::read(path)
         .map_err(|error| OpenError::Start { path: path.to_owned(), reason: error.to_string() })?;
-    Ok(render::paint::file::read(path, &bytes)?)
+    let table = if with_table { file::read_table(path, &bytes)? } else { None };
+    Ok((file::read(path, &bytes)?, table))
+}
+
+/// Name of the file that a recording on a painting names as its start.
+fn path_of(canvas: &Document) -> String {
+    let title = if canvas.title.is_empty() { "painting" } else { canvas.title.as_str() };
+    format!("{title}.exr")
 }
 
 /// Header of a recording that continues a painting.
 fn continue_from(canvas: &Document) -> StrokeScript {
-    let title = if canvas.title.is_empty() { "painting" } else { canvas.title.as_str() };
-    let mut script = StrokeScript::continue_from(&format!("{title}.exr"), canvas);
+    let mut script = StrokeScript::continue_from(&path_of(canvas), canvas);
     script.mixing = Some(default_mixing_canvas(script.canvas.cell_mm));
     script
 }
 
-/// Documents of canvas and palette, and their light.
+/// How a session begins on its surfaces.
+enum Beginning<'a> {
+    /// It is recorded under this header.
+    Recorded(&'a StrokeScript),
+    /// It goes on from another one.
+    Kept(Box<KeptSession>),
+}
+
+/// Documents of canvas and palette, brushes with their loads, and the light.
 struct Surfaces {
     canvas: Document,
     palette: Option<Document>,
+    brushes: Vec<KeptBrush>,
     light: Light,
     remarks: Vec<String>,
 }
+
+/// Canvas, palette, and brushes with their loads.
+type SurfacesOfScript = (Document, Option<Document>, Vec<KeptBrush>);
 
 impl Surfaces {
     /// Makes the surfaces while another thread computes the light, since both take about as long.
@@ -131,12 +173,12 @@ impl Surfaces {
     fn new(
         library: &PigmentLibrary,
         lighting: &Lighting,
-        surfaces: impl FnOnce() -> Result<(Document, Option<Document>), OpenError> + Send,
+        surfaces: impl FnOnce() -> Result<SurfacesOfScript, OpenError> + Send,
     ) -> Result<Self, OpenError> {
         let named =
             |lighting: &Lighting| Light::named(library, &lighting.illuminant, &lighting.observer);
         let (light, surfaces) = rayon::join(|| named(lighting), surfaces);
-        let (mut canvas, mut palette) = surfaces?;
+        let (mut canvas, mut palette, brushes) = surfaces?;
         let mut remarks = Vec::new();
         let light = light.or_else(|error| {
             let fallback = Lighting::default();
@@ -149,17 +191,17 @@ impl Surfaces {
             named(&fallback)
         });
         let light = light.map_err(PaintingError::from)?;
-        Ok(Self { canvas, palette, light, remarks })
+        Ok(Self { canvas, palette, brushes, light, remarks })
     }
 
-    /// A session on these surfaces, which records if `script`, the header, is given.
+    /// A session on these surfaces. If it has no brushes, it gets the usual ones.
     fn into_session(
         self,
-        script: Option<&StrokeScript>,
+        beginning: Beginning<'_>,
         backend: &mut Backend,
         undo_bytes: u64,
     ) -> Result<PreparedPainting, OpenError> {
-        let Self { canvas, palette, light, mut remarks } = self;
+        let Self { canvas, palette, brushes: kept, light, mut remarks } = self;
         let library = Arc::new(canvas.library.clone());
         let ground = Arc::new(canvas.ground.reflectance.clone());
         let (engine, reason) = backend.engine(&canvas.ground.height);
@@ -179,14 +221,25 @@ impl Surfaces {
             },
         );
         let (canvas, palette) = (canvas?, palette.transpose()?);
-        let mut session = match script {
-            Some(script) => PaintingSession::recorded(canvas, palette, script)?,
-            None => PaintingSession::new(canvas, palette)?,
+        let mut session = match beginning {
+            Beginning::Recorded(script) => {
+                let mut session = PaintingSession::recorded(canvas, palette, script)?;
+                for brush in session.take_up(&kept)? {
+                    remarks
+                        .push(format!("the brush `{brush}` has another head now and begins clean"));
+                }
+                for (name, spec) in &script.brushes {
+                    session.set_brush(name, spec)?;
+                }
+                session
+            }
+            Beginning::Kept(kept) => PaintingSession::restored(canvas, palette, *kept)?,
         };
         session.set_undo_bytes(undo_bytes);
-        let brushes = script.map(|script| &script.brushes).filter(|brushes| !brushes.is_empty());
-        for (name, spec) in brushes.cloned().unwrap_or_else(default_brushes) {
-            session.set_brush(&name, &spec)?;
+        if session.brushes().next().is_none() {
+            for (name, spec) in default_brushes() {
+                session.set_brush(&name, &spec)?;
+            }
         }
         Ok(PreparedPainting { session, library, ground, remarks })
     }

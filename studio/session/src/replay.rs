@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use render::paint::session::{PaintingSession, SessionError};
-use render::paint::strokes::{Action, Stroke, StrokeScript};
+use render::paint::strokes::{Action, SampleDecimals, Stroke, StrokeScript};
 
 use super::command::Pace;
 use super::event::Event;
@@ -59,6 +59,11 @@ impl Replay {
         format!("action {} ({kind})", self.next)
     }
 
+    /// Number of actions played, such as `3 of 12 actions`.
+    pub(super) fn count(&self) -> String {
+        format!("{} of {} actions", self.next, self.script.actions.len())
+    }
+
     /// Applies the next action, or begins its stroke.
     ///
     /// # Errors
@@ -71,7 +76,8 @@ impl Replay {
         let Some(action) = self.script.actions.get(self.next) else { return Ok(Step::End) };
         match action {
             Action::Stroke(stroke) => {
-                session.begin_stroke(stroke.on, &stroke.brush)?;
+                let decimals = SampleDecimals::RECORDING;
+                session.begin_stroke_as(stroke.tool, stroke.on, &stroke.brush, decimals)?;
                 *open = Some(StrokeTiming::default());
                 (self.added, self.start) = (0, Instant::now());
                 return Ok(Step::Paint);

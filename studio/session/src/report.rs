@@ -11,16 +11,19 @@ use render::paint::session::{PaintingSession, SessionError};
 use render::paint::strokes::{BrushSpec, SurfaceId};
 
 use super::colors::Colors;
+use super::films::FilmSetting;
 use super::layers::Layers;
+use super::masks::Masks;
 use super::prepare::PreparedPainting;
 use super::srgb::SrgbBytes;
-use super::state::{BrushState, PaintingState};
+use super::state::{BrushState, HistoryShots, PaintingState};
 
 /// Makes the reports, and caches what is slow to compute.
 #[derive(Debug)]
 pub(super) struct Reporter {
     colors: Colors,
     pub(super) layers: Layers,
+    masks: Masks,
     /// Paint on brushes, by name. Entries that may have changed are removed.
     brushes: BTreeMap<String, BrushLoad>,
     /// Whether brushes had the pigment of each slot before their strokes, by name.
@@ -47,6 +50,8 @@ pub(super) struct WorkerStatus {
     pub(super) revision: u64,
     /// Whether a stroke is open.
     pub(super) stroke_open: bool,
+    /// Pictures of the history.
+    pub(super) history_shots: HistoryShots,
 }
 
 impl Reporter {
@@ -54,13 +59,18 @@ impl Reporter {
         let light = Arc::clone(prepared.session.canvas().light());
         let colors = Colors::new(Arc::clone(&prepared.library), light);
         let (brushes, clean) = (BTreeMap::new(), BTreeMap::new());
-        Self { colors, layers: Layers::default(), brushes, clean }
+        Self { colors, layers: Layers::default(), masks: Masks::default(), brushes, clean }
     }
 
     /// Forgets a brush, which was loaded, wiped or washed.
     pub(super) fn brush_changed(&mut self, name: &str) {
         self.brushes.remove(name);
         self.clean.remove(name);
+    }
+
+    /// Forgets the load of a brush whose head was clean for a tool while states were made.
+    pub(super) fn tool_ended(&mut self, name: &str) {
+        self.brushes.remove(name);
     }
 
     /// Forgets all brushes.
@@ -131,7 +141,9 @@ impl Reporter {
         if !self.colors.is_for(library, &light) {
             self.colors = Colors::new(Arc::clone(library), Arc::clone(&light));
         }
-        let brushes = self.brush_states(session)?;
+        let scattering_per_mm = session.canvas().medium().scattering_per_mm;
+        let films = FilmSetting { ground: Arc::clone(ground), scattering_per_mm };
+        let brushes = self.brush_states(session, &films)?;
         let palette = session.painting(SurfaceId::Palette).map(|palette| palette.bounds());
         let (history, done) = session.history();
         let history = history.into_iter().map(str::to_owned).collect();
@@ -156,8 +168,10 @@ impl Reporter {
             ground_reflectance: Arc::clone(ground),
             history,
             history_done: done,
+            history_shots: status.history_shots.clone(),
             undo_bytes,
             brushes,
+            mask: self.masks.state(canvas.mask()),
             backend: canvas.backend(),
             revision: status.revision,
             stroke_open: status.stroke_open,
@@ -168,6 +182,7 @@ impl Reporter {
     fn brush_states(
         &mut self,
         session: &mut PaintingSession,
+        films: &FilmSetting,
     ) -> Result<Vec<BrushState>, SessionError> {
         let slots = session.canvas().state().slots;
         let specs: Vec<(String, BrushSpec)> =
@@ -183,8 +198,11 @@ impl Reporter {
             };
             let parts = parts_of(&head);
             let of_tip = self.colors.of_slots(&slots, &parts_of(&tip));
+            let of_tip_film = self.colors.swatch(&slots, &tip, films);
+            let swatch = of_tip_film.or_else(|| self.colors.swatch(&slots, &head, films));
             states.push(BrushState {
                 color: of_tip.or_else(|| self.colors.of_slots(&slots, &parts)),
+                swatch: swatch.map(Box::new),
                 tip_mm: tip.iter().sum(),
                 vehicle: share(amount_mm, head[SLOTS]),
                 most_load_mm,

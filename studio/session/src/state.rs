@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use pigment::library::PigmentLibrary;
 use render::light::Light;
-use render::paint::document::{Lighting, Medium, Slots};
+use render::paint::document::{LayerId, Lighting, Medium, Slots};
+use render::paint::dry_layer::layer_label;
 use render::paint::strokes::BrushSpec;
+use spectra::color::Lab;
 
 /// A small sRGB picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,9 +23,15 @@ pub struct Thumbnail {
 /// State of a dry layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LayerState {
+    /// Its identity within the painting.
+    pub id: LayerId,
+    /// Its name; empty if it has none.
+    pub name: String,
+    /// Whether it is shown.
+    pub visible: bool,
     /// Pigment of each slot.
     pub slots: Slots,
-    /// Factor of the optical thickness; 0 hides the layer.
+    /// Factor of the optical thickness.
     pub opacity: f64,
     /// Mean height of the cells with paint, in mm.
     pub mean_mm: f64,
@@ -33,6 +41,43 @@ pub struct LayerState {
     pub coverage: f64,
     /// Picture of the layer alone over the ground.
     pub thumbnail: Arc<Thumbnail>,
+}
+
+impl LayerState {
+    /// Its name, or its number if it has none.
+    #[must_use]
+    pub fn label(&self) -> String {
+        layer_label(self.id, &self.name)
+    }
+}
+
+/// Colour of a film under the light of the painting.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmColor {
+    /// CIELAB relative to the white of the light.
+    pub lab: Lab,
+    /// sRGB as the screen shows it.
+    pub srgb: [u8; 3],
+}
+
+/// Films of the paint that a brush paints with now, as a paint maker draws it down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BrushSwatch {
+    /// Film so thick that it hides everything below.
+    pub opaque: FilmColor,
+    /// Bare ground of the painting.
+    pub ground: FilmColor,
+    /// Film of the present thickness over the ground.
+    pub over_ground: FilmColor,
+    /// Bare black and white card (ISO 6504-3).
+    pub cards: [FilmColor; 2],
+    /// Film of the present thickness over these cards.
+    pub over_cards: [FilmColor; 2],
+    /// Contrast ratio of that film: Y over the black card relative to Y over the white one, 0 to
+    /// 1. From 0.98 on it hides.
+    pub contrast: f64,
+    /// Thickness of the film with its vehicle, in mm.
+    pub thickness_mm: f64,
 }
 
 /// State of a brush.
@@ -55,6 +100,39 @@ pub struct BrushState {
     /// sRGB of the mixture at its tip in an opaque film, or of the whole head if the tip is
     /// clean; `None` without pigment.
     pub color: Option<[u8; 3]>,
+    /// Films of that mixture; `None` without pigment.
+    pub swatch: Option<Box<BrushSwatch>>,
+}
+
+/// The canvas after an action of the history.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct HistoryShot {
+    /// Small picture of the canvas.
+    pub picture: Arc<Thumbnail>,
+    /// Pixels of the picture that the action changed, as left, top, width and height; `None` if
+    /// it changed none, or if the state before it is not known.
+    pub changed: Option<[usize; 4]>,
+}
+
+/// Small pictures of the history.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct HistoryShots {
+    /// The canvas before the first action and after each; `None` where none was kept.
+    pub shots: Vec<Option<HistoryShot>>,
+    /// Memory that they take, in bytes.
+    pub bytes: usize,
+    /// Memory that they may take, in bytes.
+    pub most_bytes: usize,
+}
+
+/// Mask of the canvas, for drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaskState {
+    /// Lines between covered and open cells, from corner to corner in cells, along x or along y.
+    /// Where there are very many, they follow blocks of cells.
+    pub outline: Vec<[(u32, u32); 2]>,
+    /// Share of the canvas that is covered, 0 to 1.
+    pub covered: f64,
 }
 
 /// State of the painting besides its pixels.
@@ -93,10 +171,14 @@ pub struct PaintingState {
     pub history: Vec<String>,
     /// Number of actions of the history that are done.
     pub history_done: usize,
+    /// Pictures of the canvas along the history.
+    pub history_shots: HistoryShots,
     /// Memory that the undo history uses, and its limit, in bytes.
     pub undo_bytes: (u64, u64),
     /// All brushes, in the order of their names.
     pub brushes: Vec<BrushState>,
+    /// Mask of the canvas, if one is set.
+    pub mask: Option<Arc<MaskState>>,
     /// Name of the backend.
     pub backend: String,
     /// Counter of changes of the painting.

@@ -4,17 +4,18 @@ use std::sync::Arc;
 
 use render::field::Field;
 use render::layer::Layer;
-use render::paint::document::{Document, DryLayer, Slots};
+use render::paint::document::{Document, DryLayer};
 use render::paint::ground::Ground;
-use render::paint::painting::Painting;
+use render::paint::painting::{DryLayerState, Painting};
 use render::paint::scene;
 use render::tile::{Rect, TILE};
 
 use super::srgb::SrgbBytes;
 use super::state::{LayerState, Thumbnail};
 
-/// Longer side of a thumbnail in pixels.
-const LONGEST: usize = 96;
+/// Longer side of a thumbnail in pixels: enough for a row of the panel on a screen with two pixels
+/// a point.
+const LONGEST: usize = 160;
 
 /// Number of cells per pixel in each direction.
 const PROBES: usize = 2;
@@ -75,34 +76,31 @@ impl LayerSummary {
         })
     }
 
-    /// State of the layer, with its pigments at `slots`.
+    /// State of the layer whose properties are `dry`.
     pub(super) fn state(
         &self,
-        slots: Slots,
-        opacity: f64,
+        dry: &DryLayerState,
         painting: &Painting,
         bytes: &SrgbBytes,
     ) -> LayerState {
         LayerState {
-            slots,
-            opacity,
+            id: dry.id,
+            name: dry.name.clone(),
+            visible: dry.visible,
+            slots: dry.slots,
+            opacity: dry.opacity,
             mean_mm: self.mean_mm,
             max_mm: self.max_mm,
             coverage: self.coverage,
-            thumbnail: Arc::new(self.thumbnail(slots, opacity, painting, bytes)),
+            thumbnail: Arc::new(self.thumbnail(dry, painting, bytes)),
         }
     }
 
-    /// Picture of the layer alone over the ground, with its opacity.
-    fn thumbnail(
-        &self,
-        slots: Slots,
-        opacity: f64,
-        painting: &Painting,
-        bytes: &SrgbBytes,
-    ) -> Thumbnail {
+    /// Picture of the layer alone over the ground, with its opacity, whether it is shown or not.
+    fn thumbnail(&self, dry: &DryLayerState, painting: &Painting, bytes: &SrgbBytes) -> Thumbnail {
         let (columns, rows) = (self.cells.width(), self.cells.height());
-        let layer = DryLayer { slots, opacity, paint: self.cells.clone() };
+        let layer = DryLayer::new(dry.id, dry.slots, self.cells.clone());
+        let layer = DryLayer { opacity: dry.opacity, ..layer };
         let document = document_of(painting, layer);
         let mut scene = scene::scene(&document, painting.light());
         // Neighbouring sampled cells are not neighbours on the canvas, so their slopes have no

@@ -36,7 +36,7 @@ pub(super) fn encode<E: Send>(
 }
 
 /// Runs of neighbouring tiles in a row: the rectangle of each, and its tiles.
-fn runs(tiles: &TileSet, bounds: Rect) -> Vec<(Rect, Vec<Rect>)> {
+pub(super) fn runs(tiles: &TileSet, bounds: Rect) -> Vec<(Rect, Vec<Rect>)> {
     let mut runs: Vec<(Rect, Vec<Rect>)> = Vec::new();
     for rect in tiles.iter().map(|tile| tile.rect(bounds)) {
         match runs.last_mut() {

@@ -15,6 +15,7 @@ use super::outbox::Outbox;
 use super::prepare::PreparedPainting;
 use super::replay::Replay;
 use super::report::Reporter;
+use super::shots::Shots;
 use super::state::Performance;
 use super::stroke_timing::{StrokeTiming, head_on_canvas, is_lifted, waiting_substeps};
 
@@ -26,6 +27,9 @@ const STROKE_REPORT_INTERVAL: Duration = Duration::from_millis(250);
 
 /// Time between two reports of performance while no stroke is open.
 const IDLE_REPORT_INTERVAL: Duration = Duration::from_secs(1);
+
+/// Shortest time between two pictures of the history during a replay.
+const REPLAY_SHOT_INTERVAL: Duration = Duration::from_millis(500);
 
 /// State of the worker thread.
 pub(super) struct WorkerLoop<'a> {
@@ -56,12 +60,18 @@ pub(super) struct WorkerLoop<'a> {
     pub(super) dirty_told: bool,
     /// Whether the front end shows the head.
     head_shown: bool,
+    /// Counter of changes of the painting when the history was last looked at for pictures.
+    pub(super) shot_revision: Option<u64>,
+    /// Time before which a fast replay takes no picture for the history.
+    shot_due: Instant,
 }
 
 /// The open painting and its reporter.
 pub(super) struct OpenPainting {
     pub(super) prepared: PreparedPainting,
     pub(super) reporter: Reporter,
+    /// Pictures of the history.
+    pub(super) shots: Shots,
     /// Whether a message said that the recording ended early.
     pub(super) recording_stop_reported: bool,
 }
@@ -100,6 +110,8 @@ impl<'a> WorkerLoop<'a> {
             performance: Performance::default(),
             dirty_told: false,
             head_shown: false,
+            shot_revision: None,
+            shot_due: now,
         }
     }
 
@@ -114,7 +126,8 @@ impl<'a> WorkerLoop<'a> {
             if std::mem::take(&mut self.inbox.cancelled) {
                 self.cancel();
             }
-            let result = self.work().and_then(|()| self.send_pictures());
+            let result = self.work().and_then(|()| self.take_shot());
+            let result = result.and_then(|()| self.send_pictures());
             if let Err(error) = result.and_then(|()| self.send_state()) {
                 self.report_failure(&error);
             }
@@ -143,6 +156,27 @@ impl<'a> WorkerLoop<'a> {
             self.performance_due().filter(|_| self.stroke.is_some() || !self.meter.is_idle()),
         ];
         times.into_iter().flatten().min().map_or(Wait::Forever, Wait::Until)
+    }
+
+    /// Takes a picture for the history if an action has ended. Replays end actions faster than
+    /// anyone looks; they take few.
+    fn take_shot(&mut self) -> Result<(), SessionError> {
+        let Some(OpenPainting { prepared, shots, .. }) = &mut self.open else { return Ok(()) };
+        let session = &mut prepared.session;
+        let now = Instant::now();
+        let hurries = self.playing.is_some() && now < self.shot_due;
+        if self.stroke.is_some() || hurries || self.shot_revision == Some(self.revision) {
+            return Ok(());
+        }
+        self.shot_revision = Some(self.revision);
+        let done = session.history().1;
+        shots.follow(&session.history_numbers());
+        if !shots.has(done) {
+            shots.keep(done, self.outbox.small_picture(session.canvas_mut())?);
+            self.shot_due = now + REPLAY_SHOT_INTERVAL;
+            self.state_stale = true;
+        }
+        Ok(())
     }
 
     /// Renders and sends the changed parts of the pictures, and the head with them.
@@ -190,8 +224,11 @@ impl<'a> WorkerLoop<'a> {
         if let Some(reason) = open.prepared.session.recording_stopped()
             && !std::mem::replace(&mut open.recording_stop_reported, true)
         {
-            let text = format!("the recording ended early: {reason}");
-            let hint = Hint::new("save the painting itself; the recording holds all before");
+            let actions =
+                open.prepared.session.recording().map_or(0, |script| script.actions.len());
+            let text = format!("the recording ended early, after {actions} actions: {reason}");
+            let hint =
+                Hint::new("paint on and save the painting itself; the recording holds all before");
             self.send_message(text, Some(hint), false);
         }
     }

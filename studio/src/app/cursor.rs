@@ -8,7 +8,6 @@ use super::hover::HoveringHead;
 use super::studio::Studio;
 use crate::panels::Mode;
 use crate::theme;
-use crate::view::HeadLook;
 use session::PaintingState;
 
 /// Radius of the eyedropper's ring, in points.
@@ -19,21 +18,30 @@ impl Studio {
     pub(super) fn draw_cursor(&mut self, ui: &Ui, mode: Mode) {
         let Some(painting) = self.painting.clone() else { return };
         match mode {
-            Mode::Paint => self.draw_head(ui, &painting),
+            Mode::Paint => {
+                self.draw_head(ui, &painting, true);
+                self.draw_string(ui);
+            }
+            // The paint of the brush is set aside.
+            Mode::Blend | Mode::Scrape | Mode::Erase => {
+                self.draw_head(ui, &painting, false);
+                self.draw_string(ui);
+            }
             Mode::Pick => self.draw_ring(ui),
+            Mode::Mask => self.draw_mask_cursor(ui),
             Mode::Squeeze | Mode::Pan | Mode::Rotate | Mode::Zoom => {}
         }
     }
 
     /// Draws the brush head: deformed as the worker reported it, or hovering above the
-    /// surface.
-    fn draw_head(&mut self, ui: &Ui, painting: &PaintingState) {
-        let look = |name: &str| {
+    /// surface. It has its colour where it `paints`.
+    fn draw_head(&mut self, ui: &Ui, painting: &PaintingState, paints: bool) {
+        let paint = |name: &str| {
             let brush = painting.brushes.iter().find(|brush| brush.name == name);
-            HeadLook::lit_by(&painting.lighting, brush.and_then(|brush| brush.color))
+            brush.and_then(|brush| brush.color.filter(|_| paints))
         };
         if let Some(head) = &self.head {
-            self.view(head.surface).show_head(ui, head, look(&self.tools.brush));
+            self.view(head.surface).show_head(ui, head, paint(&self.tools.brush));
             ui.ctx().set_cursor_icon(CursorIcon::None);
             return;
         }
@@ -47,8 +55,20 @@ impl Studio {
         }
         let head = self.hovering.as_mut().and_then(|held| held.over(hover));
         if let Some(head) = head {
-            self.view(hover.surface).show_head(ui, &head, look(&hover.brush));
+            self.view(hover.surface).show_head(ui, &head, paint(&hover.brush));
             ui.ctx().set_cursor_icon(CursorIcon::None);
+        }
+    }
+
+    /// Draws a line from a stabilised brush to its pen, dark with a light core, so that it shows on
+    /// every paint.
+    fn draw_string(&self, ui: &Ui) {
+        let Some(line) = self.pen.string_line() else { return };
+        let painter = ui.painter_at(ui.max_rect());
+        for (width, grey) in [(3.0, 20), (1.0, 235)] {
+            let color = Color32::from_gray(grey);
+            painter.line_segment(line, Stroke::new(width, color));
+            painter.circle_stroke(line[1], 4.0, Stroke::new(width, color));
         }
     }
 
@@ -68,7 +88,10 @@ impl Studio {
     fn color_at(&self, surface: SurfaceId, point: Pos2) -> Option<Color32> {
         let view = self.view(surface);
         let [x, y] = view.position(point)?;
-        let beyond = x >= f64::from(self.tools.split) * view.cells().0 as f64;
+        let beyond = match surface {
+            SurfaceId::Canvas => x >= f64::from(self.tools.split) * view.cells().0 as f64,
+            SurfaceId::Palette => view.is_under_second(),
+        };
         let second = view.picture(true).filter(|_| beyond);
         let (x, y) = (x as usize, y as usize);
         let cell = second.or(view.picture(false))?.pixels(Rect { x, y, width: 1, height: 1 });

@@ -47,11 +47,17 @@ impl Studio {
             }
             Event::Recording { number, .. } => self.last_recording = Some(number),
             // Handled by the files above.
-            Event::Snapshot(_) | Event::Progress { .. } | Event::Replayed => {}
+            Event::Snapshot(_) | Event::Kept(_) | Event::Progress { .. } | Event::Replayed => {}
             Event::DirtyBrush(brush) => {
                 let text = format!("the brush \u{201c}{brush}\u{201d} is dirty");
-                let hint = "wash (W) or wipe (X) it before another colour";
-                self.show_message(text, Some(hint.to_owned()), false);
+                let key = |name| {
+                    let row = self.keymap.easel.row(name);
+                    let key = row.and_then(|row| row.keys.first());
+                    key.map_or_else(String::new, |key| format!(" ({})", key.text()))
+                };
+                let (wash, wipe) = (key("wash"), key("wipe"));
+                let hint = format!("wash{wash} or wipe{wipe} it before another colour");
+                self.show_message(text, Some(hint), false);
             }
             Event::Message { text, hint, failed } => {
                 self.show_message(text, hint.map(|hint| hint.to_string()), failed);
@@ -65,6 +71,8 @@ impl Studio {
         self.palette.open(state.palette_cells);
         self.head = None;
         self.hover = None;
+        self.tour.forget();
+        self.crop = None;
         self.set_painting(state);
         let Some(painting) = &self.painting else { return };
         let exists = painting.brushes.iter().any(|brush| brush.name == self.tools.brush);
@@ -74,7 +82,9 @@ impl Studio {
     }
 
     fn set_painting(&mut self, state: Arc<PaintingState>) {
-        self.canvas.set_second(state.second_lighting.is_some());
+        for surface in [&mut self.canvas, &mut self.palette] {
+            surface.set_second(state.second_lighting.is_some());
+        }
         self.painting = Some(state);
     }
 

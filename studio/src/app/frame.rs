@@ -5,18 +5,35 @@ use std::time::{Duration, Instant};
 use eframe::egui::{Context, Ui};
 
 use super::help;
+use super::key_rows::key_rows;
+use super::side::Tab;
 use super::studio::Studio;
-use super::volumes::WindowIntent;
-use crate::panels::Request;
+use super::volumes::{WindowIntent, scene_key_rows};
+use crate::files::{Problem, StatusNote};
+use crate::floating;
+use crate::keymap::{Keymap, Scope, install};
+use crate::panels::{FileRequest, Request};
+use crate::pen::Device;
+use crate::{theme, view};
 
 impl Studio {
     /// Handles worker events and file tasks. Call before each frame, also while the
     /// window is hidden.
     pub fn logic(&mut self, context: &Context) {
         self.handle_events();
+        if let Some(desk) = self.files.take_desk() {
+            self.set_up(&desk, context);
+        }
+        self.files.note_desk(self.desk());
         self.files.note_drawings(self.panels.reference.unsaved_drawings());
         for command in self.files.update(context) {
             self.worker.ask(command);
+        }
+        if let Some(StatusNote { text, hint }) = self.files.take_status() {
+            match self.volumes.as_mut().filter(|_| self.shows_volumes) {
+                Some(volumes) => volumes.say(text),
+                None => self.show_message(text, hint, false),
+            }
         }
         while let Some(change) = self.files.take_reference() {
             if let Some(problem) = self.panels.reference.apply(change, context) {
@@ -30,13 +47,37 @@ impl Studio {
                 volumes.answer(answer, &mut self.files);
             }
         }
+        if let Some(colors) = self.files.take_colors() {
+            self.panels.eyedropper.set_swatches(&colors);
+            self.panels.select(Tab::Color);
+        }
         if let Some(volumes) = &mut self.volumes {
             volumes.handle_events(&mut self.files);
             volumes.autosave(&mut self.files);
         }
-        self.pen.settings = self.files.preferences.pen;
-        let scale = self.files.preferences.interface_scale;
-        if context.zoom_factor() != scale {
+        self.pen.settings.clone_from(&self.files.preferences.pen);
+        self.pen.options = self.files.preferences.options_of(&self.tools.brush);
+        let eraser = self.brush_for(Device::Eraser);
+        self.pen.eraser_options = self.files.preferences.options_of(&eraser);
+        self.update_keys(context);
+        self.apply_look(context);
+        // Once it is settled, not at every step of a drag.
+        if !context.input(|input| input.pointer.any_down()) {
+            self.files.preferences.arrangement = self.panels.arrangement();
+        }
+    }
+
+    /// Applies theme, touch targets and scale when they were changed, or the window's size.
+    fn apply_look(&mut self, context: &Context) {
+        let look = self.files.preferences.look();
+        if self.look != look {
+            self.look = look;
+            theme::apply_look(context, look);
+        }
+        let now = context.zoom_factor();
+        let size = context.content_rect().size() * now;
+        let scale = theme::scale_in_window(self.files.preferences.interface_scale, size);
+        if (now - scale).abs() > 1e-3 {
             context.set_zoom_factor(scale);
         }
     }
@@ -47,7 +88,9 @@ impl Studio {
         let context = ui.ctx().clone();
         let now = Instant::now();
         self.frames.begin(now, busy);
+        floating::begin_frame(&context);
         self.handle_events();
+        self.key_editor.read(&context, &self.keymap, &mut self.files.preferences.keys);
         if self.shows_volumes {
             self.draw_volumes(ui);
         } else {
@@ -57,8 +100,12 @@ impl Studio {
                 }
             }
             self.draw(ui);
-            help::show(&context, &mut self.visible.keys);
+            self.draw_pen_windows(&context);
+            self.show_quick_palette(&context);
+            self.show_tour(&context);
         }
+        let (keymap, changes) = (&self.keymap, &mut self.files.preferences.keys);
+        help::show(&context, &mut self.visible.keys, &mut self.key_editor, keymap, changes);
         self.open_dropped(&context);
         self.files.show(ui);
         self.send_requests();
@@ -67,6 +114,29 @@ impl Studio {
         if self.message.as_ref().is_some_and(|message| !message.failed) {
             context.request_repaint_after(Duration::from_secs(1));
         }
+        view::quicken(&context);
+    }
+
+    /// Uses the keys of the preferences if they changed. New faults in them are told.
+    fn update_keys(&mut self, context: &Context) {
+        let changes = &self.files.preferences.keys;
+        if self.keymap_changes.as_ref() == Some(changes) {
+            return;
+        }
+        let (keymap, faults) = Keymap::new(key_rows(), scene_key_rows(), changes);
+        install(context, keymap.clone());
+        (self.keymap, self.keymap_changes) = (keymap, Some(changes.clone()));
+        if faults != self.key_faults && !faults.is_empty() {
+            let text = format!("preferences, `keys`: {}", faults.join("; "));
+            self.files.report(Problem::new(text, "Help, Keys shows and changes all keys"));
+        }
+        self.key_faults = faults;
+    }
+
+    /// Shows or hides the table of keys of a workspace.
+    pub(super) fn show_keys(&mut self, scope: Scope) {
+        self.visible.keys ^= true;
+        self.key_editor.scope = scope;
     }
 
     /// Draws the workspace of scenes.
@@ -75,6 +145,10 @@ impl Studio {
         match volumes.show(ui, self.visible.panels, &mut self.pen, &mut self.files) {
             Some(WindowIntent::Easel) => self.shows_volumes = false,
             Some(WindowIntent::Panels) => self.visible.panels ^= true,
+            Some(WindowIntent::Keys) => self.show_keys(Scope::Scenes),
+            Some(WindowIntent::Preferences) => {
+                self.requests.push(Request::File(FileRequest::Preferences));
+            }
             None => {}
         }
     }

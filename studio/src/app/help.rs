@@ -1,13 +1,26 @@
-//! The window with the table of keys.
+//! The window with the table of keys, in which they are changed.
 
-use eframe::egui::{Context, Grid, Key, ScrollArea, Window, vec2};
+use eframe::egui::{
+    Align, Button, Context, Grid, Label, Layout, RichText, ScrollArea, TextEdit, Ui, vec2,
+};
 
-use super::entries::ENTRIES;
-use super::intent::Menu;
+use super::key_editor::KeyEditor;
+use super::volumes::SCENE_POINTER;
+use crate::floating;
+use crate::keymap::{Changes, KeyRow, KeyTable, Keymap, Scope, Shortcut, text};
+use crate::theme;
 
-/// Keys and gestures that are not in a menu, with descriptions.
+/// Width of the window, in points.
+const WIDTH: f32 = 760.0;
+
+/// Width of the column of names, in points.
+const TITLE: f32 = 124.0;
+
+/// Width of the column of keys, in points.
+const KEYS: f32 = 250.0;
+
+/// Gestures and held keys, which cannot be changed, with descriptions.
 const POINTER: &[(&str, &str)] = &[
-    ("1 to 9", "Selects a brush of the list"),
     ("Space + drag", "Moves the view; so does the middle button"),
     ("Shift+Space + drag", "Rotates the view about its centre"),
     ("Ctrl+Space + drag", "Zooms, upwards in"),
@@ -15,37 +28,196 @@ const POINTER: &[(&str, &str)] = &[
     ("Two fingers", "Move, zoom and turn the view on a touch screen"),
     ("Alt + click", "Picks colour and paint"),
     ("Shift + stroke", "Starts with a straight line from the end of the last stroke"),
-    ("Ctrl+Z on the reference", "Undoes the last mark or guide while the picture is drawn on"),
     ("Shift on the reference", "Marks the distance of strokes of the selected sample"),
     ("Held tool key", "Restores the previous tool on release"),
 ];
 
-/// Shows the window while `open` is true; its close button and Escape clear `open`.
-pub(super) fn show(context: &Context, open: &mut bool) {
-    *open &= !context.input(|input| input.key_pressed(Key::Escape));
-    let window = Window::new("Keys").open(open).resizable(false).collapsible(false);
-    window.default_pos(eframe::egui::pos2(120.0, 60.0)).show(context, |ui| {
-        let height = (ui.ctx().content_rect().height() - 140.0).max(120.0);
-        ScrollArea::vertical().max_height(height).show(ui, |ui| {
-            Grid::new("keys").num_columns(2).spacing(vec2(18.0, 4.0)).striped(true).show(
-                ui,
-                |ui| {
-                    for (keys, description) in POINTER {
-                        ui.strong(*keys);
-                        ui.label(*description);
-                        ui.end_row();
-                    }
-                    let tools = ENTRIES.iter().filter(|entry| entry.menu == Menu::Tools);
-                    let others = ENTRIES.iter().filter(|entry| entry.menu != Menu::Tools);
-                    for entry in tools.chain(others).filter(|entry| !entry.shortcuts.is_empty()) {
-                        let keys: Vec<String> =
-                            entry.shortcuts.iter().map(|shortcut| shortcut.text()).collect();
-                        ui.strong(keys.join(", "));
-                        ui.label(entry.description);
-                        ui.end_row();
-                    }
-                },
-            );
+/// Shows the window while `open` is true; its close button and Escape clear `open`. Changes of keys
+/// go to `changes`.
+pub(super) fn show(
+    context: &Context,
+    open: &mut bool,
+    editor: &mut KeyEditor,
+    keymap: &Keymap,
+    changes: &mut Changes,
+) {
+    let shown = floating::show(context, "Keys", "keys", open, |ui| {
+        let height = floating::height_of_contents(ui.ctx()) - 70.0;
+        ui.set_width(WIDTH);
+        let table = keymap.table(editor.scope);
+        head(ui, editor, table, changes);
+        notice(ui, editor, table, changes);
+        ui.separator();
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+            ui.set_width(WIDTH - 16.0);
+            let mut group = "";
+            for row in table.rows() {
+                if !editor.finds(row) {
+                    continue;
+                }
+                if std::mem::replace(&mut group, row.group) != row.group {
+                    ui.add_space(4.0);
+                    ui.weak(row.group);
+                }
+                key_row(ui, row, editor, table, changes);
+            }
+            if editor.find.is_empty() {
+                pointer(ui, editor.scope);
+            }
         });
+    });
+    if shown.is_none() {
+        editor.stop();
+    }
+}
+
+/// Workspace, search, and the way back to the standard.
+fn head(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Changes) {
+    ui.horizontal(|ui| {
+        for (scope, name, tip) in [
+            (Scope::Easel, "Easel", "Keys while a painting is shown"),
+            (Scope::Scenes, "Scenes", "Keys while a scene of paint volumes is shown"),
+        ] {
+            if ui.selectable_label(editor.scope == scope, name).on_hover_text(tip).clicked() {
+                editor.stop();
+                editor.scope = scope;
+            }
+        }
+        let find = TextEdit::singleline(&mut editor.find).hint_text("find").desired_width(180.0);
+        ui.add(find)
+            .accessible_name("Find an action")
+            .on_hover_text("Shows only what has this word");
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let changed = table.rows().iter().any(|row| row.keys != row.standard);
+            let button = ui.add_enabled(changed, Button::new("All to standard"));
+            let tip = "Gives all actions of this table their standard keys";
+            if button.on_hover_text(tip).clicked() {
+                editor.stop();
+                table.restore_all(changes);
+            }
+        });
+    });
+}
+
+/// Tells about a pressed key that another action has, or that cannot be used.
+fn notice(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Changes) {
+    ui.horizontal(|ui| {
+        ui.set_min_height(24.0);
+        if let Some((text, conflict)) = editor.conflict(table) {
+            ui.strong(text);
+            if ui.button("Take it").on_hover_text("Takes the key from the other").clicked() {
+                editor.take(&conflict, table, changes);
+            }
+            if ui.button("Cancel").on_hover_text("Leaves the key where it is").clicked() {
+                editor.stop();
+            }
+        } else if let Some(text) = editor.message() {
+            ui.strong(text);
+        } else {
+            ui.weak("Click a key to press another one for it.");
+        }
+    });
+}
+
+fn key_row(
+    ui: &mut Ui,
+    row: &KeyRow,
+    editor: &mut KeyEditor,
+    table: &KeyTable,
+    changes: &mut Changes,
+) {
+    ui.horizontal(|ui| {
+        column(ui, TITLE, |ui| ui.strong(&row.title));
+        column(ui, KEYS, |ui| keys_of_row(ui, row, editor, table, changes));
+        ui.add(Label::new(RichText::new(&row.description).weak()).truncate());
+    });
+}
+
+/// The keys of a row, each with a button that removes it.
+fn keys_of_row(
+    ui: &mut Ui,
+    row: &KeyRow,
+    editor: &mut KeyEditor,
+    table: &KeyTable,
+    changes: &mut Changes,
+) {
+    ui.spacing_mut().item_spacing.x = 3.0;
+    for &key in &row.keys {
+        chip(ui, row, Some(key), editor);
+        let name = format!("remove {} of {}", key.text(), row.title);
+        let cross = ui.add(Button::new("\u{d7}").small().frame(false)).accessible_name(&name);
+        if cross.on_hover_text("Removes this key").clicked() {
+            editor.stop();
+            table.remove(&row.name, key, changes);
+        }
+    }
+    chip(ui, row, None, editor);
+    if row.keys != row.standard {
+        let name = format!("standard keys of {}", row.title);
+        let back = ui.add(Button::new("standard").small()).accessible_name(&name);
+        let keys: Vec<String> = row.standard.iter().map(Shortcut::text).collect();
+        let keys = if keys.is_empty() { "none".to_owned() } else { keys.join(", ") };
+        if back.on_hover_text(format!("Back to the standard: {keys}")).clicked() {
+            editor.stop();
+            table.restore(&row.name, changes);
+        }
+    }
+}
+
+/// Draws content in a column of this width.
+fn column<T>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> T) {
+    let size = vec2(width, ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_width(width);
+        content(ui);
+    });
+}
+
+/// Button of a key, or without one the button that adds a key. A click waits for a key press.
+fn chip(ui: &mut Ui, row: &KeyRow, key: Option<Shortcut>, editor: &mut KeyEditor) {
+    let waits = editor.waits_for(&row.name, key);
+    let shown = match (waits, key) {
+        (true, _) => "press a key".to_owned(),
+        (false, Some(key)) => key.text(),
+        (false, None) => "+".to_owned(),
+    };
+    let (name, tip) = match key {
+        Some(key) => (
+            format!("change {} of {}", key.text(), row.title),
+            "Click and press the key that is to do this instead; Escape leaves it",
+        ),
+        None => (
+            format!("add a key to {}", row.title),
+            "Click and press one more key for this; Escape leaves it",
+        ),
+    };
+    let mut button = Button::new(shown).small();
+    if waits {
+        button = button.fill(theme::colors(ui.ctx()).chosen);
+    }
+    if ui.add(button).accessible_name(&name).on_hover_text(tip).clicked() {
+        editor.record(&row.name, key);
+    }
+}
+
+/// Gestures and keys that are held, which cannot be changed.
+fn pointer(ui: &mut Ui, scope: Scope) {
+    ui.add_space(6.0);
+    ui.weak("Pointer and held keys");
+    Grid::new("pointer").num_columns(2).spacing(vec2(14.0, 4.0)).striped(true).show(ui, |ui| {
+        let rows = match scope {
+            Scope::Easel => POINTER,
+            Scope::Scenes => SCENE_POINTER,
+        };
+        for (keys, description) in rows {
+            ui.strong(*keys);
+            ui.weak(*description);
+            ui.end_row();
+        }
+        if let (Scope::Easel, Some(undo)) = (scope, text(ui.ctx(), "undo")) {
+            ui.strong(format!("{undo} on the reference"));
+            ui.weak("Undoes the last mark or guide while the picture is drawn on");
+            ui.end_row();
+        }
     });
 }

@@ -1,11 +1,14 @@
 //! Intents: everything that keys, menus and toolbar can request.
 
-use eframe::egui::{Key, Modifiers};
+use serde::Serialize;
 
+use crate::keymap::{Shortcut, name_of};
 use crate::panels::Mode;
+use crate::theme::ThemeChoice;
 
-/// One user action.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// One user action. Its name in the preferences follows from its name here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Intent {
     /// Starts a new painting.
     New,
@@ -21,10 +24,18 @@ pub enum Intent {
     Export,
     /// Saves the recording of all strokes.
     SaveRecording,
+    /// Exports a timelapse of the recording.
+    ExportTimelapse,
     /// Opens a reference picture beside the canvas.
     OpenReference,
+    /// Lays the reference picture over the canvas, or takes it away.
+    ReferenceOver,
     /// Lights the painting with a measured lamp.
     OpenLamp,
+    /// Shows or hides the window of the pen.
+    Pen,
+    /// Shows or hides the window of own brushes.
+    BrushSets,
     /// Shows the preferences.
     Preferences,
     /// Begins a scene of paint volumes.
@@ -33,6 +44,8 @@ pub enum Intent {
     OpenScene,
     /// Shows the scene that is open.
     ShowScene,
+    /// Opens the sample painting.
+    Sample,
     /// Closes the program.
     Quit,
     /// Undoes the last action.
@@ -47,6 +60,8 @@ pub enum Intent {
     Wipe,
     /// Removes all paint from the palette.
     ScrapePalette,
+    /// Frames the part of the canvas that stays.
+    Crop,
     /// Switches to the previous light.
     OtherLight,
     /// Increases the brush size by one step.
@@ -61,6 +76,8 @@ pub enum Intent {
     Brush(u8),
     /// Selects a tool.
     Tool(Mode),
+    /// Opens or closes the round menu of tubes, mixtures and sizes at the pointer.
+    QuickPalette,
     /// Enlarges the view by one step.
     ZoomIn,
     /// Reduces the view by one step.
@@ -85,8 +102,22 @@ pub enum Intent {
     Figures,
     /// Toggles full screen.
     FullScreen,
+    /// Selects the dark or the light theme, or that of the system.
+    Theme(ThemeChoice),
+    /// Makes everything large enough to be touched, or as small as usual.
+    TouchTargets,
+    /// Enlarges text and controls by one step.
+    LargerInterface,
+    /// Reduces text and controls by one step.
+    SmallerInterface,
+    /// Puts all panels back to their usual places.
+    StandardLayout,
     /// Shows or hides the table of keys.
     Keys,
+    /// Shows or hides the first steps over the painting.
+    FirstSteps,
+    /// Starts or goes on with the guided tour.
+    Tour,
 }
 
 /// Menu of the menu bar that holds an entry.
@@ -104,13 +135,18 @@ pub enum Menu {
     Help,
 }
 
-/// A keyboard shortcut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shortcut {
-    /// Modifier keys; `COMMAND` is Ctrl, on a Mac the command key.
-    pub modifiers: Modifiers,
-    /// Key that triggers it.
-    pub key: Key,
+impl Menu {
+    /// Name in the menu bar.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Edit => "Edit",
+            Self::View => "View",
+            Self::Tools => "Tools",
+            Self::Help => "Help",
+        }
+    }
 }
 
 /// Menu entry of an intent.
@@ -128,38 +164,10 @@ pub struct Entry {
     pub shortcuts: &'static [Shortcut],
 }
 
-impl Shortcut {
-    /// Text of the shortcut, such as `Ctrl+Z`.
+impl Intent {
+    /// Name by which preferences keep its keys, such as `save-as`, `tool-paint` or `brush-3`.
     #[must_use]
-    pub fn text(&self) -> String {
-        let mut words = Vec::new();
-        if self.modifiers.command {
-            words.push(if cfg!(target_os = "macos") { "Cmd" } else { "Ctrl" });
-        }
-        if self.modifiers.shift {
-            words.push("Shift");
-        }
-        words.push(match self.key {
-            Key::OpenBracket => "[",
-            Key::CloseBracket => "]",
-            Key::Plus => "+",
-            Key::Minus => "-",
-            Key::Comma => ",",
-            Key::Period => ".",
-            Key::Equals => "=",
-            key => key.name(),
-        });
-        words.join("+")
-    }
-
-    /// Whether a pressed key with these modifiers triggers the shortcut.
-    #[must_use]
-    pub fn matches(&self, key: Key, modifiers: Modifiers) -> bool {
-        // Plus may need shift, which is then reported as held.
-        let shifted = matches!(key, Key::Plus);
-        key == self.key
-            && modifiers.command == self.modifiers.command
-            && !modifiers.alt
-            && (shifted || modifiers.shift == self.modifiers.shift)
+    pub fn name(self) -> String {
+        name_of(&self)
     }
 }

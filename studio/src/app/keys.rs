@@ -3,10 +3,13 @@
 //! A tool key selects its tool. If it is held while the pointer works, releasing it
 //! restores the previous tool, as in other painting programs.
 
+use std::sync::Arc;
+
 use eframe::egui::{Context, Event, FocusDirection, Key, Modifiers};
 
-use super::entries::ENTRIES;
 use super::intent::Intent;
+use super::key_rows::{intent_named, key_rows};
+use crate::keymap::{KeyTable, installed};
 use crate::panels::Mode;
 
 /// Time after which a tool key counts as held, in seconds.
@@ -46,7 +49,7 @@ impl Keys {
             return intents;
         }
         let focused = context.memory(|memory| memory.focused().is_some());
-        let mut tabbed = false;
+        let (mut tabbed, table) = (false, table(context));
         context.input_mut(|input| {
             self.held.modifiers = input.modifiers;
             if let Some(temporary) = &mut self.temporary {
@@ -74,7 +77,10 @@ impl Keys {
                     }
                     return true;
                 }
-                let Some(intent) = intent(*key, *modifiers) else { return true };
+                let row = table.find(*key, *modifiers);
+                let Some(intent) = row.and_then(|row| intent_named(&row.name)) else {
+                    return true;
+                };
                 let repeats = matches!(
                     intent,
                     Intent::Undo
@@ -128,26 +134,8 @@ impl Keys {
     }
 }
 
-/// Intent of a key press, if any.
-fn intent(key: Key, modifiers: Modifiers) -> Option<Intent> {
-    const NUMBERS: [Key; 9] = [
-        Key::Num1,
-        Key::Num2,
-        Key::Num3,
-        Key::Num4,
-        Key::Num5,
-        Key::Num6,
-        Key::Num7,
-        Key::Num8,
-        Key::Num9,
-    ];
-    if modifiers.is_none()
-        && let Some(number) = NUMBERS.iter().position(|number| *number == key)
-    {
-        return Some(Intent::Brush(number as u8 + 1));
-    }
-    let entry = ENTRIES
-        .iter()
-        .find(|entry| entry.shortcuts.iter().any(|shortcut| shortcut.matches(key, modifiers)));
-    entry.map(|entry| entry.intent)
+/// The keys of the easel in use.
+fn table(context: &Context) -> Arc<KeyTable> {
+    installed(context)
+        .map_or_else(|| Arc::new(KeyTable::new(key_rows())), |keymap| keymap.easel.clone())
 }

@@ -4,8 +4,10 @@ use std::time::Instant;
 
 use eframe::egui::{CentralPanel, Frame, Margin, Panel, Ui};
 
+use super::side::Drawn;
 use super::studio::Studio;
 use super::{menus, status, toolbar};
+use crate::arrangement::Side;
 use crate::panels::PanelContext;
 use crate::theme;
 use crate::view::fill_rect;
@@ -24,13 +26,16 @@ impl Studio {
         if self.visible.panels {
             let shown = (self.visible.panels, self.visible.palette, self.tools.figures);
             let scene = self.volumes.is_some();
-            let state = menus::State { open: painting.is_some(), scene, history, shown, mirror };
+            let open = painting.is_some();
+            let look = self.files.preferences.look();
+            let state = menus::State { open, scene, history, shown, mirror, look };
             let title = self.title.clone();
             Panel::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| {
                 fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
                 intent = menus::show(ui, state, &title);
             });
-            Panel::bottom("line").frame(bar).exact_size(24.0).show_separator_line(false).show(
+            let line = status::height(&context, self.message.as_ref());
+            Panel::bottom("line").frame(bar).exact_size(line).show_separator_line(false).show(
                 ui,
                 |ui| {
                     fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
@@ -41,7 +46,7 @@ impl Studio {
             Panel::left("tools")
                 .frame(column)
                 .resizable(false)
-                .exact_size(42.0)
+                .exact_size(toolbar::width(&context))
                 .show_separator_line(false)
                 .show(ui, |ui| {
                     fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
@@ -49,24 +54,36 @@ impl Studio {
                     let state = toolbar::State { mode, mirror, history };
                     intent = intent.or(toolbar::show(ui, state));
                 });
-            let side = Frame::new().inner_margin(Margin::symmetric(8, 6));
-            Panel::right("side")
-                .frame(side)
-                .resizable(false)
-                .exact_size(theme::PANEL_WIDTH)
-                .show_separator_line(false)
-                .show(ui, |ui| {
-                    fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).panel);
-                    let Some(painting) = &painting else { return };
-                    let requests = &mut self.requests;
-                    let mut cx = PanelContext { painting, tools: &mut self.tools, requests };
-                    self.panels.show(ui, &mut cx, &self.files);
-                });
+            self.draw_columns(ui);
         }
         if let Some(intent) = intent {
             self.perform(intent, &context);
         }
         CentralPanel::no_frame().show(ui, |ui| self.draw_surfaces(ui));
+    }
+
+    /// Draws the columns of panels at both sides.
+    fn draw_columns(&mut self, ui: &mut Ui) {
+        let Some(painting) = self.painting.clone() else { return };
+        let context = ui.ctx().clone();
+        let mut drawn = Drawn::default();
+        for side in Side::ALL {
+            let width = self.panels.column_width(&context, side);
+            if width == 0.0 {
+                continue;
+            }
+            let column = match side {
+                Side::Left => Panel::left("left panels"),
+                Side::Right => Panel::right("right panels"),
+            };
+            let column = column.frame(Frame::NONE).resizable(false).exact_size(width);
+            column.show_separator_line(false).show(ui, |ui| {
+                let requests = &mut self.requests;
+                let mut cx = PanelContext { painting: &painting, tools: &mut self.tools, requests };
+                self.panels.show(ui, side, (&mut cx, &self.files), &mut drawn);
+            });
+        }
+        self.panels.drop_dragged(&context, drawn, ui.available_rect_before_wrap());
     }
 
     /// Draws the status line.

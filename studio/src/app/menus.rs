@@ -1,10 +1,13 @@
 //! The menu bar with its shortcuts.
 
-use eframe::egui::{Button, MenuBar, Ui};
+use eframe::egui::{InnerResponse, MenuBar, ScrollArea, Ui};
 
-use super::entries::ENTRIES;
+use super::entries::entries;
 use super::intent::{Intent, Menu};
+use super::menu_item;
 use super::toolbar::tip;
+use crate::panels::Mode;
+use crate::theme::{self, Look, ThemeChoice};
 
 /// Program state that enables and checks menu entries.
 #[derive(Debug, Clone, Copy)]
@@ -19,32 +22,33 @@ pub(super) struct State {
     pub(super) shown: (bool, bool, bool),
     /// Whether the view is mirrored.
     pub(super) mirror: bool,
+    /// Theme, and size of what is touched.
+    pub(super) look: Look,
 }
 
 /// Shows the bar with `title` at its right. Returns the entry that was clicked.
 pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
     let mut clicked = None;
     MenuBar::new().ui(ui, |ui| {
+        if theme::is_touch(ui.ctx()) {
+            ui.spacing_mut().button_padding.x = 13.0;
+        }
         for (menu, name, description) in [
             (Menu::File, "File", "Open, save, export"),
             (Menu::Edit, "Edit", "The painting and the brush"),
             (Menu::View, "View", "Zoom, rotation and visible parts"),
             (Menu::Tools, "Tools", "Tools of the pen"),
-            (Menu::Help, "Help", "The table of keys"),
+            (Menu::Help, "Help", "Keys, first steps and a guided tour"),
         ] {
-            let opened = ui.menu_button(name, |ui| {
-                ui.set_min_width(190.0);
-                for entry in ENTRIES.iter().filter(|entry| entry.menu == menu) {
+            let opened = menu_button(ui, name, |ui| {
+                for entry in entries().filter(|entry| entry.menu == menu) {
                     if begins_group(entry.intent) {
                         ui.separator();
                     }
-                    let name = match checked(entry.intent, state) {
-                        Some(true) => format!("\u{2714} {}", entry.name),
-                        Some(false) => format!("    {}", entry.name),
-                        None => entry.name.to_owned(),
-                    };
-                    let button = Button::new(name).shortcut_text(entry.shortcut_text());
-                    let response = ui.add_enabled(enabled(entry.intent, state), button);
+                    let (enabled, checked) =
+                        (enabled(entry.intent, state), checked(entry.intent, state));
+                    let keys = entry.shortcut_text(ui.ctx());
+                    let response = menu_item::show(ui, entry.name, &keys, enabled, checked);
                     let response = response.on_hover_ui(|ui| tip(ui, entry));
                     if response.clicked() {
                         clicked = Some(entry.intent);
@@ -62,6 +66,24 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
     clicked
 }
 
+/// Adds a button that opens a menu. A menu that is higher than the window is scrolled.
+pub(super) fn menu_button(
+    ui: &mut Ui,
+    name: &str,
+    content: impl FnOnce(&mut Ui),
+) -> InnerResponse<Option<()>> {
+    ui.menu_button(name, |ui| {
+        ui.set_min_width(190.0);
+        if !theme::is_touch(ui.ctx()) {
+            return content(ui);
+        }
+        let most = ui.ctx().content_rect().height() - 2.0 * theme::TOUCH_TARGET;
+        ui.set_min_width(290.0);
+        let area = ScrollArea::vertical().max_height(most).min_scrolled_height(most);
+        area.show(ui, content);
+    })
+}
+
 fn begins_group(intent: Intent) -> bool {
     matches!(
         intent,
@@ -72,10 +94,15 @@ fn begins_group(intent: Intent) -> bool {
             | Intent::Quit
             | Intent::Dry
             | Intent::Larger
-            | Intent::Preferences
+            | Intent::Pen
             | Intent::Fit
             | Intent::TurnLeft
             | Intent::Panels
+            | Intent::Tool(Mode::Squeeze)
+            | Intent::Tool(Mode::Pan)
+            | Intent::StandardLayout
+            | Intent::Theme(ThemeChoice::Dark)
+            | Intent::TouchTargets
     )
 }
 
@@ -89,8 +116,14 @@ fn enabled(intent: Intent, state: State) -> bool {
         | Intent::NewScene
         | Intent::OpenScene
         | Intent::Preferences
+        | Intent::Pen
         | Intent::Quit
         | Intent::Keys
+        | Intent::Theme(_)
+        | Intent::TouchTargets
+        | Intent::LargerInterface
+        | Intent::SmallerInterface
+        | Intent::StandardLayout
         | Intent::FullScreen => true,
         _ => state.open,
     }
@@ -102,6 +135,8 @@ fn checked(intent: Intent, state: State) -> Option<bool> {
         Intent::Palette => Some(state.shown.1),
         Intent::Figures => Some(state.shown.2),
         Intent::Mirror => Some(state.mirror),
+        Intent::Theme(theme) => Some(state.look.theme == theme),
+        Intent::TouchTargets => Some(state.look.touch),
         _ => None,
     }
 }

@@ -4,9 +4,18 @@ mod intent;
 
 mod entries;
 
+mod key_rows;
+
+#[cfg(test)]
+mod entries_tests;
+
 mod keys;
 
 mod frames;
+
+mod places;
+
+mod callout;
 
 mod icons;
 
@@ -14,9 +23,9 @@ mod status;
 
 mod toolbar;
 
-mod menus;
+mod menu_item;
 
-mod help;
+mod menus;
 
 mod side;
 
@@ -24,17 +33,39 @@ mod parts;
 
 mod hover;
 
+mod guide;
+
+mod quick;
+
+mod crop;
+
 mod volumes;
+
+mod key_editor;
+
+mod help;
 
 mod studio;
 
+mod desk;
+
 mod events;
+
+mod quick_palette;
 
 mod perform;
 
+mod own;
+
 mod pen;
 
+mod masks;
+
 mod cursor;
+
+mod first_steps;
+
+mod tour_card;
 
 mod surfaces;
 
@@ -44,12 +75,17 @@ mod system;
 
 mod frame;
 
-pub use entries::ENTRIES;
+pub use crop::{CropAnswer, CropTool};
+pub use entries::entries;
 pub use frames::Frames;
+pub use guide::{Facts, Tour, TourStep};
 pub use intent::{Entry, Intent, Menu};
+pub use key_rows::key_rows;
 pub use keys::Keys;
 pub use parts::{Parts, StartedWorker};
 pub use side::{Panels, Tab};
 pub use status::Message;
 pub use studio::{Studio, VisibleParts};
-pub use volumes::{Orbit, SCENE_ENTRIES, SceneEntry, SceneIntent, SceneMenu, Volumes};
+pub use volumes::{
+    Orbit, SCENE_ENTRIES, SceneEntry, SceneIntent, SceneMenu, Volumes, scene_key_rows,
+};

@@ -38,7 +38,9 @@ impl Studio {
             })
             .collect();
         let context = ui.ctx();
-        let blocked = mode != Mode::Paint
+        let blocked = !mode.moves_head()
+            || self.quick.is_some()
+            || self.is_framing()
             || Popup::is_any_open(context)
             || context.memory(|memory| memory.top_modal_layer().is_some());
         let covered = |point| {
@@ -46,6 +48,7 @@ impl Studio {
             blocked
                 || above.is_some_and(|layer| layer.order != Order::Background)
                 || self.canvas.split_handle().is_some_and(|handle| handle.contains(point))
+                || self.palette.light_switch().is_some_and(|switch| switch.contains(point))
                 || self.visible.palette
                     && self.palette.rect().contains(point)
                     && self.palette.position(point).is_none()
@@ -64,8 +67,15 @@ impl Studio {
         match event {
             PenEvent::Down { surface, device } => {
                 self.hover = None;
+                self.visible.first_steps = false;
+                self.files.preferences.first_steps_seen = true;
                 let brush = self.brush_for(device);
-                self.ask(Command::PenDown { surface, brush, decimals: SampleDecimals::PEN });
+                let tool = self.tools.stroke_tool(self.keys.mode(self.tools.mode));
+                self.ask(if tool.is_paint() {
+                    Command::PenDown { surface, brush, decimals: SampleDecimals::PEN }
+                } else {
+                    Command::ToolDown { tool, surface, brush }
+                });
             }
             PenEvent::Move(samples) => self.ask(Command::PenMove(samples)),
             PenEvent::Up => {
@@ -85,7 +95,8 @@ impl Studio {
         }
     }
 
-    fn brush_for(&self, device: Device) -> String {
+    /// Name of the brush that a device moves.
+    pub(super) fn brush_for(&self, device: Device) -> String {
         let brushes = self.painting.iter().flat_map(|painting| &painting.brushes);
         let eraser =
             device == Device::Eraser && brushes.into_iter().any(|brush| brush.name == ERASER);

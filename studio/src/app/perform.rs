@@ -3,12 +3,15 @@
 use eframe::egui::{Context, ViewportCommand};
 use render::paint::strokes::{Action, SurfaceId};
 
+use super::crop::CropTool;
 use super::intent::Intent;
 use super::side::Panels;
 use super::studio::Studio;
+use crate::keymap::Scope;
 use crate::panels::brushes::{wash, wipe};
 use crate::panels::layers::dry;
-use crate::panels::{FileRequest, Mode, PanelContext, Request};
+use crate::panels::{FileRequest, PanelContext, Request};
+use crate::theme;
 use session::Command;
 
 /// Rotation of view or brush by one key press, in degrees.
@@ -36,11 +39,16 @@ impl Studio {
             Intent::KeepRevision => self.file(FileRequest::KeepRevision),
             Intent::Export => self.file(FileRequest::Export),
             Intent::SaveRecording => self.file(FileRequest::SaveRecording),
+            Intent::ExportTimelapse => self.file(FileRequest::ExportTimelapse),
             Intent::OpenReference => self.file(FileRequest::OpenReference(None)),
+            Intent::Sample => self.file(FileRequest::Sample),
+            Intent::ReferenceOver => self.panels.reference.toggle_over_canvas(),
             Intent::OpenLamp => self.file(FileRequest::OpenLamp),
             Intent::NewScene => self.show_volumes(context).open_new(),
             Intent::OpenScene => self.files.ask_for_scene(),
             Intent::ShowScene => self.shows_volumes = self.volumes.is_some(),
+            Intent::Pen => self.visible.pen ^= true,
+            Intent::BrushSets => self.visible.brush_sets ^= true,
             Intent::Preferences => self.file(FileRequest::Preferences),
             Intent::Quit => context.send_viewport_cmd(ViewportCommand::Close),
             // Over a picture that is drawn on, its last line.
@@ -51,6 +59,10 @@ impl Studio {
             Intent::Wash => self.with_panels(|_, cx| wash(cx)),
             Intent::Wipe => self.with_panels(|_, cx| wipe(cx)),
             Intent::ScrapePalette => self.action(Action::Scrape { on: SurfaceId::Palette }),
+            Intent::Crop => {
+                let cells = self.painting.as_ref().map(|painting| painting.canvas_cells);
+                self.crop = cells.map(CropTool::new);
+            }
             Intent::OtherLight => self.with_panels(|panels, cx| panels.light.switch_illuminant(cx)),
             Intent::Larger => self.with_panels(|panels, cx| panels.brushes.resize(STEP, cx)),
             Intent::Smaller => {
@@ -59,11 +71,10 @@ impl Studio {
             Intent::TwistLeft => self.files.preferences.pen.grip.turn(-TURN_DEG),
             Intent::TwistRight => self.files.preferences.pen.grip.turn(TURN_DEG),
             Intent::Brush(number) => self.with_panels(|panels, cx| {
-                if panels.brushes.choose(usize::from(number), cx) {
-                    cx.tools.mode = Mode::Paint;
-                }
+                panels.brushes.choose(usize::from(number), cx);
             }),
             Intent::Tool(mode) => self.tools.mode = mode,
+            Intent::QuickPalette => self.toggle_quick_palette(context),
             Intent::ZoomIn => zoom(self, ZOOM),
             Intent::ZoomOut => zoom(self, 1.0 / ZOOM),
             Intent::Fit => {
@@ -86,8 +97,20 @@ impl Studio {
                 let full = context.input(|input| input.viewport().fullscreen.unwrap_or(false));
                 context.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
             }
-            Intent::Keys => self.visible.keys ^= true,
+            Intent::Theme(theme) => self.files.preferences.theme = theme,
+            Intent::TouchTargets => self.files.preferences.touch_targets ^= true,
+            Intent::LargerInterface => self.scale_interface(true),
+            Intent::SmallerInterface => self.scale_interface(false),
+            Intent::StandardLayout => self.panels.arrange_as_usual(),
+            Intent::Keys => self.show_keys(Scope::Easel),
+            Intent::FirstSteps => self.visible.first_steps ^= true,
+            Intent::Tour => self.start_tour(),
         }
+    }
+
+    fn scale_interface(&mut self, larger: bool) {
+        let scale = &mut self.files.preferences.interface_scale;
+        *scale = theme::stepped_scale(*scale, larger);
     }
 
     /// Calls `ask` with the panels and their context, if a painting is open.

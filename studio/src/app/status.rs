@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Align, Layout, RichText, Ui};
+use eframe::egui::{Align, Button, Context, Layout, RichText, Ui, vec2};
 
 use crate::theme;
 
@@ -45,6 +45,12 @@ pub(super) struct State<'a> {
     pub(super) backend: &'a str,
 }
 
+/// Height of the status line: an error has a button that may be touched.
+pub(super) fn height(context: &Context, message: Option<&Message>) -> f32 {
+    let has_button = message.is_some_and(|message| message.failed);
+    if has_button && theme::is_touch(context) { theme::TOUCH_TARGET + 4.0 } else { 24.0 }
+}
+
 /// Draws the status line. Returns whether the message was dismissed.
 pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
     let mut dismissed = false;
@@ -62,7 +68,10 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
             let Some(message) = state.message else { return };
             ui.spacing_mut().item_spacing.x = 6.0;
             if message.failed {
-                let close = ui.small_button("x").on_hover_text("Dismisses this message");
+                let side = theme::target(ui);
+                let close = Button::new("x").min_size(vec2(side, side));
+                let close = if side == 0.0 { close.small() } else { close };
+                let close = ui.add(close).on_hover_text("Dismisses this message");
                 dismissed = close.clicked();
             }
             let words = message

@@ -5,14 +5,21 @@ use std::sync::Arc;
 use eframe::egui::Context;
 use render::paint::strokes::SurfaceId;
 
+use super::crop::CropTool;
 use super::frames::Frames;
+use super::guide::Tour;
 use super::hover::{Hover, HoveringHead};
+use super::key_editor::KeyEditor;
 use super::keys::Keys;
 use super::parts::{Parts, StartedWorker};
+use super::quick::QuickPalette;
 use super::side::Panels;
 use super::status::Message;
 use super::volumes::Volumes;
 use crate::files::{FiguresLog, Files};
+use crate::keymap::{Changes, Keymap};
+use crate::panels::own_brushes::OwnBrushes;
+use crate::panels::pen::PenWindow;
 use crate::panels::{FileRequest, Request, Tools};
 use crate::pen::Pen;
 use crate::theme;
@@ -37,6 +44,8 @@ pub struct Studio {
     pub panels: Panels,
     /// File dialogs, tasks and preferences.
     pub files: Files,
+    /// The crop that is being framed.
+    pub crop: Option<CropTool>,
     /// The workspace of scenes, from the first scene on.
     pub volumes: Option<Volumes>,
     /// Whether the workspace of scenes is shown instead of the easel.
@@ -44,11 +53,21 @@ pub struct Studio {
     pub(super) worker: Worker,
     pub(super) painting: Option<Arc<PaintingState>>,
     pub(super) keys: Keys,
+    /// Tables of keys in use.
+    pub(super) keymap: Keymap,
+    /// Changes with which the tables were made; `None` before the first frame.
+    pub(super) keymap_changes: Option<Changes>,
+    /// Faults of the changes that the painter was told.
+    pub(super) key_faults: Vec<String>,
+    pub(super) key_editor: KeyEditor,
+    pub(super) pen_window: PenWindow,
+    pub(super) own_brushes: OwnBrushes,
     pub(super) frames: Frames,
     pub(super) figures: Performance,
     pub(super) head: Option<Arc<HeadOnCanvas>>,
     pub(super) hover: Option<Hover>,
     pub(super) hovering: Option<HoveringHead>,
+    pub(super) quick: Option<QuickPalette>,
     pub(super) message: Option<Message>,
     pub(super) requests: Vec<Request>,
     pub(super) event_count: u64,
@@ -56,8 +75,13 @@ pub struct Studio {
     /// Surface of the last pick request, and its x and y in mm as the bits of an `f64`. A
     /// request for the same place is not sent again.
     pub(super) last_pick: Option<(SurfaceId, u64, u64)>,
+    /// Points of the mask that is being drawn, in cells of the canvas.
+    pub(super) mask_points: Vec<[f64; 2]>,
     pub(super) log: Option<FiguresLog>,
     pub(super) title: String,
+    pub(super) tour: Tour,
+    /// The look that was applied last.
+    pub(super) look: theme::Look,
 }
 
 /// Which parts of the window are visible.
@@ -69,6 +93,12 @@ pub struct VisibleParts {
     pub palette: bool,
     /// Table of keys.
     pub keys: bool,
+    /// First steps over the painting.
+    pub first_steps: bool,
+    /// Window of the pen.
+    pub pen: bool,
+    /// Window of own brushes.
+    pub brush_sets: bool,
 }
 
 impl Studio {
@@ -76,7 +106,8 @@ impl Studio {
     #[must_use]
     pub fn new(context: &Context, parts: Parts) -> Self {
         let Parts { worker, pen, files, open, log } = parts;
-        theme::apply(context);
+        let look = files.preferences.look();
+        theme::apply_look(context, look);
         context.options_mut(|options| {
             // Ctrl and plus zoom the canvas, not the user interface.
             options.zoom_with_keyboard = false;
@@ -97,31 +128,52 @@ impl Studio {
         let subject = open.as_deref().and_then(|path| Subject::from_text(path.to_str()?));
         let open = open.filter(|_| subject.is_none());
         let open = open.map(|path| Request::File(FileRequest::Open(Some(path))));
+        let first_steps = !files.preferences.first_steps_seen;
+        let mut panels = Panels::default();
+        panels.arrange(&files.preferences.arrangement);
         let mut studio = Self {
             tools,
             canvas: SurfaceView::new("Canvas", Outline::Rectangle, 22.0),
             palette: SurfaceView::new("Palette", Outline::Palette, 10.0),
-            visible: VisibleParts { panels: true, palette: true, keys: false },
+            visible: VisibleParts {
+                panels: true,
+                palette: true,
+                keys: false,
+                first_steps,
+                pen: false,
+                brush_sets: false,
+            },
             pen,
-            panels: Panels::default(),
+            panels,
             files,
+            crop: None,
             volumes: None,
             shows_volumes: false,
             worker,
             painting: None,
             keys: Keys::default(),
+            keymap: Keymap::default(),
+            keymap_changes: None,
+            key_faults: Vec::new(),
+            key_editor: KeyEditor::default(),
+            pen_window: PenWindow::default(),
+            own_brushes: OwnBrushes::default(),
             frames: Frames::default(),
             figures: Performance::default(),
             head: None,
             hover: None,
             hovering: None,
+            quick: None,
             message: None,
             requests: open.into_iter().collect(),
             event_count: 0,
             last_recording: None,
             last_pick: None,
+            mask_points: Vec::new(),
             log,
             title: String::new(),
+            tour: Tour::default(),
+            look,
         };
         if let Some(subject) = subject {
             studio.open_scene(context, subject);
@@ -168,6 +220,12 @@ impl Studio {
     /// Opens a scene in the workspace of scenes.
     pub fn open_scene(&mut self, context: &Context, subject: Subject) {
         self.show_volumes(context).open(subject);
+    }
+
+    /// The guided tour.
+    #[must_use]
+    pub fn tour(&self) -> &Tour {
+        &self.tour
     }
 
     /// Queues a command for the worker, after the requests of the panels.

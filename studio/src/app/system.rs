@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Align2, Color32, Context, FontId, Id, LayerId, Order, Rect, ViewportCommand};
+use eframe::egui::{Align2, Context, FontId, Id, LayerId, Order, Rect, ViewportCommand};
 
 use super::side::Tab;
 use super::studio::Studio;
@@ -59,15 +59,9 @@ impl Studio {
         if hovering {
             let layer = LayerId::new(Order::Foreground, Id::unique("dropping"));
             let (painter, whole) = (context.layer_painter(layer), context.content_rect());
-            painter.rect_filled(whole, 0.0, Color32::from_black_alpha(150));
+            painter.rect_filled(whole, 0.0, theme::BOARD);
             let (font, text) = (FontId::proportional(18.0), "Drop to open");
-            painter.text(
-                whole.center(),
-                Align2::CENTER_CENTER,
-                text,
-                font,
-                theme::colors(context).strong,
-            );
+            painter.text(whole.center(), Align2::CENTER_CENTER, text, font, theme::BOARD_TEXT);
         }
     }
 

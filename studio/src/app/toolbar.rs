@@ -1,9 +1,10 @@
 //! The toolbar at the left.
 
-use eframe::egui::{Role, Sense, Stroke, Ui, WidgetInfo, vec2};
+use eframe::egui::{Context, Role, ScrollArea, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 use super::icons;
 use super::intent::{Entry, Intent};
+use super::places::{self, Part};
 use crate::panels::Mode;
 use crate::theme;
 
@@ -11,6 +12,10 @@ use crate::theme;
 const GROUPS: [&[Intent]; 4] = [
     &[
         Intent::Tool(Mode::Paint),
+        Intent::Tool(Mode::Blend),
+        Intent::Tool(Mode::Scrape),
+        Intent::Tool(Mode::Erase),
+        Intent::Tool(Mode::Mask),
         Intent::Tool(Mode::Squeeze),
         Intent::Tool(Mode::Pick),
         Intent::Tool(Mode::Pan),
@@ -33,22 +38,30 @@ pub(super) struct State {
     pub(super) history: (bool, bool),
 }
 
+/// Width of the toolbar, in points.
+pub(super) fn width(context: &Context) -> f32 {
+    if theme::is_touch(context) { theme::TOUCH_TARGET + 8.0 } else { 42.0 }
+}
+
 /// Draws the toolbar. Returns the intent of the button that was clicked.
 pub(super) fn show(ui: &mut Ui, state: State) -> Option<Intent> {
     let mut clicked = None;
     ui.spacing_mut().item_spacing = vec2(0.0, 2.0);
-    for (at, group) in GROUPS.into_iter().enumerate() {
-        if at > 0 {
-            ui.add_space(3.0);
-            ui.separator();
-            ui.add_space(3.0);
-        }
-        for &intent in group {
-            if button(ui, intent, state) {
-                clicked = Some(intent);
+    // In a low window, large buttons are scrolled.
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        for (at, group) in GROUPS.into_iter().enumerate() {
+            if at > 0 {
+                ui.add_space(3.0);
+                ui.separator();
+                ui.add_space(3.0);
+            }
+            for &intent in group {
+                if button(ui, intent, state) {
+                    clicked = Some(intent);
+                }
             }
         }
-    }
+    });
     clicked
 }
 
@@ -66,8 +79,10 @@ fn button(ui: &mut Ui, intent: Intent, state: State) -> bool {
     };
     let clicked = ui.add_enabled_ui(enabled, |ui| {
         let side = ui.available_width();
-        let (rect, response) = ui.allocate_exact_size(vec2(side, 30.0), Sense::click());
+        let (rect, response) =
+            ui.allocate_exact_size(theme::at_least(ui, vec2(side, 30.0)), Sense::click());
         response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, entry.name));
+        places::note(ui.ctx(), Part::Button(intent), rect);
         let visuals = ui.style().interact(&response);
         let fill = match (chosen, response.hovered()) {
             (true, _) => theme::colors(ui.ctx()).chosen,
@@ -95,7 +110,7 @@ fn button(ui: &mut Ui, intent: Intent, state: State) -> bool {
 pub(super) fn tip(ui: &mut Ui, entry: &Entry) {
     ui.horizontal(|ui| {
         ui.strong(entry.name);
-        ui.weak(entry.shortcut_text());
+        ui.weak(entry.shortcut_text(ui.ctx()));
     });
     ui.label(entry.description);
 }

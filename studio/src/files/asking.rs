@@ -3,28 +3,33 @@
 use std::path::{Path, PathBuf};
 
 use eframe::egui::Ui;
-use pigment::library::PigmentLibrary;
 use render::export::PictureFormat;
 use render::paint::scene::PixelsPerCell;
-use render::paint::strokes::PaletteSpec;
 
 use super::browser::{Answer, Browser, BrowserOptions, Filter};
-use super::dialogs::{self, Choice, NewPainting};
+use super::dialogs::{self, Choice};
 use super::drawing::{DrawingKind, DrawnFile};
 use super::exporting::{Export, ExportKind};
+use super::new_dialog::NewAnswer;
 use super::notice::Notice;
 use super::open_dialog::{FilePurpose, OpenDialog};
 use super::pending::PendingAction;
+use super::preferences::Preferences;
 use super::reference_change::ReferenceChange;
 use super::revisions;
 use super::state::Files;
+use super::swatch_format::SwatchFormat;
+use super::timelapse::TimelapseExport;
 use super::work::{Purpose, file_name};
-use session::{Origin, PaintingState, blank_canvas};
 
 const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
-const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "jpg", "jpeg"] };
+pub(super) const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "jpg", "jpeg"] };
+const REFERENCES: Filter =
+    Filter { label: "Pictures and paintings", endings: &["png", "jpg", "jpeg", "exr"] };
 const SCRIPTS: Filter = Filter { label: "Recordings and libraries", endings: &["json"] };
 const DRAWINGS: Filter = Filter { label: "Marks and guides", endings: &["toml"] };
+const SWATCHES: Filter =
+    Filter { label: "Mixtures and swatches", endings: &["json", "gpl", "ase", "aco"] };
 const LAMPS: Filter =
     Filter { label: "Spectra", endings: &["csv", "txt", "tsv", "cgats", "it8", "cxf", "json"] };
 const OPENABLE: Filter =
@@ -37,8 +42,11 @@ impl Files {
         let Some(mut dialog) = self.dialogs.pop() else { return };
         let below = self.dialogs.len();
         let stays = match &mut dialog {
-            OpenDialog::Browser(browser, _) => match browser.show(&ctx) {
-                None => true,
+            OpenDialog::Browser(browser, _) => match browser.show(&ctx, &mut self.thumbnails) {
+                None => {
+                    self.preferences.browser = browser.look;
+                    true
+                }
                 Some(answer) => {
                     let folder = Some(browser.folder().to_owned());
                     if let (OpenDialog::Browser(_, purpose), Answer::File(path)) = (dialog, answer)
@@ -96,37 +104,29 @@ impl Files {
                 }
                 choice.is_none()
             }
-            OpenDialog::New(new, palette, library) => {
-                let choice = new.show(&ctx);
+            OpenDialog::Timelapse(export) => {
+                let choice = dialogs::timelapse(&ctx, export);
                 if choice == Some(Choice::Yes) {
-                    self.begin_new(new, palette, library);
+                    let export = *export;
+                    self.ask_where_to_film(export);
                     return;
                 }
                 choice.is_none()
             }
+            OpenDialog::New(new) => match new.show(&ctx, &mut self.preferences.new_painting) {
+                Some(NewAnswer::Begin) => return self.begin_new(new),
+                Some(NewAnswer::Cancelled) => false,
+                Some(NewAnswer::Choose(picture)) => {
+                    self.ask_for_canvas_picture(picture);
+                    true
+                }
+                None => true,
+            },
             OpenDialog::Preferences => dialogs::preferences(&ctx, &mut self.preferences),
         };
         if stays {
             // The answer may have opened other dialogs, which stay above this one.
             self.dialogs.insert(below, dialog);
-        }
-    }
-
-    /// Opens the painting that the dialog describes, with the current palette and library
-    /// if the painter chose so.
-    fn begin_new(&mut self, new: &NewPainting, palette: &PaletteSpec, library: &PigmentLibrary) {
-        let canvas = new.canvas();
-        let (width, height) = (canvas.width_mm, canvas.height_mm);
-        let same = new.same_pigments;
-        let library = if same { library.clone() } else { PigmentLibrary::van_gogh_oils() };
-        if let Origin::Blank { mut script, library } =
-            blank_canvas(library, width, height, canvas.cell_mm)
-        {
-            script.canvas = canvas;
-            if same && !palette.pigments.is_empty() {
-                script.palette = palette.clone();
-            }
-            self.begin_painting(*script, *library);
         }
     }
 
@@ -139,10 +139,18 @@ impl Files {
             FilePurpose::Export(export) => {
                 self.request_snapshot(Purpose::Export { export, path });
             }
-            FilePurpose::Recording => self.request_recording(path),
+            FilePurpose::Timelapse(export) => {
+                self.request_recording(Purpose::Timelapse { export, path });
+            }
+            FilePurpose::Recording => self.request_recording(Purpose::Recording { path }),
+            FilePurpose::Canvas(picture) => self.use_canvas_picture(picture, path),
             FilePurpose::Reference => self.change_reference(ReferenceChange::Open(path)),
             FilePurpose::SaveDrawing { drawing, next } => self.save_drawing(*drawing, path, next),
             FilePurpose::OpenDrawing(kind) => self.read_drawing(kind, path),
+            FilePurpose::ImportBrushes => self.import_brushes(path),
+            FilePurpose::ExportBrushes(set) => self.export_brushes(*set, path),
+            FilePurpose::ImportSwatches => self.import_swatches(path),
+            FilePurpose::ExportSwatches(format) => self.export_swatches(format, path),
             FilePurpose::Scene(purpose) => self.choose_for_scene(purpose, path),
         }
     }
@@ -172,7 +180,8 @@ impl Files {
     ) {
         let beside = beside.and_then(|path| path.parent());
         let folder = beside.or(self.preferences.last_folder.as_deref());
-        let browser = Browser::new(options, folder, &self.preferences.recent, &self.ctx);
+        let Preferences { recent, browser: look, .. } = &self.preferences;
+        let browser = Browser::new(options, folder, recent, *look, &self.ctx);
         self.dialogs.push(OpenDialog::Browser(Box::new(browser), purpose));
     }
 
@@ -182,7 +191,7 @@ impl Files {
     }
 
     pub(super) fn ask_for_reference(&mut self) {
-        const KINDS: [Filter; 2] = [PICTURES, Filter::ALL];
+        const KINDS: [Filter; 2] = [REFERENCES, Filter::ALL];
         let options = BrowserOptions::open("Picture beside the canvas", &KINDS);
         self.browse(options, FilePurpose::Reference);
     }
@@ -243,6 +252,23 @@ impl Files {
         self.browse_beside(Some(&path), options, purpose);
     }
 
+    pub(super) fn ask_for_swatches(&mut self) {
+        const KINDS: [Filter; 2] = [SWATCHES, Filter::ALL];
+        let options = BrowserOptions::open("Import mixtures or colours", &KINDS);
+        self.browse(options, FilePurpose::ImportSwatches);
+    }
+
+    pub(super) fn ask_where_to_keep_swatches(&mut self, format: SwatchFormat) {
+        let options = BrowserOptions {
+            title: "Export the kept mixtures",
+            saving: true,
+            filters: &[SWATCHES, Filter::ALL],
+            ending: Some(format.ending()),
+            name: format!("mixtures.{}", format.ending()),
+        };
+        self.browse(options, FilePurpose::ExportSwatches(format));
+    }
+
     pub(super) fn ask_what_to_export(&mut self) {
         let kind = ExportKind::Picture(PictureFormat::Png8);
         let export = Export { kind, pixels: PixelsPerCell::default() };
@@ -255,6 +281,7 @@ impl Files {
             ExportKind::Picture(PictureFormat::Png8 | PictureFormat::Png16) => {
                 &[PICTURES, Filter::ALL]
             }
+            ExportKind::Picture(PictureFormat::Tiff16) | ExportKind::Layers => &[Filter::ALL],
             ExportKind::PigmentMaps => &[Filter::ALL],
             _ => &[PAINTINGS, Filter::ALL],
         };
@@ -267,11 +294,20 @@ impl Files {
         self.browse(options, FilePurpose::Export(export));
     }
 
-    pub(super) fn ask_for_new(&mut self, state: &PaintingState) {
-        let pigments = state.slots.iter().flatten();
-        let pigments = pigments.map(|&pigment| state.library[pigment].name.as_str());
-        let palette = PaletteSpec::from_names(pigments);
-        let library = Box::new((*state.library).clone());
-        self.dialogs.push(OpenDialog::New(NewPainting::default(), Box::new(palette), library));
+    pub(super) fn ask_for_timelapse(&mut self) {
+        self.dialogs.push(OpenDialog::Timelapse(TimelapseExport::default()));
+    }
+
+    fn ask_where_to_film(&mut self, export: TimelapseExport) {
+        let ending = export.ending();
+        let options = BrowserOptions {
+            title: "Export the timelapse",
+            saving: true,
+            filters: &[Filter::ALL],
+            ending: Some(ending),
+            // A picture may have the plain name already.
+            name: format!("{}-timelapse.{ending}", self.title()),
+        };
+        self.browse(options, FilePurpose::Timelapse(export));
     }
 }

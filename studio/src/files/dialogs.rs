@@ -2,21 +2,22 @@
 
 use std::path::Path;
 
-use eframe::egui::{Align, Context, DragValue, Grid, Id, Key, Layout, Modal, RichText, Ui};
+use eframe::egui::{Align, Context, DragValue, Grid, Id, Layout, Modal, RichText, Ui};
 use render::export::{PictureFormat, SpectralBands};
-use render::paint::ground::GroundKind;
 use render::paint::scene::PixelsPerCell;
-use render::paint::strokes::Canvas;
 
+use super::default_button;
 use super::drawing::DrawnFile;
 use super::exporting::{Export, ExportKind};
 use super::preferences::{Backend, Preferences};
+use super::timelapse::TimelapseExport;
 use crate::pen::PenSettings;
+use crate::theme::ThemeChoice;
 
 /// The button of a dialog that was chosen in this frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Choice {
-    /// The main button, or Enter.
+    /// The main button, Enter outside of fields, or Ctrl+Enter.
     Yes,
     /// The second button.
     No,
@@ -28,7 +29,7 @@ pub(super) enum Choice {
 type ButtonText = (&'static str, &'static str);
 
 /// Shows a dialog with `content` above a row of buttons.
-fn dialog(
+pub(super) fn dialog(
     ctx: &Context,
     title: &str,
     yes: ButtonText,
@@ -36,6 +37,7 @@ fn dialog(
     content: impl FnOnce(&mut Ui),
 ) -> Option<Choice> {
     let mut choice = None;
+    let taken = default_button::keyboard_taken(ctx);
     let modal = Modal::new(Id::unique(("dialog", title))).show(ctx, |ui| {
         ui.set_width(380.0);
         ui.heading(title);
@@ -56,8 +58,7 @@ fn dialog(
             }
         });
     });
-    let enter = !ctx.egui_wants_keyboard_input() && ctx.input(|i| i.key_pressed(Key::Enter));
-    if choice.is_none() && enter {
+    if choice.is_none() && default_button::pressed(ctx, taken) {
         choice = Some(Choice::Yes);
     }
     choice.or_else(|| modal.should_close().then_some(Choice::Cancelled))
@@ -95,7 +96,7 @@ pub(super) fn delete(ctx: &Context, path: &Path) -> Option<Choice> {
 
 /// Asks what to export.
 pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
-    const KINDS: [(ExportKind, &str, &str); 6] = [
+    const KINDS: [(ExportKind, &str, &str); 8] = [
         (
             ExportKind::Picture(PictureFormat::Png8),
             "Picture, PNG of 8 bits",
@@ -107,9 +108,20 @@ pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
             "sRGB with finer steps, for editing",
         ),
         (
+            ExportKind::Picture(PictureFormat::Tiff16),
+            "Picture, TIFF of 16 bits",
+            "sRGB with its colour profile and the size in print",
+        ),
+        (
             ExportKind::Picture(PictureFormat::LinearExr),
             "Picture, linear OpenEXR",
             "Linear light in 32-bit floats, nothing clipped",
+        ),
+        (
+            ExportKind::Layers,
+            "Layers, OpenRaster",
+            "The ground, each dry layer and the wet paint for programs that paint in layers. Stacked \
+             with normal opacity they show the picture; paint itself does not blend like that",
         ),
         (
             ExportKind::Spectral(SpectralBands::Nodes),
@@ -147,93 +159,10 @@ pub(super) fn export(ctx: &Context, chosen: &mut Export) -> Option<Choice> {
     })
 }
 
-/// Canvas of a new painting, as described in the dialog.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct NewPainting {
-    width_mm: f64,
-    height_mm: f64,
-    cell_mm: f64,
-    ground: GroundKind,
-    seed: u64,
-    /// Whether the new painting uses the library and palette of the current one.
-    pub(super) same_pigments: bool,
-}
-
-impl Default for NewPainting {
-    fn default() -> Self {
-        Self {
-            width_mm: 192.0,
-            height_mm: 108.0,
-            cell_mm: 0.1,
-            ground: GroundKind::Linen,
-            seed: 1,
-            same_pigments: true,
-        }
-    }
-}
-
-/// Maximum number of cells of a canvas: 64 million, of which each layer takes 2.3 GB.
-const MAX_CELLS: usize = 64 << 20;
-
-impl NewPainting {
-    /// The canvas that was described.
-    pub(super) fn canvas(&self) -> Canvas {
-        let Self { width_mm, height_mm, cell_mm, ground, seed, .. } = *self;
-        Canvas { width_mm, height_mm, cell_mm, ground: ground.spec(seed) }
-    }
-
-    /// Whether the canvas has at most `MAX_CELLS` cells.
-    pub(super) fn fits(&self) -> bool {
-        let (width, height) = self.canvas().cells();
-        width.saturating_mul(height) <= MAX_CELLS
-    }
-
-    /// Shows the dialog.
-    pub(super) fn show(&mut self, ctx: &Context) -> Option<Choice> {
-        let begin = ("Begin", "Begins to paint on the new canvas (Enter)");
-        let choice = dialog(ctx, "New painting", begin, None, |ui| {
-            Grid::new("new painting").num_columns(2).spacing([12.0, 6.0]).show(ui, |ui| {
-                let length = |value, tip, ui: &mut Ui| {
-                    let drag = DragValue::new(value).range(5.0..=2000.0).speed(1.0).suffix(" mm");
-                    ui.add(drag).on_hover_text(tip);
-                };
-                grid_row(ui, "Width", |ui| length(&mut self.width_mm, "Width of the canvas", ui));
-                grid_row(ui, "Height", |ui| {
-                    length(&mut self.height_mm, "Height of the canvas", ui);
-                });
-                grid_row(ui, "Cell", |ui| {
-                    let drag = DragValue::new(&mut self.cell_mm).range(0.02..=2.0).speed(0.01);
-                    let tip = "Width of a cell; 0.1 mm is 254 per inch. Smaller is finer and \
-                               slower";
-                    ui.add(drag.suffix(" mm")).on_hover_text(tip);
-                });
-                grid_row(ui, "Ground", |ui| {
-                    for (ground, name, tip) in [
-                        (GroundKind::Linen, "Linen", "Primed linen in plain weave"),
-                        (GroundKind::Paper, "Paper", "Cold-pressed paper"),
-                        (GroundKind::Panel, "Panel", "A primed panel, nearly flat"),
-                    ] {
-                        ui.radio_value(&mut self.ground, ground, name).on_hover_text(tip);
-                    }
-                });
-                grid_row(ui, "Seed", |ui| {
-                    let tip = "Each number gives another piece of the same ground";
-                    ui.add(DragValue::new(&mut self.seed)).on_hover_text(tip);
-                });
-                grid_row(ui, "Pigments", |ui| {
-                    let same = &mut self.same_pigments;
-                    ui.radio_value(same, true, "As now")
-                        .on_hover_text("Keeps the library and the tubes");
-                    let oils = ui.radio_value(same, false, "Van Gogh's oils");
-                    oils.on_hover_text("The library that comes with the program");
-                });
-            });
-            let (width, height) = self.canvas().cells();
-            let fits = if self.fits() { "" } else { ": too many, choose larger cells" };
-            ui.label(RichText::new(format!("{width} x {height} cells{fits}")).weak());
-        });
-        choice.filter(|choice| *choice != Choice::Yes || self.fits())
-    }
+/// Asks for the settings of a timelapse.
+pub(super) fn timelapse(ctx: &Context, chosen: &mut TimelapseExport) -> Option<Choice> {
+    let next = ("Choose a name", "Asks where to write it (Enter)");
+    dialog(ctx, "Export a timelapse", next, None, |ui| chosen.controls(ui))
 }
 
 /// Shows the preferences, which take effect while they are changed. Returns whether the
@@ -270,6 +199,19 @@ pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool 
                 let tip = "Size of text and buttons relative to the system's scale";
                 ui.add(drag.speed(0.01).max_decimals(2)).on_hover_text(tip);
             });
+            grid_row(ui, "Theme", |ui| {
+                for (theme, name, tip) in [
+                    (ThemeChoice::Dark, "Dark", "Light text on dark panels"),
+                    (ThemeChoice::Light, "Light", "Dark text on light panels"),
+                    (ThemeChoice::System, "As the system", "Dark or light, as the system prefers"),
+                ] {
+                    ui.radio_value(&mut preferences.theme, theme, name).on_hover_text(tip);
+                }
+            });
+            grid_row(ui, "Touch", |ui| {
+                let tip = "All buttons, rows and handles are at least 44 points high and wide";
+                ui.checkbox(&mut preferences.touch_targets, "Large targets").on_hover_text(tip);
+            });
             grid_row(ui, "Recordings", |ui| {
                 let tip = "Plays at the speed of painting, otherwise as fast as possible";
                 ui.checkbox(&mut preferences.replay_as_painted, "Play as painted")
@@ -288,12 +230,10 @@ pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool 
 /// Adds the rows for pens and mice.
 fn pen(ui: &mut Ui, pen: &mut PenSettings) {
     grid_row(ui, "Pen", |ui| {
-        let drag = DragValue::new(&mut pen.gamma).range(0.2..=5.0).speed(0.01).max_decimals(2);
-        let tip = "Exponent of the pressure: above 1 the brush presses less, below 1 more";
-        ui.add(drag.prefix("pressure ")).on_hover_text(tip);
         let tip =
             "The brush follows tilt and twist of the pen; otherwise it is held as with a mouse";
         ui.checkbox(&mut pen.pen_tilt, "Tilt and twist").on_hover_text(tip);
+        ui.weak("pressure: Edit, Pen");
     });
     grid_row(ui, "Mouse", |ui| {
         let drag = DragValue::new(&mut pen.grip.lean_deg).range(0.0..=80.0).max_decimals(0);
@@ -308,7 +248,8 @@ fn pen(ui: &mut Ui, pen: &mut PenSettings) {
     });
 }
 
-fn grid_row(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
+/// Adds a row with a name to the grid of a dialog.
+pub(super) fn grid_row(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     ui.label(name);
     ui.horizontal(content);
     ui.end_row();

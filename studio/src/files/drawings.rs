@@ -26,7 +26,9 @@ impl Files {
             PendingAction::Reference(ReferenceChange::Draw(new)) => {
                 new.drawing.kind() == drawn.drawing.kind()
             }
-            PendingAction::Reference(ReferenceChange::Open(_) | ReferenceChange::Close) => true,
+            PendingAction::Reference(
+                ReferenceChange::Open(_) | ReferenceChange::Restore { .. } | ReferenceChange::Close,
+            ) => true,
         };
         self.unsaved_drawings.iter().filter(lost).cloned().collect()
     }

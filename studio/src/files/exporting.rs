@@ -1,10 +1,10 @@
-//! Exports of a painting: pictures, spectra and pigment maps.
+//! Exports of a painting: pictures, layers, spectra and pigment maps.
 
 use std::path::Path;
 
 use render::export::{
-    OutsideGamut, PictureFormat, SpectralBands, painting_maps, picture_file, pigment_maps,
-    spectral_file,
+    OutsideGamut, PictureFormat, SpectralBands, layers_file, painting_maps, picture_file,
+    pigment_maps, spectral_file,
 };
 use render::light::Light;
 use render::paint::document::Document;
@@ -18,7 +18,7 @@ use spectra::file::write_whole;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Export {
     pub(crate) kind: ExportKind,
-    /// Resolution of a picture; spectra and maps have one value a cell.
+    /// Resolution of a picture; layers, spectra and maps have one value a cell.
     pub(crate) pixels: PixelsPerCell,
 }
 
@@ -27,6 +27,8 @@ pub(crate) struct Export {
 pub(crate) enum ExportKind {
     /// The picture under its light.
     Picture(PictureFormat),
+    /// The ground and all layers of paint, as OpenRaster.
+    Layers,
     /// A spectral OpenEXR with the reflectance of every cell.
     Spectral(SpectralBands),
     /// A folder with one map for each pigment.
@@ -39,7 +41,9 @@ impl ExportKind {
     pub(crate) fn ending(self) -> &'static str {
         match self {
             Self::Picture(PictureFormat::Png8 | PictureFormat::Png16) => "png",
+            Self::Picture(PictureFormat::Tiff16) => "tif",
             Self::Picture(PictureFormat::LinearExr) => "exr",
+            Self::Layers => "ora",
             Self::Spectral(_) => "spectral.exr",
             Self::PigmentMaps => "maps",
         }
@@ -72,6 +76,14 @@ pub(crate) fn export(
             let pixel_mm = document.cell_mm / pixels.count() as f64;
             let file = picture_file(&picture, pixel_mm, format).map_err(problem)?;
             progress.report(0.9)?;
+            write_whole(path, &file.bytes).map_err(Problem::from)?;
+            Ok(file.outside_gamut().map(|outside| gamut_remark(path, outside)))
+        }
+        ExportKind::Layers => {
+            let count = (document.dry.len() + 2) as f64;
+            let go_on = |done| progress.report(0.9 * done as f64 / count).is_ok();
+            let file = layers_file(document, light, go_on).map_err(problem)?;
+            let Some(file) = file else { return Err(JobError::Cancelled) };
             write_whole(path, &file.bytes).map_err(Problem::from)?;
             Ok(file.outside_gamut().map(|outside| gamut_remark(path, outside)))
         }

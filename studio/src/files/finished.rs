@@ -1,18 +1,19 @@
 //! Applies the results of jobs that ended.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use render::paint::strokes::Action;
 
 use super::job::JobError;
-use super::notice::Notice;
+use super::notice::{Notice, StatusNote};
 use super::opened::Opened;
 use super::pending::{FileOrigin, PendingAction, Replacement};
 use super::problem::Problem;
 use super::reference_change::ReferenceChange;
 use super::state::Files;
 use super::work::{Finished, JobKind, Purpose, file_name};
-use session::{Command, Origin, Pace, blank_canvas};
+use session::{Command, Origin, Pace, RecoveredWork, blank_canvas};
 
 impl Files {
     /// Applies the results of all jobs that ended.
@@ -26,6 +27,7 @@ impl Files {
                     match result {
                         Ok(finished) => self.apply(finished),
                         Err(JobError::Cancelled) => {
+                            self.closes_when_saved &= ended.kind != JobKind::Saving;
                             let text = format!("{}: cancelled", ended.job.label());
                             self.notices.push(Notice::done(&text));
                         }
@@ -37,25 +39,38 @@ impl Files {
     }
 
     fn report_failure(&mut self, kind: JobKind, problem: Problem) {
+        self.closes_when_saved &= kind != JobKind::Saving;
         // Autosaves fail again every few seconds; the first report is enough.
-        if kind == JobKind::Autosave && std::mem::replace(&mut self.autosave_failed, true) {
-            return;
+        if kind == JobKind::Autosave {
+            // What was kept of the recording is not known.
+            self.recorded = 0;
+            if std::mem::replace(&mut self.autosave_failed, true) {
+                return;
+            }
         }
         self.report(problem);
     }
 
-    fn apply(&mut self, finished: Finished) {
+    pub(super) fn apply(&mut self, finished: Finished) {
         match finished {
             Finished::Read { path, opened } => self.use_opened(path, opened),
-            Finished::RevisionRead(document, start) => {
+            Finished::RevisionRead(document, start) | Finished::Begun(document, start) => {
                 let commands = vec![Command::Open(Origin::Painting(document))];
                 let origin = FileOrigin { start: Some(start), ..FileOrigin::default() };
                 self.replace(Replacement { commands, origin });
             }
-            Finished::Recovered { canvas, palette, lost } => {
-                let commands = vec![Command::Open(Origin::Recovered { canvas, palette })];
-                let path = lost.meta.path.clone();
-                let origin = FileOrigin { path, lost: Some(lost), start: None };
+            Finished::Cropped { canvas, palette, start, revision, epoch } => {
+                if epoch == self.epoch {
+                    self.continue_cropped(canvas, palette, start, revision);
+                }
+            }
+            Finished::Recovered { canvas, palette, work, lost, remarks } => {
+                self.notices.extend(remarks.into_iter().map(Notice::problem));
+                let RecoveredWork { session, start } = work.map(|work| *work).unwrap_or_default();
+                let kept = Some(Box::new(session));
+                let commands = vec![Command::Open(Origin::Recovered { canvas, palette, kept })];
+                let (path, start) = (lost.meta.path.clone(), start.map(Arc::new));
+                let origin = FileOrigin { path, lost: Some(lost), start, ..FileOrigin::default() };
                 self.replace(Replacement { commands, origin });
             }
             Finished::Saved { path, revision, epoch, next, keep_revision } => {
@@ -78,8 +93,11 @@ impl Files {
                 self.notices.extend(remark.map(Notice::problem));
                 self.preferences.last_folder = path.parent().map(ToOwned::to_owned);
             }
-            Finished::Recorded(path) => {
+            Finished::Recorded { path, actions } => {
                 self.notices.push(Notice::done(&format!("saved {}", path.display())));
+                let text = format!("the recording holds {actions} actions");
+                let hint = Some("open its file to play it again".to_owned());
+                self.status = Some(StatusNote { text, hint });
                 self.preferences.remember(&path);
             }
             Finished::DrawingSaved { drawn, next } => self.drawing_saved(drawn, next),
@@ -91,10 +109,12 @@ impl Files {
                     self.revisions.set(&self.ctx, self.path.clone(), revisions);
                 }
             }
-            Finished::Autosaved { revision, epoch } => {
+            Finished::Autosaved { revision, epoch, recorded, desk, digest } => {
                 self.autosave_failed = false;
+                self.reference_digest = digest;
                 if epoch == self.epoch {
                     self.autosaved_revision = Some(revision);
+                    (self.recorded, self.autosaved_desk) = (recorded, Some(*desk));
                 }
                 if let Some(lost) = self.recovered.take() {
                     // The autosaves of this session contain the recovered painting now, so
@@ -104,6 +124,10 @@ impl Files {
                     lost.discard();
                 }
             }
+            Finished::BrushSetsRead(sets, problems) => self.brush_sets_read(sets, problems),
+            Finished::BrushesRead { path, brushes } => self.brushes_read(&path, brushes),
+            Finished::SwatchesRead { book, problem } => self.swatches_read(book, problem),
+            Finished::SwatchesImported(read) => self.swatches_imported(read),
             Finished::SceneSaved { path, revision } => {
                 self.notices.push(Notice::done(&format!("saved {}", path.display())));
                 self.scene_saved(&path, revision);
@@ -132,10 +156,24 @@ impl Files {
     /// Uses the content of a file, according to its kind.
     fn use_opened(&mut self, path: PathBuf, opened: Opened) {
         match opened {
-            Opened::Painting(document, start) => self.replace(Replacement {
-                commands: vec![Command::Open(Origin::Painting(document))],
-                origin: FileOrigin { path: Some(path), lost: None, start: Some(start) },
-            }),
+            Opened::Painting { document: canvas, table, bytes } => {
+                let opened = match table {
+                    Ok(Some(table)) => Origin::WithTable { canvas, table },
+                    Ok(None) => Origin::Painting(canvas),
+                    Err(problem) => {
+                        self.notices.push(Notice::problem(problem));
+                        Origin::Painting(canvas)
+                    }
+                };
+                self.replace(Replacement {
+                    commands: vec![Command::Open(opened)],
+                    origin: FileOrigin {
+                        path: Some(path),
+                        start: Some(bytes),
+                        ..FileOrigin::default()
+                    },
+                });
+            }
             Opened::Library(library) => {
                 self.preferences.remember(&path);
                 let commands = vec![Command::Open(blank_canvas(*library, 192.0, 108.0, 0.1))];

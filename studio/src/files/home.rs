@@ -35,6 +35,18 @@ impl Home {
         self.settings.join("preferences.json")
     }
 
+    /// Folder of the sets of own brushes.
+    #[must_use]
+    pub fn brushes(&self) -> PathBuf {
+        self.settings.join("brushes")
+    }
+
+    /// Path of the list of kept mixtures.
+    #[must_use]
+    pub fn swatches(&self) -> PathBuf {
+        self.settings.join("swatches.json")
+    }
+
     /// Folder that holds one folder for each scene that is not saved.
     #[must_use]
     pub fn scenes(&self) -> PathBuf {

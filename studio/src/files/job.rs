@@ -117,6 +117,14 @@ impl<T: Send + 'static> Job<T> {
     }
 }
 
+/// Runs `work` on one core, so that the others stay free for painting.
+pub(super) fn on_one_core<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
+    }
+}
+
 /// Calls a function when dropped, also while a panic unwinds.
 struct OnDrop<F: FnOnce()>(Option<F>);
 

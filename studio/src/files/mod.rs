@@ -7,7 +7,13 @@ mod age;
 
 mod drawing;
 
+mod desk;
+
 mod reference_change;
+
+mod swatch_format;
+
+mod swatch_list;
 
 mod request;
 
@@ -16,6 +22,10 @@ mod scene_file;
 mod job;
 
 mod home;
+
+mod browser_look;
+
+mod new_canvas;
 
 mod preferences;
 
@@ -27,7 +37,13 @@ mod revision_list;
 
 mod exporting;
 
+mod timelapse;
+
 mod figures_log;
+
+mod default_button;
+
+mod picture_file;
 
 mod browser;
 
@@ -37,19 +53,33 @@ mod pending;
 
 mod notice;
 
-mod open_dialog;
+mod own_brushes;
 
 mod work;
+
+mod new_dialog;
+
+mod open_dialog;
 
 mod scene_files;
 
 mod state;
 
+mod cropping;
+
 mod tasks;
+
+mod autosaving;
 
 mod drawings;
 
+mod brush_sets;
+
+mod swatches;
+
 mod asking;
+
+mod beginning;
 
 mod scenes;
 
@@ -57,12 +87,20 @@ mod finished;
 
 mod notices;
 
+mod sample;
+
 mod frame;
 
 pub use age::{ago, size};
+pub use browser_look::{BrowserLook, BrowserOrder};
+pub use desk::{Desk, DeskDrawing, DeskReference, DeskView};
 pub use drawing::{Drawing, DrawingKind, DrawnFile};
 pub use figures_log::{FiguresLog, FrameFigures};
 pub use home::Home;
+pub use new_canvas::{CanvasPreset, KeptCanvases, LengthUnit, NewCanvas};
+pub use notice::StatusNote;
+pub use own_brushes::BrushSets;
+pub(crate) use picture_file::{ReadPicture, on_screen, read_picture};
 pub use preferences::{Backend, Preferences, ToolPreferences};
 pub use problem::Problem;
 pub use reference_change::ReferenceChange;
@@ -71,3 +109,4 @@ pub use revision_list::{ListedRevision, RevisionList};
 pub use revisions::Revision;
 pub use scene_file::{SceneAnswer, SceneExport};
 pub use state::Files;
+pub use swatch_format::{ReadSwatches, SwatchFormat};

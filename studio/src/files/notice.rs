@@ -7,6 +7,15 @@ use super::problem::Problem;
 /// Time for which a message that needs no answer is shown.
 const SHOWN: Duration = Duration::from_secs(5);
 
+/// A sentence for the status line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StatusNote {
+    /// One sentence, beginning with a small letter.
+    pub text: String,
+    /// Suggests what to do.
+    pub hint: Option<String>,
+}
+
 /// A message over the window.
 #[derive(Debug, Clone)]
 pub(super) struct Notice {

@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-use pigment::library::PigmentLibrary;
-use render::paint::strokes::PaletteSpec;
-
 use super::browser::Browser;
-use super::dialogs::NewPainting;
 use super::drawing::{Drawing, DrawingKind};
 use super::exporting::Export;
+use super::new_dialog::{CanvasPicture, NewDialog};
 use super::pending::PendingAction;
 use super::scene_file::ScenePurpose;
+use super::swatch_format::SwatchFormat;
+use super::timelapse::TimelapseExport;
+use session::brushes::BrushSet;
 
 /// A dialog that asks the user.
 #[derive(Debug)]
@@ -25,8 +25,10 @@ pub(super) enum OpenDialog {
     DeleteRevision(PathBuf),
     /// Asks what to export.
     Export(Export),
-    /// Asks for the canvas of a new painting; holds the current palette and library.
-    New(NewPainting, Box<PaletteSpec>, Box<PigmentLibrary>),
+    /// Asks for the settings of a timelapse.
+    Timelapse(TimelapseExport),
+    /// Asks for the canvas of a new painting.
+    New(Box<NewDialog>),
     /// Shows the preferences.
     Preferences,
 }
@@ -41,16 +43,28 @@ pub(super) enum FilePurpose {
     Save { next: Option<PendingAction>, keep_revision: bool },
     /// Exports to it.
     Export(Export),
+    /// Writes a timelapse of the recording to it.
+    Timelapse(TimelapseExport),
     /// Saves the recording in it.
     Recording,
     /// Pins the picture in it beside the canvas.
     Reference,
+    /// Gives it to the canvas of a new painting.
+    Canvas(CanvasPicture),
     /// Lights the painting with the lamp measured in it.
     Lamp,
     /// Saves the drawing in it, then carries out `next`.
     SaveDrawing { drawing: Box<Drawing>, next: Option<PendingAction> },
     /// Reads a drawing from it.
     OpenDrawing(DrawingKind),
+    /// Takes the brushes in it over.
+    ImportBrushes,
+    /// Writes a set of brushes to it.
+    ExportBrushes(Box<BrushSet>),
+    /// Adds the mixtures or colours in it to those that are kept.
+    ImportSwatches,
+    /// Writes the kept mixtures to it.
+    ExportSwatches(SwatchFormat),
     /// Opens or writes a file of a scene.
     Scene(ScenePurpose),
 }

@@ -6,8 +6,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use pigment::library::PigmentLibrary;
+use render::exr_picture::linear_picture;
 use render::paint::document::Document;
-use render::paint::strokes::StrokeScript;
+use render::paint::file::PaintingFileError;
+use render::paint::strokes::{SideTable, StrokeScript};
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
 
@@ -17,9 +19,15 @@ use super::problem::Problem;
 /// The content of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Opened {
-    /// A painting, and the bytes of its file, which a recording of further work on it
-    /// needs.
-    Painting(Box<Document>, Arc<Vec<u8>>),
+    /// A painting.
+    Painting {
+        /// The painting itself.
+        document: Box<Document>,
+        /// Palette and brushes that were saved with it; the problem if they cannot be read.
+        table: Result<Option<Box<SideTable>>, Problem>,
+        /// Content of its file, which a recording of further work on it needs.
+        bytes: Arc<Vec<u8>>,
+    },
     /// A pigment library to begin a painting with.
     Library(Box<PigmentLibrary>),
     /// A recording to be played.
@@ -71,9 +79,20 @@ pub(crate) fn read(path: &Path, progress: &Progress) -> Result<Opened, JobError>
     let bytes = read_all(path, &mut file, length, progress)?;
     let opened = match kind {
         Kind::OpenExr => {
-            let document = render::paint::file::read(&name, &bytes)
-                .map_err(|error| Problem::from_error(&error))?;
-            Opened::Painting(Box::new(document), Arc::new(bytes))
+            match render::paint::file::read(&name, &bytes) {
+                Ok(document) => {
+                    let table = render::paint::file::read_table(&name, &bytes);
+                    let table = table.map_err(|error| Problem::from_error(&error));
+                    let table = table.map(|table| table.map(Box::new));
+                    let (document, bytes) = (Box::new(document), Arc::new(bytes));
+                    Opened::Painting { document, table, bytes }
+                }
+                // A linear picture of another program.
+                Err(PaintingFileError::Format { .. }) if linear_picture(&name, &bytes).is_ok() => {
+                    Opened::Picture
+                }
+                Err(error) => return Err(Problem::from_error(&error).into()),
+            }
         }
         Kind::Json => json(path, &name, &bytes)?,
         Kind::Picture | Kind::Text => {
@@ -226,7 +245,8 @@ mod tests {
         let ground = script.canvas.ground.build(width, height, 0.5, &library).unwrap();
         let document = script.bare(&library, &resolved, ground);
         let painting = render::paint::file::write(&document).unwrap();
-        let wanted = Opened::Painting(Box::new(document), Arc::new(painting.clone()));
+        let bytes = Arc::new(painting.clone());
+        let wanted = Opened::Painting { document: Box::new(document), table: Ok(None), bytes };
         assert_eq!(opened("a.txt", &painting), Ok(wanted));
         let opened_as = opened("b.png", script.to_json().unwrap().as_bytes()).unwrap();
         assert!(
@@ -236,6 +256,9 @@ mod tests {
         let opened_as = opened("c", library.to_json().as_bytes());
         assert_eq!(opened_as, Ok(Opened::Library(Box::new(library))));
         assert_eq!(opened("d.exr", b"\x89PNG\r\n\x1a\nrest"), Ok(Opened::Picture));
+        let scene = render::field::Field::filled(3, 2, [0.5, 2.0, 0.1, 1.0]);
+        let scene = render::export::linear_exr(&scene, 0.1).unwrap();
+        assert_eq!(opened("f.exr", &scene), Ok(Opened::Picture));
         assert_eq!(opened("e.json", b"nm,power\n400,1\n700,3\n"), Ok(Opened::Lamp));
     }
 

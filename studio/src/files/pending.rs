@@ -39,4 +39,8 @@ pub(super) struct FileOrigin {
     /// Content of the file that it was read from. A recording of what is painted on it
     /// needs this as its start.
     pub(super) start: Option<Arc<Vec<u8>>>,
+    /// Whether it is the sample painting.
+    pub(super) sample: bool,
+    /// Whether it has changes that are in no file.
+    pub(super) changed: bool,
 }

@@ -4,13 +4,19 @@
 //! share the file. A value that it does not understand is reported and replaced by the
 //! default. A file that is not JSON is renamed.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use super::browser_look::BrowserLook;
+use super::new_canvas::KeptCanvases;
 use super::problem::Problem;
+use crate::arrangement::Arrangement;
 use crate::pen::PenSettings;
+use crate::theme::{Look, ThemeChoice};
+use session::brushes::BrushOptions;
 use spectra::file::write_whole;
 
 /// Maximum number of recent files.
@@ -65,17 +71,35 @@ pub struct Preferences {
     pub backend: Backend,
     /// Scale of the interface relative to the system's, 0.5 to 3.
     pub interface_scale: f32,
+    /// Dark or light, or as the system prefers.
+    pub theme: ThemeChoice,
+    /// Whether everything is large enough to be touched: 44 points or more.
+    pub touch_targets: bool,
     /// Whether recordings play at the speed of painting, rather than as fast as possible.
     pub replay_as_painted: bool,
     /// The brush and amounts that the painter starts with.
     pub tools: ToolPreferences,
     /// Pen, mouse and touch settings.
     pub pen: PenSettings,
+    /// Whether the first steps were shown and are not to be shown again by themselves.
+    pub first_steps_seen: bool,
+    /// How a pen leads single brushes, by their names.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub brush_options: BTreeMap<String, BrushOptions>,
+    /// Changed keys: texts such as `Ctrl+Shift+Z` by the name of what they do.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub keys: BTreeMap<String, Vec<String>>,
     /// Folder in which a file was last chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_folder: Option<PathBuf>,
+    /// The canvas that was begun last, and presets of canvases.
+    pub new_painting: KeptCanvases,
+    /// Form and order of the files in the file browser.
+    pub browser: BrowserLook,
     /// Files that were opened or saved, the latest first.
     pub recent: Vec<PathBuf>,
+    /// Where the panels stand.
+    pub arrangement: Arrangement,
     /// Width and height of the window, in points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window: Option<[f32; 2]>,
@@ -91,11 +115,19 @@ impl Default for Preferences {
             undo_mib: 512,
             backend: Backend::Auto,
             interface_scale: 1.0,
+            theme: ThemeChoice::Dark,
+            touch_targets: false,
             replay_as_painted: false,
             tools: ToolPreferences::default(),
             pen: PenSettings::default(),
+            first_steps_seen: false,
+            brush_options: BTreeMap::new(),
+            keys: BTreeMap::new(),
             last_folder: None,
+            new_painting: KeptCanvases::default(),
+            browser: BrowserLook::default(),
             recent: Vec::new(),
+            arrangement: Arrangement::default(),
             window: None,
             other: Map::new(),
         }
@@ -156,8 +188,16 @@ impl Preferences {
         tools.squeeze_mm3 = within(tools.squeeze_mm3, 0.1, 1e5, default.squeeze_mm3);
         tools.dry_share = within(tools.dry_share, 0.01, 1.0, default.dry_share);
         self.pen.bound();
+        self.brush_options.values_mut().for_each(BrushOptions::bound);
+        self.new_painting.bound();
         self.recent.truncate(MAX_RECENT);
         self.window = self.window.filter(|size| size.iter().all(|s| (200.0..20_000.0).contains(s)));
+    }
+
+    /// The look of the window.
+    #[must_use]
+    pub fn look(&self) -> Look {
+        Look { theme: self.theme, touch: self.touch_targets }
     }
 
     /// Writes the preferences to `path`.
@@ -176,6 +216,21 @@ impl Preferences {
         let value =
             serde_json::to_value(&written).map_err(|error| Problem::without_hint(&error))?;
         Ok(write_whole(path, pigment::library::to_text(&value).as_bytes())?)
+    }
+
+    /// Options of the brush of this name.
+    #[must_use]
+    pub fn options_of(&self, brush: &str) -> BrushOptions {
+        self.brush_options.get(brush).cloned().unwrap_or_default()
+    }
+
+    /// Keeps options of the brush of this name; those of the general settings need no entry.
+    pub fn set_options(&mut self, brush: &str, options: BrushOptions) {
+        if options == BrushOptions::default() {
+            self.brush_options.remove(brush);
+        } else {
+            self.brush_options.insert(brush.to_owned(), options);
+        }
     }
 
     /// Adds `path` as the first of the recent files.
@@ -222,7 +277,17 @@ mod tests {
         assert_eq!((&preferences, failures.len()), (&Preferences::default(), 0));
         preferences.autosave_seconds = 7;
         preferences.window = Some([1280.0, 800.0]);
-        preferences.pen.gamma = 1.5;
+        preferences.theme = ThemeChoice::Light;
+        preferences.touch_targets = true;
+        preferences.arrangement = Arrangement::in_right_column(&[&["light"], &["brush"]]);
+        preferences.arrangement.right.groups[0].folded = true;
+        preferences.pen.curve = session::brushes::PressureCurve::FIRM;
+        let options = BrushOptions { range: [0.2, 1.0], ..BrushOptions::default() };
+        preferences.set_options("round", options.clone());
+        preferences.set_options("flat", BrushOptions::default());
+        assert_eq!(preferences.options_of("round"), options);
+        assert_eq!(preferences.brush_options.len(), 1, "nothing is set for the flat");
+        preferences.keys.insert("undo".to_owned(), vec!["Ctrl+U".to_owned()]);
         preferences.pen.grip.turn(30.0);
         preferences.remember(Path::new("/a/study.exr"));
         preferences.write(&path).unwrap();

@@ -81,6 +81,13 @@ mod tests {
         let error = spectra::file::read(Path::new("/no/such/folder/a.exr")).unwrap_err();
         let problem = Problem::from_error(&error);
         assert!(problem.text.contains("a.exr") && problem.hint.is_some(), "{problem:?}");
+        let error =
+            spectra::file::write_whole(Path::new("/no/such/folder/a.exr"), b"").unwrap_err();
+        let Problem { text, .. } = Problem::from_error(&error);
+        assert!(
+            text.contains("a.exr: cannot be written: ") && !text.contains(".impasto-"),
+            "{text}"
+        );
         assert!(Problem::io(Path::new("b"), "deleted", &reason).hint.is_some(), "{reason}");
         let hint = Hint::new("paint on the processor: [backend=cpu]");
         let shown = "paint on the processor: Edit, Preferences, Computes: Processor";

@@ -9,6 +9,13 @@ use super::drawing::DrawnFile;
 pub enum ReferenceChange {
     /// Pins the picture in this file.
     Open(PathBuf),
+    /// Pins the picture in a file again, with lines that were drawn on it and may be in no file.
+    Restore {
+        /// File of the picture.
+        picture: PathBuf,
+        /// The lines.
+        drawings: Vec<DrawnFile>,
+    },
     /// Removes the picture.
     Close,
     /// Shows lines read from a file, in place of those of the same kind.

@@ -2,7 +2,11 @@
 
 use std::path::PathBuf;
 
+use render::tile::Rect;
+use session::swatches::SwatchChange;
+
 use super::drawing::{DrawingKind, DrawnFile};
+use super::swatch_format::SwatchFormat;
 
 /// A file action. Long work runs in the background.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +26,8 @@ pub enum FileRequest {
     DeleteRevision(PathBuf),
     /// Exports; asks in which form and to which file.
     Export,
+    /// Exports a timelapse of the recording; asks in which form and to which file.
+    ExportTimelapse,
     /// Saves the recording of all strokes to a file that the painter is asked for.
     SaveRecording,
     /// Pins a picture beside the canvas; asks for the file if none is given.
@@ -34,8 +40,22 @@ pub enum FileRequest {
     OpenDrawing(DrawingKind, PathBuf),
     /// Lights the painting with a lamp measured in a file that the painter is asked for.
     OpenLamp,
+    /// Changes the list of kept mixtures.
+    Swatches(SwatchChange),
+    /// Adds mixtures or colours from a file that the painter is asked for.
+    ImportSwatches,
+    /// Writes the kept mixtures to a file that the painter is asked for.
+    ExportSwatches(SwatchFormat),
+    /// Crops the painting to these cells.
+    Crop(Rect),
     /// Begins a new painting; asks for its canvas.
     New,
+    /// Opens the sample painting.
+    Sample,
+    /// Takes brushes of a file over that the painter is asked for.
+    ImportBrushes,
+    /// Exports the set of brushes that is shown to a file that the painter is asked for.
+    ExportBrushes,
     /// Shows the preferences.
     Preferences,
 }

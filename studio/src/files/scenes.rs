@@ -135,7 +135,8 @@ impl Files {
         self.scenes.awaited = false;
         let Some((title, _)) = self.scenes.open.clone() else { return };
         self.scenes.autosaved = recording.revision;
-        let meta = SessionMeta { title, path: Some(recording.folder.clone()), seconds: now() };
+        let path = Some(recording.folder.clone());
+        let meta = SessionMeta { title, path, seconds: now(), desk: None };
         let (autosave, text) = (self.scenes.autosave.clone(), recording.text.clone());
         self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
             let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);

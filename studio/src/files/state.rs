@@ -7,17 +7,21 @@ use std::time::Instant;
 
 use eframe::egui::{Context, ViewportCommand};
 
+use super::browser::Thumbnails;
+use super::desk::Desk;
 use super::drawing::DrawnFile;
 use super::home::Home;
 use super::job::{Job, JobError, Progress};
-use super::notice::Notice;
+use super::notice::{Notice, StatusNote};
 use super::open_dialog::OpenDialog;
+use super::own_brushes::BrushSets;
 use super::pending::{FileOrigin, PendingAction, Replacement};
 use super::preferences::Preferences;
 use super::problem::Problem;
 use super::reference_change::ReferenceChange;
 use super::revision_list::RevisionList;
 use super::scene_files::SceneFiles;
+use super::swatch_list::SwatchList;
 use super::work::{Finished, JobKind, Purpose, RunningJob};
 use session::{Autosave, Command, LostSession, Pace, PaintingState};
 
@@ -50,6 +54,8 @@ pub struct Files {
     pub(super) jobs: Vec<RunningJob>,
     /// Open dialogs, the topmost last.
     pub(super) dialogs: Vec<OpenDialog>,
+    /// Small pictures of files, for the file browser.
+    pub(super) thumbnails: Thumbnails,
     pub(super) notices: Vec<Notice>,
     pub(super) lost_sessions: Vec<LostSession>,
     /// The session that the painting was recovered from, until it is saved again.
@@ -57,22 +63,43 @@ pub struct Files {
     pub(super) autosave: Arc<Mutex<Option<Autosave>>>,
     pub(super) last_autosave: Instant,
     pub(super) autosaved_revision: Option<u64>,
+    /// Number of actions of the recording that the autosaves hold.
+    pub(super) recorded: usize,
+    /// How the window is set up, and how it was at the last autosave.
+    pub(super) desk: Desk,
+    pub(super) autosaved_desk: Option<Desk>,
+    /// The set-up of a recovered painting, until the window takes it.
+    pub(super) recovered_desk: Option<Desk>,
+    /// A reference picture and the digest of its file.
+    pub(super) reference_digest: Option<(PathBuf, Option<String>)>,
     /// Whether the last autosave failed, which is reported only once.
     pub(super) autosave_failed: bool,
     /// Actions played and total number of actions of a recording that is playing.
     pub(super) replay: Option<(usize, usize)>,
+    /// Whether the sample painting is being played.
+    pub(super) sample: bool,
+    /// Whether the next state is that of the sample painting as it was played.
+    pub(super) sample_settles: bool,
+    /// Own brushes of the painter.
+    pub brush_sets: BrushSets,
     /// The revisions of the painting.
     pub revisions: RevisionList,
     /// Changes of the picture beside the canvas, the oldest first.
     pub(super) reference: VecDeque<ReferenceChange>,
     /// Drawings on that picture that are in no file.
     pub(super) unsaved_drawings: Vec<DrawnFile>,
+    /// Mixtures that the painter keeps.
+    pub(super) swatches: SwatchList,
     /// Files of scenes.
     pub(super) scenes: SceneFiles,
     /// Commands for the worker.
     pub(super) commands: Vec<Command>,
     /// Whether the window closes although changes may be lost.
     pub(super) closing: bool,
+    /// Whether the window closes once the painting is saved.
+    pub(super) closes_when_saved: bool,
+    /// Sentence for the status line that the window has not shown yet.
+    pub(super) status: Option<StatusNote>,
 }
 
 impl Files {
@@ -109,26 +136,49 @@ impl Files {
             awaited: Vec::new(),
             jobs: Vec::new(),
             dialogs: Vec::new(),
+            thumbnails: Thumbnails::default(),
             notices,
             lost_sessions,
             recovered: None,
             autosave: Arc::new(Mutex::new(autosave)),
             last_autosave: Instant::now(),
             autosaved_revision: None,
+            recorded: 0,
+            desk: Desk::default(),
+            autosaved_desk: None,
+            recovered_desk: None,
+            reference_digest: None,
             autosave_failed: false,
             replay: None,
+            sample: false,
+            sample_settles: false,
+            brush_sets: BrushSets::default(),
             revisions: RevisionList::default(),
             reference: VecDeque::new(),
             unsaved_drawings: Vec::new(),
+            swatches: SwatchList::default(),
             scenes: SceneFiles::new(lost_scenes),
             commands: Vec::new(),
             closing: false,
+            closes_when_saved: false,
+            status: None,
         }
     }
 
     /// Shows a problem over the window until it is closed.
     pub fn report(&mut self, problem: Problem) {
         self.notices.push(Notice::problem(problem));
+    }
+
+    /// Whether a recording is being played.
+    #[must_use]
+    pub fn is_playing(&self) -> bool {
+        self.replay.is_some()
+    }
+
+    /// Removes and returns the sentence for the status line, if there is a new one.
+    pub fn take_status(&mut self) -> Option<StatusNote> {
+        self.status.take()
     }
 
     /// The file of the painting, if it has one.
@@ -197,9 +247,25 @@ impl Files {
         self.commands.push(Command::Snapshot(number));
     }
 
+    /// Asks the worker for all that an autosave holds.
+    pub(super) fn request_autosave(&mut self) {
+        let number = self.next_request(Purpose::Autosave);
+        self.commands.push(Command::Keep { number, recorded: self.recorded });
+    }
+
+    /// Takes note of how the window is set up. To be called every frame before [`Files::update`].
+    pub fn note_desk(&mut self, desk: Desk) {
+        self.desk = desk;
+    }
+
+    /// Removes and returns the set-up of a painting that was recovered, once.
+    pub fn take_desk(&mut self) -> Option<Desk> {
+        self.recovered_desk.take()
+    }
+
     /// Asks the worker for the recording.
-    pub(super) fn request_recording(&mut self, path: PathBuf) {
-        let number = self.next_request(Purpose::Recording { path });
+    pub(super) fn request_recording(&mut self, purpose: Purpose) {
+        let number = self.next_request(purpose);
         self.commands.push(Command::Recording(number));
     }
 

@@ -1,24 +1,24 @@
-//! Starts each job on files: saving, exporting, reading, autosaves, preferences.
+//! Starts each job on files: saving, exporting, reading, preferences.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, PoisonError};
-use std::time::{Duration, Instant};
+use std::sync::Arc;
 
 use pigment::library::PigmentLibrary;
 use render::light::Light;
 use render::paint::document::Document;
-use render::paint::strokes::StrokeScript;
+use render::paint::strokes::{KeptBrush, StrokeScript};
 use spectra::file::write_whole;
 
 use super::exporting;
-use super::job::{JobError, Progress};
+use super::job::{JobError, Progress, on_one_core};
 use super::opened::{self, Opened};
 use super::pending::{FileOrigin, PendingAction, Replacement};
 use super::problem::Problem;
 use super::revisions;
 use super::state::Files;
+use super::timelapse::{Recorded, TimelapseExport};
 use super::work::{Finished, JobKind, Purpose, file_name};
-use session::{Command, Origin, SessionMeta, Snapshot, now};
+use session::{Command, Origin, Snapshot};
 
 impl Files {
     /// Saves the painting in `path`, then carries out `next`.
@@ -33,8 +33,9 @@ impl Files {
         match purpose {
             Purpose::Save { path, next, keep_revision } => {
                 let label = format!("saving {}", file_name(&path));
+                let (palette, brushes) = (snapshot.palette.clone(), snapshot.brushes.clone());
                 self.start_job(JobKind::Saving, label, move |progress| {
-                    write_painting(&path, &canvas, progress)?;
+                    write_painting(&path, &canvas, (&palette, &brushes), progress)?;
                     Ok(Finished::Saved { path, revision, epoch, next, keep_revision })
                 });
             }
@@ -56,20 +57,47 @@ impl Files {
                     Ok(Finished::Exported { path, remark })
                 });
             }
-            Purpose::Autosave => self.start_autosave(snapshot),
-            Purpose::Recording { .. } => {}
+            Purpose::Crop(rect) => self.start_crop(rect, snapshot),
+            Purpose::Autosave | Purpose::Recording { .. } | Purpose::Timelapse { .. } => {}
         }
     }
 
+    /// Starts the job that the recording was requested for.
+    pub(super) fn start_with_recording(&mut self, purpose: Purpose, script: Arc<StrokeScript>) {
+        match purpose {
+            Purpose::Recording { path } => self.start_recording(path, script),
+            Purpose::Timelapse { export, path } => self.start_timelapse(export, path, script),
+            _ => {}
+        }
+    }
+
+    /// Starts playing a recording for its timelapse.
+    fn start_timelapse(
+        &mut self,
+        export: TimelapseExport,
+        path: PathBuf,
+        script: Arc<StrokeScript>,
+    ) {
+        let Some(state) = &self.painting else { return };
+        let (library, start) = (state.library.clone(), self.start.clone());
+        let undo_bytes = self.preferences.undo_mib << 20;
+        let recorded = Recorded { script, library, start, undo_bytes };
+        let label = format!("timelapse {}", file_name(&path));
+        self.start_job(JobKind::Shown, label, move |progress| {
+            on_one_core(|| recorded.write_timelapse(&export, &path, progress))?;
+            Ok(Finished::Exported { path, remark: None })
+        });
+    }
+
     /// Starts writing a recording.
-    pub(super) fn start_recording(&mut self, path: PathBuf, script: Arc<StrokeScript>) {
+    fn start_recording(&mut self, path: PathBuf, script: Arc<StrokeScript>) {
         let label = format!("saving {}", file_name(&path));
         let start = self.start.clone();
         self.start_job(JobKind::Shown, label, move |_| {
             let script = with_start_file(&path, &script, start)?;
             let text = script.to_json().map_err(|error| Problem::from_error(&error))?;
             write_whole(&path, text.as_bytes()).map_err(Problem::from)?;
-            Ok(Finished::Recorded(path))
+            Ok(Finished::Recorded { path, actions: script.actions.len() })
         });
     }
 
@@ -118,20 +146,6 @@ impl Files {
         });
     }
 
-    /// Starts reading the lost session in `folder`.
-    pub(super) fn recover(&mut self, folder: &Path) {
-        let mut sessions = self.lost_sessions.iter();
-        let Some(at) = sessions.position(|lost| lost.folder() == folder) else { return };
-        let lost = self.lost_sessions.remove(at);
-        let label = format!("recovering {}", lost.meta.title);
-        self.start_job(JobKind::Shown, label, move |progress| {
-            let [canvas, palette] = lost.files();
-            let (canvas, _) = read_painting(&canvas, progress)?;
-            let (palette, _) = read_painting(&palette, progress)?;
-            Ok(Finished::Recovered { canvas, palette, lost })
-        });
-    }
-
     /// Starts listing the revisions of the painting.
     pub(super) fn list_revisions(&mut self) {
         let epoch = self.epoch;
@@ -143,55 +157,6 @@ impl Files {
         self.start_job(JobKind::Background, label, move |progress| {
             let revisions = revisions::list(&path, progress)?;
             Ok(Finished::Listed { epoch, revisions })
-        });
-    }
-
-    /// Requests an autosave if it is due; otherwise requests a repaint at the time when it
-    /// will be.
-    pub(super) fn autosave_when_due(&mut self) {
-        let Some(state) = self.painting.clone() else { return };
-        let busy = self.jobs.iter().any(|job| job.kind == JobKind::Autosave)
-            || self.awaited.iter().any(|(_, purpose)| matches!(purpose, Purpose::Autosave));
-        let changed = state.stroke_open || self.autosaved_revision != Some(state.revision);
-        if busy || !changed || !self.has_unsaved_changes() || self.opening.is_some() {
-            return;
-        }
-        let interval = Duration::from_secs(self.preferences.autosave_seconds);
-        match interval.checked_sub(self.last_autosave.elapsed()) {
-            Some(left) if !left.is_zero() => self.ctx.request_repaint_after(left),
-            _ => {
-                self.last_autosave = Instant::now();
-                self.request_snapshot(Purpose::Autosave);
-            }
-        }
-    }
-
-    fn start_autosave(&mut self, snapshot: &Snapshot) {
-        let (canvas, palette) = (snapshot.canvas.clone(), snapshot.palette.clone());
-        let (revision, epoch) = (snapshot.revision, self.epoch);
-        let meta = SessionMeta { title: self.title(), path: self.path.clone(), seconds: now() };
-        let autosave = self.autosave.clone();
-        self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
-            let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(autosave) = autosave.as_mut() {
-                let kept = on_one_core(|| autosave.keep(&canvas, &palette, &meta));
-                kept.map_err(Problem::from)?;
-            }
-            Ok(Finished::Autosaved { revision, epoch })
-        });
-    }
-
-    /// Starts deleting the autosaves. They are not needed once the painting is saved in a
-    /// file or discarded.
-    pub(super) fn clear_autosaves(&mut self) {
-        (self.last_autosave, self.autosaved_revision) = (Instant::now(), None);
-        let autosave = self.autosave.clone();
-        self.start_job(JobKind::Background, "clearing autosaves".to_owned(), move |_| {
-            let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(autosave) = autosave.as_mut() {
-                autosave.clear().map_err(Problem::from)?;
-            }
-            Ok(Finished::Quietly)
         });
     }
 
@@ -241,28 +206,27 @@ fn with_start_file(
     Ok(script)
 }
 
-/// Runs `work` on one core, so that the others stay free for painting.
-fn on_one_core<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
-        Ok(pool) => pool.install(work),
-        Err(_) => work(),
-    }
-}
-
-fn write_painting(path: &Path, canvas: &Document, progress: &Progress) -> Result<(), JobError> {
-    let bytes = render::paint::file::write(canvas).map_err(|error| Problem::from_error(&error))?;
+/// Writes a painting, with the palette and the brushes beside it.
+fn write_painting(
+    path: &Path,
+    canvas: &Document,
+    (palette, brushes): (&Document, &[KeptBrush]),
+    progress: &Progress,
+) -> Result<(), JobError> {
+    let bytes = render::paint::file::write_with_table(canvas, palette, brushes)
+        .map_err(|error| Problem::from_error(&error))?;
     progress.report(0.8)?;
     write_whole(path, &bytes).map_err(Problem::from)?;
     Ok(())
 }
 
 /// Reads a painting, and returns the content of its file too.
-fn read_painting(
+pub(super) fn read_painting(
     path: &Path,
     progress: &Progress,
 ) -> Result<(Box<Document>, Arc<Vec<u8>>), JobError> {
     match opened::read(path, progress)? {
-        Opened::Painting(document, bytes) => Ok((document, bytes)),
+        Opened::Painting { document, bytes, .. } => Ok((document, bytes)),
         _ => {
             let text = format!("{}: is not a painting", path.display());
             Err(Problem::new(text, "another program has changed it").into())

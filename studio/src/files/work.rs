@@ -5,15 +5,22 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use render::paint::document::Document;
+use render::tile::Rect;
 
+use super::desk::Desk;
 use super::drawing::DrawnFile;
 use super::exporting::Export;
 use super::job::Job;
 use super::opened::Opened;
+use super::own_brushes::ReadBrushes;
 use super::pending::PendingAction;
 use super::problem::Problem;
 use super::revisions::Revision;
-use session::LostSession;
+use super::swatch_format::ReadSwatches;
+use super::timelapse::TimelapseExport;
+use session::brushes::folder::StoredSet;
+use session::swatches::SwatchBook;
+use session::{LostSession, RecoveredWork};
 
 /// The reason for which the worker was asked for a snapshot or a recording.
 #[derive(Debug)]
@@ -25,10 +32,14 @@ pub(super) enum Purpose {
     Revision { path: PathBuf },
     /// Exports to `path`.
     Export { export: Export, path: PathBuf },
+    /// Crops the painting to these cells.
+    Crop(Rect),
     /// Writes an autosave.
     Autosave,
     /// Saves the recording in `path`.
     Recording { path: PathBuf },
+    /// Writes a timelapse of the recording to `path`.
+    Timelapse { export: TimelapseExport, path: PathBuf },
 }
 
 /// The result of a job.
@@ -38,8 +49,26 @@ pub(super) enum Finished {
     Read { path: PathBuf, opened: Opened },
     /// A revision was read: the painting, and the content of its file.
     RevisionRead(Box<Document>, Arc<Vec<u8>>),
+    /// A painting on a picture was begun: the painting, and the content of its file.
+    Begun(Box<Document>, Arc<Vec<u8>>),
+    /// The painting was cropped; `start` is the content of its file. `revision` is the painting's
+    /// counter of changes before.
+    Cropped {
+        canvas: Box<Document>,
+        palette: Arc<Document>,
+        start: Arc<Vec<u8>>,
+        revision: u64,
+        epoch: u64,
+    },
     /// A lost session was read.
-    Recovered { canvas: Box<Document>, palette: Box<Document>, lost: LostSession },
+    Recovered {
+        canvas: Box<Document>,
+        palette: Box<Document>,
+        /// Brushes and recording, which older autosaves do not have.
+        work: Option<Box<RecoveredWork>>,
+        lost: LostSession,
+        remarks: Vec<Problem>,
+    },
     /// The painting was saved. `path`, `next` and `keep_revision` are those of
     /// [`Purpose::Save`].
     Saved {
@@ -53,8 +82,8 @@ pub(super) enum Finished {
     RevisionKept(PathBuf),
     /// An export was written. `remark` tells what the painter should know of it.
     Exported { path: PathBuf, remark: Option<Problem> },
-    /// A recording was written to this file.
-    Recorded(PathBuf),
+    /// A recording of this many actions was written.
+    Recorded { path: PathBuf, actions: usize },
     /// A drawing was saved; `next` is to be carried out.
     DrawingSaved { drawn: DrawnFile, next: Option<PendingAction> },
     /// A drawing was read.
@@ -62,8 +91,22 @@ pub(super) enum Finished {
     /// The revisions of the painting were listed.
     Listed { epoch: u64, revisions: Vec<Revision> },
     /// An autosave was written. `revision` is the painting's counter of changes at that
-    /// time.
-    Autosaved { revision: u64, epoch: u64 },
+    /// time, `recorded` the number of actions of its recording that are kept.
+    Autosaved {
+        revision: u64,
+        epoch: u64,
+        recorded: usize,
+        desk: Box<Desk>,
+        digest: Option<(PathBuf, Option<String>)>,
+    },
+    /// The sets of own brushes were read, except files with these problems.
+    BrushSetsRead(Vec<StoredSet>, Vec<Problem>),
+    /// A file of brushes was read.
+    BrushesRead { path: PathBuf, brushes: ReadBrushes },
+    /// The list of kept mixtures was read; `problem` tells what was wrong with it.
+    SwatchesRead { book: SwatchBook, problem: Option<Problem> },
+    /// A file of mixtures or colours was read.
+    SwatchesImported(ReadSwatches),
     /// The script of the scene was saved in a file.
     SceneSaved { path: PathBuf, revision: u64 },
     /// An autosave of the scene was written.
@@ -95,12 +138,13 @@ pub(super) enum JobKind {
 }
 
 impl RunningJob {
-    /// Waits for the job. A job of the kind [`JobKind::Shown`] is cancelled first.
-    pub(super) fn finish(self) {
+    /// Waits for the job, and returns its result unless it failed. A job of the kind
+    /// [`JobKind::Shown`] is cancelled first.
+    pub(super) fn finish(self) -> Option<Finished> {
         if self.kind == JobKind::Shown {
             self.job.cancel();
         }
-        let _ = self.job.wait();
+        self.job.wait().ok()
     }
 }
 

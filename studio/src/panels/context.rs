@@ -9,6 +9,9 @@ use session::{Command, PaintingState};
 /// Height of paint, in mm, below which a brush is full: the smallest load that the panel offers.
 const LEAST_LOAD_MM: f64 = 0.02;
 
+/// Number of mixtures that are remembered as loaded last.
+const MOST_RECENT: usize = 6;
+
 /// Request of a panel.
 #[derive(Debug)]
 pub enum Request {
@@ -44,6 +47,12 @@ impl PanelContext<'_> {
     /// the tools or as the brush can still take, and selects the paint tool. What the brush holds
     /// stays on it until it is washed.
     pub fn load(&mut self, recipe: Recipe, vehicle: f64) {
+        if recipe.len() > 1 {
+            let recent = &mut self.tools.recent;
+            recent.retain(|(known, _)| *known != recipe);
+            recent.insert(0, (recipe.clone(), vehicle));
+            recent.truncate(MOST_RECENT);
+        }
         let brush = self.tools.brush.clone();
         let mut amount_mm = self.tools.load_mm;
         let state = self.painting.brushes.iter().find(|state| state.name == brush);

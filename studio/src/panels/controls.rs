@@ -3,8 +3,8 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{
-    self, Align, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense,
-    Slider, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Align, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense, Slider,
+    Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 
 use crate::theme;
@@ -15,6 +15,14 @@ pub(super) const NAME_WIDTH: f32 = 58.0;
 /// Width of the number at the right of a slider, in points.
 const NUMBER_WIDTH: f32 = 82.0;
 
+/// Least width of the track of a slider, in points.
+const TRACK: f32 = 44.0;
+
+/// Extra width of a number that is to be touched, in points.
+pub(super) fn touch_padding(ui: &Ui) -> f32 {
+    if theme::is_touch(ui.ctx()) { 18.0 } else { 0.0 }
+}
+
 /// Adds a slider with its label and number, as wide as the panel.
 pub(super) fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> Response {
     let line = ui.horizontal(|ui| {
@@ -23,8 +31,9 @@ pub(super) fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> 
             ui.set_min_width(NAME_WIDTH);
             ui.label(name)
         });
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER_WIDTH).max(40.0);
-        ui.spacing_mut().interact_size.x = NUMBER_WIDTH - 2.0 * ui.spacing().item_spacing.x;
+        let number = NUMBER_WIDTH + touch_padding(ui);
+        ui.spacing_mut().slider_width = (ui.available_width() - number).max(TRACK);
+        ui.spacing_mut().interact_size.x = number - 2.0 * ui.spacing().item_spacing.x;
         ui.add(slider).labelled_by(named.inner.id)
     });
     line.inner.on_hover_text(tip)
@@ -63,12 +72,20 @@ pub(super) fn named_button(
     tip: &str,
     disabled_reason: Option<&str>,
 ) -> bool {
-    let response =
-        ui.add_enabled(disabled_reason.is_none(), Button::new(shown)).accessible_name(name);
+    let button = Button::new(shown).min_size(vec2(theme::target(ui), 0.0));
+    let response = ui.add_enabled(disabled_reason.is_none(), button).accessible_name(name);
     response
         .on_hover_text(tip)
         .on_disabled_hover_text(disabled_reason.unwrap_or_default())
         .clicked()
+}
+
+/// A button as high as a line of text, or high enough to be touched.
+pub(super) fn small_button<'a>(ui: &Ui, shown: &'a str) -> Button<'a> {
+    match theme::is_touch(ui.ctx()) {
+        true => Button::new(shown),
+        false => Button::new(shown).small(),
+    }
 }
 
 /// Adds a button to a menu, which closes on a click.
@@ -80,13 +97,27 @@ pub(super) fn item(ui: &mut Ui, name: &str, tip: &str, disabled_reason: Option<&
     clicked
 }
 
+/// Height of a row that is usually `height` points high.
+pub(super) fn row_height(ui: &Ui, height: f32) -> f32 {
+    height.max(theme::target(ui))
+}
+
 /// Adds an empty, clickable row of a list. The caller draws into the rectangle of the
 /// response.
 pub(super) fn row(ui: &mut Ui, height: f32, name: &str, chosen: bool) -> Response {
-    let size = vec2(ui.available_width(), height);
+    let size = vec2(ui.available_width(), row_height(ui, height));
     let (_, response) = ui.allocate_exact_size(size, Sense::click());
     button_background(ui, &response, name, chosen);
     response
+}
+
+/// Outlines the line of a list that Enter takes, and scrolls to it if it moved.
+pub(super) fn mark(ui: &Ui, line: &Response, moved: bool) {
+    let edge = Stroke::new(1.0, theme::colors(ui.ctx()).faint);
+    ui.painter().rect_stroke(line.rect, theme::CORNER_RADIUS, edge, StrokeKind::Inside);
+    if moved {
+        line.scroll_to_me(None);
+    }
 }
 
 /// Draws the background of a clickable area and gives it the accessible name of a
@@ -126,31 +157,6 @@ pub(super) fn patch(painter: &Painter, rect: Rect, color: Option<[u8; 3]>) {
             painter.line_segment(diagonal, Stroke::new(1.0, theme::colors(painter.ctx()).line));
         }
     }
-}
-
-/// Draws text on one line within a rectangle, truncated with an ellipsis.
-pub(super) fn text(
-    ui: &Ui,
-    rect: Rect,
-    align: Align,
-    style: egui::TextStyle,
-    color: Color32,
-    words: &str,
-) {
-    let mut job = egui::text::LayoutJob::simple_singleline(
-        words.to_owned(),
-        style.resolve(ui.style()),
-        color,
-    );
-    job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width());
-    let laid = ui.painter().layout_job(job);
-    let x = match align {
-        Align::Min => rect.left(),
-        Align::Center => rect.center().x - laid.size().x / 2.0,
-        Align::Max => rect.right() - laid.size().x,
-    };
-    let at = egui::pos2(x, rect.center().y - laid.size().y / 2.0);
-    ui.painter_at(rect.expand(2.0)).galley(at, laid, color);
 }
 
 /// Formats a height in mm with two significant digits.

@@ -1,6 +1,6 @@
 //! Overlay with performance figures.
 
-use eframe::egui::{Align2, Color32, FontId, Rect, Ui, vec2};
+use eframe::egui::{Align2, FontId, Rect, Ui, vec2};
 
 use crate::theme;
 use session::Performance;
@@ -40,18 +40,17 @@ pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Performance, backen
     let font = FontId::proportional(size);
     let painter = ui.painter().with_clip_rect(over);
     let lines = lines(rate, worker, backend);
-    let galley = |text: &str| {
-        painter.layout_no_wrap(text.to_owned(), font.clone(), theme::colors(ui.ctx()).text)
-    };
+    let galley =
+        |text: &str| painter.layout_no_wrap(text.to_owned(), font.clone(), theme::BOARD_TEXT);
     let widest = lines.iter().map(|(_, value)| galley(value).size().x).fold(60.0, f32::max);
     let size = vec2(value_at + widest + 12.0, row * lines.len() as f32 + 10.0);
     let board = Rect::from_min_size(over.min + vec2(10.0, 10.0), size);
-    painter.rect_filled(board, theme::CORNER_RADIUS, Color32::from_black_alpha(190));
+    painter.rect_filled(board, theme::CORNER_RADIUS, theme::BOARD);
     for (index, (name, value)) in lines.iter().enumerate() {
         let place = board.min + vec2(8.0, 5.0 + row * index as f32);
-        painter.text(place, Align2::LEFT_TOP, name, font.clone(), theme::colors(ui.ctx()).faint);
+        painter.text(place, Align2::LEFT_TOP, name, font.clone(), theme::DARK.text);
         let place = place + vec2(value_at - 8.0, 0.0);
-        painter.text(place, Align2::LEFT_TOP, value, font.clone(), theme::colors(ui.ctx()).strong);
+        painter.text(place, Align2::LEFT_TOP, value, font.clone(), theme::BOARD_TEXT);
     }
 }
 

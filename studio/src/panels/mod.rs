@@ -4,13 +4,25 @@ mod tools;
 
 mod context;
 
+mod laying;
+
 mod pending_value;
 
 mod controls;
 
+mod search;
+
+mod fitted_text;
+
+mod section;
+
 mod pigments;
 
 pub mod eyedropper;
+
+pub mod wheel;
+
+pub mod swatches;
 
 pub mod history;
 
@@ -23,6 +35,10 @@ pub mod reference;
 pub mod tubes;
 
 pub mod brushes;
+
+pub mod pen;
+
+pub mod own_brushes;
 
 pub mod figures;
 

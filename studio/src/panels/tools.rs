@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
+use render::paint::strokes::{Recipe, StrokeTool};
+use serde::Serialize;
 use session::Picked;
 
 /// Tool: the effect of the pen on a surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Mode {
     /// Paints with the brush.
     #[default]
@@ -20,6 +23,61 @@ pub enum Mode {
     Zoom,
     /// Squeezes paint from the selected tube.
     Squeeze,
+    /// Softens and mixes wet paint with the clean head of the brush.
+    Blend,
+    /// Scrapes wet paint off with the head of the brush.
+    Scrape,
+    /// Rubs wet paint off with the head of the brush.
+    Erase,
+    /// Draws the polygon or the rectangle that a mask leaves open.
+    Mask,
+}
+
+impl Mode {
+    /// Whether the pen moves the head of a brush.
+    #[must_use]
+    pub fn moves_head(self) -> bool {
+        matches!(self, Self::Paint | Self::Blend | Self::Scrape | Self::Erase)
+    }
+}
+
+impl Mode {
+    /// All tools.
+    const ALL: [Self; 10] = [
+        Self::Paint,
+        Self::Blend,
+        Self::Scrape,
+        Self::Erase,
+        Self::Mask,
+        Self::Pick,
+        Self::Pan,
+        Self::Rotate,
+        Self::Zoom,
+        Self::Squeeze,
+    ];
+
+    /// Name of the tool in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paint => "paint",
+            Self::Blend => "blend",
+            Self::Scrape => "scrape",
+            Self::Erase => "erase",
+            Self::Mask => "mask",
+            Self::Pick => "pick",
+            Self::Pan => "pan",
+            Self::Rotate => "rotate",
+            Self::Zoom => "zoom",
+            Self::Squeeze => "squeeze",
+        }
+    }
+
+    /// The tool with this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|mode| mode.name() == name)
+    }
 }
 
 /// Selected tool, brush and tube, and their settings.
@@ -41,8 +99,17 @@ pub struct Tools {
     pub squeeze_mm3: f64,
     /// Share of the wet paint that one drying action dries, 0 to 1.
     pub dry_share: f64,
+    /// How much blending mixes and moves the paint, above 0 to 1.
+    pub blend_strength: f64,
+    /// Height of the scraper over the ground at pressure 0, in mm.
+    pub scrape_mm: f64,
+    /// How much erasing takes, above 0 to 1.
+    pub erase_strength: f64,
     /// Radius of the disc that the eyedropper averages, in mm; 0 is one cell.
     pub pick_radius_mm: f64,
+    /// Mixtures of two pigments and more that brushes were loaded with, with their share of medium,
+    /// the latest first.
+    pub recent: Vec<(Recipe, f64)>,
     /// Last result of the eyedropper.
     pub picked: Option<Arc<Picked>>,
     /// Colour picked from the reference picture, linear sRGB.
@@ -65,11 +132,28 @@ impl Default for Tools {
             wipe_keep: 0.3,
             squeeze_mm3: 60.0,
             dry_share: 1.0,
+            blend_strength: 0.5,
+            scrape_mm: 0.0,
+            erase_strength: 0.5,
             pick_radius_mm: 0.5,
+            recent: Vec::new(),
             picked: None,
             reference_color: None,
             split: 0.5,
             figures: false,
+        }
+    }
+}
+
+impl Tools {
+    /// The tool that the head of a brush is used as in a mode; it paints in modes without a head.
+    #[must_use]
+    pub fn stroke_tool(&self, mode: Mode) -> StrokeTool {
+        match mode {
+            Mode::Blend => StrokeTool::Blend { strength: self.blend_strength },
+            Mode::Scrape => StrokeTool::Scrape { height_mm: self.scrape_mm },
+            Mode::Erase => StrokeTool::Erase { strength: self.erase_strength },
+            _ => StrokeTool::Paint,
         }
     }
 }

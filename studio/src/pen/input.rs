@@ -4,10 +4,11 @@
 use std::time::{Duration, Instant};
 
 use eframe::CreationContext;
-use eframe::egui::{self, Event, Modifiers, RawInput};
+use eframe::egui::{self, Event, Modifiers, Pos2, RawInput};
 use render::paint::pose::Sample;
 use render::paint::strokes::SurfaceId;
 
+use super::handling::Handling;
 use super::pen_stroke::{PenStroke, brush_sample};
 use super::pointer::Pointer;
 use super::report::{Device, PointerState, Report, ReportKind};
@@ -15,6 +16,7 @@ use super::settings::PenSettings;
 use super::systems::Systems;
 use super::transform::PenTargets;
 use session::PenSample;
+use session::brushes::BrushOptions;
 
 /// Time for which a stylus counts as near after its last report. The window system reports
 /// a stylus as a mouse too; these events are ignored while it is near, so that it does not
@@ -64,10 +66,16 @@ pub enum PenEvent {
 pub struct Pen {
     /// Preferences for pressure and grip.
     pub settings: PenSettings,
+    /// Options of the brush in hand, which come before the settings.
+    pub options: BrushOptions,
+    /// Options of the brush that the eraser end of a stylus moves.
+    pub eraser_options: BrushOptions,
     systems: Systems,
     pointer: Pointer,
     /// Reports received since the last frame.
     pending: Vec<Report>,
+    /// Reports that were used in the last frame.
+    used: Vec<Report>,
     stylus_near_until: Option<Instant>,
     stroke: Option<PenStroke>,
     /// Whether a press that began outside the surfaces is still held.
@@ -110,6 +118,19 @@ impl Pen {
     /// Adds a report as if a window system had sent it.
     pub fn feed(&mut self, report: Report) {
         self.pending.push(report);
+    }
+
+    /// Reports that were used in the last frame, in order: those of all devices, without the mouse
+    /// events that the system makes of a stylus.
+    #[must_use]
+    pub fn reports(&self) -> &[Report] {
+        &self.used
+    }
+
+    /// Line in the window from the brush to the pen, while a stabilised brush stays behind.
+    #[must_use]
+    pub fn string_line(&self) -> Option<[Pos2; 2]> {
+        self.stroke.as_ref()?.string_line()
     }
 
     /// Whether a stroke is open.
@@ -156,12 +177,15 @@ impl Pen {
         {
             stroke.set_transform(*transform);
         }
+        self.used.clear();
         let mut events = Vec::new();
         for report in reports {
             self.handle(&report, modifiers, now, targets, &mut events);
         }
         if let Some(stroke) = &mut self.stroke {
-            stroke.add_rest_sample(now, &self.settings);
+            let options = options_for(stroke.device, &self.options, &self.eraser_options);
+            let handling = Handling { settings: &self.settings, options };
+            stroke.add_rest_sample(now, &handling);
             flush(stroke, &mut events);
         }
         self.hover(targets, &mut events);
@@ -173,6 +197,12 @@ impl Pen {
         let mut events = Vec::new();
         self.finish_stroke(now, &mut events);
         events
+    }
+
+    /// How a device leads its brush.
+    pub(super) fn handling(&self, device: Device) -> Handling<'_> {
+        let options = options_for(device, &self.options, &self.eraser_options);
+        Handling { settings: &self.settings, options }
     }
 
     fn is_near(&self, now: Instant) -> bool {
@@ -193,10 +223,15 @@ impl Pen {
         if !device.is_pen() && !paints && self.is_near(now) {
             return;
         }
+        let options = options_for(device, &self.options, &self.eraser_options);
+        let handling = Handling { settings: &self.settings, options };
         match kind {
-            ReportKind::Moved(state) | ReportKind::Pressed(state) if !state.is_finite() => {}
+            ReportKind::Moved(state) | ReportKind::Pressed(state) if !state.is_finite() => return,
+            _ => self.used.push(*report),
+        }
+        match kind {
             ReportKind::Moved(state) => match &mut self.stroke {
-                Some(stroke) if paints => stroke.extend(state, arrived, &self.settings),
+                Some(stroke) if paints => stroke.extend(state, arrived, &handling),
                 Some(_) => {}
                 None => self.hovering = Some((device, state)),
             },
@@ -205,7 +240,7 @@ impl Pen {
                 // stroke.
                 Some(stroke) if !paints && device.is_pen() => {
                     stroke.device = device;
-                    stroke.extend(state, arrived, &self.settings);
+                    stroke.extend(state, arrived, &handling);
                 }
                 Some(_) if !paints => {}
                 _ => {
@@ -256,14 +291,16 @@ impl Pen {
             self.last_end.filter(|(surface, _)| modifiers.shift && *surface == transform.surface);
         let from = from.map(|(_, place)| place);
         events.push(PenEvent::Down { surface: transform.surface, device });
-        self.stroke = Some(PenStroke::new(device, state, at, *transform, from, &self.settings));
+        let handling = self.handling(device);
+        self.stroke = Some(PenStroke::new(device, state, at, *transform, from, &handling));
         // Differs from every hover event, so that the next one is reported as a change.
         self.reported_hover = Some(PenEvent::Up);
     }
 
     fn finish_stroke(&mut self, at: Instant, events: &mut Vec<PenEvent>) {
         let Some(mut stroke) = self.stroke.take() else { return };
-        stroke.finish(at, &self.settings);
+        let handling = self.handling(stroke.device);
+        stroke.finish(at, &handling);
         flush(&mut stroke, events);
         events.push(PenEvent::Up);
         self.last_end = Some((stroke.surface(), stroke.position_mm()));
@@ -276,8 +313,8 @@ impl Pen {
         }
         let found = self.hovering.filter(|_| !self.pressed_outside).and_then(|(device, state)| {
             let transform = targets.surface_at(state.at)?;
-            let sample =
-                brush_sample(transform, &state, self.settings.grip.twist_deg, &self.settings);
+            let handling = self.handling(device);
+            let sample = brush_sample(transform, &state, handling.first_twist(), &handling);
             Some(PenEvent::Hover { surface: transform.surface, sample, device })
         });
         if found != self.reported_hover {
@@ -285,6 +322,15 @@ impl Pen {
             self.reported_hover = found;
         }
     }
+}
+
+/// Options of the brush that a device moves.
+fn options_for<'a>(
+    device: Device,
+    options: &'a BrushOptions,
+    eraser_options: &'a BrushOptions,
+) -> &'a BrushOptions {
+    if device == Device::Eraser { eraser_options } else { options }
 }
 
 /// Reports the samples that the stroke has gathered.

@@ -28,7 +28,11 @@ mod wayland;
 
 mod tablet;
 
+mod handling;
+
 mod heading;
+
+mod stabiliser;
 
 mod pen_stroke;
 
@@ -36,13 +40,19 @@ mod systems;
 
 mod input;
 
+mod test_field;
+
 mod script;
 
 #[cfg(test)]
 mod tests;
 
+#[cfg(test)]
+mod stabiliser_tests;
+
 pub use input::{Pen, PenEvent};
 pub use report::{Device, PointerState, Report, ReportKind};
 pub use script::Script;
 pub use settings::{Grip, PenSettings};
+pub use test_field::{TestField, TestPoint};
 pub use transform::{PenTargets, SurfaceTransform};

@@ -2,13 +2,15 @@
 
 use std::time::{Duration, Instant};
 
+use eframe::egui::{Pos2, Vec2};
 use render::paint::pose::Sample;
 use render::paint::strokes::SurfaceId;
 
+use super::handling::Handling;
 use super::heading::Heading;
 use super::report::{Device, PointerState};
-use super::settings::PenSettings;
 use super::speed::SpeedPressure;
+use super::stabiliser::{Stabiliser, distance};
 use super::transform::SurfaceTransform;
 use session::PenSample;
 
@@ -45,6 +47,7 @@ pub(super) struct PenStroke {
     /// Whether the last sample was added because the pen rested.
     still: bool,
     heading: Heading,
+    stabiliser: Stabiliser,
     last: Option<Sample>,
     samples: Vec<PenSample>,
 }
@@ -58,8 +61,9 @@ impl PenStroke {
         at: Instant,
         transform: SurfaceTransform,
         from: Option<(f64, f64)>,
-        settings: &PenSettings,
+        handling: &Handling<'_>,
     ) -> Self {
+        let (method, length_mm) = handling.stabiliser(&transform);
         let mut stroke = Self {
             device,
             transform,
@@ -69,17 +73,18 @@ impl PenStroke {
             state,
             moved: at,
             still: false,
-            heading: Heading::new(settings.grip.twist_deg),
+            heading: Heading::new(handling.first_twist()),
+            stabiliser: Stabiliser::new(method, length_mm),
             last: None,
             samples: Vec::new(),
         };
-        if !settings.follow {
+        if !handling.follows() {
             stroke.heading.start();
         }
         if let Some(from) = from {
-            stroke.add_straight_line(from, at, settings);
+            stroke.add_straight_line(from, at, handling);
         }
-        stroke.extend(state, at, settings);
+        stroke.extend(state, at, handling);
         stroke
     }
 
@@ -104,39 +109,46 @@ impl PenStroke {
     }
 
     /// Adds a sample at a new state of the device.
-    pub(super) fn extend(&mut self, state: PointerState, at: Instant, settings: &PenSettings) {
-        if settings.follow {
-            self.heading.add(state.at - self.state.at);
-        }
+    pub(super) fn extend(&mut self, state: PointerState, at: Instant, handling: &Handling<'_>) {
         let seconds = self.seconds(at);
-        let by_speed = self.pressure_model.move_to(state.at, seconds);
-        let pressure =
-            state.pressure.map_or(by_speed, |pressure| settings.brush_pressure(pressure));
+        let by_speed = handling.pressure_by_speed(self.pressure_model.move_to(state.at, seconds));
+        let pressure = state.pressure.map_or(by_speed, |pressure| handling.pressure(pressure));
+        let step = state.at - self.state.at;
         self.state = state;
         self.moved = at;
         self.still = false;
-        self.add_sample(pressure, seconds, at, settings);
-        let measured = settings.pen_tilt && state.twist_deg.is_some();
+        let before = self.stabiliser.brush();
+        let place = self.stabiliser.follow(self.position_mm());
+        if handling.follows() {
+            let step = match before {
+                Some(before) if !self.stabiliser.is_off() => self.way_in_window(before, place),
+                _ => step,
+            };
+            self.heading.add(step);
+        }
+        self.add_sample(place, pressure, seconds, at, handling);
+        let measured = handling.measured_twist(&state).is_some();
         if measured || self.heading.is_clear() || self.has_waited(at) {
-            self.start_heading(settings);
+            self.start_heading(handling);
         }
     }
 
     /// Adds one sample when the pen comes to rest, and further ones only while the pressure
     /// changes.
-    pub(super) fn add_rest_sample(&mut self, now: Instant, settings: &PenSettings) {
+    pub(super) fn add_rest_sample(&mut self, now: Instant, handling: &Handling<'_>) {
         if self.has_waited(now) {
-            self.start_heading(settings);
+            self.start_heading(handling);
         }
         if now.saturating_duration_since(self.moved) < STILL {
             return;
         }
         let seconds = self.seconds(now);
-        let pressure = self.pressure(seconds, settings);
+        let pressure = self.pressure(seconds, handling);
         let last = self.last.map_or(0.0, |last| last.pressure);
         if !self.still || (pressure - last).abs() > CHANGED {
             self.still = true;
-            self.add_sample(pressure, seconds, now, settings);
+            let place = self.stabiliser.follow(self.position_mm());
+            self.add_sample(place, pressure, seconds, now, handling);
         }
     }
 
@@ -159,17 +171,49 @@ impl PenStroke {
         }
     }
 
-    /// Adds the samples that end a stroke of a device without pressure.
-    pub(super) fn finish(&mut self, at: Instant, settings: &PenSettings) {
-        self.start_heading(settings);
+    /// Adds the samples that end a stroke: the way on which a brush that stayed behind catches up,
+    /// and for a device without pressure those that lift it.
+    pub(super) fn finish(&mut self, at: Instant, handling: &Handling<'_>) {
+        self.catch_up(at, handling);
+        self.start_heading(handling);
         if self.state.pressure.is_some() {
             return;
         }
-        let mut seconds = self.seconds(at);
-        for pressure in self.pressure_model.end_pressures(seconds) {
+        let mut seconds = self.last_seconds().max(self.seconds(at));
+        for pressure in self.pressure_model.end_pressures(self.seconds(at)) {
             seconds += END_INTERVAL_SECONDS;
-            self.add_sample(pressure, seconds, at, settings);
+            let pressure = handling.pressure_by_speed(pressure);
+            self.add_sample(self.position_mm(), pressure, seconds, at, handling);
         }
+    }
+
+    /// Leads the brush to the last place of the pen, as fast as a straight line is drawn.
+    fn catch_up(&mut self, at: Instant, handling: &Handling<'_>) {
+        let mut before = self.stabiliser.brush().unwrap_or_else(|| self.position_mm());
+        let mut seconds = self.last_seconds().max(self.seconds(at));
+        let pressure = self.last.map_or(0.0, |last| last.pressure);
+        for place in self.stabiliser.catch_up() {
+            if handling.follows() {
+                self.heading.add(self.way_in_window(before, place));
+            }
+            seconds += distance(before, place) / LINE_SPEED_MM_S;
+            self.add_sample(place, pressure, seconds, at, handling);
+            before = place;
+        }
+    }
+
+    /// Line in the window from the brush to the pen, if the brush stays behind.
+    pub(super) fn string_line(&self) -> Option<[Pos2; 2]> {
+        let brush = self.stabiliser.brush().filter(|_| !self.stabiliser.is_off())?;
+        Some([self.state.at + self.way_in_window(self.position_mm(), brush), self.state.at])
+    }
+
+    fn way_in_window(&self, from: (f64, f64), to: (f64, f64)) -> Vec2 {
+        self.transform.way_in_window((to.0 - from.0, to.1 - from.1))
+    }
+
+    fn last_seconds(&self) -> f64 {
+        self.last.map_or(0.0, |last| last.seconds)
     }
 
     /// Removes and returns the samples since the last call. There are none before the direction
@@ -184,40 +228,40 @@ impl PenStroke {
     }
 
     /// Puts the brush across the direction of the stroke, from its first sample on.
-    fn start_heading(&mut self, settings: &PenSettings) {
+    fn start_heading(&mut self, handling: &Handling<'_>) {
         if self.heading.is_started() {
             return;
         }
         self.heading.start();
         let Sample { twist_deg, .. } =
-            brush_sample(&self.transform, &self.state, self.heading.twist(), settings);
+            brush_sample(&self.transform, &self.state, self.heading.twist(), handling);
         for PenSample { sample, .. } in &mut self.samples {
             sample.twist_deg = twist_deg;
         }
     }
 
     /// Adds a straight line from `from`, in mm, to the current position.
-    fn add_straight_line(&mut self, from: (f64, f64), at: Instant, settings: &PenSettings) {
+    fn add_straight_line(&mut self, from: (f64, f64), at: Instant, handling: &Handling<'_>) {
         let to = self.position_mm();
         let length = (to.0 - from.0).hypot(to.1 - from.1);
         if length < LINE_START_MM {
             return;
         }
-        if settings.follow {
-            self.heading.add(self.transform.way_in_window((to.0 - from.0, to.1 - from.1)));
-            self.start_heading(settings);
+        if handling.follows() {
+            self.heading.add(self.way_in_window(from, to));
+            self.start_heading(handling);
         }
         self.pressure_model =
             SpeedPressure::new(self.state.at, length / LINE_SPEED_MM_S).at_full_pressure();
-        let moderate = self.pressure_model.pressure(0.0);
+        let moderate = handling.pressure_by_speed(self.pressure_model.pressure(0.0));
         let full = self
             .state
             .pressure
-            .map_or(moderate, |measured| settings.brush_pressure(measured).max(moderate));
+            .map_or(moderate, |measured| handling.pressure(measured).max(moderate));
         for (mm, pressure) in [(0.0, 0.2 * full), (LINE_START_MM, full)] {
             let share = mm / length;
             let position_mm = (from.0 + (to.0 - from.0) * share, from.1 + (to.1 - from.1) * share);
-            let sample = brush_sample(&self.transform, &self.state, self.heading.twist(), settings);
+            let sample = brush_sample(&self.transform, &self.state, self.heading.twist(), handling);
             let sample = Sample { pressure, seconds: mm / LINE_SPEED_MM_S, ..sample };
             self.push(Sample { x_mm: position_mm.0, y_mm: position_mm.1, ..sample }, at);
         }
@@ -231,14 +275,21 @@ impl PenStroke {
         at.saturating_duration_since(self.began).as_secs_f64() + self.line_seconds
     }
 
-    fn pressure(&self, seconds: f64, settings: &PenSettings) -> f64 {
-        let by_speed = || self.pressure_model.pressure(seconds);
-        self.state.pressure.map_or_else(by_speed, |measured| settings.brush_pressure(measured))
+    fn pressure(&self, seconds: f64, handling: &Handling<'_>) -> f64 {
+        let by_speed = || handling.pressure_by_speed(self.pressure_model.pressure(seconds));
+        self.state.pressure.map_or_else(by_speed, |measured| handling.pressure(measured))
     }
 
-    fn add_sample(&mut self, pressure: f64, seconds: f64, at: Instant, settings: &PenSettings) {
-        let sample = brush_sample(&self.transform, &self.state, self.heading.twist(), settings);
-        self.push(Sample { pressure, seconds, ..sample }, at);
+    fn add_sample(
+        &mut self,
+        (x_mm, y_mm): (f64, f64),
+        pressure: f64,
+        seconds: f64,
+        at: Instant,
+        handling: &Handling<'_>,
+    ) {
+        let sample = brush_sample(&self.transform, &self.state, self.heading.twist(), handling);
+        self.push(Sample { pressure, seconds, x_mm, y_mm, ..sample }, at);
     }
 
     /// Adds a sample. If its time is before that of the last one, it is set to that time.
@@ -256,12 +307,11 @@ pub(super) fn brush_sample(
     transform: &SurfaceTransform,
     state: &PointerState,
     twist: f64,
-    settings: &PenSettings,
+    handling: &Handling<'_>,
 ) -> Sample {
     let (x_mm, y_mm) = transform.position_mm(state.at);
-    let tilt = state.tilt_deg.filter(|_| settings.pen_tilt);
-    let tilt = transform.surface_tilt(tilt.unwrap_or_else(|| settings.grip.tilt_deg()));
-    let twist = state.twist_deg.filter(|_| settings.pen_tilt).unwrap_or(twist);
+    let tilt = transform.surface_tilt(handling.tilt_deg(state));
+    let twist = handling.measured_twist(state).unwrap_or(twist);
     let twist_deg = transform.surface_twist(twist);
     let (tilt_x_deg, tilt_y_deg) = (tilt.0.clamp(-90.0, 90.0), tilt.1.clamp(-90.0, 90.0));
     Sample { seconds: 0.0, x_mm, y_mm, pressure: 0.0, tilt_x_deg, tilt_y_deg, twist_deg }

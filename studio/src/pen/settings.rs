@@ -1,6 +1,7 @@
 //! Preferences for pen input; stored in the preferences file.
 
 use serde::{Deserialize, Serialize};
+use session::brushes::{PressureCurve, StabiliserSettings};
 
 /// Attitude of a brush that is led by a mouse or a finger, as seen in the window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -38,12 +39,11 @@ impl Grip {
 }
 
 /// Preferences for pen input.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(from = "StoredSettings")]
 pub struct PenSettings {
-    /// Exponent applied to the pressure of a stylus, 0.2 to 5. Values above 1 lower the
-    /// pressure of the brush, values below 1 raise it.
-    pub gamma: f64,
+    /// Pressure of the brush for each pressure of a stylus.
+    pub curve: PressureCurve,
     /// Attitude of a brush whose device measures none.
     pub grip: Grip,
     /// Whether a brush without a measured attitude turns its broad side across the
@@ -51,11 +51,46 @@ pub struct PenSettings {
     pub follow: bool,
     /// Whether the tilt and twist of a stylus move the brush; otherwise `grip` is used.
     pub pen_tilt: bool,
+    /// How far the brush stays behind the pen.
+    pub stabiliser: StabiliserSettings,
+}
+
+/// The preferences as files have them. Older ones have an exponent instead of a curve.
+#[derive(Debug, Deserialize)]
+#[serde(default)]
+struct StoredSettings {
+    gamma: Option<f64>,
+    curve: Option<PressureCurve>,
+    grip: Grip,
+    follow: bool,
+    pen_tilt: bool,
+    stabiliser: StabiliserSettings,
+}
+
+impl Default for StoredSettings {
+    fn default() -> Self {
+        let PenSettings { grip, follow, pen_tilt, stabiliser, .. } = PenSettings::default();
+        Self { gamma: None, curve: None, grip, follow, pen_tilt, stabiliser }
+    }
+}
+
+impl From<StoredSettings> for PenSettings {
+    fn from(stored: StoredSettings) -> Self {
+        let StoredSettings { gamma, curve, grip, follow, pen_tilt, stabiliser } = stored;
+        let curve = curve.or(gamma.map(PressureCurve::Power)).unwrap_or_default();
+        Self { curve, grip, follow, pen_tilt, stabiliser }
+    }
 }
 
 impl Default for PenSettings {
     fn default() -> Self {
-        Self { gamma: 1.0, grip: Grip::default(), follow: true, pen_tilt: true }
+        Self {
+            curve: PressureCurve::default(),
+            grip: Grip::default(),
+            follow: true,
+            pen_tilt: true,
+            stabiliser: StabiliserSettings::default(),
+        }
     }
 }
 
@@ -69,16 +104,11 @@ impl PenSettings {
                 *value = default;
             }
         };
-        bound(&mut self.gamma, 0.2, 5.0, default.gamma);
         bound(&mut grip.lean_deg, 0.0, 80.0, default.grip.lean_deg);
         bound(&mut grip.towards_deg, 0.0, 360.0, default.grip.towards_deg);
         bound(&mut grip.twist_deg, 0.0, 360.0, default.grip.twist_deg);
-    }
-
-    /// Pressure of the brush for a measured `pressure`, 0 to 1.
-    pub(super) fn brush_pressure(&self, pressure: f64) -> f64 {
-        let gamma = if self.gamma.is_finite() { self.gamma.clamp(0.2, 5.0) } else { 1.0 };
-        pressure.clamp(0.0, 1.0).powf(gamma)
+        self.curve.bound();
+        self.stabiliser.bound();
     }
 }
 
@@ -100,21 +130,20 @@ mod tests {
     }
 
     #[test]
-    fn gamma_keeps_the_endpoints_and_the_range() {
-        for gamma in [0.0, 0.5, 1.0, 2.2, 99.0, f64::NAN] {
-            let settings = PenSettings { gamma, ..PenSettings::default() };
-            assert_eq!(
-                (settings.brush_pressure(0.0), settings.brush_pressure(1.0)),
-                (0.0, 1.0),
-                "{gamma}"
-            );
-            assert_eq!(
-                (settings.brush_pressure(-3.0), settings.brush_pressure(7.0)),
-                (0.0, 1.0),
-                "{gamma}"
-            );
+    fn preferences_with_an_exponent_press_as_they_did() {
+        for gamma in [0.2, 0.7, 1.0, 2.2, 5.0] {
+            let text = format!(r#"{{"gamma": {gamma}, "follow": false}}"#);
+            let mut read: PenSettings = serde_json::from_str(&text).unwrap();
+            read.bound();
+            assert!(!read.follow && read.pen_tilt, "{read:?}");
+            for pressure in [0.0, 0.1, 0.37, 0.5, 0.99, 1.0_f64] {
+                assert_eq!(read.curve.at(pressure), pressure.powf(gamma), "{gamma}");
+            }
+            let kept = serde_json::to_string(&read).unwrap();
+            assert_eq!(serde_json::from_str::<PenSettings>(&kept).unwrap(), read, "{kept}");
         }
-        let soft = PenSettings { gamma: 2.0, ..PenSettings::default() };
-        assert_eq!(soft.brush_pressure(0.5), 0.25);
+        let mut read: PenSettings = serde_json::from_str(r#"{"gamma": 99}"#).unwrap();
+        read.bound();
+        assert_eq!(read, PenSettings::default());
     }
 }

@@ -70,6 +70,12 @@ impl SurfaceTransform {
         vec2(((x * d - y * c) / area) as f32, ((y * a - x * b) / area) as f32)
     }
 
+    /// Millimetres of the surface in a point of the window.
+    pub(super) fn mm_per_point(&self) -> f64 {
+        let ((a, b), (c, d)) = (self.right, self.down);
+        (a * d - b * c).abs().sqrt()
+    }
+
     /// Converts a displacement in the window, in points, to one on the surface, in mm.
     fn displacement(&self, (x, y): (f64, f64)) -> (f64, f64) {
         (x * self.right.0 + y * self.down.0, x * self.right.1 + y * self.down.1)

@@ -8,6 +8,8 @@ mod pipeline;
 
 mod quad;
 
+mod fills;
+
 mod picture;
 
 mod outline;
@@ -16,7 +18,9 @@ mod head;
 
 mod surface;
 
-pub use head::HeadLook;
+mod light_switch;
+
+pub use fills::quicken;
 pub use outline::Outline;
 pub use picture::{DrawnPart, Picture};
 pub use quad::fill_rect;

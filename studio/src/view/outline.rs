@@ -135,7 +135,7 @@ impl Outline {
 }
 
 /// Offsets a closed convex polygon outwards by `by` points, vertex by vertex.
-fn offset_outwards(edge: &[Pos2], by: f32) -> Vec<Pos2> {
+pub(super) fn offset_outwards(edge: &[Pos2], by: f32) -> Vec<Pos2> {
     let count = edge.len();
     let middle = edge.iter().fold(Vec2::ZERO, |sum, at| sum + at.to_vec2()) / count as f32;
     let outwards = |from: Pos2, to: Pos2| {

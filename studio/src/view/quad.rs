@@ -6,7 +6,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use eframe::egui::{
-    Color32, ColorImage, Context, Id, PaintCallbackInfo, Painter, Pos2, Rect, pos2,
+    Color32, ColorImage, Context, Id, PaintCallbackInfo, Painter, Pos2, Rect, Shape, pos2,
 };
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, ScreenDescriptor, wgpu};
 use wgpu::{BindGroup, Buffer, Device, Extent3d, Origin3d, Queue, TextureFormat};
@@ -112,27 +112,57 @@ impl Quad {
     }
 }
 
+/// The window that quads are drawn in.
+pub(super) struct QuadCanvas {
+    /// The part of the window that has contents, in points.
+    pub(super) visible: Rect,
+    /// Pixels per point.
+    pub(super) density: f32,
+    format: TextureFormat,
+}
+
+impl QuadCanvas {
+    /// The window of a context.
+    pub(super) fn of(context: &Context) -> Self {
+        Self {
+            visible: context.content_rect(),
+            density: context.pixels_per_point(),
+            format: context.data(|data| data.get_temp(format_id())).unwrap_or(FORMAT),
+        }
+    }
+
+    /// A rectangle rounded to pixels, as egui does for rectangles.
+    pub(super) fn rounded(&self, rect: Rect) -> Rect {
+        let round = |at: f32| (at * self.density).round() / self.density;
+        let corner = |at: Pos2| pos2(round(at.x), round(at.y));
+        Rect::from_min_max(corner(rect.min), corner(rect.max))
+    }
+
+    /// A length rounded up to pixels.
+    pub(super) fn rounded_up(&self, length: f32) -> f32 {
+        (length * self.density).ceil() / self.density
+    }
+
+    /// Opaque quads as a shape, which draws them in order.
+    pub(super) fn shape(&self, quads: Vec<Quad>) -> Shape {
+        let job = DrawQuads { quads, format: self.format, vertices: OnceLock::new() };
+        Callback::new_paint_callback(self.visible, job).into()
+    }
+}
+
 /// Fills a rectangle with one colour.
 pub fn fill_rect(painter: &Painter, rect: Rect, color: Color32) {
-    let rect = rect.intersect(painter.clip_rect());
-    // Rounded to physical pixels, as egui does for rectangles.
-    let density = painter.pixels_per_point();
-    let flat_color = |at: Pos2| pos2((at.x * density).round(), (at.y * density).round()) / density;
-    let (min, max) = (flat_color(rect.min), flat_color(rect.max));
-    let points = [min, pos2(max.x, min.y), max, pos2(min.x, max.y)];
+    let rect = QuadCanvas::of(painter.ctx()).rounded(rect.intersect(painter.clip_rect()));
+    let points = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()];
     draw_quads(painter, vec![Quad::colored(points.map(|point| (point, color)))]);
 }
 
 /// Draws opaque quads in order, within the painter's clip rectangle.
 pub(super) fn draw_quads(painter: &Painter, quads: Vec<Quad>) {
-    let context = painter.ctx();
-    let visible = painter.clip_rect().intersect(context.content_rect());
-    if quads.is_empty() || !visible.is_positive() {
-        return;
+    let canvas = QuadCanvas::of(painter.ctx());
+    if !quads.is_empty() && painter.clip_rect().intersect(canvas.visible).is_positive() {
+        painter.add(canvas.shape(quads));
     }
-    let format = context.data(|data| data.get_temp(format_id())).unwrap_or(FORMAT);
-    let job = DrawQuads { quads, format, vertices: OnceLock::new() };
-    painter.add(Callback::new_paint_callback(visible, job));
 }
 
 struct DrawQuads {
@@ -195,8 +225,13 @@ impl CallbackTrait for DrawQuads {
         let [width, height] = info.screen_size_px.map(|size| size as f32);
         pass.set_viewport(0.0, 0.0, width, height, 0.0, 1.0);
         pass.set_vertex_buffer(0, vertices.slice(..));
-        for (index, quad) in (0_u32..).zip(&self.quads) {
-            match &quad.texture {
+        let mut first = 0_u32;
+        // Neighbours without a texture are drawn at once.
+        for run in self.quads.chunk_by(|a, b| a.texture.is_none() && b.texture.is_none()) {
+            let end = first + 6 * run.len() as u32;
+            let vertices = first..end;
+            first = end;
+            match &run[0].texture {
                 Some((texture, smooth)) => {
                     let Some(bind_group) = texture.bind_group(*smooth) else { continue };
                     pass.set_pipeline(&pipelines.textured);
@@ -204,7 +239,7 @@ impl CallbackTrait for DrawQuads {
                 }
                 None => pass.set_pipeline(&pipelines.flat_color),
             }
-            pass.draw(6 * index..6 * index + 6, 0..1);
+            pass.draw(vertices, 0..1);
         }
     }
 }

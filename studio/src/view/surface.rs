@@ -5,7 +5,7 @@ use eframe::egui::{
     Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::head::{self, HeadLook};
+use super::head;
 use super::outline::Outline;
 use super::picture::{DrawnPart, Picture};
 use super::transform::{Placement, ViewState};
@@ -53,6 +53,10 @@ pub struct SurfaceView {
     density: f32,
     drag: DragMode,
     split_handle: Option<Rect>,
+    /// Whether the whole surface is shown under the second light.
+    pub(super) under_second: bool,
+    /// Rectangle of the switch between the lights, if it is shown.
+    pub(super) light_switch: Option<Rect>,
 }
 
 impl SurfaceView {
@@ -71,6 +75,8 @@ impl SurfaceView {
             density: 1.0,
             drag: DragMode::None,
             split_handle: None,
+            under_second: false,
+            light_switch: None,
         }
     }
 
@@ -87,7 +93,7 @@ impl SurfaceView {
         if there && self.second.is_none() {
             self.second = Some(Picture::new(self.name, self.cells()));
         } else if !there {
-            self.second = None;
+            (self.second, self.under_second) = (None, false);
         }
     }
 
@@ -167,7 +173,7 @@ impl SurfaceView {
         }
         let placement = self.placement();
         let painter = ui.painter_at(rect);
-        self.split_handle = None;
+        (self.split_handle, self.light_switch) = (None, None);
         self.outline.draw_shadow(&painter, &placement, self.cells());
         match (&mut self.second, split) {
             (Some(second), Some(split)) => {
@@ -177,17 +183,18 @@ impl SurfaceView {
                 self.outline.draw_edge(&painter, &placement, self.first.cells());
                 self.split_line(ui, &placement, split);
             }
-            _ => {
-                self.first.draw(&painter, &placement, DrawnPart::Whole);
+            (second, _) => {
+                let shown = second.as_mut().filter(|_| self.under_second);
+                shown.unwrap_or(&mut self.first).draw(&painter, &placement, DrawnPart::Whole);
                 self.outline.draw_edge(&painter, &placement, self.first.cells());
             }
         }
         response
     }
 
-    /// Draws a brush head over the surface.
-    pub fn show_head(&self, ui: &Ui, over: &HeadOnCanvas, look: HeadLook) {
-        head::draw(&ui.painter_at(self.rect), &self.placement(), over, look);
+    /// Draws a brush head over the surface, with the colour of its paint.
+    pub fn show_head(&self, ui: &Ui, over: &HeadOnCanvas, paint: Option<[u8; 3]>) {
+        head::draw(&ui.painter_at(self.rect), &self.placement(), over, paint);
     }
 
     /// Applies drags, wheel and touch gestures to the view.
@@ -262,7 +269,8 @@ impl SurfaceView {
             [placement.point([column, 0.0]), placement.point([column, height])]
         };
         let middle = |at: f32| self.rect.shrink(16.0).clamp(ends(at)[0].lerp(ends(at)[1], 0.5));
-        let split_handle = Rect::from_center_size(middle(*split.at), vec2(22.0, 22.0));
+        let split_handle =
+            Rect::from_center_size(middle(*split.at), theme::at_least(ui, vec2(22.0, 22.0)));
         self.split_handle = Some(split_handle);
         let response = ui.interact(split_handle, Id::unique(("split", self.name)), Sense::drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Split of two lights"));
@@ -305,8 +313,8 @@ impl SurfaceView {
 /// Draws a label over the picture.
 fn draw_label(painter: &eframe::egui::Painter, at: Pos2, align: Align2, text: &str) {
     let font = FontId::proportional(11.0);
-    let galley = painter.layout_no_wrap(text.to_owned(), font, theme::colors(painter.ctx()).strong);
+    let galley = painter.layout_no_wrap(text.to_owned(), font, theme::BOARD_TEXT);
     let rect = align.anchor_size(at, galley.size());
-    painter.rect_filled(rect.expand2(vec2(5.0, 2.0)), 3.0, Color32::from_black_alpha(150));
-    painter.galley(pos2(rect.left(), rect.top()), galley, theme::colors(painter.ctx()).strong);
+    painter.rect_filled(rect.expand2(vec2(5.0, 2.0)), 3.0, theme::BOARD);
+    painter.galley(pos2(rect.left(), rect.top()), galley, theme::BOARD_TEXT);
 }

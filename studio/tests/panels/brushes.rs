@@ -5,9 +5,10 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use render::paint::brush::HeadShape;
 use render::paint::strokes::{Action, BrushSpec, Load, Recipe};
+use session::swatches::SwatchChange;
 use session::{BrushState, Command};
 use studio::panels::brushes::Brushes;
-use studio::panels::{Mode, Request};
+use studio::panels::{FileRequest, Mode, Request};
 
 use super::fixture::{Fixture, assert_requests, click, is_disabled, painting, picture, show_panel};
 
@@ -258,4 +259,54 @@ fn brushes_are_drawn() {
     let [red, green, blue] = harness.state().painting.brushes[0].color.unwrap();
     let at = drawn.get_pixel((row.left() + 36.0) as u32, (row.top() + 12.0) as u32).0;
     assert_eq!(at, [red, green, blue, 255]);
+}
+
+#[test]
+fn the_swatch_tells_colour_thickness_and_hiding_of_what_the_brush_holds() {
+    let mut harness = brushes();
+    for words in ["Lab 47.2 52.1 38.4", "hides 62 %", "0.25 mm at the tip, 20 % medium"] {
+        assert!(harness.query_by_label(words).is_some(), "{words}");
+    }
+    let rect = harness.get_by_label("Paint on the brush").rect();
+    assert!(rect.height() >= 50.0 && rect.width() > 260.0, "{rect}");
+    assert!(harness.query_by_label("Marks of the tip").is_some());
+    if let Some(drawn) = picture(&mut harness, "brush-swatch") {
+        let at = |share: f32, y: f32| {
+            let x = rect.left() + share * rect.width();
+            drawn.get_pixel(x as u32, y as u32).0
+        };
+        let swatch = harness.state().painting.brushes[0].swatch.clone().unwrap();
+        let rgb = |[r, g, b]: [u8; 3]| [r, g, b, 255];
+        let middle = rect.center().y;
+        assert_eq!(at(0.25, middle), rgb(swatch.opaque.srgb), "the left half hides");
+        assert_eq!(at(0.6, middle), rgb(swatch.over_ground.srgb));
+        assert_eq!(at(0.6, rect.bottom() - 3.0), rgb(swatch.ground.srgb), "the bare ground");
+        assert_eq!(at(0.81, middle), rgb(swatch.over_cards[0].srgb));
+        assert_eq!(at(0.95, middle), rgb(swatch.over_cards[1].srgb));
+        assert_eq!(at(0.95, rect.top() + 3.0), rgb(swatch.cards[1].srgb), "the bare card");
+    }
+    harness.state_mut().tools.brush = "flat".to_owned();
+    harness.run();
+    assert!(harness.query_by_label("hides 62 %").is_none(), "a clean brush has no colour");
+    assert!(harness.query_by_label("Keep this mixture").is_none());
+}
+
+#[test]
+fn what_the_brush_holds_is_kept_as_a_mixture() {
+    let mut harness = brushes();
+    click(&mut harness, "Keep this mixture");
+    let requests = std::mem::take(&mut harness.state_mut().requests);
+    let [Request::File(FileRequest::Swatches(SwatchChange::Keep(kept)))] = &requests[..] else {
+        panic!("{requests:?}");
+    };
+    let recipe: Recipe = [("Zinc White", 0.25), ("Vermilion", 0.75)]
+        .map(|(name, part)| (name.to_owned(), part))
+        .into();
+    assert_eq!((kept.name.as_str(), &kept.recipe), ("Vermilion and Zinc White", &recipe));
+    assert!((kept.vehicle - 0.2).abs() < 1e-9, "{}", kept.vehicle);
+    let painting = &harness.state().painting;
+    let viewing = &painting.light.viewing;
+    let wanted = painting.library.color(recipe, viewing).unwrap();
+    assert_eq!(kept.color, wanted.hex());
+    assert_eq!(kept.library, painting.library.title);
 }

@@ -31,9 +31,13 @@ fn stage(painting: PaintingState) -> PanelWindow<Eyedropper> {
 fn picked(painting: &PaintingState) -> Picked {
     let library = &painting.library;
     let find = |name: &str| library.find(name).unwrap();
-    let layer = |paint: &[(PigmentId, f64)], vehicle: f64| {
-        let mut layer =
-            PickedLayer { slots: [None; SLOTS], amounts_mm: [0.0; SLOTS + 1], opacity: 1.0 };
+    let layer = |label: &str, paint: &[(PigmentId, f64)], vehicle: f64| {
+        let mut layer = PickedLayer {
+            label: label.to_owned(),
+            slots: [None; SLOTS],
+            amounts_mm: [0.0; SLOTS + 1],
+            opacity: 1.0,
+        };
         for (slot, (pigment, amount)) in paint.iter().enumerate() {
             (layer.slots[slot], layer.amounts_mm[slot]) = (Some(*pigment), *amount);
         }
@@ -48,8 +52,8 @@ fn picked(painting: &PaintingState) -> Picked {
         y_mm: 54.11,
         reflectance: mixture.hiding(library.saunderson),
         layers: vec![
-            layer(&[(find("Chrome Yellow"), 0.05)], 0.0),
-            layer(&[(white, 0.06), (blue, 0.02)], 0.02),
+            layer("sunflowers", &[(find("Chrome Yellow"), 0.05)], 0.0),
+            layer("Wet", &[(white, 0.06), (blue, 0.02)], 0.02),
         ],
     }
 }
@@ -77,7 +81,7 @@ fn picked_values_equal_those_of_the_library() {
     for text in [three(lab.to_array()), three(xyz.to_array()), srgb, "103.2, 54.1 mm".to_owned()] {
         assert!(stage.harness.query_by_label(&text).is_some(), "{text}");
     }
-    for text in ["Wet", "0.100 mm, 20 % medium", "Dry 1", "0.050 mm", "     3"] {
+    for text in ["Wet", "0.100 mm, 20 % medium", "sunflowers", "0.050 mm", "     3"] {
         assert!(stage.harness.query_by_label(text).is_some(), "{text}");
     }
     assert_eq!(stage.harness.query_all_by_label("     1").count(), 2, "of blue and of yellow");

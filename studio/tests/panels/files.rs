@@ -2,10 +2,22 @@
 
 mod bench;
 
+mod keyboard;
+
 mod saving;
 
 mod output;
 
+mod timelapse;
+
 mod drawings;
 
+mod kept;
+
 mod scenes;
+
+mod browsing;
+
+mod beginning;
+
+mod crop;

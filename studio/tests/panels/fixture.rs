@@ -12,9 +12,13 @@ use pigment::palette::{Cards, Palette, Recipe, TINT_PARTS};
 use render::layer::SLOTS;
 use render::light::Light;
 use render::paint::brush::HeadShape;
-use render::paint::document::{Lighting, Medium, Slots};
+use render::paint::document::{LayerId, Lighting, Medium, Slots};
 use render::paint::strokes::BrushSpec;
-use session::{BrushState, LayerState, PaintingState, Thumbnail};
+use session::{
+    BrushState, BrushSwatch, FilmColor, HistoryShot, HistoryShots, LayerState, PaintingState,
+    Thumbnail,
+};
+use spectra::color::Lab;
 use studio::panels::{PanelContext, Request, Tools};
 use studio::theme;
 
@@ -58,7 +62,7 @@ pub(crate) fn painting() -> PaintingState {
         slots,
         masstones: slots.map(|slot| Some(srgb(&Recipe::single(slot?)))),
         tints: slots.map(|slot| Some(srgb(&palette.tint(slot?, TINT_PARTS)))),
-        layers: vec![layer(slots, 1.0), layer(slots, 0.5)],
+        layers: vec![layer(1, slots, 1.0), layer(2, slots, 0.5)],
         lighting: Lighting::default(),
         light: Arc::clone(light),
         second_lighting: None,
@@ -68,15 +72,47 @@ pub(crate) fn painting() -> PaintingState {
             .map(str::to_owned)
             .to_vec(),
         history_done: 3,
+        history_shots: shots(),
         undo_bytes: (96 << 20, 512 << 20),
         brushes: vec![
             brush("round", HeadShape::Round, 6.0, Some(srgb(&Recipe::single(slots[2].unwrap())))),
             brush("flat", HeadShape::Flat, 10.0, None),
             brush("knife", HeadShape::Knife, 14.0, None),
         ],
+        mask: None,
         backend: "cpu".to_owned(),
         revision: 1,
         stroke_open: false,
+    }
+}
+
+/// Pictures of all states but the last but one, of which each changes a corner.
+fn shots() -> HistoryShots {
+    let shot = |state: usize| {
+        let pixel = |index: usize| match (index % 48 < 12 * state, index / 48 < 12) {
+            (true, true) => [200, 40 * state as u8, 60, 255],
+            _ => [225, 222, 214, 255],
+        };
+        let picture = Thumbnail { width: 48, height: 30, pixels: (0..1440).map(pixel).collect() };
+        let changed = (state > 0).then(|| [12 * (state - 1), 0, 12, 12]);
+        HistoryShot { picture: Arc::new(picture), changed }
+    };
+    let shots = (0..5).map(|state| (state != 3).then(|| shot(state))).collect();
+    HistoryShots { shots, bytes: 3 << 20, most_bytes: 24 << 20 }
+}
+
+/// A film that hides the ground in part, in this colour.
+fn swatch([r, g, b]: [u8; 3]) -> BrushSwatch {
+    let color =
+        |srgb: [u8; 3], lightness| FilmColor { lab: Lab { lightness, a: 52.1, b: 38.4 }, srgb };
+    BrushSwatch {
+        opaque: color([r, g, b], 47.2),
+        ground: color([230, 228, 222], 91.0),
+        over_ground: color([r, g / 2 + 60, b / 2 + 60], 55.0),
+        cards: [color([63, 63, 63], 26.7), color([231, 231, 231], 91.7)],
+        over_cards: [color([r / 2, g / 2, b / 2], 30.0), color([r, g, b / 2 + 80], 60.0)],
+        contrast: 0.62,
+        thickness_mm: 0.25,
     }
 }
 
@@ -94,14 +130,25 @@ fn brush(name: &str, shape: HeadShape, size_mm: f64, color: Option<[u8; 3]>) -> 
         vehicle: if loaded { 0.2 } else { 0.0 },
         parts: if loaded { parts } else { [0.0; SLOTS] },
         color,
+        swatch: color.map(|color| Box::new(swatch(color))),
     }
 }
 
-fn layer(slots: Slots, opacity: f64) -> LayerState {
+fn layer(id: u32, slots: Slots, opacity: f64) -> LayerState {
     let pixel = |index: usize| [(index * 7 % 256) as u8, 90, 60, 255];
     let thumbnail = Thumbnail { width: 24, height: 15, pixels: (0..360).map(pixel).collect() };
     let thumbnail = Arc::new(thumbnail);
-    LayerState { slots, opacity, mean_mm: 0.123, max_mm: 0.81, coverage: 0.34, thumbnail }
+    LayerState {
+        id: LayerId(id),
+        name: String::new(),
+        visible: true,
+        slots,
+        opacity,
+        mean_mm: 0.123,
+        max_mm: 0.81,
+        coverage: 0.34,
+        thumbnail,
+    }
 }
 
 /// A panel with its context and its requests.
@@ -136,7 +183,8 @@ pub(crate) fn show_panel<P: 'static>(
         .with_max_steps(60);
     let mut harness = builder.with_context_setup(theme::apply).build_ui_state(
         move |ui, table: &mut Fixture<P>| {
-            ui.painter().rect_filled(ui.max_rect(), 0.0, theme::DARK.panel);
+            let panel_fill = theme::colors(ui.ctx()).panel;
+            ui.painter().rect_filled(ui.max_rect(), 0.0, panel_fill);
             let room = Rect::from_min_size(
                 Pos2::new(8.0, 8.0),
                 Vec2::new(theme::PANEL_WIDTH - 16.0, 680.0),

@@ -1,7 +1,7 @@
 //! The whole window with a real worker, without a window system.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, UiBuilder, Vec2, vec2};
@@ -29,7 +29,7 @@ pub(crate) struct Window {
     name: &'static str,
     fences: u64,
     /// Home folder of the program, deleted with the window.
-    _folder: tempfile::TempDir,
+    folder: tempfile::TempDir,
 }
 
 impl Window {
@@ -44,6 +44,15 @@ impl Window {
         let begin =
             vec![Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 32.0, 20.0, 0.1))];
         Self::with_commands(name, size, density, begin)
+    }
+
+    /// Opens such a window as on the first start of the program, with the first steps shown.
+    pub(crate) fn first_start(name: &'static str, size: Vec2) -> Self {
+        let mut window = Self::sized(name, size, 1.0);
+        window.studio_mut().files.preferences.first_steps_seen = false;
+        window.studio_mut().visible.first_steps = true;
+        window.harness.run_ok();
+        window
     }
 
     /// Opens a window whose worker executes `begin` first, and waits for it.
@@ -86,7 +95,9 @@ impl Window {
                         WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
                     let studio = studio.get_or_insert_with(|| {
                         let worker = StartedWorker::new(options, begin.take().unwrap_or_default());
-                        let preferences = Preferences::default();
+                        // Nothing lies over the picture.
+                        let preferences =
+                            Preferences { first_steps_seen: true, ..Preferences::default() };
                         let files = Files::new(ui.ctx(), Home::in_folder(&home), preferences);
                         let pen = Pen::new(PenSettings::default());
                         let parts = Parts { worker, pen, files, open: None, log: None };
@@ -101,7 +112,7 @@ impl Window {
                 },
                 None,
             );
-        Self { harness, name, fences: 0, _folder: folder }
+        Self { harness, name, fences: 0, folder }
     }
 
     /// State of the window.
@@ -117,6 +128,16 @@ impl Window {
     /// The kittest harness, for `get_by_label` and similar queries.
     pub(crate) fn harness(&mut self) -> &mut Harness<'static, Option<Studio>> {
         &mut self.harness
+    }
+
+    /// Home folder of the program.
+    pub(crate) fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Whether a label contains these words.
+    pub(crate) fn shows(&self, words: &str) -> bool {
+        self.harness.query_all_by_label_contains(words).next().is_some()
     }
 
     /// Draws frames until the worker has executed all commands and the window shows the
@@ -176,6 +197,12 @@ impl Window {
         self.harness.get_by_label(label).click();
         self.harness.step();
         self.harness.run_ok();
+    }
+
+    /// Clicks what opens a menu or a window, and waits until it is laid out.
+    pub(crate) fn open_menu(&mut self, label: &str) {
+        self.click(label);
+        self.harness.run_steps(3);
     }
 
     /// Converts a position on a surface, in mm, to a point of the window.

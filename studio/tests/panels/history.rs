@@ -94,3 +94,26 @@ fn history_is_drawn() {
     let chosen = studio::theme::DARK.chosen.to_array();
     assert_eq!(at, chosen, "the current entry is marked");
 }
+
+#[test]
+fn rows_show_the_canvas_after_their_action_and_hovering_enlarges_it() {
+    let mut harness = history(painting());
+    assert!(harness.query_by_label("Pictures take 3.0 of 24 MiB").is_some());
+    if let Some(drawn) = picture(&mut harness, "history-pictures") {
+        let red = |row: &str, x: f32| {
+            let rect = harness.get_by_label(row).rect();
+            let at = drawn.get_pixel((rect.left() + x) as u32, (rect.top() + 5.0) as u32).0;
+            i32::from(at[0]) - i32::from(at[1])
+        };
+        // The third action has no picture, those around it have.
+        assert!(red("2 stroke, round", 42.0) > 60, "{}", red("2 stroke, round", 42.0));
+        assert!(red("3 dry 50 %", 42.0).abs() < 10, "{}", red("3 dry 50 %", 42.0));
+    }
+    harness.get_by_label("2 stroke, round").hover();
+    harness.run_steps(60);
+    assert!(harness.query_by_label("The outline holds what the action changed.").is_some());
+    picture(&mut harness, "history-enlarged");
+    harness.get_by_label("0 beginning").hover();
+    harness.run_steps(60);
+    assert!(harness.query_by_label("The outline holds what the action changed.").is_none());
+}

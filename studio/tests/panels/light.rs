@@ -48,7 +48,13 @@ fn a_searched_light_is_set_by_a_click_only() {
 
 #[test]
 fn enter_sets_the_first_match_or_a_typed_temperature() {
-    for (typed, wanted) in [("north sky", "D75"), ("3200K", "3200K"), ("D7450K", "D7450K")] {
+    for (typed, wanted) in [
+        ("north sky", "D75"),
+        ("3200K", "3200K"),
+        ("D7450K", "D7450K"),
+        ("a", "A"),
+        ("led-b", "LED-B1"),
+    ] {
         let mut stage = stage(made_painting());
         stage.click("Illuminant: D65");
         stage.harness.get_by_role(eframe::egui::Role::TextInput).type_text(typed);
@@ -57,6 +63,20 @@ fn enter_sets_the_first_match_or_a_typed_temperature() {
         stage.run();
         assert_eq!(queued_lighting(&mut stage).illuminant, wanted, "typed {typed}");
     }
+}
+
+#[test]
+fn arrows_move_the_light_that_enter_takes() {
+    let mut stage = stage(made_painting());
+    stage.click("Illuminant: D65");
+    stage.harness.get_by_role(eframe::egui::Role::TextInput).type_text("led-b");
+    stage.run();
+    for key in [Key::ArrowDown, Key::ArrowDown, Key::ArrowDown, Key::ArrowUp, Key::Enter] {
+        stage.harness.key_press(key);
+        stage.run();
+        stage.save("light-marked");
+    }
+    assert_eq!(queued_lighting(&mut stage).illuminant, "LED-B3");
 }
 
 #[test]

@@ -7,6 +7,8 @@ mod harness;
 
 mod fixture;
 
+mod seen;
+
 mod painter;
 
 mod panel_window;
@@ -15,13 +17,29 @@ mod brushes;
 
 mod canvas;
 
+mod over_canvas;
+
 mod drawing;
 
 mod eyedropper;
 
+mod wheel;
+
+mod swatches;
+
+mod quick;
+
 mod files;
 
+mod floating;
+
+mod glyphs;
+
+mod guide;
+
 mod history;
+
+mod keys;
 
 mod layers;
 
@@ -29,9 +47,15 @@ mod layout;
 
 mod light;
 
+mod own_brushes;
+
 mod pen;
 
+mod pen_window;
+
 mod reference;
+
+mod tour;
 
 mod tubes;
 
@@ -40,3 +64,9 @@ mod volumes;
 mod whole;
 
 mod volume_paint;
+
+mod look;
+
+mod docking;
+
+mod working;

@@ -7,7 +7,7 @@ use eframe::egui::{Frame, Margin, Pos2, Ui, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use render::layer::SLOTS;
-use session::{BrushState, Command, PaintingState};
+use session::{BrushState, Command, HistoryShots, PaintingState};
 use studio::panels::{FileRequest, PanelContext, Request, Tools};
 use studio::theme;
 
@@ -140,6 +140,7 @@ pub(crate) fn made_painting() -> PaintingState {
         vehicle: 0.0,
         parts: [0.0; SLOTS],
         color: None,
+        swatch: None,
         ..made.brushes[0].clone()
     };
     PaintingState {
@@ -151,6 +152,7 @@ pub(crate) fn made_painting() -> PaintingState {
         layers: Vec::new(),
         history: Vec::new(),
         history_done: 0,
+        history_shots: HistoryShots::default(),
         brushes: vec![round],
         ..made
     }

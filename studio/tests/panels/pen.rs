@@ -19,6 +19,11 @@ fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> PointerState {
 /// frames of 20 ms. Returns its end in the window.
 fn stroke(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     window.click("Load from tube");
+    draw(window, y_mm, pressure)
+}
+
+/// Plays such a stroke of the tool in use.
+pub(crate) fn draw(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
     let places = (0..60).map(|step| 6.0 + f64::from(step) / 3.0);
     let holds: Vec<PointerState> = places.map(|x_mm| hold(window, x_mm, y_mm, pressure)).collect();
     let end = holds[holds.len() - 1].at;

@@ -4,6 +4,7 @@ use eframe::egui::{Event, PointerButton, Pos2, accesskit::Role};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use pigment::palette::{Cards, Palette as Mixable};
+use render::paint::document::LayerId;
 use render::paint::strokes::{Action, LayerRef, Load, PaletteSpec, Recipe, Squeeze, SurfaceId};
 use session::Command;
 use studio::panels::tubes::{DraggedTube, Tubes, squeeze};
@@ -157,7 +158,7 @@ fn a_pigment_is_exchanged_in_every_layer_where_possible() {
         let [from, to] = ["Ultramarine", "Cobalt Blue"].map(str::to_owned);
         act(Action::Swap { layer, from, to })
     };
-    assert_requests(&mut harness, &[swap(LayerRef::Dry(0)), swap(LayerRef::Wet)]);
+    assert_requests(&mut harness, &[swap(LayerRef::Id(LayerId(1))), swap(LayerRef::Wet)]);
     assert!(harness.query_by_label("Search").is_none(), "the window is closed");
 }
 

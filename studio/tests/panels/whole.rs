@@ -132,6 +132,26 @@ fn a_new_illuminant_changes_the_color_of_the_brush() {
 }
 
 #[test]
+fn the_pigment_whose_whole_name_was_typed_is_taken_by_enter() {
+    let mut window = Window::open("searched-pigment");
+    window.studio_mut().tools.tube = 7;
+    window.click("Tubes...");
+    let name = |window: &Window| {
+        let painting = window.studio().painting().unwrap();
+        painting.library[painting.slots[7].unwrap()].name.clone()
+    };
+    assert_eq!(name(&window), "Bone Black");
+    window.harness().get_by_label("Search").focus();
+    window.harness().step();
+    window.harness().get_by_label("Search").type_text("eosin lake");
+    window.harness().run_ok();
+    window.save("searched-pigment");
+    window.key(eframe::egui::Modifiers::NONE, eframe::egui::Key::Enter);
+    window.settle();
+    assert_eq!(name(&window), "Eosin Lake", "not the one of which it is a part");
+}
+
+#[test]
 fn a_color_of_the_reference_picture_finds_recipes() {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("pinned.png");
     let picture =

@@ -21,7 +21,7 @@ pub(crate) struct Program<'a> {
     pub(crate) screen: &'a Screen,
     /// Columns and rows of the screen that the canvas view covers.
     pub(crate) room: (Range<usize>, Range<usize>),
-    child: Child,
+    pub(crate) child: Child,
     figures: PathBuf,
 }
 

@@ -2,6 +2,7 @@
 
 use render::amount::mm_from_quanta;
 use render::gpu::BackendChoice;
+use render::paint::document::LayerId;
 use render::paint::strokes::{Action, LayerRef, SurfaceId};
 
 use super::pen::{load, wander};
@@ -40,8 +41,8 @@ fn layers_report_height_coverage_and_thumbnail() {
             "its share"
         );
         let thumbnail = &reported.thumbnail;
-        assert_eq!((thumbnail.width, thumbnail.height), (96, 60));
-        assert_eq!(thumbnail.pixels.len(), 96 * 60);
+        assert_eq!((thumbnail.width, thumbnail.height), (160, 100));
+        assert_eq!(thumbnail.pixels.len(), 160 * 100);
         let opaque = thumbnail.pixels.iter().filter(|pixel| pixel[3] > 0).count();
         let share = opaque as f64 / thumbnail.pixels.len() as f64;
         assert!((share - reported.coverage).abs() < 0.05, "{share} of {}", reported.coverage);
@@ -74,11 +75,42 @@ fn a_changed_layer_gets_a_new_thumbnail() {
         layers.len() == 2 && layers.iter().all(|layer| layer.max_mm > 0.0)
     });
     let most: f64 = window.state().layers.iter().map(|layer| layer.max_mm).sum();
-    window.act(Action::Merge { layer: 1 });
+    window.act(Action::Merge { layer: LayerRef::Dry(1), with: None });
     window.wait_until("one layer as thick as both", |window| {
         let layers = &window.state().layers;
         layers.len() == 1 && (layers[0].max_mm - most).abs() < 1e-6
     });
+}
+
+#[test]
+fn names_visibility_and_order_are_reported_by_identity() {
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("flat", "Vermilion"));
+    window.stroke(SurfaceId::Canvas, "flat", [&wander(45, 60, 32.0, 20.0)[..]]);
+    window.act(Action::Dry { fraction: 0.5 });
+    window.act(load("round", "Ultramarine"));
+    window.stroke(SurfaceId::Canvas, "round", [&wander(46, 40, 32.0, 20.0)[..]]);
+    window.act(Action::Dry { fraction: 1.0 });
+    window.wait_until("both layers", |window| {
+        let layers = &window.state().layers;
+        layers.len() == 2 && layers.iter().all(|layer| layer.max_mm > 0.0)
+    });
+    let before = window.state().layers.clone();
+    let first = LayerRef::Id(LayerId(1));
+    window.act(Action::Name { layer: first, name: "under".to_owned() });
+    window.act(Action::Visible { layer: first, value: false });
+    window.act(Action::Order { layer: first, to: 1 });
+    window.wait_until("the order", |window| window.state().layers[1].label() == "under");
+    let state = window.state().layers[1].clone();
+    assert_eq!((state.id, state.visible, state.opacity), (LayerId(1), false, 1.0));
+    // A moved layer keeps its figures and its picture while they are computed again.
+    assert_eq!((state.coverage, state.max_mm), (before[0].coverage, before[0].max_mm));
+    assert_eq!(state.thumbnail, before[0].thumbnail);
+    let snapshot = window.snapshot();
+    assert_eq!(snapshot.canvas.dry[1].name, "under");
+    window.act(Action::Visible { layer: LayerRef::Id(LayerId(9)), value: true });
+    let (text, _, failed) = window.message();
+    assert!(failed && text.contains("there is no layer 9; the painting has 2, 1"), "{text}");
 }
 
 #[test]

@@ -9,15 +9,22 @@ mod pen;
 mod pictures;
 
 mod strokes;
+mod tools;
 
 mod replay;
 
 mod layers;
+
+mod table;
+
+mod shots;
 
 mod picking;
 
 mod free_space;
 
 mod messages;
+
+mod kept;
 
 mod volumes;

@@ -108,7 +108,7 @@ fn a_painting_with_a_missing_lamp_file_opens_under_daylight() {
     let palette = Box::new((*window.snapshot().palette).clone());
     document.lighting = Lighting::default();
     let canvas = Box::new(document);
-    window.ask(Command::Open(Origin::Recovered { canvas, palette }));
+    window.ask(Command::Open(Origin::Recovered { canvas, palette, kept: None }));
     window.wait("the session", |event| matches!(event, Event::Opened(_)).then_some(()));
     window.ask(Command::Recording(7));
     let (text, _, _) = window.message();

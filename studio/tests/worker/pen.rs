@@ -1,7 +1,7 @@
 //! Synthetic strokes and brush loads for the tests of the worker.
 
 use render::paint::pose::Sample;
-use render::paint::strokes::{Action, Load, Stroke, SurfaceId};
+use render::paint::strokes::{Action, Load, Stroke, StrokeTool, SurfaceId};
 
 /// Samples of a wandering stroke of sines within `width_mm` x `height_mm`, at 120 samples per
 /// second. `seed` selects the phase.
@@ -33,5 +33,10 @@ pub(crate) fn load(brush: &str, pigment: &str) -> Action {
 }
 
 pub(crate) fn stroke(surface: SurfaceId, brush: &str, samples: &[Sample]) -> Action {
-    Action::Stroke(Stroke { brush: brush.to_owned(), on: surface, samples: samples.to_vec() })
+    Action::Stroke(Stroke {
+        brush: brush.to_owned(),
+        on: surface,
+        tool: StrokeTool::Paint,
+        samples: samples.to_vec(),
+    })
 }

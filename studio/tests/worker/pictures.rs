@@ -103,6 +103,10 @@ fn a_second_light_has_its_own_picture() {
     let second = exported(&under, &light);
     window.wait_until("the second picture", |window| window.pictures.second == second);
     assert!(second != window.pictures.canvas, "the lights differ");
+    let under = Document { lighting: lamp.clone(), ..(*snapshot.palette).clone() };
+    let palette = exported(&under, &light);
+    window.wait_until("the palette", |window| window.pictures.second_palette == palette);
+    assert!(palette != window.pictures.palette, "the wood differs too");
     window.ask(Command::SetSecondLight(None));
     window.wait_until("no second light", |window| window.state().second_lighting.is_none());
 }

@@ -48,7 +48,8 @@ fn assert_replay(pace: Pace) {
     });
     assert_eq!(last, (of, of), "all actions are played");
     let (text, _, failed) = window.message();
-    assert!(text.contains("1 files") && !failed, "unsaved files are reported: {text}");
+    assert!(text.contains("1 file that") && !failed, "unsaved files are reported: {text}");
+    assert!(text.contains("9 of 9 actions"), "what was played is told: {text}");
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
     if pace == Pace::AsPainted {
         // 89 + 49 + 39 + 29 pauses of 1/120 s.
@@ -121,6 +122,9 @@ fn a_replay_can_be_cancelled_and_answers_commands_meanwhile() {
         Event::Progress { done, of } => Some((*done, *of)),
         _ => None,
     });
+    let (text, hint, failed) = window.message();
+    assert!(text.contains(&format!("stopped after {done} of {of} actions")), "{text}");
+    assert!(!failed && hint.is_some_and(|hint| hint.contains("what was played stays")));
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
     assert!(done < of, "{done} of {of}");
     assert!(window.snapshot().revision >= midway.revision, "the painting is still there");
@@ -146,7 +150,7 @@ fn a_refused_action_ends_the_replay() {
         pace: Pace::Fast,
     });
     let (text, _, failed) = window.message();
-    assert!(failed && text.contains("action 1 (opacity)"), "{text}");
+    assert!(failed && text.contains("after 1 of 3 actions, at action 1 (opacity)"), "{text}");
     window.wait("the end", |event| matches!(event, Event::Replayed).then_some(()));
     // A script that cannot be played leaves the painting unchanged.
     let before = window.snapshot();

@@ -27,12 +27,13 @@ pub(crate) struct Window {
     numbers: u64,
 }
 
-/// Pictures assembled from tiles: canvas, canvas under the second light, and palette.
+/// Pictures assembled from tiles: canvas and palette, each also under the second light.
 /// Cells never received are 0.
 #[derive(Default)]
 pub(crate) struct Pictures {
     pub(crate) canvas: Vec<[u8; 4]>,
     pub(crate) second: Vec<[u8; 4]>,
+    pub(crate) second_palette: Vec<[u8; 4]>,
     pub(crate) palette: Vec<[u8; 4]>,
 }
 
@@ -102,6 +103,7 @@ impl Window {
                         canvas: cells(state.canvas_cells),
                         second: cells(state.canvas_cells),
                         palette: cells(state.palette_cells),
+                        second_palette: cells(state.palette_cells),
                     };
                     self.state = Some(Arc::clone(state));
                 }
@@ -116,7 +118,10 @@ impl Window {
                         (SurfaceId::Canvas, true) => {
                             (&mut self.pictures.second, state.canvas_cells.0)
                         }
-                        (SurfaceId::Palette, _) => {
+                        (SurfaceId::Palette, true) => {
+                            (&mut self.pictures.second_palette, state.palette_cells.0)
+                        }
+                        (SurfaceId::Palette, false) => {
                             (&mut self.pictures.palette, state.palette_cells.0)
                         }
                     };

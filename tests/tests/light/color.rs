@@ -4,7 +4,7 @@
 use calibrate::evaluate::{Summary, Viewing, percentile};
 use calibrate::{Curves, PigmentId};
 use render::light::{Light, Mixer};
-use render::paint::document::{Document, DryLayer};
+use render::paint::document::Document;
 use render::paint::scene::{SpectralDocument, picture, scene};
 use spectra::color::{Adaptation, Lab, Lch, Rgb, RgbSpace, Xyz, delta_e_ciede2000};
 
@@ -192,7 +192,7 @@ fn opacity_is_thickness_and_a_dried_layer_looks_as_it_did_wet() {
     let seen = labs(&wet, &light);
     let mut dried = document(2, 1, &[]);
     let (slots, paint) = (slots(&dried.library, &names), wet.wet.clone());
-    dried.dry.push(DryLayer { slots, opacity: 1.0, paint });
+    dried.push_dry(slots, paint);
     assert_eq!(labs(&dried, &light), seen);
     dried.dry[0].opacity = 0.5;
     let half = labs(&dried, &light);

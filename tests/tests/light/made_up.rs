@@ -9,7 +9,7 @@ use render::field::Field;
 use render::layer::Layer;
 use render::light::Light;
 use render::optics::Gloss;
-use render::paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use render::paint::document::{Document, LayerId, Lighting, Medium, Slots};
 use render::paint::ground::Ground;
 use spectra::{Observer, light_from_text};
 pub(crate) use suite::oils::library as oils;
@@ -45,6 +45,7 @@ pub(crate) fn document(width: usize, height: usize, names: &[&str]) -> Document 
         library,
         medium: Medium::default(),
         dry: Vec::new(),
+        next_layer: LayerId::FIRST,
         slots,
         wet: Layer::empty(width, height),
         lighting: Lighting { relief: 0.0, ..Lighting::default() },
@@ -101,6 +102,6 @@ pub(crate) fn glazes_over_mixtures() -> Document {
     laid(&mut below, 0.85, 0.3);
     laid(&mut document.wet, 0.7, 0.02);
     let slots = slots(&document.library, &names);
-    document.dry.push(DryLayer { slots, opacity: 1.0, paint: below });
+    document.push_dry(slots, below);
     document
 }

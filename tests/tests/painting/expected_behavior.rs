@@ -177,8 +177,9 @@ fn paint_too_high_for_whole_numbers_is_refused_when_opened() {
     cell.vehicle = MAX_COLUMN;
     layer.set_cell(77, cell);
     let slots = document.slots;
-    document.dry =
-        vec![render::paint::document::DryLayer { slots, opacity: 1.0, paint: layer.clone() }; 2];
+    for _ in 0..2 {
+        document.push_dry(slots, layer.clone());
+    }
     let engine = render::paint::engine::PaintEngine::on_cpu(document.ground.height.clone());
     let error = Painting::open(document, engine, 0).unwrap_err();
     assert!(matches!(error, PaintingError::TooHigh { x: 17, y: 1 }), "{error}");

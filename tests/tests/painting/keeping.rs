@@ -5,7 +5,7 @@ use render::export::{linear_exr, png8, png16};
 use render::field::Field;
 use render::paint::brush::HeadShape;
 use render::paint::file;
-use render::paint::painting::{MERGE_TOLERANCE, Painting, PaintingError};
+use render::paint::painting::{LayerRef, MERGE_TOLERANCE, Painting, PaintingError};
 use render::paint::scene::SpectralDocument;
 use spectra::color::{Adaptation, Rgb, RgbSpace};
 use spectra::hint::Explain;
@@ -73,7 +73,7 @@ fn layers_of_like_paint_become_one_unseen() {
     for painting in on_both(&bare(130, 100)) {
         let mut painting = two_layers(painting, [YELLOW, YELLOW]);
         let (before, two) = (painting.picture().unwrap(), painting.document().unwrap());
-        painting.merge(0).unwrap();
+        painting.merge(LayerRef::Dry(0), LayerRef::Dry(1)).unwrap();
         assert_eq!(painting.state().dry.len(), 1);
         let moved = largest(&before, &painting.picture().unwrap());
         assert!(moved < UNSEEN, "merging moved a colour by {moved}");
@@ -91,7 +91,7 @@ fn a_merge_that_shows_is_refused_and_changes_nothing() {
     for painting in on_both(&bare(130, 100)) {
         let mut painting = two_layers(painting, [YELLOW, BLUE]);
         let (before, document) = (painting.picture().unwrap(), painting.document().unwrap());
-        let error = painting.merge(0).unwrap_err();
+        let error = painting.merge(LayerRef::Dry(1), LayerRef::Dry(0)).unwrap_err();
         assert!(
             matches!(error, PaintingError::MergeShows { delta_e, .. } if delta_e > MERGE_TOLERANCE),
             "{error}"
@@ -102,8 +102,8 @@ fn a_merge_that_shows_is_refused_and_changes_nothing() {
         // The refused merge is no step of the history: the last step is the drying.
         assert!(painting.undo().unwrap(), "nothing to undo");
         assert_eq!(painting.state().dry.len(), 1);
-        for lower in [1, 2, usize::MAX - 1] {
-            let error = painting.merge(lower).unwrap_err();
+        for missing in [1, 2, usize::MAX] {
+            let error = painting.merge(LayerRef::Dry(0), LayerRef::Dry(missing)).unwrap_err();
             assert!(matches!(error, PaintingError::NoLayer { count: 1, .. }), "{error}");
         }
     }

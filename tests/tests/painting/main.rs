@@ -33,6 +33,8 @@ mod stiffness;
 
 mod program;
 
+mod timelapse;
+
 mod hostile;
 
 mod killed;

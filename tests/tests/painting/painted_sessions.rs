@@ -165,7 +165,18 @@ pub(crate) fn something(session: &mut PaintingSession, random: &mut ChaCha8Rng) 
             let dry = LayerRef::Dry(layer);
             Action::Swap { layer: if layer == layers { LayerRef::Wet } else { dry }, from, to }
         }
-        8 if layers > 1 => Action::Merge { layer: random.random_range(1..layers) },
+        8 if layers > 0 && random.random_bool(0.5) => {
+            let layer = session.canvas().state().dry[random.random_range(0..layers)].id;
+            let layer = LayerRef::Id(layer);
+            match random.random_range(0..3) {
+                0 => Action::Name { layer, name: format!("coat {layers}") },
+                1 => Action::Visible { layer, value: random.random_bool(0.5) },
+                _ => Action::Order { layer, to: random.random_range(0..layers) },
+            }
+        }
+        8 if layers > 1 => {
+            Action::Merge { layer: LayerRef::Dry(random.random_range(1..layers)), with: None }
+        }
         _ => {
             let brush = ["flat", "knife"][random.random_range(0..2)];
             live(session, on, brush, random);

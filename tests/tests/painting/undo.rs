@@ -31,7 +31,7 @@ fn whole(painting: &mut Painting, brushes: usize) -> Whole {
 /// Applies a random action. Returns whether it added a step to the history.
 fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
     let layers = painting.state().dry.len();
-    match random.random_range(0..13) {
+    match random.random_range(0..16) {
         0 => painting.dry(random.random_range(0.1..=1.0)).unwrap(),
         1 if layers > 0 => {
             let opacity = random.random_range(0.0..2.0);
@@ -71,7 +71,24 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
             painting.set_gloss(shine, Gloss { strength: 0.1, ..shine }).unwrap();
             true
         }
-        5 if layers > 1 => painting.merge(random.random_range(0..layers - 1)).is_ok(),
+        5 if layers > 1 => {
+            let [a, b] = [0; 2].map(|_| LayerRef::Dry(random.random_range(0..layers)));
+            painting.merge(a, b).is_ok()
+        }
+        13 if layers > 0 => {
+            let layer = painting.state().dry[random.random_range(0..layers)].id;
+            painting.name_layer(LayerRef::Id(layer), ["sky", "sea"][layers % 2]).unwrap();
+            true
+        }
+        14 if layers > 0 => {
+            let layer = LayerRef::Dry(random.random_range(0..layers));
+            painting.show_layer(layer, random.random_bool(0.5)).unwrap();
+            true
+        }
+        15 if layers > 1 => {
+            let (layer, to) = (random.random_range(0..layers), random.random_range(0..layers));
+            painting.move_layer(LayerRef::Dry(layer), to).unwrap()
+        }
         _ => {
             let brush = random.random_range(0..2);
             let mut place = || (random.random_range(0.0..26.0), random.random_range(0.0..20.0));

@@ -134,8 +134,16 @@ fn json_that_does_not_fit_is_told_with_line_and_column() {
         ("\"knife\": {", "\"big\": {", "duplicate key `big`"),
         ("{\"undo\": {}}", "{\"undone\": {}}", "unknown variant `undone`"),
         ("{\"undo\": {}}", "{\"undo\": {\"twice\": 1}}", "unknown field `twice`"),
-        ("\"layer\": 0", "\"layer\": -1", "\"wet\" or the number of a dry layer"),
-        ("\"layer\": \"wet\"", "\"layer\": \"damp\"", "\"wet\" or the number of a dry layer"),
+        (
+            "\"layer\": 0",
+            "\"layer\": -1",
+            "\"wet\", the number of a dry layer, from 0, or its identity",
+        ),
+        (
+            "\"layer\": \"wet\"",
+            "\"layer\": \"damp\"",
+            "\"wet\", the number of a dry layer, from 0, or its identity",
+        ),
         (
             "[\"Zinc White\", \"Viridian\"]",
             "[\"1\",\"2\",\"3\",\"4\",\"5\",\"6\",\"7\",\"8\",\"9\"]",

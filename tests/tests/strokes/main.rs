@@ -8,7 +8,7 @@ mod pigments;
 mod round_trip;
 mod surfaces;
 
-use render::paint::strokes::{ScriptError, StrokeScript};
+use render::paint::strokes::{Action, ScriptError, StrokeScript};
 use spectra::hint::Explain;
 
 /// A script with every action.
@@ -52,9 +52,16 @@ fn refused(from: &str, to: &str) -> ScriptError {
 fn the_guide_shows_scripts_that_can_be_painted() {
     let page =
         std::fs::read_to_string(suite::program::repository("docs/guide/painting.md")).unwrap();
-    let shown: Vec<&str> = page.split("```json\n").skip(1).collect();
-    let shown: Vec<&str> = shown.iter().map(|rest| rest.split("```").next().unwrap()).collect();
+    let shown = page.split("```json\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let (actions, shown): (Vec<&str>, Vec<&str>) = shown
+        .filter(|text| !text.contains("impasto-brushes"))
+        .partition(|text| !text.contains("\"width_mm\""));
     let [script, keys] = shown[..] else { panic!("{} scripts", shown.len()) };
+    assert_eq!(actions.len(), 3, "examples of actions");
+    for text in actions {
+        let listed: Result<Vec<Action>, _> = serde_json::from_str(&format!("[{text}]"));
+        assert!(listed.is_ok_and(|listed| !listed.is_empty()), "{text}");
+    }
     // The second example has keys only, which replace those of the first.
     let mut mixed: serde_json::Value = serde_json::from_str(script).unwrap();
     let keys: serde_json::Value = serde_json::from_str(&format!("{{{keys}}}")).unwrap();

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use proptest::prelude::*;
 use render::optics::Gloss;
 use render::paint::brush::HeadShape;
-use render::paint::document::{Lighting, Medium};
+use render::paint::document::{LayerId, Lighting, Medium};
 use render::paint::ground::GroundSpec;
 use render::paint::pose::Sample;
 use render::paint::strokes::{
-    Action, BrushSpec, Canvas, LayerRef, Load, PaletteSpec, Squeeze, Stroke, StrokeScript,
-    SurfaceId,
+    Action, BrushSpec, Canvas, LayerRef, Load, MaskChange, PaletteSpec, Squeeze, Stroke,
+    StrokeScript, StrokeTool, SurfaceId,
 };
 
 use crate::SOUND;
@@ -32,14 +32,36 @@ fn sample() -> impl Strategy<Value = Sample> {
 }
 
 fn stroke() -> impl Strategy<Value = Action> {
-    (surface(), prop::collection::vec(sample(), 1..20)).prop_map(|(on, mut samples)| {
-        let mut clock = 0.0;
-        for sample in &mut samples {
-            clock += sample.seconds;
-            sample.seconds = clock;
-        }
-        Action::Stroke(Stroke { brush: "big".to_owned(), on, samples })
-    })
+    (surface(), tool(), prop::collection::vec(sample(), 1..20)).prop_map(
+        |(on, tool, mut samples)| {
+            let mut clock = 0.0;
+            for sample in &mut samples {
+                clock += sample.seconds;
+                sample.seconds = clock;
+            }
+            Action::Stroke(Stroke { brush: "big".to_owned(), on, tool, samples })
+        },
+    )
+}
+
+fn mask() -> impl Strategy<Value = MaskChange> {
+    let points = prop::collection::vec(prop::array::uniform2(-100.0..=100.0), 3..9);
+    prop_oneof![
+        points.prop_map(MaskChange::PolygonMm),
+        layer().prop_map(MaskChange::Layer),
+        Just(MaskChange::Painted {}),
+        Just(MaskChange::Inverse(true)),
+        Just(MaskChange::Clear {}),
+    ]
+}
+
+fn tool() -> impl Strategy<Value = StrokeTool> {
+    prop_oneof![
+        Just(StrokeTool::Paint),
+        (0.001..=1.0).prop_map(|strength| StrokeTool::Blend { strength }),
+        (0.0..=10.0).prop_map(|height_mm| StrokeTool::Scrape { height_mm }),
+        (0.001..=1.0).prop_map(|strength| StrokeTool::Erase { strength }),
+    ]
 }
 
 fn surface() -> impl Strategy<Value = SurfaceId> {
@@ -51,7 +73,11 @@ fn gloss() -> impl Strategy<Value = Gloss> {
 }
 
 fn layer() -> impl Strategy<Value = LayerRef> {
-    prop_oneof![Just(LayerRef::Wet), (0_usize..9).prop_map(LayerRef::Dry)]
+    prop_oneof![
+        Just(LayerRef::Wet),
+        (0_usize..9).prop_map(LayerRef::Dry),
+        any::<u32>().prop_map(|id| LayerRef::Id(LayerId(id))),
+    ]
 }
 
 fn action() -> impl Strategy<Value = Action> {
@@ -72,6 +98,7 @@ fn action() -> impl Strategy<Value = Action> {
         2 => load,
         1 => heap,
         1 => surface().prop_map(|on| Action::Scrape { on }),
+        1 => mask().prop_map(Action::Mask),
         1 => (gloss(), gloss()).prop_map(|(wet, dry)| Action::Gloss { wet, dry }),
         1 => (0.0..=1.0).prop_map(|value| Action::Stiffness { value }),
         1 => (0.0..=1.0).prop_map(|keep| Action::Wipe { brush: "big".to_owned(), keep }),
@@ -85,7 +112,15 @@ fn action() -> impl Strategy<Value = Action> {
         }),
         1 => (layer(), 0.0..1000.0).prop_map(|(layer, value)| Action::Opacity { layer, value }),
         1 => (layer(), name, name).prop_map(|(layer, from, to)| Action::Swap { layer, from, to }),
-        1 => (1_usize..9).prop_map(|layer| Action::Merge { layer }),
+        1 => (1_usize..9)
+            .prop_map(|layer| Action::Merge { layer: LayerRef::Dry(layer), with: None }),
+        1 => (layer(), layer())
+            .prop_map(|(layer, with)| Action::Merge { layer, with: Some(with) }),
+        1 => (layer(), name).prop_map(|(layer, name)| {
+            Action::Name { layer, name: name.trim().to_owned() }
+        }),
+        1 => (layer(), any::<bool>()).prop_map(|(layer, value)| Action::Visible { layer, value }),
+        1 => (layer(), 0_usize..9).prop_map(|(layer, to)| Action::Order { layer, to }),
         1 => "[a-z]{1,8}".prop_map(|stem| Action::Save { path: format!("{stem}1.png") }),
     ]
 }

@@ -223,7 +223,7 @@ fn chromaticity(xyz: Xyz) -> [f64; 2] {
 }
 
 /// Shares of the first paint of a pair, in rising order.
-fn shares() -> impl Iterator<Item = f64> {
+pub(super) fn shares() -> impl Iterator<Item = f64> {
     let step = 2.0 * FURTHEST.ln() / f64::from(RATIOS - 1);
     (0..RATIOS).map(move |at| 1.0 / (1.0 + (FURTHEST.ln() - f64::from(at) * step).exp()))
 }

@@ -22,6 +22,8 @@ mod between;
 
 mod gamut;
 
+mod wheel;
+
 mod constancy;
 
 mod metamers;
@@ -43,3 +45,4 @@ pub use mixing_chart::{
 pub use paints::{Palette, PaletteError};
 pub use samples::MeasuredSample;
 pub use tinting_strength::{TINT_DEPTH, TINT_PARTS, TintingStrength, tinting_strengths};
+pub use wheel::{ColorWheel, MixingLine, NearestMixture, color_wheel};

@@ -59,6 +59,20 @@ impl<'a> Palette<'a> {
         Ok(palette)
     }
 
+    /// This palette with no more than these pigments, such as the tubes at hand. Without the
+    /// reference white the lightest of them lightens the others.
+    ///
+    /// # Errors
+    /// [`PaletteError::NothingToMix`] if none of them can be mixed.
+    pub fn among(mut self, pigments: &[PigmentId]) -> Result<Self, PaletteError> {
+        self.paints.retain(|paint| pigments.contains(paint));
+        if self.paints.is_empty() {
+            return Err(PaletteError::NothingToMix { pigments: pigments.len() });
+        }
+        self.white = self.white.map(|_| self.white_paint());
+        Ok(self)
+    }
+
     /// Library of the palette.
     #[must_use]
     pub fn library(&self) -> &'a PigmentLibrary {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use graphics::tile::Rect;
 use paint::amount::{quanta_from_mm, share_of_65536};
-use paint::document::{Document, DryLayer, Lighting, Medium};
+use paint::document::{Document, Lighting, Medium};
 use paint::engine::{BrushId, PaintEngine};
 use paint::ground::{Ground, GroundError};
 use paint::layer::{Cell, Layer, SLOTS};
@@ -82,7 +82,7 @@ impl Workplace<'_> {
         let mixtures = Mixtures::new(self.ladder, tone, spread(self.style));
         let library = self.ladder.library();
         let medium = Medium { stiffness: paint.stiffness, ..Medium::of(library) };
-        let bare = Document::bare(
+        let mut document = Document::bare(
             &self.style.name,
             self.style.canvas.cell_mm,
             self.ground.clone(),
@@ -91,7 +91,9 @@ impl Workplace<'_> {
             *self.ladder.slots(),
             Lighting::default(),
         );
-        let document = Document { dry: self.underpainting(&mixtures), ..bare };
+        if let Some(underpainting) = self.underpainting(&mixtures) {
+            document.push_dry(*self.ladder.slots(), underpainting);
+        }
         let engine = PaintEngine::on_cpu(self.ground.height.clone());
         let mut painting = Painting::open_under(document, Arc::clone(&self.light), engine, 0)?;
         let brush = painting.add_brush(self.style.brush.shape, self.style.brush.size_mm)?;
@@ -108,19 +110,18 @@ impl Workplace<'_> {
     }
 
     /// An even dry film of the tone, if the style has one.
-    fn underpainting(&self, mixtures: &Mixtures) -> Vec<DryLayer> {
+    fn underpainting(&self, mixtures: &Mixtures) -> Option<Layer> {
         let Style { paint, canvas, .. } = self.style;
         if paint.underpainting_mm == 0.0 {
-            return Vec::new();
+            return None;
         }
         let quanta = |share: f64| quanta_from_mm(share * paint.underpainting_mm, canvas.cell_mm);
         let pigments = mixtures.shares(0.0).map(quanta);
         let (width, height) = (self.ground.height.width(), self.ground.height.height());
-        let layer = Layer {
+        Some(Layer {
             pigments: Field::filled(width, height, pigments),
             vehicle: Field::filled(width, height, 0),
-        };
-        vec![DryLayer { slots: *self.ladder.slots(), opacity: 1.0, paint: layer }]
+        })
     }
 
     /// Mixture of the tone number `at`, and the share of the strokes that it has.

@@ -79,7 +79,7 @@ impl WholePainting {
 
 /// Layers of a painting, the wet one last, each with its pigments and opacity.
 fn layers(document: &Document) -> Vec<(&Slots, f64, &Layer)> {
-    let dry = document.dry.iter().map(|layer| (&layer.slots, layer.opacity, &layer.paint));
+    let dry = document.dry.iter().map(|layer| (&layer.slots, layer.shown_opacity(), &layer.paint));
     dry.chain([(&document.slots, 1.0, &document.wet)]).collect()
 }
 
@@ -145,7 +145,8 @@ fn masstones(library: &PigmentLibrary) -> Vec<Lab> {
 
 /// Colours of a painting under `light`, level and without gloss.
 pub(crate) fn level_colors(document: &Document, light: &Light) -> Picture {
-    let dry: Vec<_> = document.dry.iter().map(|layer| (layer.slots, layer.opacity)).collect();
+    let dry: Vec<_> =
+        document.dry.iter().map(|layer| (layer.slots, layer.shown_opacity())).collect();
     let appearance = Appearance {
         library: &document.library,
         medium: &document.medium,

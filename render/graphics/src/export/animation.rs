@@ -16,7 +16,8 @@ pub struct Gif<'a, W: Write> {
     rate: FrameRate,
     table: &'a ColorTable,
     size: [usize; 2],
-    count: usize,
+    /// Durations of a frame so far.
+    elapsed: usize,
     /// Palette indices shown after the last frame.
     shown: Vec<u8>,
     /// Palette indices of the last frame as written: [`UNCHANGED`] where a pixel kept its colour.
@@ -45,7 +46,7 @@ impl<'a, W: Write> Gif<'a, W> {
             gif::Encoder::new(to, width as u16, height as u16, &colors).map_err(failed)?;
         encoder.set_repeat(gif::Repeat::Infinite).map_err(failed)?;
         let (shown, written) = (Vec::new(), vec![0; width * height]);
-        Ok(Self { encoder, rate, table, size: [width, height], count: 0, shown, written })
+        Ok(Self { encoder, rate, table, size: [width, height], elapsed: 0, shown, written })
     }
 
     /// Appends a frame.
@@ -53,6 +54,14 @@ impl<'a, W: Write> Gif<'a, W> {
     /// # Errors
     /// [`FrameError::Differs`] for another size, [`FrameError::Encoder`].
     pub fn push(&mut self, frame: &Frame) -> Result<(), FrameError> {
+        self.push_held(frame, 1)
+    }
+
+    /// Appends a frame that is shown for `durations` durations of a frame, 655 seconds at most.
+    ///
+    /// # Errors
+    /// [`FrameError::Differs`] for another size, [`FrameError::Encoder`].
+    pub fn push_held(&mut self, frame: &Frame, durations: usize) -> Result<(), FrameError> {
         check_same(self.size, frame)?;
         let indices = frame.values().iter().map(|&pixel| self.table.index(pixel));
         if self.shown.is_empty() {
@@ -64,10 +73,10 @@ impl<'a, W: Write> Gif<'a, W> {
                 *shown = index;
             }
         }
-        let delay = self.rate.start(self.count + 1, 100.0) - self.rate.start(self.count, 100.0);
-        self.count += 1;
+        let delay = self.rate.duration(self.elapsed, durations, 100.0);
+        self.elapsed += durations;
         let frame = gif::Frame {
-            delay: delay as u16,
+            delay,
             dispose: gif::DisposalMethod::Keep,
             transparent: Some(UNCHANGED),
             width: self.size[0] as u16,
@@ -83,7 +92,7 @@ impl<'a, W: Write> Gif<'a, W> {
     /// # Errors
     /// [`FrameError::Count`] if there is no frame, [`FrameError::Encoder`].
     pub fn finish(self) -> Result<W, FrameError> {
-        if self.count == 0 {
+        if self.elapsed == 0 {
             return Err(FrameError::Count { wanted: 1, found: 0 });
         }
         self.encoder.into_inner().map_err(|error| encoder_failed("GIF", &error))
@@ -98,6 +107,8 @@ pub struct Apng<W: Write> {
     size: [usize; 2],
     wanted: usize,
     count: usize,
+    /// Durations of a frame so far.
+    elapsed: usize,
 }
 
 /// Durations of an APNG are stored in whole milliseconds.
@@ -127,7 +138,7 @@ impl<W: Write> Apng<W> {
             encoder.write_header()
         };
         let writer = begin().map_err(|error| encoder_failed("APNG", &error))?;
-        Ok(Self { writer, rate, size: [width, height], wanted: frames, count: 0 })
+        Ok(Self { writer, rate, size: [width, height], wanted: frames, count: 0, elapsed: 0 })
     }
 
     /// Appends a frame.
@@ -136,17 +147,25 @@ impl<W: Write> Apng<W> {
     /// [`FrameError::Differs`] for another size, [`FrameError::Count`] for one frame too
     /// many, [`FrameError::Encoder`].
     pub fn push(&mut self, frame: &Frame) -> Result<(), FrameError> {
+        self.push_held(frame, 1)
+    }
+
+    /// Appends a frame that is shown for `durations` durations of a frame, 65 seconds at most.
+    ///
+    /// # Errors
+    /// [`FrameError::Differs`] for another size, [`FrameError::Count`] for one frame too
+    /// many, [`FrameError::Encoder`].
+    pub fn push_held(&mut self, frame: &Frame, durations: usize) -> Result<(), FrameError> {
         check_same(self.size, frame)?;
         if self.count == self.wanted {
             return Err(FrameError::Count { wanted: self.wanted, found: self.count + 1 });
         }
-        let parts = f64::from(PARTS_PER_SECOND);
-        let delay = self.rate.start(self.count + 1, parts) - self.rate.start(self.count, parts);
-        self.count += 1;
+        let delay = self.rate.duration(self.elapsed, durations, f64::from(PARTS_PER_SECOND));
+        (self.count, self.elapsed) = (self.count + 1, self.elapsed + durations);
         let pixels = frame.values().as_flattened();
         let written = self
             .writer
-            .set_frame_delay(delay as u16, PARTS_PER_SECOND)
+            .set_frame_delay(delay, PARTS_PER_SECOND)
             .and_then(|()| self.writer.write_image_data(pixels));
         written.map_err(|error| encoder_failed("APNG", &error))
     }

@@ -98,8 +98,21 @@ impl FrameRate {
 
     /// Start of frame `index` in whole parts of a second (`parts` per second). Each frame
     /// ends where the next starts, so rounding does not accumulate.
-    pub(super) fn start(self, index: usize, parts: f64) -> u64 {
+    fn start(self, index: usize, parts: f64) -> u64 {
         (index as f64 * parts / self.0).round() as u64
+    }
+
+    /// Length of `durations` frames after `elapsed` others, in whole parts of a second. Longer
+    /// ones than a file can state are shortened.
+    pub(super) fn duration(self, elapsed: usize, durations: usize, parts: f64) -> u16 {
+        let length = self.start(elapsed + durations, parts) - self.start(elapsed, parts);
+        u16::try_from(length).unwrap_or(u16::MAX)
+    }
+
+    /// Number of whole frames nearest to `seconds`.
+    #[must_use]
+    pub fn frames_in(self, seconds: f64) -> usize {
+        (seconds * self.0).round() as usize
     }
 }
 

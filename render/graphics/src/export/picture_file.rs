@@ -6,7 +6,8 @@ use spectra::hint::{Explain, Hint};
 
 use super::error::ExportError;
 use super::linear_exr::linear_exr;
-use super::png::{png8, png16};
+use super::png::{Png, png8, png16};
+use super::tiff16::{Tiff, tiff16};
 use crate::field::Field;
 
 /// Least share of pixels outside the gamut that is worth a note.
@@ -20,17 +21,21 @@ pub enum PictureFormat {
     Png8,
     /// PNG in sRGB with 16 bits per channel.
     Png16,
+    /// TIFF in sRGB with 16 bits per channel.
+    Tiff16,
     /// OpenEXR of linear sRGB with 32-bit floats, unclipped.
     LinearExr,
 }
 
 impl PictureFormat {
-    /// Format for a file extension: 8-bit PNG for `.png`, OpenEXR for `.exr`.
+    /// Format for a file extension: 8-bit PNG for `.png`, TIFF for `.tif` and `.tiff`, OpenEXR
+    /// for `.exr`.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?.to_str()?.to_ascii_lowercase();
         match extension.as_str() {
             "png" => Some(Self::Png8),
+            "tif" | "tiff" => Some(Self::Tiff16),
             "exr" => Some(Self::LinearExr),
             _ => None,
         }
@@ -79,14 +84,16 @@ pub fn picture_file(
     cell_mm: f64,
     format: PictureFormat,
 ) -> Result<PictureFile, ExportError> {
-    let png = match format {
-        PictureFormat::Png8 => png8(picture, cell_mm)?,
-        PictureFormat::Png16 => png16(picture, cell_mm)?,
-        PictureFormat::LinearExr => {
-            let bytes = linear_exr(picture, cell_mm)?;
-            return Ok(PictureFile { bytes, outside: 0.0 });
+    let png = |Png { bytes, outside }| (bytes, outside);
+    let (bytes, outside) = match format {
+        PictureFormat::Png8 => png(png8(picture, cell_mm)?),
+        PictureFormat::Png16 => png(png16(picture, cell_mm)?),
+        PictureFormat::Tiff16 => {
+            let Tiff { bytes, outside } = tiff16(picture, cell_mm)?;
+            (bytes, outside)
         }
+        PictureFormat::LinearExr => (linear_exr(picture, cell_mm)?, 0),
     };
-    let outside = png.outside as f64 / picture.values().len() as f64;
-    Ok(PictureFile { bytes: png.bytes, outside })
+    let outside = outside as f64 / picture.values().len() as f64;
+    Ok(PictureFile { bytes, outside })
 }

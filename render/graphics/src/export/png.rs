@@ -2,10 +2,9 @@
 
 use png::chunk::ChunkType;
 use png::{BitDepth, ColorType, Encoder, PixelDimensions, SrgbRenderingIntent, Unit};
-use rayon::prelude::*;
-use spectra::color::Rgb;
 
 use super::error::{ExportError, check_cell, check_size};
+use super::srgb_samples::{Srgb16, eight_bits, encoded, srgb16};
 use crate::field::Field;
 
 /// Content of chunk `cICP` for sRGB (ITU-T H.273): BT.709 primaries, transfer of IEC
@@ -17,7 +16,8 @@ const CICP: [u8; 4] = [1, 13, 0, 1];
 pub struct Png {
     /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Number of pixels outside the sRGB gamut; see [`Rgb::mapped_into_gamut`] for what they show.
+    /// Number of pixels outside the sRGB gamut; see
+    /// [`mapped_into_gamut`](spectra::color::Rgb::mapped_into_gamut) for what they show.
     pub outside: usize,
 }
 
@@ -28,10 +28,9 @@ pub struct Png {
 /// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
 /// not finite.
 pub fn png8(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError> {
-    let (values, outside) = encoded(picture, |value, row| {
-        row.push((value * 255.0).round() as u8);
-    })?;
-    let bytes = color_file(picture, cell_mm, BitDepth::Eight, &values)?;
+    let (pixels, outside) = encoded(picture, eight_bits)?;
+    let samples = pixels.values().as_flattened();
+    let bytes = color_file(picture, cell_mm, (ColorType::Rgb, BitDepth::Eight), samples)?;
     Ok(Png { bytes, outside })
 }
 
@@ -41,11 +40,24 @@ pub fn png8(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError>
 /// [`ExportError`] for an empty picture, a pixel size out of range, and colours that are
 /// not finite.
 pub fn png16(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Png, ExportError> {
-    let (values, outside) = encoded(picture, |value, row| {
-        row.extend(((value * 65535.0).round() as u16).to_be_bytes());
-    })?;
-    let bytes = color_file(picture, cell_mm, BitDepth::Sixteen, &values)?;
+    let Srgb16 { pixels, outside } = srgb16(picture)?;
+    let samples = big_endian(pixels.values().as_flattened());
+    let bytes = color_file(picture, cell_mm, (ColorType::Rgb, BitDepth::Sixteen), &samples)?;
     Ok(Png { bytes, outside })
+}
+
+/// Encodes red, green, blue and opacity in encoded sRGB, not premultiplied, with 16 bits per
+/// channel and the chunks of [`png8`]; a pixel is `cell_mm` wide.
+///
+/// # Errors
+/// [`ExportError`] for an empty picture and a pixel size out of range.
+pub fn rgba16(pixels: &Field<[u16; 4]>, cell_mm: f64) -> Result<Vec<u8>, ExportError> {
+    let samples = big_endian(pixels.values().as_flattened());
+    color_file(pixels, cell_mm, (ColorType::Rgba, BitDepth::Sixteen), &samples)
+}
+
+fn big_endian(samples: &[u16]) -> Vec<u8> {
+    samples.iter().flat_map(|sample| sample.to_be_bytes()).collect()
 }
 
 /// Encodes plain numbers as a 16-bit grey channel without a colour space. `texts` are
@@ -55,51 +67,18 @@ pub fn grey16(
     cell_mm: f64,
     texts: &[(&str, &str)],
 ) -> Result<Vec<u8>, ExportError> {
-    let samples: Vec<u8> = values.values().iter().flat_map(|value| value.to_be_bytes()).collect();
+    let samples = big_endian(values.values());
     let size = (values.width(), values.height());
     file(size, cell_mm, (ColorType::Grayscale, BitDepth::Sixteen), texts, &samples)
 }
 
-/// Encoded samples, and the number of pixels outside the gamut by more than f32 rounding
-/// (see [`Rgb::in_gamut`]).
-fn encoded(
-    picture: &Field<[f32; 4]>,
-    put: impl Fn(f64, &mut Vec<u8>) + Sync,
-) -> Result<(Vec<u8>, usize), ExportError> {
-    let width = picture.width();
-    let rows = (0..picture.height()).into_par_iter().map(|y| {
-        let (mut samples, mut outside) = (Vec::with_capacity(width * 6), 0);
-        for (x, &[r, g, b, _]) in picture.row(y, 0, width).iter().enumerate() {
-            if let Some(&found) = [r, g, b].iter().find(|value| !value.is_finite()) {
-                return Err(ExportError::NotFinite { what: "the colour".into(), x, y, found });
-            }
-            let color = Rgb([r, g, b].map(f64::from));
-            outside += usize::from(!color.in_gamut());
-            let shown = color.mapped_into_gamut().0.map(|value| value.clamp(0.0, 1.0));
-            for value in Rgb(shown).encoded().0 {
-                put(value.clamp(0.0, 1.0), &mut samples);
-            }
-        }
-        Ok((samples, outside))
-    });
-    let rows: Vec<_> = rows.collect();
-    let mut all = (Vec::with_capacity(picture.values().len() * 6), 0);
-    for row in rows {
-        let (samples, outside) = row?;
-        all.0.extend(samples);
-        all.1 += outside;
-    }
-    Ok(all)
-}
-
-fn color_file(
-    picture: &Field<[f32; 4]>,
+fn color_file<T>(
+    picture: &Field<T>,
     cell_mm: f64,
-    depth: BitDepth,
+    kind: (ColorType, BitDepth),
     samples: &[u8],
 ) -> Result<Vec<u8>, ExportError> {
-    let size = (picture.width(), picture.height());
-    file(size, cell_mm, (ColorType::Rgb, depth), &[], samples)
+    file((picture.width(), picture.height()), cell_mm, kind, &[], samples)
 }
 
 fn file(
@@ -122,7 +101,7 @@ fn file(
         for (keyword, text) in texts {
             encoder.add_itxt_chunk((*keyword).to_owned(), (*text).to_owned())?;
         }
-        let light = color == ColorType::Rgb;
+        let light = color != ColorType::Grayscale;
         if light {
             encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
         }

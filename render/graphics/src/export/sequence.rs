@@ -176,6 +176,20 @@ impl Sequence {
         })
     }
 
+    /// Removes all its frames, the manifest, and the folder if nothing else is in it.
+    ///
+    /// # Errors
+    /// [`SequenceError::Io`] if a file cannot be removed.
+    pub fn remove(self) -> Result<(), SequenceError> {
+        (0..self.settings.frames).try_for_each(|index| remove(&self.path(index)))?;
+        remove(&self.folder.join(MANIFEST))?;
+        let mut left = fs::read_dir(&self.folder).map_err(at(&self.folder))?;
+        if left.next().is_none() {
+            fs::remove_dir(&self.folder).map_err(at(&self.folder))?;
+        }
+        Ok(())
+    }
+
     fn check_size(&self, frame: &Frame) -> Result<(), FrameError> {
         let wanted = [self.settings.width, self.settings.height];
         let found = [frame.width(), frame.height()];
@@ -269,6 +283,23 @@ mod tests {
         assert_eq!(other.remaining(), [0, 1, 2]);
         assert!(!other.path(0).exists());
         assert!(folder.path().join("mine.png").exists());
+    }
+
+    #[test]
+    fn a_removed_sequence_leaves_what_is_not_its_own() {
+        let folder = tempfile::tempdir().unwrap();
+        let (empty, shared) = (folder.path().join("empty"), folder.path().join("shared"));
+        for path in [&empty, &shared] {
+            let mut sequence = Sequence::open(path, settings("a")).unwrap();
+            sequence.write_frame(1, &frame(3)).unwrap();
+            if path == &shared {
+                fs::write(shared.join("mine.txt"), b"mine").unwrap();
+            }
+            sequence.remove().unwrap();
+        }
+        assert!(!empty.exists());
+        let left: Vec<_> = fs::read_dir(&shared).unwrap().map(|e| e.unwrap().file_name()).collect();
+        assert_eq!(left, ["mine.txt"]);
     }
 
     #[test]

@@ -158,6 +158,11 @@ impl Head {
         rows - rows_with_paint(self.spines.of, rows, self.cell_mm)..rows
     }
 
+    /// Number of sub-steps since the head was set down.
+    pub(super) fn sub_step(&self) -> u32 {
+        self.sub_step
+    }
+
     /// Area of a paint cell, in cells of the canvas. Paint `d` mm thick on the head takes a column
     /// of `d` times this area in each of its cells.
     #[must_use]

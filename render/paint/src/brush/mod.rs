@@ -37,11 +37,19 @@ mod footprint;
 
 mod head;
 
+mod tool;
+
+mod tool_contact;
+
+mod mark;
+
 pub use error::BrushError;
 pub use head::Head;
+pub use mark::ContactMark;
 pub use mesh::HeadMesh;
 pub use relief::{BLOCK, Relief};
 pub use shape::{HeadShape, UnknownShape};
+pub use tool::{StrokeTool, ToolError};
 
 #[cfg(test)]
 mod tests;

@@ -78,7 +78,7 @@ fn uptake(of: &Proportions) -> &'static Uptake {
 
 /// Share of a difference that is gone after `distance_mm` if it falls to 1/e over `fall_mm`, in
 /// parts of 65536.
-fn share(distance_mm: f64, fall_mm: f64) -> u32 {
+pub(super) fn share(distance_mm: f64, fall_mm: f64) -> u32 {
     ((1.0 - (-distance_mm / fall_mm).exp()) * 65536.0) as u32
 }
 

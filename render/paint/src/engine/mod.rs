@@ -19,6 +19,8 @@ mod gpu;
 
 mod paint_engine;
 
+mod dry_layers;
+
 mod tiles;
 
 pub use cpu::CpuPaint;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use spectra::file::{FileAction, FileError, write_whole};
 use spectra::hint::{Explain, Fault, Hint};
 
+use super::layers::layers_file;
 use super::painting::{SpectralBands, painting_maps, spectral_file};
 use super::pigment_maps::{NamedFile, pigment_maps};
 use crate::file::{PaintingFileError, write};
@@ -40,6 +41,8 @@ pub struct PaintingExports {
     pub picture: Option<(PathBuf, PictureFormat)>,
     /// Pixels of the picture along a cell's width.
     pub pixels_per_cell: PixelsPerCell,
+    /// Path of an OpenRaster file with the layers, see [`layers_file`].
+    pub layers: Option<PathBuf>,
     /// Path and wavelengths of a spectral OpenEXR: the reflectance of every cell, without
     /// relief and gloss.
     pub spectral: Option<(PathBuf, SpectralBands)>,
@@ -71,10 +74,17 @@ impl PaintingExports {
             write_whole(path, &file.bytes)?;
             outside = file.outside_gamut();
         }
-        if self.spectral.is_none() && self.pigment_maps.is_none() && self.painting.is_none() {
+        let rest = [&self.layers, &self.pigment_maps, &self.painting];
+        if self.spectral.is_none() && rest.iter().all(|path| path.is_none()) {
             return Ok(outside);
         }
         let document = painting.document()?;
+        if let Some(path) = &self.layers
+            && let Some(file) = layers_file(&document, painting.light(), |_| true)?
+        {
+            write_whole(path, &file.bytes)?;
+            outside = outside.or(file.outside_gamut());
+        }
         if let Some((path, bands)) = &self.spectral {
             let picture = painting.picture()?;
             let file = spectral_file(&document, painting.light(), &picture, *bands, |_| true)?;

@@ -6,10 +6,11 @@ use serde_json::Value;
 
 use super::ascii::ascii_json;
 use super::error::PaintingFileError;
-use super::names::{LAYER_CHANNELS, WET, dry_part};
+use super::names::{LAYER_CHANNELS, WET, brush_part, dry_part};
 use super::pigments::{PigmentChannel, channels_of_slots, slots_of_channels};
 use crate::document::{Document, Lighting, Medium, Slots};
 use crate::optics::Gloss;
+use crate::strokes::{BrushSpec, KeptBrush, MAX_NAMES, SurfaceId};
 
 const FORMAT: &str = "impasto-painting";
 const VERSION: u64 = 1;
@@ -32,7 +33,40 @@ pub(super) struct FileHeader {
     pub(super) lighting: Lighting,
     /// The wet layer, then the dry layers from the lowest.
     pub(super) layers: Vec<LayerHeader>,
+    /// Brushes beside a palette; none beside a canvas.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) brushes: Vec<BrushHeader>,
     library: Value,
+}
+
+/// A brush, and the part with its paint, if it has any.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BrushHeader {
+    pub(super) name: String,
+    pub(super) spec: BrushSpec,
+    pub(super) at: SurfaceId,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) paint: Option<BrushPaintHeader>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BrushPaintHeader {
+    pub(super) part: String,
+    /// Columns and rows of cells of the head.
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) pigments: Vec<PigmentChannel>,
+}
+
+/// A part with paint as the header describes it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PaintHeader<'a> {
+    pub(super) part: &'a str,
+    /// Columns and rows of cells that its window lies in.
+    pub(super) size: (usize, usize),
+    pub(super) pigments: &'a [PigmentChannel],
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,8 +86,28 @@ pub(super) struct LayerHeader {
 }
 
 impl FileHeader {
-    /// Description of `document`.
-    pub(super) fn of(document: &Document) -> Result<Self, PaintingFileError> {
+    /// All parts with paint: the layers, then the brushes.
+    pub(super) fn paints(&self) -> Vec<PaintHeader<'_>> {
+        let canvas = (self.width, self.height);
+        let layers = self.layers.iter().map(|layer| PaintHeader {
+            part: &layer.part,
+            size: canvas,
+            pigments: &layer.pigments,
+        });
+        let brushes = self.brushes.iter().filter_map(|brush| brush.paint.as_ref());
+        let brushes = brushes.map(|paint| PaintHeader {
+            part: &paint.part,
+            size: (paint.width, paint.height),
+            pigments: &paint.pigments,
+        });
+        layers.chain(brushes).collect()
+    }
+
+    /// Description of `document` and of the `brushes` beside it.
+    pub(super) fn of(
+        document: &Document,
+        brushes: &[KeptBrush],
+    ) -> Result<Self, PaintingFileError> {
         let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
         let dry = document.dry.iter().enumerate();
         let dry = dry.map(|(index, layer)| (dry_part(index), layer.opacity, &layer.slots));
@@ -65,6 +119,17 @@ impl FileHeader {
                 unwritable(format!("part `{part}` has a pigment beyond the library's {count}"))
             })?;
             Ok::<_, PaintingFileError>(LayerHeader { part, opacity, pigments })
+        });
+        let brushes = brushes.iter().enumerate().map(|(index, brush)| {
+            let paint = brush.paint.as_ref().map(|paint| BrushPaintHeader {
+                part: brush_part(index),
+                width: paint.width(),
+                height: paint.height(),
+                pigments: channels_of_slots(&document.library, &document.slots, &LAYER_CHANNELS)
+                    .unwrap_or_default(),
+            });
+            let KeptBrush { name, spec, at, .. } = brush;
+            BrushHeader { name: name.clone(), spec: spec.clone(), at: *at, paint }
         });
         let library = serde_json::from_str(&document.library.to_json());
         let header = Self {
@@ -82,6 +147,7 @@ impl FileHeader {
             medium: document.medium.clone(),
             lighting: document.lighting.clone(),
             layers: layers.collect::<Result<_, _>>()?,
+            brushes: brushes.collect(),
             library: library.map_err(|error| unwritable(error.to_string()))?,
         };
         // JSON has no notation for NaN and infinity. Such numbers are found by parsing the
@@ -150,6 +216,20 @@ impl FileHeader {
                 return Err(format!("opacity of `{part}` is 0 to 1000000, found `{found}`"));
             }
             layer.slots(library)?;
+        }
+        if self.brushes.len() > MAX_NAMES {
+            return Err(format!("at most {MAX_NAMES} brushes, found `{}`", self.brushes.len()));
+        }
+        for (index, brush) in self.brushes.iter().enumerate() {
+            let Some(paint) = &brush.paint else { continue };
+            if paint.part != brush_part(index) || paint.width == 0 || paint.height == 0 {
+                return Err(format!("brush `{}` has no part with cells of its own", brush.name));
+            }
+            // The paint on a brush has the slots of the wet layer.
+            let slots = slots_of_channels(&paint.pigments, library, &LAYER_CHANNELS)?;
+            if Some(slots) != self.layers.first().and_then(|wet| wet.slots(library).ok()) {
+                return Err(format!("brush `{}` has other pigments than the palette", brush.name));
+            }
         }
         if self.layers.is_empty() { Err("no layers".to_owned()) } else { Ok(()) }
     }

@@ -6,7 +6,7 @@ use exr::meta::header::Header;
 
 use super::channels::{Channel, Content, of_ground, of_layer};
 use super::error::PaintingFileError;
-use super::header::FileHeader;
+use super::header::{FileHeader, PaintHeader};
 use super::names::BASE;
 use crate::layer::SLOTS;
 use graphics::tile::Rect;
@@ -19,7 +19,7 @@ pub const EXPANSION: u64 = 1100;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct PartLayout {
     pub(super) name: String,
-    /// Index of the header's layer that the part holds; `None` for the ground.
+    /// Index of the header's paint that the part holds; `None` for the ground.
     pub(super) layer: Option<usize>,
     pub(super) window: Rect,
     /// Number of channels of the part.
@@ -64,14 +64,19 @@ pub(super) fn layout(
     file_bytes: usize,
     limit: u64,
 ) -> Result<Vec<PartLayout>, PaintingFileError> {
-    let cells = (header.width as u64).saturating_mul(header.height as u64);
-    let bytes = cells.saturating_mul(36 * header.layers.len() as u64 + 4);
+    let paints = header.paints();
+    let cells = |(width, height): (usize, usize)| (width as u64).saturating_mul(height as u64);
+    let sizes = paints.iter().map(|paint| cells(paint.size).saturating_mul(36));
+    let ground = cells((header.width, header.height)).saturating_mul(4);
+    let bytes = sizes.fold(ground, u64::saturating_add);
     if bytes > limit {
         return Err(PaintingFileError::TooLarge { file: file.to_owned(), bytes, limit });
     }
-    let found =
-        parts.iter().map(|part| check_part(file, part, header)).collect::<Result<Vec<_>, _>>()?;
-    let wanted = header.layers.iter().map(|layer| layer.part.as_str());
+    let found = parts
+        .iter()
+        .map(|part| check_part(file, part, header, &paints))
+        .collect::<Result<Vec<_>, _>>()?;
+    let wanted = paints.iter().map(|paint| paint.part);
     for part in wanted.chain([BASE]) {
         let fault = Fault { file, part };
         match found.iter().filter(|found| found.name == part).count() {
@@ -98,11 +103,12 @@ fn check_part(
     file: &str,
     part: &Header,
     header: &FileHeader,
+    paints: &[PaintHeader<'_>],
 ) -> Result<PartLayout, PaintingFileError> {
     let name = part.own_attributes.layer_name.as_ref();
     let name = name.map_or_else(String::new, |name| name.chars().collect());
     let fault = Fault { file, part: &name };
-    let layer = header.layers.iter().position(|layer| layer.part == name);
+    let layer = paints.iter().position(|paint| paint.part == name);
     if layer.is_none() && name != BASE {
         return Err(fault.part("is none that attribute `impasto` names".to_owned()));
     }
@@ -114,22 +120,24 @@ fn check_part(
         let found = part.compression;
         return Err(fault.part(format!("must be stored plain, by ZIP or by PIZ, found `{found}`")));
     }
-    let window = window(&fault, part, header, layer.is_none())?;
+    let room = layer.map(|layer| paints[layer].size);
+    let window = window(&fault, part, header, room)?;
     let wanted = match layer {
         None => of_ground(true),
-        Some(layer) => of_layer(&header.layers[layer].pigments, [true; SLOTS + 1]),
+        Some(layer) => of_layer(paints[layer].pigments, [true; SLOTS + 1]),
     };
     let planes = planes(&fault, part, &wanted)?;
     let channels = part.channels.list.len();
     Ok(PartLayout { name, layer, window, channels, planes })
 }
 
-/// Cells that a part covers; the ground must cover the whole canvas.
+/// Cells that a part covers within its `room`; the ground, which has none, must cover the whole
+/// canvas.
 fn window(
     fault: &Fault<'_>,
     part: &Header,
     header: &FileHeader,
-    whole: bool,
+    room: Option<(usize, usize)>,
 ) -> Result<Rect, PaintingFileError> {
     let canvas = part.shared_attributes.display_window;
     let (width, height) = (header.width, header.height);
@@ -141,6 +149,8 @@ fn window(
              `{found}`"
         )));
     }
+    let whole = room.is_none();
+    let (width, height) = room.unwrap_or((width, height));
     let size = part.layer_size;
     let place = part.own_attributes.layer_position;
     let outside = || {

@@ -17,6 +17,16 @@
 //! cell size, ground, medium, lighting, the layers with the channel of each pigment, their
 //! opacity, and the pigment library.
 //!
+//! The part of a dry layer has an attribute of its own, `impasto.layer`: JSON in ASCII with its
+//! identity (`id`), that of the next layer (`next`), its `name` and whether it is `visible`. A file
+//! of an earlier version has none: its layers are numbered from the lowest, 1, and visible. Older
+//! programs leave the attribute alone, and show hidden layers.
+//!
+//! The studio also keeps the palette and the brushes: as the bytes of a file of this format in
+//! attribute `impasto.table` of part `wet`. Its layers are those of the palette; a part
+//! `brush.000`, `brush.001` .. has the paint on the cells of a brush's head, and the JSON the name,
+//! shape and size of each brush. Programs that only show the painting need not decode it.
+//!
 //! A pigment's channel has the pigment's name. Characters outside ASCII and dots (which
 //! OpenEXR reads as layers within the part) become `_`, and a name that is taken gets a
 //! number; the JSON says which channel belongs to which pigment.
@@ -38,6 +48,10 @@ mod pigments;
 
 mod header;
 
+mod layer_attribute;
+
+mod table_attribute;
+
 mod channels;
 
 mod parts;
@@ -50,10 +64,13 @@ mod write;
 
 mod saved;
 
+#[cfg(test)]
+mod tests;
+
 pub use ascii::{ATTRIBUTE, ascii_json};
 pub use error::PaintingFileError;
 pub use layout::EXPANSION;
 pub use names::ChannelNames;
 pub use pigments::{PigmentChannel, channels_of_slots, slots_of_channels};
-pub use read::{MEMORY_LIMIT, read, read_within};
-pub use write::write;
+pub use read::{MEMORY_LIMIT, read, read_table, read_within};
+pub use write::{write, write_with_table};

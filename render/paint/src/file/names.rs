@@ -23,6 +23,11 @@ pub(super) fn dry_part(index: usize) -> String {
     format!("dry.{index:03}")
 }
 
+/// Part that holds the paint of brush `index` of a table.
+pub(super) fn brush_part(index: usize) -> String {
+    format!("brush.{index:03}")
+}
+
 /// Names for the channels of the pigments of one part of an OpenEXR file. No name is given twice.
 #[derive(Debug, Clone)]
 pub struct ChannelNames {

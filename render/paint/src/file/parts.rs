@@ -9,6 +9,7 @@ use super::millimetres::{INEXACT_FROM, Millimetres};
 use super::names::BASE;
 use crate::document::Document;
 use crate::layer::{Layer, SLOTS};
+use crate::strokes::KeptBrush;
 use graphics::field::Field;
 use graphics::tile::Rect;
 
@@ -28,8 +29,12 @@ enum Source<'a> {
     Paint(&'a Layer),
 }
 
-/// All parts of `document` in the order of the file.
-pub(super) fn parts<'a>(document: &'a Document, header: &FileHeader) -> Vec<Part<'a>> {
+/// All parts of `document` and of the `brushes` beside it, in the order of the file.
+pub(super) fn parts<'a>(
+    document: &'a Document,
+    brushes: &'a [KeptBrush],
+    header: &FileHeader,
+) -> Vec<Part<'a>> {
     let ground = &document.ground.height;
     let inexact = ground.values().iter().any(|height| height.unsigned_abs() >= INEXACT_FROM);
     let base = Part {
@@ -40,10 +45,11 @@ pub(super) fn parts<'a>(document: &'a Document, header: &FileHeader) -> Vec<Part
     };
     let paints =
         std::iter::once(&document.wet).chain(document.dry.iter().map(|layer| &layer.paint));
-    let layers = header.layers.iter().zip(paints).map(|(layer, paint)| Part {
-        name: layer.part.clone(),
+    let paints = paints.chain(brushes.iter().filter_map(|brush| brush.paint.as_ref()));
+    let layers = header.paints().into_iter().zip(paints).map(|(layer, paint)| Part {
+        name: layer.part.to_owned(),
         window: covered(paint),
-        channels: of_layer(&layer.pigments, inexact_slots(paint)),
+        channels: of_layer(layer.pigments, inexact_slots(paint)),
         source: Source::Paint(paint),
     });
     std::iter::once(base).chain(layers).collect()

@@ -11,14 +11,18 @@ use rayon::prelude::*;
 
 use super::ascii::ATTRIBUTE;
 use super::error::PaintingFileError;
-use super::header::FileHeader;
+use super::header::{BrushHeader, FileHeader};
+use super::layer_attribute::LayerAttribute;
 use super::layout::{PartLayout, Plane, layout};
 use super::millimetres::Millimetres;
 use super::names::BASE;
+use super::table_attribute::table_bytes;
 use crate::amount::MAX_COLUMN;
-use crate::document::{Document, DryLayer};
+use crate::document::{Document, DryLayer, LayerId};
+use crate::dry_layer::distinct_ids;
 use crate::ground::Ground;
 use crate::layer::{Cell, Layer};
+use crate::strokes::{KeptBrush, SideTable};
 use graphics::field::Field;
 
 /// Memory that [`read`] allows a painting, in bytes: 16 GiB, which is 4096 x 4096 cells
@@ -43,6 +47,31 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<Document, PaintingFileError> {
 /// # Errors
 /// [`PaintingFileError`] in the cases of [`read`].
 pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, PaintingFileError> {
+    Ok(decode(file, bytes, limit)?.0)
+}
+
+/// Decodes the palette and the brushes beside a painting, if `bytes`, the content of `file`, hold
+/// them. The paint of the painting itself is not decoded.
+///
+/// # Errors
+/// [`PaintingFileError`] in the cases of [`read`], for the palette and the brushes.
+pub fn read_table(file: &str, bytes: &[u8]) -> Result<Option<SideTable>, PaintingFileError> {
+    let damaged = |error: exr::error::Error| PaintingFileError::Container {
+        file: file.to_owned(),
+        reason: error.to_string(),
+    };
+    let reader = exr::block::read(Cursor::new(bytes), false).map_err(damaged)?;
+    let Some(table) = table_bytes(reader.headers()) else { return Ok(None) };
+    let (palette, brushes) = decode(&format!("{file}: palette"), table, MEMORY_LIMIT)?;
+    Ok(Some(SideTable { palette, brushes }))
+}
+
+/// Decodes a painting, and the brushes in the same file.
+fn decode(
+    file: &str,
+    bytes: &[u8],
+    limit: u64,
+) -> Result<(Document, Vec<KeptBrush>), PaintingFileError> {
     let damaged = |error: exr::error::Error| PaintingFileError::Container {
         file: file.to_owned(),
         reason: error.to_string(),
@@ -53,11 +82,13 @@ pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, Pai
 
     let (width, height) = (header.width, header.height);
     let mut ground = Field::filled(width, height, 0);
-    let mut paints: Vec<_> = header.layers.iter().map(|_| Layer::empty(width, height)).collect();
+    let sizes = header.paints().into_iter().map(|paint| paint.size);
+    let mut paints: Vec<_> = sizes.map(|(width, height)| Layer::empty(width, height)).collect();
     let mut filled: Vec<_> = parts.iter().map(|part| vec![false; part.window.height]).collect();
 
     let scale = Millimetres::new(header.cell_mm);
     let meta = reader.meta_data().clone();
+    let reader_parts = &meta.headers;
     let mut chunks = reader.all_chunks(false).map_err(damaged)?;
     loop {
         let batch: Vec<Chunk> =
@@ -77,6 +108,7 @@ pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, Pai
                     let (file, part) = (file.to_owned(), name.clone());
                     return Err(PaintingFileError::Part { file, part, reason });
                 }
+                let width = layer.map_or(width, |layer| paints[layer].width());
                 let first = (window.y + row) * width + window.x;
                 match layer {
                     None => {
@@ -101,7 +133,33 @@ pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, Pai
             return Err(PaintingFileError::Part { file, part, reason });
         }
     }
-    document(file, header, library, ground, paints)
+    let found = reader_parts.iter().map(part_name).collect::<Vec<_>>();
+    let names = header.layers.iter().skip(1).enumerate().map(|(index, layer)| {
+        // The check of the layout found each part once.
+        let place = found.iter().position(|name| *name == layer.part).unwrap_or(0);
+        LayerAttribute::from_part(file, &reader_parts[place], &layer.part, index)
+    });
+    let names = names.collect::<Result<Vec<_>, _>>()?;
+    let loads = paints.split_off(header.layers.len());
+    let brushes = brushes(&header.brushes, loads);
+    Ok((document(file, header, library, ground, (names, paints))?, brushes))
+}
+
+/// The brushes of the header with their loads.
+fn brushes(headers: &[BrushHeader], loads: Vec<Layer>) -> Vec<KeptBrush> {
+    let mut loads = loads.into_iter();
+    let brush = |header: &BrushHeader| KeptBrush {
+        name: header.name.clone(),
+        spec: header.spec.clone(),
+        at: header.at,
+        paint: header.paint.as_ref().and_then(|_| loads.next()),
+    };
+    headers.iter().map(brush).collect()
+}
+
+fn part_name(part: &Header) -> String {
+    let name = part.own_attributes.layer_name.as_ref();
+    name.map_or_else(String::new, |name| name.chars().collect())
 }
 
 /// Text of attribute `impasto` of part `base`.
@@ -254,17 +312,21 @@ fn document(
     header: FileHeader,
     library: pigment::library::PigmentLibrary,
     height: Field<i32>,
-    paints: Vec<Layer>,
+    (names, mut paints): (Vec<LayerAttribute>, Vec<Layer>),
 ) -> Result<Document, PaintingFileError> {
     let fault = |reason: String| PaintingFileError::Header { file: file.to_owned(), reason };
-    let mut layers = header.layers.iter().zip(paints);
-    let layers = layers.by_ref().map(|(layer, paint)| {
+    // The header check guarantees that the wet layer comes first.
+    let slots = header.layers[0].slots(&library).map_err(fault)?;
+    let wet = paints.remove(0);
+    let next = names.iter().map(|name| name.next).max().unwrap_or(LayerId::FIRST);
+    let layers = header.layers.iter().skip(1).zip(names.into_iter().zip(paints));
+    let layers = layers.map(|(layer, (about, paint))| {
         let slots = layer.slots(&library).map_err(fault)?;
-        Ok(DryLayer { slots, opacity: layer.opacity, paint })
+        let LayerAttribute { id, name, visible, .. } = about;
+        Ok(DryLayer { id, name, visible, slots, opacity: layer.opacity, paint })
     });
     let mut layers = layers.collect::<Result<Vec<_>, PaintingFileError>>()?;
-    // The header check guarantees that the wet layer comes first.
-    let wet = layers.remove(0);
+    let next_layer = distinct_ids(layers.iter_mut().map(|layer| &mut layer.id), next);
     Ok(Document {
         title: header.title,
         cell_mm: header.cell_mm,
@@ -277,8 +339,9 @@ fn document(
         library,
         medium: header.medium,
         dry: layers,
-        slots: wet.slots,
-        wet: wet.paint,
+        next_layer,
+        slots,
+        wet,
         lighting: header.lighting,
     })
 }

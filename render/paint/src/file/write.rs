@@ -14,12 +14,15 @@ use rayon::prelude::*;
 use super::ascii::ATTRIBUTE;
 use super::error::PaintingFileError;
 use super::header::FileHeader;
+use super::layer_attribute::{LAYER_ATTRIBUTE, LayerAttribute};
 use super::millimetres::Millimetres;
 use super::names::{BASE, WET, dry_part};
 use super::parts::{Part, parts};
+use super::table_attribute::{TABLE_ATTRIBUTE, table_attribute};
 use crate::amount::MAX_COLUMN;
 use crate::document::{Document, Slots};
 use crate::layer::{Layer, SLOTS};
+use crate::strokes::KeptBrush;
 
 /// Number of blocks that are compressed in parallel.
 const BATCH: usize = 64;
@@ -31,17 +34,46 @@ const BATCH: usize = 64;
 /// size than the ground, paint in a slot without a pigment, pigments that the library
 /// lacks, numbers that are not finite.
 pub fn write(document: &Document) -> Result<Vec<u8>, PaintingFileError> {
-    check(document)?;
-    let header = FileHeader::of(document)?;
-    let parts = parts(document, &header);
+    encode(document, &[], None)
+}
+
+/// Encodes a painting with the palette and the brushes beside it, which [`read`](super::read)
+/// leaves out and [`read_table`](super::read_table) reads.
+///
+/// # Errors
+/// [`PaintingFileError::Unwritable`] in the cases of [`write`], for the palette and the brushes as
+/// well.
+pub fn write_with_table(
+    document: &Document,
+    palette: &Document,
+    brushes: &[KeptBrush],
+) -> Result<Vec<u8>, PaintingFileError> {
+    encode(document, &[], Some(encode(palette, brushes, None)?))
+}
+
+/// Encodes a painting, the brushes beside it, and `table`, a file within the file.
+pub(super) fn encode(
+    document: &Document,
+    brushes: &[KeptBrush],
+    table: Option<Vec<u8>>,
+) -> Result<Vec<u8>, PaintingFileError> {
+    check(document, brushes)?;
+    let header = FileHeader::of(document, brushes)?;
+    let parts = parts(document, brushes, &header);
     let json = header.to_json()?;
+    let mut table = table.map(table_attribute);
     let headers = parts.iter().map(|part| {
-        let json = (part.name == BASE).then_some(json.as_str());
-        exr_header(part, &header, json)
+        let attribute = match part.name.as_str() {
+            BASE => Some((ATTRIBUTE, AttributeValue::Text(json.as_str().into()))),
+            WET => table.take().map(|table| (TABLE_ATTRIBUTE, table)),
+            name => layer_attribute(document, name)?,
+        };
+        Ok::<_, PaintingFileError>(exr_header(part, &header, attribute))
     });
+    let headers = headers.collect::<Result<_, _>>()?;
     let scale = Millimetres::new(document.cell_mm);
     let mut bytes = Vec::new();
-    exr::block::write(Cursor::new(&mut bytes), headers.collect(), true, |meta, writer| {
+    exr::block::write(Cursor::new(&mut bytes), headers, true, |meta, writer| {
         let indices: Vec<_> =
             exr::block::enumerate_ordered_header_block_indices(&meta.headers).collect();
         for batch in indices.chunks(BATCH) {
@@ -60,7 +92,22 @@ pub fn write(document: &Document) -> Result<Vec<u8>, PaintingFileError> {
     Ok(bytes)
 }
 
-fn exr_header(part: &Part<'_>, header: &FileHeader, json: Option<&str>) -> Header {
+/// Attribute of the part `name`, if it is that of a dry layer.
+fn layer_attribute<'a>(
+    document: &Document,
+    name: &str,
+) -> Result<Option<(&'a str, AttributeValue)>, PaintingFileError> {
+    let mut dry = document.dry.iter().enumerate();
+    let Some((_, layer)) = dry.find(|(index, _)| dry_part(*index) == name) else { return Ok(None) };
+    let text = LayerAttribute::of(layer, document.next_layer).to_json()?;
+    Ok(Some((LAYER_ATTRIBUTE, AttributeValue::Text(text.as_str().into()))))
+}
+
+fn exr_header(
+    part: &Part<'_>,
+    header: &FileHeader,
+    attribute: Option<(&str, AttributeValue)>,
+) -> Header {
     let channels = part.channels.iter();
     let channels = channels
         .map(|channel| ChannelDescription::new(channel.name.as_str(), SampleType::F32, true));
@@ -70,7 +117,7 @@ fn exr_header(part: &Part<'_>, header: &FileHeader, json: Option<&str>) -> Heade
     own.horizontal_density = Some((25.4 / header.cell_mm) as f32);
     // Add at most one custom attribute: the encoder does not keep the order of several, so
     // the bytes of the file would vary.
-    own.other.extend(json.map(|json| (Text::from(ATTRIBUTE), AttributeValue::Text(json.into()))));
+    own.other.extend(attribute.map(|(name, value)| (Text::from(name), value)));
     let canvas = IntegerBounds::new((0, 0), (header.width, header.height));
     Header::new(Text::from(part.name.as_str()), (window.width, window.height), channels.collect())
         .with_attributes(own)
@@ -78,7 +125,7 @@ fn exr_header(part: &Part<'_>, header: &FileHeader, json: Option<&str>) -> Heade
         .with_encoding(Compression::PIZ, BlockDescription::ScanLines, LineOrder::Increasing)
 }
 
-fn check(document: &Document) -> Result<(), PaintingFileError> {
+fn check(document: &Document, brushes: &[KeptBrush]) -> Result<(), PaintingFileError> {
     let unwritable = |reason: String| PaintingFileError::Unwritable { reason };
     let bounds = document.ground.height.bounds();
     if bounds.width.max(bounds.height) > i32::MAX as usize / 4 {
@@ -97,6 +144,14 @@ fn check(document: &Document) -> Result<(), PaintingFileError> {
             )));
         }
         check_paint(slots, paint).map_err(|what| unwritable(format!("layer `{name}` {what}")))?;
+    }
+    for brush in brushes {
+        let Some(paint) = &brush.paint else { continue };
+        if paint.pigments.bounds() != paint.vehicle.bounds() || paint.vehicle.values().is_empty() {
+            return Err(unwritable(format!("brush `{}` has no cells", brush.name)));
+        }
+        check_paint(&document.slots, paint)
+            .map_err(|what| unwritable(format!("brush `{}` {what}", brush.name)))?;
     }
     Ok(())
 }

@@ -49,6 +49,9 @@ pub enum GroundError {
         /// The library's grid, for example `380 to 730 nm in steps of 10 nm`.
         library: String,
     },
+    /// The paint that tones the ground cannot be mixed.
+    #[error("the film on the ground: {0}")]
+    Recipe(#[from] pigment::library::RecipeError),
     /// The picture of a relief cannot be read.
     #[error("{path}: {reason}")]
     Picture {
@@ -68,6 +71,7 @@ impl Explain for GroundError {
             Self::Picture { .. } => {
                 Hint::new("the relief of a ground is a grey PNG or JPEG, white the highest")
             }
+            Self::Recipe(error) => return error.hint(),
             Self::OutOfRange { .. } | Self::Spectrum(_) | Self::Resampled(_) => return None,
         })
     }

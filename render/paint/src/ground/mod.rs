@@ -10,6 +10,8 @@ mod bare_surface;
 
 mod relief;
 
+mod toned;
+
 mod primer;
 
 mod linen;
@@ -32,4 +34,5 @@ pub use paper::{Paper, PaperFinish};
 pub use picture_relief::PictureRelief;
 pub use primer::{ColorPrimer, MeasuredPrimer, Primer, PrimerSpectrum};
 pub use spec::{GroundKind, GroundRelief, GroundSpec, ParseGroundKindError};
+pub use toned::{PrimerFilm, TonedPrimer};
 pub use wood::Wood;

@@ -8,13 +8,16 @@ use spectra::color::{Adaptation, Rgb, RgbSpace};
 use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum};
 
 use super::error::{GroundError, check_range};
+use super::toned::TonedPrimer;
 
-/// Measured reflectance of a ground: `0.87`, `{"rgb": "#f4f1e8"}`, or
-/// `{"spectrum": {"grid": {..}, "values": [..]}}`.
+/// Measured reflectance of a ground: `0.87`, `{"rgb": "#f4f1e8"}`,
+/// `{"spectrum": {"grid": {..}, "values": [..]}}`, or a film of paint over the library's white,
+/// `{"film": {"recipe": {"Bone Black": 1}, "height_mm": 0.003}}`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(
     untagged,
-    expecting = "reflectance is a number 0 to 1, {rgb: #rrggbb} or {spectrum: {grid, values}}"
+    expecting = "reflectance is a number 0 to 1, {rgb: #rrggbb}, {spectrum: {grid, values}} or \
+                 {film: {recipe, height_mm}}"
 )]
 pub enum Primer {
     /// One reflectance for all wavelengths, 0 to 1.
@@ -23,6 +26,8 @@ pub enum Primer {
     Color(ColorPrimer),
     /// A measured spectrum.
     Measured(MeasuredPrimer),
+    /// The white of the library under a thin dry film of paint.
+    Toned(TonedPrimer),
 }
 
 /// Colour of a ground.
@@ -88,6 +93,7 @@ impl Primer {
                 let found = smoothest_reflectance(&weights, surface, xyz).internal;
                 Ok(found.into_iter().map(|r| surface.measured_from_internal(r)).collect())
             }
+            Self::Toned(toned) => toned.over(&Self::library_white(library), library),
             Self::Measured(MeasuredPrimer { spectrum }) => {
                 let PrimerSpectrum { grid: own, values } = spectrum;
                 let (start_nm, end_nm) = (own.start_nm(), own.end_nm());

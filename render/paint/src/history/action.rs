@@ -19,7 +19,7 @@ pub struct Restored<T> {
     pub caller: T,
     /// Tiles whose wet paint changed.
     pub tiles: TileSet,
-    /// Whether dry layers were added or removed, which changes the floor too.
+    /// Whether dry layers were added, removed or moved.
     pub dry_changed: bool,
 }
 
@@ -35,10 +35,12 @@ pub(super) struct Action<T> {
 
 #[derive(Debug)]
 pub(super) enum DryChange {
-    /// A layer was added on top; the engine holds it.
-    Pushed,
-    /// This layer was removed from the top.
-    Popped(Layer),
+    /// A layer was added at this index; the engine holds it.
+    Inserted(usize),
+    /// This layer was removed from this index.
+    Removed(usize, Layer),
+    /// A layer was moved from one index to another.
+    Moved { from: usize, to: usize },
 }
 
 impl<T> Action<T> {
@@ -51,8 +53,8 @@ impl<T> Action<T> {
     pub(super) fn bytes(&self) -> u64 {
         let brushes = self.brushes.values();
         let dry = self.dry.iter().filter_map(|change| match change {
-            DryChange::Popped(layer) => Some(layer),
-            DryChange::Pushed => None,
+            DryChange::Removed(_, layer) => Some(layer),
+            DryChange::Inserted(_) | DryChange::Moved { .. } => None,
         });
         self.tiles.len() as u64 * TILE_BYTES + brushes.chain(dry).map(bytes_of).sum::<u64>()
     }
@@ -77,10 +79,16 @@ impl<T> Action<T> {
         self.dry.reverse();
         for change in &mut self.dry {
             *change = match change {
-                DryChange::Pushed => DryChange::Popped(engine.pop_dry_layer()?),
-                DryChange::Popped(layer) => {
-                    engine.push_dry_layer(layer)?;
-                    DryChange::Pushed
+                DryChange::Inserted(index) => {
+                    DryChange::Removed(*index, engine.remove_dry_layer(*index)?)
+                }
+                DryChange::Removed(index, layer) => {
+                    engine.insert_dry_layer(*index, layer)?;
+                    DryChange::Inserted(*index)
+                }
+                DryChange::Moved { from, to } => {
+                    engine.move_dry_layer(*to, *from);
+                    DryChange::Moved { from: *to, to: *from }
                 }
             };
         }

@@ -69,7 +69,7 @@ fn stroke(history: &mut History<usize>, engine: &mut PaintEngine, random: &mut C
     }
 }
 
-/// One action: a stroke, a new dry layer, drying, or a dry layer replaced by another.
+/// One action: a stroke, a new dry layer, drying with a layer moved, or a dry layer replaced by another.
 fn act(
     history: &mut History<usize>,
     engine: &mut PaintEngine,
@@ -79,12 +79,19 @@ fn act(
     match turn % 5 {
         1 => {
             let layer = painted(WIDTH, HEIGHT, random);
-            history.push_dry_layer(engine, &layer).unwrap();
+            let index = random.random_range(0..=engine.dry_layer_count());
+            history.insert_dry_layer(engine, index, &layer).unwrap();
         }
-        2 => history.dry(engine, random.random_range(0..=65536)).unwrap(),
+        2 => {
+            history.dry(engine, random.random_range(0..=65536)).unwrap();
+            let count = engine.dry_layer_count();
+            let (from, to) = (random.random_range(0..count), random.random_range(0..count));
+            history.move_dry_layer(engine, from, to);
+        }
         4 => {
             stroke(history, engine, random);
-            history.pop_dry_layer(engine).unwrap();
+            let index = random.random_range(0..engine.dry_layer_count());
+            history.remove_dry_layer(engine, index).unwrap();
             history.dry(engine, 30_000).unwrap();
         }
         _ => stroke(history, engine, random),
@@ -174,4 +181,24 @@ fn an_action_beyond_the_limit_stays_done_and_cannot_be_undone() {
     history.begin(2);
     history.save_tiles(&mut engine, one_tile).unwrap();
     assert_eq!(history.commit(), CommitOutcome::Undoable);
+}
+
+#[test]
+fn actions_that_nothing_reaches_give_their_memory_back() {
+    let random = &mut ChaCha8Rng::seed_from_u64(4);
+    let mut engine = engine(random);
+    let mut history = History::new(u64::MAX);
+    for now in 0..6 {
+        history.begin(now);
+        stroke(&mut history, &mut engine, random);
+        history.commit();
+    }
+    history.undo(&mut engine, 6).unwrap();
+    history.undo(&mut engine, 5).unwrap();
+    let before = history.bytes();
+    history.keep_only(1, 1);
+    assert_eq!((history.undo_count(), history.redo_count()), (1, 1));
+    assert!(history.bytes() < before, "{} of {before} bytes", history.bytes());
+    let next = history.redo(&mut engine, 4).unwrap().unwrap();
+    assert_eq!(next.caller, 5, "the next redo is kept, not the last");
 }

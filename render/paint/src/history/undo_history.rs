@@ -145,41 +145,57 @@ impl<T> History<T> {
         for tile in engine.wet_tiles()?.iter() {
             self.save_tiles(engine, tile.rect(bounds))?;
         }
+        let index = engine.dry_layer_count();
         engine.dry(share)?;
-        self.open_action().into_iter().for_each(|action| action.dry.push(DryChange::Pushed));
+        self.note_dry(DryChange::Inserted(index));
         Ok(())
     }
 
-    /// Adds a dry layer on top as part of the open action.
+    /// Adds a dry layer at `index` as part of the open action.
     ///
     /// # Errors
     /// [`DeviceError`] if the engine has no memory left.
     ///
     /// # Panics
     /// If no action is open.
-    pub fn push_dry_layer(
+    pub fn insert_dry_layer(
         &mut self,
         engine: &mut PaintEngine,
+        index: usize,
         layer: &Layer,
     ) -> Result<(), DeviceError> {
-        engine.push_dry_layer(layer)?;
-        self.open_action().into_iter().for_each(|action| action.dry.push(DryChange::Pushed));
+        engine.insert_dry_layer(index, layer)?;
+        self.note_dry(DryChange::Inserted(index));
         Ok(())
     }
 
-    /// Removes the topmost dry layer as part of the open action.
+    /// Removes the dry layer `index` as part of the open action.
     ///
     /// # Errors
     /// [`DeviceError`] if the device was lost.
     ///
     /// # Panics
     /// If no action is open.
-    pub fn pop_dry_layer(&mut self, engine: &mut PaintEngine) -> Result<(), DeviceError> {
-        let layer = engine.pop_dry_layer()?;
+    pub fn remove_dry_layer(
+        &mut self,
+        engine: &mut PaintEngine,
+        index: usize,
+    ) -> Result<(), DeviceError> {
+        let layer = engine.remove_dry_layer(index)?;
         if self.open_action().is_some() && self.reserve(bytes_of(&layer)) {
-            self.open_action().expect(FITS).dry.push(DryChange::Popped(layer));
+            self.note_dry(DryChange::Removed(index, layer));
         }
         Ok(())
+    }
+
+    /// Moves a dry layer from one index to another as part of the open action, which takes no
+    /// memory.
+    ///
+    /// # Panics
+    /// If no action is open.
+    pub fn move_dry_layer(&mut self, engine: &mut PaintEngine, from: usize, to: usize) {
+        engine.move_dry_layer(from, to);
+        self.note_dry(DryChange::Moved { from, to });
     }
 
     /// Closes the open action.
@@ -282,6 +298,24 @@ impl<T> History<T> {
     pub fn set_limit_bytes(&mut self, limit_bytes: u64) {
         self.limit_bytes = limit_bytes;
         self.shrink();
+    }
+
+    /// Forgets all but the last `undo` actions that can be undone, and all but the next `redo`
+    /// that can be redone.
+    pub fn keep_only(&mut self, undo: usize, redo: usize) {
+        while self.done.len() > undo {
+            self.done.pop_front().into_iter().for_each(|oldest| self.forget(oldest));
+        }
+        while self.undone.len() > redo {
+            let farthest = self.undone.remove(0);
+            self.forget(farthest);
+        }
+    }
+
+    fn note_dry(&mut self, change: DryChange) {
+        if let Some(action) = self.open_action() {
+            action.dry.push(change);
+        }
     }
 
     /// The open action; `None` if it exceeds the limit.

@@ -28,6 +28,9 @@
 //!    with one cell of the head add up; as none takes more than half of its share, the
 //!    head's amounts never fall below zero.
 //!
+//! A cell that a [mask](crate::mask) covers is never in contact, and counts as crowded: its paint
+//! neither moves nor gets more.
+//!
 //! A column receives paint from at most eight neighbours, none of them crowded, so
 //! advection leaves every column below [`crate::amount::MAX_COLUMN`].
 

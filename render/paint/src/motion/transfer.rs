@@ -6,6 +6,9 @@
 //! 2010, section 4). Of the paint on the canvas, only the height that the head has penetrated
 //! counts. Where several cells of the canvas lie under one cell of the head, each may take an
 //! equal share of the head's paint, or of the room that it has below [`MAX_COLUMN`].
+//!
+//! In a sub-step a head takes at most half of what it has penetrated; one that does not mix, as a
+//! blade that only scrapes, may take all of it.
 
 use crate::amount::{MAX_COLUMN, quotient, ratio_of_65536, share_of_256, share_of_65536};
 use crate::contact::{ExchangeRates, Touch};
@@ -54,9 +57,10 @@ pub fn exchange(
     let weight = share_of_256(touch.transfer_weight(), touching);
     let down = share_of_256(laid + mixed, weight).min(brush / 2);
     let up = share_of_256(taken + mixed, weight) + share_of_256(canvas, leaving / 2);
+    let most = if rates.mixing == 0 { canvas } else { canvas / 2 };
     Exchange {
         down: ratio_of_65536(down, brush_volume),
-        up: ratio_of_65536(up.min(canvas / 2).min(room), canvas_volume),
+        up: ratio_of_65536(up.min(most).min(room), canvas_volume),
     }
 }
 

@@ -29,9 +29,10 @@ fn exchange(
     let weight = share_of_256(touch_transfer_weight(touch), touching);
     let down = min(share_of_256(laid + mixed, weight), brush / 2u);
     let up = share_of_256(taken + mixed, weight) + share_of_256(canvas, leaving / 2u);
+    let most = select(canvas / 2u, canvas, rates.mixing == 0u);
     return Exchange(
         ratio_of_65536(down, brush_volume),
-        ratio_of_65536(min(min(up, canvas / 2u), room), canvas_volume),
+        ratio_of_65536(min(min(up, most), room), canvas_volume),
     );
 }
 

@@ -1,6 +1,7 @@
 //! Errors of a painting.
 
-use crate::brush::BrushError;
+use crate::brush::{BrushError, ToolError};
+use crate::dry_layer::LayerId;
 use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
 use graphics::gpu::DeviceError;
@@ -21,6 +22,9 @@ pub enum PaintingError {
     /// A stroke has a sample that cannot be painted, or none.
     #[error(transparent)]
     Stroke(#[from] StrokeError),
+    /// A number of a tool is out of range.
+    #[error(transparent)]
+    Tool(#[from] ToolError),
     /// A recipe has no parts above 0, or a negative part.
     #[error("a recipe needs parts above 0, none below, unless it is vehicle alone")]
     NoMixture,
@@ -137,9 +141,42 @@ pub enum PaintingError {
         /// Row of the cell, from 0.
         y: usize,
     },
-    /// Two layers with different opacities cannot be merged.
-    #[error("the two layers have different opacities")]
-    UnlikeOpacity,
+    /// Only dry layers can be named, hidden, moved and merged.
+    #[error("wet paint lies on top of all layers and has no {what} of its own")]
+    WetLayer {
+        /// Name of the property.
+        what: &'static str,
+    },
+    /// A layer cannot have this name.
+    #[error("a layer has {wanted}")]
+    LayerName {
+        /// Description of the names allowed.
+        wanted: &'static str,
+    },
+    /// One layer was named twice for a merge.
+    #[error("a layer merges with another one, not with itself")]
+    SameLayer,
+    /// The lowest dry layer is to be merged with the one below.
+    #[error("there is no dry layer below this one")]
+    NothingBelow,
+    /// Of two layers to merge one is hidden.
+    #[error("one of the two layers is hidden")]
+    UnlikeVisibility,
+    /// A film between two layers to merge overlaps both.
+    #[error("`{label}` lies between the two layers and overlaps both")]
+    FilmBetween {
+        /// Name of that layer.
+        label: String,
+    },
+    /// Two layers together have more pigments than a layer holds.
+    #[error(
+        "a layer holds 8 pigments, these two have {}: {}",
+        pigments.len(), pigments.join(", ")
+    )]
+    MergedPigments {
+        /// Names of the pigments of both.
+        pigments: Vec<String>,
+    },
     /// There is no dry layer with this index.
     #[error("there are {count} dry layers, counted from 0, found `{index}`")]
     NoLayer {
@@ -147,6 +184,14 @@ pub enum PaintingError {
         index: usize,
         /// Number of dry layers.
         count: usize,
+    },
+    /// There is no dry layer with this identity.
+    #[error("there is no layer {id}; the painting has {}", listed(known))]
+    UnknownLayer {
+        /// Identity that was named.
+        id: LayerId,
+        /// Identities of the dry layers.
+        known: Vec<String>,
     },
     /// Merging two layers would change a colour visibly.
     #[error(
@@ -169,6 +214,7 @@ impl Explain for PaintingError {
             Self::Light(error) => return error.hint(),
             Self::Brush(error) => return error.hint(),
             Self::Stroke(error) => return error.hint(),
+            Self::Tool(error) => return error.hint(),
             Self::TooHigh { .. } => "paint thinner, or with larger cells",
             Self::StillWet { .. } => "dry the painting and wash the brushes first",
             Self::TooManyPigments { .. } => "dry the painting, then go on with another palette",
@@ -180,7 +226,14 @@ impl Explain for PaintingError {
             Self::NoRoom { .. } => "squeeze beside it, or spread it first",
             Self::WetOpacity => "dry it first",
             Self::OffPalette { .. } => "put it there with a palette action, or undo less",
-            Self::UnlikeOpacity => "give both the same opacity",
+            Self::WetLayer { .. } => "dry it first",
+            Self::LayerName { .. } => "shorten the name",
+            Self::NothingBelow => "name the other layer with `with`",
+            Self::UnlikeVisibility => "show both, or hide both",
+            Self::FilmBetween { .. } => "move that layer above or below both, or merge it as well",
+            Self::MergedPigments { .. } => {
+                "keep them apart, or exchange a pigment of one layer for one of the other's"
+            }
             Self::Overloaded { .. } => "wipe or wash the brush first",
             Self::NoMixture
             | Self::Share { .. }
@@ -191,7 +244,9 @@ impl Explain for PaintingError {
             | Self::EmptySlot { .. }
             | Self::NotThere { .. }
             | Self::Opacity { .. }
-            | Self::NoLayer { .. } => return None,
+            | Self::NoLayer { .. }
+            | Self::UnknownLayer { .. }
+            | Self::SameLayer => return None,
         };
         Some(Hint::new(hint))
     }
@@ -202,4 +257,8 @@ impl Explain for PaintingError {
             _ => Fault::Input,
         }
     }
+}
+
+fn listed(known: &[String]) -> String {
+    if known.is_empty() { "no dry layers".to_owned() } else { known.join(", ") }
 }

@@ -105,7 +105,7 @@ impl Painting {
     ///
     /// The heap has a round top and is a third as high as wide, or flatter where the columns
     /// of cells cannot hold more. The volume is exact to the quantum, except for paint that
-    /// falls outside the canvas.
+    /// falls outside the canvas or on its mask.
     ///
     /// # Errors
     /// [`PaintingError`] for an invalid recipe (see [`Painting::load`]), a volume that is not
@@ -148,6 +148,10 @@ impl Painting {
                 return;
             }
             let index = (y * width + x) as usize;
+            let cell = (rect.y + y as usize) * bounds.width + rect.x + x as usize;
+            if self.mask.as_ref().is_some_and(|mask| mask.covers(cell)) {
+                return;
+            }
             let there = paint.cell(index);
             let volume = |cell: &Cell| {
                 u64::from(cell.vehicle)
@@ -176,7 +180,7 @@ impl Painting {
         Ok(cells.map(|index| paint.cell(index).volume()).max().unwrap_or(0))
     }
 
-    /// Scrapes all wet paint off the canvas. Returns whether there was any.
+    /// Scrapes all wet paint off the canvas, but not off covered cells. Returns whether there was any.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
@@ -195,7 +199,17 @@ impl Painting {
                 painting.views.mark_wet_tile(tile);
             }
             let rect = painted.extent(bounds);
-            painting.engine.set_wet_in(rect, &Layer::empty(rect.width, rect.height))?;
+            let mut left = Layer::empty(rect.width, rect.height);
+            if let Some(mask) = &painting.mask {
+                let before = painting.engine.wet_in(rect)?;
+                for index in 0..rect.width * rect.height {
+                    let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
+                    if mask.covers(y * bounds.width + x) {
+                        left.set_cell(index, before.cell(index));
+                    }
+                }
+            }
+            painting.engine.set_wet_in(rect, &left)?;
             Ok(true)
         })
     }

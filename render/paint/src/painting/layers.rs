@@ -1,27 +1,13 @@
-//! Layers: drying, pigments and opacity, and merging.
+//! Layers: drying, pigments and opacity.
 
 use pigment::PigmentId;
-use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
 
 use super::brushes::share_of_65536_parts;
 use super::failure::PaintingError;
+use super::layer_ref::LayerRef;
 use super::state::{DryLayerState, HIGHEST, Painting};
 use crate::brush::Relief;
 use crate::document::Slots;
-use crate::layer::{Layer, SLOTS};
-use graphics::field::Field;
-
-/// Largest colour difference that a merge may make, in CIEDE2000.
-pub const MERGE_TOLERANCE: f64 = 0.1;
-
-/// One layer of a painting.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LayerRef {
-    /// The wet layer.
-    Wet,
-    /// A dry layer by its index; 0 is the lowest.
-    Dry(usize),
-}
 
 impl Painting {
     /// Dries the fraction `fraction` (0 to 1) of all wet paint, from the bottom, as a new
@@ -44,7 +30,9 @@ impl Painting {
         }
         self.apply_action(|painting| {
             painting.history.dry(&mut painting.engine, share)?;
-            painting.state.dry.push(DryLayerState { slots: painting.state.slots, opacity: 1.0 });
+            let state = &mut painting.state;
+            state.dry.push(DryLayerState::new(state.next_layer, state.slots));
+            state.next_layer = state.next_layer.next();
             painting.update_relief()?;
             painted.iter().for_each(|tile| painting.views.mark_dry_tile(tile));
             Ok(())
@@ -123,6 +111,7 @@ impl Painting {
         from: PigmentId,
         to: PigmentId,
     ) -> Result<(), PaintingError> {
+        let dry = self.dry_index(layer)?;
         let slots = self.slots(layer)?;
         if slots.contains(&Some(to)) {
             return Err(PaintingError::AlreadyThere { pigment: self.pigment_name(to) });
@@ -132,16 +121,16 @@ impl Painting {
             .position(|&slot| slot == Some(from))
             .ok_or_else(|| PaintingError::NotThere { pigment: self.pigment_name(from) })?;
         self.apply_action(|painting| {
-            match layer {
-                LayerRef::Wet => painting.state.slots[place] = Some(to),
-                LayerRef::Dry(index) => painting.state.dry[index].slots[place] = Some(to),
+            match dry {
+                None => painting.state.slots[place] = Some(to),
+                Some(index) => painting.state.dry[index].slots[place] = Some(to),
             }
             painting.views.mark_all();
             Ok(())
         })
     }
 
-    /// Sets the factor of the optical thickness of a dry layer: 1 as painted, 0 hides it. Its
+    /// Sets the factor of the optical thickness of a dry layer: 1 as painted, 0 clear. Its
     /// height stays.
     ///
     /// # Errors
@@ -151,8 +140,7 @@ impl Painting {
     /// # Panics
     /// If a stroke is open.
     pub fn set_opacity(&mut self, layer: LayerRef, opacity: f64) -> Result<(), PaintingError> {
-        let LayerRef::Dry(index) = layer else { return Err(PaintingError::WetOpacity) };
-        self.slots(layer)?;
+        let index = self.dry_index(layer)?.ok_or(PaintingError::WetOpacity)?;
         if !(0.0..=1000.0).contains(&opacity) {
             return Err(PaintingError::Opacity { value: opacity });
         }
@@ -166,13 +154,30 @@ impl Painting {
     /// Pigment of each slot of a layer.
     ///
     /// # Errors
-    /// [`PaintingError::NoLayer`] if there is no such layer.
+    /// [`PaintingError::NoLayer`] or [`PaintingError::UnknownLayer`] if there is no such layer.
     pub fn slots(&self, layer: LayerRef) -> Result<Slots, PaintingError> {
+        Ok(match self.dry_index(layer)? {
+            None => self.state.slots,
+            Some(index) => self.state.dry[index].slots,
+        })
+    }
+
+    /// Index of a dry layer from the lowest, which is 0; `None` for the wet one.
+    ///
+    /// # Errors
+    /// [`PaintingError::NoLayer`] or [`PaintingError::UnknownLayer`] if there is no such layer.
+    pub fn dry_index(&self, layer: LayerRef) -> Result<Option<usize>, PaintingError> {
+        let dry = &self.state.dry;
         match layer {
-            LayerRef::Wet => Ok(self.state.slots),
-            LayerRef::Dry(index) => match self.state.dry.get(index) {
-                Some(state) => Ok(state.slots),
-                None => Err(PaintingError::NoLayer { index, count: self.state.dry.len() }),
+            LayerRef::Wet => Ok(None),
+            LayerRef::Dry(index) if index < dry.len() => Ok(Some(index)),
+            LayerRef::Dry(index) => Err(PaintingError::NoLayer { index, count: dry.len() }),
+            LayerRef::Id(id) => match dry.iter().position(|layer| layer.id == id) {
+                Some(index) => Ok(Some(index)),
+                None => {
+                    let known = dry.iter().map(|layer| layer.id.to_string()).collect();
+                    Err(PaintingError::UnknownLayer { id, known })
+                }
             },
         }
     }
@@ -209,120 +214,5 @@ impl Painting {
         self.dry_changes += 1;
         self.relief = Relief::from_floor(&self.engine.floor()?, self.cell_mm);
         Ok(())
-    }
-
-    /// Merges the dry layer `index` with the one above it. Their paints mix, so that layers of
-    /// different paint would change colour; such a merge is refused.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if a colour would change by more than [`MERGE_TOLERANCE`], if the two
-    /// need more than eight pigments or have different opacities, and if there are no such
-    /// layers. Nothing is changed then.
-    ///
-    /// # Panics
-    /// If a stroke is open.
-    pub fn merge(&mut self, index: usize) -> Result<(), PaintingError> {
-        let upper = self.slots(LayerRef::Dry(index + 1))?;
-        let lower = self.slots(LayerRef::Dry(index))?;
-        if self.state.dry[index].opacity != self.state.dry[index + 1].opacity {
-            return Err(PaintingError::UnlikeOpacity);
-        }
-        let (slots, place) = united(lower, upper)?;
-        let mut paint = self.engine.dry_layer(index)?;
-        add(&mut paint, &self.engine.dry_layer(index + 1)?, &place);
-        let above = (index + 2..self.engine.dry_layer_count()).map(|i| self.engine.dry_layer(i));
-        let above: Vec<Layer> = above.collect::<Result<_, _>>()?;
-        let merged: Vec<Layer> = std::iter::once(paint).chain(above).collect();
-        let state = DryLayerState { slots, opacity: self.state.dry[index].opacity };
-
-        // A trial first, so that a refused merge leaves no trace in the history.
-        let before = self.picture()?;
-        let dry = self.state.dry.clone();
-        let apart = self.replace_dry(index, &merged)?;
-        self.state.dry.splice(index..index + 2, [state.clone()]);
-        self.views.mark_all();
-        let (delta_e, x, y) = farthest(&before, &self.picture()?);
-        self.replace_dry(index, &apart)?;
-        self.state.dry = dry;
-        self.views.mark_all();
-        if delta_e > MERGE_TOLERANCE {
-            return Err(PaintingError::MergeShows { delta_e, x, y });
-        }
-
-        self.apply_action(|painting| {
-            while painting.engine.dry_layer_count() > index {
-                painting.history.pop_dry_layer(&mut painting.engine)?;
-            }
-            for layer in &merged {
-                painting.history.push_dry_layer(&mut painting.engine, layer)?;
-            }
-            painting.state.dry.splice(index..index + 2, [state]);
-            painting.floor_changed()
-        })
-    }
-
-    /// Replaces the dry layers from `index` up by `layers`; returns the former ones.
-    fn replace_dry(&mut self, index: usize, layers: &[Layer]) -> Result<Vec<Layer>, PaintingError> {
-        let mut former = Vec::new();
-        while self.engine.dry_layer_count() > index {
-            former.insert(0, self.engine.pop_dry_layer()?);
-        }
-        for layer in layers {
-            self.engine.push_dry_layer(layer)?;
-        }
-        Ok(former)
-    }
-}
-
-/// Largest colour difference between two pictures in CIEDE2000, with its column and row.
-fn farthest(a: &Field<[f32; 4]>, b: &Field<[f32; 4]>) -> (f64, usize, usize) {
-    let matrix = RgbSpace::Srgb.xyz_from_linear();
-    let lab = |rgb: &[f32; 4]| {
-        let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
-        Lab::from_xyz(matrix.apply(linear).into(), RgbSpace::Srgb.white())
-    };
-    let mut largest = (0.0, 0, 0);
-    let width = a.width();
-    for (cell, (a, b)) in a.values().iter().zip(b.values()).enumerate() {
-        let delta_e = if a == b { 0.0 } else { delta_e_ciede2000(lab(a), lab(b)) };
-        if delta_e > largest.0 {
-            largest = (delta_e, cell % width, cell / width);
-        }
-    }
-    largest
-}
-
-/// Slots of both layers merged, and the slot of each pigment of the upper layer in them.
-fn united(lower: Slots, upper: Slots) -> Result<(Slots, [usize; SLOTS]), PaintingError> {
-    let mut slots = lower;
-    let mut place = [0; SLOTS];
-    let mut lacking = 0;
-    for (slot, pigment) in upper.iter().enumerate() {
-        let Some(pigment) = *pigment else { continue };
-        let found = slots.iter().position(|&other| other == Some(pigment));
-        match found.or_else(|| slots.iter().position(Option::is_none)) {
-            Some(free) => {
-                slots[free] = Some(pigment);
-                place[slot] = free;
-            }
-            None => lacking += 1,
-        }
-    }
-    if lacking > 0 {
-        return Err(PaintingError::TooManyPigments { found: SLOTS + lacking });
-    }
-    Ok((slots, place))
-}
-
-/// Adds `upper` to `lower`; slot `i` of `upper` is slot `place[i]` of `lower`.
-fn add(lower: &mut Layer, upper: &Layer, place: &[usize; SLOTS]) {
-    for index in 0..lower.vehicle.values().len() {
-        let mut cell = lower.cell(index);
-        let more = upper.cell(index);
-        for (slot, amount) in more.pigments.iter().enumerate() {
-            cell.pigments[place[slot]] += amount;
-        }
-        cell.vehicle += more.vehicle;
-        lower.set_cell(index, cell);
     }
 }

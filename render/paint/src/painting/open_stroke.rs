@@ -1,8 +1,11 @@
 //! The open stroke: one state machine from the first sample to the last sub-step.
 
+use super::batch::Batch;
+use super::clean_head::CleanHead;
 use super::failure::PaintingError;
 use super::state::Painting;
-use crate::brush::{Head, Relief};
+use super::taken::TakenPaint;
+use crate::brush::{Head, Relief, StrokeTool};
 use crate::contact::{Contact, Touch};
 use crate::engine::{BrushId, PaintEngine};
 use crate::history::CommitOutcome;
@@ -14,13 +17,6 @@ use crate::stroke::{Path, StrokeError};
 use graphics::gpu::DeviceError;
 use graphics::tile::{Rect, Tile, TileSet};
 
-/// Most sub-steps that go to the backend together: enough to hide the cost of a call.
-const BATCH: usize = 32;
-
-/// Number of cells of contacts after which no more sub-steps are added to a batch, so that they
-/// stay in the cache (chosen by timing).
-const BATCH_CELLS: usize = 80_000;
-
 /// Work done for a finished stroke.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct StrokeReport {
@@ -30,6 +26,8 @@ pub struct StrokeReport {
     pub cells: u64,
     /// Whether the memory for undo can hold the stroke.
     pub undoable: bool,
+    /// Paint that a tool took off the surface.
+    pub taken: TakenPaint,
 }
 
 /// A stroke between the first and the last contact with a [`Painting`].
@@ -45,6 +43,9 @@ pub struct StrokeReport {
 pub struct OpenStroke {
     /// Index of the brush, once the stroke is open in the painting.
     brush: Option<BrushId>,
+    tool: StrokeTool,
+    /// The head of a tool, while the stroke is open in the painting.
+    clean: Option<CleanHead>,
     path: Path,
     lifted: bool,
     /// Whether the head was set down.
@@ -64,45 +65,15 @@ pub struct OpenStroke {
     report: StrokeReport,
 }
 
-/// Sub-steps that the head has bent through.
-#[derive(Debug, Clone)]
-struct Batch {
-    contacts: Vec<Contact>,
-    /// Number of contacts in use.
-    count: usize,
-    /// Number of samples that the head had reached after them.
-    reached: usize,
-}
-
-impl Batch {
-    fn empty() -> Self {
-        let nothing = Contact::default();
-        Self { contacts: vec![nothing; BATCH], count: 0, reached: 0 }
-    }
-
-    /// Bends `head` through the next poses of `path`.
-    fn bend(&mut self, path: &mut Path, head: &mut Head, relief: &Relief, bounds: Rect) {
-        self.count = 0;
-        let mut cells = 0;
-        for contact in &mut self.contacts {
-            if cells >= BATCH_CELLS {
-                break;
-            }
-            let Some(pose) = path.next() else { break };
-            head.advance(&pose, relief, bounds, contact);
-            cells += contact.touches.len();
-            self.count += 1;
-        }
-        self.reached = path.reached();
-    }
-}
-
 impl OpenStroke {
-    /// A stroke without samples, on cells of `cell_mm` mm with a brush of `size_mm`, that is not
-    /// yet open in a painting.
-    pub(crate) fn new(cell_mm: f64, size_mm: f64) -> Result<Self, StrokeError> {
+    /// A stroke without samples, on cells of `cell_mm` mm with a brush of `size_mm` as `tool`,
+    /// that is not yet open in a painting.
+    pub(crate) fn new(cell_mm: f64, size_mm: f64, tool: StrokeTool) -> Result<Self, PaintingError> {
+        tool.check()?;
         Ok(Self {
             brush: None,
+            tool,
+            clean: None,
             path: Path::new(cell_mm, size_mm)?,
             lifted: false,
             down: false,
@@ -129,15 +100,29 @@ impl OpenStroke {
         let id = painting.brushes[brush.0].id;
         painting.history.begin(painting.undo_state());
         let engine = &mut painting.engine;
-        let opened = painting.history.save_brush(engine, id).and_then(|()| match paint {
-            Some(paint) => engine.set_brush_paint(id, paint),
-            None => Ok(()),
+        let opened = painting.history.save_brush(engine, id).and_then(|()| {
+            if let Some(paint) = paint {
+                engine.set_brush_paint(id, paint)?;
+            }
+            CleanHead::of(self.tool, engine, id)
         });
         match opened {
-            Ok(()) => (self.brush, painting.stroke_brush) = (Some(brush), Some(brush)),
-            Err(_) => painting.history.abandon(),
+            Ok(clean) => {
+                self.clean = clean;
+                (self.brush, painting.stroke_brush) = (Some(brush), Some(brush));
+                Ok(())
+            }
+            Err(error) => {
+                painting.history.abandon();
+                Err(error.into())
+            }
         }
-        Ok(opened?)
+    }
+
+    /// The tool that the head is used as.
+    #[must_use]
+    pub fn tool(&self) -> StrokeTool {
+        self.tool
     }
 
     /// Whether the stroke is open in a painting.
@@ -211,7 +196,8 @@ impl OpenStroke {
         most_substeps: usize,
     ) -> Result<usize, PaintingError> {
         let Some(brush) = self.brush else { return Ok(0) };
-        painting.assert_stroke_of(brush);
+        let open = painting.stroke_brush;
+        assert_eq!(open, Some(brush), "the stroke was begun on another painting");
         let (bounds, motion) = (painting.engine.bounds(), painting.motion());
         let tool = &mut painting.brushes[brush.0];
         let (head, relief) = (&mut tool.head, &painting.relief);
@@ -220,11 +206,12 @@ impl OpenStroke {
         let mut left = if self.down { most_substeps } else { 0 };
         while left > 0 {
             let rest = &self.batch.contacts[self.painted..self.batch.count];
-            let now = &rest[..left.min(rest.len())];
+            let room = self.clean.as_ref().map_or(usize::MAX, CleanHead::left);
+            let now = &rest[..left.min(rest.len()).min(room)];
             let all = now.len() == rest.len();
             let touching = now.iter().filter(|contact| !contact.rect.is_empty());
             let (path, next) = (&mut self.path, &mut self.next);
-            let noted = &mut self.noted;
+            let (noted, clean, as_tool) = (&mut self.noted, &mut self.clean, self.tool);
             let (result, ()) = rayon::join(
                 || {
                     for contact in touching.clone() {
@@ -232,11 +219,12 @@ impl OpenStroke {
                         history.save_tiles(engine, reach)?;
                         note_bed(engine, noted, contact.rect.grown(BLOCK, bounds))?;
                     }
-                    engine.apply_contacts(tool.id, &motion, now)
+                    engine.apply_contacts(tool.id, &motion, now)?;
+                    clean.as_mut().map_or(Ok(()), |clean| clean.painted(engine, now.len()))
                 },
                 || {
                     if all {
-                        next.bend(path, head, relief, bounds);
+                        next.bend(path, (head, as_tool), relief, bounds);
                     }
                 },
             );
@@ -279,6 +267,28 @@ impl OpenStroke {
     pub fn finish(mut self, painting: &mut Painting) -> Result<StrokeReport, PaintingError> {
         self.lift();
         let painted = self.advance(painting, usize::MAX).and_then(|_| self.level(painting));
+        self.close(painting, painted)
+    }
+
+    /// Paints what is known of the stroke and closes it as one action, without lifting the brush:
+    /// the paint is as it was while the stroke was open.
+    ///
+    /// # Errors
+    /// [`PaintingError`] like [`OpenStroke::finish`].
+    ///
+    /// # Panics
+    /// If the stroke was begun on another painting.
+    pub fn cut(mut self, painting: &mut Painting) -> Result<StrokeReport, PaintingError> {
+        let painted = self.advance(painting, usize::MAX).map(drop);
+        self.close(painting, painted)
+    }
+
+    fn close(
+        mut self,
+        painting: &mut Painting,
+        painted: Result<(), PaintingError>,
+    ) -> Result<StrokeReport, PaintingError> {
+        let wiped = self.clean.take().map(|clean| clean.finish(&mut painting.engine));
         if self.is_open() {
             painting.stroke_brush = None;
             if self.samples() == 0 {
@@ -289,6 +299,7 @@ impl OpenStroke {
             }
         }
         painted?;
+        self.report.taken = wiped.transpose()?.unwrap_or_default();
         Ok(self.report)
     }
 
@@ -341,52 +352,4 @@ fn note_bed(engine: &mut PaintEngine, noted: &mut TileSet, rect: Rect) -> Result
         }
     }
     Ok(())
-}
-
-impl Painting {
-    /// Paints a whole stroke. One undo takes it back, including the paint that moved
-    /// between brush and canvas.
-    ///
-    /// # Errors
-    /// [`PaintingError`] for impossible samples, before anything is painted, or if the
-    /// device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush, or a stroke is open.
-    pub fn stroke(
-        &mut self,
-        brush: BrushId,
-        samples: &[Sample],
-    ) -> Result<StrokeReport, PaintingError> {
-        if samples.is_empty() {
-            return Err(StrokeError::Empty.into());
-        }
-        let mut stroke = OpenStroke::new(self.cell_mm, self.brushes[brush.0].head.size_mm())?;
-        stroke.extend(samples)?;
-        stroke.open(self, brush, None)?;
-        stroke.finish(self)
-    }
-
-    /// Begins a stroke whose samples come later.
-    ///
-    /// # Errors
-    /// [`PaintingError`] if the device was lost.
-    ///
-    /// # Panics
-    /// If there is no such brush, or a stroke is open.
-    pub fn begin_stroke(&mut self, brush: BrushId) -> Result<OpenStroke, PaintingError> {
-        let mut stroke = OpenStroke::new(self.cell_mm, self.brushes[brush.0].head.size_mm())?;
-        stroke.open(self, brush, None)?;
-        Ok(stroke)
-    }
-
-    /// Whether a stroke is open.
-    #[must_use]
-    pub fn stroke_open(&self) -> bool {
-        self.stroke_brush.is_some()
-    }
-
-    fn assert_stroke_of(&self, brush: BrushId) {
-        assert_eq!(self.stroke_brush, Some(brush), "the stroke was begun on another painting");
-    }
 }

@@ -115,7 +115,7 @@ impl Painting {
     }
 
     fn dry_states(&self) -> Vec<(Slots, f64)> {
-        self.state.dry.iter().map(|dry| (dry.slots, dry.opacity)).collect()
+        self.state.dry.iter().map(|dry| (dry.slots, dry.shown_opacity())).collect()
     }
 
     fn appearance<'a>(&'a self, dry: &'a [(Slots, f64)], lighting: &'a Lighting) -> Appearance<'a> {

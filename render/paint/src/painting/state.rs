@@ -8,22 +8,49 @@ use super::failure::PaintingError;
 use super::views::Views;
 use crate::amount::{MAX_COLUMN, mm_from_quanta};
 use crate::brush::{Head, Relief};
-use crate::document::{Document, DryLayer, Lighting, Medium, Slots};
+use crate::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
+use crate::dry_layer::{distinct_ids, layer_label, shown_opacity};
 use crate::engine::{BrushId, PaintEngine};
 use crate::ground::Ground;
 use crate::history::History;
 use crate::layer::{Layer, SLOTS};
 use crate::light::Light;
+use crate::mask::Mask;
 use crate::motion::MotionConstants;
 use graphics::tile::Rect;
 
 /// Properties of a dry layer that can be changed later.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DryLayerState {
+    /// Its identity within the painting.
+    pub id: LayerId,
+    /// Its name; empty if it has none.
+    pub name: String,
+    /// Whether it is shown.
+    pub visible: bool,
     /// Pigment of each slot, as an index into the library.
     pub slots: Slots,
-    /// Factor of the optical thickness: 1 as painted, 0 hides the layer.
+    /// Factor of the optical thickness: 1 as painted, 0 clear.
     pub opacity: f64,
+}
+
+impl DryLayerState {
+    /// A layer that just dried.
+    pub(super) fn new(id: LayerId, slots: Slots) -> Self {
+        Self { id, name: String::new(), visible: true, slots, opacity: 1.0 }
+    }
+
+    /// Opacity as it is shown: 0 for a hidden layer.
+    #[must_use]
+    pub fn shown_opacity(&self) -> f64 {
+        shown_opacity(self.visible, self.opacity)
+    }
+
+    /// Its name, or its number if it has none.
+    #[must_use]
+    pub fn label(&self) -> String {
+        layer_label(self.id, &self.name)
+    }
 }
 
 /// Properties of a painting besides its paint. An undo restores them with the paint.
@@ -33,6 +60,8 @@ pub struct State {
     pub slots: Slots,
     /// The dry layers, lowest first.
     pub dry: Vec<DryLayerState>,
+    /// Identity of the next dry layer.
+    pub next_layer: LayerId,
     /// Light that the painting is shown under.
     pub lighting: Lighting,
     /// Scattering per mm, stiffness and gloss of the binder.
@@ -55,6 +84,7 @@ pub(super) struct UndoState {
     pub(super) light: Arc<Light>,
     /// Number of brushes at that time.
     pub(super) brushes: usize,
+    pub(super) mask: Option<Arc<Mask>>,
 }
 
 /// Progress of an open adjustment.
@@ -81,6 +111,8 @@ pub struct Painting {
     pub(super) dry_changes: u64,
     pub(super) brushes: Vec<Brush>,
     pub(super) history: History<UndoState>,
+    /// Covered cells; see [`Painting::change_mask`].
+    pub(super) mask: Option<Arc<Mask>>,
     /// Brush of the open stroke, if one is open.
     pub(super) stroke_brush: Option<BrushId>,
     /// The open adjustment, if one is open.
@@ -126,12 +158,14 @@ impl Painting {
         undo_bytes: u64,
     ) -> Result<Self, PaintingError> {
         check_heights(&document)?;
-        let Document { title, cell_mm, ground, library, medium, dry, slots, wet, lighting } =
-            document;
+        let Document { title, cell_mm, ground, library, medium, mut dry, slots, .. } = document;
+        let (wet, lighting) = (document.wet, document.lighting);
+        let ids = dry.iter_mut().map(|layer| &mut layer.id);
+        let next_layer = distinct_ids(ids, document.next_layer);
         let mut states = Vec::with_capacity(dry.len());
-        for DryLayer { slots, opacity, paint } in dry {
+        for DryLayer { id, name, visible, slots, opacity, paint } in dry {
             engine.push_dry_layer(&paint)?;
-            states.push(DryLayerState { slots, opacity });
+            states.push(DryLayerState { id, name, visible, slots, opacity });
         }
         engine.set_wet(&wet)?;
         let relief = Relief::from_floor(&engine.floor()?, cell_mm);
@@ -142,12 +176,13 @@ impl Painting {
             ground,
             library,
             engine,
-            state: State { slots, dry: states, lighting, medium },
+            state: State { slots, dry: states, next_layer, lighting, medium },
             light: light.into(),
             relief,
             dry_changes: 0,
             brushes: Vec::new(),
             history: History::new(undo_bytes),
+            mask: None,
             stroke_brush: None,
             adjusting: None,
             views,
@@ -162,7 +197,8 @@ impl Painting {
         let mut dry = Vec::with_capacity(self.state.dry.len());
         for (index, state) in self.state.dry.iter().enumerate() {
             let paint = self.engine.dry_layer(index)?;
-            dry.push(DryLayer { slots: state.slots, opacity: state.opacity, paint });
+            let DryLayerState { id, name, visible, slots, opacity } = state.clone();
+            dry.push(DryLayer { id, name, visible, slots, opacity, paint });
         }
         Ok(Document {
             title: self.title.clone(),
@@ -171,6 +207,7 @@ impl Painting {
             library: self.library.clone(),
             medium: self.state.medium.clone(),
             dry,
+            next_layer: self.state.next_layer,
             slots: self.state.slots,
             wet: self.engine.wet()?,
             lighting: self.state.lighting.clone(),

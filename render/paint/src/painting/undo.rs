@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::failure::PaintingError;
-use super::state::{Adjusting, Painting, UndoState};
+use super::state::{Adjusting, Painting, State, UndoState};
 use crate::history::Restored;
 use crate::layer::Layer;
 use graphics::tile::TileSet;
@@ -90,6 +90,12 @@ impl Painting {
         self.history.set_limit_bytes(limit);
     }
 
+    /// Forgets all but the last `undo` actions that can be undone, and all but the next `redo`
+    /// that can be repeated, to use their memory for others.
+    pub fn keep_actions(&mut self, undo: usize, redo: usize) {
+        self.history.keep_only(undo, redo);
+    }
+
     /// Applies `change` as one action of the history, or as part of the open adjustment. A
     /// change that fails half way can be undone as well.
     ///
@@ -124,13 +130,18 @@ impl Painting {
             state: self.state.clone(),
             light: Arc::clone(&self.light),
             brushes: self.brushes.len(),
+            mask: self.mask.clone(),
         }
     }
 
     fn restore(&mut self, restored: Restored<UndoState>) -> Result<(), PaintingError> {
-        let UndoState { state, light, brushes } = restored.caller;
+        let UndoState { state, light, brushes, mask } = restored.caller;
+        self.hold_mask(mask)?;
         let palette_changed = state.slots != self.state.slots;
-        let paint_changed = palette_changed || state.dry != self.state.dry;
+        let look = |state: &State| -> Vec<_> {
+            state.dry.iter().map(|layer| (layer.slots, layer.shown_opacity())).collect()
+        };
+        let paint_changed = palette_changed || look(&state) != look(&self.state);
         let light_changed = !Arc::ptr_eq(&light, &self.light);
         let lighting_changed = state.lighting != self.state.lighting;
         let medium_changed = state.medium != self.state.medium;

@@ -37,7 +37,8 @@ pub struct Appearance<'a> {
 /// surface reflection counts as black.
 #[must_use]
 pub fn scene(document: &Document, light: &Light) -> Scene {
-    let dry: Vec<_> = document.dry.iter().map(|layer| (layer.slots, layer.opacity)).collect();
+    let dry: Vec<_> =
+        document.dry.iter().map(|layer| (layer.slots, layer.shown_opacity())).collect();
     Appearance::of(document, &dry).scene(light)
 }
 

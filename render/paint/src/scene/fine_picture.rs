@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use spectra::hint::{Explain, Fault, Hint};
 
-use super::picture::{lay_row, tops};
+use super::picture::{ALL, lay_row, tops};
 use crate::document::Document;
 use crate::optics::{Lamp, Scene};
 use crate::shade::{TopMaterial, Tops, color_row, relieve_row};
@@ -77,7 +77,7 @@ pub fn fine_picture(document: &Document, scene: &Scene, pixels: PixelsPerCell) -
         return picture;
     }
     let between = Between::new(pixels, document.wet.width(), document.wet.height());
-    let coarse = tops(document);
+    let coarse = tops(document, ALL);
     let mut fine = Tops::level(width, height);
     fine.set_all(|x, y| {
         let from = f64::from(coarse.at(between.cell(x, y)));
@@ -121,7 +121,7 @@ impl Cells {
             rows.for_each_init(
                 || vec![scene.ground; width],
                 |internal, (y, (colors, materials))| {
-                    lay_row(document, scene, y, internal, materials);
+                    lay_row((document, ALL), scene, y, internal, materials);
                     color_row(scene, internal, colors);
                 },
             );

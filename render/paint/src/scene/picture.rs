@@ -15,8 +15,15 @@ use graphics::field::Field;
 /// `scene` must have been made for `document`.
 #[must_use]
 pub fn picture(document: &Document, scene: &Scene) -> Field<[f32; 4]> {
+    picture_of_lowest(document, scene, ALL)
+}
+
+/// Picture of a document like [`picture`] with its lowest `layers` only, dry ones first: as it
+/// would look without the others. 0 is the ground.
+#[must_use]
+pub fn picture_of_lowest(document: &Document, scene: &Scene, layers: usize) -> Field<[f32; 4]> {
     let width = document.wet.width();
-    let tops = tops(document);
+    let tops = tops(document, layers);
     let mut picture = Field::filled(width, document.wet.height(), [0.0; 4]);
     if width == 0 {
         return picture;
@@ -24,16 +31,20 @@ pub fn picture(document: &Document, scene: &Scene) -> Field<[f32; 4]> {
     picture.values_mut().par_chunks_mut(width).enumerate().for_each_init(
         || (vec![scene.ground; width], vec![TopMaterial::Ground; width]),
         |(internal, materials), (y, out)| {
-            lay_row(document, scene, y, internal, materials);
+            lay_row((document, layers), scene, y, internal, materials);
             shade_row(scene, (&tops, (0, y)), internal, materials, out);
         },
     );
     picture
 }
 
-/// Computes the internal reflectance and the topmost material of every cell of row `y`.
+/// Number of layers that stands for all of them.
+pub(super) const ALL: usize = usize::MAX;
+
+/// Computes the internal reflectance and the topmost material of every cell of row `y` of the
+/// lowest `layers`.
 pub(super) fn lay_row(
-    document: &Document,
+    (document, layers): (&Document, usize),
     scene: &Scene,
     y: usize,
     internal: &mut [[f32; NODES]],
@@ -45,7 +56,7 @@ pub(super) fn lay_row(
     let wet = std::iter::once((&document.wet, &scene.wet));
     let dry = dry.map(|layer| (TopMaterial::Dry, layer));
     let wet = wet.map(|layer| (TopMaterial::Wet, layer));
-    for (material, (layer, optics)) in dry.chain(wet) {
+    for (material, (layer, optics)) in dry.chain(wet).take(layers) {
         composite_row(optics, layer.pigments.row(y, 0, layer.width()), internal);
         mark(layer, y, material, materials);
     }
@@ -61,11 +72,11 @@ fn mark(layer: &Layer, y: usize, material: TopMaterial, materials: &mut [TopMate
     }
 }
 
-/// Height of the surface at every cell.
-pub(super) fn tops(document: &Document) -> Tops {
+/// Height of the surface of the lowest `layers` at every cell.
+pub(super) fn tops(document: &Document, layers: usize) -> Tops {
     let ground = &document.ground.height;
-    let layers: Vec<_> =
-        document.dry.iter().map(|layer| &layer.paint).chain([&document.wet]).collect();
+    let all = document.dry.iter().map(|layer| &layer.paint).chain([&document.wet]);
+    let layers: Vec<_> = all.take(layers).collect();
     let mut tops = Tops::level(ground.width(), ground.height());
     tops.set_all(|x, y| {
         let index = y * ground.width() + x;

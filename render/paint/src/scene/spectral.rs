@@ -130,7 +130,8 @@ impl<'a> SpectralDocument<'a> {
     }
 
     fn new(document: &'a Document, stack: impl Fn(&Appearance<'_>) -> SpectralStack) -> Self {
-        let dry: Vec<_> = document.dry.iter().map(|layer| (layer.slots, layer.opacity)).collect();
+        let dry: Vec<_> =
+            document.dry.iter().map(|layer| (layer.slots, layer.shown_opacity())).collect();
         let stack = stack(&Appearance::of(document, &dry));
         let layers = document.dry.iter().map(|layer| &layer.paint).chain([&document.wet]);
         Self { document, stack, layers: layers.collect() }

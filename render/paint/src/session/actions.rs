@@ -3,15 +3,14 @@
 use pigment::PigmentId;
 
 use super::failure::SessionError;
-use super::history::Entry;
 use super::label::label;
+use super::layers::change_stack;
 use super::state::{Outcome, PaintingSession};
 use crate::engine::BrushId;
 use crate::layer::SLOTS;
 use crate::painting::{LayerRef, Painting, PaintingError};
-use crate::stroke::{Path, SampleDecimals};
 use crate::strokes::{
-    Action, ActionPigments, CheckContext, Load, PaletteSpec, PerSurface, Recipe, Squeeze, Stroke,
+    Action, ActionPigments, CheckContext, Load, PaletteSpec, PerSurface, Recipe, Squeeze,
     SurfaceId, check_brush,
 };
 
@@ -34,20 +33,9 @@ impl PaintingSession {
         match action {
             Action::Undo {} => return Ok(nothing_unless(self.undo()?)),
             Action::Redo {} => return Ok(nothing_unless(self.redo()?)),
-            Action::Stroke(Stroke { brush, on, samples }) => {
+            Action::Stroke(stroke) | Action::Cut(stroke) => {
                 self.check(action)?;
-                // A stroke that is too long is refused before any of it is painted.
-                let samples: Vec<_> =
-                    samples.iter().map(|sample| SampleDecimals::RECORDING.round(sample)).collect();
-                let tool = self.brushes.find(brush).map(|tool| &self.brushes.tools[tool]);
-                let size_mm = tool.map_or(0.0, |tool| tool.spec.size_mm);
-                let mut path =
-                    Path::new(self.canvas.cell_mm(), size_mm).map_err(PaintingError::from)?;
-                path.push(&samples).map_err(PaintingError::from)?;
-                self.begin_stroke(*on, brush)?;
-                let extended = self.extend(&samples);
-                let report = self.end_stroke()?;
-                extended?;
+                let report = self.apply_stroke(stroke, matches!(action, Action::Cut(_)))?;
                 return Ok(report.map_or(Outcome::Nothing, Outcome::Painted));
             }
             Action::Save { .. } => return Err(SessionError::Save),
@@ -183,8 +171,16 @@ impl PaintingSession {
                     _ => CANVAS,
                 }
             }
-            (Action::Merge { layer }, _) => {
-                self.canvas.merge(layer.saturating_sub(1))?;
+            (
+                Action::Name { .. }
+                | Action::Visible { .. }
+                | Action::Order { .. }
+                | Action::Merge { .. },
+                _,
+            ) => {
+                if !change_stack(&mut self.canvas, action)? {
+                    return Ok(None);
+                }
                 CANVAS
             }
             (Action::Squeeze(squeeze), ActionPigments::Recipe(parts)) => {
@@ -198,6 +194,12 @@ impl PaintingSession {
                     return Ok(None);
                 }
                 only(*on)
+            }
+            (Action::Mask(change), _) => {
+                if !self.canvas.change_mask(change)? {
+                    return Ok(None);
+                }
+                CANVAS
             }
             (action, _) => unreachable!("`{}` is applied elsewhere", action.kind()),
         };
@@ -258,8 +260,8 @@ impl PaintingSession {
         on: PerSurface<bool>,
     ) {
         if on != NONE {
-            let label = label(action, pigments, self.canvas.library());
-            self.history.add(Entry { label, on, carried: None });
+            let label = label(action, pigments, &self.canvas);
+            self.history.add(label, on, None);
             self.limit_history();
         }
         self.scope.add_palette_of(action, pigments);

@@ -70,6 +70,15 @@ impl Brushes {
         Added::Ready
     }
 
+    /// Adds a head that an earlier session had, after all those that it was added after. The last
+    /// one of a name that is `named` has the name now.
+    pub(super) fn restore(&mut self, tool: Tool, named: bool) {
+        if named {
+            self.names.insert(tool.name.clone(), self.tools.len());
+        }
+        self.tools.push(tool);
+    }
+
     /// Index of the head that has a name now.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
         self.names.get(name).copied()

@@ -11,7 +11,7 @@ use crate::engine::PaintEngine;
 use crate::painting::{Painting, StrokeReport, UNDO_BYTES};
 use crate::pose::Sample;
 use crate::strokes::{
-    Action, Load, PaletteSpec, Recipe, Stroke, StrokeScript, SurfaceId, pigment_names,
+    Action, Load, PaletteSpec, Recipe, Stroke, StrokeScript, StrokeTool, SurfaceId, pigment_names,
 };
 
 impl PaintingSession {
@@ -84,8 +84,22 @@ impl PaintingSession {
         brush: &str,
         samples: &[Sample],
     ) -> Result<StrokeReport, SessionError> {
+        self.stroke_as(StrokeTool::Paint, brush, samples)
+    }
+
+    /// Works the wet paint of the canvas with the head of a brush as `tool`. An undo takes it back.
+    ///
+    /// # Errors
+    /// [`SessionError`] for an unknown brush, and for impossible samples and tools; nothing is
+    /// changed then.
+    pub fn stroke_as(
+        &mut self,
+        tool: StrokeTool,
+        brush: &str,
+        samples: &[Sample],
+    ) -> Result<StrokeReport, SessionError> {
         let samples = samples.to_vec();
-        let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Canvas, samples };
+        let stroke = Stroke { brush: brush.to_owned(), on: SurfaceId::Canvas, tool, samples };
         Ok(match self.apply(&Action::Stroke(stroke))? {
             Outcome::Painted(report) => report,
             Outcome::Done | Outcome::Nothing => StrokeReport::default(),

@@ -15,6 +15,8 @@ pub(super) struct Carried {
 /// An action of the history.
 #[derive(Debug, Clone)]
 pub(super) struct Entry {
+    /// Number from 1 that no other action of the session has.
+    pub(super) number: u64,
     /// Label for display.
     pub(super) label: String,
     /// Whether the history of each surface has this action.
@@ -46,12 +48,15 @@ impl Entries {
     }
 
     /// Drops the entries farthest from the present until each surface has at most `kept`,
-    /// the number of actions that its painting still has.
-    fn drop_farthest(&mut self, kept: PerSurface<usize>) {
+    /// the number of actions that its painting still has. Returns the number of the last one.
+    fn drop_farthest(&mut self, kept: PerSurface<usize>) -> Option<u64> {
+        let mut last = None;
         while self.on.iter().zip(kept.iter()).any(|(count, kept)| count > kept) {
-            let Some(farthest) = self.entries.pop_front() else { return };
+            let Some(farthest) = self.entries.pop_front() else { return last };
             self.uncount(&farthest);
+            last = Some(farthest.number);
         }
+        last
     }
 
     pub(super) fn len(&self) -> usize {
@@ -65,26 +70,44 @@ pub(super) struct SharedHistory {
     pub(super) done: Entries,
     /// Undone actions; the next redo is the last one.
     pub(super) undone: Entries,
+    /// Number of the action added last; 0 before the first.
+    last: u64,
+    /// Number of the last done action that was dropped; 0 if none was.
+    beginning: u64,
 }
 
 impl SharedHistory {
     /// Adds a new action; the undone ones are dropped.
-    pub(super) fn add(&mut self, entry: Entry) {
+    pub(super) fn add(&mut self, label: String, on: PerSurface<bool>, carried: Option<Carried>) {
         self.undone = Entries::default();
-        self.done.push(entry);
+        self.last += 1;
+        self.done.push(Entry { number: self.last, label, on, carried });
     }
 
     /// Drops the actions that a painting has dropped; `undo` and `redo` are the numbers of
     /// actions that each painting can still undo and redo.
     pub(super) fn limit_to(&mut self, undo: PerSurface<usize>, redo: PerSurface<usize>) {
-        self.done.drop_farthest(undo);
+        self.beginning = self.done.drop_farthest(undo).unwrap_or(self.beginning);
         self.undone.drop_farthest(redo);
+    }
+
+    /// Numbers of actions of each surface that can be undone and redone.
+    pub(super) fn counts(&self) -> (PerSurface<usize>, PerSurface<usize>) {
+        (self.done.on, self.undone.on)
     }
 
     /// Labels of all actions that can be reached by undo and redo, in their order.
     pub(super) fn labels(&self) -> Vec<&str> {
-        let undone = self.undone.entries.iter().rev();
-        self.done.entries.iter().chain(undone).map(|entry| entry.label.as_str()).collect()
+        self.entries().map(|entry| entry.label.as_str()).collect()
+    }
+
+    /// Number of the action before these, 0 if there is none, then their own in the same order.
+    pub(super) fn numbers(&self) -> Vec<u64> {
+        [self.beginning].into_iter().chain(self.entries().map(|entry| entry.number)).collect()
+    }
+
+    fn entries(&self) -> impl Iterator<Item = &Entry> {
+        self.done.entries.iter().chain(self.undone.entries.iter().rev())
     }
 }
 
@@ -92,9 +115,8 @@ impl SharedHistory {
 mod tests {
     use super::*;
 
-    fn entry(label: &str, [canvas, palette]: [bool; 2]) -> Entry {
-        let on = PerSurface { canvas, palette };
-        Entry { label: label.to_owned(), on, carried: None }
+    fn add(history: &mut SharedHistory, label: &str, [canvas, palette]: [bool; 2]) {
+        history.add(label.to_owned(), PerSurface { canvas, palette }, None);
     }
 
     fn counts([canvas, palette]: [usize; 2]) -> PerSurface<usize> {
@@ -104,10 +126,10 @@ mod tests {
     #[test]
     fn an_action_dropped_by_one_painting_drops_all_before_it() {
         let mut history = SharedHistory::default();
-        history.add(entry("a", [true, false]));
-        history.add(entry("b", [false, true]));
-        history.add(entry("c", [true, true]));
-        history.add(entry("d", [true, false]));
+        add(&mut history, "a", [true, false]);
+        add(&mut history, "b", [false, true]);
+        add(&mut history, "c", [true, true]);
+        add(&mut history, "d", [true, false]);
         history.limit_to(counts([3, 2]), counts([0, 0]));
         assert_eq!(history.labels(), ["a", "b", "c", "d"], "all is known");
         // The palette forgot `b`, so `a` cannot be reached, though the canvas knows it.
@@ -118,13 +140,14 @@ mod tests {
         assert_eq!(history.labels(), ["c", "d"]);
         history.limit_to(counts([1, 1]), counts([0, 0]));
         assert_eq!(history.labels(), ["d"]);
+        assert_eq!(history.numbers(), [3, 4], "it begins after `c`");
     }
 
     #[test]
     fn redo_is_dropped_from_its_far_end() {
         let mut history = SharedHistory::default();
         for label in ["a", "b", "c"] {
-            history.add(entry(label, [true, label == "b"]));
+            add(&mut history, label, [true, label == "b"]);
         }
         for _ in 0..3 {
             let entry = history.done.pop().expect("there are three");
@@ -133,7 +156,8 @@ mod tests {
         assert_eq!(history.labels(), ["a", "b", "c"]);
         history.limit_to(counts([0, 0]), counts([3, 0]));
         assert_eq!(history.labels(), ["a"], "`b` is lost, and with it `c` after it");
-        history.add(entry("d", [true, false]));
+        add(&mut history, "d", [true, false]);
         assert_eq!((history.labels(), history.undone.len()), (vec!["d"], 0));
+        assert_eq!(history.numbers(), [0, 4], "no number is given twice");
     }
 }

@@ -1,20 +1,23 @@
 //! Labels of actions for the history.
 
 use pigment::PigmentId;
-use pigment::library::PigmentLibrary;
 
-use crate::strokes::{Action, ActionPigments, LayerRef, SurfaceId};
+use crate::dry_layer::layer_label;
+use crate::painting::{DryLayerState, Painting};
+use crate::strokes::{Action, ActionPigments, LayerRef, MaskChange, SurfaceId};
 
 /// Label of an action with the pigments that it names.
-pub(super) fn label(
-    action: &Action,
-    pigments: &ActionPigments,
-    library: &PigmentLibrary,
-) -> String {
-    let name = |pigment: PigmentId| library[pigment].name.as_str();
+pub(super) fn label(action: &Action, pigments: &ActionPigments, canvas: &Painting) -> String {
+    let name = |pigment: PigmentId| canvas.library()[pigment].name.as_str();
+    let layer_name = |layer: LayerRef| layer_name(layer, canvas);
     let on = |surface: SurfaceId| if surface.is_canvas() { "" } else { " on the palette" };
     match action {
-        Action::Stroke(stroke) => format!("stroke{}, {}", on(stroke.on), stroke.brush),
+        Action::Stroke(stroke) | Action::Cut(stroke) if stroke.tool.is_paint() => {
+            format!("stroke{}, {}", on(stroke.on), stroke.brush)
+        }
+        Action::Stroke(stroke) | Action::Cut(stroke) => {
+            format!("{}{}, {}", stroke.tool.name(), on(stroke.on), stroke.brush)
+        }
         Action::Dry { fraction } if *fraction == 1.0 => "dry all".to_owned(),
         Action::Dry { fraction } => format!("dry {}", percent(*fraction)),
         Action::Palette(_) => "other pigments".to_owned(),
@@ -30,7 +33,16 @@ pub(super) fn label(
             }
             _ => "swap".to_owned(),
         },
-        Action::Merge { layer } => format!("merge layer {layer} with the one below"),
+        Action::Name { name, .. } if name.is_empty() => "no name for a layer".to_owned(),
+        Action::Name { name, .. } => format!("name {name}"),
+        Action::Visible { layer, value: true } => format!("show {}", layer_name(*layer)),
+        Action::Visible { layer, value: false } => format!("hide {}", layer_name(*layer)),
+        Action::Order { layer, to } => format!("{} to place {}", layer_name(*layer), to + 1),
+        // The merged layer has the name of one of them; the other is gone.
+        Action::Merge { layer: LayerRef::Dry(index), with: None } => {
+            format!("merge layer {index} with the one below")
+        }
+        Action::Merge { .. } => "merge two layers".to_owned(),
         Action::Squeeze(squeeze) => {
             let paint = match pigments {
                 ActionPigments::Recipe(parts) => match parts.as_slice() {
@@ -43,6 +55,13 @@ pub(super) fn label(
             };
             format!("squeeze {paint}{}", if squeeze.on.is_canvas() { " on the canvas" } else { "" })
         }
+        Action::Mask(change) => match change {
+            MaskChange::PolygonMm(_) => "mask".to_owned(),
+            MaskChange::Layer(layer) => format!("mask by {}", layer_name(*layer)),
+            MaskChange::Painted {} => "mask by all paint".to_owned(),
+            MaskChange::Inverse(_) => "mask inverted".to_owned(),
+            MaskChange::Clear {} => "mask off".to_owned(),
+        },
         Action::Scrape { on: SurfaceId::Canvas } => "scrape the canvas".to_owned(),
         Action::Scrape { on: SurfaceId::Palette } => "scrape the palette".to_owned(),
         Action::Load(_)
@@ -58,9 +77,13 @@ fn percent(share: f64) -> String {
     format!("{} %", (share * 1000.0).round() / 10.0)
 }
 
-fn layer_name(layer: LayerRef) -> String {
+fn layer_name(layer: LayerRef, canvas: &Painting) -> String {
     match layer {
         LayerRef::Wet => "wet paint".to_owned(),
         LayerRef::Dry(index) => format!("layer {index}"),
+        LayerRef::Id(id) => {
+            let dry = canvas.state().dry.iter().find(|layer| layer.id == id);
+            dry.map_or_else(|| layer_label(id, ""), DryLayerState::label)
+        }
     }
 }

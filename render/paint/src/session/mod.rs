@@ -8,9 +8,9 @@
 //! stroke on the other surface moves it there as part of the stroke, and an undo moves it
 //! back.
 //!
-//! **One history** covers both surfaces, in the order of the actions. Each painting keeps its
-//! part within its own memory; when one of them drops an action, all earlier ones become
-//! unreachable, so that nothing is undone out of order. Loading, wiping and washing a brush
+//! **One history** covers both surfaces, in the order of the actions. Both share its memory; when
+//! one of them drops an action, all earlier ones become unreachable and are dropped as well, so
+//! that nothing is undone out of order and no memory is lost to them. Loading, wiping and washing a brush
 //! are not actions of the history: the undo of a stroke restores the paint that its brush
 //! held before.
 //!
@@ -27,6 +27,8 @@ mod record;
 
 mod label;
 
+mod layers;
+
 mod state;
 
 mod actions;
@@ -39,11 +41,22 @@ mod undo;
 
 mod replay;
 
+mod table;
+
+mod kept;
+
 mod front_door;
 
 #[cfg(test)]
 mod tests;
 
+#[cfg(test)]
+mod layer_tests;
+
+#[cfg(test)]
+mod kept_tests;
+
 pub use failure::SessionError;
+pub use kept::{KeptHead, KeptSession, RecordingTail};
 pub use replay::{ReplayError, ReplayReport};
 pub use state::{Outcome, PaintingSession};

@@ -1,14 +1,15 @@
 //! The open stroke of a session.
 
 use super::failure::SessionError;
-use super::history::{Carried, Entry};
+use super::history::Carried;
 use super::label::label;
 use super::state::{PaintingSession, SessionStroke};
 use crate::painting::{OpenStroke, Painting, PaintingError, StrokeReport};
 use crate::pose::Sample;
-use crate::stroke::SampleDecimals;
+use crate::stroke::{Path, SampleDecimals};
 use crate::strokes::{
-    Action, ActionPigments, CheckContext, PerSurface, Stroke, SurfaceId, check_brush, check_sample,
+    Action, ActionPigments, CheckContext, PerSurface, Stroke, StrokeTool, SurfaceId, check_brush,
+    check_sample, check_tool, six_digits,
 };
 
 impl PaintingSession {
@@ -42,15 +43,33 @@ impl PaintingSession {
         brush: &str,
         decimals: SampleDecimals,
     ) -> Result<(), SessionError> {
+        self.begin_stroke_as(StrokeTool::Paint, on, brush, decimals)
+    }
+
+    /// Sets the head of a brush down as `tool`, like [`PaintingSession::begin_rounded_stroke`]. The
+    /// number of the tool is rounded to six digits.
+    ///
+    /// # Errors
+    /// [`SessionError`] if there is no such brush or surface, if the number of the tool is out of
+    /// range, or if the device was lost.
+    pub fn begin_stroke_as(
+        &mut self,
+        tool: StrokeTool,
+        on: SurfaceId,
+        brush: &str,
+        decimals: SampleDecimals,
+    ) -> Result<(), SessionError> {
+        let working = tool.map(six_digits);
+        check_tool(&CheckContext::default(), working)?;
         self.finish_open()?;
         self.surface_mut(on)?;
         check_brush(&CheckContext::default(), brush, self.brushes.names().map(|(name, _)| name))?;
         if let Some(tool) = self.brushes.find(brush) {
             let size_mm = self.brushes.tools[tool].spec.size_mm;
-            let stroke =
-                OpenStroke::new(self.canvas.cell_mm(), size_mm).map_err(PaintingError::from)?;
-            let samples = Vec::new();
-            self.stroke = Some(SessionStroke { on, tool, decimals, samples, from: None, stroke });
+            let stroke = OpenStroke::new(self.canvas.cell_mm(), size_mm, working)?;
+            let (samples, from) = (Vec::new(), None);
+            self.stroke =
+                Some(SessionStroke { on, tool, decimals, working, samples, from, stroke });
         }
         Ok(())
     }
@@ -135,25 +154,62 @@ impl PaintingSession {
         self.stroke.as_ref().map(|open| &open.stroke)
     }
 
+    /// Paints a whole stroke; one that is `cut` is not lifted at its end. A stroke that is too long
+    /// is refused before any of it is painted.
+    pub(super) fn apply_stroke(
+        &mut self,
+        Stroke { brush, on, tool: working, samples }: &Stroke,
+        cut: bool,
+    ) -> Result<Option<StrokeReport>, SessionError> {
+        let samples: Vec<_> =
+            samples.iter().map(|sample| SampleDecimals::RECORDING.round(sample)).collect();
+        let tool = self.brushes.find(brush).map(|tool| &self.brushes.tools[tool]);
+        let size_mm = tool.map_or(0.0, |tool| tool.spec.size_mm);
+        let mut path = Path::new(self.canvas.cell_mm(), size_mm).map_err(PaintingError::from)?;
+        path.push(&samples).map_err(PaintingError::from)?;
+        self.begin_stroke_as(*working, *on, brush, SampleDecimals::RECORDING)?;
+        let extended = self.extend(&samples);
+        let report = self.close_stroke(cut)?;
+        extended?;
+        Ok(report)
+    }
+
+    /// The open stroke as the action that paints what is painted of it, once nothing known waits
+    /// (see [`PaintingSession::advance`]), with the recorded name of its brush; `None` without a
+    /// sample.
+    pub(super) fn cut_so_far(&self) -> Option<Action> {
+        let SessionStroke { on, tool, working, samples, from, .. } = self.stroke.as_ref()?;
+        from.as_ref()?;
+        let brush = self.brushes.tools[*tool].recorded.clone();
+        Some(Action::Cut(Stroke { brush, on: *on, tool: *working, samples: samples.clone() }))
+    }
+
     /// Paints the rest of the open stroke and closes it, as one action. Returns `None` if it
     /// had no sample.
     ///
     /// # Errors
     /// [`SessionError`] if no stroke is open, or if the device was lost.
     pub fn end_stroke(&mut self) -> Result<Option<StrokeReport>, SessionError> {
+        self.close_stroke(false)
+    }
+
+    fn close_stroke(&mut self, cut: bool) -> Result<Option<StrokeReport>, SessionError> {
         let open = self.stroke.take().ok_or(SessionError::NoStroke)?;
-        let SessionStroke { on, tool, samples, from: Some(from), stroke, .. } = open else {
+        let SessionStroke { on, tool, working, samples, from: Some(from), stroke, .. } = open
+        else {
             return Ok(None);
         };
-        let finished = stroke.finish(self.surface_mut(on)?);
+        let painting = self.surface_mut(on)?;
+        let finished = if cut { stroke.cut(painting) } else { stroke.finish(painting) };
         let report = self.follow_failure(finished.map_err(SessionError::from))?;
         let brush = self.brushes.tools[tool].name.clone();
-        let action = Action::Stroke(Stroke { brush, on, samples });
+        let stroke = Stroke { brush, on, tool: working, samples };
+        let action = if cut { Action::Cut(stroke) } else { Action::Stroke(stroke) };
         let mut touched = PerSurface::default();
         (touched[on], touched[from]) = (true, true);
-        let label = label(&action, &ActionPigments::None, self.canvas.library());
+        let label = label(&action, &ActionPigments::None, &self.canvas);
         let carried = Some(Carried { tool, from, to: on });
-        self.history.add(Entry { label, on: touched, carried });
+        self.history.add(label, touched, carried);
         self.limit_history();
         self.note_with(action, Some(tool));
         Ok(Some(report))

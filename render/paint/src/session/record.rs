@@ -41,6 +41,15 @@ impl Record {
         Self { script: header, samples: 0, bytes: 0, limits: Limits::default(), stopped: None }
     }
 
+    /// A recording that continues `script`, whose numbers must be rounded. Further brushes have the
+    /// names of [`Record::add`].
+    pub(super) fn resumed(mut script: StrokeScript) -> Self {
+        let actions = std::mem::take(&mut script.actions);
+        let mut record = Self::new(script);
+        actions.into_iter().for_each(|action| record.add(action, None));
+        record
+    }
+
     /// Appends an action and, if it uses one, its brush. An action that would exceed a limit
     /// ends the recording.
     pub(super) fn add(&mut self, action: Action, brush: Option<(&str, &BrushSpec)>) {
@@ -50,10 +59,7 @@ impl Record {
         let Ok(text) = action_line(&action) else {
             return self.stop("an action cannot be written");
         };
-        let samples = match &action {
-            Action::Stroke(stroke) => stroke.samples.len(),
-            _ => 0,
-        };
+        let samples = action.stroke().map_or(0, |stroke| stroke.samples.len());
         let new_name = brush.filter(|(name, _)| !self.script.brushes.contains_key(*name));
         let most = self.limits;
         // 6 bytes for comma, line break and indent.

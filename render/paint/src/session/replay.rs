@@ -124,7 +124,7 @@ impl StrokeScript {
 impl ReplayReport {
     fn count(&mut self, action: &Action, outcome: Outcome) {
         match outcome {
-            Outcome::Painted(StrokeReport { substeps, cells, undoable }) => {
+            Outcome::Painted(StrokeReport { substeps, cells, undoable, .. }) => {
                 self.strokes += 1;
                 self.substeps += substeps;
                 self.cells += cells;

@@ -13,7 +13,7 @@ use crate::pose::Sample;
 use crate::stroke::SampleDecimals;
 use crate::strokes::{
     Action, ActionLimits, BrushSpec, CheckContext, InvalidValue, PaletteSpec, PerSurface,
-    PigmentNames, StrokeScript, SurfaceId, check_size, pigment_names, six_digits,
+    PigmentNames, StrokeScript, StrokeTool, SurfaceId, check_size, pigment_names, six_digits,
 };
 
 /// The open stroke of a session.
@@ -24,6 +24,8 @@ pub(super) struct SessionStroke {
     pub(super) tool: usize,
     /// Decimals that samples are rounded to.
     pub(super) decimals: SampleDecimals,
+    /// The tool that the head is used as.
+    pub(super) working: StrokeTool,
     /// Rounded samples that were accepted.
     pub(super) samples: Vec<Sample>,
     /// Surface that the brush came from; `None` before the first sample.
@@ -59,6 +61,8 @@ pub struct PaintingSession {
     /// Meaning of pigment names after the actions so far.
     pub(super) scope: PigmentNames,
     pub(super) history: SharedHistory,
+    /// Limit of the memory for undo on both surfaces, in bytes.
+    pub(super) undo_limit: u64,
     pub(super) record: Option<Record>,
     pub(super) stroke: Option<SessionStroke>,
     pub(super) adjusting: Option<Adjusting>,
@@ -81,7 +85,7 @@ impl PaintingSession {
     /// same library, the same pigments in the same slots, the same light and medium, and
     /// cells of the same width. Nothing is recorded.
     ///
-    /// Each keeps its own part of the history, within the memory that it was opened with; see
+    /// Both share the memory that they were opened with for the history; see
     /// [`PaintingSession::set_undo_bytes`].
     ///
     /// # Errors
@@ -101,9 +105,12 @@ impl PaintingSession {
         }
         let own = PaletteSpec::from_names(pigment_names(&canvas.state().slots, canvas.library()));
         let (scope, _) = PigmentNames::new(&own, canvas.library())?;
+        let limit = |painting: &Painting| painting.undo_bytes().1;
+        let undo_limit = limit(&canvas).saturating_add(palette.as_ref().map_or(0, limit));
         Ok(Self {
             canvas,
             palette,
+            undo_limit,
             brushes: Brushes::default(),
             scope,
             history: SharedHistory::default(),
@@ -253,7 +260,7 @@ impl PaintingSession {
     }
 
     /// Adds the short names of `palette`.
-    pub(super) fn add_names_of(&mut self, palette: &PaletteSpec) -> Result<(), Box<InvalidValue>> {
+    pub(crate) fn add_names_of(&mut self, palette: &PaletteSpec) -> Result<(), Box<InvalidValue>> {
         let action = Action::Palette(palette.clone());
         let slots =
             self.scope.pigments_of(&CheckContext::default(), &action, self.canvas.library())?;

@@ -7,7 +7,7 @@ use super::record::Limits;
 use super::state::PaintingSession;
 use crate::brush::HeadShape;
 use crate::engine::PaintEngine;
-use crate::painting::Painting;
+use crate::painting::{LayerRef, Painting};
 use crate::pose::Sample;
 use crate::strokes::{Action, BrushSpec, StrokeScript, SurfaceId};
 use graphics::gpu::DeviceError;
@@ -117,7 +117,10 @@ fn after_a_backend_failed_nothing_before_it_is_taken_back_out_of_order() {
     assert_eq!(session.recording().unwrap().actions.len(), 3);
     // A refused action changes neither the history nor the recording.
     dab(&mut session);
-    assert!(session.apply(&Action::Merge { layer: 7 }).is_err(), "no such layer");
+    assert!(
+        session.apply(&Action::Merge { layer: LayerRef::Dry(7), with: None }).is_err(),
+        "no such layer"
+    );
     assert_eq!(session.history().1, 1);
 }
 

@@ -6,6 +6,9 @@ use super::state::PaintingSession;
 use crate::painting::Painting;
 use crate::strokes::{Action, PerSurface, SurfaceId};
 
+/// Share of the memory, as a divisor, that is kept for the surface that uses less.
+const RESERVED: u64 = 8;
+
 impl PaintingSession {
     /// Undoes the last action on either surface; returns whether there was one. An open stroke
     /// or adjustment is finished first, and is then the last action.
@@ -70,32 +73,64 @@ impl PaintingSession {
         (self.history.labels(), self.history.done.len())
     }
 
+    /// Number of the state before the actions of [`PaintingSession::history`], then of the state
+    /// after each. Each action of the session has a number of its own, rising from 1, which it keeps
+    /// while others are dropped; the state before the first has 0.
+    #[must_use]
+    pub fn history_numbers(&self) -> Vec<u64> {
+        self.history.numbers()
+    }
+
     /// Memory that undo takes now, and its limit, both in bytes for both surfaces.
     #[must_use]
     pub fn undo_bytes(&self) -> (u64, u64) {
-        let (used, limit) = self.canvas.undo_bytes();
-        let palette = self.palette.as_ref().map_or((0, 0), Painting::undo_bytes);
-        (used + palette.0, limit + palette.1)
+        let used = PerSurface::from_fn(|surface| self.used_bytes(surface));
+        (used.iter().sum(), self.undo_limit)
     }
 
-    /// Sets the limit of the memory for undo, in bytes: three quarters for the canvas and a
-    /// quarter for the palette, if there is one. Actions that do not fit are dropped.
+    /// Sets the limit of the memory for undo, in bytes, which canvas and palette share: each may
+    /// take what the other leaves, except for an eighth. Actions that do not fit are dropped.
     pub fn set_undo_bytes(&mut self, bytes: u64) {
-        let palette_bytes = if self.palette.is_some() { bytes / 4 } else { 0 };
-        self.canvas.set_undo_bytes(bytes - palette_bytes);
-        if let Some(palette) = &mut self.palette {
-            palette.set_undo_bytes(palette_bytes);
-        }
+        self.undo_limit = bytes;
         self.limit_history();
     }
 
-    /// Drops the actions of the history that a painting has dropped.
+    /// Drops the actions that cannot be reached any more, as a painting has dropped one after them
+    /// (or, of undone ones, before them), and shares the memory out anew.
     pub(super) fn limit_history(&mut self) {
+        self.drop_unreachable();
+        let reserved = if self.palette.is_some() { self.undo_limit / RESERVED } else { 0 };
+        let (canvas, palette) =
+            (self.used_bytes(SurfaceId::Canvas), self.used_bytes(SurfaceId::Palette));
+        let left = |other: u64| self.undo_limit.saturating_sub(other.max(reserved));
+        let (for_canvas, for_palette) = (left(palette), left(canvas));
+        self.canvas.set_undo_bytes(for_canvas);
+        if let Some(palette) = &mut self.palette {
+            palette.set_undo_bytes(for_palette);
+        }
+        self.drop_unreachable();
+    }
+
+    fn drop_unreachable(&mut self) {
         let count = |of: fn(&Painting) -> usize| {
             PerSurface::from_fn(|surface| self.painting(surface).map_or(0, of))
         };
         let (undo, redo) = (count(Painting::undo_count), count(Painting::redo_count));
         self.history.limit_to(undo, redo);
+        if self.stroke.is_some() {
+            // The move of its brush is in a painting's history already, and in this one later.
+            return;
+        }
+        let (undo, redo) = self.history.counts();
+        for surface in SurfaceId::ALL {
+            if let Some(painting) = self.painting_mut(surface) {
+                painting.keep_actions(undo[surface], redo[surface]);
+            }
+        }
+    }
+
+    fn used_bytes(&self, surface: SurfaceId) -> u64 {
+        self.painting(surface).map_or(0, |painting| painting.undo_bytes().0)
     }
 
     /// Undoes or repeats an action on the surfaces whose histories have it.

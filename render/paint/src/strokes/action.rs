@@ -1,19 +1,16 @@
 //! Actions of a script: single steps of work on a painting.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
-use serde::de::{self, Deserializer, Visitor};
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use super::names::distinct_keys;
 use super::palette::PaletteSpec;
-use super::sample_rows;
+use super::stroke_action::Stroke;
 use super::surface_id::SurfaceId;
 use crate::document::Lighting;
 use crate::optics::Gloss;
-use crate::painting::LayerRef;
-use crate::pose::Sample;
+use crate::painting::{LayerRef, MaskChange};
 
 /// Parts by volume of each pigment, by its name in the library or a short name of a
 /// palette.
@@ -25,8 +22,12 @@ pub type Recipe = BTreeMap<String, f64>;
 pub enum Action {
     /// Adds paint to that on a brush. Wash the brush first for a clean colour.
     Load(Load),
-    /// Moves a brush over a surface.
+    /// Moves a brush over a surface, to paint or to blend, scrape or erase wet paint.
     Stroke(Stroke),
+    /// Moves a brush over a surface without lifting it at the end: its last way, which lags one
+    /// sample behind, is not painted, and the paint does not level. So a recording ends whose
+    /// program was killed within a stroke.
+    Cut(Stroke),
     /// Wipes paint off a brush.
     Wipe {
         /// Name of the brush.
@@ -57,8 +58,29 @@ pub enum Action {
     Opacity {
         /// The layer, which must be dry.
         layer: LayerRef,
-        /// Factor from 0 (hidden) over 1 (as painted) to 1000.
+        /// Factor from 0 (clear) over 1 (as painted) to 1000.
         value: f64,
+    },
+    /// Names a dry layer.
+    Name {
+        /// The layer, which must be dry.
+        layer: LayerRef,
+        /// One line of at most 80 characters; empty takes the name away.
+        name: String,
+    },
+    /// Shows or hides a dry layer, which keeps its opacity.
+    Visible {
+        /// The layer, which must be dry.
+        layer: LayerRef,
+        /// Whether it is shown.
+        value: bool,
+    },
+    /// Moves a dry layer to another place among the dry layers.
+    Order {
+        /// The layer, which must be dry.
+        layer: LayerRef,
+        /// Its new place from 0, the lowest.
+        to: usize,
     },
     /// Replaces a pigment of a layer by another.
     Swap {
@@ -69,10 +91,13 @@ pub enum Action {
         /// Name of the pigment that takes its place.
         to: String,
     },
-    /// Merges a dry layer with the one below it.
+    /// Merges two dry layers into one, which keeps the identity of the lower.
     Merge {
-        /// Index of the upper of the two, from 1; the lowest dry layer is 0.
-        layer: usize,
+        /// One of the two, which must be dry.
+        layer: LayerRef,
+        /// The other one; the layer below by default.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        with: Option<LayerRef>,
     },
     /// Puts down a heap of paint, as from a tube.
     Squeeze(Squeeze),
@@ -82,6 +107,8 @@ pub enum Action {
         #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
         on: SurfaceId,
     },
+    /// Covers cells of the canvas, so that no paint gets on or off them, or uncovers them.
+    Mask(MaskChange),
     /// Sets the gloss of the binder.
     Gloss {
         /// Gloss of wet paint.
@@ -108,6 +135,7 @@ impl Action {
         match self {
             Self::Load(_) => "load",
             Self::Stroke(_) => "stroke",
+            Self::Cut(_) => "cut",
             Self::Wipe { .. } => "wipe",
             Self::Wash { .. } => "wash",
             Self::Dry { .. } => "dry",
@@ -116,10 +144,14 @@ impl Action {
             Self::Redo {} => "redo",
             Self::Light(_) => "light",
             Self::Opacity { .. } => "opacity",
+            Self::Name { .. } => "name",
+            Self::Visible { .. } => "visible",
+            Self::Order { .. } => "order",
             Self::Swap { .. } => "swap",
             Self::Merge { .. } => "merge",
             Self::Squeeze(_) => "squeeze",
             Self::Scrape { .. } => "scrape",
+            Self::Mask(_) => "mask",
             Self::Gloss { .. } => "gloss",
             Self::Stiffness { .. } => "stiffness",
             Self::Save { .. } => "save",
@@ -132,8 +164,18 @@ impl Action {
         match self {
             Self::Load(Load { brush, .. })
             | Self::Stroke(Stroke { brush, .. })
+            | Self::Cut(Stroke { brush, .. })
             | Self::Wipe { brush, .. }
             | Self::Wash { brush } => Some(brush),
+            _ => None,
+        }
+    }
+
+    /// The stroke, lifted or cut, if the action is one.
+    #[must_use]
+    pub fn stroke(&self) -> Option<&Stroke> {
+        match self {
+            Self::Stroke(stroke) | Self::Cut(stroke) => Some(stroke),
             _ => None,
         }
     }
@@ -143,6 +185,7 @@ impl Action {
         match self {
             Self::Load(Load { brush, .. })
             | Self::Stroke(Stroke { brush, .. })
+            | Self::Cut(Stroke { brush, .. })
             | Self::Wipe { brush, .. }
             | Self::Wash { brush } => Some(brush),
             _ => None,
@@ -170,20 +213,6 @@ pub struct Load {
     pub amount_mm: f64,
 }
 
-/// A stroke of a brush.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Stroke {
-    /// Name of the brush.
-    pub brush: String,
-    /// The surface; the canvas by default.
-    #[serde(default, skip_serializing_if = "SurfaceId::is_canvas")]
-    pub on: SurfaceId,
-    /// Samples of the pen in order of time.
-    #[serde(with = "sample_rows")]
-    pub samples: Vec<Sample>,
-}
-
 /// A heap of paint, as squeezed from a tube.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -203,42 +232,4 @@ pub struct Squeeze {
     pub y_mm: f64,
     /// Volume in cubic millimetres.
     pub volume_mm3: f64,
-}
-
-/// A layer is `"wet"`, or the index of a dry layer from 0, the lowest.
-impl Serialize for LayerRef {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Wet => serializer.serialize_str("wet"),
-            Self::Dry(index) => serializer.serialize_u64(*index as u64),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for LayerRef {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Name;
-
-        impl Visitor<'_> for Name {
-            type Value = LayerRef;
-
-            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str("\"wet\" or the number of a dry layer, from 0")
-            }
-
-            fn visit_str<E: de::Error>(self, text: &str) -> Result<LayerRef, E> {
-                match text {
-                    "wet" => Ok(LayerRef::Wet),
-                    _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
-                }
-            }
-
-            fn visit_u64<E: de::Error>(self, index: u64) -> Result<LayerRef, E> {
-                let dry = usize::try_from(index).map(LayerRef::Dry);
-                dry.map_err(|_| E::invalid_value(de::Unexpected::Unsigned(index), &self))
-            }
-        }
-
-        deserializer.deserialize_any(Name)
-    }
 }

@@ -3,16 +3,21 @@
 use spectra::hint::{Explain, Hint};
 use spectra::{Observer, light_from_text};
 
-use super::action::{Action, Load, Recipe, Squeeze, Stroke};
+use super::action::{Action, Load, Recipe, Squeeze};
 use super::check_context::{CheckContext, Checked, did_you_mean};
 use super::error::InvalidValue;
+use super::limits::MAX_MASK_POINTS;
 use super::palette::PaletteSpec;
 use super::sample_rows::numbers;
 use super::save_path;
+use super::stroke_action::Stroke;
 use super::surface_id::SurfaceId;
+use crate::brush::StrokeTool;
 use crate::document::Lighting;
+use crate::dry_layer::layer_name_violation;
 use crate::layer::SLOTS;
 use crate::optics::Gloss;
+use crate::painting::{LayerRef, MaskChange};
 use crate::pose::Sample;
 
 /// Farthest distance of a sample from the corner of its surface, as a multiple of the
@@ -34,7 +39,7 @@ impl ActionLimits {
     pub(crate) fn check(&self, at: &CheckContext, action: &Action) -> Checked {
         match action {
             Action::Load(load) => check_load(at, load),
-            Action::Stroke(stroke) => self.check_stroke(at, stroke),
+            Action::Stroke(stroke) | Action::Cut(stroke) => self.check_stroke(at, stroke),
             Action::Wipe { keep, .. } => at.range("keep", *keep, 0.0, 1.0),
             Action::Dry { fraction } => {
                 at.range("fraction", *fraction, 0.0, 1.0)?;
@@ -43,7 +48,11 @@ impl ActionLimits {
             Action::Palette(palette) => check_palette(at, palette),
             Action::Light(lighting) => check_light(at, "", lighting),
             Action::Opacity { value, .. } => at.range("value", *value, 0.0, 1000.0),
-            Action::Merge { layer: 0 } => {
+            Action::Name { name, .. } => match layer_name_violation(name) {
+                None => Ok(()),
+                Some(wanted) => Err(at.invalid("name", wanted, &shortened(name), None)),
+            },
+            Action::Merge { layer: LayerRef::Dry(0), with: None } => {
                 let wanted = "1 and up: a dry layer that has one below it";
                 Err(at.invalid("layer", wanted, &0, None))
             }
@@ -52,6 +61,7 @@ impl ActionLimits {
                 check_squeeze(at, squeeze)
             }
             Action::Scrape { on } => self.reach_mm(at, *on).map(|_| ()),
+            Action::Mask(change) => self.check_mask(at, change),
             Action::Gloss { wet, dry } => check_gloss(at, "", *wet, *dry),
             Action::Stiffness { value } => at.range("value", *value, 0.0, 1.0),
             Action::Save { path } => match save_path::violation(path) {
@@ -64,6 +74,8 @@ impl ActionLimits {
             Action::Wash { .. }
             | Action::Undo {}
             | Action::Redo {}
+            | Action::Visible { .. }
+            | Action::Order { .. }
             | Action::Swap { .. }
             | Action::Merge { .. } => Ok(()),
         }
@@ -71,6 +83,7 @@ impl ActionLimits {
 
     fn check_stroke(&self, at: &CheckContext, stroke: &Stroke) -> Checked {
         let reach_mm = self.reach_mm(at, stroke.on)?;
+        check_tool(at, stroke.tool)?;
         if stroke.samples.is_empty() {
             return Err(at.invalid("samples", "at least one", &0, None));
         }
@@ -78,6 +91,26 @@ impl ActionLimits {
         for (index, sample) in stroke.samples.iter().enumerate() {
             check_sample(&at.sample(index), sample, before, reach_mm)?;
             before = sample.seconds;
+        }
+        Ok(())
+    }
+
+    fn check_mask(&self, at: &CheckContext, change: &MaskChange) -> Checked {
+        let points = match change {
+            MaskChange::PolygonMm(points) => points,
+            MaskChange::Inverse(false) => {
+                return Err(at.invalid("inverse", "true, or another key", &false, None));
+            }
+            _ => return Ok(()),
+        };
+        if !(3..=MAX_MASK_POINTS).contains(&points.len()) {
+            let wanted = format!("3 to {MAX_MASK_POINTS} points");
+            return Err(at.invalid("polygon_mm", &wanted, &points.len(), None));
+        }
+        let reach_mm = self.reach_mm(at, SurfaceId::Canvas)?;
+        for [x, y] in points {
+            at.range("polygon_mm, x", *x, -reach_mm, reach_mm)?;
+            at.range("polygon_mm, y", *y, -reach_mm, reach_mm)?;
         }
         Ok(())
     }
@@ -131,6 +164,11 @@ fn invalid_number(at: &CheckContext, sample: &Sample, before: f64, reach_mm: f64
     at.range("twist", sample.twist_deg, -3600.0, 3600.0)
 }
 
+/// Checks the number of a tool.
+pub(crate) fn check_tool(at: &CheckContext, tool: StrokeTool) -> Checked {
+    tool.check().map_err(|error| at.invalid(error.field, error.wanted, &error.found, error.hint()))
+}
+
 /// Checks that a brush is one of `known`.
 pub(crate) fn check_brush<'a>(
     at: &CheckContext,
@@ -143,6 +181,13 @@ pub(crate) fn check_brush<'a>(
     let declare = || Some(Hint::new("declare it under `brushes`"));
     let hint = did_you_mean(brush, known).or_else(declare);
     Err(at.invalid("brush", "one of `brushes`", &brush, hint))
+}
+
+/// The start of a long text, on one line, for messages.
+fn shortened(text: &str) -> String {
+    let start: String = text.chars().take(100).collect();
+    let more = if start.len() < text.len() { ".." } else { "" };
+    format!("{}{more}", start.escape_debug())
 }
 
 /// Checks the width of a brush head in mm.

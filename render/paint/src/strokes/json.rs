@@ -74,8 +74,9 @@ impl StrokeScript {
     }
 }
 
-/// An action as one line of a file.
+/// An action as one line of a file, with its numbers rounded.
 pub(crate) fn action_line(action: &Action) -> Result<String, serde_json::Error> {
+    let action = &action.rounded();
     let mut text = String::new();
     write(&serde_json::to_value(action)?, &mut text);
     Ok(text)

@@ -11,6 +11,9 @@ pub const MAX_SAMPLES: usize = 10_000_000;
 /// Most actions of a script.
 pub const MAX_ACTIONS: usize = 1_000_000;
 
+/// Most points of the polygon of a mask.
+pub const MAX_MASK_POINTS: usize = 10_000;
+
 /// Most entries of a JSON object with free names: brushes, or parts of a recipe.
 pub const MAX_NAMES: usize = 1024;
 

@@ -5,9 +5,11 @@
 
 use pigment::digits;
 
-use super::action::{Action, Load, Recipe, Squeeze, Stroke};
+use super::action::{Action, Load, Recipe, Squeeze};
+use super::stroke_action::Stroke;
 use crate::document::Lighting;
 use crate::optics::Gloss;
+use crate::painting::MaskChange;
 use crate::pose::Sample;
 use crate::stroke::SampleDecimals;
 
@@ -23,11 +25,8 @@ impl Action {
                 vehicle: six_digits(load.vehicle),
                 amount_mm: six_digits(load.amount_mm),
             }),
-            Self::Stroke(stroke) => Self::Stroke(Stroke {
-                brush: stroke.brush.clone(),
-                on: stroke.on,
-                samples: stroke.samples.iter().map(round_sample).collect(),
-            }),
+            Self::Stroke(stroke) => Self::Stroke(round_stroke(stroke)),
+            Self::Cut(stroke) => Self::Cut(round_stroke(stroke)),
             Self::Wipe { brush, keep } => {
                 Self::Wipe { brush: brush.clone(), keep: six_digits(*keep) }
             }
@@ -51,22 +50,36 @@ impl Action {
                 y_mm: six_digits(squeeze.y_mm),
                 volume_mm3: six_digits(squeeze.volume_mm3),
             }),
+            Self::Mask(MaskChange::PolygonMm(points)) => {
+                let points = points.iter().map(|point| point.map(six_digits));
+                Self::Mask(MaskChange::PolygonMm(points.collect()))
+            }
             Self::Gloss { wet, dry } => Self::Gloss { wet: gloss(*wet), dry: gloss(*dry) },
             Self::Stiffness { value } => Self::Stiffness { value: six_digits(*value) },
             Self::Wash { .. }
             | Self::Palette(_)
             | Self::Undo {}
             | Self::Redo {}
+            | Self::Name { .. }
+            | Self::Visible { .. }
+            | Self::Order { .. }
             | Self::Swap { .. }
             | Self::Merge { .. }
             | Self::Scrape { .. }
+            | Self::Mask(_)
             | Self::Save { .. } => self.clone(),
         }
     }
 }
 
-fn round_sample(sample: &Sample) -> Sample {
-    SampleDecimals::RECORDING.round(sample)
+fn round_stroke(stroke: &Stroke) -> Stroke {
+    let round = |sample: &Sample| SampleDecimals::RECORDING.round(sample);
+    Stroke {
+        brush: stroke.brush.clone(),
+        on: stroke.on,
+        tool: stroke.tool.map(six_digits),
+        samples: stroke.samples.iter().map(round).collect(),
+    }
 }
 
 fn recipe(parts: &Recipe) -> Recipe {

@@ -38,6 +38,10 @@ pub struct StrokeScript {
     /// medium and light are its own.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<String>,
+    /// Whether the palette with its paint and the loads of the brushes are taken from the file of
+    /// `start` as well.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub table: bool,
     /// The binder; oil by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub medium: Option<Medium>,
@@ -69,6 +73,7 @@ impl StrokeScript {
             canvas,
             mixing: None,
             start: None,
+            table: false,
             medium: None,
             lighting: None,
             library: None,
@@ -91,6 +96,7 @@ impl StrokeScript {
             canvas: canvas.clone(),
             mixing: mixing.clone(),
             start: start.clone(),
+            table: self.table,
             medium: medium.clone(),
             lighting: lighting.clone(),
             library: library.clone(),
@@ -99,6 +105,11 @@ impl StrokeScript {
             actions: Vec::new(),
         }
     }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 /// Deserializes a list of actions, and stops at the first beyond [`MAX_ACTIONS`].

@@ -2,7 +2,6 @@
 
 use spectra::hint::Hint;
 
-use super::action::Action;
 use super::action_limits::{
     ActionLimits, check_brush, check_gloss, check_light, check_palette, check_size,
 };
@@ -42,7 +41,7 @@ impl StrokeScript {
                 check_brush(&at, brush, self.brushes.keys().map(String::as_str))?;
             }
             limits.check(&at, action)?;
-            if let Action::Stroke(stroke) = action {
+            if let Some(stroke) = action.stroke() {
                 samples += stroke.samples.len();
             }
             if samples > MAX_SAMPLES {
@@ -78,6 +77,10 @@ impl StrokeScript {
                     Some(Hint::new(format!("leave `{field}` out"))),
                 ));
             }
+        }
+        if self.table && (self.start.is_none() || self.mixing.is_none()) {
+            let hint = Some(Hint::new("name the painting as `start`, and describe `mixing`"));
+            return Err(top.invalid("table", "only with `start` and `mixing`", &true, hint));
         }
         if let Some(medium) = &self.medium {
             check_medium(medium)?;

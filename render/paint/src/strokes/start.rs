@@ -9,6 +9,7 @@ use super::error::ScriptError;
 use super::palette::PaletteSpec;
 use super::resolve::Resolved;
 use super::script::StrokeScript;
+use super::side_table::{KeptBrush, SideTable};
 use crate::canvas::{Canvas, covering_cells};
 use crate::document::{Document, Medium, Slots};
 use crate::ground::{Ground, GroundError, GroundSpec};
@@ -103,6 +104,49 @@ impl StrokeScript {
         Ok((canvas, palette.transpose()?))
     }
 
+    /// The canvas and the palette before the first action, and the brushes with their loads, of a
+    /// script that may continue a painting with the table beside it (key `table`). Without that
+    /// key it is [`StrokeScript::surfaces`], and no brushes.
+    ///
+    /// # Errors
+    /// [`ScriptStartError`] in the cases of [`StrokeScript::surfaces`], if the script asks for a
+    /// `table` that is missing, and if that belongs to another painting.
+    pub fn surfaces_with_table(
+        &self,
+        library: &PigmentLibrary,
+        start: Option<Document>,
+        table: Option<SideTable>,
+    ) -> Result<(Document, Option<Document>, Vec<KeptBrush>), ScriptStartError> {
+        let (canvas, bare) = self.surfaces(library, start)?;
+        if !self.table {
+            return Ok((canvas, bare, Vec::new()));
+        }
+        let at = CheckContext::default();
+        let wrong = |wanted: &str, found: &str, hint: &'static str| {
+            ScriptStartError::from(ScriptError::from(at.invalid(
+                "table",
+                wanted,
+                &found,
+                Some(Hint::new(hint)),
+            )))
+        };
+        let Some(SideTable { palette, brushes }) = table else {
+            let hint = "save the painting in the studio, or leave `table` out";
+            return Err(wrong("a painting saved with its palette and brushes", "none", hint));
+        };
+        let (wanted, found) =
+            (self.mixing.as_ref().map(Canvas::cells), palette.wet.vehicle.bounds());
+        if wanted != Some((found.width, found.height)) {
+            let found = format!("{} x {}", found.width, found.height);
+            return Err(wrong("a palette of the size of `mixing`", &found, "describe its size"));
+        }
+        if !palette.belongs_to(&canvas) {
+            let hint = "save the painting again";
+            return Err(wrong("the palette of this painting", "another painting's", hint));
+        }
+        Ok((canvas, Some(palette), brushes))
+    }
+
     /// Checks that the script describes a painting with cells `bounds` of width `cell_mm`
     /// and the pigments `own` of `library`; `slots` are the pigments that the script starts
     /// with.
@@ -138,6 +182,16 @@ impl StrokeScript {
             return Err(at.invalid("palette", &wanted, &named.join(", "), None));
         }
         Ok(())
+    }
+
+    /// A script without actions that continues `painting` with the palette and the brushes beside
+    /// it, which are saved at the path `start`.
+    #[must_use]
+    pub fn continue_with_table(start: &str, painting: &Document, table: &SideTable) -> Self {
+        let mut script = Self::continue_from(start, painting);
+        script.mixing = Some(Self::continue_from(start, &table.palette).canvas);
+        script.table = true;
+        script
     }
 
     /// A script without actions and palette that continues `painting`, which is saved at

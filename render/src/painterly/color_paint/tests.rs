@@ -5,7 +5,7 @@ use graphics::camera::Framing;
 use graphics::mesh::{Material, Mesh, Texture, Triangle};
 use graphics::picture::Photograph;
 use paint::amount::mm_from_quanta;
-use paint::document::{Document, DryLayer};
+use paint::document::Document;
 use paint::ground::GroundKind;
 use paint::scene::{picture, scene};
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
@@ -119,8 +119,9 @@ fn document(amounts: &Field<Amounts>) -> Document {
     let ground = GroundKind::Panel.spec(1).build(width, height, cell_mm, &library).unwrap();
     let paint = paint_layer(amounts, cell_mm);
     let (medium, slots) = (Medium::of(&library), *PAINT.slots());
-    let bare = Document::bare("test", cell_mm, ground, library, medium, slots, level());
-    Document { dry: vec![DryLayer { slots, opacity: 1.0, paint }], ..bare }
+    let mut document = Document::bare("test", cell_mm, ground, library, medium, slots, level());
+    document.push_dry(slots, paint);
+    document
 }
 
 fn lab(rgb: [f32; 3]) -> Lab {

@@ -13,7 +13,7 @@ use crate::watercolor::wash::Wash;
 use graphics::field::Field;
 use graphics::picture::Picture;
 use paint::amount::quanta_from_mm;
-use paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use paint::document::{Document, Lighting, Medium, Slots};
 use paint::ground::Ground;
 use paint::layer::{Layer, SLOTS};
 use paint::light::Light;
@@ -181,7 +181,7 @@ impl Glazes {
         let slots = self.slots;
         let mut document =
             Document::bare(title, cell_mm, ground, library, medium(), slots, lighting);
-        document.dry.push(DryLayer { slots, opacity: 1.0, paint: layer });
+        document.push_dry(slots, layer);
         document
     }
 }

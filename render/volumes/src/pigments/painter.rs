@@ -3,7 +3,7 @@
 
 use graphics::field::Field;
 use paint::amount::QUANTA_PER_CELL;
-use paint::document::{Document, DryLayer, Slots};
+use paint::document::{Document, Slots};
 use paint::layer::{Layer, SLOTS};
 use paint::separation::SeparationSettings;
 use rayon::prelude::*;
@@ -145,7 +145,7 @@ impl FilmPainter {
             Document::bare(title, cell_mm, ground, library, medium, self.slots, lighting);
         for coat in self.coats() {
             let paint = self.layer(coat, drawing, (width, height));
-            document.dry.push(DryLayer { slots: self.slots_of(coat), opacity: 1.0, paint });
+            document.push_dry(self.slots_of(coat), paint);
         }
         Ok(document)
     }

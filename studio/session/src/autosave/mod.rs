@@ -3,26 +3,42 @@
 //! Each session has a folder with one complete generation. A new generation is written under
 //! a hidden name, flushed to the disk and renamed; only then is the previous one removed. So
 //! after the first autosave the folder always holds a complete generation, and the newest one
-//! counts. The file `lock` is locked while the program runs; the system unlocks it however
-//! the program ends.
+//! counts. The recording lies beside them in a file that only grows. The file `lock` is locked
+//! while the program runs; the system unlocks it however the program ends.
 
-use std::fs::{File, TryLockError};
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use render::paint::document::Document;
 use serde::{Deserialize, Serialize};
 use spectra::file::sync_folder;
 
+use crate::event::KeptPainting;
 use crate::failure::FileFailure;
+use recording_file::RecordingFile;
+use session_lock::SessionLock;
+use work::{WorkFile, describe};
 
-const LOCK: &str = "lock";
+pub use work::RecoveredWork;
+
+mod brush_paint;
+
+mod recording_file;
+
+mod session_lock;
+
+mod work;
+
 const PARTIAL: &str = ".partial";
 const CANVAS: &str = "canvas.exr";
 const PALETTE: &str = "palette.exr";
 const META: &str = "session.json";
 const SCRIPT: &str = "scene.toml";
+const WORK: &str = "work.json";
+const BRUSHES: &str = "brushes.bin";
 
 /// Description of an autosave.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,15 +50,29 @@ pub struct SessionMeta {
     pub path: Option<PathBuf>,
     /// Time of the autosave, in seconds since 1970.
     pub seconds: u64,
+    /// Whatever else the front end wants to find again.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub desk: Option<serde_json::Value>,
+}
+
+/// Content of a file of a generation.
+enum Content {
+    Bytes(Vec<u8>),
+    /// That of another file, which stays the same.
+    Unchanged(PathBuf),
 }
 
 /// Autosave folder of the running session.
 #[derive(Debug)]
 pub struct Autosave {
     folder: PathBuf,
-    /// Locked while this value exists.
-    _lock: File,
+    _lock: SessionLock,
     generation: u64,
+    /// Name of the autosave in messages.
+    title: String,
+    recording: RecordingFile,
+    /// The palette of the last generation.
+    palette: Option<Arc<Document>>,
 }
 
 /// Seconds since 1970.
@@ -71,10 +101,16 @@ impl Autosave {
                 Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => continue,
                 made => made.map_err(cannot)?,
             }
-            let lock = File::create(hidden.join(LOCK)).map_err(cannot)?;
-            lock.try_lock().map_err(|error| cannot(error.into()))?;
+            let lock = SessionLock::create(&hidden).map_err(cannot)?;
             std::fs::rename(&hidden, &folder).map_err(cannot)?;
-            return Ok(Self { folder, _lock: lock, generation: 0 });
+            return Ok(Self {
+                folder,
+                _lock: lock,
+                generation: 0,
+                title: "the autosave".to_owned(),
+                recording: RecordingFile::default(),
+                palette: None,
+            });
         }
         Err(cannot(std::io::ErrorKind::AlreadyExists.into()))
     }
@@ -85,23 +121,51 @@ impl Autosave {
         &self.folder
     }
 
-    /// Writes a generation and removes the previous ones.
+    /// Writes a generation and removes the previous ones. `start` is the content of the painting's
+    /// file that the recording continues, if it continues one. Returns the number of actions of the
+    /// recording that are kept now: the next end may begin there. It is 0 if the end of
+    /// `painting` does not follow what is kept; then this generation has no recording.
     ///
     /// # Errors
     /// [`FileFailure`]; the previous generation stays.
     pub fn keep(
         &mut self,
-        canvas: &Document,
-        palette: &Document,
+        painting: &KeptPainting,
+        start: Option<&[u8]>,
         meta: &SessionMeta,
-    ) -> Result<(), FileFailure> {
-        let bytes = |document| {
+    ) -> Result<usize, FileFailure> {
+        let folder = self.folder.clone();
+        self.title = title_of(meta);
+        let title = self.title.clone();
+        let unusable = |error: std::io::Error| FileFailure::about(&title, "written", &error);
+        let bytes = |document: &Document| {
             render::paint::file::write(document).map_err(|error| FileFailure::explained(&error))
         };
-        let meta = serde_json::to_vec(meta).map_err(|error| FileFailure::without_hint(&error))?;
-        let files = [(CANVAS, bytes(canvas)?), (PALETTE, bytes(palette)?), (META, meta)];
-        self.keep_files(&files, &mut || Ok(()))
-            .map_err(|error| FileFailure::io(&self.folder, "used for autosave", &error))
+        let json = |value: Result<Vec<u8>, serde_json::Error>| {
+            value.map_err(|error| FileFailure::without_hint(&error))
+        };
+        let recording = match &painting.recording {
+            Some(tail) => self.recording.append(&folder, tail, start).map_err(unusable)?,
+            None => None,
+        };
+        let kept = if recording.is_some() { self.recording.actions() } else { 0 };
+        let (work, brushes) = describe(recording, &painting.brushes);
+        let (canvas, palette) = (&painting.snapshot.canvas, &painting.snapshot.palette);
+        let earlier = generation_folder(&folder, self.generation).join(PALETTE);
+        let unchanged = earlier.is_file() && self.palette.as_ref() == Some(palette);
+        let palette_file =
+            if unchanged { Content::Unchanged(earlier) } else { Content::Bytes(bytes(palette)?) };
+        let files = [
+            (CANVAS, Content::Bytes(bytes(canvas)?)),
+            (PALETTE, palette_file),
+            (BRUSHES, Content::Bytes(brushes)),
+            (WORK, Content::Bytes(json(serde_json::to_vec(&work))?)),
+            (META, Content::Bytes(json(serde_json::to_vec(meta))?)),
+        ];
+        self.keep_files(&files, &mut || Ok(())).map_err(unusable)?;
+        self.palette = Some(Arc::clone(palette));
+        self.recording.remove_older(&folder).map_err(unusable)?;
+        Ok(kept)
     }
 
     /// Writes a generation that is the script of a scene, and removes the previous ones.
@@ -109,17 +173,18 @@ impl Autosave {
     /// # Errors
     /// [`FileFailure`]; the previous generation stays.
     pub fn keep_script(&mut self, script: &str, meta: &SessionMeta) -> Result<(), FileFailure> {
-        let meta = serde_json::to_vec(meta).map_err(|error| FileFailure::without_hint(&error))?;
-        let files = [(SCRIPT, script.as_bytes().to_vec()), (META, meta)];
-        self.keep_files(&files, &mut || Ok(()))
-            .map_err(|error| FileFailure::io(&self.folder, "used for autosave", &error))
+        let text = serde_json::to_vec(meta).map_err(|error| FileFailure::without_hint(&error))?;
+        let script = Content::Bytes(script.as_bytes().to_vec());
+        self.title = title_of(meta);
+        self.keep_files(&[(SCRIPT, script), (META, Content::Bytes(text))], &mut || Ok(()))
+            .map_err(|error| FileFailure::about(&self.title, "written", &error))
     }
 
     /// Writes the files of a generation. `before` is called before each change on the disk,
     /// so that tests can interrupt it there.
     fn keep_files(
         &mut self,
-        files: &[(&str, Vec<u8>)],
+        files: &[(&str, Content)],
         before: &mut dyn FnMut() -> std::io::Result<()>,
     ) -> std::io::Result<()> {
         let partial = self.folder.join(PARTIAL);
@@ -129,9 +194,20 @@ impl Autosave {
         }
         before()?;
         std::fs::create_dir(&partial)?;
-        for (name, bytes) in files {
+        for (name, content) in files {
+            let path = partial.join(name);
+            let bytes = match content {
+                Content::Bytes(bytes) => bytes,
+                Content::Unchanged(earlier) => {
+                    before()?;
+                    // Some file systems have no links.
+                    std::fs::hard_link(earlier, &path)
+                        .or_else(|_| std::fs::copy(earlier, &path).map(drop))?;
+                    continue;
+                }
+            };
             before()?;
-            let mut file = File::create(partial.join(name))?;
+            let mut file = File::create(&path)?;
             before()?;
             file.write_all(bytes)?;
             before()?;
@@ -156,8 +232,10 @@ impl Autosave {
     /// # Errors
     /// [`FileFailure`] if a file cannot be removed.
     pub fn clear(&mut self) -> Result<(), FileFailure> {
+        self.palette = None;
         clear(&self.folder)
-            .map_err(|error| FileFailure::io(&self.folder, "cleared of autosaves", &error))
+            .and_then(|()| self.recording.clear(&self.folder))
+            .map_err(|error| FileFailure::about(&self.title, "removed", &error))
     }
 
     /// Ends the session and removes its folder.
@@ -166,12 +244,17 @@ impl Autosave {
     }
 }
 
+/// Name of an autosave in messages: the painter does not know its folder.
+fn title_of(meta: &SessionMeta) -> String {
+    format!("the autosave of {}", meta.title)
+}
+
 /// Autosave of a program that crashed or was killed. No other program finds it while this
 /// value exists.
 #[derive(Debug)]
 pub struct LostSession {
     folder: PathBuf,
-    _lock: File,
+    _lock: SessionLock,
     generation: u64,
     /// Description of the autosave.
     pub meta: SessionMeta,
@@ -204,11 +287,7 @@ impl LostSession {
 
     /// Locks the session in `folder`, if its program has ended and it has an autosave.
     fn claim(folder: PathBuf) -> Option<Self> {
-        let lock = File::options().read(true).write(true).open(folder.join(LOCK)).ok()?;
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock | TryLockError::Error(_)) => return None,
-        }
+        let lock = SessionLock::open(&folder).ok()?;
         let mut numbers = generations(&folder).ok()?;
         numbers.sort_unstable();
         if numbers.is_empty() {
@@ -234,6 +313,24 @@ impl LostSession {
     pub fn files(&self) -> [PathBuf; 2] {
         let folder = generation_folder(&self.folder, self.generation);
         [CANVAS, PALETTE].map(|name| folder.join(name))
+    }
+
+    /// Recording, brushes and their paint; `None` for an autosave of an earlier version, which kept
+    /// none.
+    ///
+    /// # Errors
+    /// [`FileFailure`] if a file is missing or was changed.
+    pub fn work(&self) -> Result<Option<RecoveredWork>, FileFailure> {
+        let folder = generation_folder(&self.folder, self.generation);
+        let (path, brushes) = (folder.join(WORK), folder.join(BRUSHES));
+        if !path.exists() {
+            return Ok(None);
+        }
+        let read =
+            |path: &Path| spectra::file::read(path).map_err(|error| FileFailure::explained(&error));
+        let work: WorkFile = serde_json::from_slice(&read(&path)?)
+            .map_err(|error| FileFailure::io(&path, "read", &error.into()))?;
+        work.read(&self.folder, (&brushes, &read(&brushes)?)).map(Some)
     }
 
     /// Path of the script of a scene.
@@ -285,3 +382,6 @@ fn remove(folder: &Path) {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod work_tests;

@@ -3,10 +3,11 @@ use std::process::{Command, Stdio};
 
 use super::*;
 
-fn files(text: &str) -> Vec<(&'static str, Vec<u8>)> {
-    let meta = SessionMeta { title: text.to_owned(), path: None, seconds: 7 };
-    let text = text.as_bytes().to_vec();
-    vec![(CANVAS, text.clone()), (PALETTE, text), (META, serde_json::to_vec(&meta).unwrap())]
+fn files(text: &str) -> Vec<(&'static str, Content)> {
+    let meta = SessionMeta { title: text.to_owned(), path: None, seconds: 7, desk: None };
+    let text = || Content::Bytes(text.as_bytes().to_vec());
+    let meta = Content::Bytes(serde_json::to_vec(&meta).unwrap());
+    vec![(CANVAS, text()), (PALETTE, text()), (META, meta)]
 }
 
 /// Text of the only lost session, `None` without one. Asserts that its files agree.
@@ -128,4 +129,20 @@ fn the_session_of_a_killed_process_is_lost_and_of_a_living_one_is_not() {
     child.kill().unwrap();
     child.wait().unwrap();
     assert_eq!(found(folder.path()).as_deref(), Some("of the child"));
+}
+
+#[test]
+fn a_failed_autosave_is_named_by_the_painting_and_not_by_its_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut session = Autosave::begin(folder.path()).unwrap();
+    // A file where the folder was.
+    std::fs::remove_dir_all(session.folder()).unwrap();
+    std::fs::write(session.folder(), "in the way").unwrap();
+    let meta = SessionMeta { title: "Two pears".to_owned(), path: None, seconds: 7, desk: None };
+    let failures = [session.keep_script("", &meta).unwrap_err(), session.clear().unwrap_err()];
+    for FileFailure { what, .. } in failures {
+        assert!(what.starts_with("the autosave of Two pears: cannot be"), "{what}");
+        let own = session.folder().file_name().unwrap().to_str().unwrap();
+        assert!(!what.contains(own) && !what.contains("partial"), "{what}");
+    }
 }

@@ -79,7 +79,8 @@ pub(super) fn told(
     };
     let amounts_mm = found.heights_mm;
     let has_paint = amounts_mm.iter().any(|height_mm| *height_mm > 0.0);
-    let paint = has_paint.then_some(PickedLayer { slots, amounts_mm, opacity: 1.0 });
+    let label = "Paint".to_owned();
+    let paint = has_paint.then_some(PickedLayer { label, slots, amounts_mm, opacity: 1.0 });
     let region = found.region.and_then(|index| Some(regions.get(index)?.name.clone()));
     Here { place: Some(place), volumes: found.volumes, region, paint, lab, srgb }
 }

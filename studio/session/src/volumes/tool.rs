@@ -1,7 +1,8 @@
 //! The tools of a hand in a scene.
 
 /// A tool of the pen in a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SceneTool {
     /// Pours paint of a tube on the surface.
     #[default]

@@ -1,10 +1,10 @@
 //! Table of all menu entries of the workspace of scenes.
 
-use eframe::egui::{Key, Modifiers, Ui};
+use eframe::egui::{Context, Key, Modifiers, Ui};
 use session::volumes::SceneTool;
 
 use super::intent::{SceneEntry, SceneIntent, SceneMenu};
-use crate::app::intent::Shortcut;
+use crate::keymap::{self, KeyRow, KeyTable, Shortcut};
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -104,6 +104,13 @@ pub const SCENE_ENTRIES: &[SceneEntry] = &[
         &[key(NONE, Key::OpenBracket)],
     ),
     entry(
+        SceneIntent::Preferences,
+        SceneMenu::Edit,
+        "Preferences...",
+        "Theme, sizes, autosave, and settings of pens and mice",
+        &[key(CTRL, Key::Comma)],
+    ),
+    entry(
         SceneIntent::Volumes,
         SceneMenu::View,
         "Show volumes",
@@ -184,19 +191,18 @@ pub const SCENE_ENTRIES: &[SceneEntry] = &[
         SceneIntent::Keys,
         SceneMenu::Help,
         "Keys",
-        "Shows the table of keys",
+        "Shows and changes keys",
         &[key(NONE, Key::F1)],
     ),
 ];
 
 /// Effects of the pointer, and keys that are in no menu.
-pub(super) const POINTER: &[(&str, &str)] = &[
+pub(in crate::app) const SCENE_POINTER: &[(&str, &str)] = &[
     ("Hold or draw", "Uses the tool in hand; pressure sets the rate"),
     ("Middle button", "Turns the scene"),
     ("Shift + middle", "Moves the scene"),
     ("Wheel", "Zooms about the pointer"),
     ("Right click", "Tells what is there: paint, height, colour, region"),
-    ("1 to 8", "Takes a tube in hand"),
     ("Drag the time bar", "Goes to a moment, which is replayed to the bit"),
 ];
 
@@ -207,36 +213,42 @@ impl SceneEntry {
         SCENE_ENTRIES.iter().find(|entry| entry.intent == intent)
     }
 
-    /// Text of the first shortcut; empty without one.
+    /// Text of the first key in use, or of the first standard one before any are in use; empty
+    /// without one.
     #[must_use]
-    pub fn shortcut_text(&self) -> String {
-        self.shortcuts.first().map_or_else(String::new, Shortcut::text)
+    pub fn shortcut_text(&self, context: &Context) -> String {
+        keymap::text(context, &self.intent.name())
+            .unwrap_or_else(|| self.shortcuts.first().map_or_else(String::new, Shortcut::text))
     }
 }
 
+/// Keys of the tubes.
+const TUBES: [Key; 8] =
+    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8];
+
+/// All actions of scenes with their standard keys: the entries, and the tubes.
+#[must_use]
+pub fn scene_key_rows() -> Vec<KeyRow> {
+    let entries = SCENE_ENTRIES.iter().map(|entry| {
+        let (name, group) = (entry.intent.name(), entry.menu.name());
+        KeyRow::new(name, entry.name, entry.description, group, entry.shortcuts)
+    });
+    let tubes = (1_u8..).zip(TUBES).map(|(number, key)| {
+        let (name, title) = (SceneIntent::Tube(number).name(), format!("Tube {number}"));
+        let description = format!("Takes tube {number} in hand");
+        KeyRow::new(name, title, description, "Tubes", &[self::key(NONE, key)])
+    });
+    entries.chain(tubes).collect()
+}
+
 impl SceneIntent {
-    /// Intent of a key press, if any.
+    /// Intent of a key press with these keys, if any.
     #[must_use]
-    pub(super) fn of_key(key: Key, modifiers: Modifiers) -> Option<Self> {
-        const TUBES: [Key; 8] = [
-            Key::Num1,
-            Key::Num2,
-            Key::Num3,
-            Key::Num4,
-            Key::Num5,
-            Key::Num6,
-            Key::Num7,
-            Key::Num8,
-        ];
-        if modifiers.is_none()
-            && let Some(number) = TUBES.iter().position(|tube| *tube == key)
-        {
-            return Some(Self::Tube(number as u8 + 1));
-        }
-        let fits = |entry: &&SceneEntry| {
-            entry.shortcuts.iter().any(|shortcut| shortcut.matches(key, modifiers))
-        };
-        SCENE_ENTRIES.iter().find(fits).map(|entry| entry.intent)
+    pub(super) fn of_key(table: &KeyTable, key: Key, modifiers: Modifiers) -> Option<Self> {
+        let name = &table.find(key, modifiers)?.name;
+        let tubes = (1_u8..=8).map(Self::Tube);
+        let mut intents = SCENE_ENTRIES.iter().map(|entry| entry.intent).chain(tubes);
+        intents.find(|intent| intent.name() == *name)
     }
 }
 
@@ -244,7 +256,7 @@ impl SceneIntent {
 pub(super) fn tip(ui: &mut Ui, entry: &SceneEntry) {
     ui.horizontal(|ui| {
         ui.strong(entry.name);
-        ui.weak(entry.shortcut_text());
+        ui.weak(entry.shortcut_text(ui.ctx()));
     });
     ui.label(entry.description);
 }
@@ -255,23 +267,25 @@ mod tests {
 
     #[test]
     fn no_shortcut_has_two_entries_and_every_key_is_found() {
+        let table = KeyTable::new(scene_key_rows());
         let mut seen: Vec<String> = Vec::new();
         for entry in SCENE_ENTRIES {
             for shortcut in entry.shortcuts {
                 let text = shortcut.text();
                 assert!(!seen.contains(&text), "{text} of {} is taken", entry.name);
-                let found = SceneIntent::of_key(shortcut.key, shortcut.modifiers);
+                let found = SceneIntent::of_key(&table, shortcut.key, shortcut.modifiers);
                 assert_eq!(found, Some(entry.intent), "{text}");
                 seen.push(text);
             }
         }
         assert!(seen.len() > 20, "{seen:?}");
-        assert_eq!(SceneIntent::of_key(Key::Num8, NONE), Some(SceneIntent::Tube(8)));
-        assert_eq!(SceneIntent::of_key(Key::Num9, NONE), None, "there are eight tubes");
+        assert_eq!(SceneIntent::of_key(&table, Key::Num8, NONE), Some(SceneIntent::Tube(8)));
+        assert_eq!(SceneIntent::of_key(&table, Key::Num9, NONE), None, "there are eight tubes");
     }
 
     #[test]
     fn every_key_does_what_the_table_of_keys_says() {
+        let table = KeyTable::new(scene_key_rows());
         const SHIFT: Modifiers = Modifiers::SHIFT;
         let keys = [
             (NONE, Key::P, SceneIntent::Play),
@@ -298,9 +312,11 @@ mod tests {
             (CTRL, Key::L, SceneIntent::Library),
             (CTRL, Key::E, SceneIntent::Easel),
             (CTRL, Key::Q, SceneIntent::Quit),
+            (CTRL, Key::Comma, SceneIntent::Preferences),
         ];
         for (modifiers, key, wanted) in keys {
-            assert_eq!(SceneIntent::of_key(key, modifiers), Some(wanted), "{modifiers:?} {key:?}");
+            let found = SceneIntent::of_key(&table, key, modifiers);
+            assert_eq!(found, Some(wanted), "{modifiers:?} {key:?}");
         }
         let told = SCENE_ENTRIES.iter().filter(|entry| !entry.shortcuts.is_empty());
         assert_eq!(told.count(), keys.len(), "each entry is here");

@@ -29,7 +29,8 @@ impl Volumes {
                         files.recovering_scene(lost);
                     }
                     Err(error) => {
-                        let text = format!("{}: cannot be read: {error}", lost.script().display());
+                        let text =
+                            format!("the autosave of {}: cannot be read: {error}", lost.meta.title);
                         files.report(Problem { text, hint: None });
                     }
                 }

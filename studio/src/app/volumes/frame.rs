@@ -1,14 +1,12 @@
 //! One frame of the workspace of scenes.
 
-use eframe::egui::{
-    CentralPanel, Context, Frame, Grid, Key, Margin, Panel, ScrollArea, Ui, Window, pos2, vec2,
-};
+use eframe::egui::{CentralPanel, Frame, Margin, Panel, Ui};
 
-use super::entries::{POINTER, SCENE_ENTRIES};
 use super::perform::WindowIntent;
 use super::workspace::Volumes;
 use super::{menus, toolbar};
 use crate::files::Files;
+use crate::floating;
 use crate::panels::volumes::{
     SceneFileRequest, SceneRequest, TIME_BAR_HEIGHT, show_side, show_time_bar,
 };
@@ -41,9 +39,9 @@ impl Volumes {
         }
         CentralPanel::no_frame().show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
+            floating::set_room(ui.ctx(), rect);
             self.show_canvas(ui, rect, pen);
         });
-        self.show_keys(&context);
         self.send_requests(files);
         self.keep_awake(&context);
         left
@@ -51,6 +49,7 @@ impl Volumes {
 
     /// Draws all parts around the picture. Returns the intent of menu or toolbar.
     fn show_panels(&mut self, ui: &mut Ui) -> Option<super::SceneIntent> {
+        let context = ui.ctx().clone();
         let bar = Frame::new().inner_margin(Margin::symmetric(6, 2));
         let state = self.state.clone();
         let state = state.as_deref();
@@ -71,7 +70,7 @@ impl Volumes {
         Panel::left("scene tools")
             .frame(column)
             .resizable(false)
-            .exact_size(42.0)
+            .exact_size(crate::app::toolbar::width(&context))
             .show_separator_line(false)
             .show(ui, |ui| {
                 fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);
@@ -81,7 +80,7 @@ impl Volumes {
         Panel::right("scene side")
             .frame(side)
             .resizable(false)
-            .exact_size(theme::PANEL_WIDTH)
+            .exact_size(theme::panel_width(&context))
             .show_separator_line(false)
             .show(ui, |ui| {
                 fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).panel);
@@ -113,33 +112,5 @@ impl Volumes {
                 }
             }
         }
-    }
-
-    /// Draws the table of keys; its close button and Escape close it.
-    fn show_keys(&mut self, context: &Context) {
-        self.keys &= !context.input(|input| input.key_pressed(Key::Escape));
-        let window = Window::new("Keys of scenes").open(&mut self.keys);
-        let window = window.resizable(false).collapsible(false).default_pos(pos2(120.0, 60.0));
-        window.show(context, |ui| {
-            let height = (ui.ctx().content_rect().height() - 140.0).max(120.0);
-            ScrollArea::vertical().max_height(height).show(ui, |ui| {
-                Grid::new("keys of scenes")
-                    .num_columns(2)
-                    .spacing(vec2(18.0, 4.0))
-                    .striped(true)
-                    .show(ui, |ui| {
-                        for (keys, description) in POINTER {
-                            ui.strong(*keys);
-                            ui.label(*description);
-                            ui.end_row();
-                        }
-                        for entry in SCENE_ENTRIES {
-                            ui.strong(entry.shortcut_text());
-                            ui.label(entry.description);
-                            ui.end_row();
-                        }
-                    });
-            });
-        });
     }
 }

@@ -7,6 +7,7 @@ use render::paint::strokes::SurfaceId;
 
 use super::workspace::Volumes;
 use crate::pen::{Device, Pen, PenEvent, PenTargets, SurfaceTransform};
+use session::brushes::{BrushOptions, StabiliserMethod};
 use session::volumes::{ScenePen, VolumeCommand};
 
 /// Points of scrolling that zoom by a factor of e, as on the easel.
@@ -53,8 +54,10 @@ impl Volumes {
         };
         let targets = PenTargets { surfaces: &[plane], covered: &covered };
         let events: Vec<Event> = ui.input(|input| input.events.clone());
-        // Paint is poured at once: it has no direction that the pen would wait for.
+        // Paint is poured at once: it has no direction that the pen would wait for, and no brush.
         pen.settings.follow = false;
+        pen.settings.stabiliser.method = StabiliserMethod::Off;
+        pen.options = BrushOptions::default();
         let now = Instant::now();
         for event in pen.process_frame(&events, Modifiers::NONE, now, &targets) {
             self.handle_pen(event);

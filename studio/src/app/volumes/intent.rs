@@ -1,11 +1,14 @@
 //! Intents of the workspace of scenes: everything that keys, menus and toolbar can request.
 
+use serde::Serialize;
 use session::volumes::SceneTool;
 
-use crate::app::intent::Shortcut;
+use crate::keymap::{Shortcut, name_of};
 
-/// One action of the hand in a scene, or on its window.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// One action of the hand in a scene, or on its window. Its name in the preferences follows from
+/// its name here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SceneIntent {
     /// Begins a scene on the village.
     New,
@@ -15,6 +18,8 @@ pub enum SceneIntent {
     Save,
     /// Goes back to the easel.
     Easel,
+    /// Shows the preferences.
+    Preferences,
     /// Closes the program.
     Quit,
     /// Takes back the last event.
@@ -68,6 +73,20 @@ pub enum SceneMenu {
     Help,
 }
 
+impl SceneMenu {
+    /// Name in the menu bar.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Edit => "Edit",
+            Self::View => "View",
+            Self::Tools => "Tools",
+            Self::Help => "Help",
+        }
+    }
+}
+
 /// Menu entry of an intent.
 #[derive(Debug, Clone, Copy)]
 pub struct SceneEntry {
@@ -84,6 +103,12 @@ pub struct SceneEntry {
 }
 
 impl SceneIntent {
+    /// Name by which preferences keep its keys, such as `scene.step` or `scene.tool-pour`.
+    #[must_use]
+    pub fn name(self) -> String {
+        format!("scene.{}", name_of(&self))
+    }
+
     /// Whether a held key repeats it.
     pub(super) fn repeats(self) -> bool {
         matches!(self, Self::Step | Self::More | Self::Less | Self::Undo)

@@ -1,15 +1,21 @@
 //! The menu bar of the workspace of scenes.
 
-use eframe::egui::{Align, Button, Layout, MenuBar, Ui};
+use eframe::egui::{Align, Layout, MenuBar, Ui};
 use session::volumes::{SceneState, Show};
 
 use super::entries::{SCENE_ENTRIES, tip};
 use super::intent::{SceneIntent, SceneMenu};
+use crate::app::menu_item;
+use crate::app::menus::menu_button;
+use crate::theme;
 
 /// Shows the bar with `title` at its right. Returns the entry that was clicked.
 pub(super) fn show(ui: &mut Ui, state: Option<&SceneState>, title: &str) -> Option<SceneIntent> {
     let mut clicked = None;
     MenuBar::new().ui(ui, |ui| {
+        if theme::is_touch(ui.ctx()) {
+            ui.spacing_mut().button_padding.x = 13.0;
+        }
         for (menu, name, description) in [
             (SceneMenu::File, "File", "Open and save scenes, back to the easel"),
             (SceneMenu::Edit, "Edit", "Events, time and pouring"),
@@ -17,19 +23,15 @@ pub(super) fn show(ui: &mut Ui, state: Option<&SceneState>, title: &str) -> Opti
             (SceneMenu::Tools, "Tools", "Tools of the pen"),
             (SceneMenu::Help, "Help", "The table of keys"),
         ] {
-            let opened = ui.menu_button(name, |ui| {
-                ui.set_min_width(190.0);
+            let opened = menu_button(ui, name, |ui| {
                 for entry in SCENE_ENTRIES.iter().filter(|entry| entry.menu == menu) {
                     if begins_group(entry.intent) {
                         ui.separator();
                     }
-                    let name = match checked(entry.intent, state) {
-                        Some(true) => format!("\u{2714} {}", entry.name),
-                        Some(false) => format!("    {}", entry.name),
-                        None => entry.name.to_owned(),
-                    };
-                    let button = Button::new(name).shortcut_text(entry.shortcut_text());
-                    let response = ui.add_enabled(enabled(entry.intent, state), button);
+                    let (enabled, checked) =
+                        (enabled(entry.intent, state), checked(entry.intent, state));
+                    let keys = entry.shortcut_text(ui.ctx());
+                    let response = menu_item::show(ui, entry.name, &keys, enabled, checked);
                     if response.on_hover_ui(|ui| tip(ui, entry)).clicked() {
                         clicked = Some(entry.intent);
                         ui.close();
@@ -56,6 +58,7 @@ fn begins_group(intent: SceneIntent) -> bool {
             | SceneIntent::DryAll
             | SceneIntent::Play
             | SceneIntent::More
+            | SceneIntent::Preferences
             | SceneIntent::Frame
             | SceneIntent::Panels
     )
@@ -69,6 +72,7 @@ pub(super) fn enabled(intent: SceneIntent, state: Option<&SceneState>) -> bool {
         | SceneIntent::Open
         | SceneIntent::Easel
         | SceneIntent::Quit
+        | SceneIntent::Preferences
         | SceneIntent::Panels
         | SceneIntent::FullScreen
         | SceneIntent::Keys => true,

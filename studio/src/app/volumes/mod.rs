@@ -28,7 +28,8 @@ mod status;
 
 mod frame;
 
-pub use entries::SCENE_ENTRIES;
+pub(super) use entries::SCENE_POINTER;
+pub use entries::{SCENE_ENTRIES, scene_key_rows};
 pub use intent::{SceneEntry, SceneIntent, SceneMenu};
 pub use orbit::Orbit;
 pub(super) use perform::WindowIntent;

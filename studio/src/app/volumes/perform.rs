@@ -1,11 +1,15 @@
 //! Performs the intents of menus, toolbar and keyboard in a scene.
 
+use std::sync::Arc;
+
 use eframe::egui::{Context, Event, FocusDirection, Key, ViewportCommand};
 use session::volumes::{Inside, Show, VolumeCommand};
 
+use super::entries::scene_key_rows;
 use super::intent::SceneIntent;
 use super::menus::enabled;
 use super::workspace::Volumes;
+use crate::keymap::{KeyTable, installed};
 use crate::panels::volumes::{SceneExport, SceneFileRequest};
 
 /// Factor of the rate for one key press.
@@ -21,6 +25,10 @@ pub(in crate::app) enum WindowIntent {
     Easel,
     /// Shows or hides the panels.
     Panels,
+    /// Shows or hides the table of keys.
+    Keys,
+    /// Shows the preferences.
+    Preferences,
 }
 
 impl Volumes {
@@ -32,6 +40,10 @@ impl Volumes {
         let focused = context.memory(|memory| memory.focused().is_some());
         let mut intents = Vec::new();
         let mut tabbed = false;
+        let table = installed(context).map_or_else(
+            || Arc::new(KeyTable::new(scene_key_rows())),
+            |keymap| keymap.scenes.clone(),
+        );
         context.input_mut(|input| {
             input.events.retain(|event| {
                 let Event::Key { key, pressed: true, repeat, modifiers, .. } = event else {
@@ -41,7 +53,9 @@ impl Volumes {
                 if focused && matches!(key, Key::Tab | Key::Space | Key::Enter) {
                     return true;
                 }
-                let Some(intent) = SceneIntent::of_key(*key, *modifiers) else { return true };
+                let Some(intent) = SceneIntent::of_key(&table, *key, *modifiers) else {
+                    return true;
+                };
                 if !*repeat || intent.repeats() {
                     tabbed |= *key == Key::Tab;
                     intents.push(intent);
@@ -105,12 +119,13 @@ impl Volumes {
                 }
             }
             SceneIntent::Tool(tool) => self.tools.grip.tool = tool,
+            SceneIntent::Preferences => return Some(WindowIntent::Preferences),
             SceneIntent::Panels => return Some(WindowIntent::Panels),
             SceneIntent::FullScreen => {
                 let full = context.input(|input| input.viewport().fullscreen.unwrap_or(false));
                 context.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
             }
-            SceneIntent::Keys => self.keys ^= true,
+            SceneIntent::Keys => return Some(WindowIntent::Keys),
         }
         None
     }

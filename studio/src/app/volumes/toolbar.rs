@@ -54,7 +54,8 @@ fn button(ui: &mut Ui, intent: SceneIntent, chosen: bool, enabled: bool) -> bool
     let Some(entry) = SceneEntry::of(intent) else { return false };
     let clicked = ui.add_enabled_ui(enabled, |ui| {
         let side = ui.available_width();
-        let (rect, response) = ui.allocate_exact_size(vec2(side, 30.0), Sense::click());
+        let (rect, response) =
+            ui.allocate_exact_size(theme::at_least(ui, vec2(side, 30.0)), Sense::click());
         response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, entry.name));
         let visuals = ui.style().interact(&response);
         let fill = match (chosen, response.hovered()) {

@@ -64,8 +64,6 @@ pub struct Volumes {
     /// Files that the worker was asked to fill, by the number of the request.
     pub(super) awaited: Vec<(u64, SceneExport, PathBuf)>,
     pub(super) last_request: u64,
-    /// Whether the table of keys is shown.
-    pub(super) keys: bool,
 }
 
 impl Volumes {
@@ -91,7 +89,6 @@ impl Volumes {
             frames: Frames::default(),
             awaited: Vec::new(),
             last_request: 0,
-            keys: false,
         }
     }
 
@@ -154,7 +151,7 @@ impl Volumes {
     }
 
     /// Shows a message in the status line.
-    pub(super) fn say(&mut self, text: String) {
+    pub(in crate::app) fn say(&mut self, text: String) {
         self.message = Some(Message { text, hint: None, failed: false, shown_at: Instant::now() });
     }
 

@@ -1,6 +1,6 @@
 //! Lists the files and folders of a folder.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::SystemTime;
 
 use crate::files::job::{JobError, Progress};
@@ -91,13 +91,6 @@ fn sort_key(name: &str) -> Vec<NamePart> {
         rest = after;
     }
     pieces
-}
-
-/// The user's home folder, or the root folder if it is not known.
-#[must_use]
-pub(super) fn home_folder() -> PathBuf {
-    directories::UserDirs::new()
-        .map_or_else(|| PathBuf::from("/"), |dirs| dirs.home_dir().to_owned())
 }
 
 #[cfg(test)]

@@ -3,9 +3,22 @@
 
 mod listing;
 
+mod places;
+
+mod arranged;
+
+mod thumbnails;
+
+mod glyph;
+
 mod state;
+
+mod places_view;
+
+mod entries_view;
 
 mod show;
 
 pub(crate) use listing::Filter;
 pub(crate) use state::{Answer, Browser, BrowserOptions};
+pub(crate) use thumbnails::Thumbnails;

@@ -1,55 +1,58 @@
 //! Drawing and input of the file browser.
 
 use std::path::Path;
-use std::time::SystemTime;
 
 use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{
-    Align, Button, ComboBox, Context, Event, Frame, Id, Key, Label, Layout, Modal, Modifiers,
-    RichText, ScrollArea, TextEdit, Ui, vec2,
+    Align, Button, ComboBox, Context, Event, Frame, Id, Key, Layout, Modal, Modifiers, RichText,
+    TextEdit, Ui, vec2,
 };
 
-use super::listing::home_folder;
+use super::places_view;
 use super::state::{Answer, Browser};
-use crate::files::age::{ago, size};
+use super::thumbnails::Thumbnails;
+use crate::files::browser_look::BrowserOrder;
+use crate::files::default_button;
 
-const WIDTH: f32 = 720.0;
-const HEIGHT: f32 = 380.0;
-const PLACES_WIDTH: f32 = 160.0;
+const WIDTH: f32 = 860.0;
+const HEIGHT: f32 = 440.0;
 
 impl Browser {
     /// Shows the dialog above everything else. Returns the painter's answer, after which
     /// the caller closes the dialog.
-    pub(crate) fn show(&mut self, ctx: &Context) -> Option<Answer> {
+    pub(crate) fn show(&mut self, ctx: &Context, thumbnails: &mut Thumbnails) -> Option<Answer> {
         self.update();
         let mut answer = None;
+        let taken = default_button::keyboard_taken(ctx);
         let modal = Modal::new(Id::unique("file browser")).show(ctx, |ui| {
             ui.set_width(WIDTH.min(ctx.content_rect().width() - 40.0));
             ui.heading(self.options.title);
             answer = self.path_line(ui);
+            self.look_line(ui);
             ui.add_space(2.0);
-            let height = HEIGHT.min(ctx.content_rect().height() - 220.0);
+            let height = HEIGHT.min(ctx.content_rect().height() - 250.0);
             // A fixed height, so that the buttons below do not move.
             let size = vec2(ui.available_width(), height);
             let across = Layout::left_to_right(Align::Min);
             ui.allocate_ui_with_layout(size, across, |ui| {
                 ui.set_min_size(size);
-                ui.allocate_ui_with_layout(vec2(PLACES_WIDTH, height), down(), |ui| {
-                    answer = answer.take().or_else(|| self.places(ui));
+                ui.allocate_ui_with_layout(vec2(places_view::WIDTH, height), down(), |ui| {
+                    answer = answer.take().or_else(|| self.places_view(ui, height));
                 });
                 Frame::new().fill(ui.visuals().extreme_bg_color).inner_margin(4).show(ui, |ui| {
                     let size = ui.available_size();
                     ui.allocate_ui_with_layout(size, down(), |ui| {
                         ui.set_min_size(size);
-                        answer = answer.take().or_else(|| self.list(ui, size.y));
+                        answer =
+                            answer.take().or_else(|| self.entries_view(ui, size.y, thumbnails));
                     });
                 });
             });
             ui.add_space(2.0);
             answer = answer.take().or_else(|| self.last_lines(ui));
         });
-        answer = answer.or_else(|| self.keys(ctx));
+        answer = answer.or_else(|| self.keys(ctx, taken));
         if answer.is_none() && modal.should_close() {
             answer = Some(Answer::Cancelled);
         }
@@ -65,7 +68,8 @@ impl Browser {
                 self.up();
             }
             let edit = TextEdit::singleline(&mut self.typed_folder).desired_width(f32::INFINITY);
-            let typed = ui.add(edit).on_hover_text("The folder; Enter opens what is typed");
+            let typed = ui.add(edit).accessible_name("Folder");
+            let typed = typed.on_hover_text("The folder; Enter opens what is typed");
             if typed.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
                 answer = self.enter_typed();
             }
@@ -73,83 +77,31 @@ impl Browser {
         answer
     }
 
-    /// The home folder and recent files.
-    fn places(&mut self, ui: &mut Ui) -> Option<Answer> {
-        ui.set_width(PLACES_WIDTH);
-        let mut answer = None;
-        if ui.add(place_button("Home")).on_hover_text("Your home folder").clicked() {
-            self.go(home_folder());
-        }
-        if self.recent.is_empty() {
-            return None;
-        }
-        ui.add_space(6.0);
-        ui.label(RichText::new("Recent").weak().small());
-        for path in self.recent.clone() {
-            let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
-            let button = ui.add(place_button(&name.unwrap_or_default()));
-            if button.on_hover_text(path.display().to_string()).clicked() {
-                answer = self.enter_recent(&path);
-            }
-        }
-        answer
-    }
-
-    fn enter_recent(&mut self, path: &Path) -> Option<Answer> {
-        if !self.options.saving {
-            return Some(Answer::File(path.to_owned()));
-        }
-        if let Some(folder) = path.parent() {
-            self.go(folder.to_owned());
-        }
-        None
-    }
-
-    /// The list of folders and files.
-    fn list(&mut self, ui: &mut Ui, height: f32) -> Option<Answer> {
-        let mut answer = None;
-        let entries: Vec<_> = self.shown().into_iter().cloned().collect();
-        let row = ui.spacing().interact_size.y;
-        let scroll = std::mem::take(&mut self.scroll_to_selected);
-        let at = entries.iter().position(|entry| Some(&entry.name) == self.selected.as_ref());
-        let mut area = ScrollArea::vertical().auto_shrink(false).max_height(height);
-        if let Some(at) = at.filter(|_| scroll) {
-            let step = row + ui.spacing().item_spacing.y;
-            area = area.vertical_scroll_offset((at as f32 * step - height / 2.0).max(0.0));
-        }
-        let now = SystemTime::now();
-        area.show_rows(ui, row, entries.len(), |ui, rows| {
-            for entry in &entries[rows] {
-                let selected = self.selected.as_ref() == Some(&entry.name);
-                let name =
-                    if entry.folder { format!("{}/", entry.name) } else { entry.name.clone() };
-                let mut details = entry.changed.map(|then| ago(then, now)).unwrap_or_default();
-                if !entry.folder {
-                    details = format!("{}   {details}", size(entry.bytes));
+    /// The letters that names must have, the order, and the form of the files.
+    fn look_line(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            let edit = TextEdit::singleline(&mut self.typed_filter).hint_text("Filter by name");
+            let edit = ui.add(edit.desired_width(260.0)).accessible_name("Filter by name");
+            edit.on_hover_text(
+                "Shows only names with these letters; typing into the list does too",
+            );
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                for (grid, name, tip) in [
+                    (true, "Grid", "Shows the files as pictures"),
+                    (false, "List", "Shows the files in rows, with size and age"),
+                ] {
+                    ui.selectable_value(&mut self.look.grid, grid, name).on_hover_text(tip);
                 }
-                let details = RichText::new(details).weak().small();
-                let button = Button::selectable(selected, name)
-                    .right_text(details)
-                    .truncate()
-                    .min_size(vec2(ui.available_width(), row));
-                let clicked = ui.add(button).on_hover_text(if entry.folder {
-                    "Double click to open the folder"
-                } else {
-                    "Double click to choose this file"
-                });
-                if clicked.clicked() {
-                    self.select(entry);
+                ui.separator();
+                for (order, name, tip) in [
+                    (BrowserOrder::Date, "Date", "The file that changed last comes first"),
+                    (BrowserOrder::Name, "Name", "In the order of the names"),
+                ] {
+                    ui.selectable_value(&mut self.look.order, order, name).on_hover_text(tip);
                 }
-                if clicked.double_clicked() {
-                    answer = self.enter();
-                }
-            }
+                ui.weak("Order");
+            });
         });
-        if entries.is_empty() {
-            let empty = if self.update() { "Reading ..." } else { "No files of this kind" };
-            ui.put(ui.min_rect().shrink(8.0), Label::new(RichText::new(empty).weak()));
-        }
-        answer
     }
 
     /// The name, the filter, problems and the buttons.
@@ -235,30 +187,48 @@ impl Browser {
         answer
     }
 
-    /// Handles keys, unless they are typed into a field.
-    fn keys(&mut self, ctx: &Context) -> Option<Answer> {
-        let typing = ctx.egui_wants_keyboard_input();
+    /// Handles keys, unless they are typed into a field that had the keyboard (`taken`).
+    fn keys(&mut self, ctx: &Context, taken: bool) -> Option<Answer> {
         let pressed = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         let page = 12;
-        for (key, steps) in
-            [(Key::ArrowDown, 1), (Key::ArrowUp, -1), (Key::PageDown, page), (Key::PageUp, -page)]
-        {
+        let line = self.columns as isize;
+        for (key, steps) in [
+            (Key::ArrowDown, line),
+            (Key::ArrowUp, -line),
+            (Key::PageDown, page),
+            (Key::PageUp, -page),
+        ] {
             if pressed(key) {
                 self.step(steps);
             }
         }
-        if typing {
-            return None;
+        if !taken {
+            for (key, steps) in [(Key::ArrowRight, 1), (Key::ArrowLeft, -1)] {
+                if self.look.grid && pressed(key) {
+                    self.step(steps);
+                }
+            }
+            if pressed(Key::Backspace) && self.typed_filter.pop().is_none() {
+                self.up();
+            }
+            self.type_letters(ctx);
         }
-        if pressed(Key::Backspace) {
-            self.up();
+        if default_button::pressed(ctx, taken) { self.enter() } else { None }
+    }
+
+    /// Adds letters that are typed into the list to the filter.
+    fn type_letters(&mut self, ctx: &Context) {
+        let focused = ctx.memory(|memory| memory.focused().is_some());
+        if self.options.saving || focused {
+            return;
         }
-        // Enter counts only when it is pressed anew, not when a held key repeats.
-        let held = ctx.input(|input| {
-            let again = |event: &Event| matches!(event, Event::Key { repeat: true, .. });
-            input.events.iter().any(again)
+        ctx.input(|input| {
+            for event in &input.events {
+                if let Event::Text(text) = event {
+                    self.typed_filter.push_str(text);
+                }
+            }
         });
-        if pressed(Key::Enter) && !held { self.enter() } else { None }
     }
 }
 
@@ -272,8 +242,4 @@ fn select_all(ui: &Ui, field: Id, text: &str) {
 
 fn down() -> Layout {
     Layout::top_down(Align::Min)
-}
-
-fn place_button(name: &str) -> Button<'_> {
-    Button::selectable(false, name).truncate().min_size(vec2(PLACES_WIDTH, 0.0))
 }

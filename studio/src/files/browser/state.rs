@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::listing::{Entry, Filter, entries, home_folder};
+use super::arranged::arranged;
+use super::listing::{Entry, Filter, entries};
+use super::places::{PlaceFolder, folders_of, home_folder, places};
+use crate::files::browser_look::BrowserLook;
 use crate::files::job::{Job, JobError};
 use crate::files::problem::Problem;
 
@@ -38,6 +41,15 @@ pub(crate) struct Browser {
     /// The text of the folder field.
     pub(super) typed_folder: String,
     pub(super) recent: Vec<PathBuf>,
+    /// Folders of one click, once they are found.
+    pub(super) places: Vec<PlaceFolder>,
+    finding_places: Option<Job<Vec<PlaceFolder>>>,
+    /// Form and order of the files.
+    pub(crate) look: BrowserLook,
+    /// Letters that the shown names must have.
+    pub(super) typed_filter: String,
+    /// Number of entries beside each other.
+    pub(super) columns: usize,
     entries: Vec<Entry>,
     reading: Option<Job<Vec<Entry>>>,
     /// The last problem, shown in the dialog.
@@ -73,8 +85,13 @@ impl Browser {
         options: BrowserOptions,
         folder: Option<&Path>,
         recent: &[PathBuf],
+        look: BrowserLook,
         wake: &eframe::egui::Context,
     ) -> Self {
+        let lately = folders_of(folder, recent);
+        let woken = wake.clone();
+        let finding_places =
+            Job::start("places", move || woken.request_repaint(), move |_| Ok(places(&lately)));
         let folder = folder.filter(|folder| folder.is_dir()).map(Path::to_owned);
         let filter = options.filters.first().copied().unwrap_or(Filter::ALL);
         let passes = |path: &&PathBuf| path.to_str().is_some_and(|path| filter.passes(path));
@@ -84,6 +101,11 @@ impl Browser {
             folder: PathBuf::new(),
             typed_folder: String::new(),
             recent: recent.iter().filter(passes).cloned().collect(),
+            places: Vec::new(),
+            finding_places: Some(finding_places),
+            look,
+            typed_filter: String::new(),
+            columns: 1,
             entries: Vec::new(),
             reading: None,
             problem: None,
@@ -110,6 +132,7 @@ impl Browser {
         self.selected = None;
         self.replacing = None;
         self.problem = None;
+        self.typed_filter.clear();
         self.entries.clear();
         let (wake, read) = (self.wake.clone(), folder.clone());
         let wake = move || wake.request_repaint();
@@ -120,6 +143,10 @@ impl Browser {
 
     /// Applies the result of listing; returns whether it is still running.
     pub(crate) fn update(&mut self) -> bool {
+        if let Some(found) = self.finding_places.as_mut().and_then(Job::poll) {
+            self.finding_places = None;
+            self.places = found.unwrap_or_default();
+        }
         if let Some(result) = self.reading.as_mut().and_then(Job::poll) {
             self.reading = None;
             match result {
@@ -131,11 +158,11 @@ impl Browser {
         self.reading.is_some()
     }
 
-    /// The entries that the filter accepts.
+    /// The entries that the filters accept, in the order that the painter chose.
     #[must_use]
     pub(crate) fn shown(&self) -> Vec<&Entry> {
         let filter = self.options.filters.get(self.filter).copied().unwrap_or(Filter::ALL);
-        self.entries.iter().filter(|entry| entry.folder || filter.passes(&entry.name)).collect()
+        arranged(&self.entries, filter, &self.typed_filter, self.look.order)
     }
 
     /// Lists the folder above, with the previous one selected.
@@ -260,7 +287,13 @@ mod tests {
             ending: Some("exr"),
             name: "study".to_owned(),
         };
-        let mut browser = Browser::new(options, Some(folder.path()), &[], &Default::default());
+        let mut browser = Browser::new(
+            options,
+            Some(folder.path()),
+            &[],
+            BrowserLook::default(),
+            &Default::default(),
+        );
         read(&mut browser);
         (browser, folder)
     }

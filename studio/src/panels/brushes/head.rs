@@ -7,7 +7,12 @@ use crate::theme;
 
 /// Draws a head that points up, with ferrule and part of the handle. The hair has the
 /// sRGB colour of its paint, or grey if clean.
-pub(super) fn draw(painter: &Painter, area: Rect, shape: HeadShape, color: Option<[u8; 3]>) {
+pub(in crate::panels) fn draw(
+    painter: &Painter,
+    area: Rect,
+    shape: HeadShape,
+    color: Option<[u8; 3]>,
+) {
     let contour = shape.contour();
     let (length, _) = contour[contour.len() - 1];
     let metal = area.height() * 0.28;
@@ -32,7 +37,8 @@ pub(super) fn draw(painter: &Painter, area: Rect, shape: HeadShape, color: Optio
         (None, HeadShape::Knife) => Color32::from_gray(190),
         (None, _) => Color32::from_gray(112),
     };
-    let edge = Stroke::new(1.0, theme::colors(painter.ctx()).well);
+    // Dark in both themes, so that light hair stands out.
+    let edge = Stroke::new(1.0, theme::DARK.well);
     painter.add(Shape::convex_polygon(outline(&contour, foot, scale), hair, edge));
 }
 

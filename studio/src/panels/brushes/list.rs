@@ -87,11 +87,13 @@ impl BrushList {
         requested.map(|requested| requested.spec.clone()).or_else(|| Some(reported()?.spec.clone()))
     }
 
-    /// Selects a brush and the paint tool.
+    /// Selects a brush, and the paint tool unless another tool with a head is in use.
     pub(super) fn select(&self, entry: usize, cx: &mut PanelContext<'_>) {
         if let Some(entry) = self.brushes.get(entry) {
             cx.tools.brush.clone_from(&entry.name);
-            cx.tools.mode = Mode::Paint;
+            if !cx.tools.mode.moves_head() {
+                cx.tools.mode = Mode::Paint;
+            }
         }
     }
 

@@ -4,11 +4,19 @@ mod paint;
 
 mod list;
 
-mod head;
+pub(in crate::panels) mod head;
 
 mod row;
 
+mod tool;
+
+mod swatch;
+
+mod tip;
+
 mod panel;
+
+mod kept;
 
 pub use paint::{load_medium, wash, wipe};
 pub use panel::Brushes;

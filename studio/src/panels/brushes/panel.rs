@@ -1,25 +1,31 @@
 //! Draws the brush panel.
 
-use eframe::egui::{Key, Sense, Slider, TextEdit, Ui, vec2};
+use eframe::egui::{Key, Sense, Slider, TextEdit, Ui, Vec2, vec2};
 use render::paint::brush::HeadShape;
 use render::paint::strokes::BrushSpec;
 
 use super::head;
 use super::list::{BrushList, SIZES_MM};
-use super::paint::{is_loaded, load_medium, wash, wipe};
+use super::paint::{is_loaded, keep_mixture, load_medium, selected, wash, wipe};
 use super::row::Row;
-use crate::panels::controls::{NAME_WIDTH, button, button_background, item, percent, slider};
+use super::swatch;
+use super::tip::TipPreview;
+use super::tool;
+use crate::keymap::hint;
+use crate::panels::controls::{button, button_background, item, percent, slider};
 use crate::panels::{PanelContext, tubes};
+use crate::theme;
 
 /// State of the brush panel: the brush list, and the head and paint of the selected
 /// brush.
 #[derive(Debug, Clone, Default)]
 pub struct Brushes {
-    list: BrushList,
+    pub(super) list: BrushList,
     /// Size while its slider is dragged, in mm.
     dragged_mm: Option<f64>,
     /// Name of the brush being renamed, and the text typed so far.
     renaming: Option<(String, String)>,
+    tip: TipPreview,
 }
 
 /// Request of a row or of the buttons below the list.
@@ -34,6 +40,11 @@ impl Brushes {
     /// Draws the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         self.list.synchronize(cx);
+        if swatch::show(ui, selected(cx)) {
+            keep_mixture(cx);
+        }
+        tool::show(ui, cx);
+        ui.separator();
         self.brush_list(ui, cx);
         ui.separator();
         self.head(ui, cx);
@@ -55,7 +66,15 @@ impl Brushes {
     pub fn resize(&mut self, factor: f64, cx: &mut PanelContext<'_>) {
         self.list.synchronize(cx);
         let Some(spec) = self.list.spec(cx.painting, &cx.tools.brush) else { return };
-        let size_mm = rounded(spec.size_mm * factor).clamp(*SIZES_MM.start(), *SIZES_MM.end());
+        self.set_size(spec.size_mm * factor, cx);
+    }
+
+    /// Makes the selected brush as wide as `size_mm`, within the range of sizes. It keeps the mean
+    /// of its paint.
+    pub fn set_size(&mut self, size_mm: f64, cx: &mut PanelContext<'_>) {
+        self.list.synchronize(cx);
+        let Some(spec) = self.list.spec(cx.painting, &cx.tools.brush) else { return };
+        let size_mm = rounded(size_mm).clamp(*SIZES_MM.start(), *SIZES_MM.end());
         self.list.replace_head(BrushSpec { size_mm, ..spec }, cx);
     }
 
@@ -81,7 +100,7 @@ impl Brushes {
         });
         let selected = self.list.position(&cx.tools.brush);
         let none = selected.is_none().then_some("no brush is selected");
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let add = ui.menu_button("Add", |ui| self.add(ui, cx));
             add.response.on_hover_text("Adds a clean brush to the list");
             let tip = "Keeps this brush with its paint and selects a clean copy";
@@ -162,9 +181,12 @@ impl Brushes {
             ui.weak("no brush is selected");
             return;
         };
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 2.0;
-            let width = (ui.available_width() - 14.0) / 8.0;
+        ui.horizontal_wrapped(|ui| {
+            let gap = if theme::is_touch(ui.ctx()) { 0.0 } else { 2.0 };
+            ui.spacing_mut().item_spacing = Vec2::splat(gap);
+            // Narrower than their share, so that the last one is not wrapped by rounding.
+            let share = |count: f32| ((ui.available_width() + gap) / count - gap).floor();
+            let width = if share(8.0) < theme::target(ui) { share(4.0) } else { share(8.0) };
             for shape in HeadShape::ALL {
                 let size = vec2(width, 44.0);
                 let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -176,15 +198,17 @@ impl Brushes {
                 response.on_hover_text(format!("{shape}; the brush keeps the mean of its paint"));
             }
         });
+        self.tip.show(ui, &spec);
         let mut size_mm = self.dragged_mm.unwrap_or_else(|| rounded(spec.size_mm));
+        let cells = size_mm / cx.painting.cell_mm;
         let control = Slider::new(&mut size_mm, SIZES_MM).logarithmic(true).suffix(" mm");
         let control = control.max_decimals(2).update_while_editing(false);
-        let tip = "Width of the head; the brush keeps the mean of its paint (keys [ and ])";
-        let response = slider(ui, "Size", tip, control);
-        ui.horizontal(|ui| {
-            ui.add_space(NAME_WIDTH + ui.spacing().item_spacing.x);
-            ui.weak(format!("{:.0} cells of the canvas", size_mm / cx.painting.cell_mm));
-        });
+        let keys = ["smaller", "larger"].map(|name| hint(ui.ctx(), name)).concat();
+        let tip = format!(
+            "Width of the head, {cells:.0} cells of the canvas; the brush keeps the mean of its paint\
+             {keys}"
+        );
+        let response = slider(ui, "Size", &tip, control);
         if response.changed() {
             self.dragged_mm = Some(rounded(size_mm));
         }
@@ -204,7 +228,12 @@ impl Brushes {
         let tip = "Share of clear medium in a load: more makes the paint thinner and more transparent. \
              Glazes take 98 to 99.9 %; click the number to type it";
         percent(ui, "Medium", tip, &mut cx.tools.vehicle, 0.0..=100.0);
-        ui.horizontal(|ui| {
+        let tip = "Share of its paint that wiping leaves on the brush";
+        percent(ui, "Wipe to", tip, &mut cx.tools.wipe_keep, 0.0..=100.0);
+        ui.horizontal_wrapped(|ui| {
+            if theme::is_touch(ui.ctx()) {
+                ui.spacing_mut().button_padding.x = 8.0;
+            }
             let slot = cx.tools.tube;
             let held = cx.painting.slots.get(slot).copied().flatten();
             let empty = held.is_none().then_some("no tube is selected");
@@ -217,15 +246,12 @@ impl Brushes {
             if button(ui, "Medium only", tip, none) {
                 load_medium(cx);
             }
-        });
-        let tip = "Share of its paint that wiping leaves on the brush";
-        percent(ui, "Wipe to", tip, &mut cx.tools.wipe_keep, 0.0..=100.0);
-        ui.horizontal(|ui| {
             let clean = (!is_loaded(cx)).then_some("the brush is clean");
-            if button(ui, "Wipe", "Removes paint with a rag (key X)", none.or(clean)) {
+            let [wipe_key, wash_key] = ["wipe", "wash"].map(|name| hint(ui.ctx(), name));
+            if button(ui, "Wipe", &format!("Removes paint with a rag{wipe_key}"), none.or(clean)) {
                 wipe(cx);
             }
-            if button(ui, "Wash", "Removes all paint (key W)", none.or(clean)) {
+            if button(ui, "Wash", &format!("Removes all paint{wash_key}"), none.or(clean)) {
                 wash(cx);
             }
         });

@@ -4,7 +4,8 @@ use eframe::egui::{Align, Color32, Painter, Rect, Response, TextStyle, Ui, pos2,
 use render::paint::strokes::BrushSpec;
 
 use super::head;
-use crate::panels::controls::{millimetres, row, text};
+use crate::panels::controls::{millimetres, row};
+use crate::panels::fitted_text::{fits_on_a_line, text};
 use crate::theme;
 use session::{BrushState, PaintingState};
 
@@ -44,11 +45,17 @@ impl Row<'_> {
         let color = self.state.and_then(|state| state.color);
         let icon_rect = between(inner.left() + 18.0, inner.left() + 42.0);
         head::draw(ui.painter(), icon_rect, self.spec.shape, color);
-        let (name, below) =
-            between(inner.left() + 50.0, inner.right() - 84.0).split_top_bottom_at_fraction(0.55);
-        text(ui, name, Align::Min, TextStyle::Body, theme::colors(ui.ctx()).strong, self.label);
-        let kind = format!("{} {}", self.spec.shape, millimetres(self.spec.size_mm));
-        text(ui, below, Align::Min, TextStyle::Small, faint, &kind);
+        let words = between(inner.left() + 50.0, inner.right() - 84.0);
+        let strong = theme::colors(ui.ctx()).strong;
+        let (name, below) = words.split_top_bottom_at_fraction(0.55);
+        if fits_on_a_line(ui, name, TextStyle::Body, self.label) {
+            text(ui, name, Align::Min, TextStyle::Body, strong, self.label);
+            let kind = format!("{} {}", self.spec.shape, millimetres(self.spec.size_mm));
+            text(ui, below, Align::Min, TextStyle::Small, faint, &kind);
+        } else {
+            // A long name takes the room of shape and size, which the tooltip tells.
+            text(ui, words, Align::Min, TextStyle::Body, strong, self.label);
+        }
         let (amount, bar) =
             between(inner.right() - 78.0, inner.right()).split_top_bottom_at_fraction(0.6);
         let amount_text = match self.state {

@@ -1,7 +1,6 @@
 //! A recipe that the search found, with buttons to load the brush and fill the palette.
 
 use pigment::PigmentId;
-use std::f64::consts::TAU;
 
 use eframe::egui::{Align, Button, Label, Layout, Ui, Vec2, vec2};
 use pigment::library::PigmentLibrary;
@@ -11,17 +10,15 @@ use render::paint::strokes::{Action, PaletteSpec, Recipe as Parts};
 use spectra::color::{Rgb, Xyz};
 
 use super::super::context::PanelContext;
+use super::super::controls::small_button;
+use super::super::laying::{keep, lay_on_palette};
 use super::swatch::swatch;
 use super::target::screen_rgb;
-use crate::view::Outline;
-use session::{Command, PaintingState};
+use crate::theme;
+use session::Command;
 
 /// Size of the patch that compares two colours, in points.
 const PATCH: Vec2 = vec2(72.0, 40.0);
-
-/// Clearance around a new heap of paint, divided by the cube root of its volume. The
-/// heap's own radius is 0.94 of that root (`Painting::squeeze`).
-const REACH: f64 = 1.2;
 
 /// A found recipe and the colour it is compared with.
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +50,7 @@ impl FoundRecipe<'_> {
             });
             ui.vertical(|ui| {
                 ui.spacing_mut().item_spacing.y = 2.0;
-                ui.spacing_mut().interact_size.y = 16.0;
+                ui.spacing_mut().interact_size.y = 16_f32.max(theme::target(ui));
                 self.amounts().enumerate().for_each(|(at, (name, amount))| {
                     self.line(ui, cx, self.recipe.shares.parts()[at].0, name, amount);
                 });
@@ -62,7 +59,7 @@ impl FoundRecipe<'_> {
         let missing = self.missing(cx);
         let ready = missing.is_empty();
         ui.horizontal(|ui| {
-            let load = ui.add_enabled(ready, Button::new("Load the brush"));
+            let load = ui.add_enabled(ready, Button::new("Load brush"));
             let load = load.accessible_name(format!("Load recipe {number}"));
             let load = load
                 .on_hover_text("Adds this paint to the selected brush, as a tube does")
@@ -71,23 +68,19 @@ impl FoundRecipe<'_> {
                 let vehicle = cx.tools.vehicle;
                 cx.load(self.parts(), vehicle);
             }
-            let lay = ui.add_enabled(ready, Button::new("Lay on the palette"));
+            let lay = ui.add_enabled(ready, Button::new("Lay on palette"));
             let lay = lay.accessible_name(format!("Lay recipe {number}"));
             let lay = lay
                 .on_hover_text("Puts this paint on a free place of the palette")
                 .on_disabled_hover_text("Some of its pigments are not on the palette");
             if lay.clicked() {
-                let (vehicle, volume_mm3) = (cx.tools.vehicle, cx.tools.squeeze_mm3);
-                let reach_mm = REACH * volume_mm3.cbrt();
-                let candidates = candidates(cx.painting, reach_mm);
-                let recipe = self.parts();
-                cx.command(Command::SqueezeInFreeSpace {
-                    recipe,
-                    vehicle,
-                    volume_mm3,
-                    places: candidates,
-                    reach_mm,
-                });
+                let vehicle = cx.tools.vehicle;
+                lay_on_palette(cx, self.parts(), vehicle);
+            }
+            let kept = ui.button("Keep").accessible_name(format!("Keep recipe {number}"));
+            if kept.on_hover_text("Keeps this mixture in the panel Swatches").clicked() {
+                let vehicle = cx.tools.vehicle;
+                keep(cx, self.parts(), vehicle);
             }
         });
         if !ready {
@@ -115,7 +108,7 @@ impl FoundRecipe<'_> {
                     self.add_button(ui, cx, pigment);
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    ui.add(Label::new(name).truncate());
+                    ui.add(Label::new(name).wrap());
                 });
             });
         });
@@ -149,7 +142,7 @@ impl FoundRecipe<'_> {
         let name = &self.library[pigment].name;
         let on_palette: Vec<PigmentId> = cx.painting.slots.iter().copied().flatten().collect();
         if on_palette.len() < SLOTS {
-            let add = ui.small_button("Add").accessible_name(format!("Add {name}"));
+            let add = ui.add(small_button(ui, "Add")).accessible_name(format!("Add {name}"));
             let hover = format!("{name} is not on the palette. Click to put a tube of it there");
             if add.on_hover_text(hover).clicked() {
                 self.set_palette(cx, on_palette.iter().copied().chain([pigment]));
@@ -196,21 +189,4 @@ fn match_quality(ui: &mut Ui, found: &RecipeMatch) {
         let thickness = ui.weak(format!("film {thickness:.3}"));
         thickness.on_hover_text("Thickness of the film in units of the library");
     }
-}
-
-/// Positions on the palette, in mm, whose surroundings up to `reach_mm` are on its
-/// wood; row by row from the upper left.
-fn candidates(painting: &PaintingState, reach_mm: f64) -> Vec<[f64; 2]> {
-    let cells = painting.palette_cells;
-    let (reach, step) = (reach_mm / painting.cell_mm, (reach_mm / painting.cell_mm).max(1.0));
-    let along = |size: usize| (size as f64 / step) as usize;
-    let rim = |[x, y]: [f64; 2]| {
-        let turns = (0..16).map(|turn| f64::from(turn) * TAU / 16.0);
-        turns.map(move |turn| [x + reach * turn.cos(), y + reach * turn.sin()])
-    };
-    let rows = (1..=along(cells.1)).map(|row| row as f64 * step);
-    let all = rows.flat_map(|y| (1..=along(cells.0)).map(move |column| [column as f64 * step, y]));
-    let on_wood =
-        all.filter(|&place| rim(place).all(|place| Outline::Palette.contains(place, cells)));
-    on_wood.map(|place| place.map(|cells| cells * painting.cell_mm)).collect()
 }

@@ -7,6 +7,7 @@ use pigment::library::{AmountKind, PigmentLibrary};
 use pigment::matching::few_parts;
 use render::layer::SLOTS;
 use render::paint::document::Medium;
+use render::paint::strokes::Recipe;
 
 use session::PickedLayer;
 
@@ -81,6 +82,19 @@ impl LayerPaint {
         self.shares.iter().enumerate().map(line).collect()
     }
 
+    /// Recipe in whole parts or in shares rounded to 0.0001, and the share of clear vehicle.
+    pub(super) fn recipe(&self, library: &PigmentLibrary) -> (Recipe, f64) {
+        let part = |(at, (pigment, share)): (usize, &(PigmentId, f64))| {
+            let part = match &self.parts {
+                Some(parts) => f64::from(parts[at]),
+                None => (1e4 * share).round() / 1e4,
+            };
+            (library[*pigment].name.clone(), part)
+        };
+        let parts = self.shares.iter().enumerate().map(part).filter(|(_, part)| *part > 0.0);
+        (parts.collect(), self.vehicle.clamp(0.0, 1.0))
+    }
+
     /// Formats the recipe with the film's thickness as arguments of `impasto mix
     /// LIBRARY`; `None` for clear vehicle.
     pub(super) fn mix_text(&self, library: &PigmentLibrary, medium: &Medium) -> Option<String> {
@@ -141,7 +155,7 @@ mod tests {
             (slots[slot], amounts_mm[slot]) = (Some(PigmentId(*pigment)), *amount);
         }
         amounts_mm[SLOTS] = vehicle;
-        PickedLayer { slots, amounts_mm, opacity: 1.0 }
+        PickedLayer { label: "Wet".to_owned(), slots, amounts_mm, opacity: 1.0 }
     }
 
     #[test]

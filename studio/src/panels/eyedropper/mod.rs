@@ -18,5 +18,6 @@ mod panel;
 pub(super) use layer_paint::LayerPaint;
 pub use panel::Eyedropper;
 pub(super) use picked::layer;
+pub(super) use search::SearchPanel;
 pub(super) use swatch::swatch;
 pub use target::{Color, TargetColor};

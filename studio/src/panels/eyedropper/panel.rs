@@ -42,6 +42,11 @@ impl Eyedropper {
         }
     }
 
+    /// Shows colours of another painting program as targets.
+    pub fn set_swatches(&mut self, colors: &SwatchFile) {
+        self.swatches = wanted_of(colors);
+    }
+
     /// Target colour of the recipe search.
     #[must_use]
     pub fn target(&self) -> Option<&TargetColor> {

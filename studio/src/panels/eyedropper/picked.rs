@@ -7,6 +7,8 @@ use render::paint::document::Medium;
 use render::paint::strokes::SurfaceId;
 
 use super::super::context::PanelContext;
+use super::super::controls::small_button;
+use super::super::laying::keep;
 use super::layer_paint::LayerPaint;
 use super::swatch::swatch;
 use super::target::weights;
@@ -31,14 +33,13 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
     let chart = chart.show(ui, vec2(ui.available_width(), 110.0));
     chart.on_hover_text("Reflectance over wavelength at the picked place");
     let paints: Vec<Option<LayerPaint>> = picked.layers.iter().map(LayerPaint::of).collect();
-    let wet = paints.len().saturating_sub(1);
     if paints.iter().all(Option::is_none) {
         ui.weak("Bare ground");
     }
-    for (index, paint) in paints.iter().enumerate().rev() {
+    for (picked, paint) in picked.layers.iter().zip(&paints).rev() {
         if let Some(paint) = paint {
             let known = (cx.painting.library.as_ref(), &cx.painting.medium);
-            layer(ui, known, &layer_name(index, wet), paint);
+            layer(ui, known, &picked.label, paint);
         }
     }
     let mut recipes_requested = false;
@@ -54,6 +55,17 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
                 picked: Box::new(picked.clone()),
                 amount_mm: cx.tools.load_mm,
             });
+        }
+        let recipe = paints.last().and_then(Option::as_ref).map(|paint| paint.recipe(library));
+        let kept = ui.add_enabled(has_wet, Button::new("Keep"));
+        let kept = kept.accessible_name("Keep the picked paint");
+        let kept = kept
+            .on_hover_text("Keeps this wet mixture in the panel Swatches")
+            .on_disabled_hover_text("There is no wet paint at this place");
+        if kept.clicked()
+            && let Some((recipe, vehicle)) = recipe
+        {
+            keep(cx, recipe, vehicle);
         }
         let find = ui.button("Find recipes");
         recipes_requested =
@@ -86,10 +98,6 @@ fn numbers(ui: &mut Ui, appearance: &Appearance, picked: &Picked) {
     });
 }
 
-fn layer_name(index: usize, wet: usize) -> String {
-    if index == wet { "Wet".to_owned() } else { format!("Dry {}", index + 1) }
-}
-
 /// Draws height and recipe of a layer's paint, with a button that copies it.
 pub(in crate::panels) fn layer(
     ui: &mut Ui,
@@ -109,7 +117,7 @@ pub(in crate::panels) fn layer(
         }
         ui.weak(details).on_hover_text("Height of the paint, and how much of it is clear medium");
         if let Some(text) = paint.mix_text(library, medium) {
-            let copy = ui.small_button("Copy").accessible_name(format!("Copy {name}"));
+            let copy = ui.add(small_button(ui, "Copy")).accessible_name(format!("Copy {name}"));
             let hover = format!("Copies the recipe as `impasto mix LIBRARY` takes it:\n{text}");
             if copy.on_hover_text(hover).clicked() {
                 ui.ctx().copy_text(text);

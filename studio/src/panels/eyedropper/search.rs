@@ -22,7 +22,7 @@ const PARTS: u32 = 40;
 
 /// Limits of the recipe search and the running search.
 #[derive(Debug)]
-pub(super) struct SearchPanel {
+pub(in crate::panels) struct SearchPanel {
     search: RecipeSearch,
     /// Whether recipes may use the whole library instead of the palette.
     whole_library: bool,
@@ -44,10 +44,20 @@ impl Default for SearchPanel {
 
 impl SearchPanel {
     /// Starts a search for recipes that match `target_color`.
-    pub(super) fn begin(&mut self, ui: &Ui, painting: &PaintingState, target_color: &TargetColor) {
+    pub(in crate::panels) fn begin(
+        &mut self,
+        ui: &Ui,
+        painting: &PaintingState,
+        target_color: &TargetColor,
+    ) {
         let request = self.request(painting, target_color);
         let context = ui.ctx().clone();
         self.search.start(request, move || context.request_repaint());
+    }
+
+    /// Forgets the recipes found, and ends a search.
+    pub(in crate::panels) fn forget(&mut self) {
+        self.search = RecipeSearch::default();
     }
 
     /// Builds the search request for `target_color` from the limits and the painting.
@@ -84,7 +94,7 @@ impl SearchPanel {
     }
 
     /// Draws limits, progress and the recipes found.
-    pub(super) fn show(
+    pub(in crate::panels) fn show(
         &mut self,
         ui: &mut Ui,
         cx: &mut PanelContext<'_>,

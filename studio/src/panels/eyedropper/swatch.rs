@@ -16,6 +16,7 @@ pub(super) fn on_screen(rgb: Rgb) -> Color32 {
 /// Draws a clickable patch with an accessible name. Several colours lie side by side
 /// without a gap for comparison.
 pub(in crate::panels) fn swatch(ui: &mut Ui, name: &str, size: Vec2, colors: &[Rgb]) -> Response {
+    let size = theme::at_least(ui, size);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
     let width = rect.width() / colors.len().max(1) as f32;

@@ -7,7 +7,8 @@ use crate::theme;
 
 /// Adds a clickable eye icon, open if the layer is `visible`.
 pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
-    let (rect, response) = ui.allocate_exact_size(vec2(24.0, 24.0), Sense::click());
+    let (rect, response) =
+        ui.allocate_exact_size(theme::at_least(ui, vec2(24.0, 24.0)), Sense::click());
     button_background(ui, &response, name, false);
     let lens = Rect::from_center_size(rect.center(), vec2(16.0, 10.0));
     let color =

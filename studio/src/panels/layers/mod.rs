@@ -1,4 +1,4 @@
-//! The layer panel: drying, opacity and merging of layers.
+//! The layer panel: drying, and names, order, visibility, opacity and merging of layers.
 
 mod thumbnails;
 
@@ -7,6 +7,16 @@ mod eye;
 mod opacity;
 
 mod stiffness;
+
+mod pigments;
+
+mod chosen;
+
+mod naming;
+
+mod order;
+
+mod row;
 
 mod panel;
 

@@ -1,17 +1,24 @@
 //! Draws the layer panel.
 
-use eframe::egui::{Frame, Margin, RichText, Sense, Ui, vec2};
-use render::paint::document::Slots;
+use eframe::egui::{Frame, Key, Margin, RichText, Ui};
+use render::paint::document::{LayerId, Slots};
 use render::paint::strokes::{Action, LayerRef};
 
+use super::chosen::Chosen;
+use super::naming::Naming;
 use super::opacity::Opacity;
+use super::order::Order;
+use super::pigments::pigments;
+use super::row::{RowLook, RowParts, row};
 use super::stiffness::stiffness;
 use super::thumbnails::Thumbnails;
+use crate::keymap::hint;
 use crate::panels::PanelContext;
-use crate::panels::controls::{button, millimetres, named_button, patch, percent};
+use crate::panels::controls::{button, item, named_button, percent};
 use crate::panels::pending_value::PendingValue;
 use crate::panels::pigments::{Catalogue, CatalogueCache, Exchange, ExchangeScope};
 use crate::theme;
+use session::LayerState;
 
 /// State of the layer panel.
 #[derive(Debug, Clone, Default)]
@@ -21,6 +28,16 @@ pub struct Layers {
     opacity: Opacity,
     stiffness: PendingValue<f64>,
     thumbnails: Thumbnails,
+    chosen: Chosen,
+    naming: Naming,
+    order: Order,
+}
+
+/// Choice in the menu of a layer that the panel carries out after the row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum MenuChoice {
+    Rename,
+    Exchange,
 }
 
 /// Dries the share of the canvas's wet paint that is set in the tools.
@@ -33,13 +50,18 @@ impl Layers {
     /// Draws the panel: drying, the wet layer, then dry layers from the top down.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let catalogue = self.catalogue.get(cx.painting);
+        self.chosen.keep(&cx.painting.layers);
         drying(ui, cx);
         self.wet(ui, &catalogue, cx);
         for layer in (0..cx.painting.layers.len()).rev() {
             self.dry_layer(ui, &catalogue, cx, layer);
         }
-        if cx.painting.layers.is_empty() {
-            ui.weak("There is no dry paint yet.");
+        self.order.finish(ui, cx);
+        self.rename_by_key(ui, cx);
+        match cx.painting.layers.len() {
+            0 => _ = ui.weak("There is no dry paint yet."),
+            1 => {}
+            _ => self.merge_button(ui, cx),
         }
         self.thumbnails.keep(cx.painting.layers.iter().map(|layer| &layer.thumbnail));
         let context = ui.ctx().clone();
@@ -53,7 +75,12 @@ impl Layers {
                 pigments(ui, catalogue, &cx.painting.slots);
             });
             stiffness(ui, cx, &mut self.stiffness);
-            self.exchange_button(ui, &cx.painting.slots, LayerRef::Wet, "the wet layer");
+            let first = cx.painting.slots.iter().flatten().next();
+            let none = first.is_none().then_some("the layer has no pigment");
+            let name = "exchange in the wet layer";
+            if named_button(ui, "Exchange pigment...", name, EXCHANGE, none) {
+                self.open_exchange(&cx.painting.slots, LayerRef::Wet);
+            }
         });
     }
 
@@ -62,64 +89,116 @@ impl Layers {
         ui: &mut Ui,
         catalogue: &Catalogue,
         cx: &mut PanelContext<'_>,
-        layer: usize,
+        index: usize,
     ) {
-        let state = &cx.painting.layers[layer];
-        let name = format!("dry layer {}", layer + 1);
-        group(ui, |ui| {
-            ui.horizontal(|ui| {
-                self.opacity.eye(ui, cx, layer);
-                self.thumbnails.show(ui, &state.thumbnail, vec2(60.0, 44.0));
-                ui.vertical(|ui| {
-                    ui.spacing_mut().item_spacing.y = 2.0;
-                    let [mean, max] = [state.mean_mm, state.max_mm].map(millimetres);
-                    let covers = format!("covers {:.0} %", 100.0 * state.coverage);
-                    ui.horizontal(|ui| {
-                        ui.label(RichText::new(format!("Dry {}", layer + 1)).strong());
-                        ui.weak(covers).on_hover_text("Share of the canvas covered by this layer");
-                    });
-                    ui.weak(format!("{mean}, max {max}"))
-                        .on_hover_text("Mean height where it has paint, and maximum height");
-                    pigments(ui, catalogue, &state.slots);
-                });
-            });
-            self.opacity.slider(ui, cx, layer);
-            ui.horizontal(|ui| {
-                let disabled_reason = merge_obstacle(cx, layer);
-                let tip = "Merges this layer with the one below, without a visible change";
-                if named_button(
-                    ui,
-                    "Merge down",
-                    &format!("merge {name} down"),
-                    tip,
-                    disabled_reason,
-                ) {
-                    cx.act(Action::Merge { layer });
-                    self.opacity.merged(layer);
-                }
-                self.exchange_button(ui, &state.slots, LayerRef::Dry(layer), &name);
-            });
+        let state = cx.painting.layers[index].clone();
+        let id = state.id;
+        let look = RowLook { chosen: self.chosen.contains(id), dragged: self.order.is_dragged(id) };
+        let mut parts = RowParts {
+            naming: &mut self.naming,
+            opacity: &mut self.opacity,
+            thumbnails: &mut self.thumbnails,
+            catalogue,
+        };
+        let mut choice = None;
+        let drawn = row(ui, cx, &mut parts, (&state, look), |ui, cx| {
+            choice = menu(ui, cx, index);
         });
+        self.order.row(id, &drawn.response);
+        if drawn.response.clicked() {
+            self.chosen.click(id, ui.input(|input| input.modifiers));
+        }
+        let on_name = drawn.name.zip(drawn.response.interact_pointer_pos());
+        let on_name = on_name.is_some_and(|(name, at)| name.contains(at));
+        let by_key = drawn.response.has_focus() && ui.input(|input| input.key_pressed(Key::F2));
+        if choice == Some(MenuChoice::Rename)
+            || (drawn.response.double_clicked() && on_name)
+            || by_key
+        {
+            self.naming.begin(&state);
+        }
+        if choice == Some(MenuChoice::Exchange) {
+            self.open_exchange(&state.slots, LayerRef::Id(id));
+        }
     }
 
-    fn exchange_button(&mut self, ui: &mut Ui, slots: &Slots, layer: LayerRef, name: &str) {
-        let first = slots.iter().flatten().next();
-        let none = first.is_none().then_some("the layer has no pigment");
-        let tip = "Replaces a pigment of this layer, as if painted with the other one";
-        let name = format!("exchange in {name}");
-        if named_button(ui, "Exchange pigment...", &name, tip, none)
-            && let Some(&first) = first
+    /// Renames the layer that is chosen alone with F2, unless some text is being edited.
+    fn rename_by_key(&mut self, ui: &Ui, cx: &PanelContext<'_>) {
+        let Some(id) = self.chosen.one().filter(|id| !self.naming.is_of(*id)) else { return };
+        let typing = ui.ctx().text_edit_focused();
+        if !typing
+            && ui.input(|input| input.key_pressed(Key::F2))
+            && let Some(layer) = cx.painting.layers.iter().find(|layer| layer.id == id)
         {
+            self.naming.begin(layer);
+        }
+    }
+
+    fn merge_button(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
+        let two = self.chosen.two();
+        let disabled_reason = match two.and_then(|two| states(&cx.painting.layers, two)) {
+            None => Some("choose two layers: click one, Ctrl+click the other"),
+            Some([a, b]) => merge_obstacle(a, b),
+        };
+        let tip = "Merges the two chosen layers into one, without a visible change";
+        if button(ui, "Merge chosen", tip, disabled_reason)
+            && let Some([layer, with]) = two
+        {
+            let (layer, with) = (LayerRef::Id(layer), Some(LayerRef::Id(with)));
+            cx.act(Action::Merge { layer, with });
+        }
+    }
+
+    fn open_exchange(&mut self, slots: &Slots, layer: LayerRef) {
+        if let Some(&first) = slots.iter().flatten().next() {
             self.exchange.open(first, ExchangeScope::Layer(layer));
         }
     }
+}
+
+const EXCHANGE: &str = "Replaces a pigment of this layer, as if painted with the other one";
+
+/// Fills the menu of the dry layer `index`.
+fn menu(ui: &mut Ui, cx: &mut PanelContext<'_>, index: usize) -> Option<MenuChoice> {
+    let layers = &cx.painting.layers;
+    let (state, top) = (&layers[index], layers.len() - 1);
+    let layer = LayerRef::Id(state.id);
+    let below = index.checked_sub(1).map(|below| &layers[below]);
+    let obstacle = match below {
+        None => Some("there is no dry layer below it"),
+        Some(below) => merge_obstacle(state, below),
+    };
+    let merge = Action::Merge { layer, with: below.map(|below| LayerRef::Id(below.id)) };
+    let empty = state.slots.iter().all(Option::is_none).then_some("the layer has no pigment");
+    let highest = (index == top).then_some("it is the topmost dry layer");
+    let lowest = (index == 0).then_some("it is the lowest layer");
+    let mut choice = None;
+    if item(ui, "Rename (F2)", "Edits the name of this layer", None) {
+        choice = Some(MenuChoice::Rename);
+    }
+    let up = "Lays this film over the next one above; wet paint stays above all";
+    if item(ui, "Move up", up, highest) {
+        cx.act(Action::Order { layer, to: index + 1 });
+    }
+    if item(ui, "Move down", "Lays this film under the next one below", lowest) {
+        cx.act(Action::Order { layer, to: index - 1 });
+    }
+    let tip = "Merges this layer with the one below, without a visible change";
+    if item(ui, "Merge down", tip, obstacle) {
+        cx.act(merge);
+    }
+    if item(ui, "Exchange pigment...", EXCHANGE, empty) {
+        choice = Some(MenuChoice::Exchange);
+    }
+    choice
 }
 
 fn drying(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     let tip = "Share of the wet paint that dries, from the bottom up";
     percent(ui, "Share", tip, &mut cx.tools.dry_share, 1.0..=100.0);
     ui.horizontal(|ui| {
-        let tip = "Dries that share of the wet paint into a new dry layer (key D)";
+        let key = hint(ui.ctx(), "dry");
+        let tip = &format!("Dries that share of the wet paint into a new dry layer{key}");
         if button(ui, "Dry share", tip, None) {
             dry(cx);
         }
@@ -129,28 +208,14 @@ fn drying(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     });
 }
 
-/// Reason why a dry layer cannot be merged with the one below, if any.
-fn merge_obstacle(cx: &PanelContext<'_>, layer: usize) -> Option<&'static str> {
-    let layers = &cx.painting.layers;
-    match layer.checked_sub(1) {
-        None => Some("there is no dry layer below it"),
-        Some(below) if layers[below].opacity != layers[layer].opacity => {
-            Some("the layer below has another opacity; set both to the same value")
-        }
-        Some(_) => None,
-    }
+fn states(layers: &[LayerState], ids: [LayerId; 2]) -> Option<[&LayerState; 2]> {
+    let find = |id: LayerId| layers.iter().find(|layer| layer.id == id);
+    Some([find(ids[0])?, find(ids[1])?])
 }
 
-/// Draws a patch of each pigment's masstone.
-fn pigments(ui: &mut Ui, catalogue: &Catalogue, slots: &Slots) {
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        for &pigment in slots.iter().flatten() {
-            let (rect, response) = ui.allocate_exact_size(vec2(13.0, 13.0), Sense::hover());
-            patch(ui.painter(), rect.shrink(1.0), Some(catalogue.colors(pigment).masstone_srgb));
-            response.on_hover_text(catalogue.name(pigment));
-        }
-    });
+/// Reason why two dry layers cannot be merged, if it is known before the paint is compared.
+fn merge_obstacle(a: &LayerState, b: &LayerState) -> Option<&'static str> {
+    (a.visible != b.visible).then_some("one of the two is hidden; show both, or hide both")
 }
 
 fn group(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {

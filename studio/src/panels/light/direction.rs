@@ -95,7 +95,8 @@ pub(in crate::panels) fn direction_control(
         ui.painter().circle_stroke(centre, radius, Stroke::new(1.0, theme::colors(ui.ctx()).line));
         let [x, y] = direction.on_disc();
         let handle = centre + radius * vec2(x as f32, y as f32);
-        ui.painter().line_segment([centre, handle], Stroke::new(1.0, theme::colors(ui.ctx()).bar));
+        // Dark on the light sphere in both themes.
+        ui.painter().line_segment([centre, handle], Stroke::new(1.0, theme::DARK.bar));
         ui.painter().circle(
             handle,
             5.0,

@@ -20,16 +20,6 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// All kinds in the order of the list.
-    pub(super) const ALL: [Self; 6] = [
-        Self::Daylight,
-        Self::Incandescent,
-        Self::Fluorescent,
-        Self::Discharge,
-        Self::Led,
-        Self::Reference,
-    ];
-
     /// Name shown in the list.
     pub(super) fn name(self) -> &'static str {
         match self {
@@ -120,6 +110,15 @@ fn description(name: &str) -> (Kind, &'static str) {
 mod tests {
     use super::*;
 
+    const KINDS: [Kind; 6] = [
+        Kind::Daylight,
+        Kind::Incandescent,
+        Kind::Fluorescent,
+        Kind::Discharge,
+        Kind::Led,
+        Kind::Reference,
+    ];
+
     #[test]
     fn every_illuminant_is_listed_once_with_a_note() {
         let listed = listed_illuminants();
@@ -138,7 +137,7 @@ mod tests {
         let listed = listed_illuminants();
         assert!(listed.is_sorted_by_key(|lamp| lamp.kind), "{listed:?}");
         let of = |kind| listed.iter().filter(|lamp| lamp.kind == kind).count();
-        assert_eq!(Kind::ALL.map(of), [9, 1, 27, 5, 9, 1]);
+        assert_eq!(KINDS.map(of), [9, 1, 27, 5, 9, 1]);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use eframe::egui::{Label, Response, Slider, Ui, vec2};
 
+use super::super::controls::touch_padding;
+
 /// Widths of label and number in a wide panel, in points.
 const WIDE: (f32, f32) = (78.0, 54.0);
 
@@ -12,6 +14,7 @@ const NARROW: (f32, f32) = (54.0, 39.0);
 pub(super) fn labelled_slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Response {
     let width = ui.available_width();
     let (before, behind) = if width > 200.0 { WIDE } else { NARROW };
+    let behind = behind + touch_padding(ui);
     let row = ui.horizontal(|ui| {
         let size = vec2(before, ui.spacing().interact_size.y);
         ui.allocate_ui(size, |ui| {

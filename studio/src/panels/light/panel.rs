@@ -230,7 +230,7 @@ impl LightPanel {
         ui.horizontal(|ui| {
             let check = ui.checkbox(&mut on, "Second light");
             let check = check.on_hover_text(
-                "Shows the canvas under two lights, side by side; drag the line between them",
+                "Shows the canvas under two lights, side by side; drag the line between them. A switch on the palette shows it under either",
             );
             if check.changed() {
                 let illuminant = self.last_second.clone();

@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use eframe::egui::{
-    Align, Align2, Button, Key, Layout, Popup, PopupCloseBehavior, RichText, ScrollArea, Shape,
-    Stroke, TextEdit, Ui, vec2,
+    Align, Align2, Button, Key, Layout, Popup, PopupCloseBehavior, Response, RichText, ScrollArea,
+    Shape, Stroke, TextEdit, Ui, vec2,
 };
 use spectra::{ColorTemperature, Illuminant, light_from_text};
 
+use super::super::controls::mark;
+use super::super::search::{self, Highlight};
 use super::illuminants::{Kind, ListedIlluminant, listed_illuminants};
 use crate::theme;
 
@@ -17,12 +19,14 @@ pub(super) struct Picker {
     name: &'static str,
     lamps: Vec<ListedIlluminant>,
     search: String,
+    highlight: Highlight,
 }
 
 impl Picker {
     /// Creates a picker with an accessible name.
     pub(super) fn new(name: &'static str) -> Self {
-        Self { name, lamps: listed_illuminants(), search: String::new() }
+        let (lamps, highlight) = (listed_illuminants(), Highlight::default());
+        Self { name, lamps, search: String::new(), highlight }
     }
 
     /// Draws the button with the chosen illuminant, and the list while it is open.
@@ -63,25 +67,30 @@ impl Picker {
     }
 
     fn list(&mut self, ui: &mut Ui, chosen: &str, opened: bool) -> Option<String> {
+        let id = ui.scope_id().with("search of a light");
+        self.highlight.read_arrows(ui, ui.memory(|memory| memory.has_focus(id)));
         let field = TextEdit::singleline(&mut self.search)
+            .id(id)
             .hint_text("Search, or 3200K, D5600K")
             .desired_width(f32::INFINITY)
             .align(Align2::LEFT_CENTER);
         let field = ui.add(field).on_hover_text(
             "Words of a light's name or kind; a temperature, such as 3200K for a black body or D5600K for \
-             daylight; or the path of a lamp's file. Enter chooses the first",
+             daylight; or the path of a lamp's file. Enter takes the marked one, arrows move the mark",
         );
         if opened {
             field.request_focus();
         }
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let found: Vec<ListedIlluminant> =
+        let mut found: Vec<ListedIlluminant> =
             self.lamps.iter().copied().filter(|lamp| lamp.matches(&self.search)).collect();
+        search::sort(&mut found, &self.search, |lamp| lamp.name);
+        let marked = self.highlight.among(&self.search, found.len());
         let typed = self.search.trim();
         let typed = (found.is_empty() && light_from_text(typed).is_ok()).then(|| typed.to_owned());
         let mut picked = None;
         if entered {
-            picked = typed.clone().or(found.first().map(|lamp| lamp.name.to_owned()));
+            picked = typed.clone().or(found.get(marked).map(|lamp| lamp.name.to_owned()));
         }
         if let Some(typed) = &typed
             && ui.button(format!("Take {}", short(typed))).on_hover_text("As typed").clicked()
@@ -91,19 +100,23 @@ impl Picker {
         if found.is_empty() && typed.is_none() {
             ui.weak("No such light");
         }
+        let moved = std::mem::take(&mut self.highlight.moved);
         ScrollArea::vertical().max_height(360.0).show(ui, |ui| {
-            for kind in Kind::ALL {
-                let mut of_kind = found.iter().filter(|lamp| lamp.kind == kind).peekable();
-                if of_kind.peek().is_some() {
+            let mut kind: Option<Kind> = None;
+            for (line, lamp) in found.iter().enumerate() {
+                // What was searched for is in the order of its match, not of its kind.
+                if self.search.trim().is_empty() && kind.replace(lamp.kind) != Some(lamp.kind) {
                     ui.add_space(3.0);
-                    ui.label(
-                        RichText::new(kind.name()).small().color(theme::colors(ui.ctx()).faint),
-                    );
+                    let name = RichText::new(lamp.kind.name()).small();
+                    ui.label(name.color(theme::colors(ui.ctx()).faint));
                 }
-                for lamp in of_kind {
-                    if entry(ui, lamp, lamp.name.eq_ignore_ascii_case(chosen)) {
-                        picked = Some(lamp.name.to_owned());
-                    }
+                let chosen = lamp.name.eq_ignore_ascii_case(chosen);
+                let response = entry(ui, lamp, chosen);
+                if line == marked {
+                    mark(ui, &response, moved);
+                }
+                if response.clicked() {
+                    picked = Some(lamp.name.to_owned());
                 }
             }
         });
@@ -114,24 +127,24 @@ impl Picker {
     }
 }
 
-/// Draws a line of the list. Returns whether it was clicked.
-fn entry(ui: &mut Ui, lamp: &ListedIlluminant, chosen: bool) -> bool {
-    let note = RichText::new(lamp.note).small().color(theme::colors(ui.ctx()).faint);
+/// Draws a line of the list.
+fn entry(ui: &mut Ui, lamp: &ListedIlluminant, chosen: bool) -> Response {
+    let colors = theme::colors(ui.ctx());
+    let note_color = if chosen { colors.text } else { colors.faint };
+    let note = RichText::new(lamp.note).small().color(note_color);
     let line = Button::selectable(chosen, lamp.name).right_text(note);
     let response = ui.with_layout(Layout::top_down_justified(Align::Min), |ui| ui.add(line)).inner;
     let enabled = response.enabled();
     response.widget_info(|| {
         eframe::egui::WidgetInfo::selected(eframe::egui::Role::Button, enabled, chosen, lamp.name)
     });
-    response
-        .on_hover_ui(|ui| {
-            ui.label(format!("{}: {}", lamp.name, lamp.note));
-            let temperature = Illuminant::named(lamp.name).ok().as_ref().map(ColorTemperature::of);
-            if let Some(Some(temperature)) = temperature {
-                ui.label(format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv));
-            }
-        })
-        .clicked()
+    response.on_hover_ui(|ui| {
+        ui.label(format!("{}: {}", lamp.name, lamp.note));
+        let temperature = Illuminant::named(lamp.name).ok().as_ref().map(ColorTemperature::of);
+        if let Some(Some(temperature)) = temperature {
+            ui.label(format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv));
+        }
+    })
 }
 
 /// Short name of a light: the file name if it is a path.

@@ -9,6 +9,13 @@ use crate::chart::{BAND_NM, Chart, Curve};
 /// Distance of the points of a curve, in nm.
 const STEP_NM: usize = 2;
 
+/// Heights of the chart in a low and in a high panel, in points.
+const LOW: f32 = 76.0;
+const HIGH: f32 = 120.0;
+
+/// Height from which a panel is high, in points.
+const ROOMY: f32 = 520.0;
+
 /// Draws the current light with its quadrature wavelengths, and other lights in their
 /// colours. All curves are scaled to mean 1.
 pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illuminant, Color32)]) {
@@ -18,7 +25,9 @@ pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illu
     let marks = &light.quadrature.rule.nodes_nm;
     let chart = Chart { curves: &curves, marks, quantity: "relative power", max: None };
     let nodes: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
-    let size = vec2(ui.available_width(), 120.0);
+    // In a low panel the chart leaves its room to the controls.
+    let high = if ui.clip_rect().height() < ROOMY { LOW } else { HIGH };
+    let size = vec2(ui.available_width(), high);
     chart.show(ui, size).on_hover_text(format!(
         "Power over wavelength, mean 1. Paint is computed at {} nm",
         nodes.join(", ")

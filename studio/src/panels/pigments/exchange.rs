@@ -1,14 +1,18 @@
 //! The window that replaces a pigment in existing paint.
 
-use eframe::egui::{ComboBox, Context, Id, Ui, Window};
+use eframe::egui::{ComboBox, Context, Ui};
 use pigment::PigmentId;
 use render::paint::document::Slots;
 use render::paint::strokes::{Action, LayerRef};
 
 use super::catalogue::Catalogue;
 use super::list::PigmentList;
+use crate::floating;
 use crate::panels::PanelContext;
-use session::PaintingState;
+use session::{LayerState, PaintingState};
+
+/// Width of the contents, in points.
+const WIDTH: f32 = 380.0;
 
 /// Layers in which a pigment is exchanged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,11 +61,12 @@ impl Exchange {
             self.open = false;
         }
         let mut open = self.open;
-        let window = Window::new("Exchange a pigment").id(Id::unique(id)).open(&mut open);
-        let window = window.resizable(false).collapsible(false).default_width(380.0);
-        let chosen = window.show(context, |ui| self.contents(ui, catalogue, cx.painting));
+        let chosen = floating::show(context, "Exchange a pigment", id, &mut open, |ui| {
+            ui.set_width(WIDTH);
+            self.contents(ui, catalogue, cx.painting)
+        });
         self.open = open;
-        if let Some(to) = chosen.and_then(|inner| inner.inner).flatten() {
+        if let Some(to) = chosen.flatten() {
             for layer in layers(cx.painting, self.scope, self.from, to) {
                 let name = |pigment: PigmentId| catalogue.name(pigment).to_owned();
                 cx.act(Action::Swap { layer, from: name(self.from), to: name(to) });
@@ -84,10 +89,11 @@ impl Exchange {
         ui.horizontal(|ui| {
             ui.label("In");
             let tip = "Layers in which the pigment is replaced";
-            let shown = ComboBox::from_id_salt("scope").selected_text(scope_name(self.scope));
+            let shown =
+                ComboBox::from_id_salt("scope").selected_text(scope_name(painting, self.scope));
             let scopes = shown.show_ui(ui, |ui| {
                 for scope in all_scopes(painting) {
-                    ui.selectable_value(&mut self.scope, scope, scope_name(scope))
+                    ui.selectable_value(&mut self.scope, scope, scope_name(painting, scope))
                         .on_hover_text(tip);
                 }
             });
@@ -122,25 +128,36 @@ impl Exchange {
     }
 }
 
-/// Display name of the layers; the lowest dry layer is 1.
-pub(in crate::panels) fn scope_name(scope: ExchangeScope) -> String {
+/// Display name of the layers.
+fn scope_name(painting: &PaintingState, scope: ExchangeScope) -> String {
     match scope {
         ExchangeScope::AllLayers => "all layers".to_owned(),
         ExchangeScope::Layer(LayerRef::Wet) => "the wet layer".to_owned(),
-        ExchangeScope::Layer(LayerRef::Dry(index)) => format!("dry layer {}", index + 1),
+        ExchangeScope::Layer(layer) => {
+            state(painting, layer).map_or_else(|| "no layer".to_owned(), LayerState::label)
+        }
     }
 }
 
 fn all_scopes(painting: &PaintingState) -> Vec<ExchangeScope> {
-    let dry =
-        (0..painting.layers.len()).rev().map(|index| ExchangeScope::Layer(LayerRef::Dry(index)));
+    let dry = painting.layers.iter().rev();
+    let dry = dry.map(|layer| ExchangeScope::Layer(LayerRef::Id(layer.id)));
     [ExchangeScope::AllLayers, ExchangeScope::Layer(LayerRef::Wet)].into_iter().chain(dry).collect()
+}
+
+/// State of a dry layer.
+fn state(painting: &PaintingState, layer: LayerRef) -> Option<&LayerState> {
+    match layer {
+        LayerRef::Wet => None,
+        LayerRef::Dry(index) => painting.layers.get(index),
+        LayerRef::Id(id) => painting.layers.iter().find(|layer| layer.id == id),
+    }
 }
 
 fn slots(painting: &PaintingState, layer: LayerRef) -> Slots {
     match layer {
         LayerRef::Wet => painting.slots,
-        LayerRef::Dry(index) => painting.layers.get(index).map_or([None; 8], |layer| layer.slots),
+        _ => state(painting, layer).map_or([None; 8], |layer| layer.slots),
     }
 }
 
@@ -148,7 +165,7 @@ fn scope_layers(painting: &PaintingState, scope: ExchangeScope) -> Vec<LayerRef>
     match scope {
         ExchangeScope::Layer(layer) => vec![layer],
         ExchangeScope::AllLayers => {
-            let dry = (0..painting.layers.len()).map(LayerRef::Dry);
+            let dry = painting.layers.iter().map(|layer| LayerRef::Id(layer.id));
             dry.chain([LayerRef::Wet]).collect()
         }
     }

@@ -1,10 +1,12 @@
 //! A searchable list of the library's pigments.
 
-use eframe::egui::{Align, Rect, ScrollArea, TextEdit, TextStyle, Ui, pos2, vec2};
+use eframe::egui::{Align, Key, Rect, ScrollArea, TextEdit, TextStyle, Ui, pos2, vec2};
 
 use super::card::card;
 use super::catalogue::Catalogue;
-use crate::panels::controls::{patch, row, text};
+use crate::panels::controls::{mark, patch, row};
+use crate::panels::fitted_text::text;
+use crate::panels::search::{self, Highlight};
 use crate::theme;
 use pigment::PigmentId;
 
@@ -15,11 +17,12 @@ const LIST: f32 = 300.0;
 #[derive(Debug, Clone, Default)]
 pub(in crate::panels) struct PigmentList {
     search: String,
+    highlight: Highlight,
 }
 
 impl PigmentList {
     /// Draws the list. `disabled_reason` gives the reason why a pigment cannot be chosen.
-    /// Returns the index of the pigment that was clicked.
+    /// Returns the pigment that was clicked, or taken with Enter.
     pub(in crate::panels) fn show(
         &mut self,
         ui: &mut Ui,
@@ -27,16 +30,25 @@ impl PigmentList {
         scattering_per_mm: f64,
         disabled_reason: impl Fn(PigmentId) -> Option<String>,
     ) -> Option<PigmentId> {
+        let id = ui.scope_id().with("search of a pigment");
+        self.highlight.read_arrows(ui, ui.memory(|memory| memory.has_focus(id)));
         let field = TextEdit::singleline(&mut self.search)
+            .id(id)
             .hint_text("name or colour index")
             .desired_width(f32::INFINITY);
-        ui.add(field)
-            .accessible_name("Search")
-            .on_hover_text("Lists only pigments whose name or colour index contains this text");
+        let field = ui.add(field).accessible_name("Search").on_hover_text(
+            "Lists only pigments whose name or colour index contains this text. Enter takes the \
+             marked one, arrows move the mark",
+        );
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        let searches = field.has_focus() || entered;
         heads(ui, catalogue);
         let pigments = catalogue.library.ids();
-        let found: Vec<PigmentId> =
+        let mut found: Vec<PigmentId> =
             pigments.filter(|&pigment| self.finds(catalogue, pigment)).collect();
+        search::sort(&mut found, &self.search, |&pigment| catalogue.name(pigment));
+        let marked = self.highlight.among(&self.search, found.len());
+        let moved = std::mem::take(&mut self.highlight.moved);
         if found.is_empty() {
             ui.weak(format!("no pigment of {} matches", catalogue.library.title));
         }
@@ -44,12 +56,16 @@ impl PigmentList {
         let list = ScrollArea::vertical().max_height(LIST).min_scrolled_height(LIST);
         list.show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
-            for pigment in found {
+            for (line, pigment) in found.into_iter().enumerate() {
                 let why = disabled_reason(pigment);
                 ui.add_enabled_ui(why.is_none(), |ui| {
                     let response = row(ui, 24.0, catalogue.name(pigment), false);
                     draw(ui, response.rect, catalogue, pigment, scattering_per_mm);
-                    if response.clicked() {
+                    let marked = searches && line == marked;
+                    if marked {
+                        mark(ui, &response, moved);
+                    }
+                    if response.clicked() || (marked && entered && why.is_none()) {
                         chosen = Some(pigment);
                     }
                     response
@@ -88,7 +104,7 @@ fn heads(ui: &mut Ui, catalogue: &Catalogue) {
     let (rect, _) =
         ui.allocate_exact_size(vec2(ui.available_width(), 16.0), eframe::egui::Sense::hover());
     let [_, name, index, hides] = places(rect);
-    let any_marked = catalogue.library.ids().any(|p| !mark(catalogue, p).is_empty());
+    let any_marked = catalogue.library.ids().any(|p| !remark(catalogue, p).is_empty());
     for (place, align, words) in [
         (name, Align::Min, "pigment"),
         (index, Align::Min, if any_marked { "index" } else { "" }),
@@ -117,14 +133,14 @@ fn draw(ui: &Ui, rect: Rect, catalogue: &Catalogue, pigment: PigmentId, scatteri
     patch(&painter, tint, colors.tint_srgb);
     patch(&painter, full, Some(colors.masstone_srgb));
     text(ui, name, Align::Min, TextStyle::Body, color, catalogue.name(pigment));
-    let marked = mark(catalogue, pigment);
+    let marked = remark(catalogue, pigment);
     text(ui, index, Align::Min, TextStyle::Small, theme::colors(ui.ctx()).faint, marked);
     let words = catalogue.hiding(pigment, scattering_per_mm);
     text(ui, hides, Align::Max, TextStyle::Small, theme::colors(ui.ctx()).faint, &words);
 }
 
 /// The colour index, or `guessed` for a pigment that was not measured.
-fn mark(catalogue: &Catalogue, pigment: PigmentId) -> &str {
+fn remark(catalogue: &Catalogue, pigment: PigmentId) -> &str {
     let known = &catalogue.library[pigment];
     match (&known.color_index, known.guessed) {
         (Some(index), _) => index,

@@ -101,6 +101,12 @@ impl Combing {
         (self.selected, self.path) = (0, Some(path));
     }
 
+    /// Shows guides that are in no file; `path` is suggested for them.
+    pub(super) fn restore(&mut self, combed: Combed, path: PathBuf) {
+        self.open(Combed::default(), path);
+        self.combed.adjust(|now| *now = combed);
+    }
+
     /// Takes note of guides that were saved.
     pub(super) fn saved(&mut self, combed: Combed, path: PathBuf) {
         self.combed.saved(combed);

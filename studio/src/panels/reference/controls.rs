@@ -4,6 +4,7 @@ use eframe::egui::{Button, DragValue, Ui};
 
 use super::super::context::PanelContext;
 use super::mode::ReferenceMode;
+use super::picture::Picture;
 use super::state::Reference;
 use crate::files::FileRequest;
 
@@ -12,7 +13,10 @@ impl Reference {
     pub(super) fn controls(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         ui.horizontal_wrapped(|ui| {
             let open = ui.button("Open\u{2026}").accessible_name("Open picture");
-            if open.on_hover_text("Opens another picture, PNG or JPEG").clicked() {
+            if open
+                .on_hover_text("Opens another picture: PNG, JPEG, OpenEXR or a painting")
+                .clicked()
+            {
                 cx.file(FileRequest::OpenReference(None));
             }
             self.view_controls(ui);
@@ -46,7 +50,23 @@ impl Reference {
                 let radius = ui.add(radius).accessible_name("Radius of the mean");
                 radius.on_hover_text("A click picks the mean within this radius; 0 is one pixel");
             }
+            self.exposure_control(ui);
         });
+        self.over_controls(ui);
+    }
+
+    /// The exposure of a picture whose values are those of a scene.
+    fn exposure_control(&mut self, ui: &mut Ui) {
+        if !self.picture.as_ref().is_some_and(Picture::is_scene_linear) {
+            return;
+        }
+        let drag = DragValue::new(&mut self.exposure).range(-16.0..=16.0).speed(0.05);
+        let drag = drag.max_decimals(2).prefix("exposure ").suffix(" EV");
+        let drag = ui.add(drag).accessible_name("Exposure");
+        let tip = "Doubles the light of the picture with each step; colours are picked with it";
+        if drag.on_hover_text(tip).changed() {
+            self.texture = None;
+        }
     }
 
     fn view_controls(&mut self, ui: &mut Ui) {

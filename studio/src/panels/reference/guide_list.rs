@@ -8,6 +8,7 @@ use super::command::paint_command;
 use super::next_step::next_step;
 use super::state::Reference;
 use crate::files::{DrawingKind, FileRequest};
+use crate::keymap::hint;
 
 impl Reference {
     /// Draws the list of guides with its buttons.
@@ -17,7 +18,7 @@ impl Reference {
         ui.add_space(4.0);
         ui.horizontal_wrapped(|ui| {
             let nothing = (!self.combing.can_undo()).then_some("There is no guide to undo");
-            let tip = "Undoes the last guide (Ctrl+Z here)";
+            let tip = &format!("Undoes the last guide{}", hint(ui.ctx(), "undo"));
             if named_button(ui, "Undo", "Undo guide", tip, nothing) {
                 self.undo();
             }

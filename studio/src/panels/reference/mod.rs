@@ -23,7 +23,11 @@ mod next_step;
 
 mod mode;
 
+mod place;
+
 mod state;
+
+mod over_canvas;
 
 mod controls;
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use eframe::egui::{
-    Color32, CursorIcon, Frame, Key, Panel, PointerButton, Rect, Response, Role, Sense,
-    TextureOptions, Ui, Vec2, WidgetInfo, vec2,
+    Color32, Context, CursorIcon, Frame, Key, Panel, PointerButton, Rect, Response, Role, Sense,
+    TextureId, TextureOptions, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::super::context::PanelContext;
@@ -68,7 +68,10 @@ impl Reference {
         let Some(read) = self.reading.as_ref().and_then(PendingPicture::result) else { return };
         self.reading = None;
         match read {
-            Ok(picture) => self.picture = Some(picture),
+            Ok(picture) => {
+                self.picture = Some(picture);
+                self.restore_drawings();
+            }
             Err(error) => self.error = Some(error),
         }
     }
@@ -87,7 +90,10 @@ impl Reference {
         let mut within = ui.new_child(eframe::egui::UiBuilder::new().max_rect(inner));
         within.vertical_centered(|ui| {
             ui.add_space(inner.height() * 0.4);
-            ui.label(eframe::egui::RichText::new(text).color(Color32::BLACK));
+            let board = Frame::new().fill(theme::BOARD).corner_radius(theme::CORNER_RADIUS);
+            board.inner_margin(6).show(ui, |ui| {
+                ui.label(eframe::egui::RichText::new(text).color(theme::BOARD_TEXT));
+            });
             if self.reading.is_some() {
                 ui.add(eframe::egui::Spinner::new().color(Color32::BLACK));
             }
@@ -133,13 +139,19 @@ impl Reference {
     }
 
     fn draw(&mut self, ui: &Ui, panel: Rect, view: PictureView) {
-        let (Some(size), Some(picture)) = (self.size(), &self.picture) else { return };
-        let texture = self.texture.get_or_insert_with(|| {
-            let image = picture.on_screen(self.grey);
-            ui.ctx().load_texture("reference picture", image, TextureOptions::LINEAR)
-        });
+        let (Some(size), Some(texture)) = (self.size(), self.texture(ui.ctx())) else { return };
         let (rect, uv) = view.rects(panel, size);
-        ui.painter_at(panel).image(texture.id(), rect, uv, Color32::WHITE);
+        ui.painter_at(panel).image(texture, rect, uv, Color32::WHITE);
+    }
+
+    /// The texture of the picture as it is shown.
+    pub(super) fn texture(&mut self, context: &Context) -> Option<TextureId> {
+        let picture = self.picture.as_ref()?;
+        let texture = self.texture.get_or_insert_with(|| {
+            let image = picture.on_screen(self.grey, self.exposure);
+            context.load_texture("reference picture", image, TextureOptions::LINEAR)
+        });
+        Some(texture.id())
     }
 }
 

@@ -26,7 +26,9 @@ impl Reference {
             return;
         };
         let place = view.place(response.rect, pointer);
-        let Some(color) = picture.mean([place.x, place.y], self.radius).filter(|_| first) else {
+        let Some(color) =
+            picture.mean([place.x, place.y], self.radius, self.exposure).filter(|_| first)
+        else {
             return;
         };
         if response.drag_stopped() || response.clicked() {

@@ -3,36 +3,35 @@
 use std::path::Path;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use eframe::egui::{Color32, ColorImage};
-use rayon::prelude::*;
-use render::photograph::{Photograph, Picture as Linear};
-use spectra::color::{Rgb, RgbSpace};
-use spectra::hint::Explain;
+use eframe::egui::ColorImage;
+use render::paint::file::MEMORY_LIMIT;
+use render::photograph::Picture as Linear;
+use spectra::color::RgbSpace;
+
+use crate::files::{ReadPicture, on_screen, read_picture};
 
 /// Maximum of the longer side in pixels; larger pictures are reduced.
 const LONGEST: usize = 2048;
-
-/// Steps of the table from linear light to sRGB.
-const SHADES: usize = 4096;
 
 /// A picture in linear sRGB, reduced if it is large. All places are in pixels of its file.
 #[derive(Debug, Clone)]
 pub(super) struct Picture {
     linear: Linear,
     file_size: [usize; 2],
+    scene_linear: bool,
 }
 
 impl Picture {
-    /// Reads a PNG or JPEG, and reduces it in linear light if it is too large.
+    /// Reads a PNG, JPEG, linear OpenEXR or painting, and reduces it in linear light if it is too
+    /// large.
     fn open(path: &Path) -> Result<Self, String> {
-        let photograph = Photograph::open(path).map_err(|error| match error.hint() {
-            Some(hint) => format!("{error}; {hint}"),
-            None => error.to_string(),
-        })?;
-        let (own_width, own_height) = photograph.size();
-        let (width, height) = reduced((own_width, own_height));
-        let linear = photograph.on_canvas(width, height);
-        Ok(Self { linear, file_size: [own_width, own_height] })
+        let read = read_picture(path, LONGEST, MEMORY_LIMIT);
+        let ReadPicture { linear, file_size, scene_linear } =
+            read.map_err(|problem| match problem.hint {
+                Some(hint) => format!("{}; {hint}", problem.text),
+                None => problem.text,
+            })?;
+        Ok(Self { linear, file_size, scene_linear })
     }
 
     /// Width and height of the file in pixels.
@@ -45,27 +44,30 @@ impl Picture {
         [self.linear.width(), self.linear.height()]
     }
 
-    /// Converts to an sRGB image, in colour or in grey of the same luminance.
-    pub(super) fn on_screen(&self, grey: bool) -> ColorImage {
-        let luminance = RgbSpace::Srgb.xyz_from_linear().0[1].map(|share| share as f32 / 100.0);
-        let shades: Vec<u8> = (0..=SHADES)
-            .map(|step| Rgb([step as f64 / SHADES as f64; 3]).encoded().to_bytes()[0])
-            .collect();
-        let shade = |value: f32| shades[(value.clamp(0.0, 1.0) * SHADES as f32).round() as usize];
-        let pixels = self.linear.values().par_iter().map(|&[red, green, blue]| {
-            if grey {
-                let [r, g, b] = luminance;
-                return Color32::from_gray(shade(r * red + g * green + b * blue));
-            }
-            Color32::from_rgb(shade(red), shade(green), shade(blue))
-        });
-        ColorImage::new(self.size(), pixels.collect())
+    /// Whether the values are those of a scene, so that an exposure decides what is white.
+    pub(super) fn is_scene_linear(&self) -> bool {
+        self.scene_linear
     }
 
-    /// Mean in linear sRGB of the pixels whose centres are within `radius` of a
-    /// position, all in pixels. Always includes the pixel at the position; `None`
+    /// Converts to an sRGB image at an exposure in stops, in colour or in grey of the same
+    /// luminance.
+    pub(super) fn on_screen(&self, grey: bool, exposure: f32) -> ColorImage {
+        let luminance = RgbSpace::Srgb.xyz_from_linear().0[1].map(|share| share as f32 / 100.0);
+        let gain = exposure.exp2();
+        on_screen(&self.linear, |rgb| {
+            let [red, green, blue] = rgb.map(|value| gain * value);
+            if grey {
+                let [r, g, b] = luminance;
+                return [r * red + g * green + b * blue; 3];
+            }
+            [red, green, blue]
+        })
+    }
+
+    /// Mean in linear sRGB, at an exposure in stops, of the pixels whose centres are within
+    /// `radius` of a position, all in pixels. Always includes the pixel at the position; `None`
     /// outside the picture.
-    pub(super) fn mean(&self, [x, y]: [f32; 2], radius: f32) -> Option<[f64; 3]> {
+    pub(super) fn mean(&self, [x, y]: [f32; 2], radius: f32, exposure: f32) -> Option<[f64; 3]> {
         let [width, height] = self.size();
         let reduction = |side: usize, own: usize| side as f32 / own as f32;
         let (x, y) =
@@ -91,15 +93,9 @@ impl Picture {
                 }
             }
         }
-        Some(sum.map(|sum| sum / count))
+        let gain = f64::from(exposure).exp2();
+        Some(sum.map(|sum| gain * sum / count))
     }
-}
-
-/// Size after reduction to the maximum.
-fn reduced((width, height): (usize, usize)) -> (usize, usize) {
-    let scale = (LONGEST as f64 / width.max(height) as f64).min(1.0);
-    let side = |pixels: usize| ((pixels as f64 * scale).round() as usize).max(1);
-    (side(width), side(height))
 }
 
 /// A picture being read on its own thread.
@@ -133,32 +129,31 @@ impl PendingPicture {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eframe::egui::Color32;
+    use spectra::color::Rgb;
 
     fn two_by_two() -> Picture {
         let values = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.2, 0.2, 0.2]];
         let mut linear = Linear::filled(2, 2, [0.0; 3]);
         linear.values_mut().copy_from_slice(&values);
-        Picture { linear, file_size: [2, 2] }
-    }
-
-    #[test]
-    fn large_pictures_are_reduced_and_small_ones_are_not() {
-        assert_eq!(reduced((4000, 3000)), (2048, 1536));
-        assert_eq!(reduced((640, 480)), (640, 480));
-        assert_eq!(reduced((100_000, 3)), (2048, 1));
+        Picture { linear, file_size: [2, 2], scene_linear: true }
     }
 
     #[test]
     fn the_mean_is_computed_in_linear_light() {
         let picture = two_by_two();
-        assert_eq!(picture.mean([0.5, 0.5], 0.0), Some([1.0, 0.0, 0.0]));
-        assert_eq!(picture.mean([0.9, 0.1], 0.0), Some([1.0, 0.0, 0.0]), "anywhere in a pixel");
-        let all = picture.mean([1.0, 1.0], 1.0).unwrap();
+        assert_eq!(picture.mean([0.5, 0.5], 0.0, 0.0), Some([1.0, 0.0, 0.0]));
+        assert_eq!(
+            picture.mean([0.9, 0.1], 0.0, 0.0),
+            Some([1.0, 0.0, 0.0]),
+            "anywhere in a pixel"
+        );
+        let all = picture.mean([1.0, 1.0], 1.0, 0.0).unwrap();
         for value in all {
             assert!((value - 0.3).abs() < 1e-7, "{all:?}");
         }
         for outside in [[-0.1, 0.5], [2.0, 0.5], [0.5, 2.1], [f32::NAN, 0.5]] {
-            assert_eq!(picture.mean(outside, 3.0), None, "{outside:?}");
+            assert_eq!(picture.mean(outside, 3.0, 0.0), None, "{outside:?}");
         }
     }
 
@@ -166,8 +161,8 @@ mod tests {
     fn the_mean_includes_only_pixels_within_the_radius() {
         let mut linear = Linear::filled(7, 7, [0.0; 3]);
         linear.values_mut()[3 * 7 + 5] = [1.0; 3];
-        let picture = Picture { linear, file_size: [7, 7] };
-        let green = |radius: f32| picture.mean([3.5, 3.5], radius).unwrap()[1];
+        let picture = Picture { linear, file_size: [7, 7], scene_linear: false };
+        let green = |radius: f32| picture.mean([3.5, 3.5], radius, 0.0).unwrap()[1];
         assert_eq!(green(1.9), 0.0, "the white pixel is two pixels away");
         // 13 pixel centres lie within a distance of 2 from a pixel centre.
         assert!((green(2.0) - 1.0 / 13.0).abs() < 1e-9, "{}", green(2.0));
@@ -176,19 +171,31 @@ mod tests {
     #[test]
     fn places_of_a_reduced_picture_are_those_of_its_file() {
         let picture = Picture { file_size: [20, 20], ..two_by_two() };
-        assert_eq!(picture.mean([9.9, 5.0], 0.0), Some([1.0, 0.0, 0.0]));
-        assert_eq!(picture.mean([10.1, 5.0], 4.0), Some([0.0, 1.0, 0.0]));
-        assert_eq!(picture.mean([10.0, 20.1], 0.0), None);
+        assert_eq!(picture.mean([9.9, 5.0], 0.0, 0.0), Some([1.0, 0.0, 0.0]));
+        assert_eq!(picture.mean([10.1, 5.0], 4.0, 0.0), Some([0.0, 1.0, 0.0]));
+        assert_eq!(picture.mean([10.0, 20.1], 0.0, 0.0), None);
+    }
+
+    #[test]
+    fn an_exposure_doubles_the_light_with_each_stop() {
+        let picture = two_by_two();
+        assert_eq!(
+            picture.mean([1.5, 1.5], 0.0, 2.0),
+            Some([0.2_f32; 3].map(|v| 4.0 * f64::from(v)))
+        );
+        let shown = picture.on_screen(false, 1.0);
+        let [shade, ..] = Rgb([0.4; 3]).encoded().to_bytes();
+        assert!(shown.pixels[3].r().abs_diff(shade) <= 1, "{:?}", shown.pixels[3]);
     }
 
     #[test]
     fn the_screen_shows_srgb_and_grey_of_the_same_luminance() {
         let picture = two_by_two();
-        let color = picture.on_screen(false);
+        let color = picture.on_screen(false, 0.0);
         assert_eq!(color.pixels[0], Color32::from_rgb(255, 0, 0));
         let [shade, ..] = Rgb([0.2; 3]).encoded().to_bytes();
         assert_eq!(color.pixels[3], Color32::from_gray(shade));
-        let grey = picture.on_screen(true);
+        let grey = picture.on_screen(true, 0.0);
         assert_eq!(grey.pixels[3], Color32::from_gray(shade));
         // Y of the sRGB primaries, IEC 61966-2-1.
         for (pixel, luminance) in grey.pixels.iter().zip([0.2126, 0.7152, 0.0722]) {

@@ -12,6 +12,7 @@ use super::next_step::next_step;
 use super::overlay::screen_color;
 use super::state::Reference;
 use crate::files::{DrawingKind, FileRequest};
+use crate::keymap::hint;
 use crate::theme;
 
 /// Width of the figure and the button at the right of a sample, in points.
@@ -39,8 +40,8 @@ impl Reference {
                 }
             }
             let nothing = (!self.samples.can_undo()).then_some("There is no mark to undo");
-            if named_button(ui, "Undo", "Undo mark", "Undoes the last mark (Ctrl+Z here)", nothing)
-            {
+            let tip = format!("Undoes the last mark{}", hint(ui.ctx(), "undo"));
+            if named_button(ui, "Undo", "Undo mark", &tip, nothing) {
                 self.undo();
             }
             let empty = self.samples.marks().is_empty().then_some("There is no mark to save");
@@ -116,7 +117,8 @@ impl Reference {
 
 /// Draws the colour of a sample as a button. Returns whether it was clicked.
 fn patch(ui: &mut Ui, name: &str, index: usize, selected: bool) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(20.0, 20.0), Sense::click());
+    let (rect, response) =
+        ui.allocate_exact_size(theme::at_least(ui, vec2(20.0, 20.0)), Sense::click());
     let words = format!("Select {name}");
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, &words));
     let width = if selected { 2.0 } else { 0.0 };

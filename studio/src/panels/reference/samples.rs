@@ -114,6 +114,13 @@ impl SampleMarks {
         self.check(size);
     }
 
+    /// Shows marks that are in no file; `path` is suggested for them.
+    pub(super) fn restore(&mut self, marks: Vec<Mark>, path: PathBuf, size: [usize; 2]) {
+        self.open(Vec::new(), path, size);
+        self.marks.adjust(|now| *now = marks);
+        self.check(size);
+    }
+
     /// Takes note of marks that were saved.
     pub(super) fn saved(&mut self, marks: Vec<Mark>, path: PathBuf) {
         self.marks.saved(marks);

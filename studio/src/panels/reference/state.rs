@@ -9,6 +9,7 @@ use super::combing::{Combed, Combing};
 use super::mode::ReferenceMode;
 use super::picture::{PendingPicture, Picture};
 use super::picture_view::PictureView;
+use super::place::OverCanvas;
 use super::pointer_line::PointerLine;
 use super::samples::SampleMarks;
 use crate::files::{Drawing, DrawnFile, Problem, ReferenceChange};
@@ -30,6 +31,8 @@ pub struct Reference {
     pub(super) mode: ReferenceMode,
     pub(super) samples: SampleMarks,
     pub(super) combing: Combing,
+    /// Lines to be shown once the picture is read.
+    pub(super) restoring: Vec<DrawnFile>,
     /// Whether the pointer marks the distance of strokes, not a sample.
     pub(super) spacing: bool,
     /// First of the two places that are clicked for a distance of strokes.
@@ -39,6 +42,10 @@ pub struct Reference {
     pub(super) renaming: Option<(usize, String)>,
     /// Whether the pointer is over the picture.
     pub(super) hovered: bool,
+    /// How the picture lies over the canvas.
+    pub(super) over: OverCanvas,
+    /// Exposure of a picture of a scene, in stops.
+    pub(super) exposure: f32,
 }
 
 impl fmt::Debug for Reference {
@@ -62,17 +69,20 @@ impl Default for Reference {
             mode: ReferenceMode::default(),
             samples: SampleMarks::default(),
             combing: Combing::default(),
+            restoring: Vec::new(),
             spacing: false,
             first_place: None,
             line: PointerLine::default(),
             renaming: None,
             hovered: false,
+            over: OverCanvas::default(),
+            exposure: 0.0,
         }
     }
 }
 
 impl Reference {
-    /// Starts to read a PNG or JPEG on another thread, replacing the current picture and what is
+    /// Starts to read a PNG, JPEG, linear OpenEXR or painting on another thread, replacing the current picture and what is
     /// drawn on it. An error is shown in the panel.
     pub fn open(&mut self, context: &Context, path: &Path) {
         let context = context.clone();
@@ -103,6 +113,10 @@ impl Reference {
     pub fn apply(&mut self, change: ReferenceChange, context: &Context) -> Option<Problem> {
         match change {
             ReferenceChange::Open(path) => self.open(context, &path),
+            ReferenceChange::Restore { picture, drawings } => {
+                self.open(context, &picture);
+                self.restoring = drawings;
+            }
             ReferenceChange::Close => self.close(),
             ReferenceChange::Draw(drawn) => return self.show_drawing(drawn),
             ReferenceChange::Saved(DrawnFile { drawing, path }) => match drawing {
@@ -146,6 +160,31 @@ impl Reference {
                 None
             }
         }
+    }
+
+    /// Shows the lines that waited for the picture, as lines that are in no file.
+    pub(super) fn restore_drawings(&mut self) {
+        let Some(size) = self.picture.as_ref().map(Picture::file_size) else { return };
+        for DrawnFile { drawing, path } in std::mem::take(&mut self.restoring) {
+            match drawing {
+                Drawing::Marks(marks) => self.samples.restore(marks.samples, path, size),
+                Drawing::Guides(guides) => {
+                    let combed = Combed { lines: guides.lines, camera: guides.camera };
+                    self.combing.restore(combed, path);
+                }
+            }
+        }
+    }
+
+    /// File of the picture, and all lines drawn on it, whether they are in a file or not.
+    #[must_use]
+    pub fn pinned(&self) -> Option<(&Path, Vec<DrawnFile>)> {
+        let path = self.path.as_deref()?;
+        let Some(picture) = &self.picture else { return Some((path, self.restoring.clone())) };
+        let marks = (!self.samples.marks().is_empty()).then(|| self.samples.drawn(path));
+        let guides = !self.combing.combed().lines.is_empty();
+        let guides = guides.then(|| self.combing.drawn(path, picture.file_size()));
+        Some((path, marks.into_iter().chain(guides).collect()))
     }
 
     /// The drawings that are in no file.

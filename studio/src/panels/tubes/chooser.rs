@@ -1,14 +1,19 @@
 //! The window that chooses the pigments on the palette.
 
-use eframe::egui::{Align, Context, Sense, TextStyle, Ui, Window, vec2};
+use eframe::egui::{Align, Context, Sense, TextStyle, Ui, vec2};
 use pigment::PigmentId;
 use render::layer::SLOTS;
 use render::paint::strokes::{Action, PaletteSpec};
 
-use crate::panels::controls::{button, button_background, patch, text};
+use crate::floating;
+use crate::panels::controls::{button, button_background, patch};
+use crate::panels::fitted_text::text;
 use crate::panels::pigments::{Catalogue, PigmentList};
 use crate::panels::{FileRequest, PanelContext};
 use crate::theme;
+
+/// Width of the contents, in points.
+const WIDTH: f32 = 400.0;
 
 /// State of the window: selected slot and pigment list.
 #[derive(Debug, Clone, Default)]
@@ -32,9 +37,10 @@ impl Chooser {
         cx: &mut PanelContext<'_>,
     ) {
         let mut open = self.open;
-        let window = Window::new("Choose tubes").open(&mut open);
-        let window = window.resizable(false).collapsible(false).default_width(400.0);
-        window.show(context, |ui| self.contents(ui, catalogue, cx));
+        floating::show(context, "Choose tubes", "choose tubes", &mut open, |ui| {
+            ui.set_width(WIDTH);
+            self.contents(ui, catalogue, cx);
+        });
         self.open = open;
     }
 
@@ -80,7 +86,8 @@ impl Chooser {
     }
 
     fn slot(&mut self, ui: &mut Ui, catalogue: &Catalogue, held: Option<PigmentId>, slot: usize) {
-        let (rect, response) = ui.allocate_exact_size(vec2(42.0, 42.0), Sense::click());
+        let (rect, response) =
+            ui.allocate_exact_size(theme::at_least(ui, vec2(42.0, 42.0)), Sense::click());
         button_background(ui, &response, &format!("slot {}", slot + 1), slot == self.slot);
         let (upper, lower) = rect.shrink(5.0).split_top_bottom_at_fraction(0.6);
         let color = held.map(|pigment| catalogue.colors(pigment).masstone_srgb);

@@ -8,6 +8,6 @@ mod chooser;
 
 mod shelf;
 
-pub use shelf::Tubes;
+pub use shelf::{Tubes, least_width};
 pub use squeeze::{DraggedTube, load, squeeze};
 pub(super) use tube::{TUBE_SIZE, draw as draw_tube};

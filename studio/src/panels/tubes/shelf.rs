@@ -1,7 +1,8 @@
 //! Draws the tube panel: eight tubes and their commands.
 
 use eframe::egui::{
-    Button, DragAndDrop, Id, LayerId, Order, Rect, Response, RichText, Sense, Slider, Ui, vec2,
+    Button, DragAndDrop, Id, LayerId, Order, Rect, Response, RichText, Sense, Slider, Ui, Vec2,
+    vec2,
 };
 use pigment::PigmentId;
 use render::layer::SLOTS;
@@ -12,6 +13,18 @@ use super::tube;
 use crate::panels::controls::{button, button_background, item, slider};
 use crate::panels::pigments::{Catalogue, CatalogueCache, Exchange, ExchangeScope, card};
 use crate::panels::{Mode, PanelContext};
+
+/// Space between tubes, in points.
+const GAP: f32 = 2.0;
+
+/// Largest tube, as a factor of its usual size.
+const LARGEST: f32 = 2.0;
+
+/// Most that a tube is wider than its height asks for, as a factor.
+const WIDER: f32 = 1.4;
+
+/// Height of the name below the tubes, and of the gaps between the controls, in points.
+const CONTROLS: f32 = 44.0;
 
 /// State of the tube panel.
 #[derive(Debug, Clone, Default)]
@@ -28,13 +41,16 @@ impl Tubes {
         let area = ui.available_width() + 2.0;
         let per_row = ((area / (tube::TUBE_SIZE.x + 2.0)) as usize).clamp(1, SLOTS);
         // Rows of equal length: 4 and 4 instead of 5 and 3.
-        let per_row = SLOTS.div_ceil(SLOTS.div_ceil(per_row));
+        let rows = SLOTS.div_ceil(per_row);
+        let per_row = SLOTS.div_ceil(rows);
+        let room = vec2(area, ui.clip_rect().bottom() - ui.cursor().top() - controls_height(ui));
+        let size = tube_size(room, per_row, rows);
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
             for first in (0..SLOTS).step_by(per_row) {
                 ui.horizontal(|ui| {
                     for slot in first..(first + per_row).min(SLOTS) {
-                        self.tube(ui, &catalogue, cx, slot);
+                        self.tube(ui, &catalogue, cx, (slot, size));
                     }
                 });
             }
@@ -51,8 +67,14 @@ impl Tubes {
         self.chooser.open(slot.min(SLOTS - 1));
     }
 
-    fn tube(&mut self, ui: &mut Ui, catalogue: &Catalogue, cx: &mut PanelContext<'_>, slot: usize) {
-        let (rect, response) = ui.allocate_exact_size(tube::TUBE_SIZE, Sense::click_and_drag());
+    fn tube(
+        &mut self,
+        ui: &mut Ui,
+        catalogue: &Catalogue,
+        cx: &mut PanelContext<'_>,
+        (slot, size): (usize, Vec2),
+    ) {
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         let Some(pigment) = cx.painting.slots[slot] else {
             button_background(ui, &response, &format!("empty slot {}", slot + 1), false);
             tube::draw_empty(ui, rect);
@@ -129,6 +151,30 @@ impl Tubes {
     }
 }
 
+/// Least width at which all tubes and their controls are seen in a panel `height` points high.
+#[must_use]
+pub fn least_width(ui: &Ui, height: f32) -> f32 {
+    let row = tube::TUBE_SIZE.y + GAP;
+    let rows = ((height - controls_height(ui)) / row).floor().clamp(1.0, SLOTS as f32);
+    (SLOTS as f32 / rows).ceil() * (tube::TUBE_SIZE.x + GAP)
+}
+
+/// Height of the controls below the tubes, in points.
+fn controls_height(ui: &Ui) -> f32 {
+    2.0 * ui.spacing().interact_size.y + CONTROLS
+}
+
+/// Size of a tube where `rows` of `per_row` tubes have `room` points: as large as they fit,
+/// up to twice their usual size.
+fn tube_size(room: Vec2, per_row: usize, rows: usize) -> Vec2 {
+    let usual = tube::TUBE_SIZE;
+    let wide = (room.x / per_row as f32 - GAP) / usual.x;
+    let high = (room.y / rows as f32 - GAP) / usual.y;
+    // Wider tubes have room for their names, also where they cannot be higher.
+    let high = high.min(wide).clamp(1.0, LARGEST);
+    vec2(usual.x * wide.clamp(1.0, LARGEST.min(WIDER * high)), usual.y * high)
+}
+
 /// Reason why no brush can be loaded, if any.
 fn no_brush(cx: &PanelContext<'_>) -> Option<&'static str> {
     let known = cx.painting.brushes.iter().any(|brush| brush.name == cx.tools.brush);
@@ -157,4 +203,19 @@ fn drag(ui: &Ui, cx: &PanelContext<'_>) {
     let layer = LayerId::new(Order::Tooltip, Id::unique("dragged tube"));
     let everywhere = Rect::EVERYTHING;
     tube::draw_drop(&ui.ctx().layer_painter(layer).with_clip_rect(everywhere), pointer, color);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tubes_grow_with_the_room_up_to_twice_their_size() {
+        let size = |x: f32, y: f32| tube_size(vec2(x, y), 8, 1) / tube::TUBE_SIZE;
+        assert_eq!(size(100.0, 100.0), vec2(1.0, 1.0));
+        assert_eq!(size(4000.0, 4000.0), vec2(2.0, 2.0));
+        let high = size(8.0 * (1.5 * tube::TUBE_SIZE.x + GAP), 4000.0);
+        assert!((high - vec2(1.5, 1.5)).length() < 1e-5, "as wide as there is room: {high}");
+        assert_eq!(size(4000.0, 10.0), vec2(1.4, 1.0), "wider, for the names");
+    }
 }

@@ -5,14 +5,18 @@ use eframe::egui::{
     Ui, pos2, vec2,
 };
 
-use crate::panels::controls::{patch, text};
+use crate::panels::controls::patch;
+use crate::panels::fitted_text::text_from_top;
 use crate::theme;
 
 /// Size of a tube with its name, in points.
-pub(in crate::panels) const TUBE_SIZE: eframe::egui::Vec2 = vec2(61.0, 112.0);
+pub(in crate::panels) const TUBE_SIZE: eframe::egui::Vec2 = vec2(61.0, 118.0);
 
 /// Height of the name below the tube, in points.
-const NAME_HEIGHT: f32 = 28.0;
+const NAME_HEIGHT: f32 = 34.0;
+
+/// Factor of the size from which names have the font of buttons.
+const LARGE: f32 = 1.35;
 
 /// Shading of the metal: position from left (0) to right (1), and grey level.
 const METAL: [(f32, u8); 6] =
@@ -75,7 +79,7 @@ pub(super) fn draw_drop(painter: &Painter, at: Pos2, [red, green, blue]: [u8; 3]
 }
 
 fn body(area: Rect) -> Rect {
-    let width = area.width() * 0.68;
+    let width = (area.width() * 0.68).min(area.height() * 0.42);
     let left = area.center().x - width / 2.0;
     Rect::from_min_max(
         pos2(left, area.top() + 5.0),
@@ -121,15 +125,11 @@ fn shoulder(painter: &Painter, body: Rect, cap: Rect) {
     painter.add(Shape::convex_polygon(points, Color32::from_gray(136), Stroke::NONE));
 }
 
-/// Draws the name in two lines, split at its first space.
+/// Draws the name below the tube, in as many lines as it needs.
 fn names(ui: &Ui, area: Rect, name: &str) {
     let below = Rect::from_min_max(pos2(area.left() + 1.0, area.bottom() - NAME_HEIGHT), area.max);
-    let (upper, lower) = below.split_top_bottom_at_fraction(0.5);
-    let (first, second) = match name.split_once(' ') {
-        Some((first, second)) => (first, second),
-        None => (name, ""),
-    };
-    for (line, words) in [(upper, first), (lower, second)] {
-        text(ui, line, Align::Center, TextStyle::Small, theme::colors(ui.ctx()).text, words);
-    }
+    let large = area.width() > LARGE * TUBE_SIZE.x;
+    let style = if large { TextStyle::Body } else { TextStyle::Small };
+    let color = theme::colors(ui.ctx()).text;
+    text_from_top(ui, below.shrink2(vec2(1.0, 1.0)), Align::Center, style, color, name);
 }

@@ -1,12 +1,16 @@
 //! The window that chooses the pigment of a tube.
 
-use eframe::egui::{Context, Window};
+use eframe::egui::Context;
 use pigment::PigmentId;
 use render::paint::document::Medium;
 use session::volumes::SceneState;
 
+use crate::floating;
 use crate::panels::controls::button;
 use crate::panels::pigments::{CatalogueCache, PigmentList};
+
+/// Width of the contents, in points.
+const WIDTH: f32 = 400.0;
 
 /// State of the window.
 #[derive(Debug, Default)]
@@ -39,9 +43,8 @@ impl TubeChooser {
         let catalogue = self.catalogue.under(&state.library, &state.light);
         let scattering = Medium::of(&state.library).scattering_per_mm;
         let (mut open, mut choice) = (true, None);
-        let window = Window::new("Choose a pigment").open(&mut open);
-        let window = window.resizable(false).collapsible(false).default_width(400.0);
-        window.show(context, |ui| {
+        floating::show(context, "Choose a pigment", "choose a pigment", &mut open, |ui| {
+            ui.set_width(WIDTH);
             ui.label(format!("Tube {}: {name}", tube + 1));
             ui.weak("What was poured from this tube is paint of its new pigment.");
             ui.horizontal(|ui| {

@@ -7,7 +7,9 @@ use session::volumes::VolumeCommand;
 
 use super::context::SceneContext;
 use super::time_bar::seconds_text;
-use crate::panels::controls::{button, named_button, row, text};
+use crate::keymap::hint;
+use crate::panels::controls::{button, named_button, row, row_height};
+use crate::panels::fitted_text::text;
 use crate::theme;
 
 /// Height of a row, in points.
@@ -21,8 +23,9 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let events = Arc::clone(&cx.state.events);
     ui.horizontal(|ui| {
         let reason = events.is_empty().then_some("nothing was done yet");
-        let tip = "Takes back what was done last, and replays the scene without it (Ctrl+Z)";
-        if button(ui, "Undo", tip, reason) {
+        let key = hint(ui.ctx(), "scene.undo");
+        let tip = format!("Takes back what was done last, and replays the scene without it{key}");
+        if button(ui, "Undo", &tip, reason) {
             cx.command(VolumeCommand::Undo);
         }
         ui.weak(match events.len() {
@@ -33,20 +36,24 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     });
     ui.spacing_mut().item_spacing.y = 1.0;
     let list = ScrollArea::vertical().auto_shrink([false, true]);
-    list.show_rows(ui, ROW, events.len(), |ui, rows| {
+    let high = row_height(ui, ROW);
+    let remove = REMOVE.max(theme::target(ui));
+    list.show_rows(ui, high, events.len(), |ui, rows| {
         for number in rows {
             let event = &events[number];
             let began = seconds_text(event.from);
             ui.horizontal(|ui| {
                 let runs = event.from <= cx.state.time.step && cx.state.time.step < event.to;
-                let width = ui.available_width() - REMOVE;
-                let line = ui.allocate_ui(vec2(width, ROW), |ui| {
-                    row(ui, ROW, &format!("{} {}", number + 1, event.label), runs)
+                let width = ui.available_width() - remove;
+                let line = ui.allocate_ui(vec2(width, high), |ui| {
+                    row(ui, high, &format!("{} {}", number + 1, event.label), runs)
                 });
                 let response = line.inner;
                 let inner = response.rect.shrink2(vec2(6.0, 0.0));
                 let (time, label) = inner.split_left_right_at_x(inner.left() + 58.0);
-                text(ui, time, Align::Min, TextStyle::Small, theme::colors(ui.ctx()).faint, &began);
+                let colors = theme::colors(ui.ctx());
+                let faint = if runs { colors.text } else { colors.faint };
+                text(ui, time, Align::Min, TextStyle::Small, faint, &began);
                 text(
                     ui,
                     label,

@@ -4,6 +4,7 @@ use eframe::egui::{Button, Ui, vec2};
 
 use super::context::{SceneContext, SceneFileRequest};
 use crate::files::SceneExport;
+use crate::panels::controls::row_height;
 
 /// A button, its tip, and the file that it makes.
 type Line = (&'static str, &'static str, SceneExport);
@@ -32,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
             SceneExport::Animation if cx.state.time.end == 0 => Some("no time has passed yet"),
             _ => None,
         };
-        let size = vec2(ui.available_width(), 26.0);
+        let size = vec2(ui.available_width(), row_height(ui, 26.0));
         let button =
             ui.add_enabled_ui(reason.is_none(), |ui| ui.add_sized(size, Button::new(name)));
         let button = button.inner.on_hover_text(tip);

@@ -4,6 +4,8 @@ use eframe::egui::{Button, CornerRadius, RichText, ScrollArea, Ui, vec2};
 
 use super::context::{SceneContext, SceneTab};
 use super::{events, export, here, light, tool, tubes, view};
+use crate::panels::controls::row_height;
+use crate::panels::section::section;
 use crate::theme;
 
 impl SceneTab {
@@ -24,9 +26,8 @@ impl SceneTab {
 
 /// Draws the side panel.
 pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
-    tubes::show(ui, cx);
-    ui.separator();
-    tool::show(ui, cx);
+    section(ui, "Tubes", |ui| tubes::show(ui, cx));
+    section(ui, "Tool in hand", |ui| tool::show(ui, cx));
     ui.add_space(6.0);
     tabs(ui, &mut cx.tools.tab);
     ui.add_space(4.0);
@@ -62,7 +63,11 @@ fn tabs(ui: &mut Ui, chosen: &mut SceneTab) {
                     se: 0,
                     ..CornerRadius::same(theme::CORNER_RADIUS)
                 });
-            if ui.add_sized(vec2(width, 24.0), button).on_hover_text(description).clicked() {
+            if ui
+                .add_sized(vec2(width, row_height(ui, 24.0)), button)
+                .on_hover_text(description)
+                .clicked()
+            {
                 *chosen = tab;
             }
         }

@@ -7,9 +7,10 @@ use eframe::egui::{
 use session::volumes::{STEPS_A_SECOND, SceneState, SceneTool, VolumeCommand};
 
 use super::context::SceneContext;
+use crate::panels::controls::row_height;
 use crate::theme;
 
-/// Height of the bar, in points.
+/// Height of the bar, in points; enough for buttons that are touched.
 pub const HEIGHT: f32 = 46.0;
 
 /// Side of its buttons, in points.
@@ -55,7 +56,7 @@ pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
             cx.command(VolumeCommand::StepOnce);
         }
         ui.add_space(10.0);
-        let size = vec2((ui.available_width() - TEXT).max(60.0), BUTTON);
+        let size = vec2((ui.available_width() - TEXT).max(60.0), row_height(ui, BUTTON));
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         track(ui, rect, response, cx);
         let words = format!("{} of {}", seconds_text(time.step), seconds_text(time.end));
@@ -67,7 +68,8 @@ pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
 
 /// Draws a button with a sign. Returns whether it was clicked.
 fn sign_button(ui: &mut Ui, sign: Sign, name: &str, tip: &str) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(BUTTON, BUTTON), Sense::click());
+    let (rect, response) =
+        ui.allocate_exact_size(theme::at_least(ui, vec2(BUTTON, BUTTON)), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
     let visuals = ui.style().interact(&response);
     let painter = ui.painter();

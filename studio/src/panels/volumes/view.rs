@@ -4,6 +4,7 @@ use eframe::egui::{Button, Ui, vec2};
 use session::volumes::{Inside, Show};
 
 use super::context::SceneContext;
+use crate::panels::controls::row_height;
 
 /// Choices in a row.
 const ROW: usize = 3;
@@ -47,7 +48,8 @@ fn choose<T: Copy + PartialEq>(
         let width = (ui.available_width() - (ROW - 1) as f32 * gap) / ROW as f32;
         for (one, name, tip) in choices {
             let button = Button::new(name).selected(one == chosen);
-            if ui.add_sized(vec2(width, 24.0), button).on_hover_text(tip).clicked() {
+            if ui.add_sized(vec2(width, row_height(ui, 24.0)), button).on_hover_text(tip).clicked()
+            {
                 clicked = Some(one);
             }
         }

@@ -6,13 +6,17 @@ use std::time::{Duration, Instant};
 
 use egui_kittest::{Harness, kittest::Queryable};
 use pigment::library::PigmentLibrary;
+use render::layer::Layer;
 use render::light::Light;
 use render::paint::document::Document;
 use render::paint::engine::PaintEngine;
 use render::paint::painting::Painting;
 use render::paint::pose::Sample;
-use render::paint::strokes::StrokeScript;
-use session::{Command, Event, Origin, PaintingState, Snapshot, blank_canvas};
+use render::paint::session::RecordingTail;
+use render::paint::strokes::{BrushSpec, KeptBrush, StrokeScript, SurfaceId};
+use session::{
+    Command, Event, HistoryShots, KeptPainting, Origin, PaintingState, Snapshot, blank_canvas,
+};
 use studio::files::{FileRequest, Files, Home, Preferences};
 use studio::panels::revisions;
 use studio::panels::{PanelContext, Request, Tools};
@@ -60,6 +64,20 @@ pub(super) fn opened(document: Document) -> Painting {
     Painting::open(document, engine, 1 << 24).unwrap()
 }
 
+/// A brush with a cell of wet paint and a clean one.
+fn brushes(canvas: &Document) -> Vec<KeptBrush> {
+    let mut paint = Layer::empty(7, 5);
+    let used = canvas.slots.iter().position(Option::is_some).unwrap();
+    paint.pigments[(3, 2)][used] = 1234;
+    let brush = |name: &str, paint| KeptBrush {
+        name: name.to_owned(),
+        spec: BrushSpec { shape: render::paint::brush::HeadShape::Round, size_mm: 2.0 },
+        at: SurfaceId::Palette,
+        paint,
+    };
+    vec![brush("big", Some(paint)), brush("clean", None)]
+}
+
 /// State that a worker would report for `document`.
 fn painting(document: &Document, revision: u64) -> Arc<PaintingState> {
     let lighting = document.lighting.clone();
@@ -82,8 +100,10 @@ fn painting(document: &Document, revision: u64) -> Arc<PaintingState> {
         ground_reflectance: Arc::new(document.ground.reflectance.clone()),
         history: Vec::new(),
         history_done: 0,
+        history_shots: HistoryShots::default(),
         undo_bytes: (0, 0),
         brushes: Vec::new(),
+        mask: None,
         backend: "none".to_owned(),
         revision,
         stroke_open: false,
@@ -98,11 +118,14 @@ pub(super) struct Bench {
     tools: Tools,
     pub(super) canvas: Arc<Document>,
     pub(super) palette: Arc<Document>,
+    pub(super) brushes: Arc<Vec<KeptBrush>>,
     pub(super) painting: Arc<PaintingState>,
     events: Vec<Event>,
     requests: Vec<FileRequest>,
     /// Start of the recording, if it is not a blank canvas.
     pub(super) recorded: Option<StrokeScript>,
+    /// Whether answers with a snapshot wait until they are released.
+    pub(super) holds_snapshots: bool,
     /// Commands received, except requests for documents.
     pub(super) commands: Vec<Command>,
 }
@@ -116,7 +139,9 @@ impl Bench {
         let files = self.files.get_or_insert_with(|| {
             Files::new(ui.ctx(), self.home.clone(), self.preferences.clone())
         });
-        for event in self.events.drain(..) {
+        let holds = self.holds_snapshots;
+        let held = |event: &Event| holds && matches!(event, Event::Snapshot(_));
+        for event in self.events.extract_if(.., |event| !held(event)) {
             files.handle_event(&event);
         }
         for request in self.requests.drain(..) {
@@ -147,8 +172,21 @@ impl Bench {
                     number: *number,
                     canvas: self.canvas.clone(),
                     palette: self.palette.clone(),
+                    brushes: self.brushes.clone(),
                     revision: self.painting.revision,
                 }));
+            }
+            Command::Keep { number, recorded } => {
+                let mut header = self.script();
+                let actions = header.actions.split_off(*recorded);
+                header.actions.clear();
+                let (canvas, palette) = (self.canvas.clone(), self.palette.clone());
+                let (number, revision) = (*number, self.painting.revision);
+                let brushes = self.brushes.clone();
+                let snapshot = Snapshot { number, canvas, palette, brushes, revision };
+                let tail = RecordingTail { header, from: *recorded, actions, open: None };
+                let kept = KeptPainting { snapshot, recording: Some(tail), brushes: Vec::new() };
+                return self.events.push(Event::Kept(Arc::new(kept)));
             }
             Command::Recording(number) => {
                 return self
@@ -158,7 +196,12 @@ impl Bench {
             Command::Open(Origin::Painting(document)) => {
                 self.canvas = Arc::new((**document).clone());
             }
-            Command::Open(Origin::Recovered { canvas, palette }) => {
+            Command::Open(Origin::WithTable { canvas, table }) => {
+                self.canvas = Arc::new((**canvas).clone());
+                self.palette = Arc::new(table.palette.clone());
+                self.brushes = Arc::new(table.brushes.clone());
+            }
+            Command::Open(Origin::Recovered { canvas, palette, .. }) => {
                 self.canvas = Arc::new((**canvas).clone());
                 self.palette = Arc::new((**palette).clone());
             }
@@ -203,11 +246,13 @@ pub(super) fn window(home: &Path, document: Document) -> Window {
         preferences,
         tools: Tools::default(),
         palette: canvas.clone(),
+        brushes: Arc::new(brushes(&canvas)),
         canvas,
         events: vec![Event::Opened(painting.clone())],
         painting,
         requests: Vec::new(),
         recorded: None,
+        holds_snapshots: false,
         commands: Vec::new(),
     };
     let builder = Harness::builder().with_size([1000.0, 760.0]).wgpu();

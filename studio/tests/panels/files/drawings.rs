@@ -9,6 +9,7 @@ use render::artmap::passages::{MarkedArea, Marks};
 use render::paint::strokes::{Action, Squeeze, SurfaceId};
 use render::painterly::guides::Guides;
 use session::Command;
+use studio::panels::Mode;
 
 use crate::harness::Window;
 
@@ -201,4 +202,28 @@ fn marks_are_opened_from_their_file() {
     until(&mut window, "the sample", |window| shows(window, "Delete bark"));
     assert!(shows(&mut window, "12.0 px"), "its spacing");
     assert!(closes(&mut window), "it is in a file");
+}
+
+#[test]
+fn a_recovered_desk_has_its_view_tool_brush_and_lines() {
+    let (mut window, _path, _folder) = window("desk");
+    window.click("Mark samples");
+    draw(&mut window, &[[60.0, 80.0], [260.0, 120.0]]);
+    let studio = window.studio_mut();
+    studio.tools.brush = "knife".to_owned();
+    studio.tools.mode = Mode::Rotate;
+    studio.canvas.view.rotate(0.5);
+    studio.canvas.view.fitted = false;
+    let desk = studio.desk();
+    assert_eq!(desk.reference.as_ref().unwrap().drawn().len(), 1);
+    drop(window);
+
+    let mut other = Window::open("desk again");
+    assert!(other.studio().desk() != desk);
+    let context = other.harness().ctx.clone();
+    other.studio_mut().set_up(&desk, &context);
+    until(&mut other, "the lines", |window| {
+        window.studio().panels.reference.unsaved_drawings().len() == 1
+    });
+    assert_eq!(other.studio().desk(), desk);
 }

@@ -63,7 +63,13 @@ fn exports_equal_those_of_the_engine() {
     for (kind, name, wanted) in [
         ("Picture, PNG of 8 bits", "a.png", picture_of(PictureFormat::Png8)),
         ("Picture, PNG of 16 bits", "b.png", picture_of(PictureFormat::Png16)),
+        ("Picture, TIFF of 16 bits", "b.tif", picture_of(PictureFormat::Tiff16)),
         ("Picture, linear OpenEXR", "c.exr", picture_of(PictureFormat::LinearExr)),
+        (
+            "Layers, OpenRaster",
+            "c.ora",
+            export::layers_file(&document, &light, |_| true).unwrap().unwrap().bytes,
+        ),
         (
             "Spectra, OpenEXR of 8 wavelengths",
             "d.spectral.exr",

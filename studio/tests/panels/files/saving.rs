@@ -1,8 +1,9 @@
 //! Saving, opening, recovery and closing.
 
 use eframe::egui::{Key, ViewportCommand, ViewportEvent, ViewportId};
+use render::paint::strokes::Action;
 use session::{Command, Origin};
-use studio::files::FileRequest;
+use studio::files::{Desk, DeskReference, FileRequest};
 
 use super::bench::{
     Window, ask, change, click, document, folder, painted, picture, shows, type_name, until, window,
@@ -36,10 +37,32 @@ fn a_reopened_painting_equals_the_saved_one() {
 
     ask(&mut window, FileRequest::Open(Some(path.clone())));
     until(&mut window, "the painting", |window| !window.state().commands.is_empty());
+    let [Command::Open(Origin::WithTable { canvas, table })] = &window.state().commands[..] else {
+        panic!("{:?}", window.state().commands)
+    };
+    assert_eq!(**canvas, *changed);
+    assert_eq!(table.palette, *window.state().palette, "the palette as it was left");
+    assert_eq!(table.brushes, *window.state().brushes, "the brushes as well");
+    assert!(table.brushes[0].paint.is_some(), "a brush with paint");
+}
+
+#[test]
+fn a_painting_whose_palette_is_damaged_opens_and_says_so() {
+    let (folder, path) = folder();
+    let mut window = window(folder.path(), painted("A"));
+    let (palette, brushes) = (window.state().palette.clone(), window.state().brushes.clone());
+    let canvas = painted("B");
+    let mut bytes = render::paint::file::write_with_table(&canvas, &palette, &brushes).unwrap();
+    let inner = bytes.windows(13).position(|part| part == b"impasto-table").unwrap() + 3000;
+    bytes[inner..inner + 1000].fill(0x41);
+    std::fs::write(&path, bytes).unwrap();
+    ask(&mut window, FileRequest::Open(Some(path)));
+    until(&mut window, "the painting", |window| !window.state().commands.is_empty());
     let [Command::Open(Origin::Painting(read))] = &window.state().commands[..] else {
         panic!("{:?}", window.state().commands)
     };
-    assert_eq!(**read, *changed);
+    assert_eq!(**read, canvas);
+    assert!(shows(&window, "palette"), "the problem is told");
 }
 
 #[test]
@@ -98,8 +121,10 @@ fn a_file_is_overwritten_only_after_confirmation() {
 fn a_session_left_by_a_crash_is_offered_and_recovered() {
     let (folder, _) = folder();
     let mut first = window(folder.path(), painted("A study"));
+    let mut script = first.state().script();
+    script.actions.push(Action::Dry { fraction: 0.5 });
+    first.state_mut().recorded = Some(script);
     change(&mut first);
-    let kept = first.state().canvas.clone();
     let sessions = folder.path().join("own").join("sessions");
     let session = |_: &mut Window| {
         let mut sessions = std::fs::read_dir(&sessions).unwrap();
@@ -108,6 +133,23 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
         inside.any(|entry| entry.file_name().to_string_lossy().starts_with("generation"))
     };
     until(&mut first, "an autosave", session);
+    let picture_file = folder.path().join("orchard.png");
+    image::RgbImage::new(4, 4).save(&picture_file).unwrap();
+    let desk = Desk {
+        brush: Some("flat".to_owned()),
+        tool: Some("pan".to_owned()),
+        reference: Some(DeskReference::new(&picture_file, &[])),
+        ..Desk::default()
+    };
+    first.state_mut().files().note_desk(desk.clone());
+    change(&mut first);
+    let kept = first.state().canvas.clone();
+    let desks = |_: &mut Window| {
+        let paths = walk(&sessions).into_iter().filter(|path| path.ends_with("session.json"));
+        let texts = paths.filter_map(|path| std::fs::read_to_string(path).ok());
+        texts.into_iter().any(|text| text.contains("orchard.png"))
+    };
+    until(&mut first, "an autosave of the desk", desks);
     // Simulate a crash: the lock is released, the folder stays.
     drop(first);
 
@@ -118,6 +160,18 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     click(&mut second, "Recover");
     until(&mut second, "the painting", |window| !window.state().commands.is_empty());
     assert_eq!(*second.state().canvas, *kept);
+    let [Command::Open(Origin::Recovered { kept: Some(session), .. })] =
+        &second.state().commands[..]
+    else {
+        panic!("{:?}", second.state().commands)
+    };
+    let recording = session.recording.as_ref().unwrap();
+    assert_eq!(recording.actions, [Action::Dry { fraction: 0.5 }], "the recording");
+    let mut found = second.state_mut().files().take_desk().unwrap();
+    let digest = found.reference.as_mut().and_then(|reference| reference.sha256.take());
+    assert_eq!(digest.map(|digest| digest.len()), Some(64));
+    assert_eq!(found, desk);
+    assert!(second.state_mut().files().take_desk().is_none(), "once");
     assert!(second.state_mut().files().has_unsaved_changes(), "the recovered painting is unsaved");
     let sessions = |_: &mut Window| std::fs::read_dir(&sessions).unwrap().count() == 1;
     until(&mut second, "its own autosave", sessions);
@@ -129,6 +183,12 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     third.state_mut().files().finish();
     let sessions = folder.path().join("own").join("sessions");
     assert_eq!(std::fs::read_dir(sessions).unwrap().count(), 0, "a regular exit leaves nothing");
+}
+
+/// All files below a folder.
+fn walk(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
+    let paths = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path());
+    paths.flat_map(|path| if path.is_dir() { walk(&path) } else { vec![path] }).collect()
 }
 
 /// Requests closing the window. Returns whether it closes.
@@ -160,6 +220,68 @@ fn a_window_with_changes_asks_before_it_closes() {
     until(&mut window, "the file", |_| path.is_file());
     until(&mut window, "the end", |window| !window.state_mut().files().has_unsaved_changes());
     assert!(closes(&mut window), "it is saved");
+}
+
+#[test]
+fn a_window_that_is_closed_while_it_saves_closes_when_it_has_saved() {
+    let (folder, path) = folder();
+    let mut window = window(folder.path(), painted("A study"));
+    super::bench::save_as(&mut window, &path);
+    change(&mut window);
+    window.state_mut().holds_snapshots = true;
+    ask(&mut window, FileRequest::Save);
+    assert!(!closes(&mut window), "it is not saved yet");
+    assert!(!window.state_mut().files().has_dialog(), "nothing has to be asked");
+    let told = window.state_mut().files().take_status().unwrap();
+    assert!(told.text.contains("being saved") && told.text.contains("closes"), "{told:?}");
+    window.state_mut().holds_snapshots = false;
+    let mut closed = false;
+    until(&mut window, "the end", |window| {
+        let commands = &window.output().viewport_output[&ViewportId::ROOT].commands;
+        closed |= commands.iter().any(|command| matches!(command, ViewportCommand::Close));
+        closed
+    });
+    assert_eq!(document(&path), *window.state().canvas, "it was saved before");
+    assert!(closes(&mut window), "the window closes");
+}
+
+#[test]
+fn a_save_that_the_worker_never_answers_does_not_keep_the_window_open() {
+    let (folder, path) = folder();
+    let mut window = window(folder.path(), painted("A study"));
+    super::bench::save_as(&mut window, &path);
+    change(&mut window);
+    window.state_mut().holds_snapshots = true;
+    ask(&mut window, FileRequest::Save);
+    assert!(!closes(&mut window) && !shows(&window, "Save the painting?"), "it waits");
+    assert!(!closes(&mut window), "it is not saved");
+    click(&mut window, "Discard");
+    assert!(closes(&mut window), "the painter gave it up");
+}
+
+#[test]
+fn a_lost_session_that_cannot_be_read_is_named_by_its_title() {
+    let (folder, _) = folder();
+    let mut first = window(folder.path(), painted("A study"));
+    change(&mut first);
+    let sessions = folder.path().join("own").join("sessions");
+    let generation = || {
+        let session = std::fs::read_dir(&sessions).ok()?.next()?.ok()?.path();
+        let mut inside =
+            std::fs::read_dir(session).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
+        inside.find(|path| path.to_string_lossy().contains("generation"))
+    };
+    until(&mut first, "an autosave", |_| generation().is_some());
+    drop(first);
+    std::fs::write(generation().unwrap().join("canvas.exr"), b"\x76\x2f\x31\x01cut off").unwrap();
+
+    let mut second = window(folder.path(), painted("Another"));
+    click(&mut second, "Recover");
+    until(&mut second, "the problem", |window| shows(window, "OK"));
+    assert!(shows(&second, "autosave of A study"), "it has the painting's name");
+    for raw in ["generation-", "canvas.exr", "sessions"] {
+        assert!(!shows(&second, raw), "{raw} is shown");
+    }
 }
 
 #[test]

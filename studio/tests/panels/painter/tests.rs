@@ -87,7 +87,7 @@ fn dried_layers_are_dimmed_merged_and_undone() {
 
     // A drag is one action with the value at its end.
     let before = painting.history.len();
-    let rail = painter.harness.get_by_role_and_label(Role::Slider, "opacity of dry layer 1");
+    let rail = painter.harness.get_by_role_and_label(Role::Slider, "opacity of Layer 1");
     let start = rail.rect().left_center() + vec2(30.0, 0.0);
     painter.harness.hover_at(start);
     painter.harness.drag_at(start);
@@ -103,11 +103,11 @@ fn dried_layers_are_dimmed_merged_and_undone() {
     let opacity = dimmed.layers[0].opacity;
     assert!(opacity != 1.0 && opacity > 0.0, "{opacity}");
 
-    painter.click("visibility of dry layer 1");
-    painter.wait_until("hidden", |painting| painting.layers[0].opacity == 0.0);
-    painter.click("visibility of dry layer 1");
-    let back = painter.wait_until("shown", |painting| painting.layers[0].opacity > 0.0);
-    assert_eq!(back.layers[0].opacity, opacity);
+    painter.click("visibility of Layer 1");
+    let hidden = painter.wait_until("hidden", |painting| !painting.layers[0].visible);
+    assert_eq!(hidden.layers[0].opacity, opacity, "hiding leaves the opacity");
+    painter.click("visibility of Layer 1");
+    painter.wait_until("shown", |painting| painting.layers[0].visible);
 
     for _ in 0..3 {
         painter.click("Undo");
@@ -115,7 +115,8 @@ fn dried_layers_are_dimmed_merged_and_undone() {
     painter.wait_until("as before the drag", |painting| {
         painting.history_done == before && painting.layers[0].opacity == 1.0
     });
-    painter.click("merge dry layer 2 down");
+    painter.click("menu of Layer 2");
+    painter.click("Merge down");
     let both = painting.layers[0].mean_mm + painting.layers[1].mean_mm;
     let is_merged = |painting: &PaintingState| {
         painting.layers.len() == 1 && (painting.layers[0].mean_mm / both - 1.0).abs() < 0.05

@@ -100,7 +100,7 @@ fn wrong_options_are_refused_before_anything_is_written() {
             &[&sphere[..], &["--animation", &gif, "--loop", "4"]].concat(),
             &["do not flow", "flow.periods=1"],
         ),
-        (2, &[&sphere[..], &["--picture", "p.jpg"]].concat(), &["ends in .png or .exr"]),
+        (2, &[&sphere[..], &["--picture", "p.jpg"]].concat(), &["ends in .png or .tif"]),
     ] {
         let run = painterly(arguments);
         assert_eq!(run.status, status, "{arguments:?}: {}", run.err);

@@ -100,6 +100,15 @@ impl Session {
         assert!(events > 0, "{} has done something", grip.tool.name());
     }
 
+    /// Stops time and goes to the end of what was recorded, where the verb ends. Returns its step.
+    fn seek_end(&mut self) -> u64 {
+        self.ask(VolumeCommand::Play(false));
+        self.wait(|session| !session.state().time.playing);
+        let end = self.state().time.end;
+        self.seek(end);
+        end
+    }
+
     /// Stops time at a step.
     fn seek(&mut self, step: u64) {
         self.ask(VolumeCommand::Seek(step));
@@ -164,9 +173,7 @@ fn a_recording_of_the_studio_replayed_by_the_verb_has_the_same_bytes() {
     let light = SceneLight { azimuth_deg: 123.456_789_1, elevation_deg: 34.567_891 };
     let look = Look { light, ..session.state().look };
     session.ask(VolumeCommand::Look(look));
-    let end = session.state().time.end;
-    session.seek(end);
-    let end = session.state().time.end;
+    let end = session.seek_end();
     session.save(&recording);
     let shown = session.exported(PictureFormat::Png8);
     assert!(shown == replayed(&recording, &picture, &[]), "at the end");
@@ -214,8 +221,7 @@ fn a_recording_on_a_photograph_is_replayed_from_its_own_camera() {
     session.orbit(9.87);
     let pour = Grip { tube: 2, rate_mm3_s: 222.0, ..Grip::default() };
     session.gesture(pour, [0.4, 0.5], [0.6, 0.55]);
-    let end = session.state().time.end;
-    session.seek(end);
+    session.seek_end();
     session.save(&recording);
     let shown = session.exported(PictureFormat::LinearExr);
     assert!(shown == replayed(&recording, &picture, &[]), "the same bytes");

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use render::field::Field;
 use render::layer::{Cell, Layer, SLOTS};
 use render::optics::Gloss;
-use render::paint::document::{Document, DryLayer, Lighting, Medium, Slots};
+use render::paint::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
 use render::paint::ground::Ground;
 pub(crate) use suite::oils::library;
 
@@ -52,7 +52,11 @@ pub(crate) fn painting(
     let heights = (0..width * height).map(|_| rng.random_range(-rise..=rise)).collect();
     let mut layers: Vec<DryLayer> = palettes
         .iter()
-        .map(|slots| DryLayer {
+        .enumerate()
+        .map(|(index, slots)| DryLayer {
+            id: LayerId(if index % 2 == 0 { 40 - index as u32 } else { index as u32 }),
+            name: ["", "r\u{f6}tel, first coat", "sky"][index % 3].to_owned(),
+            visible: index % 4 != 2,
             slots: *slots,
             opacity: rng.random_range(0.0..2.0),
             paint: paint(&mut rng, (width, height), slots, highest),
@@ -71,6 +75,7 @@ pub(crate) fn painting(
         library,
         medium: Medium { scattering_per_mm: rng.random_range(1.0..100.0), ..Medium::default() },
         dry: layers,
+        next_layer: if dry == 0 { LayerId::FIRST } else { LayerId(41 + dry as u32) },
         slots: wet.slots,
         wet: wet.paint,
         lighting: Lighting { azimuth_deg: rng.random_range(0.0..360.0), ..Lighting::default() },

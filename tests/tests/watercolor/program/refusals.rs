@@ -249,7 +249,7 @@ fn files_that_cannot_be_written() {
     refused(
         &watercolor(&photo, &["--picture", &jpg]),
         2,
-        "expected a file name that ends in .png or .exr",
+        "expected a file name that ends in .png or .tif or .tiff or .exr",
         "try ",
     );
     refused(

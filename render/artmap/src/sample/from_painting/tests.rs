@@ -1,5 +1,4 @@
 use paint::canvas::Canvas;
-use paint::document::DryLayer;
 use paint::ground::GroundKind;
 use paint::session::PaintingSession;
 use paint::{BrushSpec, HeadShape, Sample};
@@ -80,7 +79,7 @@ fn crowded(amounts: &[u32]) -> Document {
         paint.pigments[(index, 3)][0] = amount;
         let mut slots = Slots::default();
         slots[0] = Some(PigmentId(if index < 1 { 0 } else { index + 11 }));
-        document.dry.push(DryLayer { slots, opacity: 1.0, paint });
+        document.push_dry(slots, paint);
     }
     document
 }

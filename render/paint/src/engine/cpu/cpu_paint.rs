@@ -1,6 +1,7 @@
 //! The state of a painting in the machine's memory, and what changes it.
 
 use super::bed::Bed;
+use super::below::Below;
 use super::columns::Columns;
 use super::head_paint::HeadPaint;
 use super::render::{PaintLayers, RenderedView};
@@ -10,6 +11,7 @@ use super::sub_steps::SubStepRunner;
 use crate::contact::Contact;
 use crate::engine::ids::{BrushId, UndoSlot, View};
 use crate::layer::Layer;
+use crate::mask::Mask;
 use crate::motion::MotionConstants;
 use crate::optics::Scene;
 use graphics::field::Field;
@@ -26,6 +28,8 @@ pub struct CpuPaint {
     pub(super) wet: Columns,
     /// Surface before the stroke.
     pub(super) bed: Bed,
+    /// Covered cells, if any are.
+    pub(super) mask: Option<Mask>,
     pub(super) brushes: Vec<HeadPaint>,
     /// Dry layers, lowest first.
     pub(super) dry: Vec<SparseLayer>,
@@ -41,6 +45,7 @@ impl CpuPaint {
         Self {
             wet: Columns::new(Layer::empty(floor.width(), floor.height())),
             bed: Bed::unknown(floor.bounds()),
+            mask: None,
             ground: floor.clone(),
             floor,
             brushes: Vec::new(),
@@ -69,7 +74,12 @@ impl CpuPaint {
         contacts: &[Contact],
     ) {
         let brush = &mut self.brushes[brush.0];
-        self.runner.apply(motion, contacts, (&self.floor, &self.bed), &mut self.wet, brush);
+        let below = Below { floor: &self.floor, bed: &self.bed, mask: self.mask.as_ref() };
+        self.runner.apply(motion, contacts, below, &mut self.wet, brush);
+    }
+
+    pub(crate) fn set_mask(&mut self, mask: Option<&Mask>) {
+        self.mask = mask.cloned();
     }
 
     pub(crate) fn add_brush(&mut self, width: usize, height: usize) -> BrushId {
@@ -121,7 +131,7 @@ impl CpuPaint {
             }
             layer.set_tile(tile, part);
         }
-        self.push_sparse(layer);
+        self.insert_sparse(self.dry.len(), layer);
     }
 
     pub(crate) fn dry_layer_count(&self) -> usize {
@@ -134,15 +144,20 @@ impl CpuPaint {
         self.dry[index].part(rect)
     }
 
-    pub(crate) fn push_dry_layer(&mut self, layer: &Layer) {
+    pub(crate) fn insert_dry_layer(&mut self, index: usize, layer: &Layer) {
         assert_eq!(layer.vehicle.bounds(), self.bounds(), "a dry layer must cover the canvas");
-        self.push_sparse(SparseLayer::from_layer(layer));
+        self.insert_sparse(index, SparseLayer::from_layer(layer));
     }
 
-    pub(crate) fn pop_dry_layer(&mut self) -> Layer {
-        let layer = self.dry.pop().expect("the caller checks that there is a dry layer");
+    pub(crate) fn remove_dry_layer(&mut self, index: usize) -> Layer {
+        let layer = self.dry.remove(index);
         layer.for_each_column(&mut self.floor, |floor, volume| floor - volume as i32);
         layer.part(self.bounds())
+    }
+
+    pub(crate) fn move_dry_layer(&mut self, from: usize, to: usize) {
+        let layer = self.dry.remove(from);
+        self.dry.insert(to, layer);
     }
 
     pub(crate) fn floor(&self) -> Field<i32> {
@@ -190,10 +205,10 @@ impl CpuPaint {
         rect
     }
 
-    /// Adds a dry layer on top and raises the floor by its height.
-    fn push_sparse(&mut self, layer: SparseLayer) {
+    /// Adds a dry layer and raises the floor by its height.
+    fn insert_sparse(&mut self, index: usize, layer: SparseLayer) {
         layer.for_each_column(&mut self.floor, |floor, volume| floor + volume as i32);
-        self.dry.push(layer);
+        self.dry.insert(index, layer);
     }
 }
 

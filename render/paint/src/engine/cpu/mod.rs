@@ -10,6 +10,8 @@ mod columns;
 
 mod bed;
 
+mod below;
+
 mod head_paint;
 
 mod spans;

@@ -3,11 +3,12 @@
 
 use std::ops::Range;
 
-use super::bed::Bed;
+use super::below::Below;
 use super::columns::Columns;
 use super::head_paint::HeadPaint;
 use super::spans::{Spans, joined};
 use crate::contact::{Contact, Touch};
+use crate::mask::Mask;
 use crate::motion::MotionConstants;
 use crate::motion::press::{
     CROWDED_VOLUME, Column, NO_CONTACT, avoid_crowded_columns, coat, flow, penetration, pressure,
@@ -41,8 +42,8 @@ pub(super) struct PenetrationMap {
     bed: Vec<i32>,
     /// Mean volumes of the hair over the cells of one row of the contact.
     means: Vec<u32>,
-    /// Whether each column is crowded, with the same rim; empty if none is, which is
-    /// nearly always so.
+    /// Whether each column is crowded or covered, with the same rim; empty if none is, which is
+    /// nearly always so without a mask.
     crowded: Vec<bool>,
 }
 
@@ -55,13 +56,13 @@ impl PenetrationMap {
         motion: &MotionConstants,
         contact: &Contact,
         reach: Rect,
-        floor: &Field<i32>,
-        (wet, bed): (&Columns, &Bed),
+        below: Below<'_>,
+        wet: &Columns,
         head: &HeadPaint,
     ) {
         self.clear();
         self.reach = reach;
-        self.find_crowded(wet);
+        self.find_crowded(wet, below.mask);
         let cells = self.row_length() * (reach.height + 2 * RIM);
         self.tops.resize(self.tops.len().max(cells), 0);
         self.penetrations.resize(self.penetrations.len().max(cells), NO_CONTACT);
@@ -72,8 +73,8 @@ impl PenetrationMap {
         for spans in [&mut self.contact, &mut self.moving, &mut self.changing, &mut self.seen] {
             spans.clear(reach);
         }
-        self.press(motion, contact, floor, (wet, bed), head);
-        let moving = contact.rect.grown(1, floor.bounds());
+        self.press(motion, contact, below, wet, head);
+        let moving = contact.rect.grown(1, below.floor.bounds());
         if motion.everywhere == 0 {
             self.moving.surround(&self.contact, moving);
         } else {
@@ -81,7 +82,7 @@ impl PenetrationMap {
         }
         self.changing.surround(&self.moving, reach);
         self.seen.surround(&self.changing, reach);
-        self.find_tops(floor, wet);
+        self.find_tops(below.floor, wet);
     }
 
     /// Removes the contact of the sub-step before.
@@ -101,19 +102,20 @@ impl PenetrationMap {
         &mut self,
         motion: &MotionConstants,
         contact: &Contact,
-        floor: &Field<i32>,
-        (wet, bed): (&Columns, &Bed),
+        below: Below<'_>,
+        wet: &Columns,
         head: &HeadPaint,
     ) {
         // A copy, which the loop need not load again after each store.
-        let (rect, rates) = (contact.rect, contact.rates);
+        let (rect, rates, Below { floor, bed, mask }) = (contact.rect, contact.rates, below);
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
             let below_head = |touch: &Touch| touch.height != Touch::NONE.height;
             let Some(from) = touches.iter().position(below_head) else { continue };
             let touches = &touches[from..];
             let count = touches.iter().rposition(below_head).map_or(0, |last| last + 1);
             let (touches, x) = (&touches[..count], rect.x + from);
-            let volume = &wet.volume()[y * floor.width() + x..][..count];
+            let first = y * floor.width() + x;
+            let volume = &wet.volume()[first..][..count];
             let floor = floor.row(y, x, count);
             let paint = floor.iter().copied().zip(volume.iter().copied());
             let start = self.start(y) + x - self.reach.x;
@@ -132,6 +134,11 @@ impl PenetrationMap {
             {
                 *covered = coat(&rates, touch, mean);
                 *here = penetration(&rates, touch, paint, bed, *covered);
+            }
+            if let Some(mask) = mask {
+                for (cell, here) in (first..).zip(&mut *found) {
+                    *here = if mask.covers(cell) { NO_CONTACT } else { *here };
+                }
             }
             let touching = |penetration: &i32| *penetration != NO_CONTACT;
             let Some(first) = found.iter().position(touching) else { continue };
@@ -212,19 +219,24 @@ impl PenetrationMap {
         }
     }
 
+    /// Finds the columns that do not move and that nothing flows to: those that are crowded or
+    /// covered.
     #[inline(always)]
-    fn find_crowded(&mut self, wet: &Columns) {
+    fn find_crowded(&mut self, wet: &Columns, mask: Option<&Mask>) {
         let reach = self.reach;
         self.crowded.clear();
         let rows = reach.y..reach.y + reach.height;
         let row = |y: usize| &wet.volume()[y * wet.width() + reach.x..][..reach.width];
         let highest = rows.clone().map(|y| highest(row(y))).max().unwrap_or(0);
-        if highest > CROWDED_VOLUME {
+        if highest > CROWDED_VOLUME || mask.is_some() {
             self.crowded.resize(self.row_length() * (reach.height + 2 * RIM), false);
             for y in rows {
                 let start = self.start(y);
-                for (crowded, &volume) in self.crowded[start..].iter_mut().zip(row(y)) {
-                    *crowded = volume > CROWDED_VOLUME;
+                let first = y * wet.width() + reach.x;
+                let columns = self.crowded[start..].iter_mut().zip(row(y));
+                for (cell, (crowded, &volume)) in (first..).zip(columns) {
+                    *crowded =
+                        volume > CROWDED_VOLUME || mask.is_some_and(|mask| mask.covers(cell));
                 }
             }
         }

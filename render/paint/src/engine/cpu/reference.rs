@@ -1,7 +1,7 @@
 //! A sub-step written directly from the specification in [`crate::motion`], cell by
 //! cell. Tests compare the fast implementation with it.
 
-use super::bed::Bed;
+use super::below::Below;
 use super::head_paint::HeadPaint;
 use super::wick::Wick;
 use crate::contact::{Contact, Touch};
@@ -13,14 +13,13 @@ use crate::motion::press::{
     pressure, velocity,
 };
 use crate::motion::transfer::{Exchange, exchange, leaving};
-use graphics::field::Field;
 
-/// Applies one sub-step to `wet` and `brush`; `bed` is the surface before the stroke.
+/// Applies one sub-step to `wet` and `brush`.
 pub(super) fn sub_step(
     motion: &MotionConstants,
     contact: &Contact,
-    floor: &Field<i32>,
-    (wet, bed): (&mut Layer, &Bed),
+    Below { floor, bed, mask }: Below<'_>,
+    wet: &mut Layer,
     paint: &mut HeadPaint,
 ) {
     let Contact { rect, touches, rates, wicking } = contact;
@@ -40,9 +39,11 @@ pub(super) fn sub_step(
         let here = touch(x, y);
         coat(rates, here, means[here.brush_cell as usize])
     };
+    let covered =
+        |x: i64, y: i64| mask.is_some_and(|mask| mask.covers(y as usize * width + x as usize));
     let pressed = |x: i64, y: i64| -> i32 {
         let here = touch(x, y);
-        if here == Touch::NONE {
+        if here == Touch::NONE || covered(x, y) {
             return NO_CONTACT;
         }
         let index = y as usize * width + x as usize;
@@ -91,8 +92,9 @@ pub(super) fn sub_step(
                 down = 0;
             }
             let (right, down) = avoid_crowded_columns((right, down), |to_x, to_y| {
-                let at = (y + i64::from(to_y)) as usize * width + (x + i64::from(to_x)) as usize;
-                start.cell(at).volume() > CROWDED_VOLUME
+                let (x, y) = (x + i64::from(to_x), y + i64::from(to_y));
+                covered(x, y)
+                    || start.cell(y as usize * width + x as usize).volume() > CROWDED_VOLUME
             });
             let mobile = mobile_share(motion, volume);
             let out = outflow(mobile, (right.unsigned_abs(), down.unsigned_abs()));

@@ -3,7 +3,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::band::Band;
-use super::bed::Bed;
+use super::below::Below;
 use super::columns::{Columns, Rows};
 use super::head_paint::HeadPaint;
 use super::penetration::PenetrationMap;
@@ -11,7 +11,6 @@ use super::step::SubStep;
 use super::wick::Wick;
 use crate::contact::{Contact, Wicking};
 use crate::motion::MotionConstants;
-use graphics::field::Field;
 use graphics::tile::Rect;
 
 /// Minimum number of cells of a contact's reach per thread: a contact of 26 x 26 cells
@@ -46,11 +45,11 @@ impl SubStepRunner {
         &mut self,
         motion: &MotionConstants,
         contacts: &[Contact],
-        (floor, bed): (&Field<i32>, &Bed),
+        below: Below<'_>,
         wet: &mut Columns,
         head: &mut HeadPaint,
     ) {
-        let bounds = floor.bounds();
+        let bounds = below.floor.bounds();
         for Contact { rect, touches, .. } in contacts {
             let inside =
                 rect.x + rect.width <= bounds.width && rect.y + rect.height <= bounds.height;
@@ -66,7 +65,7 @@ impl SubStepRunner {
                     arch.dispatch(ApplyWick { wick, wicking, head });
                 }
                 if !contact.rect.is_empty() {
-                    self.sub_step(arch, motion, contact, (floor, bed), wet, head);
+                    self.sub_step(arch, motion, contact, below, wet, head);
                 }
             }
         };
@@ -83,11 +82,11 @@ impl SubStepRunner {
         arch: Arch,
         motion: &MotionConstants,
         contact: &Contact,
-        (floor, bed): (&Field<i32>, &Bed),
+        below: Below<'_>,
         wet: &mut Columns,
         head: &mut HeadPaint,
     ) {
-        let bounds = floor.bounds();
+        let bounds = below.floor.bounds();
         let reach = contact.rect.grown(2, bounds);
         let count = band_count(reach);
         self.bands.resize_with(self.bands.len().max(count), Band::default);
@@ -97,16 +96,7 @@ impl SubStepRunner {
             band.begin(edge(i)..edge(i + 1), reach, head.cells.volume().len());
         }
         let penetration = &mut self.penetration;
-        arch.dispatch(MeasurePenetration {
-            penetration,
-            motion,
-            contact,
-            reach,
-            floor,
-            bed,
-            wet,
-            head,
-        });
+        arch.dispatch(MeasurePenetration { penetration, motion, contact, reach, below, wet, head });
         let step = SubStep { motion, contact, bounds, reach, penetration, head };
         let mut rows = wet.rows(reach.y, reach.height);
         on_each_band(bands, &mut rows, &|band, rows| {
@@ -151,8 +141,7 @@ struct MeasurePenetration<'a> {
     motion: &'a MotionConstants,
     contact: &'a Contact,
     reach: Rect,
-    floor: &'a Field<i32>,
-    bed: &'a Bed,
+    below: Below<'a>,
     wet: &'a Columns,
     head: &'a HeadPaint,
 }
@@ -194,8 +183,8 @@ impl WithSimd for MeasurePenetration<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { penetration, motion, contact, reach, floor, bed, wet, head } = self;
-        penetration.measure(motion, contact, reach, floor, (wet, bed), head);
+        let Self { penetration, motion, contact, reach, below, wet, head } = self;
+        penetration.measure(motion, contact, reach, below, wet, head);
     }
 }
 

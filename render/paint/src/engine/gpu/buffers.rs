@@ -123,10 +123,17 @@ impl SubStepBuffers {
     }
 }
 
-/// The buffer of the floor and of a bed that was never noted.
+/// Index in the buffer of the floor at which the mask of a canvas begins, in words of 32 cells.
+pub(super) fn mask_start(canvas: Rect) -> usize {
+    let blocks = canvas.width.div_ceil(BLOCK) * canvas.height.div_ceil(BLOCK);
+    canvas.width * canvas.height + blocks
+}
+
+/// The buffer of the floor, of a bed that was never noted, and of a mask.
 pub(super) fn floor_buffer(device: &mut Device, floor: &Field<i32>) -> Result<Buffer, DeviceError> {
-    let blocks = floor.width().div_ceil(BLOCK) * floor.height().div_ceil(BLOCK);
+    let (cells, mask) = (floor.values().len(), mask_start(floor.bounds()));
     let mut values = floor.values().to_vec();
-    values.resize(values.len() + blocks, NO_BED);
+    values.resize(mask, NO_BED);
+    values.resize(mask + cells.div_ceil(32), 0);
     device.buffer_of("the ground", &values)
 }

@@ -3,10 +3,10 @@
 use super::buffers::{BrushBuffers, PIGMENT_BYTES, PaintBuffers, SubStepBuffers, floor_buffer};
 use super::drying::{self, DryParams};
 use super::render::{CanvasBuffers, ViewBuffers};
-use super::sub_step::{self, BedParams, SubStepParams, WickParams};
+use super::sub_step::{self, BedParams, SubStepParams, WickParams, check_contact};
 use super::tops::Tops;
 use super::undo_tiles::{UNDO_TILE, UndoTileParams, UndoTiles};
-use crate::contact::{Contact, Touch, Wicking};
+use crate::contact::{Contact, Wicking};
 use crate::engine::ids::{BrushId, UndoSlot, View};
 use crate::layer::Layer;
 use crate::motion::MotionConstants;
@@ -28,14 +28,16 @@ const MIN_SUB_STEP_CELLS: usize = 1 << 14;
 /// [`PaintEngine`](crate::engine::PaintEngine), which documents its operations.
 #[derive(Debug)]
 pub struct GpuPaint {
-    device: Device,
-    bounds: Rect,
+    pub(super) device: Device,
+    pub(super) bounds: Rect,
     /// Commands that were not submitted yet.
     recording: Recording,
     wet: PaintBuffers,
-    /// Height of ground and dry paint of each cell in quanta, then the bed of all blocks; see
-    /// [`crate::motion::bed`].
-    floor: Buffer,
+    /// Height of ground and dry paint of each cell in quanta, then the bed of all blocks (see
+    /// [`crate::motion::bed`]), then the bits of the mask.
+    pub(super) floor: Buffer,
+    /// First: where the mask begins in `floor`, 0 without a mask.
+    pub(super) mask: [u32; 4],
     brushes: Vec<BrushBuffers>,
     sub_step: SubStepBuffers,
     /// Dry layers, lowest first.
@@ -65,6 +67,7 @@ impl GpuPaint {
             recording: Recording::default(),
             wet: PaintBuffers::empty(&device, "the wet paint", cells)?,
             floor: floor_buffer(&mut device, floor)?,
+            mask: [0; 4],
             brushes: Vec::new(),
             sub_step: SubStepBuffers::new(&device, 1)?,
             dry: Vec::new(),
@@ -176,28 +179,28 @@ impl GpuPaint {
         self.dry[index].download(&mut self.device, rows)
     }
 
-    pub(crate) fn push_dry_layer(&mut self, layer: &Layer) -> Result<(), DeviceError> {
-        let size = (layer.width(), layer.height());
-        let canvas = (self.bounds.width, self.bounds.height);
-        assert_eq!(size, canvas, "a dry layer must cover the canvas");
+    pub(crate) fn insert_dry_layer(&mut self, at: usize, layer: &Layer) -> Result<(), DeviceError> {
+        assert_eq!(layer.vehicle.bounds(), self.bounds, "a dry layer must cover the canvas");
         self.submit()?;
         let paint = self.empty_dry_layer()?;
         paint.upload(&mut self.device, (self.bounds, self.bounds.width), layer)?;
         let params = DryParams { canvas: self.canvas_size(), share: 0, rise: 1 };
         self.record_dry(&drying::MOVE_FLOOR, &paint, params);
-        self.dry.push(paint);
+        self.dry.insert(at, paint);
         self.submit()
     }
 
-    pub(crate) fn pop_dry_layer(&mut self) -> Result<Layer, DeviceError> {
-        assert!(!self.dry.is_empty(), "the caller checks that there is a dry layer");
-        let layer = self.dry_layer_in(self.dry.len() - 1, self.bounds)?;
-        if let Some(paint) = self.dry.pop() {
-            let params = DryParams { canvas: self.canvas_size(), share: 0, rise: -1 };
-            self.record_dry(&drying::MOVE_FLOOR, &paint, params);
-        }
-        self.submit()?;
-        Ok(layer)
+    pub(crate) fn remove_dry_layer(&mut self, index: usize) -> Result<Layer, DeviceError> {
+        let layer = self.dry_layer_in(index, self.bounds)?;
+        let params = DryParams { canvas: self.canvas_size(), share: 0, rise: -1 };
+        let paint = self.dry.remove(index);
+        self.record_dry(&drying::MOVE_FLOOR, &paint, params);
+        self.submit().map(|()| layer)
+    }
+
+    pub(crate) fn move_dry_layer(&mut self, from: usize, to: usize) {
+        let paint = self.dry.remove(from);
+        self.dry.insert(to, paint);
     }
 
     pub(crate) fn floor(&mut self) -> Result<Field<i32>, DeviceError> {
@@ -269,7 +272,7 @@ impl GpuPaint {
         [self.bounds.width as u32, self.bounds.height as u32]
     }
 
-    fn submit(&mut self) -> Result<(), DeviceError> {
+    pub(super) fn submit(&mut self) -> Result<(), DeviceError> {
         self.device.submit(&mut self.recording)
     }
 
@@ -305,6 +308,7 @@ impl GpuPaint {
             canvas: self.canvas_size(),
             first_touch: self.recording.batch(&contact.touches),
             brush_cells: head.cell_count(),
+            mask: self.mask,
         };
         let PaintBuffers { pigments, vehicle } = &self.wet;
         let PaintBuffers { pigments: head_pigments, vehicle: head_vehicle } = &head.paint;
@@ -385,14 +389,4 @@ impl GpuPaint {
 
 fn as_u32(rect: Rect) -> [u32; 4] {
     [rect.x, rect.y, rect.width, rect.height].map(|number| number as u32)
-}
-
-/// Panics if a contact names cells of the canvas or of the head that do not exist.
-fn check_contact(contact: &Contact, bounds: Rect, brush_cells: u32) {
-    let Contact { rect, touches, .. } = contact;
-    assert_eq!(rect.intersection(bounds), *rect, "a contact must lie within {bounds:?}");
-    assert_eq!(touches.len(), rect.width * rect.height, "a contact has a touch per cell");
-    let outside = |touch: &&Touch| touch.brush_cell >= brush_cells && touch.height < i32::MAX;
-    let outside = touches.iter().find(outside);
-    assert!(outside.is_none(), "a touch must lie within the head's {brush_cells}: {outside:?}");
 }

@@ -20,5 +20,7 @@ mod kernels;
 
 mod gpu_paint;
 
+mod mask;
+
 pub use gpu_paint::{GpuPaint, max_canvas_cells};
 pub use kernels::kernels;

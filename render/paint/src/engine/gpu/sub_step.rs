@@ -3,9 +3,10 @@
 //!
 //! The kernels compute the same as [`crate::motion`], bit for bit.
 
-use crate::contact::{ExchangeRates, Touch};
+use crate::contact::{Contact, ExchangeRates, Touch};
 use crate::motion::MotionConstants;
 use graphics::gpu::{Kernel, Layout, Storage, layout};
+use graphics::tile::Rect;
 
 /// Uniforms of the four kernels. Rectangles are x, y, width, height in cells.
 #[repr(C)]
@@ -23,10 +24,20 @@ pub(super) struct SubStepParams {
     pub(super) first_touch: u32,
     /// Number of cells of the head.
     pub(super) brush_cells: u32,
+    /// First: index of the mask's first word in the buffer of the floor, 0 without a mask.
+    pub(super) mask: [u32; 4],
 }
 
-const SUB_STEP_PARAMS: Layout =
-    layout!(SubStepParams { motion, rates, region, contact, canvas, first_touch, brush_cells });
+const SUB_STEP_PARAMS: Layout = layout!(SubStepParams {
+    motion,
+    rates,
+    region,
+    contact,
+    canvas,
+    first_touch,
+    brush_cells,
+    mask
+});
 
 const STRUCTS: &[Layout] = &[
     layout!(MotionConstants {
@@ -169,3 +180,13 @@ pub(super) static WICK: Kernel = Kernel {
     structs: &[],
     storage: &[Storage::Write, Storage::Write],
 };
+
+/// Panics if a contact names cells of the canvas or of the head that do not exist.
+pub(super) fn check_contact(contact: &Contact, bounds: Rect, brush_cells: u32) {
+    let Contact { rect, touches, .. } = contact;
+    assert_eq!(rect.intersection(bounds), *rect, "a contact must lie within {bounds:?}");
+    assert_eq!(touches.len(), rect.width * rect.height, "a contact has a touch per cell");
+    let outside = |touch: &&Touch| touch.brush_cell >= brush_cells && touch.height < i32::MAX;
+    let outside = touches.iter().find(outside);
+    assert!(outside.is_none(), "a touch must lie within the head's {brush_cells}: {outside:?}");
+}

@@ -8,8 +8,10 @@ use crate::amount::{MAX_COLUMN, QUANTA_PER_CELL};
 use crate::contact::{Contact, ExchangeRates, Touch, Wicking};
 use crate::engine::BrushId;
 use crate::engine::cpu::CpuPaint;
+use crate::engine::cpu::below::Below;
 use crate::engine::cpu::reference::sub_step;
 use crate::layer::{Cell, Layer, SLOTS};
+use crate::mask::Mask;
 use crate::motion::MotionConstants;
 use crate::motion::press::CROWDED_VOLUME;
 use graphics::field::Field;
@@ -148,6 +150,7 @@ fn the_fast_path_agrees_with_the_specification() {
     ] {
         let brush = (11, 13);
         let mut engine = painted_to(highest, random, canvas, brush);
+        let masks = [None, Some(Mask::with_open(engine.bounds(), |cell| cell % 11 < 7))];
         let motions = [
             MotionConstants::new(0.1, 0.7),
             MotionConstants {
@@ -173,10 +176,12 @@ fn the_fast_path_agrees_with_the_specification() {
             if i % 7 == 3 {
                 engine.note_bed(engine.bounds());
             }
+            engine.set_mask(masks[i / 5 % 2].as_ref());
             let contact = random_contact(random, canvas, brush, None);
             let (mut wet, mut head) = (engine.wet(), engine.brushes[BRUSH.0].clone());
             let floor = engine.floor();
-            sub_step(motion, &contact, &floor, (&mut wet, &engine.bed), &mut head);
+            let below = Below { floor: &floor, bed: &engine.bed, mask: engine.mask.as_ref() };
+            sub_step(motion, &contact, below, &mut wet, &mut head);
             engine.apply_contacts(BRUSH, motion, &[contact]);
             assert!(engine.wet() == wet, "canvas {canvas:?}, sub-step {i}");
             assert!(engine.brush_paint(BRUSH) == *head.cells.layer(), "brush, sub-step {i}");

@@ -46,9 +46,9 @@ fn drying_parts_the_paint_and_raises_the_floor_by_what_dried() {
         let rise = risen.values()[index] - floor.values()[index];
         assert_eq!(rise, dried.cell(index).volume() as i32, "cell {index}");
     }
-    assert!(engine.pop_dry_layer() == dried, "the popped layer differs");
+    assert!(engine.remove_dry_layer(0) == dried, "the popped layer differs");
     assert!(engine.floor() == floor, "floor without the layer");
-    engine.push_dry_layer(&dried);
+    engine.insert_dry_layer(0, &dried);
     assert!(engine.floor() == risen, "floor with the layer");
     engine.dry(65_536);
     assert_eq!(engine.wet().totals(), [0; SLOTS + 1]);

@@ -5,7 +5,7 @@
 @group(0) @binding(1) var<storage, read> touches: array<Touch>;
 @group(0) @binding(2) var<storage, read> pigments: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read> vehicle: array<u32>;
-// The floor of all cells, then the bed of all blocks.
+// The floor of all cells, then the bed of all blocks, then the bits of the mask.
 @group(0) @binding(4) var<storage, read> floor_height: array<i32>;
 @group(0) @binding(5) var<storage, read> brush_pigments: array<vec4<u32>>;
 // The vehicle of all cells, then the mean of each cell's hair.
@@ -29,6 +29,15 @@ fn bed_at(at: vec2<u32>) -> i32 {
     );
 }
 
+// Whether the mask covers a cell of the canvas.
+fn covered(i: u32) -> bool {
+    if params.mask.x == 0u {
+        return false;
+    }
+    let word = bitcast<u32>(floor_height[params.mask.x + i / 32u]);
+    return ((word >> (i % 32u)) & 1u) == 1u;
+}
+
 @compute @workgroup_size(8, 8)
 fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(id.xy >= params.region.zw) {
@@ -39,7 +48,8 @@ fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     let wet = volume(Cell(pigments[2u * i], pigments[2u * i + 1u], vehicle[i]));
     var depth = NO_CONTACT;
     var coat_quanta = 0u;
-    if within_contact(id.xy) {
+    let is_covered = covered(i);
+    if within_contact(id.xy) && !is_covered {
         let touch = touches[touch_index(id.xy)];
         let b = touch.brush_cell;
         if touch.height != NO_HEAD {
@@ -54,5 +64,7 @@ fn begin_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let volume_quanta = bitcast<i32>(wet);
     let top = floor_height[i] + volume_quanta;
-    depths[place] = vec4(depth, volume_quanta, top, bitcast<i32>(coat_quanta));
+    // Nothing flows to or from a crowded column, so that is what a covered one is.
+    let seen = select(volume_quanta, bitcast<i32>(MAX_COLUMN), is_covered);
+    depths[place] = vec4(depth, seen, top, bitcast<i32>(coat_quanta));
 }

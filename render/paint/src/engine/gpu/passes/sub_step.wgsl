@@ -14,6 +14,8 @@ struct SubStepParams {
     first_touch: u32,
     // Number of cells of the head.
     brush_cells: u32,
+    // x: index of the mask's first word in the buffer of the floor, 0 without a mask.
+    mask: vec4<u32>,
 }
 
 fn canvas_index(place: vec2<u32>) -> u32 {

@@ -1,0 +1,209 @@
+//! OpenRaster files: layers for painting programs.
+//!
+//! Follows the draft specification 0.0.5 of freedesktop.org: a ZIP archive whose first entry is
+//! `mimetype`, stored; `stack.xml` with the layers from the uppermost; one PNG a layer; the merged
+//! picture, and a thumbnail of it. PNG files are compressed themselves, so all entries are stored.
+
+use std::io::{Cursor, Write};
+
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+use super::error::{ExportError, check_cell, check_size};
+use super::png::{Png, png8, png16, rgba16};
+use super::reduced::reduced;
+use crate::field::Field;
+
+/// Version of the specification.
+const VERSION: &str = "0.0.5";
+
+/// Longest side of the thumbnail in pixels.
+const THUMBNAIL_PX: usize = 256;
+
+/// Writer of an OpenRaster file that takes layer after layer, the lowest first.
+#[expect(missing_debug_implementations, reason = "the archive has none")]
+pub struct OpenRaster {
+    archive: ZipWriter<Cursor<Vec<u8>>>,
+    size: (usize, usize),
+    cell_mm: f64,
+    names: Vec<String>,
+}
+
+impl OpenRaster {
+    /// Starts a file for layers of `size` (width and height) pixels that are `cell_mm` wide.
+    ///
+    /// # Errors
+    /// [`ExportError`] for an empty picture and a pixel size out of range.
+    pub fn new(size: (usize, usize), cell_mm: f64) -> Result<Self, ExportError> {
+        check_size(size.0, size.1)?;
+        check_cell(cell_mm)?;
+        let archive = ZipWriter::new(Cursor::new(Vec::new()));
+        let mut file = Self { archive, size, cell_mm, names: Vec::new() };
+        file.entry("mimetype", b"image/openraster")?;
+        Ok(file)
+    }
+
+    /// Adds a layer above those before: red, green, blue and opacity in encoded sRGB, not
+    /// premultiplied.
+    ///
+    /// # Errors
+    /// [`ExportError`] for a layer of another size, or if the encoder fails.
+    pub fn layer(&mut self, name: &str, pixels: &Field<[u16; 4]>) -> Result<(), ExportError> {
+        let (width, height) = self.size;
+        if (pixels.width(), pixels.height()) != self.size {
+            return Err(ExportError::Differs { plane: name.to_owned(), width, height });
+        }
+        let png = rgba16(pixels, self.cell_mm)?;
+        self.entry(&file_of(self.names.len()), &png)?;
+        self.names.push(name.to_owned());
+        Ok(())
+    }
+
+    /// Completes the file with the merged picture in linear sRGB, and returns its content. The
+    /// number of pixels outside the gamut is that of the merged picture.
+    ///
+    /// # Errors
+    /// [`ExportError`] for a picture of another size or with colours that are not finite, or if
+    /// the encoder fails.
+    pub fn finish(mut self, merged: &Field<[f32; 4]>) -> Result<Png, ExportError> {
+        let (width, height) = self.size;
+        if (merged.width(), merged.height()) != self.size {
+            return Err(ExportError::Differs { plane: "merged".to_owned(), width, height });
+        }
+        let stack = self.stack().map_err(|error| failed(&error))?;
+        self.entry("stack.xml", &stack)?;
+        let Png { bytes, outside } = png16(merged, self.cell_mm)?;
+        self.entry("mergedimage.png", &bytes)?;
+        let thumbnail = png8(&reduced(merged, THUMBNAIL_PX), self.cell_mm)?;
+        self.entry("Thumbnails/thumbnail.png", &thumbnail.bytes)?;
+        let bytes = self.archive.finish().map_err(|error| failed(&error))?.into_inner();
+        Ok(Png { bytes, outside })
+    }
+
+    fn entry(&mut self, name: &str, bytes: &[u8]) -> Result<(), ExportError> {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .last_modified_time(DateTime::DEFAULT)
+            .large_file(u32::try_from(bytes.len()).is_err());
+        self.archive.start_file(name, options).map_err(|error| failed(&error))?;
+        self.archive.write_all(bytes).map_err(|error| failed(&error))
+    }
+
+    /// Content of `stack.xml`.
+    fn stack(&self) -> std::io::Result<Vec<u8>> {
+        let (width, height) = (self.size.0.to_string(), self.size.1.to_string());
+        let per_inch = (25.4 / self.cell_mm).round().max(1.0).to_string();
+        let mut xml = Writer::new_with_indent(Vec::new(), b' ', 1);
+        xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+        let image = xml.create_element("image").with_attributes([
+            ("version", VERSION),
+            ("w", width.as_str()),
+            ("h", height.as_str()),
+            ("xres", per_inch.as_str()),
+            ("yres", per_inch.as_str()),
+        ]);
+        image.write_inner_content(|xml| {
+            xml.create_element("stack").write_inner_content(|xml| {
+                for (index, name) in self.names.iter().enumerate().rev() {
+                    let source = file_of(index);
+                    let layer = xml.create_element("layer").with_attributes([
+                        ("name", name.as_str()),
+                        ("src", source.as_str()),
+                        ("x", "0"),
+                        ("y", "0"),
+                        ("opacity", "1.0"),
+                        ("visibility", "visible"),
+                        ("composite-op", "svg:src-over"),
+                    ]);
+                    layer.write_empty()?;
+                }
+                Ok(())
+            })?;
+            Ok(())
+        })?;
+        let mut text = xml.into_inner();
+        text.push(b'\n');
+        Ok(text)
+    }
+}
+
+/// Name of the file of layer `index`, from 0.
+fn file_of(index: usize) -> String {
+    format!("data/layer{index:03}.png")
+}
+
+fn failed(error: &dyn std::error::Error) -> ExportError {
+    ExportError::Encoder { format: "OpenRaster", reason: error.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Read;
+
+    use zip::ZipArchive;
+
+    use super::*;
+
+    fn file() -> Vec<u8> {
+        let mut file = OpenRaster::new((400, 2), 0.1).unwrap();
+        file.layer("Ground", &Field::filled(400, 2, [65535, 65535, 60000, 65535])).unwrap();
+        file.layer("Red & \"blue\" <1>", &Field::filled(400, 2, [9000, 0, 0, 1000])).unwrap();
+        file.finish(&Field::filled(400, 2, [0.5, 0.4, 0.3, 1.0])).unwrap().bytes
+    }
+
+    fn entry(archive: &mut ZipArchive<Cursor<Vec<u8>>>, name: &str) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
+        bytes
+    }
+
+    #[test]
+    fn the_archive_has_the_entries_of_the_specification() {
+        let bytes = file();
+        // Programs recognize the file by these bytes: the name at 30, its content at 38.
+        assert_eq!(&bytes[30..54], b"mimetypeimage/openraster");
+        assert_eq!(bytes, file(), "the same bytes every time");
+        let mut archive = ZipArchive::new(Cursor::new(bytes)).unwrap();
+        let name = |index| archive.by_index(index).unwrap().name().to_owned();
+        let names: Vec<String> = (0..6).map(name).collect();
+        assert_eq!(archive.len(), 6);
+        let wanted = [
+            "mimetype",
+            "data/layer000.png",
+            "data/layer001.png",
+            "stack.xml",
+            "mergedimage.png",
+            "Thumbnails/thumbnail.png",
+        ];
+        assert_eq!(names, wanted);
+        let text = String::from_utf8(entry(&mut archive, "stack.xml")).unwrap();
+        let (upper, lower) = (text.find("layer001").unwrap(), text.find("layer000").unwrap());
+        assert!(upper < lower, "the uppermost comes first: {text}");
+        assert!(text.contains("w=\"400\" h=\"2\" xres=\"254\" yres=\"254\""), "{text}");
+        assert!(text.contains("Red &amp; &quot;blue&quot; &lt;1&gt;"), "{text}");
+    }
+
+    #[test]
+    fn layers_and_pictures_can_be_read_again() {
+        let mut archive = ZipArchive::new(Cursor::new(file())).unwrap();
+        let layer = image::load_from_memory(&entry(&mut archive, "data/layer001.png")).unwrap();
+        assert_eq!(layer.into_rgba16().get_pixel(3, 1).0, [9000, 0, 0, 1000]);
+        let thumbnail = image::load_from_memory(&entry(&mut archive, "Thumbnails/thumbnail.png"));
+        assert_eq!(thumbnail.unwrap().width(), 256);
+        let picture = Field::filled(400, 2, [0.5, 0.4, 0.3, 1.0]);
+        let merged = png16(&picture, 0.1).unwrap().bytes;
+        assert_eq!(entry(&mut archive, "mergedimage.png"), merged, "the picture as a PNG");
+    }
+
+    #[test]
+    fn layers_of_another_size_are_refused() {
+        let mut file = OpenRaster::new((4, 2), 0.1).unwrap();
+        let other = file.layer("other", &Field::filled(3, 2, [0; 4]));
+        assert!(matches!(other, Err(ExportError::Differs { .. })), "{other:?}");
+        let merged = file.finish(&Field::filled(3, 2, [0.0; 4]));
+        assert!(matches!(merged, Err(ExportError::Differs { .. })), "{merged:?}");
+        assert!(OpenRaster::new((0, 2), 0.1).is_err());
+    }
+}

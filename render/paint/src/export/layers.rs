@@ -1,0 +1,281 @@
+//! The layers of a painting as an OpenRaster file.
+
+use rayon::prelude::*;
+
+use super::alpha::over;
+use crate::composite::composite_row;
+use crate::document::{Document, Slots};
+use crate::layer::Layer;
+use crate::light::Light;
+use crate::optics::{LayerOptics, NODES, Scene};
+use crate::scene::{picture_of_lowest, scene};
+use crate::shade::color_row;
+use graphics::export::{ExportError, OpenRaster, PictureFile, srgb16};
+use graphics::field::Field;
+use spectra::color::{Rgb, RgbSpace};
+
+/// Encodes the layers of `document` under `light` as OpenRaster: the ground, each dry layer, and
+/// the wet layer, with one pixel a cell and 16 bits a channel.
+///
+/// Films of paint do not blend by opacity. Each pixel of a layer gets the opacity by which its
+/// film hides what lies below, or the least with which a program that composites stored values by
+/// `svg:src-over` shows exactly the painting up to this layer; its colour is solved for that. So
+/// the layers together show the merged picture to the rounding of 16 bits, and without its upper
+/// layers the file shows the painting before they were painted. In another order, or over other
+/// colours, they show what such a program makes of them, which paint would not.
+///
+/// Shadows and light of a layer's relief are part of the layer. After each layer `go_on` is called
+/// with the number of layers done; if it returns `false`, the result is `None`.
+///
+/// # Errors
+/// [`ExportError`] for a painting without cells, cells of a size out of range, and colours that are
+/// not finite.
+pub fn layers_file(
+    document: &Document,
+    light: &Light,
+    mut go_on: impl FnMut(usize) -> bool,
+) -> Result<Option<PictureFile>, ExportError> {
+    let scene = scene(document, light);
+    let size = (document.wet.width(), document.wet.height());
+    let mut file = OpenRaster::new(size, document.cell_mm)?;
+    let mut merged = picture_of_lowest(document, &scene, 0);
+    let mut below = srgb16(&merged)?.pixels;
+    file.layer("Ground", &opaque(&below))?;
+    let dry = document.dry.iter().zip(&scene.dry).enumerate();
+    let dry = dry.map(|(i, (layer, optics))| {
+        (format!("Dry layer {}", i + 1), &layer.slots, &layer.paint, optics)
+    });
+    let wet = ("Wet paint".to_owned(), &document.slots, &document.wet, &scene.wet);
+    for (index, (title, slots, paint, optics)) in dry.chain([wet]).enumerate() {
+        if !go_on(index + 1) {
+            return Ok(None);
+        }
+        merged = picture_of_lowest(document, &scene, index + 1);
+        let above = srgb16(&merged)?.pixels;
+        let pixels = layer_pixels(&scene, (paint, optics), &below, &above);
+        file.layer(&name(&title, slots, paint, document), &pixels)?;
+        below = above;
+    }
+    let png = file.finish(&merged)?;
+    let outside = png.outside as f64 / merged.values().len() as f64;
+    Ok(Some(PictureFile { bytes: png.bytes, outside }))
+}
+
+/// Title of a layer with the pigments that are in it.
+fn name(title: &str, slots: &Slots, paint: &Layer, document: &Document) -> String {
+    let totals = paint.totals();
+    let used = slots.iter().zip(totals).filter(|(_, total)| *total > 0);
+    let names: Vec<&str> =
+        used.filter_map(|(slot, _)| Some(document.library[(*slot)?].name.as_str())).collect();
+    if names.is_empty() { title.to_owned() } else { format!("{title}: {}", names.join(", ")) }
+}
+
+fn opaque(pixels: &Field<[u16; 3]>) -> Field<[u16; 4]> {
+    let pixel = |&[r, g, b]: &[u16; 3]| [r, g, b, u16::MAX];
+    let values = pixels.values().iter().map(pixel).collect();
+    Field::from_values(pixels.width(), pixels.height(), values)
+}
+
+/// Colours and opacities of a layer that lead from the picture `below` to the picture `above`.
+fn layer_pixels(
+    scene: &Scene,
+    (paint, optics): (&Layer, &LayerOptics),
+    below: &Field<[u16; 3]>,
+    above: &Field<[u16; 3]>,
+) -> Field<[u16; 4]> {
+    let width = below.width();
+    let mut pixels = Field::filled(width, below.height(), [0; 4]);
+    pixels.values_mut().par_chunks_mut(width).enumerate().for_each_init(
+        || Hiding::new(scene, width),
+        |hiding, (y, out)| {
+            hiding.measure(scene, optics, paint, y);
+            let row = below.row(y, 0, width).iter().zip(above.row(y, 0, width));
+            for (out, ((below, above), &hides)) in out.iter_mut().zip(row.zip(&hiding.shares)) {
+                *out = over(*below, *above, hides);
+            }
+        },
+    );
+    pixels
+}
+
+/// How far a row of films hides what lies below: the contrast in encoded luminance between a
+/// white and a black ground that is lost under them.
+struct Hiding {
+    /// Luminance of full red, green and blue.
+    weights: [f64; 3],
+    internal: Vec<[f32; NODES]>,
+    colors: Vec<[f32; 4]>,
+    /// Encoded luminance over white.
+    over_white: Vec<f64>,
+    /// Contrast of the bare grounds.
+    bare: f64,
+    /// Share of the contrast that each film hides, 0 to 1.
+    shares: Vec<f64>,
+}
+
+impl Hiding {
+    fn new(scene: &Scene, width: usize) -> Self {
+        let matrix = RgbSpace::Srgb.xyz_from_linear();
+        let weights = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let weights = weights.map(|full| matrix.apply(full)[1] / 100.0);
+        let mut bare = [[0.0; 4]; 2];
+        color_row(scene, &[[1.0; NODES], [0.0; NODES]], &mut bare);
+        let [white, black] = bare.map(|color| luminance(&weights, &color));
+        Self {
+            weights,
+            internal: vec![[0.0; NODES]; width],
+            colors: vec![[0.0; 4]; width],
+            over_white: vec![0.0; width],
+            bare: white - black,
+            shares: vec![0.0; width],
+        }
+    }
+
+    /// Measures the films of row `y` of `paint`.
+    fn measure(&mut self, scene: &Scene, optics: &LayerOptics, paint: &Layer, y: usize) {
+        let row = paint.pigments.row(y, 0, paint.width());
+        for backing in [1.0, 0.0] {
+            self.internal.fill([backing; NODES]);
+            composite_row(optics, row, &mut self.internal);
+            color_row(scene, &self.internal, &mut self.colors);
+            let seen = self.colors.iter().map(|color| luminance(&self.weights, color));
+            if backing == 1.0 {
+                self.over_white.clear();
+                self.over_white.extend(seen);
+            } else {
+                let pairs = self.over_white.iter().zip(seen);
+                for (share, (white, black)) in self.shares.iter_mut().zip(pairs) {
+                    *share = (1.0 - (white - black) / self.bare).clamp(0.0, 1.0);
+                }
+            }
+        }
+    }
+}
+
+/// Encoded luminance of linear sRGB.
+fn luminance(weights: &[f64; 3], color: &[f32; 4]) -> f64 {
+    let relative: f64 = weights.iter().zip(color).map(|(w, &value)| w * f64::from(value)).sum();
+    Rgb([relative.clamp(0.0, 1.0); 3]).encoded().0[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Cursor, Read};
+
+    use image::{ImageBuffer, Rgb as Pixel, Rgba};
+    use pigment::PigmentLibrary;
+
+    use super::*;
+    use crate::brush::HeadShape;
+    use crate::canvas::Canvas;
+    use crate::pose::Sample;
+    use crate::scene::picture;
+    use crate::session::PaintingSession;
+    use crate::strokes::{Action, BrushSpec};
+    use graphics::export::png16;
+
+    /// A painting with two dry layers and wet paint, crossed by thin and thick strokes.
+    fn painted() -> (Document, Light) {
+        let oils = PigmentLibrary::van_gogh_oils();
+        let canvas = Canvas { width_mm: 24.0, height_mm: 16.0, cell_mm: 0.25, ..Canvas::default() };
+        let mut session = PaintingSession::on_canvas(&oils, &canvas).unwrap();
+        let spec = BrushSpec { shape: HeadShape::Flat, size_mm: 5.0 };
+        session.set_brush("flat", &spec).unwrap();
+        let paints = [("Prussian Blue", 0.02), ("Zinc White", 0.3), ("Vermilion", 0.1)];
+        for (index, (pigment, amount_mm)) in paints.into_iter().enumerate() {
+            session.apply(&Action::Wash { brush: "flat".to_owned() }).unwrap();
+            session.load("flat", [(pigment, 1.0)], amount_mm).unwrap();
+            let y_mm = 4.0 + 3.0 * index as f64;
+            let at = |seconds, x_mm, y_mm| Sample::upright(seconds, x_mm, y_mm, 0.6);
+            session.stroke("flat", &[at(0.0, 2.0, y_mm), at(1.0, 22.0, y_mm)]).unwrap();
+            session.stroke("flat", &[at(0.0, 9.0, 2.0), at(1.0, 9.0, 14.0)]).unwrap();
+            if index < 2 {
+                session.apply(&Action::Dry { fraction: 1.0 }).unwrap();
+            }
+        }
+        let light = session.canvas().light().clone();
+        let document = session.documents().unwrap().0;
+        assert_eq!(document.dry.len(), 2, "two layers dried");
+        (document, Light::clone(&light))
+    }
+
+    fn entry(file: &[u8], name: &str) -> Vec<u8> {
+        let mut archive = zip::ZipArchive::new(Cursor::new(file)).unwrap();
+        let mut bytes = Vec::new();
+        archive.by_name(name).unwrap().read_to_end(&mut bytes).unwrap();
+        bytes
+    }
+
+    type Layer16 = ImageBuffer<Rgba<u16>, Vec<u16>>;
+
+    fn layer(file: &[u8], index: usize) -> Layer16 {
+        let png = entry(file, &format!("data/layer{index:03}.png"));
+        image::load_from_memory(&png).unwrap().into_rgba16()
+    }
+
+    /// Composites layers by normal opacity, as other programs do, in f64.
+    fn composited(layers: &[Layer16]) -> Vec<[f64; 3]> {
+        let mut shown = vec![[0.0; 3]; layers[0].pixels().len()];
+        for layer in layers {
+            for (shown, Rgba([r, g, b, a])) in shown.iter_mut().zip(layer.pixels()) {
+                let share = f64::from(*a) / 65535.0;
+                for (shown, value) in shown.iter_mut().zip([r, g, b]) {
+                    *shown = share * f64::from(*value) + (1.0 - share) * *shown;
+                }
+            }
+        }
+        shown
+    }
+
+    /// Greatest difference between what is shown and a picture, in steps of 16 bits.
+    fn worst(shown: &[[f64; 3]], picture: &Field<[f32; 4]>) -> f64 {
+        let wanted = srgb16(picture).unwrap().pixels;
+        let channels = shown.as_flattened().iter().zip(wanted.values().as_flattened());
+        channels.map(|(found, &wanted)| (found - f64::from(wanted)).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn normal_opacity_shows_the_painting_up_to_each_layer() {
+        let (document, light) = painted();
+        let file = layers_file(&document, &light, |_| true).unwrap().unwrap();
+        let layers: Vec<Layer16> = (0..4).map(|index| layer(&file.bytes, index)).collect();
+        let scene = scene(&document, &light);
+        for count in 0..4 {
+            let picture = picture_of_lowest(&document, &scene, count);
+            let error = worst(&composited(&layers[..=count]), &picture);
+            // Half a step for each layer; a step of 8 bits is 257.
+            assert!(error <= 2.0, "{count} layers: {error}");
+        }
+        assert!(picture(&document, &scene) == picture_of_lowest(&document, &scene, 3));
+        let thin = layers[1].pixels().filter(|pixel| (1..60_000).contains(&pixel[3])).count();
+        assert!(thin > 200, "a thin film stays translucent: {thin}");
+        let opaque = layers[2].pixels().filter(|pixel| pixel[3] > 60_000).count();
+        assert!(opaque > 500, "a thick film of white hides: {opaque}");
+        let clear = layers[3].pixels().filter(|pixel| pixel[3] == 0).count();
+        assert!(clear > 1000, "most of the last layer is empty: {clear}");
+    }
+
+    #[test]
+    fn the_merged_picture_is_the_exported_one_and_layers_have_names() {
+        let (document, light) = painted();
+        let file = layers_file(&document, &light, |_| true).unwrap().unwrap();
+        let again = layers_file(&document, &light, |_| true).unwrap().unwrap();
+        assert!(file == again, "the same bytes every time");
+        let exported = png16(&picture(&document, &scene(&document, &light)), document.cell_mm);
+        assert!(entry(&file.bytes, "mergedimage.png") == exported.unwrap().bytes);
+        let stack = String::from_utf8(entry(&file.bytes, "stack.xml")).unwrap();
+        let names: Vec<&str> =
+            stack.split("name=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        assert_eq!(names.len(), 4, "{stack}");
+        assert!(names[0].starts_with("Wet paint: ") && names[0].contains("Vermilion"), "{names:?}");
+        assert_eq!(names[2..], ["Dry layer 1: Prussian Blue", "Ground"]);
+        let _: ImageBuffer<Pixel<u16>, _> =
+            image::load_from_memory(&entry(&file.bytes, "mergedimage.png")).unwrap().into_rgb16();
+    }
+
+    #[test]
+    fn an_export_can_be_cancelled() {
+        let (document, light) = painted();
+        assert_eq!(layers_file(&document, &light, |done| done < 2), Ok(None));
+    }
+}

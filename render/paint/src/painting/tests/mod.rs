@@ -1,0 +1,7 @@
+//! Tests of a painting at work.
+
+mod bench;
+
+mod masks;
+
+mod tools;

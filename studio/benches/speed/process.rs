@@ -1,0 +1,38 @@
+//! Memory and processor time of a running process, as Linux tells them.
+
+use std::path::PathBuf;
+use std::process::Child;
+
+/// Ticks of the processor time in a second, as Linux reports it on all common machines.
+const TICKS: f64 = 100.0;
+
+/// A process.
+pub(crate) struct Usage {
+    folder: PathBuf,
+}
+
+impl Usage {
+    pub(crate) fn of(child: &Child) -> Self {
+        Self { folder: PathBuf::from(format!("/proc/{}", child.id())) }
+    }
+
+    /// Memory in use now and at most so far, in words.
+    pub(crate) fn memory(&self) -> String {
+        let status = std::fs::read_to_string(self.folder.join("status")).unwrap_or_default();
+        let mb = |name: &str| {
+            let line = status.lines().find_map(|line| line.strip_prefix(name));
+            let number = line.and_then(|rest| rest.split_whitespace().next()?.parse().ok());
+            number.map_or(f64::NAN, |kib: f64| kib * 1024.0 / 1e6)
+        };
+        format!("{:.0} MB, at most {:.0} MB", mb("VmRSS:"), mb("VmHWM:"))
+    }
+
+    /// Time of the processor so far.
+    pub(crate) fn processor_seconds(&self) -> f64 {
+        let stat = std::fs::read_to_string(self.folder.join("stat")).unwrap_or_default();
+        // The name in brackets may hold spaces; user and system time are fields 14 and 15.
+        let fields = stat.rsplit(')').next().unwrap_or_default();
+        let ticks = fields.split_whitespace().skip(11).take(2);
+        ticks.filter_map(|field| field.parse::<f64>().ok()).sum::<f64>() / TICKS
+    }
+}

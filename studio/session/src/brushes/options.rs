@@ -1,0 +1,165 @@
+//! How a pen leads one brush, where that differs from the painter's general settings.
+
+use serde::{Deserialize, Serialize};
+
+use super::curve::PressureCurve;
+use super::error::BrushFileError;
+use super::reading::Object;
+use super::stabiliser::StabiliserSettings;
+
+/// The tilt of a brush.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TiltUse {
+    /// The general settings decide.
+    #[default]
+    AsSet,
+    /// The tilt of the pen, where it measures one.
+    Pen,
+    /// Held as with a mouse, whatever the pen measures.
+    Ignored,
+    /// At this angle from upright in degrees, 0 to 80, towards the hand of the general settings.
+    Fixed(f64),
+}
+
+/// The rotation of a brush about its handle.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TwistUse {
+    /// The general settings decide.
+    #[default]
+    AsSet,
+    /// The rotation of the pen, where it measures one.
+    Device,
+    /// The broad side turns across the direction of the stroke.
+    Stroke,
+    /// At this angle in degrees, 0 to 360, clockwise; at 0 the broad side runs from left to right.
+    Fixed(f64),
+}
+
+/// How a pen leads one brush.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BrushOptions {
+    /// Tilt of the brush.
+    pub tilt: TiltUse,
+    /// Rotation of the brush about its handle.
+    pub twist: TwistUse,
+    /// Pressures of the brush at the lightest and the heaviest touch, 0 to 1. A pressure of 0 stays
+    /// 0, because the brush is lifted then.
+    pub range: [f64; 2],
+    /// Curve of the pressure instead of the general one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curve: Option<PressureCurve>,
+    /// Stabiliser instead of the general one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stabiliser: Option<StabiliserSettings>,
+}
+
+impl Default for BrushOptions {
+    fn default() -> Self {
+        let (tilt, twist) = (TiltUse::AsSet, TwistUse::AsSet);
+        Self { tilt, twist, range: [0.0, 1.0], curve: None, stabiliser: None }
+    }
+}
+
+impl BrushOptions {
+    /// Pressure within the range, for one of 0 to 1.
+    #[must_use]
+    pub fn in_range(&self, pressure: f64) -> f64 {
+        let [least, most] = self.range;
+        if pressure > 0.0 { least + (most - least) * pressure } else { 0.0 }
+    }
+
+    /// Replaces values that are out of range by the defaults.
+    pub fn bound(&mut self) {
+        if !self.tilt_is_valid() {
+            self.tilt = TiltUse::default();
+        }
+        if !self.twist_is_valid() {
+            self.twist = TwistUse::default();
+        }
+        if !self.range_is_valid() {
+            self.range = Self::default().range;
+        }
+        self.curve.iter_mut().for_each(PressureCurve::bound);
+        self.stabiliser.iter_mut().for_each(StabiliserSettings::bound);
+    }
+
+    /// Reads the options of a file.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] for unknown keys and values out of range.
+    pub(super) fn read(mut object: Object<'_>) -> Result<Self, BrushFileError> {
+        let default = Self::default();
+        let read = Self {
+            tilt: object.take("tilt")?.unwrap_or_default(),
+            twist: object.take("twist")?.unwrap_or_default(),
+            range: object.take("range")?.unwrap_or(default.range),
+            curve: object.take("curve")?,
+            stabiliser: object.take("stabiliser")?,
+        };
+        let curve = read.curve.as_ref();
+        let bounded = curve.cloned().map(|mut curve| {
+            curve.bound();
+            curve
+        });
+        let stabiliser = read.stabiliser.is_none_or(|stabiliser| stabiliser.is_valid());
+        for (valid, key, what) in [
+            (read.tilt_is_valid(), "tilt", "is not within 0 to 80 degrees"),
+            (read.twist_is_valid(), "twist", "is not within 0 to 360 degrees"),
+            (read.range_is_valid(), "range", "must be two ascending numbers of 0 to 1"),
+            (bounded.as_ref() == curve, "curve", "has an exponent that is not within 0.2 to 5"),
+            (stabiliser, "stabiliser", "has a length that is not within 0.1 to 500"),
+        ] {
+            if !valid {
+                return Err(object.fault_at(key, what));
+            }
+        }
+        object.end()?;
+        Ok(read)
+    }
+
+    fn tilt_is_valid(&self) -> bool {
+        !matches!(self.tilt, TiltUse::Fixed(degrees) if !(0.0..=80.0).contains(&degrees))
+    }
+
+    fn twist_is_valid(&self) -> bool {
+        !matches!(self.twist, TwistUse::Fixed(degrees) if !(0.0..=360.0).contains(&degrees))
+    }
+
+    fn range_is_valid(&self) -> bool {
+        let [least, most] = self.range;
+        (0.0..=1.0).contains(&least) && (least..=1.0).contains(&most)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_range_of_pressure_starts_at_the_lightest_touch() {
+        let options = BrushOptions { range: [0.2, 0.6], ..BrushOptions::default() };
+        assert_eq!((options.in_range(0.0), options.in_range(0.5)), (0.0, 0.4));
+        assert!((options.in_range(1e-9) - 0.2).abs() < 1e-6, "the lightest touch");
+    }
+
+    #[test]
+    fn values_out_of_range_are_replaced() {
+        let mut options = BrushOptions {
+            tilt: TiltUse::Fixed(f64::NAN),
+            twist: TwistUse::Fixed(-1.0),
+            range: [0.7, 0.2],
+            curve: Some(PressureCurve::Power(40.0)),
+            stabiliser: Some(StabiliserSettings { length: 0.0, ..StabiliserSettings::default() }),
+        };
+        options.bound();
+        let kept = BrushOptions {
+            curve: Some(PressureCurve::LINEAR),
+            stabiliser: Some(StabiliserSettings::default()),
+            ..BrushOptions::default()
+        };
+        assert_eq!(options, kept);
+    }
+}

@@ -1,0 +1,7 @@
+//! Cropping: a rectangle with handles on the canvas.
+
+mod frame;
+
+mod tool;
+
+pub use tool::{CropAnswer, CropTool};

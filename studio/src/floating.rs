@@ -1,0 +1,94 @@
+//! Windows that float over canvas and panels: tables of keys, choosers of pigments.
+//!
+//! Escape closes the topmost one. They appear beside the canvas's upper left corner, never over
+//! the menu bar, and a window that opens closes the menu that is open.
+
+use eframe::egui::{Context, Id, Key, LayerId, Modifiers, Order, Popup, Rect, Ui, Window, vec2};
+
+/// Distance of a new window from the corner of its room, in points.
+const MARGIN: f32 = 14.0;
+
+/// Height of a window's title and edges, in points.
+const FRAME: f32 = 56.0;
+
+/// Facts of the frame for all windows.
+#[derive(Debug, Clone, Copy)]
+struct FrameFacts {
+    /// Whether Escape may close a window: no menu or dialog that it closes first was open.
+    escape: bool,
+    /// The part of the window that floating windows stay in.
+    room: Rect,
+}
+
+/// Begins a frame of the whole window, before anything is drawn.
+pub(crate) fn begin_frame(context: &Context) {
+    let taken =
+        Popup::is_any_open(context) || context.memory(|memory| memory.top_modal_layer().is_some());
+    let facts = FrameFacts { escape: !taken, ..facts(context) };
+    context.data_mut(|data| data.insert_temp(facts_id(), facts));
+}
+
+/// Sets the part of the window that floating windows stay in.
+pub(crate) fn set_room(context: &Context, room: Rect) {
+    let facts = FrameFacts { room, ..facts(context) };
+    context.data_mut(|data| data.insert_temp(facts_id(), facts));
+}
+
+/// Height that the contents of a floating window may have, in points.
+pub(crate) fn height_of_contents(context: &Context) -> f32 {
+    (facts(context).room.height() - FRAME - 2.0 * MARGIN).max(120.0)
+}
+
+/// Draws the window `title` while `open` is true; its close button and Escape clear `open`.
+/// Returns the answer of `contents`.
+pub(crate) fn show<R>(
+    context: &Context,
+    title: &str,
+    id: &str,
+    open: &mut bool,
+    contents: impl FnOnce(&mut Ui) -> R,
+) -> Option<R> {
+    if !*open {
+        return None;
+    }
+    let id = Id::unique(("floating", id));
+    let layer = LayerId::new(Order::Middle, id);
+    let FrameFacts { escape, room } = facts(context);
+    if escape && topmost(context) == Some(layer) {
+        // Consumed, so that no window below closes too.
+        *open &= !context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+        if !*open {
+            return None;
+        }
+    }
+    if !context.memory(|memory| memory.areas().visible_last_frame(&layer)) {
+        Popup::close_all(context);
+    }
+    let window = Window::new(title).id(id).open(open).resizable(false).collapsible(false);
+    let window = window.default_pos(room.min + vec2(MARGIN, MARGIN)).constrain_to(room);
+    window.show(context, contents).and_then(|shown| shown.inner)
+}
+
+/// Whether Escape was pressed and nothing else takes it: no menu, dialog or floating window.
+pub(crate) fn take_escape(context: &Context) -> bool {
+    let free = facts(context).escape && topmost(context).is_none();
+    free && context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
+}
+
+/// The topmost floating window of the last frame.
+fn topmost(context: &Context) -> Option<LayerId> {
+    context.memory(|memory| {
+        let areas = memory.areas();
+        let floats = |layer: &LayerId| layer.order == Order::Middle && areas.is_visible(layer);
+        memory.layer_ids().filter(floats).last()
+    })
+}
+
+fn facts(context: &Context) -> FrameFacts {
+    let kept = context.data(|data| data.get_temp(facts_id()));
+    kept.unwrap_or_else(|| FrameFacts { escape: true, room: context.content_rect() })
+}
+
+fn facts_id() -> Id {
+    Id::unique("facts of floating windows")
+}

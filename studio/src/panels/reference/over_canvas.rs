@@ -1,0 +1,189 @@
+//! The reference picture laid over the canvas, to draw after. It is only shown: nothing of it
+//! is painted, saved or exported.
+
+use eframe::egui::epaint::{Mesh, Vertex};
+use eframe::egui::{
+    Button, Color32, CursorIcon, Id, Painter, Pos2, Rect, Response, Role, Sense, Shape, Slider,
+    Stroke, TextureId, Ui, WidgetInfo, pos2, vec2,
+};
+
+use super::place::OverlayPlace;
+use super::state::Reference;
+use crate::theme;
+use crate::view::{Placement, SurfaceView};
+
+/// Side of a handle, in points.
+const HANDLE: f32 = 14.0;
+
+/// Corners of a picture in shares of its sides, clockwise.
+const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+
+impl Reference {
+    /// Whether the picture is shown over the canvas.
+    #[must_use]
+    pub fn is_over_canvas(&self) -> bool {
+        self.over.shown && self.picture.is_some()
+    }
+
+    /// Lays the picture over the canvas, or takes it away.
+    pub fn toggle_over_canvas(&mut self) {
+        self.over.shown ^= true;
+        self.over.moving &= self.over.shown;
+    }
+
+    /// Whether the pointer moves the picture over the canvas instead of painting.
+    #[must_use]
+    pub fn takes_pointer(&self) -> bool {
+        self.is_over_canvas() && self.over.moving
+    }
+
+    /// Draws the buttons of the picture over the canvas.
+    pub(super) fn over_controls(&mut self, ui: &mut Ui) {
+        ui.horizontal_wrapped(|ui| {
+            let loaded = self.picture.is_some();
+            let over = ui.add_enabled(loaded, Button::selectable(self.over.shown, "Over canvas"));
+            let tip = "Lays the picture over the canvas, to draw after (O). It is never painted";
+            if over.on_hover_text(tip).clicked() {
+                self.toggle_over_canvas();
+            }
+            if !self.is_over_canvas() {
+                return;
+            }
+            let mut percent = self.over.opacity * 100.0;
+            ui.spacing_mut().slider_width = 80.0;
+            let slider = Slider::new(&mut percent, 0.0..=100.0).fixed_decimals(0).suffix(" %");
+            let slider = ui.add(slider).accessible_name("Opacity over the canvas");
+            if slider.on_hover_text("How much the picture hides the painting").changed() {
+                self.over.opacity = percent / 100.0;
+            }
+            let moving = ui.add(Button::selectable(self.over.moving, "Move"));
+            let tip = "Drag the picture, its corners and the handle above it; while this is off it \
+                       is locked, and the pen paints";
+            if moving.on_hover_text(tip).clicked() {
+                self.over.moving ^= true;
+            }
+            let fit = ui.button("Fit to canvas");
+            if fit.on_hover_text("Fits the whole picture into the canvas").clicked() {
+                self.over.place = None;
+            }
+        });
+    }
+
+    /// Draws the picture over `canvas`, whose `response` moves it while that is on. Cells are
+    /// `cell_mm` wide.
+    pub fn show_over(&mut self, ui: &Ui, canvas: &SurfaceView, response: &Response, cell_mm: f64) {
+        if !self.is_over_canvas() {
+            return;
+        }
+        let Some([width, height]) = self.picture.as_ref().map(|picture| picture.file_size()) else {
+            return;
+        };
+        let Some(texture) = self.texture(ui.ctx()) else { return };
+        let aspect = width as f64 / height as f64;
+        let (columns, rows) = canvas.cells();
+        let canvas_mm = [columns as f64 * cell_mm, rows as f64 * cell_mm];
+        let mut place = self.over.place.unwrap_or_else(|| OverlayPlace::fitted(canvas_mm, aspect));
+        let on_canvas = OnCanvas { placement: canvas.placement(), cell_mm };
+        let painter = ui.painter_at(canvas.rect());
+        if self.over.moving {
+            let moved = self.drag(ui, response, &on_canvas, place, aspect);
+            if moved != place {
+                (place, self.over.place) = (moved, Some(moved));
+            }
+        }
+        let corners = CORNERS.map(|corner| on_canvas.point(place.point(corner, aspect)));
+        draw(&painter, texture, corners, self.flipped, self.over.opacity);
+        if self.over.moving {
+            draw_frame(&painter, ui, corners, turn_handle(&on_canvas, &place, aspect));
+        }
+    }
+
+    /// The place after the drags of this frame.
+    fn drag(
+        &self,
+        ui: &Ui,
+        response: &Response,
+        on_canvas: &OnCanvas,
+        place: OverlayPlace,
+        aspect: f64,
+    ) -> OverlayPlace {
+        let mut moved = place;
+        if response.dragged_by(eframe::egui::PointerButton::Primary) {
+            let [from, to] = [Pos2::ZERO, response.drag_delta().to_pos2()].map(|p| on_canvas.mm(p));
+            moved = moved.moved([to[0] - from[0], to[1] - from[1]]);
+        }
+        let handle = |at: Pos2, name: &str| {
+            let rect = Rect::from_center_size(at, vec2(HANDLE, HANDLE));
+            let response = ui.interact(rect, Id::unique(("over canvas", name)), Sense::drag());
+            response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+            let to = response.interact_pointer_pos().filter(|_| response.dragged());
+            (to.map(|point| on_canvas.mm(point)), response)
+        };
+        let names = ["upper left", "upper right", "lower right", "lower left"];
+        for (corner, name) in CORNERS.into_iter().zip(names) {
+            let at = on_canvas.point(place.point(corner, aspect));
+            let (to, response) = handle(at, &format!("Scale by the {name} corner"));
+            response.on_hover_cursor(CursorIcon::ResizeNwSe);
+            if let Some(to) = to {
+                moved = place.scaled_to(to, aspect);
+            }
+        }
+        let (to, response) = handle(turn_handle(on_canvas, &place, aspect), "Turn the picture");
+        response.on_hover_cursor(CursorIcon::Alias);
+        if let Some(to) = to {
+            moved = place.turned_to(to);
+        }
+        moved
+    }
+}
+
+/// The canvas on the screen, in mm.
+struct OnCanvas {
+    placement: Placement,
+    cell_mm: f64,
+}
+
+impl OnCanvas {
+    fn point(&self, mm: [f64; 2]) -> Pos2 {
+        self.placement.point(mm.map(|mm| mm / self.cell_mm))
+    }
+
+    fn mm(&self, point: Pos2) -> [f64; 2] {
+        self.placement.cell(point).map(|cells| cells * self.cell_mm)
+    }
+}
+
+/// The point of the handle that turns the picture, above the middle of its upper edge.
+fn turn_handle(on_canvas: &OnCanvas, place: &OverlayPlace, aspect: f64) -> Pos2 {
+    let edge = on_canvas.point(place.point([0.5, 0.0], aspect));
+    let middle = on_canvas.point(place.center);
+    edge + (edge - middle).normalized() * 26.0
+}
+
+fn draw(painter: &Painter, texture: TextureId, corners: [Pos2; 4], flipped: bool, opacity: f32) {
+    let color = Color32::WHITE.gamma_multiply(opacity);
+    let mut mesh = Mesh::with_texture(texture);
+    for (pos, [across, down]) in corners.into_iter().zip(CORNERS) {
+        let across = if flipped { 1.0 - across } else { across };
+        mesh.vertices.push(Vertex { pos, uv: pos2(across as f32, down as f32), color });
+    }
+    mesh.add_triangle(0, 1, 2);
+    mesh.add_triangle(0, 2, 3);
+    painter.add(Shape::mesh(mesh));
+}
+
+fn draw_frame(painter: &Painter, ui: &Ui, corners: [Pos2; 4], turn: Pos2) {
+    let colors = theme::colors(ui.ctx());
+    let top = corners[0].lerp(corners[1], 0.5);
+    for (width, color) in [(3.0, Color32::from_black_alpha(110)), (1.0, Color32::WHITE)] {
+        let stroke = Stroke::new(width, color);
+        painter.add(Shape::closed_line(corners.to_vec(), stroke));
+        painter.line_segment([top, turn], stroke);
+    }
+    let edge = Stroke::new(1.0, colors.strong);
+    for corner in corners {
+        let rect = Rect::from_center_size(corner, vec2(HANDLE - 4.0, HANDLE - 4.0));
+        painter.rect(rect, 2.0, colors.panel, edge, eframe::egui::StrokeKind::Inside);
+    }
+    painter.circle(turn, 0.5 * HANDLE - 1.0, colors.panel, edge);
+}

@@ -1,0 +1,117 @@
+//! The selected mixture: its recipe, and what can be done with it.
+
+use eframe::egui::{Grid, Key, TextEdit, Ui, vec2};
+use render::layer::SLOTS;
+use render::paint::strokes::{Action, PaletteSpec};
+use session::swatches::{KeptMixture, SwatchChange, Usable};
+
+use super::grid::reason;
+use crate::files::FileRequest;
+use crate::panels::PanelContext;
+use crate::panels::controls::button;
+use crate::panels::laying::lay_on_palette;
+
+/// Place of a mixture in the list, and of its neighbours among those that are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Place {
+    pub(super) index: usize,
+    pub(super) before: Option<usize>,
+    pub(super) after: Option<usize>,
+}
+
+/// Draws the mixture at a place. `typed` is its name while it is changed.
+pub(super) fn show(
+    ui: &mut Ui,
+    cx: &mut PanelContext<'_>,
+    Place { index, before, after }: Place,
+    kept: &KeptMixture,
+    typed: &mut Option<String>,
+) {
+    name(ui, cx, index, kept, typed);
+    let grid = Grid::new("kept parts").num_columns(2).min_row_height(16.0);
+    grid.spacing(vec2(8.0, 2.0)).show(ui, |ui| {
+        for (name, part) in &kept.recipe {
+            ui.monospace(format!("{part:>6}"));
+            ui.label(name);
+            ui.end_row();
+        }
+    });
+    let medium = format!("{:.0} % medium; {}", 100.0 * kept.vehicle, kept.library);
+    ui.weak(medium).on_hover_text("Share of medium in a load, and the library it was kept from");
+    let usable = kept.usable(&cx.painting.library, &cx.painting.slots);
+    let reason = reason(cx, &usable);
+    ui.horizontal(|ui| {
+        let tip = "Adds this mixture to the selected brush, as a tube does";
+        if button(ui, "Load the brush", tip, reason.as_deref()) {
+            cx.load(kept.recipe.clone(), kept.vehicle);
+        }
+        let tip = "Puts this mixture on a free place of the palette";
+        if button(ui, "Lay on the palette", tip, reason.as_deref()) {
+            lay_on_palette(cx, kept.recipe.clone(), kept.vehicle);
+        }
+    });
+    ui.horizontal(|ui| {
+        let mut change = None;
+        if button(ui, "Rename", "Gives this mixture another name", None) {
+            *typed = Some(kept.name.clone());
+        }
+        let first = before.is_none().then_some("it is the first");
+        if button(ui, "Earlier", "Moves it one place towards the first", first) {
+            change = before.map(|to| SwatchChange::Move(index, to));
+        }
+        let last = after.is_none().then_some("it is the last");
+        if button(ui, "Later", "Moves it one place towards the last", last) {
+            change = after.map(|to| SwatchChange::Move(index, to));
+        }
+        if button(ui, "Forget", "Removes this mixture from the list", None) {
+            change = Some(SwatchChange::Remove(index));
+        }
+        if let Some(change) = change {
+            cx.file(FileRequest::Swatches(change));
+        }
+    });
+    if let Some(reason) = &reason {
+        ui.label(reason);
+    }
+    add_tubes(ui, cx, &usable);
+}
+
+/// Draws the name, or the field that changes it.
+fn name(
+    ui: &mut Ui,
+    cx: &mut PanelContext<'_>,
+    index: usize,
+    kept: &KeptMixture,
+    typed: &mut Option<String>,
+) {
+    let Some(text) = typed else {
+        ui.strong(&kept.name);
+        return;
+    };
+    let field = TextEdit::singleline(text).desired_width(f32::INFINITY).char_limit(60);
+    let response = ui.add(field).accessible_name("Name of the mixture");
+    let response = response.on_hover_text("Enter accepts the name, Escape cancels");
+    if response.lost_focus() {
+        if !ui.input(|input| input.key_pressed(Key::Escape)) {
+            cx.file(FileRequest::Swatches(SwatchChange::Rename(index, text.clone())));
+        }
+        *typed = None;
+    } else if !response.has_focus() {
+        response.request_focus();
+    }
+}
+
+/// Offers to put the tubes that are missing on the palette, if there is room.
+fn add_tubes(ui: &mut Ui, cx: &mut PanelContext<'_>, usable: &Usable) {
+    let Usable::NotOnPalette(away) = usable else { return };
+    let held: Vec<_> = cx.painting.slots.iter().copied().flatten().collect();
+    let full = held.len() + away.len() > SLOTS;
+    let reason = full.then_some("the palette has no room for them: replace tubes first");
+    let tip = "Puts the tubes that this mixture needs on the palette";
+    if button(ui, "Add its tubes", tip, reason) {
+        let all = held.iter().chain(away);
+        let names = all.map(|&pigment| cx.painting.library[pigment].name.as_str());
+        let palette = PaletteSpec::from_names(names);
+        cx.act(Action::Palette(palette));
+    }
+}

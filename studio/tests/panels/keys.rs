@@ -1,0 +1,157 @@
+//! Tests of changed keys, in the window of keys and where they are pressed and shown.
+
+use eframe::egui::{Event, Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+use studio::app::{Entry, Intent, SceneEntry, SceneIntent};
+use studio::panels::Mode;
+
+use super::harness::Window;
+use super::volumes::{scene, volumes, wait};
+
+/// Clicks a chip of the window of keys and presses a key for it.
+fn press_for(window: &mut Window, chip: &str, modifiers: Modifiers, key: Key) {
+    click(window, chip);
+    window.key(modifiers, key);
+}
+
+/// Clicks a control of the list, which may have to be scrolled to.
+fn click(window: &mut Window, label: &str) {
+    window.harness().get_by_label(label).scroll_to_me();
+    window.harness().run_ok();
+    window.click(label);
+}
+
+fn keys_of<'a>(window: &'a Window, name: &str) -> Option<Vec<&'a str>> {
+    let keys = window.studio().files.preferences.keys.get(name)?;
+    Some(keys.iter().map(String::as_str).collect())
+}
+
+#[test]
+fn a_changed_key_works_and_the_old_one_no_longer() {
+    let mut window = Window::open("keys-changed");
+    window.key(Modifiers::NONE, Key::F1);
+    press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::J);
+    assert!(!window.studio().canvas.view.mirror, "the press is the editor's");
+    assert_eq!(keys_of(&window, "mirror"), Some(vec!["J"]));
+    window.save("keys-changed");
+    window.key(Modifiers::NONE, Key::Escape);
+    assert!(!window.studio().visible.keys, "Escape closes the window");
+    window.key(Modifiers::NONE, Key::M);
+    assert!(!window.studio().canvas.view.mirror, "the old key does nothing");
+    window.key(Modifiers::NONE, Key::J);
+    assert!(window.studio().canvas.view.mirror, "the new key mirrors");
+    // Menus and tooltips show it.
+    let context = window.harness().ctx.clone();
+    assert_eq!(Entry::of(Intent::Mirror).unwrap().shortcut_text(&context), "J");
+    assert_eq!(Entry::of(Intent::Dry).unwrap().shortcut_text(&context), "D");
+    // A key that is removed leaves none.
+    window.key(Modifiers::NONE, Key::F1);
+    click(&mut window, "remove D of Dry");
+    assert_eq!(keys_of(&window, "dry"), Some(Vec::new()));
+    assert_eq!(Entry::of(Intent::Dry).unwrap().shortcut_text(&context), "");
+    click(&mut window, "standard keys of Dry");
+    assert_eq!(keys_of(&window, "dry"), None);
+}
+
+#[test]
+fn a_key_of_another_action_is_named_and_taken_only_if_wanted() {
+    let mut window = Window::open("keys-conflict");
+    window.key(Modifiers::NONE, Key::F1);
+    press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::W);
+    let told = "W is the key of Wash the brush.";
+    assert!(window.harness().query_by_label(told).is_some(), "both are named");
+    window.save("keys-conflict");
+    window.click("Cancel");
+    assert!(window.studio().files.preferences.keys.is_empty(), "nothing changed");
+    press_for(&mut window, "add a key to Mirror", Modifiers::NONE, Key::W);
+    window.click("Take it");
+    assert_eq!(keys_of(&window, "mirror"), Some(vec!["M", "W"]));
+    assert_eq!(keys_of(&window, "wash"), Some(Vec::new()));
+    window.key(Modifiers::NONE, Key::W);
+    assert!(window.studio().canvas.view.mirror, "W mirrors");
+    // Reserved keys are refused with the reason, and Escape leaves the key.
+    press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::Space);
+    let refused = window.harness().query_by_label_contains("the space bar moves the view");
+    assert!(refused.is_some(), "the reason is told");
+    press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::Escape);
+    assert!(window.studio().visible.keys, "the window stays");
+    assert_eq!(keys_of(&window, "mirror"), Some(vec!["M", "W"]));
+    window.click("All to standard");
+    assert!(window.studio().files.preferences.keys.is_empty(), "all are back");
+}
+
+#[test]
+fn brushes_and_tools_can_have_other_keys() {
+    let mut window = Window::open("keys-brushes");
+    let second = {
+        window.key(Modifiers::NONE, Key::Num2);
+        window.studio().tools.brush.clone()
+    };
+    window.key(Modifiers::NONE, Key::Num1);
+    assert_ne!(window.studio().tools.brush, second);
+    let keys = &mut window.studio_mut().files.preferences.keys;
+    keys.insert("brush-2".to_owned(), vec!["Shift+Q".to_owned()]);
+    keys.insert("tool-zoom".to_owned(), vec!["Num2".to_owned(), "2".to_owned()]);
+    window.key(Modifiers::NONE, Key::Num2);
+    assert_ne!(window.studio().tools.brush, second, "2 is no longer its key");
+    assert_eq!(window.studio().tools.mode, Mode::Zoom);
+    window.key(Modifiers::SHIFT, Key::Q);
+    assert_eq!(window.studio().tools.brush, second);
+}
+
+#[test]
+fn sentences_name_the_changed_keys() {
+    let mut window = Window::open("keys-sentences");
+    let keys = &mut window.studio_mut().files.preferences.keys;
+    keys.insert("wash".to_owned(), vec!["Shift+W".to_owned()]);
+    keys.insert("wipe".to_owned(), Vec::new());
+    window.harness().run_ok();
+    window.studio_mut().handle_event(session::Event::DirtyBrush("round".to_owned()));
+    let hint = window.studio().message().and_then(|message| message.hint.clone());
+    assert_eq!(hint.as_deref(), Some("wash (Shift+W) or wipe it before another colour"));
+}
+
+#[test]
+fn actions_are_found_by_a_word() {
+    let mut window = Window::open("keys-find");
+    window.key(Modifiers::NONE, Key::F1);
+    assert!(window.harness().query_by_label("change Ctrl+S of Save").is_some(), "all are listed");
+    window.harness().get_by_label("Find an action").focus();
+    window.harness().step();
+    window.frame(vec![Event::Text("mirror".to_owned())]);
+    window.harness().run_ok();
+    assert!(window.harness().query_by_label("change M of Mirror").is_some(), "it is found");
+    assert!(window.harness().query_by_label("change Ctrl+S of Save").is_none(), "others are not");
+}
+
+#[test]
+fn faults_of_the_preferences_are_told_and_unknown_names_kept() {
+    let mut window = Window::open("keys-faults");
+    let keys = &mut window.studio_mut().files.preferences.keys;
+    keys.insert("fly".to_owned(), vec!["F".to_owned()]);
+    window.harness().run_ok();
+    let told = window.harness().query_all_by_label_contains("`fly` is nothing").count();
+    assert_eq!(told, 1);
+    window.key(Modifiers::NONE, Key::F1);
+    press_for(&mut window, "change M of Mirror", Modifiers::NONE, Key::K);
+    assert_eq!(keys_of(&window, "fly"), Some(vec!["F"]), "it is kept");
+}
+
+#[test]
+fn scenes_have_keys_of_their_own() {
+    let mut window = scene("keys-scenes");
+    window.key(Modifiers::NONE, Key::F1);
+    press_for(&mut window, "change H of Hatching", Modifiers::NONE, Key::M);
+    assert_eq!(keys_of(&window, "scene.hatching"), Some(vec!["M"]), "M is free in scenes");
+    window.save("keys-scenes");
+    window.key(Modifiers::NONE, Key::Escape);
+    let before = volumes(&window).state().unwrap().look.hatching;
+    window.key(Modifiers::NONE, Key::M);
+    wait(&mut window, "no hatching", move |volumes| {
+        volumes.state().unwrap().look.hatching != before
+    });
+    let context = window.harness().ctx.clone();
+    let entry = SceneEntry::of(SceneIntent::Hatching).unwrap();
+    assert_eq!(entry.shortcut_text(&context), "M");
+    assert_eq!(Entry::of(Intent::Mirror).unwrap().shortcut_text(&context), "M", "as before");
+}
