@@ -117,6 +117,8 @@ fn draw(window: &mut Window, surface: SurfaceId, from: (f64, f64), to: (f64, f64
 
 fn double_click_tube(window: &mut Window, name: &str) {
     let label = format!("tube of {name}");
+    // Time passes, or the clicks before would make these two a triple click.
+    window.harness().run_steps(60);
     let tube = window.harness().get_by_label(&label);
     tube.click();
     tube.click();
