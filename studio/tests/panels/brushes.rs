@@ -317,7 +317,8 @@ fn what_the_brush_holds_is_kept_as_a_mixture() {
 fn the_mask_names_layers_as_the_layer_panel_does() {
     let mut painting = painting();
     painting.layers[1].name = "sky".to_owned();
-    let mut stage = PanelWindow::new(Brushes::default(), vec2(300.0, 900.0), painting, Brushes::show);
+    let mut stage =
+        PanelWindow::new(Brushes::default(), vec2(300.0, 900.0), painting, Brushes::show);
     stage.state().tools.mode = Mode::Mask;
     stage.run();
     for (label, layer) in [("sky", LayerId(2)), ("Layer 1", LayerId(1))] {
