@@ -14,7 +14,8 @@ const FRAME: f32 = 56.0;
 /// Facts of the frame for all windows.
 #[derive(Debug, Clone, Copy)]
 struct FrameFacts {
-    /// Whether Escape may close a window: no menu or dialog that it closes first was open.
+    /// Whether Escape may close a window: no menu or dialog that it closes first was open, and no
+    /// text field takes it.
     escape: bool,
     /// The part of the window that floating windows stay in.
     room: Rect,
@@ -67,6 +68,12 @@ pub(crate) fn show<R>(
     let window = Window::new(title).id(id).open(open).resizable(false).collapsible(false);
     let window = window.default_pos(room.min + vec2(MARGIN, MARGIN)).constrain_to(room);
     window.show(context, contents).and_then(|shown| shown.inner)
+}
+
+/// Leaves Escape to a text field in a window until the next frame. Call before the window is drawn.
+pub(crate) fn leave_escape(context: &Context) {
+    let facts = FrameFacts { escape: false, ..facts(context) };
+    context.data_mut(|data| data.insert_temp(facts_id(), facts));
 }
 
 /// Whether Escape was pressed and nothing else takes it: no menu, dialog or floating window.

@@ -9,6 +9,8 @@
 
 pub mod theme;
 
+mod pace;
+
 mod floating;
 
 pub mod arrangement;

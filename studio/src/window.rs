@@ -12,7 +12,7 @@ use crate::app::{Parts, StartedWorker, Studio};
 use crate::arguments::Start;
 use crate::files::{Files, Problem};
 use crate::pen::{Pen, PenSettings};
-use crate::view;
+use crate::{pace, view};
 use session::initial_commands;
 
 /// Minimum window size in points: all controls stay reachable.
@@ -42,6 +42,11 @@ pub fn run(start: Start) -> Result<(), Problem> {
             if let Some(text) = pen.take_notice() {
                 files.report(Problem { text, hint: None });
             }
+            let display = creation.winit_window().and_then(|window| window.current_monitor());
+            pace::set_display(
+                context,
+                display.and_then(|display| display.refresh_rate_millihertz()),
+            );
             let parts = Parts { worker, pen, files, open: start.file, log: start.figures };
             Ok(Box::new(Framed { studio: Studio::new(context, parts) }))
         }),
@@ -89,8 +94,8 @@ fn options([width, height]: [f32; 2]) -> NativeOptions {
     setup.instance_descriptor.backends = Backends::VULKAN;
     setup.native_adapter_selector = Some(Arc::new(choose));
     let wgpu_options = WgpuConfiguration {
-        // At most one frame in the queue: paint appears one frame earlier. AutoVsync
-        // picks Mailbox where available, which does not tear.
+        // At most one frame in the queue: paint appears one frame earlier. AutoVsync is
+        // FifoRelaxed or Fifo: frames wait for the display, as far as its driver lets them.
         surface: SurfaceConfig {
             present_mode: PresentMode::AutoVsync,
             desired_maximum_frame_latency: Some(1),

@@ -274,7 +274,8 @@ impl WorkerLoop<'_> {
                 let agrees = waiting_substeps(session) == 0 && !is_lifted(session);
                 let recording = session.recording_from(recorded).filter(|_| agrees);
                 let brushes = session.kept_heads()?;
-                let kept = KeptPainting { snapshot, recording, brushes };
+                let mask = session.canvas().mask().cloned();
+                let kept = KeptPainting { snapshot, recording, brushes, mask };
                 (self.send)(Event::Kept(Arc::new(kept)));
             }
             Command::Recording(number) => match self.session().recording().cloned() {

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use render::layer::SLOTS;
 use render::paint::document::{Document, Slots};
+use render::paint::mask::Mask;
 use render::paint::session::{KeptHead, RecordingTail};
 use render::paint::strokes::{KeptBrush, StrokeScript, SurfaceId};
 use render::tile::Rect;
@@ -76,6 +77,8 @@ pub struct KeptPainting {
     pub recording: Option<RecordingTail>,
     /// All heads, with the paint on them.
     pub brushes: Vec<KeptHead>,
+    /// The mask of the canvas, if one is set.
+    pub mask: Option<Arc<Mask>>,
 }
 
 /// A message of the worker.

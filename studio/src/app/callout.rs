@@ -22,7 +22,13 @@ pub(super) enum Arrow {
 
 /// Draws lines on a plate, at most `width` points wide. `at` is the middle of its upper edge, or
 /// the tip of its arrow. Returns the rectangle of the plate.
-pub(super) fn plate(painter: &Painter, at: Pos2, arrow: Arrow, width: f32, lines: &[&str]) -> Rect {
+pub(super) fn plate(
+    painter: &Painter,
+    at: Pos2,
+    arrow: Arrow,
+    width: f32,
+    lines: &[String],
+) -> Rect {
     let colors = theme::colors(painter.ctx());
     let mut job = LayoutJob::default();
     for (index, line) in lines.iter().enumerate() {

@@ -1,20 +1,33 @@
 //! The first steps: a few lines where the hand is, until the first stroke.
 
-use eframe::egui::{Pos2, Rect, Ui, pos2};
+use eframe::egui::{Context, Pos2, Rect, Ui, pos2};
 
 use super::callout::{Arrow, plate};
+use super::intent::Intent;
 use super::places::{self, Part};
 use super::studio::Studio;
+use crate::keymap::text;
 
-/// Lines over the canvas.
-const CANVAS: [&str; 3] = [
-    "Press here and draw, with a pen, a mouse or a finger.",
-    "Alt + click tells a colour. D dries the paint, to paint over it.",
-    "File, Sample painting opens one to try; Help, Guided tour shows more.",
-];
+/// Lines over the canvas, with the keys in use.
+fn canvas_lines(context: &Context) -> [String; 3] {
+    let dry = by_key(context, Intent::Dry, "Edit, Dry");
+    [
+        "Press here and draw, with a pen, a mouse or a finger.".to_owned(),
+        format!("Alt + click tells a colour. {dry} dries the paint, to paint over it."),
+        "File, Sample painting opens one to try; Help, Guided tour shows more.".to_owned(),
+    ]
+}
 
-/// Lines over the palette.
-const PALETTE: [&str; 2] = ["Mix here with the brush.", "W washes it."];
+/// Lines over the palette, with the keys in use.
+fn palette_lines(context: &Context) -> [String; 2] {
+    let wash = by_key(context, Intent::Wash, "Edit, Wash the brush");
+    ["Mix here with the brush.".to_owned(), format!("{wash} washes it.")]
+}
+
+/// The key of an intent, or its place in the menus if it has none.
+fn by_key(context: &Context, intent: Intent, menu: &str) -> String {
+    text(context, &intent.name()).filter(|key| !key.is_empty()).unwrap_or_else(|| menu.to_owned())
+}
 
 /// Lines over the tubes.
 const TUBES: [&str; 2] =
@@ -37,17 +50,19 @@ impl Studio {
             canvas.center_top() + 14.0 * eframe::egui::Vec2::Y,
             Arrow::None,
             width,
-            &CANVAS,
+            &canvas_lines(ui.ctx()),
         );
         if !self.visible.palette || !self.visible.panels {
             return;
         }
         let above = |part: Rect| pos2(part.center().x, part.top());
         let palette = self.palette.rect();
-        let mut arrows: Vec<(Pos2, f32, &[&str])> =
-            vec![(above(palette), palette.width(), &PALETTE)];
+        let mixing = palette_lines(ui.ctx());
+        let mut arrows: Vec<(Pos2, f32, &[String])> =
+            vec![(above(palette), palette.width(), &mixing)];
+        let filling = TUBES.map(str::to_owned);
         if let Some(tubes) = places::rect(ui.ctx(), Part::Tubes) {
-            arrows.push((above(tubes), tubes.width(), &TUBES));
+            arrows.push((above(tubes), tubes.width(), &filling));
         }
         for (tip, width, lines) in arrows {
             plate(painter, tip, Arrow::Down, width.min(WIDTH), lines);

@@ -14,12 +14,13 @@ use crate::floating;
 use crate::keymap::{Keymap, Scope, install};
 use crate::panels::{FileRequest, Request};
 use crate::pen::Device;
-use crate::{theme, view};
+use crate::{pace, theme, view};
 
 impl Studio {
     /// Handles worker events and file tasks. Call before each frame, also while the
     /// window is hidden.
     pub fn logic(&mut self, context: &Context) {
+        pace::begin_frame(context, Instant::now());
         self.handle_events();
         if let Some(desk) = self.files.take_desk() {
             self.set_up(&desk, context);
@@ -111,8 +112,8 @@ impl Studio {
         self.send_requests();
         self.update_title(&context);
         self.log_figures(&context, now);
-        if self.message.as_ref().is_some_and(|message| !message.failed) {
-            context.request_repaint_after(Duration::from_secs(1));
+        if let Some(rest) = self.message.as_ref().and_then(|message| message.rest(now)) {
+            context.request_repaint_after(rest);
         }
         view::quicken(&context);
     }

@@ -26,6 +26,7 @@ const POINTER: &[(&str, &str)] = &[
     ("Ctrl+Space + drag", "Zooms, upwards in"),
     ("Wheel", "Zooms about the pointer; two fingers on a pad move the view"),
     ("Two fingers", "Move, zoom and turn the view on a touch screen"),
+    ("Tap of two fingers", "Undoes; a tap of three fingers redoes"),
     ("Alt + click", "Picks colour and paint"),
     ("Shift + stroke", "Starts with a straight line from the end of the last stroke"),
     ("Shift on the reference", "Marks the distance of strokes of the selected sample"),

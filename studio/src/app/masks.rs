@@ -5,16 +5,11 @@ use std::time::Duration;
 use eframe::egui::{Color32, CursorIcon, Painter, PointerButton, Pos2, Response, Stroke, Ui, pos2};
 use render::paint::strokes::{Action, MaskChange};
 
+use super::dashes::DASH;
 use super::studio::Studio;
 use crate::panels::Mode;
 use crate::view::Placement;
 use session::{Command, MaskState};
-
-/// Length of a dash of the outline, in points.
-const DASH: f32 = 5.0;
-
-/// Dashes by which the outline moves in a second.
-const DASHES_A_SECOND: f64 = 2.0;
 
 /// Distance in points by which the pen moves for another point of a polygon.
 const STEP: f32 = 3.0;
@@ -28,11 +23,13 @@ impl Studio {
     pub(super) fn draw_mask(&mut self, ui: &Ui, response: &Response, mode: Mode) {
         let Some(painting) = self.painting.clone() else { return };
         let (painter, placement) = (ui.painter_at(self.canvas.rect()), self.canvas.placement());
-        let seconds = ui.input(|input| input.time);
-        let phase = (seconds * DASHES_A_SECOND).rem_euclid(2.0) as f32 * DASH;
+        let (now, happens) = ui.input(|input| (input.time, !input.events.is_empty()));
+        let (phase, moves) = self.mask_dashes.phase(now, happens);
         if let Some(mask) = &painting.mask {
             draw_outline(&painter, &placement, mask, phase);
-            ui.ctx().request_repaint_after(Duration::from_millis(120));
+            if moves {
+                ui.ctx().request_repaint_after(Duration::from_millis(120));
+            }
         }
         if mode != Mode::Mask {
             self.mask_points.clear();

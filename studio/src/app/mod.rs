@@ -31,6 +31,8 @@ mod side;
 
 mod parts;
 
+mod dashes;
+
 mod hover;
 
 mod guide;

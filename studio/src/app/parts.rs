@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use eframe::egui::Context;
 
 use crate::files::{FiguresLog, Files};
+use crate::pace;
 use crate::pen::Pen;
 use session::{Command, Worker, WorkerOptions};
 
@@ -24,7 +25,7 @@ impl StartedWorker {
         let wakes = Arc::clone(&window);
         let worker = Worker::start(options, move || {
             if let Some(context) = wakes.get() {
-                context.request_repaint();
+                pace::wake(context);
             }
         });
         commands.into_iter().for_each(|command| worker.ask(command));

@@ -6,7 +6,9 @@ use eframe::egui::{Context, Order, Popup, RawInput, Ui};
 use render::paint::strokes::SampleDecimals;
 
 use super::hover::Hover;
+use super::intent::Intent;
 use super::studio::Studio;
+use crate::pace;
 use crate::panels::Mode;
 use crate::pen::{Device, PenEvent, PenTargets, SurfaceTransform};
 use session::Command;
@@ -57,13 +59,13 @@ impl Studio {
         // Copied, because `covered` queries the context while the events are processed.
         let (input_events, modifiers) = ui.input(|input| (input.events.clone(), input.modifiers));
         let events = self.pen.process_frame(&input_events, modifiers, now, &view);
-        events.into_iter().for_each(|event| self.handle_pen_event(event));
+        events.into_iter().for_each(|event| self.handle_pen_event(event, context));
         if let Some(soon) = self.pen.repaint_after(Instant::now()) {
-            context.request_repaint_after(soon);
+            pace::frame_after(context, soon, Instant::now());
         }
     }
 
-    fn handle_pen_event(&mut self, event: PenEvent) {
+    fn handle_pen_event(&mut self, event: PenEvent, context: &Context) {
         match event {
             PenEvent::Down { surface, device } => {
                 self.hover = None;
@@ -87,6 +89,9 @@ impl Studio {
                 self.hover = Some(Hover { surface, sample, brush });
             }
             PenEvent::Leave => self.hover = None,
+            PenEvent::Tap { fingers: 2 } => self.perform(Intent::Undo, context),
+            PenEvent::Tap { fingers: 3 } => self.perform(Intent::Redo, context),
+            PenEvent::Tap { .. } => {}
             // The button nearer to the tip picks a colour, the other one pans the view.
             PenEvent::Barrel { button, pressed } => {
                 let mode = if button == 0 { Mode::Pick } else { Mode::Pan };

@@ -26,7 +26,15 @@ impl Message {
     /// Whether the message is still displayed at `now`.
     #[must_use]
     pub fn is_displayed(&self, now: Instant) -> bool {
-        self.failed || now.saturating_duration_since(self.shown_at) < DISPLAY_TIME
+        self.failed || self.rest(now).is_some()
+    }
+
+    /// Time after `now` for which the message is still displayed; `None` if it is not, or if it
+    /// stays until it is dismissed.
+    #[must_use]
+    pub fn rest(&self, now: Instant) -> Option<Duration> {
+        let rest = DISPLAY_TIME.saturating_sub(now.saturating_duration_since(self.shown_at));
+        (!self.failed && !rest.is_zero()).then_some(rest)
     }
 }
 

@@ -6,6 +6,7 @@ use eframe::egui::Context;
 use render::paint::strokes::SurfaceId;
 
 use super::crop::CropTool;
+use super::dashes::Dashes;
 use super::frames::Frames;
 use super::guide::Tour;
 use super::hover::{Hover, HoveringHead};
@@ -77,6 +78,8 @@ pub struct Studio {
     pub(super) last_pick: Option<(SurfaceId, u64, u64)>,
     /// Points of the mask that is being drawn, in cells of the canvas.
     pub(super) mask_points: Vec<[f64; 2]>,
+    /// Movement of the dashes around the mask.
+    pub(super) mask_dashes: Dashes,
     pub(super) log: Option<FiguresLog>,
     pub(super) title: String,
     pub(super) tour: Tour,
@@ -170,6 +173,7 @@ impl Studio {
             last_recording: None,
             last_pick: None,
             mask_points: Vec::new(),
+            mask_dashes: Dashes::default(),
             log,
             title: String::new(),
             tour: Tour::default(),

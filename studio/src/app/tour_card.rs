@@ -12,6 +12,7 @@ use super::places::{self, Part};
 use super::side::Tab;
 use super::studio::Studio;
 use crate::floating;
+use crate::keymap::text;
 use crate::theme;
 
 /// Width of the card's contents, in points.
@@ -115,7 +116,8 @@ impl Studio {
                     ui.label(RichText::new(step.title()).heading().strong());
                     ui.weak(format!("step {} of {of}", number + 1));
                 });
-                for line in step.lines() {
+                let key = |intent: Intent| text(ui.ctx(), &intent.name()).unwrap_or_default();
+                for line in step.lines(key) {
                     ui.label(line);
                 }
             }

@@ -49,6 +49,11 @@ pub enum PenEvent {
     },
     /// The device is no longer over any surface.
     Leave,
+    /// Several fingers tapped a surface at once.
+    Tap {
+        /// Number of fingers, 2 or more.
+        fingers: usize,
+    },
     /// A button on the barrel of a stylus changed.
     Barrel {
         /// Button number; 0 is the button nearest to the tip.
@@ -188,6 +193,11 @@ impl Pen {
             stroke.add_rest_sample(now, &handling);
             flush(stroke, &mut events);
         }
+        // The palm of a hand that holds a stylus is no tap.
+        let tapped = self.pointer.tapped().filter(|tap| {
+            self.stroke.is_none() && !self.is_near(now) && targets.surface_at(tap.at).is_some()
+        });
+        events.extend(tapped.map(|tap| PenEvent::Tap { fingers: tap.fingers }));
         self.hover(targets, &mut events);
         events
     }

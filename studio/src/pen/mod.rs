@@ -15,6 +15,8 @@ mod speed;
 
 mod stamps;
 
+mod taps;
+
 mod pointer;
 
 #[cfg(target_os = "linux")]

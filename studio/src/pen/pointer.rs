@@ -6,6 +6,7 @@ use eframe::egui::{Event, PointerButton, Pos2, TouchId, TouchPhase};
 
 use super::report::{Device, PointerState, Report, ReportKind};
 use super::stamps::{Stamp, Stamps, filled};
+use super::taps::{Tap, Taps};
 
 /// Distance after which a moving finger paints, in points. Until then a second finger can
 /// turn the touch into a gesture.
@@ -25,6 +26,9 @@ pub(super) struct Pointer {
     /// Fingers that are down, in order of contact. Only the first can paint.
     fingers: Vec<TouchId>,
     finger: Finger,
+    taps: Taps,
+    /// The tap of several fingers in the last frame.
+    tapped: Option<Tap>,
 }
 
 /// State of the finger that can paint.
@@ -53,7 +57,9 @@ impl Pointer {
     /// them, the last frame and `now`.
     pub(super) fn reports(&mut self, events: &[Event], now: Instant) -> Vec<Report> {
         let mut reports = Vec::new();
+        self.tapped = None;
         for event in events {
+            self.tapped = self.taps.read(event, now).or(self.tapped);
             self.read_event(event, now, &mut reports);
         }
         let from = self.last_frame.unwrap_or(now);
@@ -74,6 +80,12 @@ impl Pointer {
         }
         self.last_frame = Some(now);
         self.decide(reports, now)
+    }
+
+    /// The tap of several fingers that ended in the events of the last frame; `None` if one of them
+    /// painted before.
+    pub(super) fn tapped(&self) -> Option<Tap> {
+        self.tapped
     }
 
     /// Whether it is not decided yet if the finger paints or makes a gesture.
@@ -157,6 +169,8 @@ impl Pointer {
                 (Finger::Paints, ReportKind::Gone) => {
                     out.push(Report { kind: ReportKind::Released, ..report });
                     self.finger = Finger::Gesture;
+                    self.taps.paints();
+                    self.tapped = None;
                 }
                 (_, ReportKind::Gone) => self.finger = Finger::Gesture,
                 (Finger::Paints, ReportKind::Released) => {
@@ -284,5 +298,33 @@ mod tests {
         assert_eq!(frame(300, &[first, touch(1, TouchPhase::Move, 20.0)]), "PM");
         assert_eq!(frame(310, &[touch(2, TouchPhase::Start, 50.0)]), "R");
         assert_eq!(frame(320, &[touch(1, TouchPhase::Move, 60.0)]), "");
+    }
+
+    #[test]
+    fn a_tap_of_two_fingers_is_told_unless_one_of_them_painted() {
+        let start = Instant::now();
+        let mut pointer = Pointer::default();
+        let mut frame = |ms, events: &[Event]| {
+            let reports = pointer.reports(events, start + Duration::from_millis(ms));
+            (letters(&reports), pointer.tapped().map(|tap| (tap.fingers, tap.at.x)))
+        };
+        let none = |letters: &str| (letters.to_owned(), None);
+        let [first, second] = [(1, 7.0), (2, 50.0)].map(|(id, x)| touch(id, TouchPhase::Start, x));
+        let [end, last] = [(1, 7.0), (2, 50.0)].map(|(id, x)| touch(id, TouchPhase::End, x));
+        assert_eq!(frame(0, &[first.clone()]), none(""));
+        assert_eq!(frame(50, &[second.clone()]), none(""));
+        assert_eq!(frame(90, &[last.clone()]), none(""));
+        assert_eq!(frame(100, &[end.clone()]), (String::new(), Some((2, 7.0))));
+        assert_eq!(frame(116, &[]), none(""), "it is told once");
+        // The first finger rests, which paints, before the second one comes.
+        assert_eq!(frame(1000, &[first.clone()]), none(""));
+        assert_eq!(frame(1080, &[]), none("P"));
+        assert_eq!(frame(1100, &[second.clone()]), none("R"));
+        assert_eq!(frame(1150, &[end.clone(), last.clone()]), none(""));
+        // All in one slow frame, once with a stroke before the second finger.
+        let whole = [first.clone(), second.clone(), end.clone(), last.clone()];
+        assert_eq!(frame(2000, &whole), (String::new(), Some((2, 7.0))));
+        let stroke = touch(1, TouchPhase::Move, 16.0);
+        assert_eq!(frame(3000, &[first, stroke, second, end, last]), none("PMR"));
     }
 }

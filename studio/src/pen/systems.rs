@@ -46,7 +46,7 @@ impl Systems {
             };
             if let Some(number) = number {
                 let egui = context.egui_ctx.clone();
-                match X11Pens::start(number, move || egui.request_repaint()) {
+                match X11Pens::start(number, move || crate::pace::wake(&egui)) {
                     Ok(pens) => systems.x11 = Some(pens),
                     Err(error) => {
                         systems.notice = Some(format!(

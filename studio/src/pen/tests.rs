@@ -2,7 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2};
+use eframe::egui::{
+    Event, Modifiers, PointerButton, Pos2, Rect, TouchDeviceId, TouchId, TouchPhase, pos2,
+};
 use render::paint::pose::Sample;
 use render::paint::strokes::{SampleDecimals, SurfaceId};
 
@@ -89,6 +91,7 @@ fn letters(output: &[PenEvent]) -> String {
         PenEvent::Hover { .. } => 'H',
         PenEvent::Leave => 'L',
         PenEvent::Barrel { .. } => 'B',
+        PenEvent::Tap { .. } => 'T',
     };
     output.iter().map(letter).collect()
 }
@@ -375,4 +378,22 @@ fn barrel_buttons_are_reported() {
     let mut test = TestPen::new();
     test.feed(0, ReportKind::Barrel { button: 1, pressed: true });
     assert_eq!(test.frame(1, &[]), [PenEvent::Barrel { button: 1, pressed: true }]);
+}
+
+#[test]
+fn a_tap_beside_a_surface_or_of_a_hand_that_holds_a_pen_is_none() {
+    let tap = |x: f32| {
+        let touch = |id, phase, x| {
+            let (device_id, id) = (TouchDeviceId(0), TouchId(id));
+            Event::Touch { device_id, id, phase, pos: pos2(x, 99.0), force: None }
+        };
+        let both = |phase| [touch(1, phase, x), touch(2, phase, x + 30.0)];
+        [both(TouchPhase::Start), both(TouchPhase::End)].concat()
+    };
+    let mut test = TestPen::new();
+    assert_eq!(letters(&test.frame(0, &tap(300.0))), "T");
+    assert_eq!(letters(&test.frame(100, &tap(1300.0))), "", "beside the surfaces");
+    test.feed(190, ReportKind::Moved(state(300.0, 0.0)));
+    assert_eq!(letters(&test.frame(200, &tap(300.0))), "H", "the pen is near");
+    assert_eq!(letters(&test.frame(900, &tap(300.0))), "T", "it is gone");
 }

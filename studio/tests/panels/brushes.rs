@@ -1,16 +1,18 @@
 //! Tests of the brush panel.
 
-use eframe::egui::{Event, Key, accesskit::Role};
+use eframe::egui::{Event, Key, accesskit::Role, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use render::paint::brush::HeadShape;
-use render::paint::strokes::{Action, BrushSpec, Load, Recipe};
+use render::paint::document::LayerId;
+use render::paint::strokes::{Action, BrushSpec, LayerRef, Load, MaskChange, Recipe};
 use session::swatches::SwatchChange;
 use session::{BrushState, Command};
 use studio::panels::brushes::Brushes;
 use studio::panels::{FileRequest, Mode, Request};
 
 use super::fixture::{Fixture, assert_requests, click, is_disabled, painting, picture, show_panel};
+use super::panel_window::PanelWindow;
 
 fn brushes() -> Harness<'static, Fixture<Brushes>> {
     show_panel(Brushes::default(), painting(), Brushes::show)
@@ -309,4 +311,23 @@ fn what_the_brush_holds_is_kept_as_a_mixture() {
     let wanted = painting.library.color(recipe, viewing).unwrap();
     assert_eq!(kept.color, wanted.hex());
     assert_eq!(kept.library, painting.library.title);
+}
+
+#[test]
+fn the_mask_names_layers_as_the_layer_panel_does() {
+    let mut painting = painting();
+    painting.layers[1].name = "sky".to_owned();
+    let mut stage =
+        PanelWindow::new(Brushes::default(), vec2(300.0, 900.0), painting, Brushes::show);
+    stage.state().tools.mode = Mode::Mask;
+    stage.run();
+    for (label, layer) in [("sky", LayerId(2)), ("Layer 1", LayerId(1))] {
+        stage.click(label);
+        let mask = Action::Mask(MaskChange::Layer(LayerRef::Id(layer)));
+        let found = stage.commands();
+        assert!(matches!(&found[..], [Command::Apply(found)] if *found == mask), "{found:?}");
+    }
+    // A long name does not leave the panel, which the window checks.
+    stage.state().painting.layers[1].name = "the light over the trees at the far bank ".repeat(2);
+    stage.run();
 }

@@ -42,6 +42,54 @@ fn escape_closes_the_topmost_window_first() {
     assert!(shown(&mut window, EXCHANGE).is_none(), "the exchange is closed");
 }
 
+#[test]
+fn escape_closes_the_windows_of_the_pen_and_of_own_brushes() {
+    let mut window = Window::open("floating-pen");
+    let open = |window: &Window| [window.studio().visible.pen, window.studio().visible.brush_sets];
+    window.studio_mut().visible.pen = true;
+    window.harness().run_ok();
+    window.studio_mut().visible.brush_sets = true;
+    window.settle();
+    window.key(Modifiers::NONE, Key::F1);
+    assert!(shown(&mut window, KEYS).is_some(), "the keys lie over both");
+    window.key(Modifiers::NONE, Key::Escape);
+    assert_eq!((shown(&mut window, KEYS), open(&window)), (None, [true, true]), "the keys first");
+    window.key(Modifiers::NONE, Key::Escape);
+    assert_eq!(open(&window), [true, false], "the own brushes were opened after the pen");
+    window.key(Modifiers::NONE, Key::Escape);
+    assert_eq!(open(&window), [false, false]);
+}
+
+#[test]
+fn the_windows_of_the_pen_and_of_own_brushes_stay_off_the_menus_and_close_them() {
+    let mut window = Window::open("floating-pen-menus");
+    for (opens, field) in [(true, "Clear"), (false, "Keep brush")] {
+        window.click("File");
+        assert!(is_listed(&mut window), "the menu is open");
+        let visible = &mut window.studio_mut().visible;
+        (visible.pen, visible.brush_sets) = (opens, !opens);
+        window.settle();
+        assert!(!is_listed(&mut window), "{field}: the window closed the menu");
+        let bar = window.harness().get_by_role_and_label(Role::Button, "File").rect();
+        let rect = shown(&mut window, field).unwrap();
+        assert!(rect.top() > bar.bottom() + 20.0, "{field}: {rect} is below the menu bar");
+    }
+}
+
+#[test]
+fn escape_in_the_name_of_a_set_leaves_the_window_open() {
+    let mut window = Window::open("floating-name");
+    window.studio_mut().visible.brush_sets = true;
+    window.settle();
+    window.click("New set");
+    assert!(shown(&mut window, "Name of the set").is_some(), "a name is typed");
+    window.key(Modifiers::NONE, Key::Escape);
+    assert!(shown(&mut window, "Name of the set").is_none(), "Escape cancels the name");
+    assert!(window.studio().visible.brush_sets, "and closes nothing");
+    window.key(Modifiers::NONE, Key::Escape);
+    assert!(!window.studio().visible.brush_sets, "the second one closes the window");
+}
+
 /// Whether the menu of files is open. The list of keys has lines of that name, but no buttons.
 fn is_listed(window: &mut Window) -> bool {
     window.harness().query_by_role_and_label(Role::Button, "Save recording...").is_some()

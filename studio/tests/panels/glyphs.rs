@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use eframe::egui::{FontFamily, FontId, Key, Modifiers, Role, Shape};
 use egui_kittest::kittest::{NodeT, Queryable};
 use session::Command;
-use studio::app::Tab;
 
 use super::harness::Window;
+use super::look::TABS;
 use super::volumes::scene;
 
 /// Texts that were drawn in the last frame, with the family of their font.
@@ -38,7 +38,7 @@ pub(super) fn drawn_texts(window: &mut Window) -> BTreeSet<(FontFamily, String)>
 
 /// Checks what is shown now: drawn texts, and the names for screen readers. Returns the number of
 /// texts.
-fn check(window: &mut Window, place: &str) -> usize {
+pub(super) fn check(window: &mut Window, place: &str) -> usize {
     let mut texts = drawn_texts(window);
     let nodes = window.harness().query_all_by(|_| true);
     let named: Vec<String> = nodes
@@ -100,7 +100,7 @@ fn every_character_of_menus_and_panels_has_a_glyph() {
     window.studio_mut().ask(Command::SetSecondLight(Some(Default::default())));
     window.settle();
     check_menus(&mut window);
-    for tab in [Tab::Brush, Tab::Layers, Tab::Light, Tab::Color, Tab::History, Tab::Files] {
+    for tab in TABS {
         window.studio_mut().panels.select(tab);
         window.settle();
         check(&mut window, tab.name());

@@ -63,6 +63,18 @@ fn the_first_steps_are_gone_at_the_first_stroke_and_back_under_help() {
 }
 
 #[test]
+fn the_first_steps_tell_the_keys_in_use() {
+    let mut window = Window::first_start("first-steps-keys", SIZE);
+    let keys = &mut window.studio_mut().files.preferences.keys;
+    keys.insert("wash".to_owned(), vec!["J".to_owned()]);
+    keys.insert("dry".to_owned(), Vec::new());
+    window.harness().run_ok();
+    for words in ["J washes it", "Edit, Dry dries the paint"] {
+        assert!(draws(&mut window, words), "{words} is not shown");
+    }
+}
+
+#[test]
 fn the_first_steps_stay_within_a_small_window() {
     for size in [vec2(900.0, 600.0), vec2(1920.0, 1080.0)] {
         let mut window = Window::first_start("first-steps-size", size);

@@ -2,9 +2,11 @@
 
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
+use session::volumes::Subject;
 use studio::app::{Entry, Intent, SceneEntry, SceneIntent};
 use studio::panels::Mode;
 
+use super::glyphs::drawn_texts;
 use super::harness::Window;
 use super::volumes::{scene, volumes, wait};
 
@@ -154,4 +156,47 @@ fn scenes_have_keys_of_their_own() {
     let entry = SceneEntry::of(SceneIntent::Hatching).unwrap();
     assert_eq!(entry.shortcut_text(&context), "M");
     assert_eq!(Entry::of(Intent::Mirror).unwrap().shortcut_text(&context), "M", "as before");
+}
+
+/// Whether a tooltip that contains `words` comes over a control.
+fn tells(window: &mut Window, label: &str, words: &str) -> bool {
+    window.harness().get_by_label(label).hover();
+    window.harness().run_steps(90);
+    drawn_texts(window).iter().any(|(_, text)| text.contains(words))
+}
+
+#[test]
+fn tooltips_tell_the_keys_in_use() {
+    let mut window = Window::open("keys-tips");
+    let context = window.harness().ctx.clone();
+    let keys = [
+        ("reference-over", "F5"),
+        ("scene.play", "F6"),
+        ("scene.step", "F7"),
+        ("scene.start", "F8"),
+        ("scene.hatching", "F9"),
+        ("scene.volumes", "Shift+F2"),
+        ("scene.inside", "Shift+F3"),
+    ];
+    for (name, key) in keys {
+        let own = vec![key.to_owned()];
+        window.studio_mut().files.preferences.keys.insert(name.to_owned(), own);
+    }
+    let file = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("keys-tips.png");
+    image::RgbImage::new(30, 20).save(&file).unwrap();
+    window.studio_mut().panels.reference.open(&context, &file);
+    window.settle();
+    assert!(tells(&mut window, "Over canvas", "to draw after (key F5). It is never"));
+    window.studio_mut().open_scene(&context, Subject::Shape("village".to_owned()));
+    wait(&mut window, "the first picture", |volumes| volumes.picture().is_some());
+    for (label, words) in [
+        ("From the start", "Goes to the start (key F8)"),
+        ("Play", "Lets time run (key F6)"),
+        ("Step", "1/120 s (key F7)"),
+        ("Hatching", "light falls (key F9)"),
+        ("Volumes", "grey drawing (key Shift+F2)"),
+        ("Own", "own colours (key Shift+F3)"),
+    ] {
+        assert!(tells(&mut window, label, words), "{label}: {words}");
+    }
 }

@@ -14,7 +14,16 @@ use super::harness::Window;
 use super::seen::{SeenText, Target, targets, texts};
 
 /// All panels of the columns.
-const TABS: [Tab; 6] = [Tab::Brush, Tab::Layers, Tab::Light, Tab::Color, Tab::History, Tab::Files];
+pub(super) const TABS: [Tab; 8] = [
+    Tab::Brush,
+    Tab::Layers,
+    Tab::Light,
+    Tab::Color,
+    Tab::Wheel,
+    Tab::Swatches,
+    Tab::History,
+    Tab::Files,
+];
 
 /// Sizes of windows, in points.
 const SIZES: [Vec2; 3] = [vec2(1280.0, 800.0), vec2(1440.0, 1000.0), vec2(1920.0, 1080.0)];
@@ -27,7 +36,7 @@ const LOOKS: [(ThemeChoice, bool); 4] = [
     (ThemeChoice::Light, true),
 ];
 
-fn set_look(window: &mut Window, (theme, touch): (ThemeChoice, bool)) {
+pub(super) fn set_look(window: &mut Window, (theme, touch): (ThemeChoice, bool)) {
     let preferences = &mut window.studio_mut().files.preferences;
     (preferences.theme, preferences.touch_targets) = (theme, touch);
     window.harness().step();
@@ -44,7 +53,7 @@ fn seen(window: &mut Window) -> Vec<SeenText> {
     texts(window.harness().output())
 }
 
-fn cut(window: &mut Window) -> Vec<String> {
+pub(super) fn cut(window: &mut Window) -> Vec<String> {
     let cut = seen(window).into_iter().filter(SeenText::is_cut);
     cut.map(|text| format!("{} at {:?}", text.words, text.rect)).collect()
 }
@@ -167,7 +176,7 @@ const SMALLER: [(&str, &str); 4] = [
 ];
 
 /// Targets that are smaller than a finger.
-fn small(window: &mut Window) -> Vec<Target> {
+pub(super) fn small(window: &mut Window) -> Vec<Target> {
     let all = targets(&window.harness().root());
     assert!(all.len() > 20, "{} targets", all.len());
     let least = theme::TOUCH_TARGET - 0.5;

@@ -67,6 +67,12 @@ mod volume_paint;
 
 mod look;
 
+mod look_windows;
+
+mod touch;
+
+mod idle;
+
 mod docking;
 
 mod working;

@@ -4,7 +4,8 @@ use eframe::egui::{Key, Modifiers, Theme, vec2};
 use egui_kittest::kittest::Queryable;
 use render::paint::strokes::SurfaceId;
 use session::PaintingState;
-use studio::app::{Facts, Tour, TourStep};
+use studio::app::{Facts, Intent, Tour, TourStep};
+use studio::panels::Mode;
 
 use super::fixture::painting;
 use super::harness::Window;
@@ -193,4 +194,28 @@ fn the_card_goes_back_and_on_and_escape_leaves_it() {
     assert!(message.hint.as_ref().is_some_and(|hint| hint.contains("Guided tour")), "{message:?}");
     start(&mut window);
     assert_eq!(window.studio().tour().step(), Some(TourStep::Paint), "where it was left");
+}
+
+#[test]
+fn the_steps_tell_the_keys_in_use() {
+    let key = |intent: Intent| {
+        let keys = [
+            (Intent::Tool(Mode::Paint), "F5"),
+            (Intent::Dry, "F6"),
+            (Intent::Wash, "F7"),
+            (Intent::OtherLight, "F8"),
+        ];
+        let own = keys.iter().find(|(own, _)| *own == intent);
+        own.map_or_else(String::new, |(_, key)| (*key).to_owned())
+    };
+    let with = |step: TourStep| step.lines(key).concat();
+    assert!(with(TourStep::Mix).contains("Choose Paint (F5) and"), "{}", with(TourStep::Mix));
+    assert!(with(TourStep::Dry).starts_with("Press F6, or this button."));
+    assert!(with(TourStep::Glaze).starts_with("Wash (F7), set"));
+    assert!(with(TourStep::Relight).starts_with("Press F8 for the light of a bulb"));
+    let without = |step: TourStep| step.lines(|_| String::new()).concat();
+    assert!(without(TourStep::Mix).contains("Choose Paint and draw"));
+    assert!(without(TourStep::Dry).starts_with("Press this button."));
+    assert!(without(TourStep::Glaze).starts_with("Wash, set"));
+    assert!(without(TourStep::Relight).starts_with("Choose another light in the Light tab."));
 }

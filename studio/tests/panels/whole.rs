@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use eframe::egui::{DroppedFile, Role};
+use eframe::egui::{DroppedFile, Event, Key, Modifiers, Role, ViewportCommand, ViewportId};
 use egui_kittest::kittest::Queryable;
 use image::{Rgb, RgbImage};
 use render::paint::strokes::{Action, Load, Squeeze, SurfaceId};
@@ -196,4 +196,24 @@ fn a_dropped_swatch_file_is_shown() {
     window.click("Umber");
     wait_for(&mut window, "Load recipe 1");
     assert_eq!(window.studio().panels.eyedropper.target().unwrap().name, "Umber");
+}
+
+#[test]
+fn a_key_asks_the_system_for_full_screen_and_back() {
+    let mut window = Window::open("full-screen");
+    let mut press = |full: bool| {
+        let viewport = window.harness().input_mut().viewports.entry(ViewportId::ROOT).or_default();
+        viewport.fullscreen = Some(full);
+        let key = |pressed| Event::Key {
+            key: Key::F11,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        window.frame(vec![key(true), key(false)]);
+        window.harness().output().viewport_output[&ViewportId::ROOT].commands.clone()
+    };
+    assert!(press(false).contains(&ViewportCommand::Fullscreen(true)));
+    assert!(press(true).contains(&ViewportCommand::Fullscreen(false)));
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use render::gpu::BackendChoice;
-use render::paint::strokes::{Action, SampleDecimals, StrokeScript, SurfaceId};
+use render::paint::strokes::{Action, MaskChange, SampleDecimals, StrokeScript, SurfaceId};
 use session::{
     Autosave, Command, Event, KeptPainting, LostSession, Origin, PenSample, SessionMeta,
 };
@@ -94,6 +94,28 @@ fn a_recovered_session_goes_on_with_its_brushes_and_its_whole_recording() {
     window.stroke(SurfaceId::Canvas, "knife", [&wander(11, 30, 32.0, 20.0)[..]]);
     assert_eq!(window.recording().actions.len(), 10);
     assert_replays(&mut window, "painted on");
+}
+
+#[test]
+fn a_mask_survives_recovery_and_the_recording_replays_under_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut autosave = Autosave::begin(folder.path()).unwrap();
+    let mut window = Window::open(BackendChoice::Cpu);
+    window.act(load("round", "Ultramarine"));
+    let open = vec![[0.0, 0.0], [14.0, 0.0], [14.0, 30.0], [0.0, 30.0]];
+    window.act(Action::Mask(MaskChange::PolygonMm(open)));
+    let covered = window.state().mask.clone().map(|mask| mask.covered);
+    autosave.keep(&kept(&mut window, 0), None, &meta()).unwrap();
+    drop((autosave, window));
+
+    let mut window = recovered(folder.path());
+    assert_eq!(window.state().mask.clone().map(|mask| mask.covered), covered, "it is reported");
+    paint(&mut window, 3);
+    assert!(window.snapshot().canvas.wet.totals().iter().any(|total| *total > 0), "painted");
+    assert_replays(&mut window, "painted under the mask");
+    window.act(Action::Mask(MaskChange::Clear {}));
+    paint(&mut window, 7);
+    assert_replays(&mut window, "painted without it");
 }
 
 #[test]

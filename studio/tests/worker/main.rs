@@ -9,6 +9,7 @@ mod pen;
 mod pictures;
 
 mod strokes;
+
 mod tools;
 
 mod replay;

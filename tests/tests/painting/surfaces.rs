@@ -230,7 +230,7 @@ fn a_slider_is_one_action_and_another_one_is_another() {
             session.adjust(&Action::Opacity { layer: LayerRef::Dry(0), value }).unwrap();
         }
         session.end_adjustment();
-        let labels = ["stroke, flat", "dry all", "light D65", "30 % of layer 0"];
+        let labels = ["stroke, flat", "dry all", "light D65", "30 % of Layer 1"];
         assert_eq!(session.history(), (labels.to_vec(), 4));
         let after = whole(&mut session);
         session.go_to(2).unwrap();

@@ -28,7 +28,13 @@ pub struct OpenRaster {
     archive: ZipWriter<Cursor<Vec<u8>>>,
     size: (usize, usize),
     cell_mm: f64,
-    names: Vec<String>,
+    layers: Vec<LayerName>,
+}
+
+/// A layer in the list of the file.
+struct LayerName {
+    name: String,
+    visible: bool,
 }
 
 impl OpenRaster {
@@ -40,24 +46,29 @@ impl OpenRaster {
         check_size(size.0, size.1)?;
         check_cell(cell_mm)?;
         let archive = ZipWriter::new(Cursor::new(Vec::new()));
-        let mut file = Self { archive, size, cell_mm, names: Vec::new() };
+        let mut file = Self { archive, size, cell_mm, layers: Vec::new() };
         file.entry("mimetype", b"image/openraster")?;
         Ok(file)
     }
 
     /// Adds a layer above those before: red, green, blue and opacity in encoded sRGB, not
-    /// premultiplied.
+    /// premultiplied. A layer that is not `visible` is listed as hidden.
     ///
     /// # Errors
     /// [`ExportError`] for a layer of another size, or if the encoder fails.
-    pub fn layer(&mut self, name: &str, pixels: &Field<[u16; 4]>) -> Result<(), ExportError> {
+    pub fn layer(
+        &mut self,
+        name: &str,
+        visible: bool,
+        pixels: &Field<[u16; 4]>,
+    ) -> Result<(), ExportError> {
         let (width, height) = self.size;
         if (pixels.width(), pixels.height()) != self.size {
             return Err(ExportError::Differs { plane: name.to_owned(), width, height });
         }
         let png = rgba16(pixels, self.cell_mm)?;
-        self.entry(&file_of(self.names.len()), &png)?;
-        self.names.push(name.to_owned());
+        self.entry(&file_of(self.layers.len()), &png)?;
+        self.layers.push(LayerName { name: name.to_owned(), visible });
         Ok(())
     }
 
@@ -106,7 +117,7 @@ impl OpenRaster {
         ]);
         image.write_inner_content(|xml| {
             xml.create_element("stack").write_inner_content(|xml| {
-                for (index, name) in self.names.iter().enumerate().rev() {
+                for (index, LayerName { name, visible }) in self.layers.iter().enumerate().rev() {
                     let source = file_of(index);
                     let layer = xml.create_element("layer").with_attributes([
                         ("name", name.as_str()),
@@ -114,7 +125,7 @@ impl OpenRaster {
                         ("x", "0"),
                         ("y", "0"),
                         ("opacity", "1.0"),
-                        ("visibility", "visible"),
+                        ("visibility", if *visible { "visible" } else { "hidden" }),
                         ("composite-op", "svg:src-over"),
                     ]);
                     layer.write_empty()?;
@@ -148,8 +159,8 @@ mod tests {
 
     fn file() -> Vec<u8> {
         let mut file = OpenRaster::new((400, 2), 0.1).unwrap();
-        file.layer("Ground", &Field::filled(400, 2, [65535, 65535, 60000, 65535])).unwrap();
-        file.layer("Red & \"blue\" <1>", &Field::filled(400, 2, [9000, 0, 0, 1000])).unwrap();
+        file.layer("Ground", true, &Field::filled(400, 2, [65535, 65535, 60000, 65535])).unwrap();
+        file.layer("Red & \"blue\" <1>", false, &Field::filled(400, 2, [9000, 0, 0, 1000])).unwrap();
         file.finish(&Field::filled(400, 2, [0.5, 0.4, 0.3, 1.0])).unwrap().bytes
     }
 
@@ -183,6 +194,10 @@ mod tests {
         assert!(upper < lower, "the uppermost comes first: {text}");
         assert!(text.contains("w=\"400\" h=\"2\" xres=\"254\" yres=\"254\""), "{text}");
         assert!(text.contains("Red &amp; &quot;blue&quot; &lt;1&gt;"), "{text}");
+        let shown = |name| text[text.find(name).unwrap()..].find("visibility=\"visible\"");
+        let hidden = |name| text[text.find(name).unwrap()..].find("visibility=\"hidden\"");
+        assert!(hidden("Red &amp;") < shown("Red &amp;"), "the second layer is hidden: {text}");
+        assert!(shown("Ground").is_some() && hidden("Ground").is_none(), "{text}");
     }
 
     #[test]
@@ -200,7 +215,7 @@ mod tests {
     #[test]
     fn layers_of_another_size_are_refused() {
         let mut file = OpenRaster::new((4, 2), 0.1).unwrap();
-        let other = file.layer("other", &Field::filled(3, 2, [0; 4]));
+        let other = file.layer("other", true, &Field::filled(3, 2, [0; 4]));
         assert!(matches!(other, Err(ExportError::Differs { .. })), "{other:?}");
         let merged = file.finish(&Field::filled(3, 2, [0.0; 4]));
         assert!(matches!(merged, Err(ExportError::Differs { .. })), "{merged:?}");

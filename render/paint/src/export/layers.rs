@@ -5,10 +5,11 @@ use rayon::prelude::*;
 use super::alpha::over;
 use crate::composite::composite_row;
 use crate::document::{Document, Slots};
+use crate::dry_layer::layer_label;
 use crate::layer::Layer;
 use crate::light::Light;
 use crate::optics::{LayerOptics, NODES, Scene};
-use crate::scene::{picture_of_lowest, scene};
+use crate::scene::{Appearance, picture_of_lowest, scene};
 use crate::shade::color_row;
 use graphics::export::{ExportError, OpenRaster, PictureFile, srgb16};
 use graphics::field::Field;
@@ -23,6 +24,10 @@ use spectra::color::{Rgb, RgbSpace};
 /// the layers together show the merged picture to the rounding of 16 bits, and without its upper
 /// layers the file shows the painting before they were painted. In another order, or over other
 /// colours, they show what such a program makes of them, which paint would not.
+///
+/// A dry layer has its own name, or else its number and the names of its pigments. A hidden layer is
+/// listed as hidden, with the pixels that it would have if it were shown; those above it are made
+/// without its colour. The relief that it keeps is part of the next layer that is shown.
 ///
 /// Shadows and light of a layer's relief are part of the layer. After each layer `go_on` is called
 /// with the number of layers done; if it returns `false`, the result is `None`.
@@ -40,34 +45,52 @@ pub fn layers_file(
     let mut file = OpenRaster::new(size, document.cell_mm)?;
     let mut merged = picture_of_lowest(document, &scene, 0);
     let mut below = srgb16(&merged)?.pixels;
-    file.layer("Ground", &opaque(&below))?;
-    let dry = document.dry.iter().zip(&scene.dry).enumerate();
-    let dry = dry.map(|(i, (layer, optics))| {
-        (format!("Dry layer {}", i + 1), &layer.slots, &layer.paint, optics)
+    file.layer("Ground", true, &opaque(&below))?;
+    let dry = document.dry.iter().map(|layer| {
+        let usual = layer_label(layer.id, "");
+        let name = name(&layer.name, &usual, (&layer.slots, &layer.paint), document);
+        (name, layer.visible, &layer.paint)
     });
-    let wet = ("Wet paint".to_owned(), &document.slots, &document.wet, &scene.wet);
-    for (index, (title, slots, paint, optics)) in dry.chain([wet]).enumerate() {
+    let wet = name("", "Wet paint", (&document.slots, &document.wet), document);
+    let all = dry.chain([(wet, true, &document.wet)]);
+    for (index, (title, visible, paint)) in all.enumerate() {
         if !go_on(index + 1) {
             return Ok(None);
         }
-        merged = picture_of_lowest(document, &scene, index + 1);
-        let above = srgb16(&merged)?.pixels;
-        let pixels = layer_pixels(&scene, (paint, optics), &below, &above);
-        file.layer(&name(&title, slots, paint, document), &pixels)?;
-        below = above;
+        let shown = (!visible).then(|| shown_scene(document, light, index));
+        let scene = shown.as_ref().unwrap_or(&scene);
+        let optics = scene.dry.get(index).unwrap_or(&scene.wet);
+        let picture = picture_of_lowest(document, scene, index + 1);
+        let above = srgb16(&picture)?.pixels;
+        let pixels = layer_pixels(scene, (paint, optics), &below, &above);
+        file.layer(&title, visible, &pixels)?;
+        if visible {
+            (merged, below) = (picture, above);
+        }
     }
     let png = file.finish(&merged)?;
     let outside = png.outside as f64 / merged.values().len() as f64;
     Ok(Some(PictureFile { bytes: png.bytes, outside }))
 }
 
-/// Title of a layer with the pigments that are in it.
-fn name(title: &str, slots: &Slots, paint: &Layer, document: &Document) -> String {
+/// The scene with the dry layer `index` shown, which is hidden.
+fn shown_scene(document: &Document, light: &Light, index: usize) -> Scene {
+    let dry = document.dry.iter().enumerate().map(|(at, layer)| {
+        (layer.slots, if at == index { layer.opacity } else { layer.shown_opacity() })
+    });
+    Appearance::of(document, &dry.collect::<Vec<_>>()).scene(light)
+}
+
+/// Name of a layer: its own, or else the label `usual` with the pigments that are in it.
+fn name(own: &str, usual: &str, (slots, paint): (&Slots, &Layer), document: &Document) -> String {
+    if !own.is_empty() {
+        return own.to_owned();
+    }
     let totals = paint.totals();
     let used = slots.iter().zip(totals).filter(|(_, total)| *total > 0);
     let names: Vec<&str> =
         used.filter_map(|(slot, _)| Some(document.library[(*slot)?].name.as_str())).collect();
-    if names.is_empty() { title.to_owned() } else { format!("{title}: {}", names.join(", ")) }
+    if names.is_empty() { usual.to_owned() } else { format!("{usual}: {}", names.join(", ")) }
 }
 
 fn opaque(pixels: &Field<[u16; 3]>) -> Field<[u16; 4]> {
@@ -257,7 +280,8 @@ mod tests {
 
     #[test]
     fn the_merged_picture_is_the_exported_one_and_layers_have_names() {
-        let (document, light) = painted();
+        let (mut document, light) = painted();
+        document.dry[1].name = "Light and air".to_owned();
         let file = layers_file(&document, &light, |_| true).unwrap().unwrap();
         let again = layers_file(&document, &light, |_| true).unwrap().unwrap();
         assert!(file == again, "the same bytes every time");
@@ -268,9 +292,30 @@ mod tests {
             stack.split("name=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
         assert_eq!(names.len(), 4, "{stack}");
         assert!(names[0].starts_with("Wet paint: ") && names[0].contains("Vermilion"), "{names:?}");
-        assert_eq!(names[2..], ["Dry layer 1: Prussian Blue", "Ground"]);
+        assert_eq!(names[1..], ["Light and air", "Layer 1: Prussian Blue", "Ground"]);
+        assert!(!stack.contains("hidden"), "all are shown: {stack}");
         let _: ImageBuffer<Pixel<u16>, _> =
             image::load_from_memory(&entry(&file.bytes, "mergedimage.png")).unwrap().into_rgb16();
+    }
+
+    #[test]
+    fn a_hidden_layer_is_hidden_in_the_file_and_has_the_pixels_that_showing_it_needs() {
+        let (mut document, light) = painted();
+        document.dry[1].visible = false;
+        let file = layers_file(&document, &light, |_| true).unwrap().unwrap();
+        let stack = String::from_utf8(entry(&file.bytes, "stack.xml")).unwrap();
+        let hidden = |line: &&str| line.contains("visibility=\"hidden\"");
+        let hidden: Vec<&str> = stack.lines().filter(hidden).collect();
+        assert!(hidden.len() == 1 && hidden[0].contains("layer002.png"), "{stack}");
+        let layer = |index| layer(&file.bytes, index);
+        let seen = composited(&[layer(0), layer(1), layer(3)]);
+        let error = worst(&seen, &picture(&document, &scene(&document, &light)));
+        assert!(error <= 2.0, "without the hidden layer: {error}");
+        let below_wet = composited(&[layer(0), layer(1), layer(2)]);
+        document.dry[1].visible = true;
+        let shown = picture_of_lowest(&document, &scene(&document, &light), 2);
+        let error = worst(&below_wet, &shown);
+        assert!(error <= 2.0, "with it: {error}");
     }
 
     #[test]

@@ -77,7 +77,7 @@ impl Painting {
     }
 
     /// Gives the engine this mask, if it has another.
-    pub(super) fn hold_mask(&mut self, mask: Option<Arc<Mask>>) -> Result<(), PaintingError> {
+    pub(crate) fn hold_mask(&mut self, mask: Option<Arc<Mask>>) -> Result<(), PaintingError> {
         if mask != self.mask {
             self.engine.set_mask(mask.as_deref())?;
             self.mask = mask;

@@ -44,7 +44,7 @@ pub fn scene(document: &Document, light: &Light) -> Scene {
 
 impl<'a> Appearance<'a> {
     /// Appearance of a document. `dry` holds the pigments and opacities of its dry layers.
-    pub(super) fn of(document: &'a Document, dry: &'a [(Slots, f64)]) -> Self {
+    pub(crate) fn of(document: &'a Document, dry: &'a [(Slots, f64)]) -> Self {
         let Document { library, medium, ground, cell_mm, slots, lighting, .. } = document;
         Self { library, medium, ground, cell_mm: *cell_mm, dry, slots, lighting }
     }

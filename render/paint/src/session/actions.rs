@@ -42,8 +42,9 @@ impl PaintingSession {
             _ => {}
         }
         let (action, pigments) = self.rounded(action)?;
+        let label = label(&action, &pigments, &self.canvas);
         let Some(on) = self.perform(&action, &pigments)? else { return Ok(Outcome::Nothing) };
-        self.record_done(&action, &pigments, on);
+        self.record_done(&action, &pigments, (label, on));
         Ok(Outcome::Done)
     }
 
@@ -252,15 +253,15 @@ impl PaintingSession {
         Ok(id)
     }
 
-    /// Adds an action that was done to history and recording.
+    /// Adds an action that was done to the history, under this label on these surfaces, and to the
+    /// recording.
     pub(super) fn record_done(
         &mut self,
         action: &Action,
         pigments: &ActionPigments,
-        on: PerSurface<bool>,
+        (label, on): (String, PerSurface<bool>),
     ) {
         if on != NONE {
-            let label = label(action, pigments, &self.canvas);
             self.history.add(label, on, None);
             self.limit_history();
         }

@@ -1,6 +1,7 @@
 //! Adjustments: changes by a slider that count as one action.
 
 use super::failure::SessionError;
+use super::label::label;
 use super::state::{Adjusting, Control, PaintingSession};
 use crate::strokes::{Action, ActionPigments};
 
@@ -53,7 +54,8 @@ impl PaintingSession {
     pub fn end_adjustment(&mut self) {
         let Some(Adjusting { action, on, .. }) = self.adjusting.take() else { return };
         self.end_adjusting();
-        self.record_done(&action, &ActionPigments::None, on);
+        let label = label(&action, &ActionPigments::None, &self.canvas);
+        self.record_done(&action, &ActionPigments::None, (label, on));
     }
 
     /// Finishes the open stroke or adjustment, if there is one.

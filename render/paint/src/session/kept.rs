@@ -4,11 +4,14 @@
 //! itself would have: its brushes are the same heads with the same paint, and its recording goes
 //! on. Its history is empty; a recording that goes on undoes nothing older.
 
+use std::sync::Arc;
+
 use super::brushes::Tool;
 use super::failure::SessionError;
 use super::record::Record;
 use super::state::PaintingSession;
 use crate::layer::Layer;
+use crate::mask::Mask;
 use crate::painting::Painting;
 use crate::strokes::{Action, BrushSpec, PerSurface, StrokeScript, SurfaceId};
 
@@ -52,6 +55,8 @@ pub struct KeptSession {
     pub brushes: Vec<KeptHead>,
     /// The whole recording; `None` if the session records nothing.
     pub recording: Option<StrokeScript>,
+    /// The mask of the canvas, if one is set.
+    pub mask: Option<Arc<Mask>>,
 }
 
 impl PaintingSession {
@@ -109,14 +114,18 @@ impl PaintingSession {
     /// these surfaces.
     ///
     /// # Errors
-    /// [`SessionError`] if canvas, palette and brushes do not go together, or if the device was
-    /// lost.
+    /// [`SessionError`] if canvas, palette, brushes and mask do not go together, or if the device
+    /// was lost.
     pub fn restored(
         canvas: Painting,
         palette: Option<Painting>,
         kept: KeptSession,
     ) -> Result<Self, SessionError> {
         let mut session = Self::new(canvas, palette)?;
+        if kept.mask.as_ref().is_some_and(|mask| mask.bounds() != session.canvas.bounds()) {
+            return Err(SessionError::Unlike { what: "masks" });
+        }
+        session.canvas.hold_mask(kept.mask)?;
         for surface in SurfaceId::ALL {
             let mut used: Vec<(usize, &KeptHead)> = kept
                 .brushes

@@ -4,6 +4,7 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use graphics::tile::Rect;
 use pigment::PigmentLibrary;
 
 use super::kept::KeptSession;
@@ -11,9 +12,10 @@ use super::state::PaintingSession;
 use crate::brush::HeadShape;
 use crate::document::Document;
 use crate::engine::PaintEngine;
+use crate::mask::Mask;
 use crate::painting::Painting;
 use crate::pose::Sample;
-use crate::strokes::{Action, BrushSpec, Squeeze, StrokeScript, SurfaceId};
+use crate::strokes::{Action, BrushSpec, MaskChange, Squeeze, StrokeScript, SurfaceId};
 
 const HEADER: &str = r#"{"format": "strokes", "version": 1, "brushes": {}, "actions": [],
     "canvas": {"width_mm": 24, "height_mm": 16, "cell_mm": 0.25},
@@ -95,10 +97,10 @@ fn restored(session: &mut PaintingSession, known: usize) -> PaintingSession {
     assert_eq!(tail.from, known, "it follows what is known");
     let mut recording = tail.header;
     recording.actions = earlier.into_iter().chain(tail.actions).chain(tail.open).collect();
-    let brushes = session.kept_heads().unwrap();
+    let (brushes, mask) = (session.kept_heads().unwrap(), session.canvas().mask().cloned());
     let (canvas, palette) = session.documents().unwrap();
     let (canvas, palette) = opened(canvas, palette);
-    let kept = KeptSession { brushes, recording: Some(recording) };
+    let kept = KeptSession { brushes, recording: Some(recording), mask };
     PaintingSession::restored(canvas, palette, kept).unwrap()
 }
 
@@ -192,10 +194,33 @@ fn brushes_that_do_not_go_together_are_refused() {
         let loaded = brushes.iter_mut().find(|brush| brush.paint.is_some()).unwrap();
         change(loaded);
         let (canvas, palette) = opened(canvas.clone(), palette.clone());
-        let kept = KeptSession { brushes, recording: None };
+        let kept = KeptSession { brushes, ..KeptSession::default() };
         PaintingSession::restored(canvas, palette, kept).is_err()
     };
     assert!(!refused(|_| {}));
     assert!(refused(|brush| brush.numbers.canvas = Some(7)));
     assert!(refused(|brush| brush.spec.size_mm = 9.0), "its paint has other cells");
+}
+
+#[test]
+fn the_mask_is_kept_and_one_of_another_canvas_is_refused() {
+    let mut whole = begun();
+    first_half(&mut whole);
+    let open = vec![[0.0, 0.0], [7.0, 0.0], [7.0, 16.0], [0.0, 16.0]];
+    whole.apply(&Action::Mask(MaskChange::PolygonMm(open))).unwrap();
+    let mut again = restored(&mut whole, 3);
+    second_half(&mut whole);
+    second_half(&mut again);
+    assert_same_paint(&mut whole, &mut again, "under the mask");
+    again.apply(&Action::Mask(MaskChange::Inverse(true))).unwrap();
+    stroke(&mut again, SurfaceId::Canvas, "round", 12.0);
+    let mut player = replayed(&again);
+    assert!(again.documents().unwrap() == player.documents().unwrap(), "the recording replays");
+
+    let mask = Mask::with_open(Rect { x: 0, y: 0, width: 3, height: 2 }, |_| true);
+    let (canvas, palette) = again.documents().unwrap();
+    let (canvas, palette) = opened(canvas, palette);
+    let kept = KeptSession { mask: Some(Arc::new(mask)), ..KeptSession::default() };
+    let refused = PaintingSession::restored(canvas, palette, kept);
+    assert!(refused.unwrap_err().to_string().contains("masks"), "its cells are others");
 }

@@ -2,11 +2,12 @@
 
 use pigment::PigmentId;
 
-use crate::dry_layer::layer_label;
+use crate::dry_layer::{LayerId, layer_label};
 use crate::painting::{DryLayerState, Painting};
 use crate::strokes::{Action, ActionPigments, LayerRef, MaskChange, SurfaceId};
 
-/// Label of an action with the pigments that it names.
+/// Label of an action with the pigments that it names. `canvas` is that before the action, so that
+/// layers have the names and places that the action means.
 pub(super) fn label(action: &Action, pigments: &ActionPigments, canvas: &Painting) -> String {
     let name = |pigment: PigmentId| canvas.library()[pigment].name.as_str();
     let layer_name = |layer: LayerRef| layer_name(layer, canvas);
@@ -38,11 +39,12 @@ pub(super) fn label(action: &Action, pigments: &ActionPigments, canvas: &Paintin
         Action::Visible { layer, value: true } => format!("show {}", layer_name(*layer)),
         Action::Visible { layer, value: false } => format!("hide {}", layer_name(*layer)),
         Action::Order { layer, to } => format!("{} to place {}", layer_name(*layer), to + 1),
-        // The merged layer has the name of one of them; the other is gone.
-        Action::Merge { layer: LayerRef::Dry(index), with: None } => {
-            format!("merge layer {index} with the one below")
+        Action::Merge { layer, with: None } => {
+            format!("merge {} with the one below", layer_name(*layer))
         }
-        Action::Merge { .. } => "merge two layers".to_owned(),
+        Action::Merge { layer, with: Some(with) } => {
+            format!("merge {} with {}", layer_name(*layer), layer_name(*with))
+        }
         Action::Squeeze(squeeze) => {
             let paint = match pigments {
                 ActionPigments::Recipe(parts) => match parts.as_slice() {
@@ -80,7 +82,10 @@ fn percent(share: f64) -> String {
 fn layer_name(layer: LayerRef, canvas: &Painting) -> String {
     match layer {
         LayerRef::Wet => "wet paint".to_owned(),
-        LayerRef::Dry(index) => format!("layer {index}"),
+        LayerRef::Dry(index) => {
+            let dry = canvas.state().dry.get(index);
+            dry.map_or_else(|| layer_label(LayerId::by_place(index), ""), DryLayerState::label)
+        }
         LayerRef::Id(id) => {
             let dry = canvas.state().dry.iter().find(|layer| layer.id == id);
             dry.map_or_else(|| layer_label(id, ""), DryLayerState::label)

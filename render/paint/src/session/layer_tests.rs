@@ -11,7 +11,7 @@ use crate::document::{Document, LayerId};
 use crate::engine::PaintEngine;
 use crate::file::{read, read_table, write_with_table};
 use crate::history::TILE_BYTES;
-use crate::painting::{LayerRef, Painting};
+use crate::painting::{LayerRef, MaskChange, Painting};
 use crate::pose::Sample;
 use crate::strokes::{
     Action, BrushSpec, KeptBrush, Load, Recipe, SideTable, Squeeze, Stroke, StrokeScript, SurfaceId,
@@ -116,7 +116,7 @@ fn actions_on_layers_are_undone_recorded_and_mean_the_same_layer_after_each_othe
     assert_eq!(dry.iter().map(|layer| layer.id.0).collect::<Vec<_>>(), [1, 2]);
     assert_eq!((dry[1].name.as_str(), dry[1].visible, dry[1].opacity), ("low", false, 0.5));
     let (labels, done) = session.history();
-    assert_eq!(labels[labels.len() - 3..], ["hide low", "merge two layers", "50 % of low"]);
+    assert_eq!(labels[labels.len() - 3..], ["hide low", "merge Layer 3 with Layer 1", "50 % of low"]);
     let nothing = session.apply(&Action::Order { layer: id(2), to: 1 }).unwrap();
     assert_eq!(nothing, Outcome::Nothing, "it lies there");
     session.go_to(done - 5).unwrap();
@@ -215,4 +215,33 @@ fn a_surface_may_use_the_memory_of_undo_that_the_other_leaves() {
     assert_eq!(session.canvas().undo_bytes().0, 0, "the canvas holds what nothing reaches");
     let (used, _) = session.painting(SurfaceId::Palette).unwrap().undo_bytes();
     assert!(used > limit / 2, "{used} of {limit} for the palette");
+}
+
+#[test]
+fn the_history_names_layers_as_they_are_shown_before_each_action() {
+    let mut session = session_on(&script(), None);
+    layered(&mut session);
+    let name = "sky".to_owned();
+    act(
+        &mut session,
+        [
+            Action::Name { layer: LayerRef::Dry(1), name },
+            Action::Order { layer: LayerRef::Dry(0), to: 2 },
+            Action::Mask(MaskChange::Layer(LayerRef::Dry(0))),
+            Action::Visible { layer: LayerRef::Dry(2), value: false },
+            Action::Order { layer: LayerRef::Dry(1), to: 2 },
+            Action::Visible { layer: LayerRef::Dry(1), value: true },
+            Action::Merge { layer: LayerRef::Dry(2), with: None },
+        ],
+    );
+    let labels = session.history().0;
+    let wanted = [
+        "Layer 1 to place 3",
+        "mask by sky",
+        "hide Layer 1",
+        "Layer 3 to place 3",
+        "show Layer 1",
+        "merge Layer 3 with the one below",
+    ];
+    assert_eq!(labels[labels.len() - 6..], wanted);
 }

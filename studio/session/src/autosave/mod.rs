@@ -26,6 +26,8 @@ pub use work::RecoveredWork;
 
 mod brush_paint;
 
+mod mask_bits;
+
 mod recording_file;
 
 mod session_lock;
@@ -149,7 +151,7 @@ impl Autosave {
             None => None,
         };
         let kept = if recording.is_some() { self.recording.actions() } else { 0 };
-        let (work, brushes) = describe(recording, &painting.brushes);
+        let (work, brushes) = describe(recording, &painting.brushes, painting.mask.as_deref());
         let (canvas, palette) = (&painting.snapshot.canvas, &painting.snapshot.palette);
         let earlier = generation_folder(&folder, self.generation).join(PALETTE);
         let unchanged = earlier.is_file() && self.palette.as_ref() == Some(palette);
@@ -315,7 +317,7 @@ impl LostSession {
         [CANVAS, PALETTE].map(|name| folder.join(name))
     }
 
-    /// Recording, brushes and their paint; `None` for an autosave of an earlier version, which kept
+    /// Recording, brushes with their paint, and mask; `None` for an autosave of an earlier version, which kept
     /// none.
     ///
     /// # Errors

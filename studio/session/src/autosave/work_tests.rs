@@ -43,7 +43,7 @@ fn painting(from: usize, count: usize) -> KeptPainting {
         paint: Some(paint),
     };
     let tail = RecordingTail { header: header(), from, actions: dry(count), open: None };
-    KeptPainting { snapshot, recording: Some(tail), brushes: vec![brush] }
+    KeptPainting { snapshot, recording: Some(tail), brushes: vec![brush], mask: None }
 }
 
 fn meta() -> SessionMeta {

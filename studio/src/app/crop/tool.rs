@@ -14,7 +14,7 @@ use crate::view::{Placement, SurfaceView};
 /// Size of the bar in points.
 const BAR: Vec2 = vec2(420.0, 56.0);
 
-/// Side of a handle, in points.
+/// Side of a handle as it is drawn, in points. In touch mode it is pressed in a larger square.
 const HANDLE: f32 = 14.0;
 
 /// Shapes that are offered: name, and width over height of the longer side over the shorter.
@@ -64,7 +64,8 @@ impl CropTool {
         let placement = canvas.placement();
         self.drag(ui, response, &placement);
         self.draw(ui, canvas.rect(), &placement);
-        let at = self.bar_place(canvas.rect(), &placement);
+        let margin = theme::target(ui).max(HANDLE);
+        let at = self.bar_place(canvas.rect(), &placement, margin);
         let answer = self.bar(ui.ctx(), at, cell_mm);
         answer.or_else(|| self.keys(ui.ctx()))
     }
@@ -96,7 +97,7 @@ impl CropTool {
         }
         for (handle, name) in HANDLES {
             let at = placement.point(before.place(handle));
-            let rect = Rect::from_center_size(at, vec2(HANDLE, HANDLE));
+            let rect = Rect::from_center_size(at, theme::at_least(ui, vec2(HANDLE, HANDLE)));
             let response = ui.interact(rect, Id::unique(name), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
             if let Some(point) = response.interact_pointer_pos().filter(|_| response.dragged()) {
@@ -137,13 +138,13 @@ impl CropTool {
         }
     }
 
-    /// Middle of the bar: where it covers no handle, if there is such a place.
-    fn bar_place(&self, area: Rect, placement: &Placement) -> Pos2 {
+    /// Middle of the bar: where it is `margin` points from all handles, if there is such a place.
+    fn bar_place(&self, area: Rect, placement: &Placement, margin: f32) -> Pos2 {
         let handles = HANDLES.map(|(handle, _)| placement.point(self.frame.place(handle)));
         let [top, bottom] = [area.center_top(), area.center_bottom()];
         let places = [0.07, 0.93, 0.25, 0.75].map(|share| top.lerp(bottom, share));
         let free = |place: &&Pos2| {
-            let bar = Rect::from_center_size(**place, BAR).expand(HANDLE);
+            let bar = Rect::from_center_size(**place, BAR).expand(margin);
             !handles.iter().any(|handle| bar.contains(*handle))
         };
         places.iter().find(free).copied().unwrap_or(area.center())

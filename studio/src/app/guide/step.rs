@@ -1,6 +1,8 @@
 //! The steps of the tour.
 
 use super::facts::Facts;
+use crate::app::intent::Intent;
+use crate::panels::Mode;
 
 /// A step of the guided tour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,33 +39,52 @@ impl TourStep {
         }
     }
 
-    /// Two lines that say how it is done.
+    /// Two lines that say how it is done. `key` is the text of the key of an intent; empty if it has
+    /// none.
     #[must_use]
-    pub fn lines(self) -> [&'static str; 2] {
+    pub fn lines(self, key: impl Fn(Intent) -> String) -> [String; 2] {
+        let beside = |intent| match key(intent) {
+            key if key.is_empty() => String::new(),
+            key => format!(" ({key})"),
+        };
+        let either = |intent, way: &str, other: &str| match key(intent) {
+            key if key.is_empty() => other.to_owned(),
+            key => format!("Press {key}{way}"),
+        };
         match self {
             Self::Load => [
-                "Double click a tube: its paint is added to the brush.",
-                "The Brush tab shows how much is on it, and its colour.",
+                "Double click a tube: its paint is added to the brush.".to_owned(),
+                "The Brush tab shows how much is on it, and its colour.".to_owned(),
             ],
             Self::Paint => [
-                "Press on the canvas and draw.",
-                "The brush empties, so load it again when it gets dry.",
+                "Press on the canvas and draw.".to_owned(),
+                "The brush empties, so load it again when it gets dry.".to_owned(),
             ],
             Self::Mix => [
-                "Click a tube, then the palette, and so another: two heaps.",
-                "Choose Paint (B) and draw through both with the brush.",
+                "Click a tube, then the palette, and so another: two heaps.".to_owned(),
+                format!(
+                    "Choose Paint{} and draw through both with the brush.",
+                    beside(Intent::Tool(Mode::Paint)),
+                ),
             ],
             Self::Dry => [
-                "Press D, or this button.",
-                "The wet paint becomes a dry layer that later strokes do not move.",
+                either(Intent::Dry, ", or this button.", "Press this button."),
+                "The wet paint becomes a dry layer that later strokes do not move.".to_owned(),
             ],
             Self::Glaze => [
-                "Wash (W), set Medium to 99 % and Load to 0.10 mm, load a tube,",
-                "and draw over dry paint: a thin film that it shines through.",
+                format!(
+                    "Wash{}, set Medium to 99 % and Load to 0.10 mm, load a tube,",
+                    beside(Intent::Wash),
+                ),
+                "and draw over dry paint: a thin film that it shines through.".to_owned(),
             ],
             Self::Relight => [
-                "Press L for the light of a bulb, or choose one in the Light tab.",
-                "The pigments change as real ones would.",
+                either(
+                    Intent::OtherLight,
+                    " for the light of a bulb, or choose one in the Light tab.",
+                    "Choose another light in the Light tab.",
+                ),
+                "The pigments change as real ones would.".to_owned(),
             ],
         }
     }

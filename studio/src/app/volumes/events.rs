@@ -79,8 +79,8 @@ impl Volumes {
 
     /// Asks for the next frame while something is awaited.
     pub(super) fn keep_awake(&self, context: &Context) {
-        if self.message.is_some() {
-            context.request_repaint_after(std::time::Duration::from_secs(1));
+        if let Some(rest) = self.message.as_ref().and_then(|message| message.rest(Instant::now())) {
+            context.request_repaint_after(rest);
         }
     }
 }

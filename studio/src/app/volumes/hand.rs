@@ -6,6 +6,7 @@ use eframe::egui::{Event, Modifiers, PointerButton, Popup, Response, Ui};
 use render::paint::strokes::SurfaceId;
 
 use super::workspace::Volumes;
+use crate::pace;
 use crate::pen::{Device, Pen, PenEvent, PenTargets, SurfaceTransform};
 use session::brushes::{BrushOptions, StabiliserMethod};
 use session::volumes::{ScenePen, VolumeCommand};
@@ -63,7 +64,7 @@ impl Volumes {
             self.handle_pen(event);
         }
         if let Some(soon) = pen.repaint_after(Instant::now()) {
-            context.request_repaint_after(soon);
+            pace::frame_after(context, soon, Instant::now());
         }
     }
 
@@ -94,7 +95,10 @@ impl Volumes {
                     self.ask(VolumeCommand::PenUp);
                 }
             }
-            PenEvent::Hover { .. } | PenEvent::Leave | PenEvent::Barrel { .. } => {}
+            PenEvent::Hover { .. }
+            | PenEvent::Leave
+            | PenEvent::Tap { .. }
+            | PenEvent::Barrel { .. } => {}
         }
     }
 }

@@ -11,6 +11,7 @@ use render::camera::Camera;
 use super::orbit::Orbit;
 use crate::app::frames::Frames;
 use crate::app::status::Message;
+use crate::pace;
 use crate::panels::volumes::{
     SceneContext, SceneExport, SceneFileRequest, SceneRequest, SceneTools,
 };
@@ -74,7 +75,7 @@ impl Volumes {
         Self {
             tools: SceneTools::default(),
             orbit: Orbit::around([Vec3::NEG_ONE, Vec3::ONE], NOWHERE),
-            worker: VolumeWorker::start(move || woken.request_repaint()),
+            worker: VolumeWorker::start(move || pace::wake(&woken)),
             state: None,
             picture: None,
             rect: Rect::NOTHING,

@@ -58,10 +58,11 @@ fn mask(ui: &mut Ui, cx: &mut PanelContext<'_>) {
         if button(ui, "Wet paint", "Strokes change only cells that are wet now", None) {
             change = Some(MaskChange::Layer(LayerRef::Wet));
         }
-        for index in (0..cx.painting.layers.len()).rev() {
-            let tip = format!("Strokes change only cells that have paint of layer {index}");
-            if button(ui, &format!("Layer {index}"), &tip, None) {
-                change = Some(MaskChange::Layer(LayerRef::Dry(index)));
+        for layer in cx.painting.layers.iter().rev() {
+            let name = layer.label();
+            let tip = format!("Strokes change only cells that have paint of {name}");
+            if button(ui, &name, &tip, None) {
+                change = Some(MaskChange::Layer(LayerRef::Id(layer.id)));
             }
         }
     });

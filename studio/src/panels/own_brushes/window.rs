@@ -1,11 +1,12 @@
 //! The window of own brushes.
 
-use eframe::egui::{ComboBox, Context, Key, ScrollArea, TextEdit, Ui, Window, pos2};
+use eframe::egui::{ComboBox, Context, Key, ScrollArea, TextEdit, Ui};
 use session::brushes::BrushPreset;
 
 use super::imported;
 use super::row::preset_row;
 use crate::files::BrushSets;
+use crate::floating;
 use crate::panels::controls::button;
 
 /// Width of the window, in points.
@@ -43,23 +44,24 @@ pub struct OwnBrushes {
 }
 
 impl OwnBrushes {
-    /// Draws the window while `open` is true; its close button clears `open`. Returns what is asked
-    /// for.
+    /// Draws the window while `open` is true; its close button and Escape clear `open`. Returns
+    /// what is asked for.
     pub fn show(
         &mut self,
         context: &Context,
         open: &mut bool,
         sets: &mut BrushSets,
     ) -> Option<OwnBrushRequest> {
-        let mut request = None;
-        let window = Window::new("Own brushes").open(open).resizable(false).collapsible(false);
-        window.default_pos(pos2(150.0, 90.0)).show(context, |ui| {
+        if self.renamed.is_some() || self.new_set.is_some() {
+            floating::leave_escape(context);
+        }
+        floating::show(context, "Own brushes", "own brushes", open, |ui| {
             ui.set_width(WIDTH);
             if !sets.is_read() {
                 ui.weak("reading the own brushes");
-                return;
+                return None;
             }
-            request = self.set_row(ui, sets);
+            let mut request = self.set_row(ui, sets);
             ui.separator();
             let listed = self.list(ui, sets);
             request = request.take().or(listed);
@@ -70,8 +72,9 @@ impl OwnBrushes {
                 ui.separator();
                 imported::show(ui, imported);
             }
-        });
-        request
+            request
+        })
+        .flatten()
     }
 
     /// The set that is shown, and buttons for whole sets.

@@ -12,7 +12,7 @@ use crate::theme;
 /// Side of the plot, in points.
 pub(super) const SIDE: f32 = 220.0;
 
-/// Side of the square in which a point is grabbed, wide enough for a finger, in points.
+/// Side of the square in which a point is grabbed, in points; larger in touch mode.
 const GRABBED: f32 = 26.0;
 
 /// Distance beyond the plot from which a dragged point is removed, in points.
@@ -42,7 +42,7 @@ pub(super) fn edit_curve(ui: &mut Ui, curve: &mut PressureCurve, live: Option<f6
     for index in 0..points.list().len() {
         let Some(&place) = points.list().get(index) else { break };
         let at = in_window(inner, place);
-        let area = Rect::from_center_size(at, vec2(GRABBED, GRABBED));
+        let area = Rect::from_center_size(at, theme::at_least(ui, vec2(GRABBED, GRABBED)));
         let id = plot.id.with(("point", index));
         let response = ui.interact(area, id, Sense::click_and_drag());
         let name = format!("curve point {}", index + 1);

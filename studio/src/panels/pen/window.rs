@@ -1,11 +1,12 @@
 //! The window of the pen.
 
-use eframe::egui::{Context, Grid, Ui, Window, pos2, vec2};
+use eframe::egui::{Context, Grid, Ui, vec2};
 use session::brushes::{BrushOptions, PressureCurve};
 
 use super::curve_editor::edit_curve;
 use super::field::test_field;
 use super::rows;
+use crate::floating;
 use crate::panels::controls::button;
 use crate::pen::{Pen, PenSettings, ReportKind, TestField};
 
@@ -38,15 +39,14 @@ pub struct PenWindow {
 }
 
 impl PenWindow {
-    /// Draws the window while `open` is true; its close button clears `open`.
+    /// Draws the window while `open` is true; its close button and Escape clear `open`.
     pub fn show(&mut self, context: &Context, open: &mut bool, mut cx: PenContext<'_>) {
         if !*open {
             self.live = None;
             return;
         }
         self.read(cx.pen);
-        let window = Window::new("Pen").open(open).resizable(false).collapsible(false);
-        window.default_pos(pos2(120.0, 60.0)).show(context, |ui| {
+        floating::show(context, "Pen", "pen", open, |ui| {
             ui.set_width(WIDTH);
             ui.horizontal(|ui| {
                 let tip = "Settings for all brushes that have no own ones";

@@ -9,10 +9,11 @@ use eframe::egui::{
 
 use super::place::OverlayPlace;
 use super::state::Reference;
+use crate::keymap::hint;
 use crate::theme;
 use crate::view::{Placement, SurfaceView};
 
-/// Side of a handle, in points.
+/// Side of a handle as it is drawn, in points. In touch mode it is pressed in a larger square.
 const HANDLE: f32 = 14.0;
 
 /// Corners of a picture in shares of its sides, clockwise.
@@ -42,7 +43,10 @@ impl Reference {
         ui.horizontal_wrapped(|ui| {
             let loaded = self.picture.is_some();
             let over = ui.add_enabled(loaded, Button::selectable(self.over.shown, "Over canvas"));
-            let tip = "Lays the picture over the canvas, to draw after (O). It is never painted";
+            let key = hint(ui.ctx(), "reference-over");
+            let tip = format!(
+                "Lays the picture over the canvas, to draw after{key}. It is never painted"
+            );
             if over.on_hover_text(tip).clicked() {
                 self.toggle_over_canvas();
             }
@@ -113,7 +117,7 @@ impl Reference {
             moved = moved.moved([to[0] - from[0], to[1] - from[1]]);
         }
         let handle = |at: Pos2, name: &str| {
-            let rect = Rect::from_center_size(at, vec2(HANDLE, HANDLE));
+            let rect = Rect::from_center_size(at, theme::at_least(ui, vec2(HANDLE, HANDLE)));
             let response = ui.interact(rect, Id::unique(("over canvas", name)), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
             let to = response.interact_pointer_pos().filter(|_| response.dragged());

@@ -7,6 +7,7 @@ use eframe::egui::{
 use session::volumes::{STEPS_A_SECOND, SceneState, SceneTool, VolumeCommand};
 
 use super::context::SceneContext;
+use crate::keymap::hint;
 use crate::panels::controls::row_height;
 use crate::theme;
 
@@ -42,17 +43,21 @@ pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let time = cx.state.time;
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        if sign_button(ui, Sign::Start, "From the start", "Goes to the start (R)") {
+        let key = |ui: &Ui, name| hint(ui.ctx(), name);
+        let tip = format!("Goes to the start{}", key(ui, "scene.start"));
+        if sign_button(ui, Sign::Start, "From the start", &tip) {
             cx.command(VolumeCommand::Seek(0));
         }
         let (sign, name, tip) = match time.playing {
-            true => (Sign::Pause, "Pause", "Stops time (P)"),
-            false => (Sign::Play, "Play", "Lets time run (P)"),
+            true => (Sign::Pause, "Pause", "Stops time"),
+            false => (Sign::Play, "Play", "Lets time run"),
         };
-        if sign_button(ui, sign, name, tip) {
+        let tip = format!("{tip}{}", key(ui, "scene.play"));
+        if sign_button(ui, sign, name, &tip) {
             cx.command(VolumeCommand::Play(!time.playing));
         }
-        if sign_button(ui, Sign::Step, "Step", "Takes one step of 1/120 s (.)") {
+        let tip = format!("Takes one step of 1/120 s{}", key(ui, "scene.step"));
+        if sign_button(ui, Sign::Step, "Step", &tip) {
             cx.command(VolumeCommand::StepOnce);
         }
         ui.add_space(10.0);

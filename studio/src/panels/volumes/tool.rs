@@ -4,6 +4,7 @@ use eframe::egui::{RichText, Slider, Ui};
 use session::volumes::{SceneTool, VolumeCommand};
 
 use super::context::SceneContext;
+use crate::keymap::hint;
 use crate::panels::controls::{button, percent, slider};
 
 /// Draws the settings of the tool in hand.
@@ -15,14 +16,16 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     });
     if grip.tool == SceneTool::Pour {
         let rate = Slider::new(&mut grip.rate_mm3_s, 1.0..=1000.0).logarithmic(true);
-        let tip = "Paint poured in a second, in cubic millimetres, at full pressure ([ and ])";
-        slider(ui, "Rate", tip, rate.fixed_decimals(0).suffix(" mm3/s"));
+        let keys = ["scene.less", "scene.more"].map(|name| hint(ui.ctx(), name)).concat();
+        let tip = format!("Paint poured in a second, in cubic millimetres, at full pressure{keys}");
+        slider(ui, "Rate", &tip, rate.fixed_decimals(0).suffix(" mm3/s"));
         return;
     }
     let radius = Slider::new(&mut grip.radius_mm, 1.0..=100.0).logarithmic(true);
     slider(ui, "Radius", "How far the tool reaches, in mm", radius.fixed_decimals(0).suffix(" mm"));
     if grip.tool == SceneTool::Dry {
-        if button(ui, "Dry all paint", "Dries all paint and its shape (Shift+D)", None) {
+        let tip = format!("Dries all paint and its shape{}", hint(ui.ctx(), "scene.dry-all"));
+        if button(ui, "Dry all paint", &tip, None) {
             cx.command(VolumeCommand::DryAll);
         }
         return;

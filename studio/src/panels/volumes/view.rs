@@ -4,6 +4,7 @@ use eframe::egui::{Button, Ui, vec2};
 use session::volumes::{Inside, Show};
 
 use super::context::SceneContext;
+use crate::keymap::hint;
 use crate::panels::controls::row_height;
 
 /// Choices in a row.
@@ -14,14 +15,21 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let look = cx.state.look;
     ui.label("Picture");
     for row in Show::ALL.chunks(ROW) {
-        let choices = row.iter().map(|&one| (one, show_name(one), show_tip(one)));
-        if let Some(show) = choose(ui, choices.collect(), look.show) {
+        let choices = row.iter().map(|&one| {
+            let key =
+                if one == Show::Volumes { hint(ui.ctx(), "scene.volumes") } else { String::new() };
+            (one, show_name(one), format!("{}{key}", show_tip(one)))
+        });
+        let choices = choices.collect();
+        if let Some(show) = choose(ui, choices, look.show) {
             cx.change_look(|look| look.show = show);
         }
     }
     ui.add_space(4.0);
     ui.label("Inside of the volumes");
-    let choices = Inside::ALL.map(|one| (one, inside_name(one), inside_tip(one)));
+    let key = hint(ui.ctx(), "scene.inside");
+    let choices =
+        Inside::ALL.map(|one| (one, inside_name(one), format!("{}{key}", inside_tip(one))));
     let has_tubes = !cx.state.tubes.is_empty();
     ui.add_enabled_ui(has_tubes, |ui| {
         if let Some(inside) = choose(ui, choices.to_vec(), look.inside) {
@@ -30,7 +38,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     });
     ui.add_space(4.0);
     let mut hatching = look.hatching;
-    let tip = "Pencil strokes that show how the light falls (H)";
+    let key = hint(ui.ctx(), "scene.hatching");
+    let tip = format!("Pencil strokes that show how the light falls{key}");
     if ui.checkbox(&mut hatching, "Hatching").on_hover_text(tip).changed() {
         cx.change_look(|look| look.hatching = hatching);
     }
@@ -39,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
 /// Draws a row of choices of equal width. Returns the one that was clicked.
 fn choose<T: Copy + PartialEq>(
     ui: &mut Ui,
-    choices: Vec<(T, &'static str, &'static str)>,
+    choices: Vec<(T, &'static str, String)>,
     chosen: T,
 ) -> Option<T> {
     let mut clicked = None;
@@ -71,7 +80,7 @@ fn show_name(show: Show) -> &'static str {
 fn show_tip(show: Show) -> &'static str {
     match show {
         Show::Final => "The drawing, with colour inside of the volumes",
-        Show::Volumes => "The volumes themselves over the grey drawing (V)",
+        Show::Volumes => "The volumes themselves over the grey drawing",
         Show::Mask => "White inside of the volumes, black outside",
         Show::Grey => "The grey drawing alone",
         Show::Color => "Colour everywhere",
@@ -89,8 +98,8 @@ fn inside_name(inside: Inside) -> &'static str {
 
 fn inside_tip(inside: Inside) -> &'static str {
     match inside {
-        Inside::OwnColours => "The subject's own colours (G)",
-        Inside::Glaze => "A film of the poured pigments over the grey drawing (G)",
-        Inside::Both => "A film of the poured pigments over the subject's own colours (G)",
+        Inside::OwnColours => "The subject's own colours",
+        Inside::Glaze => "A film of the poured pigments over the grey drawing",
+        Inside::Both => "A film of the poured pigments over the subject's own colours",
     }
 }

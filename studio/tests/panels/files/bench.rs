@@ -185,7 +185,8 @@ impl Bench {
                 let brushes = self.brushes.clone();
                 let snapshot = Snapshot { number, canvas, palette, brushes, revision };
                 let tail = RecordingTail { header, from: *recorded, actions, open: None };
-                let kept = KeptPainting { snapshot, recording: Some(tail), brushes: Vec::new() };
+                let (recording, brushes) = (Some(tail), Vec::new());
+                let kept = KeptPainting { snapshot, recording, brushes, mask: None };
                 return self.events.push(Event::Kept(Arc::new(kept)));
             }
             Command::Recording(number) => {

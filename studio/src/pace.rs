@@ -1,0 +1,147 @@
+//! The pace of frames that other threads ask for: at most one for each picture of the display.
+//!
+//! A frame is drawn at once if the last one is older than that; so a pen that begins to paint waits
+//! for nothing. Input of the window system has frames of its own, which wait for the display.
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Context, Id};
+
+/// Pictures of a display in a second, if it does not tell.
+const USUAL_HZ: f64 = 60.0;
+
+/// Rates of displays that are believed, in hertz.
+const RATES_HZ: std::ops::RangeInclusive<f64> = 24.0..=500.0;
+
+/// Delay of a frame that is wanted at once. Without any delay egui would draw two frames.
+const AT_ONCE: Duration = Duration::from_nanos(1);
+
+/// State of the pace in a context.
+#[derive(Debug, Clone, Copy)]
+struct Pace {
+    /// Time from one frame to the next.
+    slot: Duration,
+    /// Start of the last frame.
+    last: Option<Instant>,
+    /// Whether another thread asked for a frame since then.
+    woken: bool,
+}
+
+/// Sets the rate of the display, in thousandths of a hertz, if it is known.
+pub(crate) fn set_display(context: &Context, millihertz: Option<u32>) {
+    change(context, |pace| pace.slot = slot_of(millihertz));
+}
+
+/// Notes that a frame begins. If another thread asked for it, one more follows in the next slot, so
+/// that what takes two frames to lay out is shown.
+pub(crate) fn begin_frame(context: &Context, now: Instant) {
+    let (woken, slot) = change(context, |pace| {
+        pace.last = Some(now);
+        (std::mem::take(&mut pace.woken), pace.slot)
+    });
+    if woken {
+        context.request_repaint_after(slot);
+    }
+}
+
+/// Asks for a frame because there is news. May be called from any thread.
+pub(crate) fn wake(context: &Context) {
+    wake_at(context, Instant::now());
+}
+
+fn wake_at(context: &Context, now: Instant) {
+    let delay = change(context, |pace| {
+        pace.woken = true;
+        delay(pace.last, now, pace.slot)
+    });
+    context.request_repaint_after(delay.max(AT_ONCE));
+}
+
+/// Asks for a frame in `soon`, but not before the next slot.
+pub(crate) fn frame_after(context: &Context, soon: Duration, now: Instant) {
+    let delay = change(context, |pace| delay(pace.last, now, pace.slot));
+    context.request_repaint_after(soon.max(delay).max(AT_ONCE));
+}
+
+/// Time from `now` until a frame may begin, if the last one began at `last`.
+fn delay(last: Option<Instant>, now: Instant, slot: Duration) -> Duration {
+    last.map_or(Duration::ZERO, |last| (last + slot).saturating_duration_since(now).min(slot))
+}
+
+/// Time of one picture of a display.
+fn slot_of(millihertz: Option<u32>) -> Duration {
+    let told = millihertz.map(|rate| f64::from(rate) / 1000.0);
+    Duration::from_secs_f64(1.0 / told.filter(|rate| RATES_HZ.contains(rate)).unwrap_or(USUAL_HZ))
+}
+
+fn change<T>(context: &Context, change: impl FnOnce(&mut Pace) -> T) -> T {
+    context.data_mut(|data| {
+        let usual = || Pace { slot: slot_of(None), last: None, woken: false };
+        change(data.get_temp_mut_or_insert_with(Id::unique("pace of frames"), usual))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::{Arc, Mutex};
+
+    use super::*;
+
+    const MS: Duration = Duration::from_millis(1);
+
+    #[test]
+    fn a_frame_waits_for_its_slot_and_not_longer() {
+        let (start, slot) = (Instant::now(), 16 * MS);
+        let after = |ms: u32| delay(Some(start), start + ms * MS, slot);
+        assert_eq!(after(0), 16 * MS);
+        assert_eq!(after(5), 11 * MS);
+        assert_eq!([after(16), after(900)], [Duration::ZERO; 2], "the last frame is older");
+        assert_eq!(delay(None, start, slot), Duration::ZERO, "the first frame");
+        assert_eq!(delay(Some(start + 40 * MS), start, slot), slot, "never more than a slot");
+    }
+
+    #[test]
+    fn the_slot_is_that_of_the_display_or_a_sixtieth_of_a_second() {
+        assert_eq!(slot_of(Some(50_000)), 20 * MS);
+        assert_eq!(slot_of(Some(125_000)), 8 * MS);
+        for unknown in [None, Some(0), Some(1000), Some(u32::MAX)] {
+            assert_eq!(slot_of(unknown), Duration::from_secs_f64(1.0 / 60.0), "{unknown:?}");
+        }
+    }
+
+    /// A context with a display of 50 Hz, and the delays of the frames that were asked for.
+    fn paced() -> (Context, impl Fn() -> Vec<Duration>) {
+        let (context, asked) = (Context::default(), Arc::new(Mutex::new(Vec::new())));
+        let noted = Arc::clone(&asked);
+        context.set_request_repaint_callback(move |info| noted.lock().unwrap().push(info.delay));
+        set_display(&context, Some(50_000));
+        (context, move || std::mem::take(&mut *asked.lock().unwrap()))
+    }
+
+    #[test]
+    fn news_is_drawn_in_the_next_slot_and_settles_in_one_more() {
+        let ((context, asked), start) = (paced(), Instant::now());
+        wake_at(&context, start);
+        assert_eq!(asked(), [AT_ONCE], "before the first frame");
+        begin_frame(&context, start);
+        assert_eq!(asked(), [20 * MS], "one more frame for what the news changed");
+        begin_frame(&context, start + 20 * MS);
+        assert!(asked().is_empty(), "and no third one");
+        wake_at(&context, start + 25 * MS);
+        assert_eq!(asked(), [15 * MS]);
+        begin_frame(&context, start + 40 * MS);
+        asked();
+        wake_at(&context, start + 200 * MS);
+        assert_eq!(asked(), [AT_ONCE], "the last frame is old");
+    }
+
+    #[test]
+    fn a_frame_that_is_due_soon_waits_for_the_slot_and_a_later_one_for_its_time() {
+        let ((context, asked), start) = (paced(), Instant::now());
+        begin_frame(&context, start);
+        for soon in [0, 10, 70] {
+            frame_after(&context, soon * MS, start + 2 * MS);
+        }
+        assert_eq!(asked(), [18 * MS, 18 * MS, 70 * MS]);
+    }
+}
