@@ -21,13 +21,14 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     }
     ui.add_space(4.0);
     ui.label("Inside of the volumes");
-    let choices = Inside::ALL.map(|one| (one, inside_name(one), inside_tip(one)));
     let has_tubes = !cx.state.tubes.is_empty();
-    ui.add_enabled_ui(has_tubes, |ui| {
-        if let Some(inside) = choose(ui, choices.to_vec(), look.inside) {
+    for row in Inside::choices(cx.state.by_region).chunks(ROW) {
+        let choices = row.iter().map(|&one| (one, inside_name(one), inside_tip(one))).collect();
+        let chosen = ui.add_enabled_ui(has_tubes, |ui| choose(ui, choices, look.inside));
+        if let Some(inside) = chosen.inner {
             cx.change_look(|look| look.inside = inside);
         }
-    });
+    }
     ui.add_space(4.0);
     let mut hatching = look.hatching;
     let tip = "Pencil strokes that show how the light falls (H)";
@@ -84,6 +85,7 @@ fn inside_name(inside: Inside) -> &'static str {
         Inside::OwnColours => "Own",
         Inside::Glaze => "Glaze",
         Inside::Both => "Both",
+        Inside::ByRegion => "By region",
     }
 }
 
@@ -92,5 +94,6 @@ fn inside_tip(inside: Inside) -> &'static str {
         Inside::OwnColours => "The subject's own colours (G)",
         Inside::Glaze => "A film of the poured pigments over the grey drawing (G)",
         Inside::Both => "A film of the poured pigments over the subject's own colours (G)",
+        Inside::ByRegion => "What the script names for each of its regions (G)",
     }
 }
