@@ -117,6 +117,8 @@ fn told(window: &mut Window, words: &str) {
         std::thread::sleep(Duration::from_millis(3));
         window.harness().step();
     }
+    // What has appeared is laid out in the following frames.
+    window.harness().run_steps(3);
 }
 
 /// Chooses an entry of the File menu.
@@ -128,7 +130,8 @@ fn choose(window: &mut Window, entry: &str) {
 /// Opens a file in the dialog that asks for one.
 fn open_in_dialog(window: &mut Window, name: &str) {
     told(window, name);
-    window.harness().get_all_by_label(name).next().unwrap().click();
+    // A row names the size and the age of its file too.
+    window.harness().get_all_by_label_contains(name).next().unwrap().click();
     window.harness().run_steps(3);
     window.click("Open");
 }
@@ -143,6 +146,7 @@ fn a_wrong_file_is_told_and_dropped_models_open() {
     window.save("volumes-wrong");
     assert_eq!(volumes(&window).state().unwrap().title, "village", "the open scene stays");
     window.click("OK");
+    assert!(!window.shows("broken.obj"), "the message is closed");
     for (name, bytes) in [("one.obj", obj()), ("two.ply", ply()), ("three.glb", glb())] {
         let path = file(folder.path(), name, &bytes);
         drop_file(&mut window, &path);
