@@ -16,7 +16,8 @@ from pathlib import Path
 from PIL import Image
 
 scratch = Path(sys.argv[1])
-for name in ["studio", "studio-lights", "studio-colour", "studio-layers", "studio-marks", "studio-guides"]:
+names = ["studio", "studio-lights", "studio-colour", "studio-layers", "studio-marks", "studio-guides"]
+for name in [*names, "studio-volumes"]:
     picture = Image.open(scratch / f"{name}.png").convert("RGB")
     kept = Path(f"docs/images/{name}.jpg")
     # The highest quality that stays below 200 kB.

@@ -73,6 +73,15 @@ eval "pour preset-grisaille shape:still-life --preset grisaille $oils $blue $red
 # Colour spreads over a photograph.
 pour photograph docs/images/coffee.jpg --preset washed --pour 0.45,0.5,260 --seconds 5 --width 900
 
+# The same paint in one shell, in two and in four.
+shells() { # NAME SIZES
+    pour "$1" docs/images/coffee.jpg --pour 0.52,0.46,290 --seconds 5 --width 700 \
+        --set grid.cell=0.12 --set "drawing.shells=$2"
+}
+shells shells-1 "[1.0]"
+shells shells-2 "[1.0, 0.75]"
+shells shells-4 "[1.0, 0.85, 0.7, 0.55]"
+
 "${PYTHON:-python3}" - "$scratch" <<'PYTHON'
 import sys
 from pathlib import Path
@@ -97,5 +106,6 @@ sheet("volumes", 3, *[f"wake-{at}" for at in ("0.8", "1.7", "2.6", "3.5", "4.5",
 sheet("volumes-inside", 2, "seed-volumes", "seed-result")
 sheet("volumes-presets", 3, *[f"preset-{own}" for own in ("sketch", "washed", "tinted", "bleed", "grisaille")], "lamp")
 sheet("volumes-photograph", 1, "photograph")
+sheet("volumes-shells", 3, "shells-1", "shells-2", "shells-4")
 (images / "volumes.gif").write_bytes((scratch / "volumes.gif").read_bytes())
 PYTHON

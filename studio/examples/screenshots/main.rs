@@ -2,8 +2,9 @@
 //! worker, without a window system, painting a small study.
 //!
 //! `cargo run -p impasto-studio --example screenshots -- FOLDER` writes `studio.png`,
-//! `studio-lights.png`, `studio-colour.png`, `studio-marks.png`, `studio-guides.png` and
-//! `studio-layers.png` there; `docs/images/studio.sh` converts them to the JPEGs in
+//! `studio-lights.png`, `studio-colour.png`, `studio-marks.png`, `studio-guides.png`,
+//! `studio-layers.png` and `studio-volumes.png` there (a name after the folder makes that of the
+//! scene alone: `studio-volumes`); `docs/images/studio.sh` converts them to the JPEGs in
 //! `docs/images/`. It needs a graphics adapter; a software one will do.
 
 mod window;
@@ -13,6 +14,8 @@ mod hand;
 mod study;
 
 mod drawing;
+
+mod scene;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -47,6 +50,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             .into());
     }
     let mut window = Window::with_commands("screenshots", SIZE, 1.0, vec![study::new_painting()]);
+    if std::env::args().nth(2).as_deref() == Some("studio-volumes") {
+        scene::pouring(&mut window)?;
+        return save(&mut window, &folder, "studio-volumes");
+    }
     at_work(&mut window);
     save(&mut window, &folder, "studio")?;
     window.studio_mut().ask(Command::PenUp);
@@ -63,7 +70,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     save(&mut window, &folder, "studio-guides")?;
     window.studio_mut().panels.reference.close();
     layers(&mut window);
-    save(&mut window, &folder, "studio-layers")
+    save(&mut window, &folder, "studio-layers")?;
+    window.harness().set_size(SIZE);
+    scene::pouring(&mut window)?;
+    save(&mut window, &folder, "studio-volumes")
 }
 
 /// Paints the study, and takes a picture during a stroke.

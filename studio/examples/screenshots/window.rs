@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable;
 #[path = "../../tests/panels/harness.rs"]
 mod harness;
 
-pub(crate) use harness::{Window, has_adapter};
+pub(crate) use harness::{Window, button, has_adapter};
 
 /// Draws frames until a control with this label exists.
 pub(crate) fn wait_for(window: &mut Window, label: &str) -> Result<(), Box<dyn Error>> {

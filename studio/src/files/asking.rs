@@ -17,6 +17,7 @@ use super::pending::PendingAction;
 use super::preferences::Preferences;
 use super::reference_change::ReferenceChange;
 use super::revisions;
+use super::scene_file::SceneExport;
 use super::state::Files;
 use super::swatch_format::SwatchFormat;
 use super::timelapse::TimelapseExport;
@@ -100,6 +101,15 @@ impl Files {
                 if choice == Some(Choice::Yes) {
                     let export = *export;
                     self.ask_where_to_export(export);
+                    return;
+                }
+                choice.is_none()
+            }
+            OpenDialog::ExportOfScene(export) => {
+                let choice = dialogs::export(&ctx, export);
+                if choice == Some(Choice::Yes) {
+                    let export = SceneExport::OfPainting(*export);
+                    self.ask_where_to_export_scene(export);
                     return;
                 }
                 choice.is_none()
@@ -207,6 +217,7 @@ impl Files {
             saving: true,
             filters: &[PAINTINGS, Filter::ALL],
             ending: Some("exr"),
+            others: &[],
             name: format!("{}.exr", self.title()),
         };
         self.browse(options, FilePurpose::Save { next, keep_revision });
@@ -218,6 +229,7 @@ impl Files {
             saving: true,
             filters: &[SCRIPTS, Filter::ALL],
             ending: Some("json"),
+            others: &[],
             name: format!("{}.json", self.title()),
         };
         self.browse(options, FilePurpose::Recording);
@@ -246,6 +258,7 @@ impl Files {
             saving: true,
             filters: &[DRAWINGS, Filter::ALL],
             ending: Some("toml"),
+            others: &[],
             name: file_name(&path),
         };
         let purpose = FilePurpose::SaveDrawing { drawing: Box::new(drawing), next };
@@ -264,6 +277,7 @@ impl Files {
             saving: true,
             filters: &[SWATCHES, Filter::ALL],
             ending: Some(format.ending()),
+            others: &[],
             name: format!("mixtures.{}", format.ending()),
         };
         self.browse(options, FilePurpose::ExportSwatches(format));
@@ -276,21 +290,7 @@ impl Files {
     }
 
     fn ask_where_to_export(&mut self, export: Export) {
-        let ending = export.kind.ending();
-        let filters: &[Filter] = match export.kind {
-            ExportKind::Picture(PictureFormat::Png8 | PictureFormat::Png16) => {
-                &[PICTURES, Filter::ALL]
-            }
-            ExportKind::Picture(PictureFormat::Tiff16) | ExportKind::Layers => &[Filter::ALL],
-            ExportKind::PigmentMaps => &[Filter::ALL],
-            _ => &[PAINTINGS, Filter::ALL],
-        };
-        // A linear EXR must not get the name of the painting's own file.
-        let linear = export.kind == ExportKind::Picture(PictureFormat::LinearExr);
-        let kind = if linear { ".linear" } else { "" };
-        let name = format!("{}{kind}.{ending}", self.title());
-        let title = "Export";
-        let options = BrowserOptions { title, saving: true, filters, ending: Some(ending), name };
+        let options = export_options(export.kind, &self.title());
         self.browse(options, FilePurpose::Export(export));
     }
 
@@ -305,9 +305,27 @@ impl Files {
             saving: true,
             filters: &[Filter::ALL],
             ending: Some(ending),
+            others: &[],
             // A picture may have the plain name already.
             name: format!("{}-timelapse.{ending}", self.title()),
         };
         self.browse(options, FilePurpose::Timelapse(export));
     }
+}
+
+/// The browser that asks where to write an export of a painting with this title.
+pub(super) fn export_options(kind: ExportKind, title: &str) -> BrowserOptions {
+    let ending = kind.ending();
+    let filters: &[Filter] = match kind {
+        ExportKind::Picture(PictureFormat::Png8 | PictureFormat::Png16) => &[PICTURES, Filter::ALL],
+        ExportKind::Picture(PictureFormat::Tiff16) | ExportKind::Layers => &[Filter::ALL],
+        ExportKind::PigmentMaps => &[Filter::ALL],
+        _ => &[PAINTINGS, Filter::ALL],
+    };
+    // A linear EXR must not get the name of the painting's own file.
+    let linear = kind == ExportKind::Picture(PictureFormat::LinearExr);
+    let mark = if linear { ".linear" } else { "" };
+    let name = format!("{title}{mark}.{ending}");
+    let (title, ending, others) = ("Export", Some(ending), &[][..]);
+    BrowserOptions { title, saving: true, filters, ending, others, name }
 }

@@ -99,6 +99,7 @@ impl Files {
             saving: true,
             filters: &[SETS, Filter::ALL],
             ending: Some("json"),
+            others: &[],
             name: format!("{}.json", set.name()),
         };
         self.browse(options, FilePurpose::ExportBrushes(Box::new(set)));

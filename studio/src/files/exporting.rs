@@ -14,17 +14,18 @@ use super::job::{JobError, Progress};
 use super::problem::Problem;
 use spectra::file::write_whole;
 
-/// An export that the painter chose.
+/// An export of a painting that the painter chose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Export {
-    pub(crate) kind: ExportKind,
+pub struct Export {
+    /// Its kind.
+    pub kind: ExportKind,
     /// Resolution of a picture; layers, spectra and maps have one value a cell.
-    pub(crate) pixels: PixelsPerCell,
+    pub pixels: PixelsPerCell,
 }
 
 /// The kind of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ExportKind {
+pub enum ExportKind {
     /// The picture under its light.
     Picture(PictureFormat),
     /// The ground and all layers of paint, as OpenRaster.

@@ -17,8 +17,6 @@ mod swatch_list;
 
 mod request;
 
-mod scene_file;
-
 mod job;
 
 mod home;
@@ -36,6 +34,8 @@ mod revisions;
 mod revision_list;
 
 mod exporting;
+
+mod scene_file;
 
 mod timelapse;
 
@@ -95,6 +95,8 @@ pub use age::{ago, size};
 pub use browser_look::{BrowserLook, BrowserOrder};
 pub use desk::{Desk, DeskDrawing, DeskReference, DeskView};
 pub use drawing::{Drawing, DrawingKind, DrawnFile};
+pub(crate) use exporting::export;
+pub use exporting::{Export, ExportKind};
 pub use figures_log::{FiguresLog, FrameFigures};
 pub use home::Home;
 pub use new_canvas::{CanvasPreset, KeptCanvases, LengthUnit, NewCanvas};

@@ -25,6 +25,8 @@ pub(super) enum OpenDialog {
     DeleteRevision(PathBuf),
     /// Asks what to export.
     Export(Export),
+    /// Asks what to export of the painting that a scene makes.
+    ExportOfScene(Export),
     /// Asks for the settings of a timelapse.
     Timelapse(TimelapseExport),
     /// Asks for the canvas of a new painting.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::exporting::Export;
 use session::LostSession;
 
 /// A file that a scene makes.
@@ -11,6 +12,8 @@ pub enum SceneExport {
     Picture,
     /// The painting: an OpenEXR file with its pigments.
     Painting,
+    /// An export of the painting: layers, spectra, maps of its pigments, a picture.
+    OfPainting(Export),
     /// The script of all events.
     Script,
     /// Pictures from the start to the end.

@@ -7,13 +7,16 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::asking::export_options;
 use super::browser::{BrowserOptions, Filter};
+use super::exporting::{Export, ExportKind};
 use super::job::{JobError, Progress};
-use super::open_dialog::FilePurpose;
+use super::open_dialog::{FilePurpose, OpenDialog};
 use super::problem::Problem;
 use super::scene_file::{SceneAnswer, SceneExport, ScenePurpose};
 use super::state::Files;
 use super::work::{Finished, JobKind, file_name};
+use render::paint::scene::PixelsPerCell;
 use session::volumes::{SceneRecording, SceneState};
 use session::{Autosave, LostSession, SessionMeta, now};
 
@@ -52,16 +55,31 @@ impl Files {
 
     /// Asks where to write a file of the scene.
     pub fn ask_where_to_export_scene(&mut self, export: SceneExport) {
-        let (title, filters, ending): (_, &[Filter], _) = match export {
+        let (title, filters, ending): (_, &[Filter; 2], _) = match export {
             SceneExport::Picture => ("Save the picture", &[PICTURES, Filter::ALL], "png"),
             SceneExport::Painting => ("Save the painting", &[PAINTINGS, Filter::ALL], "exr"),
             SceneExport::Script => ("Save the script", &[SCRIPTS, Filter::ALL], "toml"),
             SceneExport::Animation => ("Save the animation", &[ANIMATIONS, Filter::ALL], "gif"),
+            SceneExport::OfPainting(Export { kind, .. }) => {
+                let options = export_options(kind, &self.scene_stem());
+                return self.browse(options, FilePurpose::Scene(ScenePurpose::Export(export)));
+            }
         };
-        let name = self.scenes.open.as_ref().map_or("scene", |(title, _)| title);
-        let name = format!("{}.{ending}", file_stem(name));
-        let options = BrowserOptions { title, saving: true, filters, ending: Some(ending), name };
+        let name = format!("{}.{ending}", self.scene_stem());
+        let (ending, others) = (Some(ending), filters[0].endings);
+        let options = BrowserOptions { title, saving: true, filters, ending, others, name };
         self.browse(options, FilePurpose::Scene(ScenePurpose::Export(export)));
+    }
+
+    /// Asks what to export of the painting that the scene makes.
+    pub fn ask_what_to_export_of_scene(&mut self) {
+        let export = Export { kind: ExportKind::Layers, pixels: PixelsPerCell::default() };
+        self.dialogs.push(OpenDialog::ExportOfScene(export));
+    }
+
+    /// The name of the scene's files, without an ending.
+    fn scene_stem(&self) -> String {
+        file_stem(self.scenes.open.as_ref().map_or("scene", |(title, _)| title))
     }
 
     /// Notes the painter's choice of a file.

@@ -65,6 +65,10 @@ mod whole;
 
 mod volume_paint;
 
+mod volume_files;
+
+mod volume_exports;
+
 mod look;
 
 mod look_windows;

@@ -2,7 +2,7 @@
 
 use pigment::digits;
 use render::volumes::painter::Show;
-use render::volumes::script::Script;
+use render::volumes::script::{RegionStyle, Script};
 use render::volumes::settings::{self, Settings};
 use toml::{Table, Value};
 
@@ -16,18 +16,27 @@ pub enum Inside {
     Glaze,
     /// A film of the paint over their own colours.
     Both,
+    /// The choice of each region of the script, where they differ.
+    ByRegion,
 }
 
 impl Inside {
-    /// All of them, in the order of the panel.
-    pub const ALL: [Self; 3] = [Self::OwnColours, Self::Glaze, Self::Both];
+    /// The choices of a scene, in the order of the panel. The last is there only if regions of its
+    /// script differ (`by_region`).
+    #[must_use]
+    pub fn choices(by_region: bool) -> &'static [Self] {
+        const ALL: [Inside; 4] =
+            [Inside::OwnColours, Inside::Glaze, Inside::Both, Inside::ByRegion];
+        if by_region { &ALL } else { &ALL[..3] }
+    }
 
-    /// This choice in the words of settings.
-    pub(super) fn as_setting(self) -> settings::Inside {
+    /// This choice in the words of settings; `None` leaves it to the regions.
+    pub(super) fn as_setting(self) -> Option<settings::Inside> {
         match self {
-            Self::OwnColours => settings::Inside::OwnColors,
-            Self::Glaze => settings::Inside::Glaze,
-            Self::Both => settings::Inside::Both,
+            Self::OwnColours => Some(settings::Inside::OwnColors),
+            Self::Glaze => Some(settings::Inside::Glaze),
+            Self::Both => Some(settings::Inside::Both),
+            Self::ByRegion => None,
         }
     }
 
@@ -39,23 +48,30 @@ impl Inside {
         }
     }
 
-    /// This choice in the words of a script.
-    fn word(self) -> &'static str {
-        match self {
-            Self::OwnColours => "own-colours",
-            Self::Glaze => "glaze",
-            Self::Both => "both",
+    /// The choice of all regions together.
+    fn of_regions(styles: &[RegionStyle]) -> Self {
+        let Some((first, others)) = styles.split_first() else { return Self::OwnColours };
+        match others.iter().all(|other| other.inside == first.inside) {
+            true => Self::of(first.inside),
+            false => Self::ByRegion,
         }
     }
 
-    /// The next of them, round and round.
+    /// The next of the [`choices`](Self::choices), round and round.
     #[must_use]
-    pub fn next(self) -> Self {
-        match self {
-            Self::OwnColours => Self::Glaze,
-            Self::Glaze => Self::Both,
-            Self::Both => Self::OwnColours,
-        }
+    pub fn next(self, by_region: bool) -> Self {
+        let choices = Self::choices(by_region);
+        let at = choices.iter().position(|&own| own == self);
+        at.map_or(Self::OwnColours, |at| choices[(at + 1) % choices.len()])
+    }
+}
+
+/// The setting in the words of a script.
+fn word(inside: settings::Inside) -> &'static str {
+    match inside {
+        settings::Inside::OwnColors => "own-colours",
+        settings::Inside::Glaze => "glaze",
+        settings::Inside::Both => "both",
     }
 }
 
@@ -97,7 +113,7 @@ impl Look {
         Self {
             show: Show::Final,
             hatching: hatching.inside > 0.0 || hatching.outside > 0.0,
-            inside: styles.first().map_or(Inside::OwnColours, |style| Inside::of(style.inside)),
+            inside: Inside::of_regions(&styles),
             light: SceneLight {
                 azimuth_deg: light.azimuth_deg.into(),
                 elevation_deg: light.elevation_deg.into(),
@@ -127,12 +143,20 @@ impl Look {
         if hatched != self.hatching {
             (hatching.inside, hatching.outside) = (strength, strength);
         }
-        settings.drawing.inside = self.inside.as_setting();
+        if let Some(inside) = self.inside.as_setting() {
+            settings.drawing.inside = inside;
+        }
         settings
     }
 
-    /// Writes this look into the settings of a script, whose own are `settings`.
-    pub(super) fn write_to(&self, script: &mut Script, settings: &Settings) {
+    /// Writes this look into the settings and regions of a script. When it was opened its settings
+    /// were `settings`, and its regions showed `insides`.
+    pub(super) fn write_to(
+        &self,
+        script: &mut Script,
+        settings: &Settings,
+        insides: &[Option<settings::Inside>],
+    ) {
         let now = self.applied_to(settings);
         let mut set = |group: &str, key: &str, value: Value| {
             let table = script.settings.entry(group).or_insert_with(|| Value::Table(Table::new()));
@@ -150,15 +174,17 @@ impl Look {
             let digits = value.to_string().parse().unwrap_or_else(|_| f64::from(value));
             set(group, key, Value::Float(digits));
         }
-        set("drawing", "inside", Value::String(self.inside.word().to_owned()));
-        for region in &mut script.regions {
-            region.inside = Some(self.inside.as_setting());
+        set("drawing", "inside", Value::String(word(now.drawing.inside).to_owned()));
+        for (region, own) in script.regions.iter_mut().zip(insides) {
+            region.inside = self.inside.as_setting().or(*own);
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use render::volumes::script::RegionTable;
+
     use super::*;
 
     #[test]
@@ -170,11 +196,57 @@ mod tests {
         let light = SceneLight { azimuth_deg: 30.5, elevation_deg: 12.0 };
         let other = Look { hatching: false, inside: Inside::Both, light, ..usual };
         for look in [other, usual] {
-            look.write_to(&mut script, &settings);
+            look.write_to(&mut script, &settings, &[]);
             let read = Script::from_text("text", &script.to_text().unwrap()).unwrap();
             let found = read.settings().unwrap();
             assert_eq!(Look::of(&read, &found), look);
             assert_eq!(found, look.applied_to(&settings), "the pictures are the same");
         }
+    }
+    #[test]
+    fn regions_that_differ_keep_what_they_show_until_one_choice_is_made_for_all() {
+        let mut script = Script::new("shape:village", 1.0);
+        let region = |name: &str, inside| RegionTable {
+            name: name.to_owned(),
+            inside,
+            ..RegionTable::default()
+        };
+        script.regions = vec![region("a", Some(settings::Inside::Glaze)), region("b", None)];
+        let settings = script.settings().unwrap();
+        let insides: Vec<_> = script.regions.iter().map(|region| region.inside).collect();
+        let opened = Look::of(&script, &settings);
+        assert_eq!(opened.inside, Inside::ByRegion);
+        let styles = |script: &Script| -> Vec<settings::Inside> {
+            let styles = script.region_styles(&script.settings().unwrap());
+            styles.into_iter().map(|style| style.inside).collect()
+        };
+        let own = styles(&script);
+        assert_eq!(own, [settings::Inside::Glaze, settings::Inside::OwnColors]);
+        let darker = Look { hatching: false, ..opened };
+        darker.write_to(&mut script, &settings, &insides);
+        assert_eq!(
+            (styles(&script), Look::of(&script, &settings).inside),
+            (own.clone(), opened.inside)
+        );
+        Look { inside: Inside::Both, ..darker }.write_to(&mut script, &settings, &insides);
+        assert_eq!(styles(&script), [settings::Inside::Both; 2]);
+        opened.write_to(&mut script, &settings, &insides);
+        assert_eq!(script.regions.iter().map(|own| own.inside).collect::<Vec<_>>(), insides);
+        assert_eq!(styles(&script), own, "chosen again");
+    }
+
+    #[test]
+    fn the_choices_go_round() {
+        for (by_region, count) in [(false, 3), (true, 4)] {
+            let mut seen = vec![Inside::OwnColours];
+            while let Some(next) = seen.last().map(|last| last.next(by_region)) {
+                if next == seen[0] {
+                    break;
+                }
+                seen.push(next);
+            }
+            assert_eq!(seen.len(), count, "{seen:?}");
+        }
+        assert_eq!(Inside::ByRegion.next(false), Inside::OwnColours);
     }
 }

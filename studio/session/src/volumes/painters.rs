@@ -164,8 +164,10 @@ impl Painters {
             Kind::Drawing => Inside::OwnColours,
             Kind::Painting(inside) => inside,
         };
-        let style =
-            |style: &RegionStyle| RegionStyle { inside: inside.as_setting(), ..style.clone() };
+        let style = |style: &RegionStyle| RegionStyle {
+            inside: inside.as_setting().unwrap_or(style.inside),
+            ..style.clone()
+        };
         let styles: Vec<RegionStyle> = self.styles.iter().map(style).collect();
         let pigments = self.pigments.clone().filter(|_| kind != Kind::Drawing);
         let (scene, settings) = (Arc::clone(&self.scene), self.settings.clone());

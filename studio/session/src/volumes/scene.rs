@@ -9,12 +9,12 @@ use render::field::Field;
 use render::mesh::Mesh;
 use render::volumes::performance::FirstView;
 use render::volumes::script::{Event, Script, ScriptError};
-use render::volumes::settings::Settings;
+use render::volumes::settings::{self, Settings};
 use render::volumes::toml_text::KeyPath;
 
 use super::gesture::{Hand, Timed};
 use super::header::{first_camera, first_size, framed, resolve_picks, script_steps, tally};
-use super::look::Look;
+use super::look::{Inside, Look};
 use super::materials::Materials;
 use super::opened::OpenedScene;
 use super::painters::Painters;
@@ -34,6 +34,10 @@ pub(super) struct Scene {
     pub(super) folder: PathBuf,
     pub(super) file: Option<PathBuf>,
     pub(super) settings: Settings,
+    /// What the regions of the script showed when it was opened.
+    insides: Vec<Option<settings::Inside>>,
+    /// Whether they differed.
+    by_region: bool,
     view: FirstView,
     pub(super) recorded: Recorded,
     pub(super) timeline: Timeline,
@@ -66,6 +70,8 @@ impl Scene {
         timeline.reach(script_steps(&script).max(recorded.end_step().into()));
         let painters = Painters::new(&mesh, &script, &settings, materials.painted(&script));
         let look = Look::of(&script, &settings);
+        let insides = script.regions.iter().map(|region| region.inside).collect();
+        let by_region = look.inside == Inside::ByRegion;
         let (hand, shown) = (None, None);
         Ok(Self {
             framed: framed(&mesh, flat),
@@ -74,6 +80,8 @@ impl Scene {
             folder,
             file,
             settings,
+            insides,
+            by_region,
             view,
             recorded,
             timeline,
@@ -87,12 +95,12 @@ impl Scene {
 
     /// Changes what is shown.
     pub(super) fn set_look(&mut self, look: Look) {
-        let (before, settings) = (self.look, &self.settings);
+        let (before, settings, insides) = (self.look, &self.settings, &self.insides);
         let look = look.rounded();
         self.look = look;
         // The picture that is shown is no part of the script.
         if (Look { show: before.show, ..look }) != before {
-            self.recorded.change_base(|script| look.write_to(script, settings));
+            self.recorded.change_base(|script| look.write_to(script, settings, insides));
         }
     }
 
@@ -191,6 +199,7 @@ impl Scene {
             tubes: Arc::clone(&self.materials.tubes),
             prepares: self.painters.is_making(),
             look: self.look,
+            by_region: self.by_region,
             time,
             events: Arc::new(self.recorded.events()),
             tally: tally(&world.tally(), world.quantum_mm3(), world.volumes().len()),

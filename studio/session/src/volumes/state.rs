@@ -91,6 +91,9 @@ pub struct SceneState {
     pub tubes: Arc<Vec<SceneTube>>,
     /// The look that is shown.
     pub look: Look,
+    /// Whether the regions of its script show different things inside of their volumes, so that
+    /// [`Inside::ByRegion`](super::Inside::ByRegion) is a choice.
+    pub by_region: bool,
     /// The moment shown, and the last one.
     pub time: SceneTime,
     /// All events by the time at which they begin.

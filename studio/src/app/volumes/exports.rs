@@ -4,11 +4,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use render::export::PictureFormat;
-use render::paint::document::Document;
+use render::light::Light;
+use render::paint::document::{Document, Lighting};
 use spectra::file::write_whole;
 
 use super::workspace::Volumes;
-use crate::files::{Files, Problem, SceneAnswer, SceneExport};
+use crate::files::{self, Files, Problem, SceneAnswer, SceneExport};
 use session::volumes::{SceneImage, SceneRecording, Subject, VolumeCommand};
 
 /// Number of the request for the recording of an autosave.
@@ -51,7 +52,9 @@ impl Volumes {
         let number = self.await_file(export, path);
         self.ask(match export {
             SceneExport::Picture => VolumeCommand::Draw(number, size),
-            SceneExport::Painting => VolumeCommand::Paint(number, size),
+            SceneExport::Painting | SceneExport::OfPainting(_) => {
+                VolumeCommand::Paint(number, size)
+            }
             SceneExport::Script | SceneExport::Animation => VolumeCommand::Recording(number),
         });
     }
@@ -106,15 +109,21 @@ impl Volumes {
         });
     }
 
-    /// Writes a painting where it was asked for.
+    /// Writes a painting, or an export of it, where it was asked for.
     pub(super) fn write_painting(
         &mut self,
         number: u64,
         document: Arc<Document>,
         files: &mut Files,
     ) {
-        let Some((_, path)) = self.take_awaited(number) else { return };
+        let Some((export, path)) = self.take_awaited(number) else { return };
         files.export_scene(path, move |path, progress| {
+            if let SceneExport::OfPainting(export) = export {
+                let Lighting { illuminant, observer, .. } = &document.lighting;
+                let light = Light::named(&document.library, illuminant, observer);
+                let light = light.map_err(|error| Problem::from_error(&error))?;
+                return files::export(export, &document, &light, path, progress);
+            }
             let bytes = render::paint::file::write(&document);
             let bytes = bytes.map_err(|error| Problem::from_error(&error))?;
             progress.report(0.8)?;

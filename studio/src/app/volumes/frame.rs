@@ -110,6 +110,9 @@ impl Volumes {
                 SceneRequest::File(SceneFileRequest::Export(export)) => {
                     files.ask_where_to_export_scene(export);
                 }
+                SceneRequest::File(SceneFileRequest::ExportOfPainting) => {
+                    files.ask_what_to_export_of_scene();
+                }
             }
         }
     }

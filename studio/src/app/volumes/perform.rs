@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use eframe::egui::{Context, Event, FocusDirection, Key, ViewportCommand};
-use session::volumes::{Inside, Show, VolumeCommand};
+use session::volumes::{Inside, SceneState, Show, VolumeCommand};
 
 use super::entries::scene_key_rows;
 use super::intent::SceneIntent;
@@ -105,8 +105,11 @@ impl Volumes {
                 self.with_panels(|cx| cx.change_look(|look| look.hatching ^= true));
             }
             SceneIntent::Inside => {
-                self.with_panels(|cx| cx.change_look(|look| look.inside = look.inside.next()));
-                self.tell_inside();
+                let next = |state: &SceneState| state.look.inside.next(state.by_region);
+                if let Some(inside) = self.state().map(next) {
+                    self.with_panels(|cx| cx.change_look(|look| look.inside = inside));
+                    self.tell_inside(inside);
+                }
             }
             SceneIntent::Frame => self.orbit.frame(),
             SceneIntent::More => self.change_rate(STEP),
@@ -139,12 +142,12 @@ impl Volumes {
     }
 
     /// Tells what volumes show from now on.
-    fn tell_inside(&mut self) {
-        let Some(inside) = self.state().map(|state| state.look.inside.next()) else { return };
+    fn tell_inside(&mut self, inside: Inside) {
         self.say(match inside {
             Inside::OwnColours => "inside: the subject's own colours".to_owned(),
             Inside::Glaze => "inside: a glaze of the poured pigments".to_owned(),
             Inside::Both => "inside: the pigments over the subject's own colours".to_owned(),
+            Inside::ByRegion => "inside: what the script names for each region".to_owned(),
         });
     }
 }

@@ -20,6 +20,8 @@ pub(crate) struct BrowserOptions {
     pub(crate) filters: &'static [Filter],
     /// Extension that is added to the name of a new file; `None` for no extension.
     pub(crate) ending: Option<&'static str>,
+    /// Other extensions that a new file may have, to which none is added.
+    pub(crate) others: &'static [&'static str],
     /// Name that is suggested for a new file.
     pub(crate) name: String,
 }
@@ -27,7 +29,7 @@ pub(crate) struct BrowserOptions {
 impl BrowserOptions {
     /// Options of a dialog that opens an existing file.
     pub(crate) fn open(title: &'static str, filters: &'static [Filter]) -> Self {
-        Self { title, saving: false, filters, ending: None, name: String::new() }
+        Self { title, saving: false, filters, ending: None, others: &[], name: String::new() }
     }
 }
 
@@ -237,7 +239,7 @@ impl Browser {
             self.problem = Some(Problem::new(text, "choose a name without / and \\"));
             return None;
         }
-        let path = with_ending(self.folder.join(name), self.options.ending);
+        let path = with_ending(self.folder.join(name), self.options.ending, self.options.others);
         if path.exists() && self.replacing.as_ref() != Some(&path) {
             self.replacing = Some(path);
             return None;
@@ -257,11 +259,13 @@ impl Browser {
     }
 }
 
-/// Appends the extension `ending` to `path` if it is missing.
-fn with_ending(path: PathBuf, ending: Option<&str>) -> PathBuf {
+/// Appends the extension `ending` to `path` if it has neither it nor one of the `others`.
+fn with_ending(path: PathBuf, ending: Option<&str>, others: &[&str]) -> PathBuf {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let small = name.to_lowercase();
+    let has = |ending: &str| small.ends_with(&format!(".{ending}"));
     match ending {
-        Some(ending) if !name.to_lowercase().ends_with(&format!(".{ending}")) => {
+        Some(ending) if !has(ending) && !others.iter().any(|other| has(other)) => {
             path.with_file_name(format!("{name}.{ending}"))
         }
         _ => path,
@@ -285,6 +289,7 @@ mod tests {
             saving,
             filters: &[PAINTINGS, Filter::ALL],
             ending: Some("exr"),
+            others: &[],
             name: "study".to_owned(),
         };
         let mut browser = Browser::new(
@@ -351,6 +356,21 @@ mod tests {
             browser.problem = None;
             assert_eq!(browser.save(), None, "{name:?}");
             assert!(browser.problem.is_some(), "{name:?}");
+        }
+    }
+
+    #[test]
+    fn a_name_keeps_an_extension_that_the_file_may_have() {
+        let (mut browser, folder) = browser(true);
+        browser.options.others = &["exr", "apng"];
+        for (name, wanted) in [
+            ("b2", "b2.exr"),
+            ("b2.EXR", "b2.EXR"),
+            ("b2.apng", "b2.apng"),
+            ("b2.txt", "b2.txt.exr"),
+        ] {
+            browser.name = name.to_owned();
+            assert_eq!(browser.save(), Some(Answer::File(folder.path().join(wanted))));
         }
     }
 

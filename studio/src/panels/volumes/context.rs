@@ -47,6 +47,8 @@ pub enum SceneFileRequest {
     Library,
     /// Writes a file; asks where.
     Export(SceneExport),
+    /// Writes an export of the painting; asks which, and where.
+    ExportOfPainting,
 }
 
 /// Request of a panel.

@@ -28,14 +28,15 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     ui.add_space(4.0);
     ui.label("Inside of the volumes");
     let key = hint(ui.ctx(), "scene.inside");
-    let choices =
-        Inside::ALL.map(|one| (one, inside_name(one), format!("{}{key}", inside_tip(one))));
     let has_tubes = !cx.state.tubes.is_empty();
-    ui.add_enabled_ui(has_tubes, |ui| {
-        if let Some(inside) = choose(ui, choices.to_vec(), look.inside) {
+    for row in Inside::choices(cx.state.by_region).chunks(ROW) {
+        let tip = |one| format!("{}{key}", inside_tip(one));
+        let choices = row.iter().map(|&one| (one, inside_name(one), tip(one))).collect();
+        let chosen = ui.add_enabled_ui(has_tubes, |ui| choose(ui, choices, look.inside));
+        if let Some(inside) = chosen.inner {
             cx.change_look(|look| look.inside = inside);
         }
-    });
+    }
     ui.add_space(4.0);
     let mut hatching = look.hatching;
     let key = hint(ui.ctx(), "scene.hatching");
@@ -93,6 +94,7 @@ fn inside_name(inside: Inside) -> &'static str {
         Inside::OwnColours => "Own",
         Inside::Glaze => "Glaze",
         Inside::Both => "Both",
+        Inside::ByRegion => "By region",
     }
 }
 
@@ -101,5 +103,6 @@ fn inside_tip(inside: Inside) -> &'static str {
         Inside::OwnColours => "The subject's own colours",
         Inside::Glaze => "A film of the poured pigments over the grey drawing",
         Inside::Both => "A film of the poured pigments over the subject's own colours",
+        Inside::ByRegion => "What the script names for each of its regions",
     }
 }

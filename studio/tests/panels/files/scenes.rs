@@ -34,6 +34,7 @@ fn state(revision: u64) -> SceneState {
         prepares: false,
         tubes: Arc::default(),
         look: Look::default(),
+        by_region: false,
         time: SceneTime::default(),
         events: Arc::default(),
         tally: SceneTally::default(),

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use suite::program::repository;
 
-use super::{SMALL, folder, path, stencil};
+use super::{SMALL, done, folder, path, stencil};
 
 /// A script over the box whose last line is the 9th.
 const SCRIPT: &str = "format = \"paint-volumes\"\nversion = 1\nsubject = \"box.obj\"\n\
@@ -165,4 +165,22 @@ fn faults_of_scripts_name_file_line_key_value_and_way_out() {
     assert_eq!(std::fs::read_to_string(&script).unwrap(), SCRIPT);
     let more = [&script[..], "--width", "64", "--pour", "0.01,0.02"];
     refused(&picture, &more, 1, &["--pour number 1", "no surface"]);
+}
+
+#[test]
+fn the_guide_has_a_row_for_every_setting() {
+    let printed = done(&["--show-preset", "sketch"]).out;
+    let guide = std::fs::read_to_string(repository("docs/guide/volumes.md")).unwrap();
+    let (mut group, mut count) = (String::new(), 0);
+    for line in printed.lines() {
+        if let Some(name) = line.strip_prefix('[') {
+            group = format!("{}.", name.trim_end_matches(']'));
+        } else if let Some((key, _)) = line.split_once(" = ").filter(|_| !line.starts_with('#')) {
+            let name = format!("`{group}{key}`");
+            let is_row = |line: &str| line.starts_with('|') && line.contains(&name);
+            assert!(guide.lines().any(is_row), "{name} has no row");
+            count += 1;
+        }
+    }
+    assert!(count > 40, "{count} settings");
 }

@@ -8,6 +8,9 @@ use std::time::{Duration, Instant};
 use glam::Vec3;
 use render::camera::Camera;
 use render::export::PictureFormat;
+use render::paint::document::Document;
+use render::volumes::script::Script;
+use render::volumes::settings;
 use session::volumes::{
     Grip, Inside, Look, SceneImage, SceneLight, ScenePen, SceneRecording, SceneState, SceneTool,
     Subject, VolumeCommand, VolumeEvent, VolumeWorker,
@@ -30,6 +33,7 @@ struct Session {
     state: Option<Arc<SceneState>>,
     recording: Option<Arc<SceneRecording>>,
     drawn: Option<Arc<SceneImage>>,
+    painted: Option<Arc<Document>>,
 }
 
 impl Session {
@@ -37,7 +41,8 @@ impl Session {
     fn open(subject: Subject) -> Self {
         let (wake, woken) = channel();
         let worker = VolumeWorker::start(move || wake.send(()).unwrap_or(()));
-        let mut session = Self { worker, woken, state: None, recording: None, drawn: None };
+        let (state, recording, drawn, painted) = (None, None, None, None);
+        let mut session = Self { worker, woken, state, recording, drawn, painted };
         session.ask(VolumeCommand::Open(subject));
         session.wait(|session| session.state.is_some());
         session.ask(VolumeCommand::Size(SIZE));
@@ -60,6 +65,7 @@ impl Session {
                     }
                     VolumeEvent::Recording(_, recording) => self.recording = Some(recording),
                     VolumeEvent::Drawn(_, picture) => self.drawn = Some(picture),
+                    VolumeEvent::Painted(_, document) => self.painted = Some(document),
                     VolumeEvent::Message { text, failed: true, .. } => panic!("{text}"),
                     _ => {}
                 }
@@ -124,6 +130,14 @@ impl Session {
         self.ask(VolumeCommand::Draw(1, SIZE));
         self.wait(|session| session.drawn.is_some());
         self.drawn.as_ref().unwrap().file(format).unwrap()
+    }
+
+    /// The file of the painting that the studio exports now.
+    fn painting(&mut self) -> Vec<u8> {
+        self.painted = None;
+        self.ask(VolumeCommand::Paint(2, SIZE));
+        self.wait(|session| session.painted.is_some());
+        render::paint::file::write(self.painted.as_ref().unwrap()).unwrap()
     }
 
     /// Writes the recording in a file.
@@ -196,7 +210,10 @@ fn a_recording_of_the_studio_replayed_by_the_verb_has_the_same_bytes() {
     session.seek(end);
     session.save(&recording);
     let by_day = session.exported(PictureFormat::LinearExr);
-    assert!(by_day == replayed(&recording, &exact, &[]), "in pigments");
+    let painting = path(&folder, "painting.exr");
+    let by_verb = replayed(&recording, &exact, &["--output", &painting]);
+    assert!(by_day == by_verb, "in pigments");
+    assert!(session.painting() == std::fs::read(&painting).unwrap(), "the painting");
     // Other pigments of a library of the painter's own, by lamplight.
     let library = path(&folder, "mine.pigments.json");
     std::fs::copy(repository("measurements/van-gogh-oils.pigments.json"), &library).unwrap();
@@ -227,4 +244,65 @@ fn a_recording_on_a_photograph_is_replayed_from_its_own_camera() {
     assert!(shown == replayed(&recording, &picture, &[]), "the same bytes");
     session.orbit(-9.0);
     assert!(shown != session.exported(PictureFormat::LinearExr), "it is seen from its camera");
+}
+
+/// A script of two regions, of which one shows a glaze and the other its own colours.
+const REGIONS: &str = r#"format = "paint-volumes"
+version = 1
+subject = "shape:still-life"
+seconds = 1.0
+
+[palette]
+A = "Ultramarine"
+B = "Vermilion"
+
+[[region]]
+name = "left"
+inside = "glaze"
+
+[[region]]
+name = "right"
+
+[[pour]]
+picked = [0.4, 0.55]
+for_s = 0.5
+amount_mm3 = 40
+recipe = { A = 1 }
+region = "left"
+
+[[pour]]
+picked = [0.62, 0.6]
+for_s = 0.5
+amount_mm3 = 40
+recipe = { B = 1 }
+region = "right"
+"#;
+
+#[test]
+fn regions_that_differ_are_shown_and_saved_as_the_verb_draws_them() {
+    let folder = TempDir::new().unwrap();
+    let [script, saved, exact] = ["s.toml", "saved.toml", "p.exr"].map(|name| path(&folder, name));
+    let library = path(&folder, "mine.pigments.json");
+    std::fs::copy(repository("measurements/van-gogh-oils.pigments.json"), library).unwrap();
+    let named = REGIONS.replace("seconds", "library = \"mine.pigments.json\"\nseconds");
+    std::fs::write(&script, named).unwrap();
+    let mut session = Session::open(Subject::Script(script.into()));
+    let opened = session.state().look;
+    assert!(opened.inside == Inside::ByRegion && session.state().by_region, "{opened:?}");
+    session.orbit(0.0);
+    let end = session.seek_end();
+    let light = SceneLight { azimuth_deg: 20.0, elevation_deg: 50.0 };
+    session.ask(VolumeCommand::Look(Look { light, ..opened }));
+    session.save(&saved);
+    let each = session.exported(PictureFormat::LinearExr);
+    assert!(each == replayed(&saved, &exact, &[]), "each region as the script says");
+    let read = Script::open(Path::new(&saved)).unwrap();
+    let insides: Vec<_> = read.regions.iter().map(|region| region.inside).collect();
+    assert_eq!(insides, [Some(settings::Inside::Glaze), None]);
+    // One choice for all is another picture, and the choice of the regions can be had again.
+    session.ask(VolumeCommand::Look(Look { light, inside: Inside::Glaze, ..opened }));
+    session.seek(end);
+    assert!(session.exported(PictureFormat::LinearExr) != each, "all of them glazes");
+    session.ask(VolumeCommand::Look(Look { light, ..opened }));
+    assert!(session.exported(PictureFormat::LinearExr) == each, "as it was");
 }
