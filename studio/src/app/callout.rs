@@ -3,6 +3,7 @@
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
 
+use crate::language::tr;
 use crate::theme;
 
 /// Room around the text, in points.
@@ -28,7 +29,7 @@ pub(super) fn plate(painter: &Painter, at: Pos2, arrow: Arrow, width: f32, lines
     for (index, line) in lines.iter().enumerate() {
         let format = TextFormat::simple(FontId::proportional(13.0), colors.strong);
         let spacing = if index > 0 { "\n" } else { "" };
-        job.append(&format!("{spacing}{line}"), 0.0, format);
+        job.append(&format!("{spacing}{}", tr(line)), 0.0, format);
     }
     job.wrap.max_width = width - 2.0 * MARGIN;
     let laid = painter.layout_job(job);
