@@ -4,39 +4,54 @@ use eframe::egui::{Button, Ui, vec2};
 
 use super::context::{SceneContext, SceneFileRequest};
 use crate::files::SceneExport;
+use crate::language::{english, tr};
 use crate::panels::controls::row_height;
 
 /// A button, its tip, and the file that it makes.
 type Line = (&'static str, &'static str, SceneExport);
 
 const LINES: [Line; 4] = [
-    ("Picture...", "The picture as it is seen now: PNG, or linear OpenEXR", SceneExport::Picture),
     (
-        "Painting...",
-        "An OpenEXR file with the pigments of every cell: relight it, exchange its pigments, go \
+        english("Picture..."),
+        english("The picture as it is seen now: PNG, or linear OpenEXR"),
+        SceneExport::Picture,
+    ),
+    (
+        english("Painting..."),
+        english(
+            "An OpenEXR file with the pigments of every cell: relight it, exchange its pigments, go \
          on painting it",
+        ),
         SceneExport::Painting,
     ),
     (
-        "Script...",
-        "All that was done, as a text file that this program and `impasto stencil` play again",
+        english("Script..."),
+        english(
+            "All that was done, as a text file that this program and `impasto stencil` play again",
+        ),
         SceneExport::Script,
     ),
-    ("Animation...", "All pictures from the start to the end: GIF or APNG", SceneExport::Animation),
+    (
+        english("Animation..."),
+        english("All pictures from the start to the end: GIF or APNG"),
+        SceneExport::Animation,
+    ),
 ];
 
 /// Draws the buttons.
 pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     for (name, tip, export) in LINES {
         let reason = match export {
-            SceneExport::Painting if cx.state.tubes.is_empty() => Some("the scene has no pigments"),
-            SceneExport::Animation if cx.state.time.end == 0 => Some("no time has passed yet"),
+            SceneExport::Painting if cx.state.tubes.is_empty() => {
+                Some(tr("the scene has no pigments"))
+            }
+            SceneExport::Animation if cx.state.time.end == 0 => Some(tr("no time has passed yet")),
             _ => None,
         };
         let size = vec2(ui.available_width(), row_height(ui, 26.0));
         let button =
-            ui.add_enabled_ui(reason.is_none(), |ui| ui.add_sized(size, Button::new(name)));
-        let button = button.inner.on_hover_text(tip);
+            ui.add_enabled_ui(reason.is_none(), |ui| ui.add_sized(size, Button::new(tr(name))));
+        let button = button.inner.on_hover_text(tr(tip));
         if button.on_disabled_hover_text(reason.unwrap_or_default()).clicked() {
             cx.file(SceneFileRequest::Export(export));
         }
