@@ -38,7 +38,7 @@ pub(super) fn drawn_texts(window: &mut Window) -> BTreeSet<(FontFamily, String)>
 
 /// Checks what is shown now: drawn texts, and the names for screen readers. Returns the number of
 /// texts.
-fn check(window: &mut Window, place: &str) -> usize {
+pub(super) fn check(window: &mut Window, place: &str) -> usize {
     let mut texts = drawn_texts(window);
     let nodes = window.harness().query_all_by(|_| true);
     let named: Vec<String> = nodes

@@ -27,7 +27,7 @@ const LOOKS: [(ThemeChoice, bool); 4] = [
     (ThemeChoice::Light, true),
 ];
 
-fn set_look(window: &mut Window, (theme, touch): (ThemeChoice, bool)) {
+pub(super) fn set_look(window: &mut Window, (theme, touch): (ThemeChoice, bool)) {
     let preferences = &mut window.studio_mut().files.preferences;
     (preferences.theme, preferences.touch_targets) = (theme, touch);
     window.harness().step();
@@ -44,7 +44,7 @@ fn seen(window: &mut Window) -> Vec<SeenText> {
     texts(window.harness().output())
 }
 
-fn cut(window: &mut Window) -> Vec<String> {
+pub(super) fn cut(window: &mut Window) -> Vec<String> {
     let cut = seen(window).into_iter().filter(SeenText::is_cut);
     cut.map(|text| format!("{} at {:?}", text.words, text.rect)).collect()
 }

@@ -67,6 +67,8 @@ mod volume_paint;
 
 mod look;
 
+mod language;
+
 mod docking;
 
 mod working;
