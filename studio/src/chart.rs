@@ -8,6 +8,7 @@ use eframe::egui::{
 };
 use spectra::Grid;
 
+use crate::language::tr_format;
 use crate::theme::{self, contrast};
 
 /// Wavelength range of every chart, in nm.
@@ -73,7 +74,7 @@ impl Chart<'_> {
     /// pointer.
     pub fn show(&self, ui: &mut Ui, size: Vec2) -> Response {
         let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
-        let label = format!("{} over wavelength", self.quantity);
+        let label = tr_format!("{quantity} over wavelength", quantity = self.quantity);
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
         if !ui.is_rect_visible(whole) {
             return response;

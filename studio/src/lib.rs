@@ -9,6 +9,8 @@
 
 pub mod theme;
 
+pub mod language;
+
 mod pace;
 
 mod floating;

@@ -11,6 +11,7 @@ use wgpu::{Adapter, Backends, DeviceType, PresentMode, Surface};
 use crate::app::{Parts, StartedWorker, Studio};
 use crate::arguments::Start;
 use crate::files::{Files, Problem};
+use crate::language::{Language, set_system};
 use crate::pen::{Pen, PenSettings};
 use crate::{pace, view};
 use session::initial_commands;
@@ -24,6 +25,7 @@ const SMALLEST: [f32; 2] = [900.0, 600.0];
 /// [`Problem`] with a hint if there is no display or no graphics adapter that can draw
 /// in the window.
 pub fn run(start: Start) -> Result<(), Problem> {
+    set_system(Language::of_environment());
     // The worker prepares the canvas while the window opens.
     let worker = StartedWorker::new(start.worker, initial_commands());
     let options = options(start.window);

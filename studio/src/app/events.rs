@@ -8,6 +8,7 @@ use render::paint::strokes::SurfaceId;
 use super::side::Tab;
 use super::status::Message;
 use super::studio::Studio;
+use crate::language::tr_format;
 use session::{Event, PaintingState};
 
 impl Studio {
@@ -49,14 +50,15 @@ impl Studio {
             // Handled by the files above.
             Event::Snapshot(_) | Event::Kept(_) | Event::Progress { .. } | Event::Replayed => {}
             Event::DirtyBrush(brush) => {
-                let text = format!("the brush \u{201c}{brush}\u{201d} is dirty");
+                let text = tr_format!("the brush \u{201c}{brush}\u{201d} is dirty", brush);
                 let key = |name| {
                     let row = self.keymap.easel.row(name);
                     let key = row.and_then(|row| row.keys.first());
                     key.map_or_else(String::new, |key| format!(" ({})", key.text()))
                 };
                 let (wash, wipe) = (key("wash"), key("wipe"));
-                let hint = format!("wash{wash} or wipe{wipe} it before another colour");
+                let hint =
+                    tr_format!("wash{wash} or wipe{wipe} it before another colour", wash, wipe);
                 self.show_message(text, Some(hint), false);
             }
             Event::Message { text, hint, failed } => {

@@ -7,21 +7,22 @@ use super::intent::Intent;
 use super::places::{self, Part};
 use super::studio::Studio;
 use crate::keymap::text;
+use crate::language::{tr, tr_format};
 
 /// Lines over the canvas, with the keys in use.
 fn canvas_lines(context: &Context) -> [String; 3] {
-    let dry = by_key(context, Intent::Dry, "Edit, Dry");
+    let dry = by_key(context, Intent::Dry, tr("Edit, Dry"));
     [
-        "Press here and draw, with a pen, a mouse or a finger.".to_owned(),
-        format!("Alt + click tells a colour. {dry} dries the paint, to paint over it."),
-        "File, Sample painting opens one to try; Help, Guided tour shows more.".to_owned(),
+        tr("Press here and draw, with a pen, a mouse or a finger.").to_owned(),
+        tr_format!("Alt + click tells a colour. {dry} dries the paint, to paint over it.", dry),
+        tr("File, Sample painting opens one to try; Help, Guided tour shows more.").to_owned(),
     ]
 }
 
 /// Lines over the palette, with the keys in use.
 fn palette_lines(context: &Context) -> [String; 2] {
-    let wash = by_key(context, Intent::Wash, "Edit, Wash the brush");
-    ["Mix here with the brush.".to_owned(), format!("{wash} washes it.")]
+    let wash = by_key(context, Intent::Wash, tr("Edit, Wash the brush"));
+    [tr("Mix here with the brush.").to_owned(), tr_format!("{wash} washes it.", wash)]
 }
 
 /// The key of an intent, or its place in the menus if it has none.
@@ -60,7 +61,7 @@ impl Studio {
         let mixing = palette_lines(ui.ctx());
         let mut arrows: Vec<(Pos2, f32, &[String])> =
             vec![(above(palette), palette.width(), &mixing)];
-        let filling = TUBES.map(str::to_owned);
+        let filling = TUBES.map(|line| tr(line).to_owned());
         if let Some(tubes) = places::rect(ui.ctx(), Part::Tubes) {
             arrows.push((above(tubes), tubes.width(), &filling));
         }

@@ -12,6 +12,7 @@ use super::volumes::{WindowIntent, scene_key_rows};
 use crate::files::{Problem, StatusNote};
 use crate::floating;
 use crate::keymap::{Keymap, Scope, install};
+use crate::language::{speak, spoken, tr, tr_format};
 use crate::panels::{FileRequest, Request};
 use crate::pen::Device;
 use crate::{pace, theme, view};
@@ -21,6 +22,7 @@ impl Studio {
     /// window is hidden.
     pub fn logic(&mut self, context: &Context) {
         pace::begin_frame(context, Instant::now());
+        speak(self.files.preferences.language);
         self.handle_events();
         if let Some(desk) = self.files.take_desk() {
             self.set_up(&desk, context);
@@ -88,6 +90,7 @@ impl Studio {
     pub fn ui(&mut self, ui: &mut Ui, busy: Option<Duration>) {
         let context = ui.ctx().clone();
         let now = Instant::now();
+        speak(self.files.preferences.language);
         self.frames.begin(now, busy);
         floating::begin_frame(&context);
         self.handle_events();
@@ -118,18 +121,19 @@ impl Studio {
         view::quicken(&context);
     }
 
-    /// Uses the keys of the preferences if they changed. New faults in them are told.
+    /// Uses the keys of the preferences if they or the language changed. New faults in them are told.
     fn update_keys(&mut self, context: &Context) {
         let changes = &self.files.preferences.keys;
-        if self.keymap_changes.as_ref() == Some(changes) {
+        let made = (spoken(), changes);
+        if self.keymap_changes.as_ref().is_some_and(|(spoken, used)| (*spoken, used) == made) {
             return;
         }
         let (keymap, faults) = Keymap::new(key_rows(), scene_key_rows(), changes);
         install(context, keymap.clone());
-        (self.keymap, self.keymap_changes) = (keymap, Some(changes.clone()));
+        (self.keymap, self.keymap_changes) = (keymap, Some((spoken(), changes.clone())));
         if faults != self.key_faults && !faults.is_empty() {
-            let text = format!("preferences, `keys`: {}", faults.join("; "));
-            self.files.report(Problem::new(text, "Help, Keys shows and changes all keys"));
+            let text = tr_format!("preferences, `keys`: {faults}", faults = faults.join("; "));
+            self.files.report(Problem::new(text, tr("Help, Keys shows and changes all keys")));
         }
         self.key_faults = faults;
     }

@@ -8,6 +8,7 @@ use super::key_editor::KeyEditor;
 use super::volumes::SCENE_POINTER;
 use crate::floating;
 use crate::keymap::{Changes, KeyRow, KeyTable, Keymap, Scope, Shortcut, text};
+use crate::language::{english, tr, tr_format};
 use crate::theme;
 
 /// Width of the window, in points.
@@ -21,16 +22,25 @@ const KEYS: f32 = 250.0;
 
 /// Gestures and held keys, which cannot be changed, with descriptions.
 const POINTER: &[(&str, &str)] = &[
-    ("Space + drag", "Moves the view; so does the middle button"),
-    ("Shift+Space + drag", "Rotates the view about its centre"),
-    ("Ctrl+Space + drag", "Zooms, upwards in"),
-    ("Wheel", "Zooms about the pointer; two fingers on a pad move the view"),
-    ("Two fingers", "Move, zoom and turn the view on a touch screen"),
-    ("Tap of two fingers", "Undoes; a tap of three fingers redoes"),
-    ("Alt + click", "Picks colour and paint"),
-    ("Shift + stroke", "Starts with a straight line from the end of the last stroke"),
-    ("Shift on the reference", "Marks the distance of strokes of the selected sample"),
-    ("Held tool key", "Restores the previous tool on release"),
+    (english("Space + drag"), english("Moves the view; so does the middle button")),
+    (english("Shift+Space + drag"), english("Rotates the view about its centre")),
+    (english("Ctrl+Space + drag"), english("Zooms, upwards in")),
+    (
+        english("pointer|Wheel"),
+        english("Zooms about the pointer; two fingers on a pad move the view"),
+    ),
+    (english("Two fingers"), english("Move, zoom and turn the view on a touch screen")),
+    (english("Tap of two fingers"), english("Undoes; a tap of three fingers redoes")),
+    (english("Alt + click"), english("Picks colour and paint")),
+    (
+        english("Shift + stroke"),
+        english("Starts with a straight line from the end of the last stroke"),
+    ),
+    (
+        english("Shift on the reference"),
+        english("Marks the distance of strokes of the selected sample"),
+    ),
+    (english("Held tool key"), english("Restores the previous tool on release")),
 ];
 
 /// Shows the window while `open` is true; its close button and Escape clear `open`. Changes of keys
@@ -42,7 +52,7 @@ pub(super) fn show(
     keymap: &Keymap,
     changes: &mut Changes,
 ) {
-    let shown = floating::show(context, "Keys", "keys", open, |ui| {
+    let shown = floating::show(context, tr("Keys"), "keys", open, |ui| {
         let height = floating::height_of_contents(ui.ctx()) - 70.0;
         ui.set_width(WIDTH);
         let table = keymap.table(editor.scope);
@@ -76,22 +86,23 @@ pub(super) fn show(
 fn head(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Changes) {
     ui.horizontal(|ui| {
         for (scope, name, tip) in [
-            (Scope::Easel, "Easel", "Keys while a painting is shown"),
-            (Scope::Scenes, "Scenes", "Keys while a scene of paint volumes is shown"),
+            (Scope::Easel, tr("Easel"), tr("Keys while a painting is shown")),
+            (Scope::Scenes, tr("Scenes"), tr("Keys while a scene of paint volumes is shown")),
         ] {
             if ui.selectable_label(editor.scope == scope, name).on_hover_text(tip).clicked() {
                 editor.stop();
                 editor.scope = scope;
             }
         }
-        let find = TextEdit::singleline(&mut editor.find).hint_text("find").desired_width(180.0);
+        let find =
+            TextEdit::singleline(&mut editor.find).hint_text(tr("find")).desired_width(180.0);
         ui.add(find)
-            .accessible_name("Find an action")
-            .on_hover_text("Shows only what has this word");
+            .accessible_name(tr("Find an action"))
+            .on_hover_text(tr("Shows only what has this word"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let changed = table.rows().iter().any(|row| row.keys != row.standard);
-            let button = ui.add_enabled(changed, Button::new("All to standard"));
-            let tip = "Gives all actions of this table their standard keys";
+            let button = ui.add_enabled(changed, Button::new(tr("All to standard")));
+            let tip = tr("Gives all actions of this table their standard keys");
             if button.on_hover_text(tip).clicked() {
                 editor.stop();
                 table.restore_all(changes);
@@ -106,16 +117,17 @@ fn notice(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut C
         ui.set_min_height(24.0);
         if let Some((text, conflict)) = editor.conflict(table) {
             ui.strong(text);
-            if ui.button("Take it").on_hover_text("Takes the key from the other").clicked() {
+            if ui.button(tr("Take it")).on_hover_text(tr("Takes the key from the other")).clicked()
+            {
                 editor.take(&conflict, table, changes);
             }
-            if ui.button("Cancel").on_hover_text("Leaves the key where it is").clicked() {
+            if ui.button(tr("Cancel")).on_hover_text(tr("Leaves the key where it is")).clicked() {
                 editor.stop();
             }
         } else if let Some(text) = editor.message() {
             ui.strong(text);
         } else {
-            ui.weak("Click a key to press another one for it.");
+            ui.weak(tr("Click a key to press another one for it."));
         }
     });
 }
@@ -145,20 +157,20 @@ fn keys_of_row(
     ui.spacing_mut().item_spacing.x = 3.0;
     for &key in &row.keys {
         chip(ui, row, Some(key), editor);
-        let name = format!("remove {} of {}", key.text(), row.title);
+        let name = tr_format!("remove {key} of {title}", key = key.text(), title = row.title);
         let cross = ui.add(Button::new("\u{d7}").small().frame(false)).accessible_name(&name);
-        if cross.on_hover_text("Removes this key").clicked() {
+        if cross.on_hover_text(tr("Removes this key")).clicked() {
             editor.stop();
             table.remove(&row.name, key, changes);
         }
     }
     chip(ui, row, None, editor);
     if row.keys != row.standard {
-        let name = format!("standard keys of {}", row.title);
-        let back = ui.add(Button::new("standard").small()).accessible_name(&name);
+        let name = tr_format!("standard keys of {title}", title = row.title);
+        let back = ui.add(Button::new(tr("standard")).small()).accessible_name(&name);
         let keys: Vec<String> = row.standard.iter().map(Shortcut::text).collect();
-        let keys = if keys.is_empty() { "none".to_owned() } else { keys.join(", ") };
-        if back.on_hover_text(format!("Back to the standard: {keys}")).clicked() {
+        let keys = if keys.is_empty() { tr("none").to_owned() } else { keys.join(", ") };
+        if back.on_hover_text(tr_format!("Back to the standard: {keys}", keys)).clicked() {
             editor.stop();
             table.restore(&row.name, changes);
         }
@@ -178,18 +190,18 @@ fn column<T>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> T) {
 fn chip(ui: &mut Ui, row: &KeyRow, key: Option<Shortcut>, editor: &mut KeyEditor) {
     let waits = editor.waits_for(&row.name, key);
     let shown = match (waits, key) {
-        (true, _) => "press a key".to_owned(),
+        (true, _) => tr("press a key").to_owned(),
         (false, Some(key)) => key.text(),
         (false, None) => "+".to_owned(),
     };
     let (name, tip) = match key {
         Some(key) => (
-            format!("change {} of {}", key.text(), row.title),
-            "Click and press the key that is to do this instead; Escape leaves it",
+            tr_format!("change {key} of {title}", key = key.text(), title = row.title),
+            tr("Click and press the key that is to do this instead; Escape leaves it"),
         ),
         None => (
-            format!("add a key to {}", row.title),
-            "Click and press one more key for this; Escape leaves it",
+            tr_format!("add a key to {title}", title = row.title),
+            tr("Click and press one more key for this; Escape leaves it"),
         ),
     };
     let mut button = Button::new(shown).small();
@@ -204,20 +216,20 @@ fn chip(ui: &mut Ui, row: &KeyRow, key: Option<Shortcut>, editor: &mut KeyEditor
 /// Gestures and keys that are held, which cannot be changed.
 fn pointer(ui: &mut Ui, scope: Scope) {
     ui.add_space(6.0);
-    ui.weak("Pointer and held keys");
+    ui.weak(tr("Pointer and held keys"));
     Grid::new("pointer").num_columns(2).spacing(vec2(14.0, 4.0)).striped(true).show(ui, |ui| {
         let rows = match scope {
             Scope::Easel => POINTER,
             Scope::Scenes => SCENE_POINTER,
         };
         for (keys, description) in rows {
-            ui.strong(*keys);
-            ui.weak(*description);
+            ui.strong(tr(keys));
+            ui.weak(tr(description));
             ui.end_row();
         }
         if let (Scope::Easel, Some(undo)) = (scope, text(ui.ctx(), "undo")) {
-            ui.strong(format!("{undo} on the reference"));
-            ui.weak("Undoes the last mark or guide while the picture is drawn on");
+            ui.strong(tr_format!("{undo} on the reference", undo));
+            ui.weak(tr("Undoes the last mark or guide while the picture is drawn on"));
             ui.end_row();
         }
     });

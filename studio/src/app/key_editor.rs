@@ -3,6 +3,7 @@
 use eframe::egui::{Context, Event, FocusDirection, Key};
 
 use crate::keymap::{Changes, KeyRow, KeyTable, Keymap, Scope, Shortcut};
+use crate::language::{tr, tr_format};
 
 /// A key that another action has.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -65,7 +66,7 @@ impl KeyEditor {
     pub(super) fn message(&self) -> Option<&str> {
         match &self.state {
             State::Told(text) => Some(text),
-            State::Waits { .. } => Some("Press the key, with Ctrl or Shift if you like."),
+            State::Waits { .. } => Some(tr("Press the key, with Ctrl or Shift if you like.")),
             _ => None,
         }
     }
@@ -74,7 +75,11 @@ impl KeyEditor {
     pub(super) fn conflict(&self, table: &KeyTable) -> Option<(String, Conflict)> {
         let State::Conflicts(conflict) = &self.state else { return None };
         let owner = table.owner(&conflict.pressed)?;
-        let text = format!("{} is the key of {}.", conflict.pressed.text(), owner.title);
+        let text = tr_format!(
+            "{pressed} is the key of {title}.",
+            pressed = conflict.pressed.text(),
+            title = owner.title
+        );
         Some((text, conflict.clone()))
     }
 
@@ -110,7 +115,10 @@ impl KeyEditor {
         }
         let table = keymap.table(self.scope);
         self.state = match Shortcut::of_press(key, modifiers) {
-            Err(error) => State::Told(format!("This key cannot be changed: {error}.")),
+            Err(error) => State::Told(tr_format!(
+                "This key cannot be changed: {error}.",
+                error = tr(&error.to_string())
+            )),
             Ok(pressed) => match table.owner(&pressed).filter(|owner| owner.name != name) {
                 Some(_) => State::Conflicts(Conflict { name, replaced, pressed }),
                 None => {

@@ -5,6 +5,7 @@ use eframe::egui::{Key, Modifiers};
 use super::entries::entries;
 use super::intent::Intent;
 use crate::keymap::{KeyRow, Shortcut};
+use crate::language::{tr, tr_format};
 
 /// Keys of the brushes of the list.
 const NUMBERS: [Key; 9] = [
@@ -24,16 +25,16 @@ const NUMBERS: [Key; 9] = [
 pub fn key_rows() -> Vec<KeyRow> {
     let entries = entries().map(|entry| {
         let (name, group) = (entry.intent.name(), entry.menu.name());
-        KeyRow::new(name, entry.name, entry.description, group, entry.shortcuts)
+        KeyRow::new(name, tr(entry.name), tr(entry.description), tr(group), entry.shortcuts)
     });
     let brushes = (1_u8..).zip(NUMBERS).map(|(number, key)| {
-        let (name, title) = (Intent::Brush(number).name(), format!("Brush {number}"));
-        let description = format!("Selects brush {number} of the list");
+        let (name, title) = (Intent::Brush(number).name(), tr_format!("Brush {number}", number));
+        let description = tr_format!("Selects brush {number} of the list", number);
         KeyRow::new(
             name,
             title,
             description,
-            "Brushes",
+            tr("Brushes"),
             &[Shortcut { modifiers: Modifiers::NONE, key }],
         )
     });

@@ -8,6 +8,7 @@ use super::side::Drawn;
 use super::studio::Studio;
 use super::{menus, status, toolbar};
 use crate::arrangement::Side;
+use crate::language::{tr, tr_format};
 use crate::panels::PanelContext;
 use crate::theme;
 use crate::view::fill_rect;
@@ -90,15 +91,15 @@ impl Studio {
     fn status_line(&mut self, ui: &mut Ui) {
         let now = Instant::now();
         let Some(painting) = self.painting.clone() else {
-            ui.weak("preparing the canvas");
+            ui.weak(tr("preparing the canvas"));
             return;
         };
         let (width, height) = painting.canvas_cells;
         let mm = |cells: usize| cells as f64 * painting.cell_mm;
         let view = self.canvas.view;
         let turn = (view.snapped_turn().to_degrees().round() as i64).rem_euclid(360);
-        let turn = if turn == 0 { String::new() } else { format!(", {turn} degrees") };
-        let mirrored = if view.mirror { ", mirrored" } else { "" };
+        let turn = if turn == 0 { String::new() } else { tr_format!(", {turn} degrees", turn) };
+        let mirrored = if view.mirror { tr(", mirrored") } else { "" };
         let second =
             painting.second_lighting.as_ref().map(|second| format!(" | {}", second.illuminant));
         let light = &painting.lighting;

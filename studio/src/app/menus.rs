@@ -6,6 +6,7 @@ use super::entries::entries;
 use super::intent::{Intent, Menu};
 use super::menu_item;
 use super::toolbar::tip;
+use crate::language::tr;
 use crate::panels::Mode;
 use crate::theme::{self, Look, ThemeChoice};
 
@@ -34,11 +35,11 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
             ui.spacing_mut().button_padding.x = 13.0;
         }
         for (menu, name, description) in [
-            (Menu::File, "File", "Open, save, export"),
-            (Menu::Edit, "Edit", "The painting and the brush"),
-            (Menu::View, "View", "Zoom, rotation and visible parts"),
-            (Menu::Tools, "Tools", "Tools of the pen"),
-            (Menu::Help, "Help", "Keys, first steps and a guided tour"),
+            (Menu::File, tr("File"), tr("Open, save, export")),
+            (Menu::Edit, tr("Edit"), tr("The painting and the brush")),
+            (Menu::View, tr("View"), tr("Zoom, rotation and visible parts")),
+            (Menu::Tools, tr("Tools"), tr("Tools of the pen")),
+            (Menu::Help, tr("Help"), tr("Keys, first steps and a guided tour")),
         ] {
             let opened = menu_button(ui, name, |ui| {
                 for entry in entries().filter(|entry| entry.menu == menu) {
@@ -48,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
                     let (enabled, checked) =
                         (enabled(entry.intent, state), checked(entry.intent, state));
                     let keys = entry.shortcut_text(ui.ctx());
-                    let response = menu_item::show(ui, entry.name, &keys, enabled, checked);
+                    let response = menu_item::show(ui, tr(entry.name), &keys, enabled, checked);
                     let response = response.on_hover_ui(|ui| tip(ui, entry));
                     if response.clicked() {
                         clicked = Some(entry.intent);

@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::{Align, Button, Context, Layout, RichText, Ui, vec2};
 
+use crate::language::tr;
 use crate::theme;
 
 /// Display time of a message that is not an error.
@@ -67,11 +68,12 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 14.0;
         ui.label(small(state.backend))
-            .on_hover_text("Processor or graphics adapter that computes the paint");
-        ui.label(small(&state.light)).on_hover_text("The light of the painting");
+            .on_hover_text(tr("Processor or graphics adapter that computes the paint"));
+        ui.label(small(&state.light)).on_hover_text(tr("The light of the painting"));
         ui.label(small(&state.size))
-            .on_hover_text("Size of the canvas in cells and in millimetres");
-        ui.label(small(&state.view)).on_hover_text("Zoom in screen pixels per cell, and rotation");
+            .on_hover_text(tr("Size of the canvas in cells and in millimetres"));
+        ui.label(small(&state.view))
+            .on_hover_text(tr("Zoom in screen pixels per cell, and rotation"));
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let Some(message) = state.message else { return };
             ui.spacing_mut().item_spacing.x = 6.0;
@@ -79,7 +81,7 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
                 let side = theme::target(ui);
                 let close = Button::new("x").min_size(vec2(side, side));
                 let close = if side == 0.0 { close.small() } else { close };
-                let close = ui.add(close).on_hover_text("Dismisses this message");
+                let close = ui.add(close).on_hover_text(tr("Dismisses this message"));
                 dismissed = close.clicked();
             }
             let words = message

@@ -19,6 +19,7 @@ use super::status::Message;
 use super::volumes::Volumes;
 use crate::files::{FiguresLog, Files};
 use crate::keymap::{Changes, Keymap};
+use crate::language::Language;
 use crate::panels::own_brushes::OwnBrushes;
 use crate::panels::pen::PenWindow;
 use crate::panels::{FileRequest, Request, Tools};
@@ -56,8 +57,8 @@ pub struct Studio {
     pub(super) keys: Keys,
     /// Tables of keys in use.
     pub(super) keymap: Keymap,
-    /// Changes with which the tables were made; `None` before the first frame.
-    pub(super) keymap_changes: Option<Changes>,
+    /// Language and changes with which the tables were made; `None` before the first frame.
+    pub(super) keymap_changes: Option<(Language, Changes)>,
     /// Faults of the changes that the painter was told.
     pub(super) key_faults: Vec<String>,
     pub(super) key_editor: KeyEditor,

@@ -13,6 +13,7 @@ use super::places::{self, Part};
 use super::side::{Line, Tab, divider};
 use super::studio::Studio;
 use crate::floating;
+use crate::language::tr;
 use crate::panels::tubes::{DraggedTube, least_width, squeeze};
 use crate::panels::{FileRequest, Mode, PanelContext, Request, figures};
 use crate::theme;
@@ -147,7 +148,7 @@ impl Studio {
         }
         self.handle_tool(ui, SurfaceId::Palette, &response, mode);
         let edge = Rect::from_min_size(whole.min, vec2(whole.width(), EDGE));
-        let moved = divider(ui, edge, "Height of the palette", Line::Level);
+        let moved = divider(ui, edge, tr("Height of the palette"), Line::Level);
         if moved != 0.0 {
             self.panels.arrangement.palette_height = Some(whole.height() - moved);
         }

@@ -11,6 +11,7 @@ use super::side::Tab;
 use super::studio::Studio;
 use super::volumes::Volumes;
 use crate::files::FrameFigures;
+use crate::language::tr;
 use crate::panels::eyedropper::Eyedropper;
 use crate::panels::{FileRequest, Request};
 use crate::theme;
@@ -60,7 +61,7 @@ impl Studio {
             let layer = LayerId::new(Order::Foreground, Id::unique("dropping"));
             let (painter, whole) = (context.layer_painter(layer), context.content_rect());
             painter.rect_filled(whole, 0.0, theme::BOARD);
-            let (font, text) = (FontId::proportional(18.0), "Drop to open");
+            let (font, text) = (FontId::proportional(18.0), tr("Drop to open"));
             painter.text(whole.center(), Align2::CENTER_CENTER, text, font, theme::BOARD_TEXT);
         }
     }

@@ -5,6 +5,7 @@ use eframe::egui::{Context, Role, ScrollArea, Sense, Stroke, Ui, WidgetInfo, vec
 use super::icons;
 use super::intent::{Entry, Intent};
 use super::places::{self, Part};
+use crate::language::tr;
 use crate::panels::Mode;
 use crate::theme;
 
@@ -81,7 +82,8 @@ fn button(ui: &mut Ui, intent: Intent, state: State) -> bool {
         let side = ui.available_width();
         let (rect, response) =
             ui.allocate_exact_size(theme::at_least(ui, vec2(side, 30.0)), Sense::click());
-        response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, entry.name));
+        response
+            .widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, tr(entry.name)));
         places::note(ui.ctx(), Part::Button(intent), rect);
         let visuals = ui.style().interact(&response);
         let fill = match (chosen, response.hovered()) {
@@ -109,8 +111,8 @@ fn button(ui: &mut Ui, intent: Intent, state: State) -> bool {
 /// Tooltip of an entry: name, shortcut and description.
 pub(super) fn tip(ui: &mut Ui, entry: &Entry) {
     ui.horizontal(|ui| {
-        ui.strong(entry.name);
+        ui.strong(tr(entry.name));
         ui.weak(entry.shortcut_text(ui.ctx()));
     });
-    ui.label(entry.description);
+    ui.label(tr(entry.description));
 }

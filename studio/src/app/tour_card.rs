@@ -13,6 +13,7 @@ use super::side::Tab;
 use super::studio::Studio;
 use crate::floating;
 use crate::keymap::text;
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Width of the card's contents, in points.
@@ -72,8 +73,8 @@ impl Studio {
             Some(Pressed::Next) => self.tour.next(),
             Some(Pressed::Leave) => {
                 self.tour.leave();
-                let hint = "Help, Guided tour goes on with it".to_owned();
-                self.show_message("the tour was left".to_owned(), Some(hint), false);
+                let hint = tr("Help, Guided tour goes on with it").to_owned();
+                self.show_message(tr("the tour was left").to_owned(), Some(hint), false);
             }
             None => {}
         }
@@ -113,8 +114,8 @@ impl Studio {
         match self.tour.step() {
             Some(step) => {
                 ui.horizontal(|ui| {
-                    ui.label(RichText::new(step.title()).heading().strong());
-                    ui.weak(format!("step {} of {of}", number + 1));
+                    ui.label(RichText::new(tr(step.title())).heading().strong());
+                    ui.weak(tr_format!("step {number} of {of}", number = number + 1, of));
                 });
                 let key = |intent: Intent| text(ui.ctx(), &intent.name()).unwrap_or_default();
                 for line in step.lines(key) {
@@ -122,23 +123,29 @@ impl Studio {
                 }
             }
             None => {
-                ui.label(RichText::new("That was the tour").heading().strong());
-                ui.label("What was painted stays. Help, Keys lists all keys.");
+                ui.label(RichText::new(tr("That was the tour")).heading().strong());
+                ui.label(tr("What was painted stays. Help, Keys lists all keys."));
             }
         }
         ui.add_space(4.0);
         let mut pressed = None;
         ui.horizontal(|ui| {
             self.dots(ui);
-            let back = ui.add_enabled(number > 0, eframe::egui::Button::new("Back"));
-            if back.on_hover_text("The step before").clicked() {
+            let back = ui.add_enabled(number > 0, eframe::egui::Button::new(tr("Back")));
+            if back.on_hover_text(tr("The step before")).clicked() {
                 pressed = Some(Pressed::Back);
             }
-            if number < of && ui.button("Next").on_hover_text("Goes on without it").clicked() {
+            if number < of
+                && ui.button(tr("Next")).on_hover_text(tr("Goes on without it")).clicked()
+            {
                 pressed = Some(Pressed::Next);
             }
-            let leave = if number < of { "Leave the tour" } else { "Close the tour" };
-            if ui.button(leave).on_hover_text("Help, Guided tour shows it again (Esc)").clicked() {
+            let leave = if number < of { tr("Leave the tour") } else { tr("Close the tour") };
+            if ui
+                .button(leave)
+                .on_hover_text(tr("Help, Guided tour shows it again (Esc)"))
+                .clicked()
+            {
                 pressed = Some(Pressed::Leave);
             }
         });

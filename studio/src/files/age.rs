@@ -2,20 +2,22 @@
 
 use std::time::{Duration, SystemTime};
 
+use crate::language::{tr, tr_format};
+
 /// The age of `then` at the time `now`, such as `3 minutes ago`.
 #[must_use]
 pub fn ago(then: SystemTime, now: SystemTime) -> String {
     let seconds = now.duration_since(then).unwrap_or(Duration::ZERO).as_secs();
-    let (count, unit) = match seconds {
-        0..60 => return "just now".to_owned(),
-        60..3600 => (seconds / 60, "minute"),
-        3600..86_400 => (seconds / 3600, "hour"),
-        86_400..5_184_000 => (seconds / 86_400, "day"),
-        5_184_000..63_072_000 => (seconds / 2_592_000, "month"),
-        _ => (seconds / 31_536_000, "year"),
+    let (count, [one, many]) = match seconds {
+        0..60 => return tr("just now").to_owned(),
+        60..3600 => (seconds / 60, [tr("minute"), tr("minutes")]),
+        3600..86_400 => (seconds / 3600, [tr("hour"), tr("hours")]),
+        86_400..5_184_000 => (seconds / 86_400, [tr("day"), tr("days")]),
+        5_184_000..63_072_000 => (seconds / 2_592_000, [tr("month"), tr("months")]),
+        _ => (seconds / 31_536_000, [tr("year"), tr("years")]),
     };
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {unit}{plural} ago")
+    let unit = if count == 1 { one } else { many };
+    tr_format!("{count} {unit} ago", count, unit)
 }
 
 /// A file size in decimal units, such as `12.3 MB`.

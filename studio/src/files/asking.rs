@@ -22,19 +22,25 @@ use super::state::Files;
 use super::swatch_format::SwatchFormat;
 use super::timelapse::TimelapseExport;
 use super::work::{Purpose, file_name};
+use crate::language::{english, tr, tr_format};
 
-const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
-pub(super) const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "jpg", "jpeg"] };
+const PAINTINGS: Filter = Filter { label: english("Paintings"), endings: &["exr"] };
+pub(super) const PICTURES: Filter =
+    Filter { label: english("Pictures"), endings: &["png", "jpg", "jpeg"] };
 const REFERENCES: Filter =
-    Filter { label: "Pictures and paintings", endings: &["png", "jpg", "jpeg", "exr"] };
-const SCRIPTS: Filter = Filter { label: "Recordings and libraries", endings: &["json"] };
-const DRAWINGS: Filter = Filter { label: "Marks and guides", endings: &["toml"] };
+    Filter { label: english("Pictures and paintings"), endings: &["png", "jpg", "jpeg", "exr"] };
+const SCRIPTS: Filter = Filter { label: english("Recordings and libraries"), endings: &["json"] };
+const DRAWINGS: Filter = Filter { label: english("Marks and guides"), endings: &["toml"] };
 const SWATCHES: Filter =
-    Filter { label: "Mixtures and swatches", endings: &["json", "gpl", "ase", "aco"] };
-const LAMPS: Filter =
-    Filter { label: "Spectra", endings: &["csv", "txt", "tsv", "cgats", "it8", "cxf", "json"] };
-const OPENABLE: Filter =
-    Filter { label: "All that can be opened", endings: &["exr", "json", "png", "jpg", "jpeg"] };
+    Filter { label: english("Mixtures and swatches"), endings: &["json", "gpl", "ase", "aco"] };
+const LAMPS: Filter = Filter {
+    label: english("Spectra"),
+    endings: &["csv", "txt", "tsv", "cgats", "it8", "cxf", "json"],
+};
+const OPENABLE: Filter = Filter {
+    label: english("All that can be opened"),
+    endings: &["exr", "json", "png", "jpg", "jpeg"],
+};
 
 impl Files {
     /// Shows the topmost dialog, which takes all input, and carries out its answer.
@@ -168,7 +174,7 @@ impl Files {
     fn delete_revision(&mut self, path: PathBuf) {
         match revisions::delete(&path) {
             Ok(()) => {
-                let text = format!("deleted {}", file_name(&path));
+                let text = tr_format!("deleted {path}", path = file_name(&path));
                 self.notices.push(Notice::done(&text));
             }
             Err(problem) => self.report(problem),
@@ -197,23 +203,23 @@ impl Files {
 
     pub(super) fn ask_for_file(&mut self) {
         const KINDS: [Filter; 5] = [OPENABLE, PAINTINGS, SCRIPTS, PICTURES, Filter::ALL];
-        self.browse(BrowserOptions::open("Open", &KINDS), FilePurpose::Open);
+        self.browse(BrowserOptions::open(tr("Open"), &KINDS), FilePurpose::Open);
     }
 
     pub(super) fn ask_for_reference(&mut self) {
         const KINDS: [Filter; 2] = [REFERENCES, Filter::ALL];
-        let options = BrowserOptions::open("Picture beside the canvas", &KINDS);
+        let options = BrowserOptions::open(tr("Picture beside the canvas"), &KINDS);
         self.browse(options, FilePurpose::Reference);
     }
 
     pub(super) fn ask_for_lamp(&mut self) {
         const KINDS: [Filter; 2] = [LAMPS, Filter::ALL];
-        self.browse(BrowserOptions::open("Measured lamp", &KINDS), FilePurpose::Lamp);
+        self.browse(BrowserOptions::open(tr("Measured lamp"), &KINDS), FilePurpose::Lamp);
     }
 
     pub(super) fn ask_where_to_save(&mut self, next: Option<PendingAction>, keep_revision: bool) {
         let options = BrowserOptions {
-            title: "Save the painting",
+            title: tr("Save the painting"),
             saving: true,
             filters: &[PAINTINGS, Filter::ALL],
             ending: Some("exr"),
@@ -225,7 +231,7 @@ impl Files {
 
     pub(super) fn ask_where_to_record(&mut self) {
         let options = BrowserOptions {
-            title: "Save the recording",
+            title: tr("Save the recording"),
             saving: true,
             filters: &[SCRIPTS, Filter::ALL],
             ending: Some("json"),
@@ -238,8 +244,8 @@ impl Files {
     pub(super) fn ask_for_drawing(&mut self, kind: DrawingKind, picture: &Path) {
         const KINDS: [Filter; 2] = [DRAWINGS, Filter::ALL];
         let title = match kind {
-            DrawingKind::Marks => "Open marks",
-            DrawingKind::Guides => "Open guides",
+            DrawingKind::Marks => tr("Open marks"),
+            DrawingKind::Guides => tr("Open guides"),
         };
         let options = BrowserOptions::open(title, &KINDS);
         self.browse_beside(Some(picture), options, FilePurpose::OpenDrawing(kind));
@@ -252,8 +258,8 @@ impl Files {
     ) {
         let options = BrowserOptions {
             title: match drawing.kind() {
-                DrawingKind::Marks => "Save the marks",
-                DrawingKind::Guides => "Save the guides",
+                DrawingKind::Marks => tr("Save the marks"),
+                DrawingKind::Guides => tr("Save the guides"),
             },
             saving: true,
             filters: &[DRAWINGS, Filter::ALL],
@@ -267,13 +273,13 @@ impl Files {
 
     pub(super) fn ask_for_swatches(&mut self) {
         const KINDS: [Filter; 2] = [SWATCHES, Filter::ALL];
-        let options = BrowserOptions::open("Import mixtures or colours", &KINDS);
+        let options = BrowserOptions::open(tr("Import mixtures or colours"), &KINDS);
         self.browse(options, FilePurpose::ImportSwatches);
     }
 
     pub(super) fn ask_where_to_keep_swatches(&mut self, format: SwatchFormat) {
         let options = BrowserOptions {
-            title: "Export the kept mixtures",
+            title: tr("Export the kept mixtures"),
             saving: true,
             filters: &[SWATCHES, Filter::ALL],
             ending: Some(format.ending()),
@@ -301,7 +307,7 @@ impl Files {
     fn ask_where_to_film(&mut self, export: TimelapseExport) {
         let ending = export.ending();
         let options = BrowserOptions {
-            title: "Export the timelapse",
+            title: tr("Export the timelapse"),
             saving: true,
             filters: &[Filter::ALL],
             ending: Some(ending),
@@ -326,6 +332,6 @@ pub(super) fn export_options(kind: ExportKind, title: &str) -> BrowserOptions {
     let linear = kind == ExportKind::Picture(PictureFormat::LinearExr);
     let mark = if linear { ".linear" } else { "" };
     let name = format!("{title}{mark}.{ending}");
-    let (title, ending, others) = ("Export", Some(ending), &[][..]);
+    let (title, ending, others) = (tr("Export"), Some(ending), &[][..]);
     BrowserOptions { title, saving: true, filters, ending, others, name }
 }

@@ -12,6 +12,7 @@ use super::problem::Problem;
 use super::state::Files;
 use super::tasks::read_painting;
 use super::work::{Finished, JobKind, Purpose};
+use crate::language::{tr, tr_format};
 use render::paint::document::Document;
 use session::{KeptPainting, SessionMeta, now};
 
@@ -21,7 +22,7 @@ impl Files {
         let mut sessions = self.lost_sessions.iter();
         let Some(at) = sessions.position(|lost| lost.folder() == folder) else { return };
         let lost = self.lost_sessions.remove(at);
-        let label = format!("recovering {}", lost.meta.title);
+        let label = tr_format!("recovering {title}", title = lost.meta.title);
         self.start_job(JobKind::Shown, label, move |progress| {
             let [canvas, palette] = lost.files();
             let title = &lost.meta.title;
@@ -99,7 +100,7 @@ impl Files {
         (self.last_autosave, self.autosaved_revision) = (Instant::now(), None);
         (self.recorded, self.autosaved_desk) = (0, None);
         let autosave = self.autosave.clone();
-        self.start_job(JobKind::Background, "clearing autosaves".to_owned(), move |_| {
+        self.start_job(JobKind::Background, tr("clearing autosaves").to_owned(), move |_| {
             let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(autosave) = autosave.as_mut() {
                 autosave.clear().map_err(Problem::from)?;
@@ -117,7 +118,7 @@ fn read_autosaved(
     progress: &Progress,
 ) -> Result<Box<Document>, JobError> {
     let named = |problem: Problem| {
-        let autosave = format!("the autosave of {title}");
+        let autosave = tr_format!("the autosave of {title}", title);
         Problem { text: problem.text.replace(&path.display().to_string(), &autosave), ..problem }
     };
     match read_painting(path, progress) {

@@ -16,6 +16,7 @@ use super::open_dialog::{FilePurpose, OpenDialog};
 use super::problem::Problem;
 use super::state::Files;
 use super::work::{Finished, JobKind, file_name};
+use crate::language::{tr, tr_format};
 use session::{Origin, PaintingState, blank_canvas};
 
 impl Files {
@@ -30,8 +31,8 @@ impl Files {
     pub(super) fn ask_for_canvas_picture(&mut self, picture: CanvasPicture) {
         const KINDS: [Filter; 2] = [PICTURES, Filter::ALL];
         let title = match picture {
-            CanvasPicture::Relief => "Picture of the relief",
-            CanvasPicture::FirstLayer => "Picture of the first layer",
+            CanvasPicture::Relief => tr("Picture of the relief"),
+            CanvasPicture::FirstLayer => tr("Picture of the first layer"),
         };
         self.browse(BrowserOptions::open(title, &KINDS), FilePurpose::Canvas(picture));
     }
@@ -72,7 +73,7 @@ impl Files {
         script: Box<StrokeScript>,
         library: Box<PigmentLibrary>,
     ) {
-        let label = format!("mixing the colours of {}", file_name(&path));
+        let label = tr_format!("mixing the colours of {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |progress| {
             let document = on_picture(&path, &script, &library, progress)?;
             let bytes = render::paint::file::write(&document)

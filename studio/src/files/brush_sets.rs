@@ -12,11 +12,13 @@ use super::own_brushes::ReadBrushes;
 use super::problem::Problem;
 use super::state::Files;
 use super::work::{Finished, JobKind, file_name};
+use crate::language::{english, tr, tr_format};
 use session::brushes::folder::{StoredSet, free_path, read_set, read_sets, read_text, write_set};
 use session::brushes::{BrushSet, MM_PER_PIXEL, brush_of_myb};
 
-const SETS: Filter = Filter { label: "Own brushes", endings: &["json"] };
-const IMPORTED: Filter = Filter { label: "Own brushes and MyPaint's", endings: &["json", "myb"] };
+const SETS: Filter = Filter { label: english("Own brushes"), endings: &["json"] };
+const IMPORTED: Filter =
+    Filter { label: english("Own brushes and MyPaint's"), endings: &["json", "myb"] };
 
 impl Files {
     /// Adds a set and shows it. A name that another set has is numbered.
@@ -37,7 +39,7 @@ impl Files {
     /// The set that is shown, to change it; a new one if there is none.
     pub fn brush_set(&mut self) -> &mut BrushSet {
         if self.brush_sets.sets.is_empty() {
-            self.add_brush_set(BrushSet::new("My brushes"));
+            self.add_brush_set(BrushSet::new(tr("My brushes")));
         }
         let shown = self.brush_sets.shown.min(self.brush_sets.sets.len() - 1);
         &mut self.brush_sets.sets[shown].set
@@ -49,7 +51,7 @@ impl Files {
             return;
         }
         let folder = self.home.brushes();
-        self.start_job(JobKind::Background, "reading own brushes".to_owned(), move |_| {
+        self.start_job(JobKind::Background, tr("reading own brushes").to_owned(), move |_| {
             let (sets, failures) = read_sets(&folder);
             Ok(Finished::BrushSetsRead(sets, failures.into_iter().map(Problem::from).collect()))
         });
@@ -71,7 +73,7 @@ impl Files {
         }
         let before = std::mem::replace(&mut own.written, own.sets.clone());
         let now = own.sets.clone();
-        self.start_job(JobKind::Background, "writing own brushes".to_owned(), move |_| {
+        self.start_job(JobKind::Background, tr("writing own brushes").to_owned(), move |_| {
             write_sets(&before, &now)?;
             Ok(Finished::Quietly)
         });
@@ -88,14 +90,14 @@ impl Files {
     /// Asks for a file of brushes.
     pub(super) fn ask_for_brushes(&mut self) {
         const KINDS: [Filter; 3] = [IMPORTED, SETS, Filter::ALL];
-        self.browse(BrowserOptions::open("Import brushes", &KINDS), FilePurpose::ImportBrushes);
+        self.browse(BrowserOptions::open(tr("Import brushes"), &KINDS), FilePurpose::ImportBrushes);
     }
 
     /// Asks where to export the set that is shown.
     pub(super) fn ask_where_to_export_brushes(&mut self) {
         let Some(set) = self.brush_sets.set().cloned() else { return };
         let options = BrowserOptions {
-            title: "Export the set of brushes",
+            title: tr("Export the set of brushes"),
             saving: true,
             filters: &[SETS, Filter::ALL],
             ending: Some("json"),
@@ -107,7 +109,7 @@ impl Files {
 
     /// Starts reading a file of brushes.
     pub(super) fn import_brushes(&mut self, path: PathBuf) {
-        let label = format!("reading {}", file_name(&path));
+        let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
             let brushes = read_brushes(&path)?;
             Ok(Finished::BrushesRead { path, brushes })
@@ -120,22 +122,22 @@ impl Files {
         let told = match brushes {
             ReadBrushes::Set(set) => {
                 let count = match set.presets().len() {
-                    1 => "1 brush".to_owned(),
-                    count => format!("{count} brushes"),
+                    1 => tr("1 brush").to_owned(),
+                    count => tr_format!("{count} brushes", count),
                 };
-                let told = format!("imported {}, {count}", set.name());
+                let told = tr_format!("imported {name}, {count}", name = set.name(), count);
                 self.add_brush_set(set);
                 self.brush_sets.imported = None;
                 told
             }
             ReadBrushes::Myb(mut imported) => {
                 let Some(name) = self.brush_set().add(imported.preset.clone()) else {
-                    let hint = "import it into another set";
-                    return self.report(Problem::new("the set of brushes is full", hint));
+                    let hint = tr("import it into another set");
+                    return self.report(Problem::new(tr("the set of brushes is full"), hint));
                 };
                 imported.preset.name.clone_from(&name);
                 self.brush_sets.imported = Some(*imported);
-                format!("imported {name}")
+                tr_format!("imported {name}", name)
             }
         };
         self.notices.push(Notice::done(&told));
@@ -143,7 +145,7 @@ impl Files {
 
     /// Starts writing a set to a file beside the home folder.
     pub(super) fn export_brushes(&mut self, set: BrushSet, path: PathBuf) {
-        let label = format!("exporting {}", file_name(&path));
+        let label = tr_format!("exporting {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
             write_whole(&path, set.to_json().as_bytes()).map_err(Problem::from)?;
             Ok(Finished::Exported { path, remark: None })

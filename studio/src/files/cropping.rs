@@ -13,6 +13,7 @@ use super::pending::{FileOrigin, PendingAction, Replacement};
 use super::problem::Problem;
 use super::state::Files;
 use super::work::{Finished, JobKind};
+use crate::language::{tr, tr_format};
 use session::{Command, Origin, Snapshot};
 
 impl Files {
@@ -20,7 +21,7 @@ impl Files {
     pub(super) fn start_crop(&mut self, rect: Rect, snapshot: &Snapshot) {
         let (canvas, palette) = (Arc::clone(&snapshot.canvas), Arc::clone(&snapshot.palette));
         let (revision, epoch) = (snapshot.revision, self.epoch);
-        self.start_job(JobKind::Shown, "cropping the painting".to_owned(), move |progress| {
+        self.start_job(JobKind::Shown, tr("cropping the painting").to_owned(), move |progress| {
             let cropped = canvas.cropped(rect);
             progress.report(0.2)?;
             let bytes = render::paint::file::write(&cropped)
@@ -41,17 +42,18 @@ impl Files {
         let changed =
             |state: &Arc<session::PaintingState>| state.stroke_open || state.revision != revision;
         if self.painting.as_ref().is_none_or(changed) {
-            let text = "the painting changed while it was cropped";
-            return self.report(Problem::new(text, "crop it again"));
+            let text = tr("the painting changed while it was cropped");
+            return self.report(Problem::new(text, tr("crop it again")));
         }
         let mm = |cells: usize| cells as f64 * canvas.cell_mm;
         let [width, height] = [canvas.wet.width(), canvas.wet.height()].map(mm);
-        let size = format!("cropped to {width:.1} x {height:.1} mm");
+        let size = tr_format!("cropped to {width:.1} x {height:.1} mm", width, height);
         let mixed = palette.wet.totals().iter().any(|total| *total > 0);
         let (origin, start, text) = if mixed {
             // A recording begins with a clean palette, so that there is none here.
             let palette = Box::new(Arc::unwrap_or_clone(palette));
-            let text = format!("{size}; without a recording, as the palette keeps its paint");
+            let text =
+                tr_format!("{size}; without a recording, as the palette keeps its paint", size);
             (Origin::Recovered { canvas, palette, kept: None }, None, text)
         } else {
             (Origin::Painting(canvas), Some(start), size)

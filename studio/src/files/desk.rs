@@ -10,6 +10,7 @@ use sha2::{Digest, Sha256};
 
 use super::drawing::{Drawing, DrawingKind, DrawnFile};
 use super::problem::Problem;
+use crate::language::{tr, tr_format};
 
 /// The view of the canvas, the brush and tool in hand, and the reference picture.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -101,10 +102,12 @@ impl DeskReference {
         let name = self.picture.display();
         let text = match digest_of(&self.picture) {
             Some(found) if found == *wanted => return None,
-            Some(_) => format!("{name}: the reference picture has changed since the autosave"),
-            None => format!("{name}: the reference picture cannot be read any more"),
+            Some(_) => {
+                tr_format!("{name}: the reference picture has changed since the autosave", name)
+            }
+            None => tr_format!("{name}: the reference picture cannot be read any more", name),
         };
-        Some(Problem::new(text, "its marks and guides are those of the autosave"))
+        Some(Problem::new(text, tr("its marks and guides are those of the autosave")))
     }
 }
 

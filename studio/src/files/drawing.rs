@@ -6,6 +6,7 @@ use render::artmap::passages::Marks;
 use render::painterly::guides::Guides;
 
 use super::problem::Problem;
+use crate::language::english;
 
 /// A kind of drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,8 +40,8 @@ impl DrawingKind {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Marks => "marks",
-            Self::Guides => "guides",
+            Self::Marks => english("marks"),
+            Self::Guides => english("guides"),
         }
     }
 

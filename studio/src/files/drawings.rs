@@ -8,6 +8,7 @@ use super::pending::PendingAction;
 use super::reference_change::ReferenceChange;
 use super::state::Files;
 use super::work::{Finished, JobKind, file_name};
+use crate::language::tr_format;
 
 impl Files {
     /// Takes note of the drawings on the reference picture that are in no file. To be called every
@@ -55,7 +56,7 @@ impl Files {
         path: PathBuf,
         next: Option<PendingAction>,
     ) {
-        let label = format!("saving {}", file_name(&path));
+        let label = tr_format!("saving {path}", path = file_name(&path));
         self.start_job(JobKind::Saving, label, move |_| {
             drawing.save(&path)?;
             Ok(Finished::DrawingSaved { drawn: DrawnFile { drawing, path }, next })
@@ -64,7 +65,7 @@ impl Files {
 
     /// Starts reading a drawing.
     pub(super) fn read_drawing(&mut self, kind: DrawingKind, path: PathBuf) {
-        let label = format!("reading {}", file_name(&path));
+        let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
             let drawing = kind.open(&path)?;
             Ok(Finished::DrawingRead(DrawnFile { drawing, path }))
@@ -73,7 +74,7 @@ impl Files {
 
     /// A drawing was saved.
     pub(super) fn drawing_saved(&mut self, drawn: DrawnFile, next: Option<PendingAction>) {
-        self.notices.push(Notice::done(&format!("saved {}", drawn.path.display())));
+        self.notices.push(Notice::done(&tr_format!("saved {path}", path = drawn.path.display())));
         self.unsaved_drawings.retain(|unsaved| unsaved.drawing != drawn.drawing);
         self.reference.push_back(ReferenceChange::Saved(drawn));
         if let Some(next) = next {

@@ -12,6 +12,7 @@ use render::paint::scene::{PixelsPerCell, fine_picture, picture, scene};
 
 use super::job::{JobError, Progress};
 use super::problem::Problem;
+use crate::language::tr;
 use spectra::file::write_whole;
 
 /// An export of a painting that the painter chose.
@@ -115,5 +116,5 @@ pub(crate) fn export(
 
 fn gamut_remark(path: &Path, outside: OutsideGamut) -> Problem {
     let text = format!("{}: {outside}", path.display());
-    Problem::new(text, "export linear OpenEXR to keep them")
+    Problem::new(text, tr("export linear OpenEXR to keep them"))
 }

@@ -13,6 +13,7 @@ use super::problem::Problem;
 use super::reference_change::ReferenceChange;
 use super::state::Files;
 use super::work::{Finished, JobKind, Purpose, file_name};
+use crate::language::{tr, tr_format};
 use session::{Command, Origin, Pace, RecoveredWork, blank_canvas};
 
 impl Files {
@@ -28,7 +29,7 @@ impl Files {
                         Ok(finished) => self.apply(finished),
                         Err(JobError::Cancelled) => {
                             self.closes_when_saved &= ended.kind != JobKind::Saving;
-                            let text = format!("{}: cancelled", ended.job.label());
+                            let text = tr_format!("{label}: cancelled", label = ended.job.label());
                             self.notices.push(Notice::done(&text));
                         }
                         Err(JobError::Failed(problem)) => self.report_failure(ended.kind, problem),
@@ -75,7 +76,7 @@ impl Files {
             }
             Finished::Saved { path, revision, epoch, next, keep_revision } => {
                 self.preferences.remember(&path);
-                self.notices.push(Notice::done(&format!("saved {}", path.display())));
+                self.notices.push(Notice::done(&tr_format!("saved {path}", path = path.display())));
                 if epoch == self.epoch {
                     self.saved(path, revision, keep_revision);
                 }
@@ -85,18 +86,19 @@ impl Files {
             }
             Finished::RevisionKept(path) => {
                 let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-                self.notices.push(Notice::done(&format!("kept as revision {stem}")));
+                self.notices.push(Notice::done(&tr_format!("kept as revision {stem}", stem)));
                 self.list_revisions();
             }
             Finished::Exported { path, remark } => {
-                self.notices.push(Notice::done(&format!("exported {}", path.display())));
+                self.notices
+                    .push(Notice::done(&tr_format!("exported {path}", path = path.display())));
                 self.notices.extend(remark.map(Notice::problem));
                 self.preferences.last_folder = path.parent().map(ToOwned::to_owned);
             }
             Finished::Recorded { path, actions } => {
-                self.notices.push(Notice::done(&format!("saved {}", path.display())));
-                let text = format!("the recording holds {actions} actions");
-                let hint = Some("open its file to play it again".to_owned());
+                self.notices.push(Notice::done(&tr_format!("saved {path}", path = path.display())));
+                let text = tr_format!("the recording holds {actions} actions", actions);
+                let hint = Some(tr("open its file to play it again").to_owned());
                 self.status = Some(StatusNote { text, hint });
                 self.preferences.remember(&path);
             }
@@ -129,7 +131,7 @@ impl Files {
             Finished::SwatchesRead { book, problem } => self.swatches_read(book, problem),
             Finished::SwatchesImported(read) => self.swatches_imported(read),
             Finished::SceneSaved { path, revision } => {
-                self.notices.push(Notice::done(&format!("saved {}", path.display())));
+                self.notices.push(Notice::done(&tr_format!("saved {path}", path = path.display())));
                 self.scene_saved(&path, revision);
             }
             Finished::SceneAutosaved => self.scene_autosaved(),
@@ -203,8 +205,11 @@ impl Files {
     /// Lights the painting with the lamp measured in `path`.
     fn light_with_lamp(&mut self, path: &Path) {
         let (Some(state), Some(text)) = (&self.painting, path.to_str()) else {
-            let text = format!("{}: the name of a lamp's file must be text", file_name(path));
-            return self.report(Problem::new(text, "rename the file"));
+            let text = tr_format!(
+                "{path}: the name of a lamp's file must be text",
+                path = file_name(path)
+            );
+            return self.report(Problem::new(text, tr("rename the file")));
         };
         let mut lighting = state.lighting.clone();
         lighting.illuminant = text.to_owned();

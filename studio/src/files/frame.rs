@@ -13,6 +13,7 @@ use super::reference_change::ReferenceChange;
 use super::request::FileRequest;
 use super::state::Files;
 use super::work::{JobKind, Purpose};
+use crate::language::tr;
 use session::{Command, Event, PaintingState};
 
 impl Files {
@@ -112,7 +113,8 @@ impl Files {
         let asked_again = std::mem::take(&mut self.closes_when_saved) && !writes;
         if self.is_saving() && !asked_again {
             self.closes_when_saved = true;
-            let text = "what is being saved is finished first, then the program closes".to_owned();
+            let text =
+                tr("what is being saved is finished first, then the program closes").to_owned();
             self.status = Some(StatusNote { text, hint: None });
             return false;
         }

@@ -10,6 +10,7 @@ use eframe::egui::{
 use super::age::ago;
 use super::state::Files;
 use super::work::JobKind;
+use crate::language::{tr, tr_format};
 use session::{Command, LostSession};
 
 /// A job is shown after it has run for this time; a shorter one would only flicker.
@@ -62,7 +63,7 @@ impl Files {
                         if notice.until.is_some() {
                             return;
                         }
-                        if ui.button("OK").on_hover_text("Close this message").clicked() {
+                        if ui.button("OK").on_hover_text(tr("Close this message")).clicked() {
                             clicked = Some(Clicked::CloseNotice(index));
                         }
                     });
@@ -88,7 +89,7 @@ impl Files {
     /// Shows the sessions of programs that ended without saving.
     fn show_lost(&self, ui: &mut Ui, clicked: &mut Option<Clicked>) {
         for (index, lost) in self.lost_sessions.iter().enumerate() {
-            let answer = lost_card(ui, lost, "painting");
+            let answer = lost_card(ui, lost, tr("painting"));
             *clicked = match answer {
                 Some(true) => Some(Clicked::Recover(index)),
                 Some(false) => Some(Clicked::Discard(index)),
@@ -96,7 +97,7 @@ impl Files {
             };
         }
         for (index, lost) in self.scenes.lost.iter().enumerate() {
-            let answer = lost_card(ui, lost, "scene");
+            let answer = lost_card(ui, lost, tr("scene"));
             *clicked = match answer {
                 Some(true) => Some(Clicked::RecoverScene(index)),
                 Some(false) => Some(Clicked::DiscardScene(index)),
@@ -117,18 +118,19 @@ impl Files {
             }
             let words = |ui: &mut Ui| bar(ui, job.job.label(), job.job.fraction());
             card(ui, words, |ui| {
-                let cancel = ui.button("Cancel");
-                if cancel.on_hover_text("Cancels it; no file is left half written").clicked() {
+                let cancel = ui.button(tr("Cancel"));
+                if cancel.on_hover_text(tr("Cancels it; no file is left half written")).clicked() {
                     *clicked = Some(Clicked::CancelJob(index));
                 }
             });
         }
         if let Some((done, of)) = self.replay {
             let fraction = done as f32 / of.max(1) as f32;
-            let words =
-                |ui: &mut Ui| bar(ui, &format!("playing, action {done} of {of}"), Some(fraction));
+            let words = |ui: &mut Ui| {
+                bar(ui, &tr_format!("playing, action {done} of {of}", done, of), Some(fraction))
+            };
             card(ui, words, |ui| {
-                if ui.button("Stop").on_hover_text("Ends the recording here").clicked() {
+                if ui.button(tr("Stop")).on_hover_text(tr("Ends the recording here")).clicked() {
                     *clicked = Some(Clicked::CancelReplay);
                 }
             });
@@ -141,17 +143,17 @@ fn lost_card(ui: &mut Ui, lost: &LostSession, kind: &str) -> Option<bool> {
     let then = SystemTime::UNIX_EPOCH + Duration::from_secs(lost.meta.seconds);
     let when = ago(then, SystemTime::now());
     let words = |ui: &mut Ui| {
-        ui.label(format!("A {kind} was not saved"));
-        let details = format!("{}, autosaved {when}", lost.meta.title);
+        ui.label(tr_format!("A {kind} was not saved", kind));
+        let details = tr_format!("{title}, autosaved {when}", title = lost.meta.title, when);
         ui.label(RichText::new(details).weak());
     };
     let mut answer = None;
     card(ui, words, |ui| {
-        if ui.button("Discard").on_hover_text("Deletes the autosaved copy").clicked() {
+        if ui.button(tr("Discard")).on_hover_text(tr("Deletes the autosaved copy")).clicked() {
             answer = Some(false);
         }
-        let tip = format!("Opens the {kind} as it was autosaved");
-        if ui.button("Recover").on_hover_text(tip).clicked() {
+        let tip = tr_format!("Opens the {kind} as it was autosaved", kind);
+        if ui.button(tr("Recover")).on_hover_text(tip).clicked() {
             answer = Some(true);
         }
     });

@@ -15,6 +15,7 @@ use spectra::lamp_from_bytes;
 
 use super::job::{JobError, Progress};
 use super::problem::Problem;
+use crate::language::{tr, tr_format};
 
 /// The content of a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -190,8 +191,11 @@ fn recording(path: &Path, name: &str, bytes: &[u8]) -> Result<Opened, Problem> {
     let mut remarks = Vec::new();
     let named = script.open_library(&folder).map_err(|error| Problem::from_error(&error))?;
     if let Some(missing) = named.missing {
-        let text = format!("the recording needs the library `{missing}`, which does not exist");
-        remarks.push(Problem::new(text, "the built-in oils are used instead"));
+        let text = tr_format!(
+            "the recording needs the library `{missing}`, which does not exist",
+            missing
+        );
+        remarks.push(Problem::new(text, tr("the built-in oils are used instead")));
     }
     let library = named.library;
     if let Some(start) = &mut script.start {

@@ -14,6 +14,7 @@ use super::browser_look::BrowserLook;
 use super::new_canvas::KeptCanvases;
 use super::problem::Problem;
 use crate::arrangement::Arrangement;
+use crate::language::Language;
 use crate::pen::PenSettings;
 use crate::theme::{Look, ThemeChoice};
 use session::brushes::BrushOptions;
@@ -73,6 +74,9 @@ pub struct Preferences {
     pub interface_scale: f32,
     /// Dark or light, or as the system prefers.
     pub theme: ThemeChoice,
+    /// Language of the window; `None` is that of the system.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub language: Option<Language>,
     /// Whether everything is large enough to be touched: 44 points or more.
     pub touch_targets: bool,
     /// Whether recordings play at the speed of painting, rather than as fast as possible.
@@ -116,6 +120,7 @@ impl Default for Preferences {
             backend: Backend::Auto,
             interface_scale: 1.0,
             theme: ThemeChoice::Dark,
+            language: None,
             touch_targets: false,
             replay_as_painted: false,
             tools: ToolPreferences::default(),
@@ -278,6 +283,7 @@ mod tests {
         preferences.autosave_seconds = 7;
         preferences.window = Some([1280.0, 800.0]);
         preferences.theme = ThemeChoice::Light;
+        preferences.language = Some(Language::German);
         preferences.touch_targets = true;
         preferences.arrangement = Arrangement::in_right_column(&[&["light"], &["brush"]]);
         preferences.arrangement.right.groups[0].folded = true;

@@ -16,19 +16,21 @@ use super::problem::Problem;
 use super::scene_file::{SceneAnswer, SceneExport, ScenePurpose};
 use super::state::Files;
 use super::work::{Finished, JobKind, file_name};
+use crate::language::{english, tr, tr_format};
 use render::paint::scene::PixelsPerCell;
 use session::volumes::{SceneRecording, SceneState};
 use session::{Autosave, LostSession, SessionMeta, now};
 
 const SCENES: Filter = Filter {
-    label: "Models, photographs and scripts",
+    label: english("Models, photographs and scripts"),
     endings: &["glb", "gltf", "obj", "ply", "png", "jpg", "jpeg", "toml"],
 };
-const LIBRARIES: Filter = Filter { label: "Pigment libraries", endings: &["json"] };
-const SCRIPTS: Filter = Filter { label: "Scripts", endings: &["toml"] };
-const PICTURES: Filter = Filter { label: "Pictures", endings: &["png", "exr"] };
-const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
-const ANIMATIONS: Filter = Filter { label: "Animations", endings: &["gif", "png", "apng"] };
+const LIBRARIES: Filter = Filter { label: english("Pigment libraries"), endings: &["json"] };
+const SCRIPTS: Filter = Filter { label: english("Scripts"), endings: &["toml"] };
+const PICTURES: Filter = Filter { label: english("Pictures"), endings: &["png", "exr"] };
+const PAINTINGS: Filter = Filter { label: english("Paintings"), endings: &["exr"] };
+const ANIMATIONS: Filter =
+    Filter { label: english("Animations"), endings: &["gif", "png", "apng"] };
 
 /// Longest time between a change and its autosave: a script is written in no time.
 const INTERVAL: Duration = Duration::from_secs(2);
@@ -42,24 +44,24 @@ impl Files {
     /// Asks for the file of a scene.
     pub fn ask_for_scene(&mut self) {
         const KINDS: [Filter; 3] = [SCENES, SCRIPTS, Filter::ALL];
-        let options = BrowserOptions::open("Open a scene", &KINDS);
+        let options = BrowserOptions::open(tr("Open a scene"), &KINDS);
         self.browse(options, FilePurpose::Scene(ScenePurpose::Open));
     }
 
     /// Asks for the library of a scene's tubes.
     pub fn ask_for_scene_library(&mut self) {
         const KINDS: [Filter; 2] = [LIBRARIES, Filter::ALL];
-        let options = BrowserOptions::open("Open a pigment library", &KINDS);
+        let options = BrowserOptions::open(tr("Open a pigment library"), &KINDS);
         self.browse(options, FilePurpose::Scene(ScenePurpose::Library));
     }
 
     /// Asks where to write a file of the scene.
     pub fn ask_where_to_export_scene(&mut self, export: SceneExport) {
         let (title, filters, ending): (_, &[Filter; 2], _) = match export {
-            SceneExport::Picture => ("Save the picture", &[PICTURES, Filter::ALL], "png"),
-            SceneExport::Painting => ("Save the painting", &[PAINTINGS, Filter::ALL], "exr"),
-            SceneExport::Script => ("Save the script", &[SCRIPTS, Filter::ALL], "toml"),
-            SceneExport::Animation => ("Save the animation", &[ANIMATIONS, Filter::ALL], "gif"),
+            SceneExport::Picture => (tr("Save the picture"), &[PICTURES, Filter::ALL], "png"),
+            SceneExport::Painting => (tr("Save the painting"), &[PAINTINGS, Filter::ALL], "exr"),
+            SceneExport::Script => (tr("Save the script"), &[SCRIPTS, Filter::ALL], "toml"),
+            SceneExport::Animation => (tr("Save the animation"), &[ANIMATIONS, Filter::ALL], "gif"),
             SceneExport::OfPainting(Export { kind, .. }) => {
                 let options = export_options(kind, &self.scene_stem());
                 return self.browse(options, FilePurpose::Scene(ScenePurpose::Export(export)));
@@ -174,7 +176,8 @@ impl Files {
 
     /// Saves the script of a scene in a file.
     pub fn save_scene(&mut self, recording: &SceneRecording, path: PathBuf) {
-        let (recording, label) = (recording.clone(), format!("saving {}", file_name(&path)));
+        let (recording, label) =
+            (recording.clone(), tr_format!("saving {path}", path = file_name(&path)));
         self.start_job(JobKind::Saving, label, move |_| {
             recording.save(&path).map_err(Problem::from)?;
             Ok(Finished::SceneSaved { path, revision: recording.revision })
@@ -194,7 +197,7 @@ impl Files {
         path: PathBuf,
         work: impl FnOnce(&Path, &Progress) -> Result<Option<Problem>, JobError> + Send + 'static,
     ) {
-        let label = format!("exporting {}", file_name(&path));
+        let label = tr_format!("exporting {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |progress| {
             let remark = work(&path, progress)?;
             Ok(Finished::Exported { path, remark })

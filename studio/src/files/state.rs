@@ -23,6 +23,7 @@ use super::revision_list::RevisionList;
 use super::scene_files::SceneFiles;
 use super::swatch_list::SwatchList;
 use super::work::{Finished, JobKind, Purpose, RunningJob};
+use crate::language::tr;
 use session::{Autosave, Command, LostSession, Pace, PaintingState};
 
 /// The files of the painting: opening, saving, exports, autosave, preferences and their
@@ -240,7 +241,10 @@ impl Files {
     pub(super) fn request_snapshot(&mut self, purpose: Purpose) {
         if self.opening.is_some() {
             // The worker still has the painting before the one that the painter sees.
-            self.report(Problem::new("a painting is being opened", "try again in a moment"));
+            self.report(Problem::new(
+                tr("a painting is being opened"),
+                tr("try again in a moment"),
+            ));
             return;
         }
         let number = self.next_request(purpose);

@@ -12,6 +12,7 @@ use super::problem::Problem;
 use super::state::Files;
 use super::swatch_format::{ReadSwatches, SwatchFormat, read_swatches};
 use super::work::{Finished, JobKind, file_name};
+use crate::language::{tr, tr_format};
 use spectra::file::write_whole;
 
 impl Files {
@@ -29,7 +30,7 @@ impl Files {
     /// Changes the list; its file follows by itself.
     pub(super) fn change_swatches(&mut self, change: SwatchChange) {
         if let SwatchChange::Keep(kept) = &change {
-            let text = format!("kept {}", kept.name);
+            let text = tr_format!("kept {name}", name = kept.name);
             self.notices.push(Notice::done(&text));
         }
         self.swatches.book.apply(change);
@@ -39,10 +40,14 @@ impl Files {
     pub(super) fn keep_swatches(&mut self) {
         if !std::mem::replace(&mut self.swatches.asked, true) {
             let path = self.home.swatches();
-            self.start_job(JobKind::Background, "reading kept mixtures".to_owned(), move |_| {
-                let (book, problem) = read_own(&path);
-                Ok(Finished::SwatchesRead { book, problem })
-            });
+            self.start_job(
+                JobKind::Background,
+                tr("reading kept mixtures").to_owned(),
+                move |_| {
+                    let (book, problem) = read_own(&path);
+                    Ok(Finished::SwatchesRead { book, problem })
+                },
+            );
         }
         let idle = self.jobs.iter().all(|job| job.kind != JobKind::Background);
         // Before the file was read, it must not be replaced.
@@ -52,7 +57,7 @@ impl Files {
         }
         self.swatches.written = Some(self.swatches.book.clone());
         let (book, path) = (self.swatches.book.clone(), self.home.swatches());
-        self.start_job(JobKind::Background, "writing kept mixtures".to_owned(), move |_| {
+        self.start_job(JobKind::Background, tr("writing kept mixtures").to_owned(), move |_| {
             write_own(&path, &book)?;
             Ok(Finished::Quietly)
         });
@@ -70,7 +75,7 @@ impl Files {
 
     /// Starts reading mixtures or colours from a file.
     pub(super) fn import_swatches(&mut self, path: PathBuf) {
-        let label = format!("reading {}", file_name(&path));
+        let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
             Ok(Finished::SwatchesImported(read_swatches(&path).map_err(JobError::from)?))
         });
@@ -83,10 +88,13 @@ impl Files {
                 let before = self.swatches.book.swatches.len();
                 self.swatches.book.apply(SwatchChange::Merge(book));
                 let added = self.swatches.book.swatches.len() - before;
-                self.notices.push(Notice::done(&format!("added {added} mixtures")));
+                self.notices.push(Notice::done(&tr_format!("added {added} mixtures", added)));
             }
             ReadSwatches::Colors(colors) => {
-                let text = format!("{} colours are in the panel Colour", colors.swatches.len());
+                let text = tr_format!(
+                    "{swatches} colours are in the panel Colour",
+                    swatches = colors.swatches.len()
+                );
                 self.notices.push(Notice::done(&text));
                 self.swatches.colors = Some(colors);
             }
@@ -98,7 +106,7 @@ impl Files {
         let Some(PaintingState { library, light, .. }) = self.painting.as_deref() else { return };
         let (library, light) = (library.clone(), light.clone());
         let book = self.swatches.book.clone();
-        let label = format!("writing {}", file_name(&path));
+        let label = tr_format!("writing {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {
             let weights =
                 light.viewing.weights(library.grid).map_err(|error| Problem::from_error(&error))?;
@@ -136,9 +144,14 @@ fn read_own(path: &Path) -> (SwatchBook, Option<Problem>) {
             let aside = path.with_extension("broken.json");
             let hint = match std::fs::rename(path, &aside) {
                 Ok(()) => {
-                    format!("a new list is begun; the file was renamed to {}", aside.display())
+                    tr_format!(
+                        "a new list is begun; the file was renamed to {aside}",
+                        aside = aside.display()
+                    )
                 }
-                Err(error) => format!("a new list is begun; the file cannot be renamed: {error}"),
+                Err(error) => {
+                    tr_format!("a new list is begun; the file cannot be renamed: {error}", error)
+                }
             };
             (SwatchBook::default(), Some(Problem::new(text, hint)))
         }

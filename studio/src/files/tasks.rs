@@ -18,6 +18,7 @@ use super::revisions;
 use super::state::Files;
 use super::timelapse::{Recorded, TimelapseExport};
 use super::work::{Finished, JobKind, Purpose, file_name};
+use crate::language::{tr, tr_format};
 use session::{Command, Origin, Snapshot};
 
 impl Files {
@@ -32,7 +33,7 @@ impl Files {
         let (revision, epoch) = (snapshot.revision, self.epoch);
         match purpose {
             Purpose::Save { path, next, keep_revision } => {
-                let label = format!("saving {}", file_name(&path));
+                let label = tr_format!("saving {path}", path = file_name(&path));
                 let (palette, brushes) = (snapshot.palette.clone(), snapshot.brushes.clone());
                 self.start_job(JobKind::Saving, label, move |progress| {
                     write_painting(&path, &canvas, (&palette, &brushes), progress)?;
@@ -41,7 +42,7 @@ impl Files {
             }
             Purpose::Revision { path } => {
                 let light = self.light_of(&canvas);
-                let label = "keeping a revision".to_owned();
+                let label = tr("keeping a revision").to_owned();
                 self.start_job(JobKind::Shown, label, move |progress| {
                     let light = light()?;
                     let kept = revisions::keep(&path, &canvas, &light, progress)?;
@@ -50,7 +51,7 @@ impl Files {
             }
             Purpose::Export { export, path } => {
                 let light = self.light_of(&canvas);
-                let label = format!("exporting {}", file_name(&path));
+                let label = tr_format!("exporting {path}", path = file_name(&path));
                 self.start_job(JobKind::Shown, label, move |progress| {
                     let light = light()?;
                     let remark = exporting::export(export, &canvas, &light, &path, progress)?;
@@ -82,7 +83,7 @@ impl Files {
         let (library, start) = (state.library.clone(), self.start.clone());
         let undo_bytes = self.preferences.undo_mib << 20;
         let recorded = Recorded { script, library, start, undo_bytes };
-        let label = format!("timelapse {}", file_name(&path));
+        let label = tr_format!("timelapse {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |progress| {
             on_one_core(|| recorded.write_timelapse(&export, &path, progress))?;
             Ok(Finished::Exported { path, remark: None })
@@ -91,7 +92,7 @@ impl Files {
 
     /// Starts writing a recording.
     fn start_recording(&mut self, path: PathBuf, script: Arc<StrokeScript>) {
-        let label = format!("saving {}", file_name(&path));
+        let label = tr_format!("saving {path}", path = file_name(&path));
         let start = self.start.clone();
         self.start_job(JobKind::Shown, label, move |_| {
             let script = with_start_file(&path, &script, start)?;
@@ -130,7 +131,7 @@ impl Files {
     pub(super) fn read(&mut self, path: PathBuf) {
         // Absolute, so that a later change of the working folder has no effect.
         let path = std::path::absolute(&path).unwrap_or(path);
-        let label = format!("reading {}", file_name(&path));
+        let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |progress| {
             let opened = opened::read(&path, progress)?;
             Ok(Finished::Read { path, opened })
@@ -139,7 +140,7 @@ impl Files {
 
     /// Starts reading a revision.
     pub(super) fn read_revision(&mut self, path: PathBuf) {
-        let label = format!("reading revision {}", file_name(&path));
+        let label = tr_format!("reading revision {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |progress| {
             let (document, bytes) = read_painting(&path, progress)?;
             Ok(Finished::RevisionRead(document, bytes))
@@ -153,7 +154,7 @@ impl Files {
             self.revisions.set(&self.ctx, None, Vec::new());
             return;
         };
-        let label = "looking for revisions".to_owned();
+        let label = tr("looking for revisions").to_owned();
         self.start_job(JobKind::Background, label, move |progress| {
             let revisions = revisions::list(&path, progress)?;
             Ok(Finished::Listed { epoch, revisions })
@@ -169,7 +170,7 @@ impl Files {
         self.preferences.bound();
         self.written_preferences = self.preferences.clone();
         let (preferences, path) = (self.preferences.clone(), self.home.preferences());
-        self.start_job(JobKind::Background, "writing preferences".to_owned(), move |_| {
+        self.start_job(JobKind::Background, tr("writing preferences").to_owned(), move |_| {
             preferences.write(&path)?;
             Ok(Finished::Quietly)
         });
@@ -228,8 +229,8 @@ pub(super) fn read_painting(
     match opened::read(path, progress)? {
         Opened::Painting { document, bytes, .. } => Ok((document, bytes)),
         _ => {
-            let text = format!("{}: is not a painting", path.display());
-            Err(Problem::new(text, "another program has changed it").into())
+            let text = tr_format!("{path}: is not a painting", path = path.display());
+            Err(Problem::new(text, tr("another program has changed it")).into())
         }
     }
 }

@@ -17,6 +17,7 @@ use spectra::hint::Explain;
 
 use super::job::{JobError, Progress};
 use super::problem::Problem;
+use crate::language::tr;
 
 /// Form in which a timelapse is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,17 +109,17 @@ impl TimelapseExport {
             (
                 TimelapseForm::Animation(AnimationFormat::Gif),
                 "GIF",
-                "255 colours for all frames; every program shows it",
+                tr("255 colours for all frames; every program shows it"),
             ),
             (
                 TimelapseForm::Animation(AnimationFormat::Apng),
-                "Animated PNG",
-                "All colours; larger, and shown by browsers",
+                tr("Animated PNG"),
+                tr("All colours; larger, and shown by browsers"),
             ),
             (
                 TimelapseForm::Frames,
-                "Folder of PNG frames",
-                "For a film; frames of the same recording that are there already are kept",
+                tr("Folder of PNG frames"),
+                tr("For a film; frames of the same recording that are there already are kept"),
             ),
         ] {
             ui.radio_value(&mut self.form, form, words).on_hover_text(tip);
@@ -132,35 +133,37 @@ impl TimelapseExport {
                 ui.end_row();
             };
             let size = DragValue::new(&mut self.longest_px).range(16..=16_384).suffix(" px");
-            row("Longest side", "A canvas with fewer cells keeps them", size);
+            row(tr("Longest side"), tr("A canvas with fewer cells keeps them"), size);
             if self.form != TimelapseForm::Frames {
-                let rate = DragValue::new(&mut self.rate).range(0.1..=100.0).suffix(" a second");
-                row("Frames", "Frames that are shown in a second", rate);
+                let rate =
+                    DragValue::new(&mut self.rate).range(0.1..=100.0).suffix(tr(" a second"));
+                row(tr("Frames"), tr("Frames that are shown in a second"), rate);
                 let hold = DragValue::new(&mut self.hold_seconds).range(0.0..=60.0).suffix(" s");
-                row("Hold the end", "How long the last frame is shown", hold.speed(0.1));
+                row(tr("Hold the end"), tr("How long the last frame is shown"), hold.speed(0.1));
             }
         });
-        ui.checkbox(&mut self.with_undone, "Show what was undone")
-            .on_hover_text("Passages that were undone later are shown too, with their undoing");
+        ui.checkbox(&mut self.with_undone, tr("Show what was undone"))
+            .on_hover_text(tr("Passages that were undone later are shown too, with their undoing"));
     }
 
     fn interval_rows(&mut self, ui: &mut Ui) {
         let every = &mut self.every;
-        ui.radio_value(every, Every::Frames, "In all")
-            .on_hover_text("Frames are spread evenly over the time that strokes took");
-        let drag = DragValue::new(&mut self.frames).range(2..=100_000).suffix(" frames");
-        ui.add_enabled(*every == Every::Frames, drag).on_hover_text("Number of frames");
+        ui.radio_value(every, Every::Frames, tr("In all"))
+            .on_hover_text(tr("Frames are spread evenly over the time that strokes took"));
+        let drag = DragValue::new(&mut self.frames).range(2..=100_000).suffix(tr(" frames"));
+        ui.add_enabled(*every == Every::Frames, drag).on_hover_text(tr("Number of frames"));
         ui.end_row();
-        ui.radio_value(every, Every::Seconds, "One every")
-            .on_hover_text("Seconds of strokes on the canvas, without pauses and mixing");
+        ui.radio_value(every, Every::Seconds, tr("One every"))
+            .on_hover_text(tr("Seconds of strokes on the canvas, without pauses and mixing"));
         let drag = DragValue::new(&mut self.seconds).range(0.01..=86_400.0).suffix(" s");
         ui.add_enabled(*every == Every::Seconds, drag.speed(0.1))
-            .on_hover_text("Seconds of painting between two frames");
+            .on_hover_text(tr("Seconds of painting between two frames"));
         ui.end_row();
-        ui.radio_value(every, Every::Actions, "One after")
-            .on_hover_text("Actions that change the canvas: strokes, drying, light and so on");
-        let drag = DragValue::new(&mut self.actions).range(1..=1_000_000).suffix(" actions");
-        ui.add_enabled(*every == Every::Actions, drag).on_hover_text("Actions between two frames");
+        ui.radio_value(every, Every::Actions, tr("One after"))
+            .on_hover_text(tr("Actions that change the canvas: strokes, drying, light and so on"));
+        let drag = DragValue::new(&mut self.actions).range(1..=1_000_000).suffix(tr(" actions"));
+        ui.add_enabled(*every == Every::Actions, drag)
+            .on_hover_text(tr("Actions between two frames"));
         ui.end_row();
     }
 }

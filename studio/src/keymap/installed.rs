@@ -4,6 +4,7 @@ use eframe::egui::{Context, Id, Key};
 
 use super::changes::Keymap;
 use super::shortcut::Shortcut;
+use crate::language::tr_format;
 
 /// Makes these the tables in use.
 pub fn install(context: &Context, keymap: Keymap) {
@@ -37,7 +38,7 @@ pub fn keys(context: &Context, name: &str) -> Vec<Key> {
 #[must_use]
 pub fn hint(context: &Context, name: &str) -> String {
     match text(context, name) {
-        Some(key) if !key.is_empty() => format!(" (key {key})"),
+        Some(key) if !key.is_empty() => tr_format!(" (key {key})", key),
         _ => String::new(),
     }
 }

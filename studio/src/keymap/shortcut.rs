@@ -4,6 +4,8 @@ use std::str::FromStr;
 
 use eframe::egui::{Key, Modifiers};
 
+use crate::language::english;
+
 /// Keys whose sign is shorter than their name.
 const SIGNS: [(Key, &str); 16] = [
     (Key::OpenBracket, "["),
@@ -52,11 +54,13 @@ impl Shortcut {
     pub fn of_press(key: Key, held: Modifiers) -> Result<Self, InvalidShortcut> {
         let reserved = |why| Err(InvalidShortcut::Reserved(why));
         match key {
-            Key::Space => reserved("the space bar moves the view while it is held"),
-            Key::Escape => reserved("Escape closes windows"),
-            Key::Enter => reserved("Enter presses the main button of a dialog"),
-            Key::Copy | Key::Cut | Key::Paste => reserved("the system uses it for the clipboard"),
-            _ if held.alt => reserved("Alt picks a colour while it is held"),
+            Key::Space => reserved(english("the space bar moves the view while it is held")),
+            Key::Escape => reserved(english("Escape closes windows")),
+            Key::Enter => reserved(english("Enter presses the main button of a dialog")),
+            Key::Copy | Key::Cut | Key::Paste => {
+                reserved(english("the system uses it for the clipboard"))
+            }
+            _ if held.alt => reserved(english("Alt picks a colour while it is held")),
             _ => {
                 let mut modifiers = Modifiers::NONE;
                 (modifiers.command, modifiers.shift) = (held.command, held.shift);

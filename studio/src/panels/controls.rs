@@ -7,6 +7,7 @@ use eframe::egui::{
     Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 
+use crate::language::tr;
 use crate::theme;
 
 /// Width of the label at the left of a slider, in points.
@@ -166,7 +167,7 @@ pub(super) fn millimetres(mm: f64) -> String {
         mm if mm >= 0.995 => format!("{mm:.1} mm"),
         mm if mm >= 0.0995 || mm == 0.0 => format!("{mm:.2} mm"),
         mm if mm >= 0.0005 => format!("{mm:.3} mm"),
-        _ => "below 0.001 mm".to_owned(),
+        _ => tr("below 0.001 mm").to_owned(),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use eframe::egui::{Align2, FontId, Rect, Ui, vec2};
 
+use crate::language::{tr, tr_format};
 use crate::theme;
 use session::Performance;
 
@@ -22,15 +23,15 @@ pub struct FrameRate {
 pub fn lines(rate: FrameRate, worker: Performance, backend: &str) -> Vec<(&'static str, String)> {
     let ms = |mean: f64, worst: f64| match worst {
         0.0 => "-".to_owned(),
-        _ => format!("{mean:.1} ms, worst {worst:.1}"),
+        _ => tr_format!("{mean:.1} ms, worst {worst:.1}", mean, worst),
     };
     vec![
-        ("frames a second", format!("{:.0}", rate.frames_a_second)),
-        ("pen to screen", ms(rate.latency_ms, rate.worst_ms)),
-        ("pen to paint", ms(worker.mean_latency_ms, worker.max_latency_ms)),
-        ("sub-steps a second", format!("{:.0}", worker.substeps_per_second)),
-        ("steps behind", worker.waiting_substeps.to_string()),
-        ("paint computed by", backend.to_owned()),
+        (tr("frames a second"), format!("{:.0}", rate.frames_a_second)),
+        (tr("pen to screen"), ms(rate.latency_ms, rate.worst_ms)),
+        (tr("pen to paint"), ms(worker.mean_latency_ms, worker.max_latency_ms)),
+        (tr("sub-steps a second"), format!("{:.0}", worker.substeps_per_second)),
+        (tr("steps behind"), worker.waiting_substeps.to_string()),
+        (tr("paint computed by"), backend.to_owned()),
     ]
 }
 

@@ -4,6 +4,7 @@ use eframe::egui::{Align, Color32, Id, Rect, Shape, Stroke, TextStyle, Ui, vec2}
 
 use super::controls::row;
 use super::fitted_text::text;
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Height of a heading, in points.
@@ -14,13 +15,14 @@ const HEADING: f32 = 22.0;
 pub(super) fn section(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     let id = Id::unique(("folded section", name));
     let mut folded = ui.data(|data| data.get_temp::<bool>(id).unwrap_or(false));
-    let verb = if folded { "Unfold" } else { "Fold" };
-    let response = row(ui, HEADING, &format!("{verb} {name}"), false);
+    let label =
+        if folded { tr_format!("Unfold {name}", name) } else { tr_format!("Fold {name}", name) };
+    let response = row(ui, HEADING, &label, false);
     let (sign, rest) = response.rect.split_left_right_at_x(response.rect.left() + 18.0);
     ui.painter().add(triangle(sign, folded, theme::colors(ui.ctx()).text));
     let strong = theme::colors(ui.ctx()).strong;
     text(ui, rest, Align::Min, TextStyle::Body, strong, name);
-    if response.on_hover_text("Folds and unfolds this part").clicked() {
+    if response.on_hover_text(tr("Folds and unfolds this part")).clicked() {
         folded = !folded;
         ui.data_mut(|data| data.insert_temp(id, folded));
     }

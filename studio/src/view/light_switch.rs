@@ -6,6 +6,7 @@
 use eframe::egui::{Button, Frame, Margin, Rect, Ui, UiBuilder, vec2};
 
 use super::surface::SurfaceView;
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Largest width of a light's name, in points.
@@ -28,8 +29,12 @@ impl SurfaceView {
                         ui.set_max_width(NAME_WIDTH);
                         let chosen = self.under_second == second;
                         let button = Button::selectable(chosen, light).truncate().small();
-                        let name = if second { "second" } else { "first" };
-                        let tip = format!("Shows the palette under the {name} light, {light}");
+                        let name = if second { tr("second") } else { tr("first") };
+                        let tip = tr_format!(
+                            "Shows the palette under the {name} light, {light}",
+                            name,
+                            light
+                        );
                         let button = ui.add(button).on_hover_text(&tip);
                         if button.accessible_name(&tip).clicked() {
                             self.under_second = second;

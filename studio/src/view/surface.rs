@@ -9,6 +9,7 @@ use super::head;
 use super::outline::Outline;
 use super::picture::{DrawnPart, Picture};
 use super::transform::{Placement, ViewState};
+use crate::language::tr;
 use crate::theme;
 use session::{HeadOnCanvas, TilePixels};
 
@@ -165,7 +166,7 @@ impl SurfaceView {
         self.density = ui.ctx().pixels_per_point();
         let id = Id::unique(("surface", self.name));
         let response = ui.interact(rect, id, Sense::click_and_drag());
-        let name = self.name;
+        let name = tr(self.name);
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
         self.navigate(ui, &response, mode);
         if self.view.fitted {
@@ -273,7 +274,7 @@ impl SurfaceView {
             Rect::from_center_size(middle(*split.at), theme::at_least(ui, vec2(22.0, 22.0)));
         self.split_handle = Some(split_handle);
         let response = ui.interact(split_handle, Id::unique(("split", self.name)), Sense::drag());
-        response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Split of two lights"));
+        response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, tr("Split of two lights")));
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
             *split.at = (placement.cell(pointer)[0] / width).clamp(0.0, 1.0) as f32;
         }
@@ -304,9 +305,9 @@ impl SurfaceView {
                 if along.x * side < 0.0 { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
             draw_label(&painter, at, align, light);
         }
-        response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(
+        response.on_hover_cursor(CursorIcon::ResizeHorizontal).on_hover_text(tr(
             "The first light is left of the line, the second one right of it. Drag to compare.",
-        );
+        ));
     }
 }
 

@@ -93,11 +93,11 @@ fn dragging_the_size_sends_one_request_at_the_end() {
     harness.drag_at(rail.center());
     harness.run();
     for step in 1..5_u8 {
-        harness.hover_at(rail.center() + eframe::egui::vec2(4.0 * f32::from(step), 0.0));
+        harness.hover_at(rail.center() + vec2(4.0 * f32::from(step), 0.0));
         harness.run();
     }
     assert_requests(&mut harness, &[]);
-    harness.drop_at(rail.center() + eframe::egui::vec2(16.0, 0.0));
+    harness.drop_at(rail.center() + vec2(16.0, 0.0));
     harness.run();
     let requests = format!("{:?}", harness.state().requests);
     assert_eq!(harness.state().requests.len(), 1, "{requests}");

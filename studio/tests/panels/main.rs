@@ -77,6 +77,8 @@ mod touch;
 
 mod idle;
 
+mod language;
+
 mod docking;
 
 mod working;

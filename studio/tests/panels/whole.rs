@@ -146,7 +146,7 @@ fn the_pigment_whose_whole_name_was_typed_is_taken_by_enter() {
     window.harness().get_by_label("Search").type_text("eosin lake");
     window.harness().run_ok();
     window.save("searched-pigment");
-    window.key(eframe::egui::Modifiers::NONE, eframe::egui::Key::Enter);
+    window.key(Modifiers::NONE, Key::Enter);
     window.settle();
     assert_eq!(name(&window), "Eosin Lake", "not the one of which it is a part");
 }

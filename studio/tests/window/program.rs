@@ -34,6 +34,7 @@ impl<'a> Program<'a> {
         let child = Command::new(env!("CARGO_BIN_EXE_impasto-studio"))
             .env("DISPLAY", &screen.name)
             .env_remove("WAYLAND_DISPLAY")
+            .env("LC_ALL", "C")
             .arg("--home")
             .arg(home)
             .arg("--figures")

@@ -8,6 +8,7 @@ use eframe::egui::{
 use render::tile;
 
 use super::frame::{CropFrame, HANDLES};
+use crate::language::{tr, tr_format};
 use crate::theme;
 use crate::view::{Placement, SurfaceView};
 
@@ -96,6 +97,7 @@ impl CropTool {
             self.frame = before.moved([to[0] - from[0], to[1] - from[1]], self.cells);
         }
         for (handle, name) in HANDLES {
+            let name = tr(name);
             let at = placement.point(before.place(handle));
             let rect = Rect::from_center_size(at, theme::at_least(ui, vec2(HANDLE, HANDLE)));
             let response = ui.interact(rect, Id::unique(name), Sense::drag());
@@ -161,19 +163,24 @@ impl CropTool {
                 ui.horizontal(|ui| {
                     let (width, height) = (mm(rect.width), mm(rect.height));
                     ui.label(RichText::new(format!("{width:.1} x {height:.1} mm")).strong());
-                    ui.weak(format!("{} x {} cells", rect.width, rect.height));
+                    ui.weak(tr_format!(
+                        "{width} x {height} cells",
+                        width = rect.width,
+                        height = rect.height
+                    ));
                     self.shapes(ui);
-                    let crop = ui.add_enabled(self.changes(), Button::new("Crop"));
-                    if crop.on_hover_text("Cuts off what is dark (Enter)").clicked() {
+                    let crop = ui.add_enabled(self.changes(), Button::new(tr("Crop")));
+                    if crop.on_hover_text(tr("Cuts off what is dark (Enter)")).clicked() {
                         answer = Some(CropAnswer::Crop(rect));
                     }
-                    let leave = ui.button("Cancel");
-                    if leave.on_hover_text("Leaves the painting as it is (Esc)").clicked() {
+                    let leave = ui.button(tr("Cancel"));
+                    if leave.on_hover_text(tr("Leaves the painting as it is (Esc)")).clicked() {
                         answer = Some(CropAnswer::Leave);
                     }
                 });
-                let note = "Undo ends at a crop, and the brushes are clean after it; the palette \
-                            keeps its paint.";
+                let note =
+                    tr("Undo ends at a crop, and the brushes are clean after it; the palette \
+                            keeps its paint.");
                 ui.label(RichText::new(note).weak().small());
             });
         });
@@ -186,16 +193,16 @@ impl CropTool {
         let near = |shape: f64| self.shape.is_some_and(|own| (own - shape).abs() < 1e-6);
         let named = SHAPES.iter().find(|(_, shape)| near(*shape) || near(1.0 / shape));
         let shown = match (self.shape, named) {
-            (None, _) => "Free",
+            (None, _) => tr("Free"),
             (Some(_), Some((name, _))) => name,
-            (Some(_), None) => "Kept",
+            (Some(_), None) => tr("Kept"),
         };
         let combo = ComboBox::from_id_salt("crop shape").selected_text(shown).width(70.0);
         let combo = combo.show_ui(ui, |ui| {
-            if ui.selectable_label(self.shape.is_none(), "Free").clicked() {
+            if ui.selectable_label(self.shape.is_none(), tr("Free")).clicked() {
                 self.shape = None;
             }
-            if ui.selectable_label(shown == "Kept", "Kept").clicked() {
+            if ui.selectable_label(shown == tr("Kept"), tr("Kept")).clicked() {
                 self.shape = Some(width / height);
             }
             for (name, shape) in SHAPES {
@@ -207,7 +214,7 @@ impl CropTool {
                 }
             }
         });
-        let tip = "Width over height of what stays: free, as it is now, or one of these";
-        combo.response.accessible_name("Shape of the crop").on_hover_text(tip);
+        let tip = tr("Width over height of what stays: free, as it is now, or one of these");
+        combo.response.accessible_name(tr("Shape of the crop")).on_hover_text(tip);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::facts::Facts;
 use crate::app::intent::Intent;
+use crate::language::{tr, tr_format};
 use crate::panels::Mode;
 
 /// A step of the guided tour.
@@ -47,44 +48,47 @@ impl TourStep {
             key if key.is_empty() => String::new(),
             key => format!(" ({key})"),
         };
-        let either = |intent, way: &str, other: &str| match key(intent) {
-            key if key.is_empty() => other.to_owned(),
-            key => format!("Press {key}{way}"),
-        };
         match self {
             Self::Load => [
-                "Double click a tube: its paint is added to the brush.".to_owned(),
-                "The Brush tab shows how much is on it, and its colour.".to_owned(),
+                tr("Double click a tube: its paint is added to the brush.").to_owned(),
+                tr("The Brush tab shows how much is on it, and its colour.").to_owned(),
             ],
             Self::Paint => [
-                "Press on the canvas and draw.".to_owned(),
-                "The brush empties, so load it again when it gets dry.".to_owned(),
+                tr("Press on the canvas and draw.").to_owned(),
+                tr("The brush empties, so load it again when it gets dry.").to_owned(),
             ],
             Self::Mix => [
-                "Click a tube, then the palette, and so another: two heaps.".to_owned(),
-                format!(
-                    "Choose Paint{} and draw through both with the brush.",
-                    beside(Intent::Tool(Mode::Paint)),
+                tr("Click a tube, then the palette, and so another: two heaps.").to_owned(),
+                tr_format!(
+                    "Choose Paint{key} and draw through both with the brush.",
+                    key = beside(Intent::Tool(Mode::Paint))
                 ),
             ],
             Self::Dry => [
-                either(Intent::Dry, ", or this button.", "Press this button."),
-                "The wet paint becomes a dry layer that later strokes do not move.".to_owned(),
+                match key(Intent::Dry) {
+                    key if key.is_empty() => tr("Press this button.").to_owned(),
+                    key => tr_format!("Press {key}, or this button.", key),
+                },
+                tr("The wet paint becomes a dry layer that later strokes do not move.").to_owned(),
             ],
             Self::Glaze => [
-                format!(
-                    "Wash{}, set Medium to 99 % and Load to 0.10 mm, load a tube,",
-                    beside(Intent::Wash),
+                tr_format!(
+                    "Wash{key}, set Medium to 99 % and Load to 0.10 mm, load a tube,",
+                    key = beside(Intent::Wash)
                 ),
-                "and draw over dry paint: a thin film that it shines through.".to_owned(),
+                tr("and draw over dry paint: a thin film that it shines through.").to_owned(),
             ],
             Self::Relight => [
-                either(
-                    Intent::OtherLight,
-                    " for the light of a bulb, or choose one in the Light tab.",
-                    "Choose another light in the Light tab.",
-                ),
-                "The pigments change as real ones would.".to_owned(),
+                match key(Intent::OtherLight) {
+                    key if key.is_empty() => {
+                        tr("Choose another light in the Light tab.").to_owned()
+                    }
+                    key => tr_format!(
+                        "Press {key} for the light of a bulb, or choose one in the Light tab.",
+                        key
+                    ),
+                },
+                tr("The pigments change as real ones would.").to_owned(),
             ],
         }
     }

@@ -5,6 +5,7 @@ use render::paint::strokes::Recipe;
 use session::PaintingState;
 use session::swatches::{KeptMixture, SwatchBook, Usable};
 
+use crate::language::tr_format;
 use crate::panels::Tools;
 
 /// Most mixtures in their ring: more would be too narrow for a finger.
@@ -46,9 +47,9 @@ impl QuickChoice {
     /// Name for accessibility and for the label below the menu.
     pub(in crate::app) fn name(&self) -> String {
         match self {
-            Self::Tube { name, .. } => format!("quick {name}"),
-            Self::Mixture { name, .. } => format!("quick mixture {name}"),
-            Self::Size(mm) => format!("quick size {mm} mm"),
+            Self::Tube { name, .. } => tr_format!("quick {name}", name),
+            Self::Mixture { name, .. } => tr_format!("quick mixture {name}", name),
+            Self::Size(mm) => tr_format!("quick size {mm} mm", mm),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use eframe::egui::{CursorIcon, Id, Key, Rect, Role, Sense, Stroke, Ui, WidgetInfo};
 
+use crate::language::tr;
 use crate::theme;
 
 /// Change of an arrow key, in points.
@@ -41,6 +42,6 @@ pub(in crate::app) fn divider(ui: &Ui, rect: Rect, name: &str, line: Line) -> f3
         Line::Upright => ui.painter().vline(rect.center().x, rect.y_range(), stroke),
         Line::Level => ui.painter().hline(rect.x_range(), rect.center().y, stroke),
     };
-    response.on_hover_cursor(cursor).on_hover_text("Drag to resize");
+    response.on_hover_cursor(cursor).on_hover_text(tr("Drag to resize"));
     moved
 }

@@ -9,6 +9,7 @@ use super::panels::{Panels, Tab};
 use super::table::{SidePanel, standard};
 use crate::arrangement::{Arrangement, Column, HeightRequest, Side, WIDTHS, heights};
 use crate::files::Files;
+use crate::language::{tr, tr_format};
 use crate::panels::PanelContext;
 use crate::theme;
 use crate::view::fill_rect;
@@ -144,7 +145,7 @@ impl Panels {
             if let Some(height) = height.filter(|_| shared[index + 1..].iter().any(Option::is_some))
             {
                 let gap = Rect::from_min_size(rect.left_bottom(), vec2(area.width(), GAP));
-                let name = format!("Height of {}", header.chosen.name);
+                let name = tr_format!("Height of {name}", name = tr(header.chosen.name));
                 let moved = divider(ui, gap, &name, Line::Level);
                 if moved != 0.0 {
                     let group = &mut self.arrangement.column_mut(side).groups[index];
@@ -229,8 +230,8 @@ impl Panels {
     /// Adds the edge of a column that is dragged to make it wider.
     fn width_divider(&mut self, ui: &Ui, side: Side, whole: Rect) {
         let (x, sign, name) = match side {
-            Side::Left => (whole.right() - GAP, 1.0, "Width of the left panels"),
-            Side::Right => (whole.left(), -1.0, "Width of the right panels"),
+            Side::Left => (whole.right() - GAP, 1.0, tr("Width of the left panels")),
+            Side::Right => (whole.left(), -1.0, tr("Width of the right panels")),
         };
         let edge = Rect::from_min_size(pos2(x, whole.top()), vec2(GAP, whole.height()));
         let moved = divider(ui, edge, name, Line::Upright);

@@ -9,6 +9,7 @@ use super::drop::DraggedPanel;
 use super::table::SidePanel;
 use crate::app::places::{self, Part};
 use crate::arrangement::{Arrangement, Move, Place};
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Height of a row of tabs, in points.
@@ -54,7 +55,7 @@ impl Header<'_> {
         let mut rows: Vec<Vec<(&'static SidePanel, f32)>> = Vec::new();
         let mut used = f32::INFINITY;
         for &panel in self.panels {
-            let name = panel.name.to_owned();
+            let name = tr(panel.name).to_owned();
             let laid =
                 ui.painter().layout_no_wrap(name, font.clone(), theme::colors(ui.ctx()).text);
             let needed = (laid.size().x + 2.0 * PADDING).max(theme::target(ui));
@@ -107,7 +108,8 @@ impl Header<'_> {
         let colors = theme::colors(ui.ctx());
         let here = self.open && panel.tab == self.chosen.tab;
         let round = CornerRadius::same(theme::CORNER_RADIUS);
-        let name = RichText::new(panel.name).color(if here { colors.strong } else { colors.text });
+        let name =
+            RichText::new(tr(panel.name)).color(if here { colors.strong } else { colors.text });
         let button = Button::new(name)
             .fill(if here { colors.chosen } else { colors.bar })
             .selected(here)
@@ -124,19 +126,20 @@ impl Header<'_> {
             request = Some(HeaderRequest::Select(panel.key));
         }
         response.context_menu(|ui| request = menu(ui, panel, self.open, arrangement));
-        response.on_hover_text(format!(
-            "{}. Drag it to another place, or click with the right button",
-            panel.description
+        response.on_hover_text(tr_format!(
+            "{description}. Drag it to another place, or click with the right button",
+            description = tr(panel.description)
         ));
         request
     }
 
     fn fold_button(&self, ui: &Ui, rect: Rect) -> Option<HeaderRequest> {
-        let (verb, tip) = match self.open {
-            true => ("Fold", "Shows only the tabs"),
-            false => ("Unfold", "Shows the panel"),
+        let name = tr(self.chosen.name);
+        let (label, tip) = match self.open {
+            true => (tr_format!("Fold {name}", name), tr("Shows only the tabs")),
+            false => (tr_format!("Unfold {name}", name), tr("Shows the panel")),
         };
-        let response = sign(ui, rect, &format!("{verb} {}", self.chosen.name), |rect| {
+        let response = sign(ui, rect, &label, |rect| {
             let points = match self.open {
                 true => [vec2(-4.0, -2.0), vec2(4.0, -2.0), vec2(0.0, 3.0)],
                 false => [vec2(-2.0, -4.0), vec2(3.0, 0.0), vec2(-2.0, 4.0)],
@@ -149,7 +152,7 @@ impl Header<'_> {
     }
 
     fn menu_button(&self, ui: &Ui, rect: Rect, arrangement: &Arrangement) -> Option<HeaderRequest> {
-        let name = format!("Place of {}", self.chosen.name);
+        let name = tr_format!("Place of {name}", name = tr(self.chosen.name));
         let response = sign(ui, rect, &name, |rect| {
             let dot = |row: f32| {
                 let at = rect.center() + vec2(0.0, 5.0 * row);
@@ -160,7 +163,7 @@ impl Header<'_> {
         let opened = Popup::menu(&response)
             .show(|ui| menu(ui, self.chosen, self.open, arrangement))
             .and_then(|shown| shown.inner);
-        response.on_hover_text("Moves this panel to another place");
+        response.on_hover_text(tr("Moves this panel to another place"));
         opened
     }
 }
@@ -192,8 +195,11 @@ fn menu(
             ui.close();
         }
     };
-    let (name, tip) =
-        if open { ("Fold", "Shows only the tabs") } else { ("Unfold", "Shows the panel") };
+    let (name, tip) = if open {
+        (tr("Fold"), tr("Shows only the tabs"))
+    } else {
+        (tr("Unfold"), tr("Shows the panel"))
+    };
     entry(ui, name, tip, Some(HeaderRequest::Fold(panel.key, open)));
     ui.separator();
     for step in Move::ALL {
@@ -206,13 +212,15 @@ fn menu(
 
 fn words(step: Move) -> (&'static str, &'static str) {
     match step {
-        Move::Up => ("Move up", "Puts the panel above this group, or above the one before"),
-        Move::Down => ("Move down", "Puts the panel below this group, or below the one after"),
-        Move::OtherColumn => {
-            ("To the other side", "Puts the panel at the other side of the canvas")
+        Move::Up => (tr("Move up"), tr("Puts the panel above this group, or above the one before")),
+        Move::Down => {
+            (tr("Move down"), tr("Puts the panel below this group, or below the one after"))
         }
-        Move::JoinAbove => ("Join the group above", "Puts the panel among the tabs above"),
-        Move::JoinBelow => ("Join the group below", "Puts the panel among the tabs below"),
+        Move::OtherColumn => {
+            (tr("To the other side"), tr("Puts the panel at the other side of the canvas"))
+        }
+        Move::JoinAbove => (tr("Join the group above"), tr("Puts the panel among the tabs above")),
+        Move::JoinBelow => (tr("Join the group below"), tr("Puts the panel among the tabs below")),
     }
 }
 

@@ -6,6 +6,7 @@ use eframe::egui::{
 use session::volumes::{SceneTool, VolumeCommand};
 
 use super::workspace::Volumes;
+use crate::language::tr;
 use crate::panels::volumes::show_here;
 use crate::pen::Pen;
 use crate::theme;
@@ -21,7 +22,7 @@ impl Volumes {
         self.rect = rect;
         let id = Id::unique("scene");
         let response = ui.interact(rect, id, Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, NAME));
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, tr(NAME)));
         let density = ui.ctx().pixels_per_point();
         let painter = ui.painter_at(rect);
         if let Some((_, picture)) = &mut self.picture {

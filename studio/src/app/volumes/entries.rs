@@ -5,6 +5,7 @@ use session::volumes::SceneTool;
 
 use super::intent::{SceneEntry, SceneIntent, SceneMenu};
 use crate::keymap::{self, KeyRow, KeyTable, Shortcut};
+use crate::language::{tr, tr_format};
 
 const NONE: Modifiers = Modifiers::NONE;
 const CTRL: Modifiers = Modifiers::COMMAND;
@@ -201,7 +202,7 @@ pub(in crate::app) const SCENE_POINTER: &[(&str, &str)] = &[
     ("Hold or draw", "Uses the tool in hand; pressure sets the rate"),
     ("Middle button", "Turns the scene"),
     ("Shift + middle", "Moves the scene"),
-    ("Wheel", "Zooms about the pointer"),
+    ("pointer|Wheel", "Zooms about the pointer"),
     ("Right click", "Tells what is there: paint, height, colour, region"),
     ("Drag the time bar", "Goes to a moment, which is replayed to the bit"),
 ];
@@ -231,12 +232,12 @@ const TUBES: [Key; 8] =
 pub fn scene_key_rows() -> Vec<KeyRow> {
     let entries = SCENE_ENTRIES.iter().map(|entry| {
         let (name, group) = (entry.intent.name(), entry.menu.name());
-        KeyRow::new(name, entry.name, entry.description, group, entry.shortcuts)
+        KeyRow::new(name, tr(entry.name), tr(entry.description), tr(group), entry.shortcuts)
     });
     let tubes = (1_u8..).zip(TUBES).map(|(number, key)| {
-        let (name, title) = (SceneIntent::Tube(number).name(), format!("Tube {number}"));
-        let description = format!("Takes tube {number} in hand");
-        KeyRow::new(name, title, description, "Tubes", &[self::key(NONE, key)])
+        let (name, title) = (SceneIntent::Tube(number).name(), tr_format!("Tube {number}", number));
+        let description = tr_format!("Takes tube {number} in hand", number);
+        KeyRow::new(name, title, description, tr("Tubes"), &[self::key(NONE, key)])
     });
     entries.chain(tubes).collect()
 }
@@ -255,10 +256,10 @@ impl SceneIntent {
 /// Tooltip of an entry: name, shortcut and description.
 pub(super) fn tip(ui: &mut Ui, entry: &SceneEntry) {
     ui.horizontal(|ui| {
-        ui.strong(entry.name);
+        ui.strong(tr(entry.name));
         ui.weak(entry.shortcut_text(ui.ctx()));
     });
-    ui.label(entry.description);
+    ui.label(tr(entry.description));
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use super::orbit::Orbit;
 use super::workspace::Volumes;
 use crate::app::status::Message;
 use crate::files::{Files, Problem};
+use crate::language::tr;
 use crate::view::Picture;
 use session::TilePixels;
 use session::volumes::{ScenePicture, VolumeEvent};
@@ -68,7 +69,7 @@ impl Volumes {
         let ScenePicture { width, height, .. } = *picture;
         let kept = self.picture.take().map(|(_, shown)| shown);
         let kept = kept.filter(|shown| shown.cells() == (width, height));
-        let mut shown = kept.unwrap_or_else(|| Picture::new("Scene", (width, height)));
+        let mut shown = kept.unwrap_or_else(|| Picture::new(tr("Scene"), (width, height)));
         let rect = Rect { x: 0, y: 0, width, height };
         shown.write(&TilePixels { rect, pixels: picture.pixels.clone() });
         self.picture = Some((picture, shown));

@@ -10,6 +10,7 @@ use spectra::file::write_whole;
 
 use super::workspace::Volumes;
 use crate::files::{self, Files, Problem, SceneAnswer, SceneExport};
+use crate::language::tr_format;
 use session::volumes::{SceneImage, SceneRecording, Subject, VolumeCommand};
 
 /// Number of the request for the recording of an autosave.
@@ -30,8 +31,11 @@ impl Volumes {
                         files.recovering_scene(lost);
                     }
                     Err(error) => {
-                        let text =
-                            format!("the autosave of {}: cannot be read: {error}", lost.meta.title);
+                        let text = tr_format!(
+                            "the autosave of {title}: cannot be read: {error}",
+                            title = lost.meta.title,
+                            error
+                        );
                         files.report(Problem { text, hint: None });
                     }
                 }

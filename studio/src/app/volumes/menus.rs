@@ -7,6 +7,7 @@ use super::entries::{SCENE_ENTRIES, tip};
 use super::intent::{SceneIntent, SceneMenu};
 use crate::app::menu_item;
 use crate::app::menus::menu_button;
+use crate::language::tr;
 use crate::theme;
 
 /// Shows the bar with `title` at its right. Returns the entry that was clicked.
@@ -17,11 +18,11 @@ pub(super) fn show(ui: &mut Ui, state: Option<&SceneState>, title: &str) -> Opti
             ui.spacing_mut().button_padding.x = 13.0;
         }
         for (menu, name, description) in [
-            (SceneMenu::File, "File", "Open and save scenes, back to the easel"),
-            (SceneMenu::Edit, "Edit", "Events, time and pouring"),
-            (SceneMenu::View, "View", "What is shown"),
-            (SceneMenu::Tools, "Tools", "Tools of the pen"),
-            (SceneMenu::Help, "Help", "The table of keys"),
+            (SceneMenu::File, tr("File"), tr("Open and save scenes, back to the easel")),
+            (SceneMenu::Edit, tr("Edit"), tr("Events, time and pouring")),
+            (SceneMenu::View, tr("View"), tr("What is shown")),
+            (SceneMenu::Tools, tr("Tools"), tr("Tools of the pen")),
+            (SceneMenu::Help, tr("Help"), tr("The table of keys")),
         ] {
             let opened = menu_button(ui, name, |ui| {
                 for entry in SCENE_ENTRIES.iter().filter(|entry| entry.menu == menu) {
@@ -31,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, state: Option<&SceneState>, title: &str) -> Opti
                     let (enabled, checked) =
                         (enabled(entry.intent, state), checked(entry.intent, state));
                     let keys = entry.shortcut_text(ui.ctx());
-                    let response = menu_item::show(ui, entry.name, &keys, enabled, checked);
+                    let response = menu_item::show(ui, tr(entry.name), &keys, enabled, checked);
                     if response.on_hover_ui(|ui| tip(ui, entry)).clicked() {
                         clicked = Some(entry.intent);
                         ui.close();

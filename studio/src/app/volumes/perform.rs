@@ -10,6 +10,7 @@ use super::intent::SceneIntent;
 use super::menus::enabled;
 use super::workspace::Volumes;
 use crate::keymap::{KeyTable, installed};
+use crate::language::{tr, tr_format};
 use crate::panels::volumes::{SceneExport, SceneFileRequest};
 
 /// Factor of the rate for one key press.
@@ -137,17 +138,17 @@ impl Volumes {
         let [least, most] = RATES;
         let rate = &mut self.tools.grip.rate_mm3_s;
         *rate = (*rate * factor).clamp(least, most);
-        let text = format!("pours {rate:.0} mm3 a second");
+        let text = tr_format!("pours {rate:.0} mm3 a second", rate);
         self.say(text);
     }
 
     /// Tells what volumes show from now on.
     fn tell_inside(&mut self, inside: Inside) {
         self.say(match inside {
-            Inside::OwnColours => "inside: the subject's own colours".to_owned(),
-            Inside::Glaze => "inside: a glaze of the poured pigments".to_owned(),
-            Inside::Both => "inside: the pigments over the subject's own colours".to_owned(),
-            Inside::ByRegion => "inside: what the script names for each region".to_owned(),
+            Inside::OwnColours => tr("inside: the subject's own colours").to_owned(),
+            Inside::Glaze => tr("inside: a glaze of the poured pigments").to_owned(),
+            Inside::Both => tr("inside: the pigments over the subject's own colours").to_owned(),
+            Inside::ByRegion => tr("inside: what the script names for each region").to_owned(),
         });
     }
 }

@@ -6,13 +6,14 @@ use eframe::egui::{Align, Label, Layout, RichText, Ui};
 use session::volumes::SceneState;
 
 use super::workspace::Volumes;
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 impl Volumes {
     /// Draws the status line.
     pub(super) fn status_line(&self, ui: &mut Ui) {
         let Some(state) = &self.state else {
-            ui.weak("preparing the scene");
+            ui.weak(tr("preparing the scene"));
             return;
         };
         let faint = theme::colors(ui.ctx()).faint;
@@ -20,22 +21,22 @@ impl Volumes {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 14.0;
             if state.time.playing {
-                let speed = format!("{:.0} % of real time", 100.0 * state.time.speed);
-                ui.label(small(&speed)).on_hover_text("Speed of time over the last second");
+                let speed = tr_format!("{speed:.0} % of real time", speed = 100.0 * state.time.speed);
+                ui.label(small(&speed)).on_hover_text(tr("Speed of time over the last second"));
             }
             let moves = self.shown_at.is_some_and(|at| at.elapsed() < Duration::from_secs(1));
             let rate = if moves { self.frames.rate().frames_a_second } else { 0.0 };
-            ui.label(small(&format!("{rate:.0} pictures/s")))
-                .on_hover_text("Pictures drawn in the last second; none while the scene rests");
+            ui.label(small(&tr_format!("{rate:.0} pictures/s", rate)))
+                .on_hover_text(tr("Pictures drawn in the last second; none while the scene rests"));
             ui.label(small(&paint_text(state)))
-                .on_hover_text("Paint poured, on the surfaces, taken up, and left in the tubes");
+                .on_hover_text(tr("Paint poured, on the surfaces, taken up, and left in the tubes"));
             ui.label(small(&volumes_text(state)))
-                .on_hover_text("Volumes of paint, and the particles of all of them");
+                .on_hover_text(tr("Volumes of paint, and the particles of all of them"));
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 if state.prepares {
                     ui.spinner();
-                    ui.label("mixing the paint").on_hover_text(
-                        "The pigments are prepared for the picture, which shows them when it is done",
+                    ui.label(tr("mixing the paint")).on_hover_text(
+                        tr("The pigments are prepared for the picture, which shows them when it is done"),
                     );
                 }
                 let message = self.message.as_ref();
@@ -52,8 +53,10 @@ impl Volumes {
 /// Where the paint is.
 fn paint_text(state: &SceneState) -> String {
     let tally = &state.tally;
-    let mut text = format!("{} poured", cubic(tally.poured_mm3));
-    for (amount, what) in [(tally.lifted_mm3, "taken up"), (tally.left_mm3, "left in the tubes")] {
+    let mut text = tr_format!("{poured_mm3} poured", poured_mm3 = cubic(tally.poured_mm3));
+    for (amount, what) in
+        [(tally.lifted_mm3, tr("taken up")), (tally.left_mm3, tr("left in the tubes"))]
+    {
         if amount > 0.0 {
             text.push_str(&format!(", {} {what}", cubic(amount)));
         }
@@ -63,8 +66,8 @@ fn paint_text(state: &SceneState) -> String {
 
 fn volumes_text(state: &SceneState) -> String {
     match state.tally.volumes {
-        1 => "1 volume".to_owned(),
-        count => format!("{count} volumes"),
+        1 => tr("1 volume").to_owned(),
+        count => tr_format!("{count} volumes", count),
     }
 }
 

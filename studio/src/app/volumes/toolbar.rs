@@ -7,6 +7,7 @@ use super::entries::tip;
 use super::icons;
 use super::intent::{SceneEntry, SceneIntent};
 use super::menus::enabled;
+use crate::language::tr;
 use crate::theme;
 
 /// Buttons in groups.
@@ -56,7 +57,8 @@ fn button(ui: &mut Ui, intent: SceneIntent, chosen: bool, enabled: bool) -> bool
         let side = ui.available_width();
         let (rect, response) =
             ui.allocate_exact_size(theme::at_least(ui, vec2(side, 30.0)), Sense::click());
-        response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, entry.name));
+        response
+            .widget_info(|| WidgetInfo::selected(Role::Button, enabled, chosen, tr(entry.name)));
         let visuals = ui.style().interact(&response);
         let fill = match (chosen, response.hovered()) {
             (true, _) => theme::colors(ui.ctx()).chosen,

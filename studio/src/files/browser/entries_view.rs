@@ -12,6 +12,7 @@ use super::listing::Entry;
 use super::state::{Answer, Browser};
 use super::thumbnails::{Thumbnail, Thumbnails};
 use crate::files::age::{ago, size};
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Height of a row of the list, in points.
@@ -62,9 +63,12 @@ impl Browser {
                             self.row(ui, entry, thumbnails)
                         };
                         let clicked = clicked.on_hover_text(if entry.folder {
-                            "Double click to open the folder".to_owned()
+                            tr("Double click to open the folder").to_owned()
                         } else {
-                            format!("{}\nDouble click to choose this file", entry.name)
+                            tr_format!(
+                                "{name}\nDouble click to choose this file",
+                                name = entry.name
+                            )
                         });
                         if clicked.clicked() {
                             self.select(entry);
@@ -78,9 +82,9 @@ impl Browser {
         });
         if entries.is_empty() {
             let empty = match (self.update(), self.typed_filter.trim()) {
-                (true, _) => "Reading ...",
-                (false, "") => "No files of this kind",
-                (false, _) => "No names with these letters",
+                (true, _) => tr("Reading ..."),
+                (false, "") => tr("No files of this kind"),
+                (false, _) => tr("No names with these letters"),
             };
             ui.put(ui.min_rect().shrink(8.0), Label::new(RichText::new(empty).weak()));
         }

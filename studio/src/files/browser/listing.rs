@@ -5,6 +5,7 @@ use std::time::SystemTime;
 
 use crate::files::job::{JobError, Progress};
 use crate::files::problem::Problem;
+use crate::language::english;
 
 /// Maximum number of entries that are listed.
 const MAX_ENTRIES: usize = 20_000;
@@ -33,7 +34,7 @@ pub(crate) struct Filter {
 
 impl Filter {
     /// Accepts all files.
-    pub(crate) const ALL: Self = Self { label: "All files", endings: &[] };
+    pub(crate) const ALL: Self = Self { label: english("All files"), endings: &[] };
 
     /// Whether a file of this name is shown.
     #[must_use]
@@ -112,7 +113,7 @@ mod tests {
 
     #[test]
     fn a_filter_tests_only_the_extension() {
-        let filter = Filter { label: "Paintings", endings: &["exr"] };
+        let filter = Filter { label: english("Paintings"), endings: &["exr"] };
         for (name, passes) in [("a.exr", true), ("A.EXR", true), ("exr", false), ("a.png", false)] {
             assert_eq!(filter.passes(name), passes, "{name}");
             assert!(Filter::ALL.passes(name), "{name}");

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use directories::UserDirs;
 
+use crate::language::english;
+
 /// Most folders of recent files.
 const MOST_FOLDERS: usize = 6;
 
@@ -42,8 +44,12 @@ pub(super) fn places(lately: &[PathBuf]) -> Vec<PlaceFolder> {
     let own = dirs.as_ref().map_or([None; 4], |dirs| {
         [dirs.desktop_dir(), dirs.document_dir(), dirs.picture_dir(), dirs.download_dir()]
     });
-    add(&mut found, PlaceKind::Own, "Home", &home);
-    for (name, path) in ["Desktop", "Documents", "Pictures", "Downloads"].into_iter().zip(own) {
+    add(&mut found, PlaceKind::Own, english("Home"), &home);
+    for (name, path) in
+        [english("Desktop"), english("Documents"), english("Pictures"), english("Downloads")]
+            .into_iter()
+            .zip(own)
+    {
         if let Some(path) = path {
             add(&mut found, PlaceKind::Own, name, path);
         }

@@ -6,6 +6,7 @@ use eframe::egui::{Button, RichText, ScrollArea, Ui, vec2};
 
 use super::places::PlaceKind;
 use super::state::{Answer, Browser};
+use crate::language::tr;
 
 /// Width of the column, in points.
 pub(super) const WIDTH: f32 = 160.0;
@@ -30,10 +31,12 @@ impl Browser {
         for place in self.places.clone() {
             if place.kind != kind {
                 kind = place.kind;
-                heading(ui, if kind == PlaceKind::Drive { "Drives" } else { "Folders" });
+                heading(ui, if kind == PlaceKind::Drive { tr("Drives") } else { tr("Folders") });
             }
             let here = place.path == self.folder;
-            let button = ui.add(place_button(&place.name, here));
+            // The names of places are found on another thread, in English.
+            let name = if kind == PlaceKind::Own { tr(&place.name) } else { &place.name };
+            let button = ui.add(place_button(name, here));
             if button.on_hover_text(place.path.display().to_string()).clicked() {
                 self.go(place.path);
             }
@@ -43,7 +46,7 @@ impl Browser {
     fn recent_files(&mut self, ui: &mut Ui) -> Option<Answer> {
         let mut answer = None;
         if !self.recent.is_empty() {
-            heading(ui, "Recent files");
+            heading(ui, tr("Recent files"));
         }
         for path in self.recent.clone() {
             let name = path.file_name().map(|name| name.to_string_lossy().into_owned());

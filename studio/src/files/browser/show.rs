@@ -14,6 +14,7 @@ use super::state::{Answer, Browser};
 use super::thumbnails::Thumbnails;
 use crate::files::browser_look::BrowserOrder;
 use crate::files::default_button;
+use crate::language::{tr, tr_format};
 
 const WIDTH: f32 = 860.0;
 const HEIGHT: f32 = 440.0;
@@ -63,13 +64,13 @@ impl Browser {
     fn path_line(&mut self, ui: &mut Ui) -> Option<Answer> {
         let mut answer = None;
         ui.horizontal(|ui| {
-            let up = ui.button("Up").on_hover_text("The folder above (Backspace)");
+            let up = ui.button(tr("Up")).on_hover_text(tr("The folder above (Backspace)"));
             if up.clicked() {
                 self.up();
             }
             let edit = TextEdit::singleline(&mut self.typed_folder).desired_width(f32::INFINITY);
-            let typed = ui.add(edit).accessible_name("Folder");
-            let typed = typed.on_hover_text("The folder; Enter opens what is typed");
+            let typed = ui.add(edit).accessible_name(tr("Folder"));
+            let typed = typed.on_hover_text(tr("The folder; Enter opens what is typed"));
             if typed.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
                 answer = self.enter_typed();
             }
@@ -80,26 +81,26 @@ impl Browser {
     /// The letters that names must have, the order, and the form of the files.
     fn look_line(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
-            let edit = TextEdit::singleline(&mut self.typed_filter).hint_text("Filter by name");
-            let edit = ui.add(edit.desired_width(260.0)).accessible_name("Filter by name");
-            edit.on_hover_text(
+            let edit = TextEdit::singleline(&mut self.typed_filter).hint_text(tr("Filter by name"));
+            let edit = ui.add(edit.desired_width(260.0)).accessible_name(tr("Filter by name"));
+            edit.on_hover_text(tr(
                 "Shows only names with these letters; typing into the list does too",
-            );
+            ));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 for (grid, name, tip) in [
-                    (true, "Grid", "Shows the files as pictures"),
-                    (false, "List", "Shows the files in rows, with size and age"),
+                    (true, tr("Grid"), tr("Shows the files as pictures")),
+                    (false, tr("List"), tr("Shows the files in rows, with size and age")),
                 ] {
                     ui.selectable_value(&mut self.look.grid, grid, name).on_hover_text(tip);
                 }
                 ui.separator();
                 for (order, name, tip) in [
-                    (BrowserOrder::Date, "Date", "The file that changed last comes first"),
-                    (BrowserOrder::Name, "Name", "In the order of the names"),
+                    (BrowserOrder::Date, tr("Date"), tr("The file that changed last comes first")),
+                    (BrowserOrder::Name, tr("Name"), tr("In the order of the names")),
                 ] {
                     ui.selectable_value(&mut self.look.order, order, name).on_hover_text(tip);
                 }
-                ui.weak("Order");
+                ui.weak(tr("Order"));
             });
         });
     }
@@ -118,9 +119,9 @@ impl Browser {
         let mut answer = None;
         ui.horizontal(|ui| {
             if self.options.saving {
-                ui.label("Name");
+                ui.label(tr("Name"));
                 let edit = TextEdit::singleline(&mut self.name).desired_width(260.0);
-                let edit = ui.add(edit).on_hover_text("The file's name; Enter saves");
+                let edit = ui.add(edit).on_hover_text(tr("The file's name; Enter saves"));
                 if !std::mem::replace(&mut self.name_focused, true) {
                     edit.request_focus();
                     select_all(ui, edit.id, &self.name);
@@ -132,32 +133,33 @@ impl Browser {
                 if edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
                     answer = self.save();
                 }
-                let folder = ui.button("New folder");
-                if folder.on_hover_text("Creates a folder of this name and opens it").clicked() {
+                let folder = ui.button(tr("New folder"));
+                if folder.on_hover_text(tr("Creates a folder of this name and opens it")).clicked()
+                {
                     self.make_folder();
                 }
             }
             let filters = self.options.filters;
             if filters.len() > 1 {
-                let chosen = filters.get(self.filter).map_or("", |filter| filter.label);
+                let chosen = filters.get(self.filter).map_or("", |filter| tr(filter.label));
                 ComboBox::from_id_salt("kind")
                     .selected_text(chosen)
                     .show_ui(ui, |ui| {
                         for (index, filter) in filters.iter().enumerate() {
-                            ui.selectable_value(&mut self.filter, index, filter.label);
+                            ui.selectable_value(&mut self.filter, index, tr(filter.label));
                         }
                     })
                     .response
-                    .on_hover_text("Which files are shown");
+                    .on_hover_text(tr("Which files are shown"));
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let ready = self.options.saving || self.selected.is_some();
-                let verb = if self.options.saving { "Save" } else { "Open" };
+                let verb = if self.options.saving { tr("Save") } else { tr("Open") };
                 let accept = ui.add_enabled(ready, Button::new(verb).min_size(vec2(72.0, 0.0)));
-                if accept.on_hover_text("Choose this file (Enter)").clicked() {
+                if accept.on_hover_text(tr("Choose this file (Enter)")).clicked() {
                     answer = if self.options.saving { self.save() } else { self.enter() };
                 }
-                if ui.button("Cancel").on_hover_text("Choose no file (Esc)").clicked() {
+                if ui.button(tr("Cancel")).on_hover_text(tr("Choose no file (Esc)")).clicked() {
                     answer = Some(Answer::Cancelled);
                 }
             });
@@ -170,16 +172,16 @@ impl Browser {
         let mut answer = None;
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
         ui.horizontal(|ui| {
-            ui.label(format!("{} already exists.", name.unwrap_or_default()));
+            ui.label(tr_format!("{name} already exists.", name = name.unwrap_or_default()));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 // The button that changes nothing is where `Save` was, so that a second
                 // click replaces no file.
-                let keep = ui.button("Keep");
-                if keep.on_hover_text("Keeps the file; choose another name").clicked() {
+                let keep = ui.button(tr("Keep"));
+                if keep.on_hover_text(tr("Keeps the file; choose another name")).clicked() {
                     self.replacing = None;
                 }
-                let replace = ui.button("Replace");
-                if replace.on_hover_text("Replaces the file (Enter)").clicked() {
+                let replace = ui.button(tr("Replace"));
+                if replace.on_hover_text(tr("Replaces the file (Enter)")).clicked() {
                     answer = Some(Answer::File(path.to_owned()));
                 }
             });

@@ -8,6 +8,7 @@ use super::places::{PlaceFolder, folders_of, home_folder, places};
 use crate::files::browser_look::BrowserLook;
 use crate::files::job::{Job, JobError};
 use crate::files::problem::Problem;
+use crate::language::tr;
 
 /// Title, filters and purpose of a file browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -138,8 +139,9 @@ impl Browser {
         self.entries.clear();
         let (wake, read) = (self.wake.clone(), folder.clone());
         let wake = move || wake.request_repaint();
-        self.reading =
-            Some(Job::start("reading the folder", wake, move |progress| entries(&read, progress)));
+        self.reading = Some(Job::start(tr("reading the folder"), wake, move |progress| {
+            entries(&read, progress)
+        }));
         self.folder = folder;
     }
 
@@ -251,7 +253,7 @@ impl Browser {
     pub(crate) fn make_folder(&mut self) {
         let name = self.name.trim();
         let name = name.split('.').next().unwrap_or(name);
-        let folder = self.folder.join(if name.is_empty() { "New folder" } else { name });
+        let folder = self.folder.join(if name.is_empty() { tr("New folder") } else { name });
         match std::fs::create_dir(&folder) {
             Ok(()) => self.go(folder),
             Err(error) => self.problem = Some(Problem::io(&folder, "created", &error)),

@@ -11,6 +11,7 @@ use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use super::listing::Entry;
 use crate::files::job::Job;
 use crate::files::picture_file::{on_screen, read_picture};
+use crate::language::tr;
 
 /// Longest side of a picture, in pixels.
 const LONGEST: usize = 192;
@@ -92,7 +93,7 @@ impl Thumbnails {
     fn read(&mut self, context: &Context, path: PathBuf, stamp: Stamp) {
         let (wake, file) = (context.clone(), path.clone());
         let job = Job::start(
-            "reading a small picture",
+            tr("reading a small picture"),
             move || wake.request_repaint(),
             move |_| Ok(small_picture(&file)?),
         );

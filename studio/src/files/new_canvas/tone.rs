@@ -5,6 +5,8 @@ use pigment::library::PigmentLibrary;
 use render::paint::ground::{Primer, PrimerFilm, TonedPrimer};
 use spectra::color::{Adaptation, RgbSpace};
 
+use crate::language::english;
+
 /// A colour of a ground by name, made of the pigments of a library.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tone {
@@ -20,10 +22,15 @@ pub(crate) struct Tone {
 
 /// The tones that are offered. The library of the house has no earths, so that browns are mixed.
 pub(crate) const TONES: [Tone; 6] = [
-    Tone { name: "White", description: "The white priming, bare", parts: &[], height_mm: 0.0 },
     Tone {
-        name: "Warm grey",
-        description: "White with black and a little red and yellow, thick enough to hide",
+        name: english("White"),
+        description: english("The white priming, bare"),
+        parts: &[],
+        height_mm: 0.0,
+    },
+    Tone {
+        name: english("Warm grey"),
+        description: english("White with black and a little red and yellow, thick enough to hide"),
         parts: &[
             ("Zinc White", 40.0),
             ("Bone Black", 1.5),
@@ -33,26 +40,30 @@ pub(crate) const TONES: [Tone; 6] = [
         height_mm: 0.02,
     },
     Tone {
-        name: "Cool grey",
-        description: "White with black and a little blue, thick enough to hide",
+        name: english("Cool grey"),
+        description: english("White with black and a little blue, thick enough to hide"),
         parts: &[("Zinc White", 40.0), ("Bone Black", 1.5), ("Ultramarine", 0.4)],
         height_mm: 0.02,
     },
     Tone {
-        name: "Brown imprimatura",
-        description: "A thin film of black, yellow and red, in the place of raw umber",
+        name: english("Brown imprimatura"),
+        description: english("A thin film of black, yellow and red, in the place of raw umber"),
         parts: &[("Bone Black", 2.5), ("Chrome Yellow", 4.0), ("Vermilion", 2.0)],
         height_mm: 0.0008,
     },
     Tone {
-        name: "Golden imprimatura",
-        description: "A thin film of yellow with a little red and black, in the place of raw sienna",
+        name: english("Golden imprimatura"),
+        description: english(
+            "A thin film of yellow with a little red and black, in the place of raw sienna",
+        ),
         parts: &[("Chrome Yellow", 16.0), ("Vermilion", 3.0), ("Bone Black", 3.0)],
         height_mm: 0.0006,
     },
     Tone {
-        name: "Red ground",
-        description: "Vermilion broken with black and red lead, thick enough to hide, in the place of bole",
+        name: english("Red ground"),
+        description: english(
+            "Vermilion broken with black and red lead, thick enough to hide, in the place of bole",
+        ),
         parts: &[("Vermilion", 12.0), ("Bone Black", 1.0), ("Minium", 4.0)],
         height_mm: 0.02,
     },

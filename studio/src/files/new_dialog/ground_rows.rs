@@ -11,16 +11,17 @@ use super::mixture_rows;
 use crate::files::dialogs::grid_row;
 use crate::files::new_canvas::{TONES, Tone};
 use crate::files::work::file_name;
+use crate::language::tr;
 
 impl NewDialog {
     /// Adds the rows for the ground. Returns a request for a picture.
     pub(super) fn ground_rows(&mut self, ui: &mut Ui) -> Option<NewAnswer> {
         let mut answer = None;
-        grid_row(ui, "Ground", |ui| answer = self.kind(ui));
-        grid_row(ui, "Relief", |ui| self.relief(ui));
-        grid_row(ui, "Colour", |ui| self.tone(ui));
+        grid_row(ui, tr("Ground"), |ui| answer = self.kind(ui));
+        grid_row(ui, tr("Relief"), |ui| self.relief(ui));
+        grid_row(ui, tr("Colour"), |ui| self.tone(ui));
         self.own_tone(ui);
-        grid_row(ui, "First layer", |ui| {
+        grid_row(ui, tr("First layer"), |ui| {
             let chosen = self.first_layer(ui);
             answer = answer.or(chosen);
         });
@@ -29,10 +30,10 @@ impl NewDialog {
 
     fn kind(&mut self, ui: &mut Ui) -> Option<NewAnswer> {
         for (kind, name, tip) in [
-            (GroundKind::Linen, "Linen", "Primed linen in plain weave"),
-            (GroundKind::Panel, "Panel", "A primed panel, nearly flat"),
-            (GroundKind::Paper, "Paper", "Watercolour paper"),
-            (GroundKind::Wood, "Wood", "Varnished walnut"),
+            (GroundKind::Linen, tr("Linen"), tr("Primed linen in plain weave")),
+            (GroundKind::Panel, tr("Panel"), tr("A primed panel, nearly flat")),
+            (GroundKind::Paper, tr("Paper"), tr("Watercolour paper")),
+            (GroundKind::Wood, tr("Wood"), tr("Varnished walnut")),
         ] {
             let chosen = self.new.kind() == Some(kind);
             if ui.selectable_label(chosen, name).on_hover_text(tip).clicked() && !chosen {
@@ -40,8 +41,9 @@ impl NewDialog {
             }
         }
         let own = self.new.kind().is_none();
-        let picture = ui.selectable_label(own, "Picture\u{2026}").accessible_name("Relief picture");
-        let tip = "Takes the relief from the greys of a picture, white the highest";
+        let picture =
+            ui.selectable_label(own, tr("Picture\u{2026}")).accessible_name(tr("Relief picture"));
+        let tip = tr("Takes the relief from the greys of a picture, white the highest");
         picture.on_hover_text(tip).clicked().then_some(NewAnswer::Choose(CanvasPicture::Relief))
     }
 
@@ -49,20 +51,20 @@ impl NewDialog {
         let most = if self.new.kind().is_none() { 20.0 } else { 2.0 };
         let drag = DragValue::new(self.new.relief_mm()).range(0.0..=most).speed(0.005);
         let drag =
-            ui.add(drag.max_decimals(3).suffix(" mm")).accessible_name("Height of the relief");
-        drag.on_hover_text("From the hollows of the ground to its heights");
+            ui.add(drag.max_decimals(3).suffix(" mm")).accessible_name(tr("Height of the relief"));
+        drag.on_hover_text(tr("From the hollows of the ground to its heights"));
         if let GroundRelief::Linen(linen) = &mut self.new.canvas.ground.relief {
             let drag = DragValue::new(&mut linen.threads_per_cm).range(2.0..=60.0).speed(0.1);
-            let drag = ui.add(drag.max_decimals(1).suffix(" threads/cm"));
-            drag.accessible_name("Threads").on_hover_text("8 is coarse, 14 usual, 25 fine");
+            let drag = ui.add(drag.max_decimals(1).suffix(tr(" threads/cm")));
+            drag.accessible_name(tr("Threads")).on_hover_text(tr("8 is coarse, 14 usual, 25 fine"));
         }
         if let GroundRelief::Paper(paper) = &mut self.new.canvas.ground.relief {
             for (finish, name) in [
-                (PaperFinish::Rough, "Rough"),
-                (PaperFinish::ColdPressed, "Cold"),
-                (PaperFinish::HotPressed, "Hot"),
+                (PaperFinish::Rough, tr("Rough")),
+                (PaperFinish::ColdPressed, tr("Cold")),
+                (PaperFinish::HotPressed, tr("Hot")),
             ] {
-                let tip = "How it was pressed; this sets the height of its relief";
+                let tip = tr("How it was pressed; this sets the height of its relief");
                 if ui.selectable_label(paper.finish == finish, name).on_hover_text(tip).clicked() {
                     (paper.finish, paper.relief_mm) = (finish, finish.relief_mm());
                 }
@@ -72,8 +74,8 @@ impl NewDialog {
             ui.weak(file_name(Path::new(&picture.path))).on_hover_text(&picture.path);
         }
         if let Some(seed) = self.new.seed() {
-            let drag = ui.add(DragValue::new(seed).prefix("seed ")).accessible_name("Seed");
-            drag.on_hover_text("Each number gives another piece of the same ground");
+            let drag = ui.add(DragValue::new(seed).prefix(tr("seed "))).accessible_name(tr("Seed"));
+            drag.on_hover_text(tr("Each number gives another piece of the same ground"));
         }
     }
 
@@ -84,9 +86,9 @@ impl NewDialog {
         let primer = &mut self.new.canvas.ground.reflectance;
         let tone = Tone::of(primer.as_ref());
         let shown = match (tone, &primer) {
-            (Some(tone), _) => tone.name,
-            (None, Some(Primer::Toned(_))) => "Own film",
-            (None, _) => "Plain colour",
+            (Some(tone), _) => tr(tone.name),
+            (None, Some(Primer::Toned(_))) => tr("Own film"),
+            (None, _) => tr("Plain colour"),
         };
         let combo = ComboBox::from_id_salt("tone").selected_text(shown).width(170.0);
         let combo = combo.show_ui(ui, |ui| {
@@ -95,17 +97,17 @@ impl NewDialog {
                 let row = ui.add_enabled_ui(there, |ui| {
                     ui.horizontal(|ui| {
                         swatch(ui, color);
-                        ui.selectable_label(tone == Some(own), own.name)
+                        ui.selectable_label(tone == Some(own), tr(own.name))
                     })
                     .inner
                 });
-                if row.inner.on_hover_text(own.description).clicked() {
+                if row.inner.on_hover_text(tr(own.description)).clicked() {
                     *primer = own.primer();
                 }
             }
             let own_film = matches!(primer, Some(Primer::Toned(_))) && tone.is_none();
-            let row = ui.selectable_label(own_film, "Own film");
-            let tip = "A film of pigments of your own; begins with the tone that is chosen";
+            let row = ui.selectable_label(own_film, tr("Own film"));
+            let tip = tr("A film of pigments of your own; begins with the tone that is chosen");
             if row.on_hover_text(tip).clicked() && !own_film {
                 *primer = match primer.take() {
                     Some(Primer::Toned(mut toned)) => {
@@ -116,15 +118,15 @@ impl NewDialog {
                     _ => mixture_rows::first_film(&library),
                 };
             }
-            let row = ui.selectable_label(shown == "Plain colour", "Plain colour");
-            if row.on_hover_text("Any colour, without pigments").clicked() {
+            let row = ui.selectable_label(shown == tr("Plain colour"), tr("Plain colour"));
+            if row.on_hover_text(tr("Any colour, without pigments")).clicked() {
                 *primer = Some(mixture_rows::first_color());
             }
         });
         combo
             .response
-            .accessible_name("Colour of the ground")
-            .on_hover_text(tone.map_or("Colour of the priming", |tone| tone.description));
+            .accessible_name(tr("Colour of the ground"))
+            .on_hover_text(tone.map_or(tr("Colour of the priming"), |tone| tone.description));
     }
 
     /// Adds rows for a colour of the painter's own.
@@ -142,20 +144,20 @@ impl NewDialog {
     }
 
     fn first_layer(&mut self, ui: &mut Ui) -> Option<NewAnswer> {
-        let tip = "Lays the colours of a picture as a thin dry layer, mixed of the tubes";
+        let tip = tr("Lays the colours of a picture as a thin dry layer, mixed of the tubes");
         let choose = match &self.new.first_layer {
             None => {
-                ui.weak("none");
-                ui.button("Picture\u{2026}").accessible_name("First layer picture")
+                ui.weak(tr("none"));
+                ui.button(tr("Picture\u{2026}")).accessible_name(tr("First layer picture"))
             }
             Some(path) => {
                 let name = file_name(path);
                 ui.add(eframe::egui::Label::new(name).truncate())
                     .on_hover_text(path.display().to_string());
-                if ui.button("Remove").on_hover_text("Begins without a layer").clicked() {
+                if ui.button(tr("Remove")).on_hover_text(tr("Begins without a layer")).clicked() {
                     self.new.first_layer = None;
                 }
-                ui.button("Other\u{2026}").accessible_name("First layer picture")
+                ui.button(tr("Other\u{2026}")).accessible_name(tr("First layer picture"))
             }
         };
         choose.on_hover_text(tip).clicked().then_some(NewAnswer::Choose(CanvasPicture::FirstLayer))

@@ -6,6 +6,7 @@ use render::paint::ground::{ColorPrimer, Primer, PrimerFilm, TonedPrimer};
 use spectra::color::Rgb;
 
 use crate::files::dialogs::grid_row;
+use crate::language::{tr, tr_format};
 
 /// Most pigments of a film.
 const MOST_PIGMENTS: usize = 3;
@@ -26,16 +27,16 @@ pub(super) fn first_color() -> Primer {
 pub(super) fn film_rows(ui: &mut Ui, film: &mut PrimerFilm, library: &PigmentLibrary) {
     let names: Vec<String> = film.recipe.keys().cloned().collect();
     for (row, name) in names.iter().enumerate() {
-        grid_row(ui, if row == 0 { "Film" } else { "" }, |ui| {
+        grid_row(ui, if row == 0 { tr("Film") } else { "" }, |ui| {
             pigment(ui, row, film, name, library);
             if let Some(part) = film.recipe.get_mut(name) {
-                let drag = DragValue::new(part).range(0.0..=100.0).speed(0.1).suffix(" parts");
-                let drag = ui.add(drag).accessible_name(format!("Parts of {name}"));
-                drag.on_hover_text("Parts by volume of this pigment");
+                let drag = DragValue::new(part).range(0.0..=100.0).speed(0.1).suffix(tr(" parts"));
+                let drag = ui.add(drag).accessible_name(tr_format!("Parts of {name}", name));
+                drag.on_hover_text(tr("Parts by volume of this pigment"));
             }
             let remove = ui.add_enabled(names.len() > 1, Button::new("\u{2212}"));
-            let remove = remove.accessible_name(format!("Leave {name} out"));
-            if remove.on_hover_text("Leaves this pigment out").clicked() {
+            let remove = remove.accessible_name(tr_format!("Leave {name} out", name));
+            if remove.on_hover_text(tr("Leaves this pigment out")).clicked() {
                 film.recipe.remove(name);
             }
         });
@@ -43,16 +44,17 @@ pub(super) fn film_rows(ui: &mut Ui, film: &mut PrimerFilm, library: &PigmentLib
     grid_row(ui, "", |ui| {
         let mut microns = film.height_mm * 1000.0;
         let drag = DragValue::new(&mut microns).range(0.0..=500.0).speed(0.02).max_decimals(2);
-        let drag = ui.add(drag.suffix(" \u{b5}m")).accessible_name("Thickness of the film");
-        let tip = "Height of the dry paint without the medium that thinned it: 0.5 to 1 for an \
-                   imprimatura, 10 and more to hide the priming";
+        let drag = ui.add(drag.suffix(" \u{b5}m")).accessible_name(tr("Thickness of the film"));
+        let tip =
+            tr("Height of the dry paint without the medium that thinned it: 0.5 to 1 for an \
+                   imprimatura, 10 and more to hide the priming");
         if drag.on_hover_text(tip).changed() {
             film.height_mm = microns / 1000.0;
         }
         let more = film.recipe.len() < MOST_PIGMENTS;
         let next = library.pigments.iter().find(|p| !film.recipe.contains_key(&p.name));
         if let Some(next) = next.filter(|_| more)
-            && ui.button("Add pigment").on_hover_text("Mixes another one into it").clicked()
+            && ui.button(tr("Add pigment")).on_hover_text(tr("Mixes another one into it")).clicked()
         {
             film.recipe.insert(next.name.clone(), 1.0);
         }
@@ -72,7 +74,10 @@ fn pigment(ui: &mut Ui, row: usize, film: &mut PrimerFilm, name: &str, library: 
             }
         }
     });
-    combo.response.accessible_name(format!("Pigment {}", row + 1)).on_hover_text("A pigment of it");
+    combo
+        .response
+        .accessible_name(tr_format!("Pigment {row}", row = row + 1))
+        .on_hover_text(tr("A pigment of it"));
 }
 
 /// Adds the row of a plain colour.
@@ -80,7 +85,10 @@ pub(super) fn color_row(ui: &mut Ui, color: &mut ColorPrimer) {
     grid_row(ui, "", |ui| {
         let mut bytes = Rgb::from_hex(&color.rgb).map_or([200; 3], Rgb::to_bytes);
         let button = ui.color_edit_button_srgb(&mut bytes);
-        if button.on_hover_text("Colour in daylight; it becomes the smoothest spectrum").changed() {
+        if button
+            .on_hover_text(tr("Colour in daylight; it becomes the smoothest spectrum"))
+            .changed()
+        {
             let [red, green, blue] = bytes;
             color.rgb = format!("#{red:02x}{green:02x}{blue:02x}");
         }

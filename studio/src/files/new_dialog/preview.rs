@@ -15,6 +15,7 @@ use render::photograph::Picture;
 use crate::files::job::{Job, JobError};
 use crate::files::picture_file::on_screen;
 use crate::files::problem::Problem;
+use crate::language::tr;
 
 /// Columns and rows of cells of the piece.
 pub(super) const CELLS: [usize; 2] = [264, 200];
@@ -74,7 +75,7 @@ impl Preview {
         self.asked = Some((canvas.clone(), same));
         let (wake, canvas, light) = (context.clone(), canvas.clone(), light());
         let job = Job::start(
-            "the ground",
+            tr("the ground"),
             move || wake.request_repaint(),
             move |_| Ok(piece(&canvas, &light)?),
         );

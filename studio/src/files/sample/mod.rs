@@ -7,6 +7,7 @@ use render::paint::strokes::StrokeScript;
 use super::pending::{FileOrigin, PendingAction, Replacement};
 use super::problem::Problem;
 use super::state::Files;
+use crate::language::tr;
 use session::{Command, Pace};
 
 /// Two oranges and a lemon, in the Van Gogh oils.
@@ -14,7 +15,7 @@ const ORANGES: &[u8] = include_bytes!("oranges.json");
 
 /// The script of the sample painting.
 fn script() -> Result<StrokeScript, Problem> {
-    let read = StrokeScript::from_json("the sample painting", ORANGES);
+    let read = StrokeScript::from_json(tr("the sample painting"), ORANGES);
     read.map_err(|error| Problem::from_error(&error))
 }
 

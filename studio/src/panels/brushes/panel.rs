@@ -12,6 +12,7 @@ use super::swatch;
 use super::tip::TipPreview;
 use super::tool;
 use crate::keymap::hint;
+use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, button_background, item, percent, slider};
 use crate::panels::{PanelContext, tubes};
 use crate::theme;
@@ -99,20 +100,21 @@ impl Brushes {
             }
         });
         let selected = self.list.position(&cx.tools.brush);
-        let none = selected.is_none().then_some("no brush is selected");
+        let none = selected.is_none().then_some(tr("no brush is selected"));
         ui.horizontal_wrapped(|ui| {
-            let add = ui.menu_button("Add", |ui| self.add(ui, cx));
-            add.response.on_hover_text("Adds a clean brush to the list");
-            let tip = "Keeps this brush with its paint and selects a clean copy";
-            if button(ui, "Keep", tip, none) {
+            let add = ui.menu_button(tr("Add"), |ui| self.add(ui, cx));
+            add.response.on_hover_text(tr("Adds a clean brush to the list"));
+            let tip = tr("Keeps this brush with its paint and selects a clean copy");
+            if button(ui, tr("Keep"), tip, none) {
                 request = Some(ListRequest::Duplicate);
             }
-            if button(ui, "Rename", "Renames this brush in the list", none) {
+            if button(ui, tr("Rename"), tr("Renames this brush in the list"), none) {
                 request = selected.map(ListRequest::Rename);
             }
-            let last = (self.list.brushes.len() < 2).then_some("the last brush cannot be removed");
-            let tip = "Removes this brush from the list";
-            if button(ui, "Remove", tip, none.or(last)) {
+            let last =
+                (self.list.brushes.len() < 2).then_some(tr("the last brush cannot be removed"));
+            let tip = tr("Removes this brush from the list");
+            if button(ui, tr("Remove"), tip, none.or(last)) {
                 request = selected.map(ListRequest::Remove);
             }
         });
@@ -137,11 +139,12 @@ impl Brushes {
         let response = shown.show(ui, cx.painting);
         let mut request = response.clicked().then_some(ListRequest::Select(index));
         response.context_menu(|ui| {
-            if item(ui, "Rename", "Renames this brush in the list", None) {
+            if item(ui, tr("Rename"), tr("Renames this brush in the list"), None) {
                 request = Some(ListRequest::Rename(index));
             }
-            let last = (self.list.brushes.len() < 2).then_some("the last brush cannot be removed");
-            if item(ui, "Remove", "Removes this brush from the list", last) {
+            let last =
+                (self.list.brushes.len() < 2).then_some(tr("the last brush cannot be removed"));
+            if item(ui, tr("Remove"), tr("Removes this brush from the list"), last) {
                 request = Some(ListRequest::Remove(index));
             }
         });
@@ -152,8 +155,8 @@ impl Brushes {
         let Some((_, typed)) = &mut self.renaming else { return };
         let response = ui
             .add(TextEdit::singleline(typed).desired_width(f32::INFINITY).char_limit(40))
-            .accessible_name("Name of the brush")
-            .on_hover_text("Enter accepts the name, Escape cancels");
+            .accessible_name(tr("Name of the brush"))
+            .on_hover_text(tr("Enter accepts the name, Escape cancels"));
         let (enter, escape) =
             ui.input(|input| (input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)));
         if response.lost_focus() {
@@ -170,7 +173,7 @@ impl Brushes {
     fn add(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let size_mm = self.selected(cx).map_or(6.0, |spec| spec.size_mm);
         for shape in HeadShape::ALL {
-            if item(ui, shape.name(), "With the size of the selected brush", None) {
+            if item(ui, tr(shape.name()), tr("With the size of the selected brush"), None) {
                 self.list.add(shape.name(), BrushSpec { shape, size_mm }, cx);
             }
         }
@@ -178,7 +181,7 @@ impl Brushes {
 
     fn head(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let Some(spec) = self.selected(cx) else {
-            ui.weak("no brush is selected");
+            ui.weak(tr("no brush is selected"));
             return;
         };
         ui.horizontal_wrapped(|ui| {
@@ -190,12 +193,20 @@ impl Brushes {
             for shape in HeadShape::ALL {
                 let size = vec2(width, 44.0);
                 let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-                button_background(ui, &response, &format!("shape {shape}"), shape == spec.shape);
+                button_background(
+                    ui,
+                    &response,
+                    &tr_format!("shape {shape}", shape = tr(shape.name())),
+                    shape == spec.shape,
+                );
                 head::draw(ui.painter(), rect.shrink(3.0), shape, None);
                 if response.clicked() {
                     self.list.replace_head(BrushSpec { shape, ..spec.clone() }, cx);
                 }
-                response.on_hover_text(format!("{shape}; the brush keeps the mean of its paint"));
+                response.on_hover_text(tr_format!(
+                    "{shape}; the brush keeps the mean of its paint",
+                    shape = tr(shape.name())
+                ));
             }
         });
         self.tip.show(ui, &spec);
@@ -204,11 +215,13 @@ impl Brushes {
         let control = Slider::new(&mut size_mm, SIZES_MM).logarithmic(true).suffix(" mm");
         let control = control.max_decimals(2).update_while_editing(false);
         let keys = ["smaller", "larger"].map(|name| hint(ui.ctx(), name)).concat();
-        let tip = format!(
+        let tip = tr_format!(
             "Width of the head, {cells:.0} cells of the canvas; the brush keeps the mean of its paint\
-             {keys}"
+             {keys}",
+            cells,
+            keys
         );
-        let response = slider(ui, "Size", &tip, control);
+        let response = slider(ui, tr("Size"), &tip, control);
         if response.changed() {
             self.dragged_mm = Some(rounded(size_mm));
         }
@@ -221,37 +234,49 @@ impl Brushes {
     }
 
     fn paint(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
-        let none = self.selected(cx).is_none().then_some("no brush is selected");
+        let none = self.selected(cx).is_none().then_some(tr("no brush is selected"));
         let height = Slider::new(&mut cx.tools.load_mm, 0.02..=2.0).logarithmic(true);
-        let tip = "Height of paint that one load adds to the head";
-        slider(ui, "Load", tip, height.fixed_decimals(2).suffix(" mm"));
-        let tip = "Share of clear medium in a load: more makes the paint thinner and more transparent. \
-             Glazes take 98 to 99.9 %; click the number to type it";
-        percent(ui, "Medium", tip, &mut cx.tools.vehicle, 0.0..=100.0);
-        let tip = "Share of its paint that wiping leaves on the brush";
-        percent(ui, "Wipe to", tip, &mut cx.tools.wipe_keep, 0.0..=100.0);
+        let tip = tr("Height of paint that one load adds to the head");
+        slider(ui, tr("Load"), tip, height.fixed_decimals(2).suffix(" mm"));
+        let tip = tr(
+            "Share of clear medium in a load: more makes the paint thinner and more transparent. \
+             Glazes take 98 to 99.9 %; click the number to type it",
+        );
+        percent(ui, tr("Medium"), tip, &mut cx.tools.vehicle, 0.0..=100.0);
+        let tip = tr("Share of its paint that wiping leaves on the brush");
+        percent(ui, tr("Wipe to"), tip, &mut cx.tools.wipe_keep, 0.0..=100.0);
         ui.horizontal_wrapped(|ui| {
             if theme::is_touch(ui.ctx()) {
                 ui.spacing_mut().button_padding.x = 8.0;
             }
             let slot = cx.tools.tube;
             let held = cx.painting.slots.get(slot).copied().flatten();
-            let empty = held.is_none().then_some("no tube is selected");
+            let empty = held.is_none().then_some(tr("no tube is selected"));
             let name = held.map_or("", |pigment| cx.painting.library[pigment].name.as_str());
-            let tip = format!("Adds paint of the selected tube to the brush: {name}");
-            if button(ui, "Load from tube", &tip, none.or(empty)) {
+            let tip = tr_format!("Adds paint of the selected tube to the brush: {name}", name);
+            if button(ui, tr("Load from tube"), &tip, none.or(empty)) {
                 tubes::load(cx, slot);
             }
-            let tip = "Adds clear medium without pigment to the brush";
-            if button(ui, "Medium only", tip, none) {
+            let tip = tr("Adds clear medium without pigment to the brush");
+            if button(ui, tr("Medium only"), tip, none) {
                 load_medium(cx);
             }
-            let clean = (!is_loaded(cx)).then_some("the brush is clean");
+            let clean = (!is_loaded(cx)).then_some(tr("the brush is clean"));
             let [wipe_key, wash_key] = ["wipe", "wash"].map(|name| hint(ui.ctx(), name));
-            if button(ui, "Wipe", &format!("Removes paint with a rag{wipe_key}"), none.or(clean)) {
+            if button(
+                ui,
+                tr("Wipe"),
+                &tr_format!("Removes paint with a rag{wipe_key}", wipe_key),
+                none.or(clean),
+            ) {
                 wipe(cx);
             }
-            if button(ui, "Wash", &format!("Removes all paint{wash_key}"), none.or(clean)) {
+            if button(
+                ui,
+                tr("Wash"),
+                &tr_format!("Removes all paint{wash_key}", wash_key),
+                none.or(clean),
+            ) {
                 wash(cx);
             }
         });

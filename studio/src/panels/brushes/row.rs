@@ -4,6 +4,7 @@ use eframe::egui::{Align, Color32, Painter, Rect, Response, TextStyle, Ui, pos2,
 use render::paint::strokes::BrushSpec;
 
 use super::head;
+use crate::language::{brush_label, tr, tr_format};
 use crate::panels::controls::{millimetres, row};
 use crate::panels::fitted_text::{fits_on_a_line, text};
 use crate::theme;
@@ -27,7 +28,8 @@ pub(super) struct Row<'a> {
 impl Row<'_> {
     /// Draws the row, which can be clicked.
     pub(super) fn show(&self, ui: &mut Ui, painting: &PaintingState) -> Response {
-        let response = row(ui, HEIGHT, self.label, self.is_selected);
+        let label = brush_label(self.label);
+        let response = row(ui, HEIGHT, &label, self.is_selected);
         let inner = response.rect.shrink2(vec2(6.0, 3.0));
         let between = |left: f32, right: f32| {
             Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
@@ -48,19 +50,19 @@ impl Row<'_> {
         let words = between(inner.left() + 50.0, inner.right() - 84.0);
         let strong = theme::colors(ui.ctx()).strong;
         let (name, below) = words.split_top_bottom_at_fraction(0.55);
-        if fits_on_a_line(ui, name, TextStyle::Body, self.label) {
-            text(ui, name, Align::Min, TextStyle::Body, strong, self.label);
-            let kind = format!("{} {}", self.spec.shape, millimetres(self.spec.size_mm));
+        if fits_on_a_line(ui, name, TextStyle::Body, &label) {
+            text(ui, name, Align::Min, TextStyle::Body, strong, &label);
+            let kind = format!("{} {}", tr(self.spec.shape.name()), millimetres(self.spec.size_mm));
             text(ui, below, Align::Min, TextStyle::Small, faint, &kind);
         } else {
             // A long name takes the room of shape and size, which the tooltip tells.
-            text(ui, words, Align::Min, TextStyle::Body, strong, self.label);
+            text(ui, words, Align::Min, TextStyle::Body, strong, &label);
         }
         let (amount, bar) =
             between(inner.right() - 78.0, inner.right()).split_top_bottom_at_fraction(0.6);
         let amount_text = match self.state {
             Some(state) if state.amount_mm > 0.0 => millimetres(state.tip_mm),
-            _ => "clean".to_owned(),
+            _ => tr("clean").to_owned(),
         };
         text(ui, amount, Align::Max, TextStyle::Small, faint, &amount_text);
         if let Some(state) = self.state {
@@ -73,10 +75,15 @@ impl Row<'_> {
     fn tooltip(&self, painting: &PaintingState) -> String {
         let BrushSpec { shape, size_mm } = self.spec;
         let cells = size_mm / painting.cell_mm;
-        let head = format!("{shape}, {} ({cells:.0} cells)", millimetres(*size_mm));
+        let head = tr_format!(
+            "{shape}, {size} ({cells:.0} cells)",
+            shape = tr(shape.name()),
+            size = millimetres(*size_mm),
+            cells
+        );
         match self.state {
             Some(state) if state.amount_mm > 0.0 => format!("{head}\n{}", paint(painting, state)),
-            _ => format!("{head}\nclean"),
+            _ => tr_format!("{head}\nclean", head),
         }
     }
 }
@@ -84,9 +91,10 @@ impl Row<'_> {
 /// Describes the paint on a brush: `0.12 mm at the tip, 0.30 mm in all, 15 % medium: ..`.
 fn paint(painting: &PaintingState, state: &BrushState) -> String {
     let tip = millimetres(state.tip_mm);
-    let mut words = format!("{tip} at the tip, {} in all", millimetres(state.amount_mm));
+    let mut words =
+        tr_format!("{tip} at the tip, {amount} in all", tip, amount = millimetres(state.amount_mm));
     if state.vehicle > 0.0 {
-        words += &format!(", {:.0} % medium", 100.0 * state.vehicle);
+        words += &tr_format!(", {vehicle:.0} % medium", vehicle = 100.0 * state.vehicle);
     }
     let parts = painting.slots.iter().zip(state.parts).filter_map(|(slot, part)| {
         let name = &painting.library[(*slot)?].name;

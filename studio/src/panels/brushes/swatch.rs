@@ -5,6 +5,7 @@ use eframe::egui::{
     WidgetInfo, pos2, vec2,
 };
 
+use crate::language::{tr, tr_format};
 use crate::panels::controls::{millimetres, named_button};
 use crate::theme;
 use session::{BrushState, BrushSwatch, FilmColor};
@@ -22,7 +23,7 @@ pub(super) fn show(ui: &mut Ui, brush: Option<&BrushState>) -> bool {
     let swatch = brush.and_then(|brush| brush.swatch.as_deref());
     let size = vec2(ui.available_width(), HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Paint on the brush"));
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr("Paint on the brush")));
     match swatch {
         Some(swatch) => films(ui, rect, swatch),
         None => clean(ui, rect, brush),
@@ -59,7 +60,7 @@ fn clean(ui: &Ui, rect: Rect, brush: Option<&BrushState>) {
     let colors = theme::colors(ui.ctx());
     ui.painter().rect_filled(rect, 0.0, colors.well);
     let medium = brush.is_some_and(|brush| brush.amount_mm > 0.0);
-    let words = if medium { "medium only" } else { "the brush is clean" };
+    let words = if medium { tr("medium only") } else { tr("the brush is clean") };
     let font = eframe::egui::TextStyle::Body.resolve(ui.style());
     let middle = eframe::egui::Align2::CENTER_CENTER;
     ui.painter().text(rect.center(), middle, words, font, colors.faint);
@@ -70,38 +71,38 @@ fn tip(response: Response, swatch: &BrushSwatch) {
         let [l, a, b] = color.lab.to_array();
         format!("Lab {l:.1} {a:.1} {b:.1}")
     };
-    response.on_hover_text(format!(
-        "The paint at the tip, by its measured K and S under the light of the painting.\n\
-         Left: a film that hides, {}.\n\
-         Then the film as thick as the paint at the tip: over the ground, {}; over a black card, \
-         {}; over a white card, {}. Their bare edges show above and below.",
-        lab(swatch.opaque),
-        lab(swatch.over_ground),
-        lab(swatch.over_cards[0]),
-        lab(swatch.over_cards[1]),
-    ));
+    response.on_hover_text(tr_format!("The paint at the tip, by its measured K and S under the light of the painting.\n\
+         Left: a film that hides, {film}.\n\
+         Then the film as thick as the paint at the tip: over the ground, {ground}; over a black card, \
+         {black}; over a white card, {white}. Their bare edges show above and below.", film = lab(swatch.opaque), ground = lab(swatch.over_ground), black = lab(swatch.over_cards[0]), white = lab(swatch.over_cards[1])));
 }
 
 fn numbers(ui: &mut Ui, swatch: &BrushSwatch, brush: &BrushState) -> bool {
     let [l, a, b] = swatch.opaque.lab.to_array();
     let thickness = millimetres(swatch.thickness_mm);
-    let medium = format!("{thickness} at the tip, {:.0} % medium", 100.0 * brush.vehicle);
+    let medium = tr_format!(
+        "{thickness} at the tip, {vehicle:.0} % medium",
+        thickness,
+        vehicle = 100.0 * brush.vehicle
+    );
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         let lab = ui.monospace(format!("Lab {l:.1} {a:.1} {b:.1}"));
-        lab.on_hover_text("CIELAB of the film that hides, under the light of the painting");
-        let hides = ui.weak(format!("hides {:.0} %", 100.0 * swatch.contrast));
-        hides.on_hover_text(
+        lab.on_hover_text(tr("CIELAB of the film that hides, under the light of the painting"));
+        let hides =
+            ui.weak(tr_format!("hides {contrast:.0} %", contrast = 100.0 * swatch.contrast));
+        hides.on_hover_text(tr(
             "Contrast ratio of the film: its luminance over the black card relative to that over \
              the white one. From 98 % on it hides",
-        );
+        ));
     });
     let line = ui.horizontal(|ui| {
         let words = ui.weak(medium);
-        words.on_hover_text("Thickness of the film, and the share of clear medium on the brush");
+        words
+            .on_hover_text(tr("Thickness of the film, and the share of clear medium on the brush"));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let tip = "Keeps what the brush holds as a mixture in the panel Swatches";
-            named_button(ui, "Keep", "Keep this mixture", tip, None)
+            let tip = tr("Keeps what the brush holds as a mixture in the panel Swatches");
+            named_button(ui, tr("Keep"), tr("Keep this mixture"), tip, None)
         })
         .inner
     });

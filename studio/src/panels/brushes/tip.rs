@@ -7,12 +7,14 @@ use eframe::egui::{
 use render::paint::brush::ContactMark;
 use render::paint::strokes::BrushSpec;
 
+use crate::language::{english, tr};
 use crate::panels::controls::millimetres;
 use crate::panels::fitted_text::text;
 use crate::theme;
 
 /// Names and pressures of the marks: a light touch, a middle one, and all the way down.
-const PRESSURES: [(&str, f64); 3] = [("light", 0.15), ("middle", 0.5), ("full", 1.0)];
+const PRESSURES: [(&str, f64); 3] =
+    [(english("light"), 0.15), (english("middle"), 0.5), (english("full"), 1.0)];
 
 /// Most cells along a head: more would not be seen in the preview.
 const FINEST: f64 = 64.0;
@@ -51,7 +53,7 @@ impl TipPreview {
         let Some((_, marks)) = &self.shown else { return };
         let size = vec2(ui.available_width(), HEIGHT);
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Marks of the tip"));
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr("Marks of the tip")));
         let colors = theme::colors(ui.ctx());
         ui.painter().rect_filled(rect, theme::CORNER_RADIUS, colors.well);
         let field = vec2(rect.width() / PRESSURES.len() as f32, rect.height());
@@ -70,7 +72,7 @@ impl TipPreview {
                 let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
                 ui.painter().image(texture.id(), place, all, colors.text);
             }
-            let words = format!("{name} {}", millimetres(mark.size_mm[0]));
+            let words = format!("{} {}", tr(name), millimetres(mark.size_mm[0]));
             text(
                 ui,
                 label.shrink2(vec2(2.0, 0.0)),
@@ -80,10 +82,10 @@ impl TipPreview {
                 &words,
             );
         }
-        response.on_hover_text(
+        response.on_hover_text(tr(
             "Where the upright head touches a plane at light, middle and full pressure, all to one \
              scale, and how wide that is",
-        );
+        ));
     }
 }
 

@@ -3,6 +3,7 @@
 use eframe::egui::{Slider, Ui};
 use render::paint::strokes::{Action, LayerRef, MaskChange};
 
+use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, percent, slider};
 use crate::panels::{Mode, PanelContext};
 
@@ -10,21 +11,22 @@ use crate::panels::{Mode, PanelContext};
 pub(super) fn show(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     match cx.tools.mode {
         Mode::Blend => {
-            let tip = "How much blending mixes and moves the wet paint";
-            percent(ui, "Strength", tip, &mut cx.tools.blend_strength, 1.0..=100.0);
-            ui.weak("The head is clean; the paint of the brush stays on it");
+            let tip = tr("How much blending mixes and moves the wet paint");
+            percent(ui, tr("Strength"), tip, &mut cx.tools.blend_strength, 1.0..=100.0);
+            ui.weak(tr("The head is clean; the paint of the brush stays on it"));
         }
         Mode::Erase => {
-            let tip = "How much of the wet paint a rag takes; pressure takes more";
-            percent(ui, "Strength", tip, &mut cx.tools.erase_strength, 1.0..=100.0);
-            ui.weak("Dry layers stay as they are");
+            let tip = tr("How much of the wet paint a rag takes; pressure takes more");
+            percent(ui, tr("Strength"), tip, &mut cx.tools.erase_strength, 1.0..=100.0);
+            ui.weak(tr("Dry layers stay as they are"));
         }
         Mode::Scrape => {
             let height = Slider::new(&mut cx.tools.scrape_mm, 0.0..=2.0).suffix(" mm");
-            let tip = "Height of the blade over the ground: 0 scrapes down to it, and so does full \
-                 pressure";
-            slider(ui, "Height", tip, height.max_decimals(2).step_by(0.01));
-            ui.weak("Paint stays in the valleys of the ground");
+            let tip =
+                tr("Height of the blade over the ground: 0 scrapes down to it, and so does full \
+                 pressure");
+            slider(ui, tr("Height"), tip, height.max_decimals(2).step_by(0.01));
+            ui.weak(tr("Paint stays in the valleys of the ground"));
         }
         Mode::Mask => mask(ui, cx),
         _ => return,
@@ -35,32 +37,32 @@ pub(super) fn show(ui: &mut Ui, cx: &mut PanelContext<'_>) {
 fn mask(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     let covered = cx.painting.mask.as_ref().map(|mask| mask.covered);
     ui.label(covered.map_or_else(
-        || "No mask: draw one on the canvas, with shift a rectangle".to_owned(),
-        |covered| format!("{:.0} % of the canvas is covered", 100.0 * covered),
+        || tr("No mask: draw one on the canvas, with shift a rectangle").to_owned(),
+        |covered| tr_format!("{covered:.0} % of the canvas is covered", covered = 100.0 * covered),
     ));
-    let none = covered.is_none().then_some("there is no mask");
+    let none = covered.is_none().then_some(tr("there is no mask"));
     let mut change = None;
     ui.horizontal(|ui| {
-        let tip = "Covers what is open, and opens what is covered";
-        if button(ui, "Invert", tip, none) {
+        let tip = tr("Covers what is open, and opens what is covered");
+        if button(ui, tr("Invert"), tip, none) {
             change = Some(MaskChange::Inverse(true));
         }
-        if button(ui, "Take off", "Takes the mask off the canvas", none) {
+        if button(ui, tr("Take off"), tr("Takes the mask off the canvas"), none) {
             change = Some(MaskChange::Clear {});
         }
     });
-    ui.weak("Leave open only where there is:");
+    ui.weak(tr("Leave open only where there is:"));
     ui.horizontal_wrapped(|ui| {
-        let tip = "Locks the bare canvas: strokes change only cells that have paint now";
-        if button(ui, "Any paint", tip, None) {
+        let tip = tr("Locks the bare canvas: strokes change only cells that have paint now");
+        if button(ui, tr("Any paint"), tip, None) {
             change = Some(MaskChange::Painted {});
         }
-        if button(ui, "Wet paint", "Strokes change only cells that are wet now", None) {
+        if button(ui, tr("Wet paint"), tr("Strokes change only cells that are wet now"), None) {
             change = Some(MaskChange::Layer(LayerRef::Wet));
         }
         for layer in cx.painting.layers.iter().rev() {
             let name = layer.label();
-            let tip = format!("Strokes change only cells that have paint of {name}");
+            let tip = tr_format!("Strokes change only cells that have paint of {name}", name);
             if button(ui, &name, &tip, None) {
                 change = Some(MaskChange::Layer(LayerRef::Id(layer.id)));
             }

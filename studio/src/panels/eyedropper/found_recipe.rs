@@ -14,6 +14,7 @@ use super::super::controls::small_button;
 use super::super::laying::{keep, lay_on_palette};
 use super::swatch::swatch;
 use super::target::screen_rgb;
+use crate::language::{tr, tr_format};
 use crate::theme;
 use session::Command;
 
@@ -44,8 +45,8 @@ impl FoundRecipe<'_> {
             ui.vertical(|ui| {
                 ui.set_width(PATCH.x);
                 let colors = [target, screen_rgb(found.lab[0], white)];
-                let patch = swatch(ui, &format!("Colour {number}"), PATCH, &colors);
-                patch.on_hover_text("Left: target colour; right: colour of the recipe");
+                let patch = swatch(ui, &tr_format!("Colour {number}", number), PATCH, &colors);
+                patch.on_hover_text(tr("Left: target colour; right: colour of the recipe"));
                 match_quality(ui, found);
             });
             ui.vertical(|ui| {
@@ -59,34 +60,37 @@ impl FoundRecipe<'_> {
         let missing = self.missing(cx);
         let ready = missing.is_empty();
         ui.horizontal(|ui| {
-            let load = ui.add_enabled(ready, Button::new("Load brush"));
-            let load = load.accessible_name(format!("Load recipe {number}"));
+            let load = ui.add_enabled(ready, Button::new(tr("Load brush")));
+            let load = load.accessible_name(tr_format!("Load recipe {number}", number));
             let load = load
-                .on_hover_text("Adds this paint to the selected brush, as a tube does")
-                .on_disabled_hover_text("Some of its pigments are not on the palette");
+                .on_hover_text(tr("Adds this paint to the selected brush, as a tube does"))
+                .on_disabled_hover_text(tr("Some of its pigments are not on the palette"));
             if load.clicked() {
                 let vehicle = cx.tools.vehicle;
                 cx.load(self.parts(), vehicle);
             }
-            let lay = ui.add_enabled(ready, Button::new("Lay on palette"));
-            let lay = lay.accessible_name(format!("Lay recipe {number}"));
+            let lay = ui.add_enabled(ready, Button::new(tr("Lay on palette")));
+            let lay = lay.accessible_name(tr_format!("Lay recipe {number}", number));
             let lay = lay
-                .on_hover_text("Puts this paint on a free place of the palette")
-                .on_disabled_hover_text("Some of its pigments are not on the palette");
+                .on_hover_text(tr("Puts this paint on a free place of the palette"))
+                .on_disabled_hover_text(tr("Some of its pigments are not on the palette"));
             if lay.clicked() {
                 let vehicle = cx.tools.vehicle;
                 lay_on_palette(cx, self.parts(), vehicle);
             }
-            let kept = ui.button("Keep").accessible_name(format!("Keep recipe {number}"));
-            if kept.on_hover_text("Keeps this mixture in the panel Swatches").clicked() {
+            let kept =
+                ui.button(tr("Keep")).accessible_name(tr_format!("Keep recipe {number}", number));
+            if kept.on_hover_text(tr("Keeps this mixture in the panel Swatches")).clicked() {
                 let vehicle = cx.tools.vehicle;
                 keep(cx, self.parts(), vehicle);
             }
         });
         if !ready {
             let (count, of) = (missing.len(), found.shares.len());
-            let are = if count == 1 { "is" } else { "are" };
-            ui.weak(format!("{count} of {of} pigments {are} not on the palette"));
+            ui.weak(match count {
+                1 => tr_format!("1 of {of} pigments is not on the palette", of),
+                _ => tr_format!("{count} of {of} pigments are not on the palette", count, of),
+            });
         }
     }
 
@@ -142,17 +146,19 @@ impl FoundRecipe<'_> {
         let name = &self.library[pigment].name;
         let on_palette: Vec<PigmentId> = cx.painting.slots.iter().copied().flatten().collect();
         if on_palette.len() < SLOTS {
-            let add = ui.add(small_button(ui, "Add")).accessible_name(format!("Add {name}"));
-            let hover = format!("{name} is not on the palette. Click to put a tube of it there");
+            let add =
+                ui.add(small_button(ui, tr("Add"))).accessible_name(tr_format!("Add {name}", name));
+            let hover =
+                tr_format!("{name} is not on the palette. Click to put a tube of it there", name);
             if add.on_hover_text(hover).clicked() {
                 self.set_palette(cx, on_palette.iter().copied().chain([pigment]));
             }
             return;
         }
-        let menu = ui.menu_button("For\u{2026}", |ui| {
+        let menu = ui.menu_button(tr("For\u{2026}"), |ui| {
             for &other in on_palette.iter().filter(|&&other| !self.uses(other)) {
                 let line = ui.button(&self.library[other].name);
-                let hover = "Replaces it, unless wet paint of it is left";
+                let hover = tr("Replaces it, unless wet paint of it is left");
                 if line.on_hover_text(hover).clicked() {
                     let all =
                         on_palette.iter().map(|&one| if one == other { pigment } else { one });
@@ -161,9 +167,10 @@ impl FoundRecipe<'_> {
                 }
             }
         });
-        let menu = menu.response.accessible_name(format!("{name} in place of"));
-        menu.on_hover_text(format!(
-            "{name} is not on the palette, which is full: choose a pigment to replace"
+        let menu = menu.response.accessible_name(tr_format!("{name} in place of", name));
+        menu.on_hover_text(tr_format!(
+            "{name} is not on the palette, which is full: choose a pigment to replace",
+            name
         ));
     }
 
@@ -182,11 +189,11 @@ fn match_quality(ui: &mut Ui, found: &RecipeMatch) {
     let differences: Vec<String> =
         found.delta_e.iter().map(|difference| format!("{difference:.2}")).collect();
     ui.label(format!("\u{2206}E {}", differences.join(", "))).on_hover_text(
-        "CIEDE2000 difference from the target: below 1 is hardly visible; above 5 these pigments do \
-         not reach the colour",
+        tr("CIEDE2000 difference from the target: below 1 is hardly visible; above 5 these pigments do \
+         not reach the colour"),
     );
     if let Some(thickness) = found.thickness {
-        let thickness = ui.weak(format!("film {thickness:.3}"));
-        thickness.on_hover_text("Thickness of the film in units of the library");
+        let thickness = ui.weak(tr_format!("film {thickness:.3}", thickness));
+        thickness.on_hover_text(tr("Thickness of the film in units of the library"));
     }
 }

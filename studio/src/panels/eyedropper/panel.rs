@@ -12,6 +12,7 @@ use super::picked::show_picked;
 use super::search::SearchPanel;
 use super::swatch::swatch;
 use super::target::{Color, TargetColor};
+use crate::language::{tr, tr_format};
 
 /// State of the eyedropper panel: target colour, swatches and recipe search.
 #[derive(Debug, Default)]
@@ -65,17 +66,27 @@ impl Eyedropper {
         if cx.tools.reference_color != self.last_reference_color {
             self.last_reference_color = cx.tools.reference_color;
             if let Some(linear) = self.last_reference_color {
-                self.set_target(ui, cx, TargetColor::screen("From the reference picture", linear));
+                self.set_target(
+                    ui,
+                    cx,
+                    TargetColor::screen(tr("From the reference picture"), linear),
+                );
             }
         }
         pick_controls(ui, cx);
         match cx.tools.picked.clone() {
             None => {
-                ui.weak("Click with the eyedropper, or with Alt held, to pick colour and paint.");
+                ui.weak(tr(
+                    "Click with the eyedropper, or with Alt held, to pick colour and paint.",
+                ));
             }
             Some(picked) => {
                 if show_picked(ui, cx, &picked) {
-                    let name = format!("Picked at {:.1}, {:.1} mm", picked.x_mm, picked.y_mm);
+                    let name = tr_format!(
+                        "Picked at {x_mm:.1}, {y_mm:.1} mm",
+                        x_mm = picked.x_mm,
+                        y_mm = picked.y_mm
+                    );
                     let color = Color::Reflectance(Arc::new(picked.reflectance.clone()));
                     self.set_target(ui, cx, TargetColor { name, color });
                 }
@@ -91,32 +102,30 @@ impl Eyedropper {
         ui.horizontal(|ui| {
             if let Some(wanted) = &self.target {
                 let color = wanted.shown(grid, viewing);
-                let patch = swatch(ui, "Target colour", vec2(40.0, 22.0), &[color]);
+                let patch = swatch(ui, tr("Target colour"), vec2(40.0, 22.0), &[color]);
                 let [l, a, b] = wanted.lab(grid, viewing).to_array();
                 patch.on_hover_text(format!("{}: Lab {l:.2} {a:.2} {b:.2}", wanted.name));
             }
             let field = TextEdit::singleline(&mut self.text)
-                .hint_text("Target: #rrggbb or L,a,b")
+                .hint_text(tr("Target: #rrggbb or L,a,b"))
                 .desired_width(f32::INFINITY)
                 .align(Align2::LEFT_CENTER);
             let field = ui.add(field).on_hover_text(
-                "Target colour: sRGB as #rrggbb, or CIELAB as L,a,b under the light of the \
-                 painting. Enter searches recipes for it",
+                tr("Target colour: sRGB as #rrggbb, or CIELAB as L,a,b under the light of the \
+                 painting. Enter searches recipes for it"),
             );
             if field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
                 match TargetColor::from_text(&self.text) {
                     Some(wanted) => self.set_target(ui, cx, wanted),
                     None => {
                         let found = self.text.trim();
-                        self.fault = Some(format!(
-                            "A colour is #rrggbb or L,a,b, found `{found}`; try #4a7d8c or 52,-10,8"
-                        ));
+                        self.fault = Some(tr_format!("A colour is #rrggbb or L,a,b, found `{found}`; try #4a7d8c or 52,-10,8", found));
                     }
                 }
             }
         });
         if let Some(wanted) = &self.target {
-            ui.weak(&wanted.name).on_hover_text("Origin of the target colour");
+            ui.weak(&wanted.name).on_hover_text(tr("Origin of the target colour"));
         }
         if let Some(fault) = &self.fault {
             ui.label(fault);
@@ -135,7 +144,7 @@ impl Eyedropper {
             for one in &self.swatches {
                 let color = one.shown(grid, viewing);
                 let patch = swatch(ui, &one.name, vec2(18.0, 18.0), &[color]);
-                let hover = format!("{}. Click to search recipes for it", one.name);
+                let hover = tr_format!("{name}. Click to search recipes for it", name = one.name);
                 if patch.on_hover_text(hover).clicked() {
                     clicked = Some(one.clone());
                 }
@@ -150,18 +159,18 @@ impl Eyedropper {
 fn pick_controls(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     ui.horizontal(|ui| {
         let picking = cx.tools.mode == Mode::Pick;
-        let pick = ui.selectable_label(picking, "Eyedropper");
-        if pick.on_hover_text("A click picks colour and paint; also with Alt held").clicked() {
+        let pick = ui.selectable_label(picking, tr("Eyedropper"));
+        if pick.on_hover_text(tr("A click picks colour and paint; also with Alt held")).clicked() {
             cx.tools.mode = if picking { Mode::Paint } else { Mode::Pick };
         }
         let radius = DragValue::new(&mut cx.tools.pick_radius_mm)
             .range(0.0..=10.0)
             .speed(0.02)
             .fixed_decimals(1)
-            .prefix("radius ")
+            .prefix(tr("radius "))
             .suffix(" mm");
-        let radius = ui.add(radius).accessible_name("Radius of the eyedropper");
-        radius.on_hover_text("Radius of the averaged disc; 0 is one cell");
+        let radius = ui.add(radius).accessible_name(tr("Radius of the eyedropper"));
+        radius.on_hover_text(tr("Radius of the averaged disc; 0 is one cell"));
     });
 }
 
@@ -179,8 +188,8 @@ fn reader(path: &Path) -> Option<Reader> {
 
 fn colors(path: &Path) -> Result<SwatchFile, String> {
     let name = path.display().to_string();
-    let reader =
-        reader(path).ok_or_else(|| format!("{name}: expected a .gpl, .ase or .aco file"))?;
+    let reader = reader(path)
+        .ok_or_else(|| tr_format!("{name}: expected a .gpl, .ase or .aco file", name))?;
     let bytes = std::fs::read(path).map_err(|error| format!("{name}: {error}"))?;
     reader(&name, &bytes).map_err(|error| error.to_string())
 }

@@ -13,6 +13,7 @@ use super::layer_paint::LayerPaint;
 use super::swatch::swatch;
 use super::target::weights;
 use crate::chart::{Chart, Curve};
+use crate::language::{layer_label, tr, tr_format};
 use session::{Command, Picked};
 
 /// Draws colour, spectrum and layers of the picked place. Returns whether recipes for
@@ -22,33 +23,34 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
     let weights = weights(painting.library.grid, &painting.light.viewing);
     let appearance = Appearance::of(weights.xyz(&picked.reflectance), weights.white());
     ui.horizontal_top(|ui| {
-        let patch = swatch(ui, "Picked colour", vec2(68.0, 68.0), &[appearance.srgb]);
-        patch.on_hover_text("The colour as measured by an instrument: without relief and gloss");
+        let patch = swatch(ui, tr("Picked colour"), vec2(68.0, 68.0), &[appearance.srgb]);
+        patch
+            .on_hover_text(tr("The colour as measured by an instrument: without relief and gloss"));
         numbers(ui, &appearance, picked);
     });
     let library = &painting.library;
     let color = appearance.srgb.to_bytes();
-    let curve = Curve::new("reflectance", library.grid, &picked.reflectance).colored(color);
-    let chart = Chart { curves: &[curve], marks: &[], quantity: "reflectance", max: Some(1.0) };
+    let curve = Curve::new(tr("reflectance"), library.grid, &picked.reflectance).colored(color);
+    let chart = Chart { curves: &[curve], marks: &[], quantity: tr("reflectance"), max: Some(1.0) };
     let chart = chart.show(ui, vec2(ui.available_width(), 110.0));
-    chart.on_hover_text("Reflectance over wavelength at the picked place");
+    chart.on_hover_text(tr("Reflectance over wavelength at the picked place"));
     let paints: Vec<Option<LayerPaint>> = picked.layers.iter().map(LayerPaint::of).collect();
     if paints.iter().all(Option::is_none) {
-        ui.weak("Bare ground");
+        ui.weak(tr("Bare ground"));
     }
     for (picked, paint) in picked.layers.iter().zip(&paints).rev() {
         if let Some(paint) = paint {
             let known = (cx.painting.library.as_ref(), &cx.painting.medium);
-            layer(ui, known, &picked.label, paint);
+            layer(ui, known, &layer_label(&picked.label), paint);
         }
     }
     let mut recipes_requested = false;
     ui.horizontal(|ui| {
         let has_wet = paints.last().is_some_and(Option::is_some);
-        let load = ui.add_enabled(has_wet, Button::new("Load the brush"));
+        let load = ui.add_enabled(has_wet, Button::new(tr("Load the brush")));
         let load = load
-            .on_hover_text("Loads the selected brush with this wet paint")
-            .on_disabled_hover_text("There is no wet paint at this place");
+            .on_hover_text(tr("Loads the selected brush with this wet paint"))
+            .on_disabled_hover_text(tr("There is no wet paint at this place"));
         if load.clicked() {
             cx.command(Command::LoadPicked {
                 brush: cx.tools.brush.clone(),
@@ -57,19 +59,19 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
             });
         }
         let recipe = paints.last().and_then(Option::as_ref).map(|paint| paint.recipe(library));
-        let kept = ui.add_enabled(has_wet, Button::new("Keep"));
-        let kept = kept.accessible_name("Keep the picked paint");
+        let kept = ui.add_enabled(has_wet, Button::new(tr("Keep")));
+        let kept = kept.accessible_name(tr("Keep the picked paint"));
         let kept = kept
-            .on_hover_text("Keeps this wet mixture in the panel Swatches")
-            .on_disabled_hover_text("There is no wet paint at this place");
+            .on_hover_text(tr("Keeps this wet mixture in the panel Swatches"))
+            .on_disabled_hover_text(tr("There is no wet paint at this place"));
         if kept.clicked()
             && let Some((recipe, vehicle)) = recipe
         {
             keep(cx, recipe, vehicle);
         }
-        let find = ui.button("Find recipes");
+        let find = ui.button(tr("Find recipes"));
         recipes_requested =
-            find.on_hover_text("Searches recipes for the colour of this place").clicked();
+            find.on_hover_text(tr("Searches recipes for the colour of this place")).clicked();
     });
     recipes_requested
 }
@@ -78,21 +80,21 @@ fn numbers(ui: &mut Ui, appearance: &Appearance, picked: &Picked) {
     let three = |values: [f64; 3]| values.map(|value| format!("{value:.2}")).join(" ");
     let grid = Grid::new("picked numbers").num_columns(2).min_row_height(16.0);
     grid.spacing(vec2(8.0, 1.0)).show(ui, |ui| {
-        ui.weak("Lab").on_hover_text("CIELAB under the light of the painting");
+        ui.weak("Lab").on_hover_text(tr("CIELAB under the light of the painting"));
         ui.monospace(three(appearance.lab.to_array()));
         ui.end_row();
-        ui.weak("XYZ").on_hover_text("Tristimulus values, 100 for the white");
+        ui.weak("XYZ").on_hover_text(tr("Tristimulus values, 100 for the white"));
         ui.monospace(three(appearance.xyz.to_array()));
         ui.end_row();
-        ui.weak("sRGB").on_hover_text("As shown on the screen");
-        let note = if appearance.srgb.in_gamut() { "" } else { "  out of gamut" };
+        ui.weak("sRGB").on_hover_text(tr("As shown on the screen"));
+        let note = if appearance.srgb.in_gamut() { "" } else { tr("  out of gamut") };
         ui.monospace(format!("{}{note}", appearance.srgb.to_hex()));
         ui.end_row();
         let surface = match picked.surface {
-            SurfaceId::Canvas => "Canvas",
-            SurfaceId::Palette => "Palette",
+            SurfaceId::Canvas => tr("Canvas"),
+            SurfaceId::Palette => tr("Palette"),
         };
-        ui.weak(surface).on_hover_text("Where it was picked, from the upper left corner");
+        ui.weak(surface).on_hover_text(tr("Where it was picked, from the upper left corner"));
         ui.monospace(format!("{:.1}, {:.1} mm", picked.x_mm, picked.y_mm));
         ui.end_row();
     });
@@ -110,24 +112,28 @@ pub(in crate::panels) fn layer(
         ui.label(name);
         let mut details = format!("{:.3} mm", paint.thickness_mm);
         if paint.vehicle >= 0.005 {
-            details += &format!(", {:.0} % medium", 100.0 * paint.vehicle);
+            details += &tr_format!(", {vehicle:.0} % medium", vehicle = 100.0 * paint.vehicle);
         }
         if (paint.opacity - 1.0).abs() > 1e-9 {
-            details += &format!(", opacity {:.2}", paint.opacity);
+            details += &tr_format!(", opacity {opacity:.2}", opacity = paint.opacity);
         }
-        ui.weak(details).on_hover_text("Height of the paint, and how much of it is clear medium");
+        ui.weak(details)
+            .on_hover_text(tr("Height of the paint, and how much of it is clear medium"));
         if let Some(text) = paint.mix_text(library, medium) {
-            let copy = ui.add(small_button(ui, "Copy")).accessible_name(format!("Copy {name}"));
-            let hover = format!("Copies the recipe as `impasto mix LIBRARY` takes it:\n{text}");
+            let copy = ui
+                .add(small_button(ui, tr("Copy")))
+                .accessible_name(tr_format!("Copy {name}", name));
+            let hover =
+                tr_format!("Copies the recipe as `impasto mix LIBRARY` takes it:\n{text}", text);
             if copy.on_hover_text(hover).clicked() {
                 ui.ctx().copy_text(text);
             }
         }
     });
-    recipe(ui, &format!("parts of {name}"), &paint.lines(library));
+    recipe(ui, &tr_format!("parts of {name}", name), &paint.lines(library));
     if !paint.traces.is_empty() {
         let names = paint.traces.iter().map(|&trace| library[trace].name.as_str());
-        ui.weak(format!("traces of {}", names.collect::<Vec<_>>().join(", ")));
+        ui.weak(tr_format!("traces of {names}", names = names.collect::<Vec<_>>().join(", ")));
     }
 }
 

@@ -10,6 +10,7 @@ use spectra::{Observer, light_from_text};
 use super::super::context::PanelContext;
 use super::found_recipe::FoundRecipe;
 use super::target::{TargetColor, screen_rgb, weights};
+use crate::language::{tr, tr_format};
 use crate::recipe_search::{RecipeSearch, SearchRequest};
 use session::PaintingState;
 
@@ -104,7 +105,8 @@ impl SearchPanel {
         let mut restart = self.limits(ui, cx.painting);
         if let Some(share) = self.search.progress() {
             ui.horizontal(|ui| {
-                let cancel = ui.button("Cancel").on_hover_text("Ends the search for recipes");
+                let cancel =
+                    ui.button(tr("Cancel")).on_hover_text(tr("Ends the search for recipes"));
                 ui.add(ProgressBar::new(share as f32).show_percentage());
                 if cancel.clicked() {
                     self.search.cancel();
@@ -112,10 +114,11 @@ impl SearchPanel {
             });
             ui.ctx().request_repaint_after_secs(0.1);
         } else {
-            let find = ui.add_enabled(target_color.is_some(), Button::new("Find recipes for it"));
+            let find =
+                ui.add_enabled(target_color.is_some(), Button::new(tr("Find recipes for it")));
             let find = find
-                .on_hover_text("Searches the three best recipes for the target colour")
-                .on_disabled_hover_text("Choose a colour first");
+                .on_hover_text(tr("Searches the three best recipes for the target colour"))
+                .on_disabled_hover_text(tr("Choose a colour first"));
             restart |= find.clicked();
         }
         if let Some(target_color) = target_color.filter(|_| restart) {
@@ -128,28 +131,30 @@ impl SearchPanel {
     fn limits(&mut self, ui: &mut Ui, painting: &PaintingState) -> bool {
         let before = (self.whole_library, self.both_lights, self.parts);
         ui.horizontal(|ui| {
-            let palette = ui.radio_value(&mut self.whole_library, false, "Palette");
-            palette.on_hover_text("Mixes pigments that are on the palette");
-            let library = ui.radio_value(&mut self.whole_library, true, "Library");
-            library.on_hover_text("Mixes any pigments of the library");
+            let palette = ui.radio_value(&mut self.whole_library, false, tr("Palette"));
+            palette.on_hover_text(tr("Mixes pigments that are on the palette"));
+            let library = ui.radio_value(&mut self.whole_library, true, tr("Library"));
+            library.on_hover_text(tr("Mixes any pigments of the library"));
             let parts = DragValue::new(&mut self.parts)
                 .range(1..=60)
                 .speed(0.1)
                 .update_while_editing(false)
-                .suffix(" parts");
-            let parts = ui.add(parts).accessible_name("Parts at most");
-            parts.on_hover_text("Maximum sum of the whole parts of a recipe");
+                .suffix(tr(" parts"));
+            let parts = ui.add(parts).accessible_name(tr("Parts at most"));
+            parts.on_hover_text(tr("Maximum sum of the whole parts of a recipe"));
         });
         if painting.second_lighting.is_some() {
-            let both = ui.checkbox(&mut self.both_lights, "Under both lights");
-            both.on_hover_text("Recipes must match the colour under both lights of the split view");
+            let both = ui.checkbox(&mut self.both_lights, tr("Under both lights"));
+            both.on_hover_text(tr(
+                "Recipes must match the colour under both lights of the split view",
+            ));
         }
         before != (self.whole_library, self.both_lights, self.parts)
     }
 
     fn results(&self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         if self.search.crashed() {
-            ui.label("The search ended without a result.");
+            ui.label(tr("The search ended without a result."));
         }
         let painting = cx.painting;
         let Some(result) = self.search.result() else { return };
@@ -159,7 +164,10 @@ impl SearchPanel {
         }
         let (searched, current) = (&limits.conditions[0].viewing, &painting.light.viewing);
         if searched != current {
-            let note = format!("Found under {}, not the current light", searched.illuminant.name());
+            let note = tr_format!(
+                "Found under {name}, not the current light",
+                name = searched.illuminant.name()
+            );
             ui.weak(note);
         }
         let recipes = match &result.recipes {
@@ -170,7 +178,7 @@ impl SearchPanel {
             }
         };
         if recipes.is_empty() {
-            ui.label("No recipe fits; allow more parts.");
+            ui.label(tr("No recipe fits; allow more parts."));
         }
         let white = weights(library.grid, searched).white();
         let goal = screen_rgb(target.lab[0], white);

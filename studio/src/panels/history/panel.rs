@@ -7,6 +7,7 @@ use render::paint::strokes::Action;
 
 use super::pictures::{Pictures, fitted_size};
 use crate::keymap::hint;
+use crate::language::{action_label, tr, tr_format};
 use crate::panels::PanelContext;
 use crate::panels::controls::{button, row, row_height};
 use crate::panels::fitted_text::text;
@@ -63,8 +64,8 @@ impl History {
         list.show_rows(ui, high, count + 1, |ui, rows| {
             for index in rows {
                 let label = match index {
-                    0 => "beginning",
-                    _ => cx.painting.history[index - 1].as_str(),
+                    0 => tr("beginning"),
+                    _ => &action_label(&cx.painting.history[index - 1]),
                 };
                 let response = row(ui, high, &format!("{index} {label}"), index == done);
                 let color = if index > done {
@@ -94,9 +95,9 @@ impl History {
                     clicked = Some(index);
                 }
                 let tip = match index.cmp(&done) {
-                    std::cmp::Ordering::Less => "Undoes all later actions",
-                    std::cmp::Ordering::Equal => "Current state of the painting",
-                    std::cmp::Ordering::Greater => "Redoes all actions up to here",
+                    std::cmp::Ordering::Less => tr("Undoes all later actions"),
+                    std::cmp::Ordering::Equal => tr("Current state of the painting"),
+                    std::cmp::Ordering::Greater => tr("Redoes all actions up to here"),
                 };
                 response.on_hover_ui(|ui| {
                     ui.label(tip);
@@ -122,31 +123,41 @@ fn note(index: usize, painting: &PaintingState) -> Option<&'static str> {
     let shots = &painting.history_shots.shots;
     let before = shots.get(index.checked_sub(1)?)?.is_some();
     match shots.get(index)?.as_ref()?.changed {
-        Some(_) => Some("The outline holds what the action changed."),
-        None => before.then_some("The action changed nothing on the canvas."),
+        Some(_) => Some(tr("The outline holds what the action changed.")),
+        None => before.then_some(tr("The action changed nothing on the canvas.")),
     }
 }
 
 fn buttons(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     let (done, count) = (cx.painting.history_done, cx.painting.history.len());
     ui.horizontal(|ui| {
-        let disabled_reason = (done == 0).then_some("there is nothing to undo");
+        let disabled_reason = (done == 0).then_some(tr("there is nothing to undo"));
         let tip = match done {
-            0 => format!("Undoes the last action{}", hint(ui.ctx(), "undo")),
-            _ => format!("Undoes: {}{}", cx.painting.history[done - 1], hint(ui.ctx(), "undo")),
+            0 => tr_format!("Undoes the last action{hint}", hint = hint(ui.ctx(), "undo")),
+            _ => tr_format!(
+                "Undoes: {action}{hint}",
+                action = action_label(&cx.painting.history[done - 1]),
+                hint = hint(ui.ctx(), "undo")
+            ),
         };
-        if button(ui, "Undo", &tip, disabled_reason) {
+        if button(ui, tr("Undo"), &tip, disabled_reason) {
             cx.act(Action::Undo {});
         }
-        let disabled_reason = (done == count).then_some("there is nothing to redo");
+        let disabled_reason = (done == count).then_some(tr("there is nothing to redo"));
         let tip = match cx.painting.history.get(done) {
-            None => format!("Redoes the last undone action{}", hint(ui.ctx(), "redo")),
-            Some(label) => format!("Redoes: {label}{}", hint(ui.ctx(), "redo")),
+            None => {
+                tr_format!("Redoes the last undone action{hint}", hint = hint(ui.ctx(), "redo"))
+            }
+            Some(label) => tr_format!(
+                "Redoes: {action}{hint}",
+                action = action_label(label),
+                hint = hint(ui.ctx(), "redo")
+            ),
         };
-        if button(ui, "Redo", &tip, disabled_reason) {
+        if button(ui, tr("Redo"), &tip, disabled_reason) {
             cx.act(Action::Redo {});
         }
-        ui.weak(format!("{done} of {count}"));
+        ui.weak(tr_format!("{done} of {count}", done, count));
     });
 }
 
@@ -156,25 +167,25 @@ fn memory(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     let shots = &cx.painting.history_shots;
     let [pictures, most] = [shots.bytes, shots.most_bytes].map(|bytes| bytes as f64 / MIB);
     ui.add_space(4.0);
-    ui.weak(format!("Pictures take {pictures:.1} of {most:.0} MiB")).on_hover_text(
-        "Memory of the pictures in the list. When it is full, the oldest are dropped; their actions \
-         can still be undone.",
+    ui.weak(tr_format!("Pictures take {pictures:.1} of {most:.0} MiB", pictures, most)).on_hover_text(
+        tr("Memory of the pictures in the list. When it is full, the oldest are dropped; their actions \
+         can still be undone."),
     );
     ui.horizontal(|ui| {
         let used_text = format!("{:.0} MiB", used as f64 / MIB);
         let bar = ProgressBar::new(share).desired_width(ui.available_width() - 110.0);
         let bar = bar.desired_height(14.0).fill(theme::colors(ui.ctx()).chosen).text(used_text);
-        ui.add(bar).accessible_name("Memory of undo").on_hover_text(
+        ui.add(bar).accessible_name(tr("Memory of undo")).on_hover_text(tr(
             "Memory used by undo. When it is full, the oldest actions can no longer be undone.",
-        );
-        ui.label("of");
+        ));
+        ui.label(tr("of"));
         let mut mebibytes = allowed as f64 / MIB;
         let field = DragValue::new(&mut mebibytes).range(16.0..=1_048_576.0).speed(16.0);
         let field = field.clamp_existing_to_range(false);
         let response = ui
             .add(field.fixed_decimals(0).suffix(" MiB").update_while_editing(false))
-            .accessible_name("Memory allowed")
-            .on_hover_text("Memory limit of undo");
+            .accessible_name(tr("Memory allowed"))
+            .on_hover_text(tr("Memory limit of undo"));
         if response.changed() {
             cx.command(Command::SetUndoBytes((mebibytes * MIB).round() as u64));
         }

@@ -7,6 +7,7 @@ use render::paint::dry_layer::MAX_LAYER_NAME;
 use render::paint::strokes::{Action, LayerRef};
 use session::LayerState;
 
+use crate::language::{layer_label, tr_format};
 use crate::panels::PanelContext;
 
 /// The name that is being edited, if one is.
@@ -39,10 +40,12 @@ impl Naming {
             return;
         };
         let field = TextEdit::singleline(&mut edited.text);
-        let field = field.char_limit(MAX_LAYER_NAME).hint_text(format!("Layer {}", layer.id));
+        let field =
+            field.char_limit(MAX_LAYER_NAME).hint_text(layer_label(&format!("Layer {}", layer.id)));
         let mut output = field.desired_width(ui.available_width()).show(ui);
         let response = output.response.response;
-        let response = response.accessible_name(format!("name of {}", layer.label()));
+        let response = response
+            .accessible_name(tr_format!("name of {label}", label = layer_label(&layer.label())));
         if std::mem::take(&mut edited.fresh) {
             response.request_focus();
             let all = CCursorRange::two(CCursor::new(0), CCursor::new(edited.text.chars().count()));

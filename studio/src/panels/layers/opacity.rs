@@ -4,6 +4,7 @@ use eframe::egui::{Slider, SliderClamping, Ui};
 use render::paint::document::LayerId;
 use render::paint::strokes::{Action, LayerRef};
 
+use crate::language::{layer_label, tr, tr_format};
 use crate::panels::PanelContext;
 use crate::panels::controls::slider;
 use session::{Command, LayerState};
@@ -41,10 +42,12 @@ impl Opacity {
         let mut value = shown;
         let control = Slider::new(&mut value, 0.0..=4.0).logarithmic(true).smallest_positive(0.02);
         let control = control.clamping(SliderClamping::Edits).max_decimals(2);
-        let tip = "Factor of the layer's optical thickness: 1 as painted, 0 clear. A hidden layer \
-                   keeps it";
-        let response = slider(ui, "Opacity", tip, control.update_while_editing(false));
-        let response = response.accessible_name(format!("opacity of {}", state.label()));
+        let tip =
+            tr("Factor of the layer's optical thickness: 1 as painted, 0 clear. A hidden layer \
+                   keeps it");
+        let response = slider(ui, tr("Opacity"), tip, control.update_while_editing(false));
+        let response = response
+            .accessible_name(tr_format!("opacity of {label}", label = layer_label(&state.label())));
         let dragged = response.dragged();
         if value != shown {
             let action = Action::Opacity { layer: LayerRef::Id(layer), value };

@@ -13,6 +13,7 @@ use super::row::{RowLook, RowParts, row};
 use super::stiffness::stiffness;
 use super::thumbnails::Thumbnails;
 use crate::keymap::hint;
+use crate::language::{english, tr, tr_format};
 use crate::panels::PanelContext;
 use crate::panels::controls::{button, item, named_button, percent};
 use crate::panels::pending_value::PendingValue;
@@ -59,26 +60,26 @@ impl Layers {
         self.order.finish(ui, cx);
         self.rename_by_key(ui, cx);
         match cx.painting.layers.len() {
-            0 => _ = ui.weak("There is no dry paint yet."),
+            0 => _ = ui.weak(tr("There is no dry paint yet.")),
             1 => {}
             _ => self.merge_button(ui, cx),
         }
         self.thumbnails.keep(cx.painting.layers.iter().map(|layer| &layer.thumbnail));
         let context = ui.ctx().clone();
-        self.exchange.show(&context, "exchange in a layer", &catalogue, cx);
+        self.exchange.show(&context, tr("exchange in a layer"), &catalogue, cx);
     }
 
     fn wet(&mut self, ui: &mut Ui, catalogue: &Catalogue, cx: &mut PanelContext<'_>) {
         group(ui, |ui| {
             ui.horizontal(|ui| {
-                ui.label(RichText::new("Wet").strong());
+                ui.label(RichText::new(tr("Wet")).strong());
                 pigments(ui, catalogue, &cx.painting.slots);
             });
             stiffness(ui, cx, &mut self.stiffness);
             let first = cx.painting.slots.iter().flatten().next();
-            let none = first.is_none().then_some("the layer has no pigment");
-            let name = "exchange in the wet layer";
-            if named_button(ui, "Exchange pigment...", name, EXCHANGE, none) {
+            let none = first.is_none().then_some(tr("the layer has no pigment"));
+            let name = tr("exchange in the wet layer");
+            if named_button(ui, tr("Exchange pigment..."), name, tr(EXCHANGE), none) {
                 self.open_exchange(&cx.painting.slots, LayerRef::Wet);
             }
         });
@@ -137,11 +138,11 @@ impl Layers {
     fn merge_button(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let two = self.chosen.two();
         let disabled_reason = match two.and_then(|two| states(&cx.painting.layers, two)) {
-            None => Some("choose two layers: click one, Ctrl+click the other"),
+            None => Some(tr("choose two layers: click one, Ctrl+click the other")),
             Some([a, b]) => merge_obstacle(a, b),
         };
-        let tip = "Merges the two chosen layers into one, without a visible change";
-        if button(ui, "Merge chosen", tip, disabled_reason)
+        let tip = tr("Merges the two chosen layers into one, without a visible change");
+        if button(ui, tr("Merge chosen"), tip, disabled_reason)
             && let Some([layer, with]) = two
         {
             let (layer, with) = (LayerRef::Id(layer), Some(LayerRef::Id(with)));
@@ -156,7 +157,8 @@ impl Layers {
     }
 }
 
-const EXCHANGE: &str = "Replaces a pigment of this layer, as if painted with the other one";
+const EXCHANGE: &str =
+    english("Replaces a pigment of this layer, as if painted with the other one");
 
 /// Fills the menu of the dry layer `index`.
 fn menu(ui: &mut Ui, cx: &mut PanelContext<'_>, index: usize) -> Option<MenuChoice> {
@@ -165,44 +167,44 @@ fn menu(ui: &mut Ui, cx: &mut PanelContext<'_>, index: usize) -> Option<MenuChoi
     let layer = LayerRef::Id(state.id);
     let below = index.checked_sub(1).map(|below| &layers[below]);
     let obstacle = match below {
-        None => Some("there is no dry layer below it"),
+        None => Some(tr("there is no dry layer below it")),
         Some(below) => merge_obstacle(state, below),
     };
     let merge = Action::Merge { layer, with: below.map(|below| LayerRef::Id(below.id)) };
-    let empty = state.slots.iter().all(Option::is_none).then_some("the layer has no pigment");
-    let highest = (index == top).then_some("it is the topmost dry layer");
-    let lowest = (index == 0).then_some("it is the lowest layer");
+    let empty = state.slots.iter().all(Option::is_none).then_some(tr("the layer has no pigment"));
+    let highest = (index == top).then_some(tr("it is the topmost dry layer"));
+    let lowest = (index == 0).then_some(tr("it is the lowest layer"));
     let mut choice = None;
-    if item(ui, "Rename (F2)", "Edits the name of this layer", None) {
+    if item(ui, tr("Rename (F2)"), tr("Edits the name of this layer"), None) {
         choice = Some(MenuChoice::Rename);
     }
-    let up = "Lays this film over the next one above; wet paint stays above all";
-    if item(ui, "Move up", up, highest) {
+    let up = tr("Lays this film over the next one above; wet paint stays above all");
+    if item(ui, tr("Move up"), up, highest) {
         cx.act(Action::Order { layer, to: index + 1 });
     }
-    if item(ui, "Move down", "Lays this film under the next one below", lowest) {
+    if item(ui, tr("Move down"), tr("Lays this film under the next one below"), lowest) {
         cx.act(Action::Order { layer, to: index - 1 });
     }
-    let tip = "Merges this layer with the one below, without a visible change";
-    if item(ui, "Merge down", tip, obstacle) {
+    let tip = tr("Merges this layer with the one below, without a visible change");
+    if item(ui, tr("Merge down"), tip, obstacle) {
         cx.act(merge);
     }
-    if item(ui, "Exchange pigment...", EXCHANGE, empty) {
+    if item(ui, tr("Exchange pigment..."), tr(EXCHANGE), empty) {
         choice = Some(MenuChoice::Exchange);
     }
     choice
 }
 
 fn drying(ui: &mut Ui, cx: &mut PanelContext<'_>) {
-    let tip = "Share of the wet paint that dries, from the bottom up";
-    percent(ui, "Share", tip, &mut cx.tools.dry_share, 1.0..=100.0);
+    let tip = tr("Share of the wet paint that dries, from the bottom up");
+    percent(ui, tr("Share"), tip, &mut cx.tools.dry_share, 1.0..=100.0);
     ui.horizontal(|ui| {
         let key = hint(ui.ctx(), "dry");
-        let tip = &format!("Dries that share of the wet paint into a new dry layer{key}");
-        if button(ui, "Dry share", tip, None) {
+        let tip = &tr_format!("Dries that share of the wet paint into a new dry layer{key}", key);
+        if button(ui, tr("Dry share"), tip, None) {
             dry(cx);
         }
-        if button(ui, "Dry all", "Dries all wet paint into a new dry layer", None) {
+        if button(ui, tr("Dry all"), tr("Dries all wet paint into a new dry layer"), None) {
             cx.act(Action::Dry { fraction: 1.0 });
         }
     });
@@ -215,7 +217,7 @@ fn states(layers: &[LayerState], ids: [LayerId; 2]) -> Option<[&LayerState; 2]> 
 
 /// Reason why two dry layers cannot be merged, if it is known before the paint is compared.
 fn merge_obstacle(a: &LayerState, b: &LayerState) -> Option<&'static str> {
-    (a.visible != b.visible).then_some("one of the two is hidden; show both, or hide both")
+    (a.visible != b.visible).then_some(tr("one of the two is hidden; show both, or hide both"))
 }
 
 fn group(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {

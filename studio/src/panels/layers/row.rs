@@ -12,6 +12,7 @@ use super::naming::Naming;
 use super::opacity::Opacity;
 use super::pigments::pigments;
 use super::thumbnails::Thumbnails;
+use crate::language::{layer_label, tr, tr_format};
 use crate::panels::PanelContext;
 use crate::panels::controls::millimetres;
 use crate::panels::pigments::Catalogue;
@@ -83,7 +84,7 @@ pub(super) fn row(
         })
     });
     let name = drawn.inner.inner;
-    let label = format!("choose {}", state.label());
+    let label = tr_format!("choose {label}", label = layer_label(&state.label()));
     let info = || WidgetInfo::selected(Role::Button, true, look.chosen, &label);
     drawn.response.widget_info(info);
     DrawnRow { response: drawn.response, name }
@@ -96,7 +97,7 @@ fn header(
     state: &LayerState,
     menu: impl FnOnce(&mut Ui, &mut PanelContext<'_>),
 ) -> Option<Rect> {
-    let label = state.label();
+    let label = layer_label(&state.label());
     let line = ui.horizontal_top(|ui| {
         visibility(ui, cx, state);
         parts.thumbnails.show(ui, &state.thumbnail, THUMBNAIL.into());
@@ -115,21 +116,21 @@ fn header(
                 Some(name(ui, state))
             };
             let [mean, max] = [state.mean_mm, state.max_mm].map(millimetres);
-            let covers = format!("covers {:.0} %", 100.0 * state.coverage);
+            let covers = tr_format!("covers {coverage:.0} %", coverage = 100.0 * state.coverage);
             let figures = vec2(4.0, 0.0);
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = figures;
                 pigments(ui, parts.catalogue, &state.slots);
-                small(ui, covers).on_hover_text("Share of the canvas covered by this layer");
+                small(ui, covers).on_hover_text(tr("Share of the canvas covered by this layer"));
             });
-            small(ui, format!("{mean}, max {max}"))
-                .on_hover_text("Mean height where it has paint, and maximum height");
+            small(ui, tr_format!("{mean}, max {max}", mean, max))
+                .on_hover_text(tr("Mean height where it has paint, and maximum height"));
             name
         });
         let dots = Button::new("\u{2026}").min_size(Vec2::splat(theme::target(ui)));
         let (menu, _) = MenuButton::from_button(dots).ui(ui, |ui| menu(ui, cx));
-        menu.accessible_name(format!("menu of {label}"))
-            .on_hover_text("Renames, moves and merges this layer");
+        menu.accessible_name(tr_format!("menu of {label}", label))
+            .on_hover_text(tr("Renames, moves and merges this layer"));
         name.inner
     });
     line.inner
@@ -137,22 +138,27 @@ fn header(
 
 /// Draws the eye, which shows and hides the layer.
 fn visibility(ui: &mut Ui, cx: &mut PanelContext<'_>, state: &LayerState) {
-    let response = eye(ui, &format!("visibility of {}", state.label()), state.visible);
+    let response = eye(
+        ui,
+        &tr_format!("visibility of {label}", label = layer_label(&state.label())),
+        state.visible,
+    );
     if response.clicked() {
         let layer = LayerRef::Id(state.id);
         cx.act(Action::Visible { layer, value: !state.visible });
     }
-    let tip = if state.visible { "Hides this layer" } else { "Shows this layer again" };
-    response.on_hover_text(format!("{tip}; its opacity stays, and so does its relief"));
+    let tip = if state.visible { tr("Hides this layer") } else { tr("Shows this layer again") };
+    response.on_hover_text(tr_format!("{tip}; its opacity stays, and so does its relief", tip));
 }
 
 /// Draws the whole name, on several lines if it is long.
 fn name(ui: &mut Ui, state: &LayerState) -> Rect {
     let colors = theme::colors(ui.ctx());
     let color = if state.visible { colors.strong } else { colors.faint };
-    let text = RichText::new(state.label()).strong().color(color);
-    let tip = "Click chooses this layer, Ctrl+click a second one. Double click or F2 renames it. \
-               Drag it to another place.";
+    let text = RichText::new(layer_label(&state.label())).strong().color(color);
+    let tip =
+        tr("Click chooses this layer, Ctrl+click a second one. Double click or F2 renames it. \
+               Drag it to another place.");
     ui.add(Label::new(text).wrap()).on_hover_text(tip).rect
 }
 

@@ -3,6 +3,7 @@
 use eframe::egui::{Slider, Ui};
 use render::paint::strokes::Action;
 
+use crate::language::tr;
 use crate::panels::PanelContext;
 use crate::panels::controls::slider;
 use crate::panels::pending_value::{Edit, PendingValue};
@@ -14,8 +15,9 @@ pub(super) fn stiffness(ui: &mut Ui, cx: &mut PanelContext<'_>, pending: &mut Pe
     let near = |a: &f64, b: &f64| (a - b).abs() < 1e-3;
     let mut value = pending.shown(&cx.painting.medium.stiffness, near, now);
     let control = Slider::new(&mut value, 0.0..=1.0).fixed_decimals(2);
-    let tip = "How stiff the wet paint is, on canvas and palette: 0 is stand oil, which levels \
-               after a stroke, 0.7 paint from the tube, 1 putty, which stays as it is laid";
-    let response = slider(ui, "Stiffness", tip, control.update_while_editing(false));
+    let tip =
+        tr("How stiff the wet paint is, on canvas and palette: 0 is stand oil, which levels \
+               after a stroke, 0.7 paint from the tube, 1 putty, which stays as it is laid");
+    let response = slider(ui, tr("Stiffness"), tip, control.update_while_editing(false));
     pending.request(ui, cx, Edit::of(&response), Action::Stiffness { value }, value);
 }

@@ -9,6 +9,7 @@ use eframe::egui::{
 use spectra::color::Rgb;
 
 use super::super::pending_value::Edit;
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Minimum elevation of the light, in degrees.
@@ -86,7 +87,7 @@ pub(in crate::panels) fn direction_control(
     }
     response.widget_info(|| {
         let mut info =
-            WidgetInfo::slider(ui.is_enabled(), direction.azimuth_deg, "Light direction");
+            WidgetInfo::slider(ui.is_enabled(), direction.azimuth_deg, tr("Light direction"));
         info.current_text_value = Some(direction_text(*direction));
         info
     });
@@ -118,7 +119,7 @@ pub(in crate::panels) fn direction_control(
 /// Formats a direction such as 315 degrees, 50 degrees high.
 pub(in crate::panels) fn direction_text(direction: Direction) -> String {
     let Direction { azimuth_deg, elevation_deg } = direction;
-    format!("{azimuth_deg:.0}\u{b0}, {elevation_deg:.0}\u{b0} high")
+    tr_format!("{azimuth_deg:.0}\u{b0}, {elevation_deg:.0}\u{b0} high", azimuth_deg, elevation_deg)
 }
 
 /// Arrow key steps to the right and up in this frame.

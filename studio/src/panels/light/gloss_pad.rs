@@ -8,6 +8,7 @@ use render::optics::Gloss;
 use spectra::color::Rgb;
 
 use super::super::pending_value::Edit;
+use crate::language::tr_format;
 use crate::theme;
 
 /// Strength at the upper edge, as a share of a perfect white.
@@ -65,7 +66,11 @@ pub(super) fn gloss_pad(
 
 /// Formats a gloss: `strength 0.25, exponent 60`.
 pub(super) fn gloss_text(gloss: Gloss) -> String {
-    format!("strength {:.2}, exponent {:.0}", gloss.strength, gloss.exponent)
+    tr_format!(
+        "strength {strength:.2}, exponent {exponent:.0}",
+        strength = gloss.strength,
+        exponent = gloss.exponent
+    )
 }
 
 fn gloss_at(pad: Rect, place: Pos2) -> Gloss {

@@ -5,6 +5,7 @@ use spectra::{ColorTemperature, light_from_text};
 
 use super::picker::Picker;
 use super::temperature::Temperature;
+use crate::language::tr;
 
 /// Slider position for a light without a colour temperature, in kelvin.
 const USUAL_KELVIN: f64 = 6500.0;
@@ -39,7 +40,7 @@ impl IlluminantControl {
             self.known = (chosen.to_owned(), kelvin);
         }
         let picked = self.picker.show(ui, chosen);
-        picked.or(self.temperature.show(ui, self.temperature_name, self.known.1))
+        picked.or(self.temperature.show(ui, tr(self.temperature_name), self.known.1))
     }
 
     /// Name of the illuminant at the slider while it is being moved.

@@ -15,6 +15,7 @@ use super::labelled_slider::labelled_slider;
 use super::power_chart::power_chart;
 use super::white::White;
 use crate::files::FileRequest;
+use crate::language::{english, tr, tr_format};
 use crate::theme;
 use session::Command;
 
@@ -41,8 +42,11 @@ pub struct LightPanel {
 impl Default for LightPanel {
     fn default() -> Self {
         Self {
-            first: IlluminantControl::new("Illuminant", "Temperature"),
-            second: IlluminantControl::new("Second illuminant", "Second temperature"),
+            first: IlluminantControl::new(english("Illuminant"), english("Temperature")),
+            second: IlluminantControl::new(
+                english("Second illuminant"),
+                english("Second temperature"),
+            ),
             previous: TUNGSTEN.to_owned(),
             last_second: TUNGSTEN.to_owned(),
             lighting: PendingValue::default(),
@@ -74,8 +78,8 @@ impl LightPanel {
             self.set_lighting(ui, cx, Lighting { illuminant, ..lighting.clone() });
         }
         ui.horizontal(|ui| {
-            let lamp = ui.button("Measured lamp\u{2026}");
-            if lamp.on_hover_text("Paint under a lamp measured with an instrument").clicked() {
+            let lamp = ui.button(tr("Measured lamp\u{2026}"));
+            if lamp.on_hover_text(tr("Paint under a lamp measured with an instrument")).clicked() {
                 cx.file(FileRequest::OpenLamp);
             }
             let mut observer = lighting.observer.clone();
@@ -89,8 +93,8 @@ impl LightPanel {
                     line.on_hover_text(observer_description(one));
                 }
             });
-            let response = combo.response.accessible_name("Observer");
-            response.on_hover_text("CIE standard observer and its field of view");
+            let response = combo.response.accessible_name(tr("Observer"));
+            response.on_hover_text(tr("CIE standard observer and its field of view"));
             if observer != lighting.observer {
                 self.set_lighting(ui, cx, Lighting { observer, ..lighting.clone() });
             }
@@ -100,12 +104,13 @@ impl LightPanel {
     fn adaptation(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, mut lighting: Lighting) {
         let slider = Slider::new(&mut lighting.adaptation, 0.0..=1.0);
         let slider = slider.fixed_decimals(2).update_while_editing(false);
-        let response = labelled_slider(ui, "Adaptation", slider).accessible_name("Adaptation");
-        let response = response.on_hover_text(
+        let response =
+            labelled_slider(ui, tr("Adaptation"), slider).accessible_name(tr("Adaptation"));
+        let response = response.on_hover_text(tr(
             "How far the eye has adapted to the light: at 1 white paint is white under every \
              lamp, at 0 the picture has the light's own colour beside daylight. Tubes, recipes \
              and picked colours are shown as at 1",
-        );
+        ));
         self.adjust_both_lights(ui, cx, Edit::of(&response), lighting);
     }
 
@@ -171,8 +176,8 @@ impl LightPanel {
                 elevation_deg: lighting.elevation_deg,
             };
             let (response, edited) = direction_control(ui, DIRECTION_SIZE, &mut direction, lighting.ambient);
-            response.on_hover_text("Drag the light over the canvas: degrees clockwise from the top, and above the canvas. \
-                 Arrow keys turn and raise it",
+            response.on_hover_text(tr("Drag the light over the canvas: degrees clockwise from the top, and above the canvas. \
+                 Arrow keys turn and raise it"),
             );
             edit = edited;
             if edit != Edit::None {
@@ -180,17 +185,17 @@ impl LightPanel {
                 lighting.elevation_deg = direction.elevation_deg;
             }
             ui.vertical(|ui| {
-                ui.label("Direction");
+                ui.label(tr("Direction"));
                 ui.weak(direction_text(direction));
                 let ambient = Slider::new(&mut lighting.ambient, 0.0..=1.0);
                 let ambient = ambient.fixed_decimals(2).update_while_editing(false);
-                let ambient = labelled_slider(ui, "Ambient", ambient).accessible_name("Ambient");
-                let ambient = ambient.on_hover_text("Share of undirected light");
+                let ambient = labelled_slider(ui, tr("Ambient"), ambient).accessible_name(tr("Ambient"));
+                let ambient = ambient.on_hover_text(tr("Share of undirected light"));
                 edit = edit.or(Edit::of(&ambient));
                 let relief = Slider::new(&mut lighting.relief, 0.0..=3.0);
                 let relief = relief.fixed_decimals(2).update_while_editing(false);
-                let relief = labelled_slider(ui, "Relief", relief).accessible_name("Relief");
-                let relief = relief.on_hover_text("Strength of the relief: 0 flat, 1 as painted");
+                let relief = labelled_slider(ui, tr("Relief"), relief).accessible_name(tr("Relief"));
+                let relief = relief.on_hover_text(tr("Strength of the relief: 0 flat, 1 as painted"));
                 edit = edit.or(Edit::of(&relief));
             });
         });
@@ -204,18 +209,15 @@ impl LightPanel {
         let mut edit = Edit::None;
         let side = (ui.available_width() - ui.spacing().item_spacing.x) / 2.0;
         ui.horizontal(|ui| {
-            for (name, gloss) in [("Wet gloss", &mut wet), ("Dry gloss", &mut dry)] {
+            for (name, gloss) in [(tr("Wet gloss"), &mut wet), (tr("Dry gloss"), &mut dry)] {
                 ui.vertical(|ui| {
                     ui.horizontal(|ui| {
                         ui.label(name);
                         ui.weak(format!("{:.2}, {:.0}", gloss.strength, gloss.exponent));
                     });
                     let (response, edited) = gloss_pad(ui, name, vec2(side, 76.0), gloss);
-                    let hover = format!(
-                        "{name}: {}. Drag to the right for a sharper highlight, up for a stronger \
-                         one",
-                        gloss_text(*gloss)
-                    );
+                    let hover = tr_format!("{name}: {gloss}. Drag to the right for a sharper highlight, up for a stronger \
+                         one", name, gloss = gloss_text(*gloss));
                     response.on_hover_text(hover);
                     edit = edit.or(edited);
                 });
@@ -228,17 +230,17 @@ impl LightPanel {
         let second = cx.painting.second_lighting.clone();
         let mut on = second.is_some();
         ui.horizontal(|ui| {
-            let check = ui.checkbox(&mut on, "Second light");
+            let check = ui.checkbox(&mut on, tr("Second light"));
             let check = check.on_hover_text(
-                "Shows the canvas under two lights, side by side; drag the line between them. A switch on the palette shows it under either",
+                tr("Shows the canvas under two lights, side by side; drag the line between them. A switch on the palette shows it under either"),
             );
             if check.changed() {
                 let illuminant = self.last_second.clone();
                 let second = on.then(|| Lighting { illuminant, ..lighting.clone() });
                 cx.command(Command::SetSecondLight(second));
             }
-            let swap = ui.add_enabled(second.is_some(), Button::new("Swap"));
-            let swap = swap.on_hover_text("Exchanges the two lights");
+            let swap = ui.add_enabled(second.is_some(), Button::new(tr("Swap")));
+            let swap = swap.on_hover_text(tr("Exchanges the two lights"));
             if let Some(second) = second.clone().filter(|_| swap.clicked()) {
                 cx.command(Command::SetSecondLight(Some(lighting.clone())));
                 self.set_lighting(ui, cx, second);
@@ -271,9 +273,9 @@ fn same_gloss(a: &(Gloss, Gloss), b: &(Gloss, Gloss)) -> bool {
 
 fn observer_description(observer: Observer) -> &'static str {
     match observer {
-        Observer::Cie1931Deg2 => "CIE 1931, 2 degrees: small fields, the usual one",
-        Observer::Cie1964Deg10 => "CIE 1964, 10 degrees: large fields",
-        Observer::Cie2015Deg2 => "CIE 2015, 2 degrees: from cone fundamentals",
-        Observer::Cie2015Deg10 => "CIE 2015, 10 degrees: from cone fundamentals",
+        Observer::Cie1931Deg2 => tr("CIE 1931, 2 degrees: small fields, the usual one"),
+        Observer::Cie1964Deg10 => tr("CIE 1964, 10 degrees: large fields"),
+        Observer::Cie2015Deg2 => tr("CIE 2015, 2 degrees: from cone fundamentals"),
+        Observer::Cie2015Deg10 => tr("CIE 2015, 10 degrees: from cone fundamentals"),
     }
 }

@@ -11,6 +11,7 @@ use spectra::{ColorTemperature, Illuminant, light_from_text};
 use super::super::controls::mark;
 use super::super::search::{self, Highlight};
 use super::illuminants::{Kind, ListedIlluminant, listed_illuminants};
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Button that opens the list.
@@ -44,7 +45,7 @@ impl Picker {
             Stroke::NONE,
         ));
         response.widget_info(|| {
-            let label = format!("{}: {text}", self.name);
+            let label = format!("{}: {text}", tr(self.name));
             eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, label)
         });
         let response = response.on_hover_text(self.hover(chosen));
@@ -63,7 +64,12 @@ impl Picker {
     fn hover(&self, chosen: &str) -> String {
         let lamp = self.lamps.iter().find(|lamp| lamp.name.eq_ignore_ascii_case(chosen));
         let note = lamp.map_or_else(String::new, |lamp| format!(": {}", lamp.note));
-        format!("{}: {chosen}{note}. Click to choose another", self.name)
+        tr_format!(
+            "{name}: {chosen}{note}. Click to choose another",
+            name = tr(self.name),
+            chosen,
+            note
+        )
     }
 
     fn list(&mut self, ui: &mut Ui, chosen: &str, opened: bool) -> Option<String> {
@@ -71,12 +77,12 @@ impl Picker {
         self.highlight.read_arrows(ui, ui.memory(|memory| memory.has_focus(id)));
         let field = TextEdit::singleline(&mut self.search)
             .id(id)
-            .hint_text("Search, or 3200K, D5600K")
+            .hint_text(tr("Search, or 3200K, D5600K"))
             .desired_width(f32::INFINITY)
             .align(Align2::LEFT_CENTER);
         let field = ui.add(field).on_hover_text(
-            "Words of a light's name or kind; a temperature, such as 3200K for a black body or D5600K for \
-             daylight; or the path of a lamp's file. Enter takes the marked one, arrows move the mark",
+            tr("Words of a light's name or kind; a temperature, such as 3200K for a black body or D5600K for \
+             daylight; or the path of a lamp's file. Enter takes the marked one, arrows move the mark"),
         );
         if opened {
             field.request_focus();
@@ -93,12 +99,15 @@ impl Picker {
             picked = typed.clone().or(found.get(marked).map(|lamp| lamp.name.to_owned()));
         }
         if let Some(typed) = &typed
-            && ui.button(format!("Take {}", short(typed))).on_hover_text("As typed").clicked()
+            && ui
+                .button(tr_format!("Take {typed}", typed = short(typed)))
+                .on_hover_text(tr("As typed"))
+                .clicked()
         {
             picked = Some(typed.clone());
         }
         if found.is_empty() && typed.is_none() {
-            ui.weak("No such light");
+            ui.weak(tr("No such light"));
         }
         let moved = std::mem::take(&mut self.highlight.moved);
         ScrollArea::vertical().max_height(360.0).show(ui, |ui| {

@@ -5,6 +5,7 @@ use render::light::Light;
 use spectra::Illuminant;
 
 use crate::chart::{BAND_NM, Chart, Curve};
+use crate::language::{tr, tr_format};
 
 /// Distance of the points of a curve, in nm.
 const STEP_NM: usize = 2;
@@ -23,14 +24,14 @@ pub(in crate::panels) fn power_chart(ui: &mut Ui, light: &Light, others: &[(Illu
         others.iter().map(|(other, color)| curve(other, Some(*color))).collect();
     curves.push(curve(&light.viewing.illuminant, None));
     let marks = &light.quadrature.rule.nodes_nm;
-    let chart = Chart { curves: &curves, marks, quantity: "relative power", max: None };
+    let chart = Chart { curves: &curves, marks, quantity: tr("relative power"), max: None };
     let nodes: Vec<String> = marks.iter().map(|nm| format!("{nm:.0}")).collect();
     // In a low panel the chart leaves its room to the controls.
     let high = if ui.clip_rect().height() < ROOMY { LOW } else { HIGH };
     let size = vec2(ui.available_width(), high);
-    chart.show(ui, size).on_hover_text(format!(
-        "Power over wavelength, mean 1. Paint is computed at {} nm",
-        nodes.join(", ")
+    chart.show(ui, size).on_hover_text(tr_format!(
+        "Power over wavelength, mean 1. Paint is computed at {nodes} nm",
+        nodes = nodes.join(", ")
     ));
 }
 

@@ -4,6 +4,7 @@ use eframe::egui::{Slider, Ui};
 
 use super::super::pending_value::Edit;
 use super::labelled_slider::labelled_slider;
+use crate::language::tr;
 
 /// Lowest temperature of CIE daylight, in kelvin (CIE 15:2018).
 const DAYLIGHT_FROM: f64 = 4000.0;
@@ -38,8 +39,8 @@ impl Temperature {
             .custom_formatter(|kelvin, _| format!("{:.0}", rounded(kelvin)))
             .suffix(" K")
             .update_while_editing(false);
-        let response = labelled_slider(ui, "Temperature", slider).accessible_name(name).on_hover_text(
-            "Temperature of the light: daylight from 4000 K, a black body below. Applied on release",
+        let response = labelled_slider(ui, tr("Temperature"), slider).accessible_name(name).on_hover_text(
+            tr("Temperature of the light: daylight from 4000 K, a black body below. Applied on release"),
         );
         let value = rounded(value);
         match Edit::of(&response) {

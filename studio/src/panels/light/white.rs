@@ -6,6 +6,8 @@ use eframe::egui::{Grid, Ui, vec2};
 use render::light::Light;
 use spectra::ColorTemperature;
 
+use crate::language::tr;
+
 /// Chromaticity and correlated colour temperature of a light.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::panels) struct White {
@@ -42,7 +44,7 @@ impl White {
     /// Formats the temperature: `6504 K  Duv +0.0032`.
     pub(super) fn temperature_text(&self) -> String {
         self.temperature.map_or_else(
-            || "none: too far from any black body".to_owned(),
+            || tr("none: too far from any black body").to_owned(),
             |temperature| format!("{:.0} K  Duv {:+.4}", temperature.kelvin, temperature.duv),
         )
     }
@@ -50,13 +52,13 @@ impl White {
     /// Draws the white point in two lines.
     pub(in crate::panels) fn show(&self, ui: &mut Ui) {
         Grid::new("white").num_columns(2).spacing(vec2(10.0, 2.0)).show(ui, |ui| {
-            ui.weak("White").on_hover_text("Chromaticity of the light for the observer");
+            ui.weak(tr("White")).on_hover_text(tr("Chromaticity of the light for the observer"));
             ui.monospace(self.chromaticity_text());
             ui.end_row();
-            ui.weak("Looks like").on_hover_text(
+            ui.weak(tr("Looks like")).on_hover_text(tr(
                 "Correlated colour temperature, and distance from the black body of \
                  that temperature: above 0 greener, below 0 pinker",
-            );
+            ));
             ui.monospace(self.temperature_text());
             ui.end_row();
         });

@@ -3,6 +3,7 @@
 use eframe::egui::{Align, Rect, Response, TextStyle, Ui, pos2, vec2};
 use session::brushes::{BrushOptions, BrushPreset};
 
+use crate::language::{tr, tr_format};
 use crate::panels::brushes::head;
 use crate::panels::controls::{millimetres, row};
 use crate::panels::fitted_text::text;
@@ -13,7 +14,7 @@ const HEIGHT: f32 = 34.0;
 
 /// Draws a kept brush, which can be clicked.
 pub(super) fn preset_row(ui: &mut Ui, preset: &BrushPreset, chosen: bool) -> Response {
-    let response = row(ui, HEIGHT, &format!("own brush {}", preset.name), chosen);
+    let response = row(ui, HEIGHT, &tr_format!("own brush {name}", name = preset.name), chosen);
     let inner = response.rect.shrink2(vec2(6.0, 3.0));
     let between = |left: f32, right: f32| {
         Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
@@ -34,11 +35,11 @@ fn summary(preset: &BrushPreset) -> String {
     let plain = BrushOptions::default();
     let options = &preset.options;
     for (differs, word) in [
-        (options.curve.is_some(), "own curve"),
-        (options.stabiliser.is_some(), "own stabiliser"),
-        (options.tilt != plain.tilt, "own tilt"),
-        (options.twist != plain.twist, "own twist"),
-        (options.range != plain.range, "own pressure"),
+        (options.curve.is_some(), tr("own curve")),
+        (options.stabiliser.is_some(), tr("own stabiliser")),
+        (options.tilt != plain.tilt, tr("own tilt")),
+        (options.twist != plain.twist, tr("own twist")),
+        (options.range != plain.range, tr("own pressure")),
     ] {
         if differs {
             words.push(word.to_owned());
@@ -47,7 +48,7 @@ fn summary(preset: &BrushPreset) -> String {
     if let Some(load) = &preset.load {
         let pigments: Vec<&str> = load.recipe.keys().map(String::as_str).collect();
         let paint =
-            if pigments.is_empty() { "a load set".to_owned() } else { pigments.join(" + ") };
+            if pigments.is_empty() { tr("a load set").to_owned() } else { pigments.join(" + ") };
         words.push(paint);
     }
     words.join(", ")

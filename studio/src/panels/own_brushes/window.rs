@@ -7,6 +7,7 @@ use super::imported;
 use super::row::preset_row;
 use crate::files::BrushSets;
 use crate::floating;
+use crate::language::tr;
 use crate::panels::controls::button;
 
 /// Width of the window, in points.
@@ -55,10 +56,10 @@ impl OwnBrushes {
         if self.renamed.is_some() || self.new_set.is_some() {
             floating::leave_escape(context);
         }
-        floating::show(context, "Own brushes", "own brushes", open, |ui| {
+        floating::show(context, tr("Own brushes"), "own brushes", open, |ui| {
             ui.set_width(WIDTH);
             if !sets.is_read() {
-                ui.weak("reading the own brushes");
+                ui.weak(tr("reading the own brushes"));
                 return None;
             }
             let mut request = self.set_row(ui, sets);
@@ -81,7 +82,7 @@ impl OwnBrushes {
     fn set_row(&mut self, ui: &mut Ui, sets: &mut BrushSets) -> Option<OwnBrushRequest> {
         let mut request = None;
         ui.horizontal(|ui| {
-            let name = sets.set().map_or("no set yet", |set| set.name()).to_owned();
+            let name = sets.set().map_or(tr("no set yet"), |set| set.name()).to_owned();
             let before = sets.shown;
             let combo = ComboBox::from_id_salt("set").selected_text(name).width(150.0);
             let combo = combo.show_ui(ui, |ui| {
@@ -89,28 +90,31 @@ impl OwnBrushes {
                     ui.selectable_value(&mut sets.shown, index, stored.set.name());
                 }
             });
-            combo.response.accessible_name("Set of brushes").on_hover_text("The set that is shown");
+            combo
+                .response
+                .accessible_name(tr("Set of brushes"))
+                .on_hover_text(tr("The set that is shown"));
             if sets.shown != before {
                 (self.chosen, self.renamed, self.asks_to_remove) = (0, None, false);
             }
-            if button(ui, "New set", "Adds an empty set", None) {
+            if button(ui, tr("New set"), tr("Adds an empty set"), None) {
                 self.new_set = Some(String::new());
             }
-            let none = sets.set().is_none().then_some("there is no set");
+            let none = sets.set().is_none().then_some(tr("there is no set"));
             if button(
                 ui,
-                "Import...",
-                "Takes over a set (.json) or a brush of MyPaint (.myb)",
+                tr("Import..."),
+                tr("Takes over a set (.json) or a brush of MyPaint (.myb)"),
                 None,
             ) {
                 request = Some(OwnBrushRequest::Import);
             }
-            if button(ui, "Export...", "Writes this set to a file", none) {
+            if button(ui, tr("Export..."), tr("Writes this set to a file"), none) {
                 request = Some(OwnBrushRequest::Export);
             }
         });
         if let Some(typed) = &mut self.new_set {
-            match name_field(ui, typed, "Name of the set") {
+            match name_field(ui, typed, tr("Name of the set")) {
                 Typed::Open => {}
                 Typed::Done(name) => {
                     self.new_set = None;
@@ -126,11 +130,11 @@ impl OwnBrushes {
     fn list(&mut self, ui: &mut Ui, sets: &mut BrushSets) -> Option<OwnBrushRequest> {
         let mut request = None;
         let Some(set) = sets.set_mut() else {
-            ui.weak("Keep the brush in hand, or import a set.");
+            ui.weak(tr("Keep the brush in hand, or import a set."));
             return None;
         };
         if set.presets().is_empty() {
-            ui.weak("This set is empty.");
+            ui.weak(tr("This set is empty."));
         }
         let mut renamed = None;
         ScrollArea::vertical().max_height(300.0).auto_shrink([false, true]).show(ui, |ui| {
@@ -139,7 +143,7 @@ impl OwnBrushes {
                 if self.chosen == index
                     && let Some(typed) = &mut self.renamed
                 {
-                    match name_field(ui, typed, "Name of the own brush") {
+                    match name_field(ui, typed, tr("Name of the own brush")) {
                         Typed::Open => {}
                         Typed::Done(name) => {
                             renamed = Some(name);
@@ -156,7 +160,7 @@ impl OwnBrushes {
                 if response.double_clicked() {
                     request = Some(OwnBrushRequest::Use(Box::new(preset.clone())));
                 }
-                response.on_hover_text("Click chooses, a double click takes the brush in hand");
+                response.on_hover_text(tr("Click chooses, a double click takes the brush in hand"));
             }
         });
         if let Some(name) = renamed {
@@ -168,19 +172,19 @@ impl OwnBrushes {
     fn buttons(&mut self, ui: &mut Ui, sets: &mut BrushSets) -> Option<OwnBrushRequest> {
         let mut request = None;
         let count = sets.set().map_or(0, |set| set.presets().len());
-        let none = (self.chosen >= count).then_some("no brush is chosen");
+        let none = (self.chosen >= count).then_some(tr("no brush is chosen"));
         ui.horizontal(|ui| {
-            if button(ui, "Take in hand", "Paints with the chosen brush", none)
+            if button(ui, tr("Take in hand"), tr("Paints with the chosen brush"), none)
                 && let Some(preset) = sets.set().and_then(|set| set.presets().get(self.chosen))
             {
                 request = Some(OwnBrushRequest::Use(Box::new(preset.clone())));
             }
-            let tip = "Keeps the brush in hand in this set, under its name in the list";
-            if button(ui, "Keep brush", tip, None) {
+            let tip = tr("Keeps the brush in hand in this set, under its name in the list");
+            if button(ui, tr("Keep brush"), tip, None) {
                 request = Some(OwnBrushRequest::Keep { with_paint: self.with_paint });
             }
-            let tip = "Keeps the mean of its paint too, and loads it again";
-            ui.checkbox(&mut self.with_paint, "with its paint").on_hover_text(tip);
+            let tip = tr("Keeps the mean of its paint too, and loads it again");
+            ui.checkbox(&mut self.with_paint, tr("with its paint")).on_hover_text(tip);
         });
         ui.horizontal(|ui| self.change_list(ui, sets, none));
         request
@@ -191,29 +195,29 @@ impl OwnBrushes {
         let chosen = self.chosen;
         if let Some(set) = sets.set_mut() {
             let last = set.presets().len().saturating_sub(1);
-            if button(ui, "Rename brush", "Renames the chosen brush", none) {
+            if button(ui, tr("Rename brush"), tr("Renames the chosen brush"), none) {
                 self.renamed = set.presets().get(chosen).map(|preset| preset.name.clone());
             }
-            let first = (chosen == 0).then_some("it is the first");
-            if button(ui, "Up", "Moves the chosen brush up", none.or(first)) {
+            let first = (chosen == 0).then_some(tr("it is the first"));
+            if button(ui, tr("Up"), tr("Moves the chosen brush up"), none.or(first)) {
                 set.move_to(chosen, chosen - 1);
                 self.chosen -= 1;
             }
-            let end = (chosen >= last).then_some("it is the last");
-            if button(ui, "Down", "Moves the chosen brush down", none.or(end)) {
+            let end = (chosen >= last).then_some(tr("it is the last"));
+            if button(ui, tr("Down"), tr("Moves the chosen brush down"), none.or(end)) {
                 set.move_to(chosen, chosen + 1);
                 self.chosen += 1;
             }
-            if button(ui, "Remove brush", "Removes the chosen brush from the set", none) {
+            if button(ui, tr("Remove brush"), tr("Removes the chosen brush from the set"), none) {
                 set.remove(chosen);
                 self.chosen = chosen.min(last.saturating_sub(1));
             }
         }
-        let no_set = sets.set().is_none().then_some("there is no set");
+        let no_set = sets.set().is_none().then_some(tr("there is no set"));
         if !self.asks_to_remove {
-            let tip = "Asks, then removes the set with its file";
-            self.asks_to_remove = button(ui, "Remove set", tip, no_set);
-        } else if button(ui, "Really remove", "Removes all brushes of the set", no_set) {
+            let tip = tr("Asks, then removes the set with its file");
+            self.asks_to_remove = button(ui, tr("Remove set"), tip, no_set);
+        } else if button(ui, tr("Really remove"), tr("Removes all brushes of the set"), no_set) {
             sets.remove_set();
             (self.chosen, self.asks_to_remove) = (0, false);
         }

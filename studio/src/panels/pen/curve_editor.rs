@@ -7,6 +7,7 @@ use eframe::egui::{
 };
 use session::brushes::{CurvePoints, PressureCurve};
 
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Side of the plot, in points.
@@ -28,7 +29,7 @@ const STEP: f64 = 0.02;
 pub(super) fn edit_curve(ui: &mut Ui, curve: &mut PressureCurve, live: Option<f64>, enabled: bool) {
     let sense = if enabled { Sense::click_and_drag() } else { Sense::hover() };
     let (rect, plot) = ui.allocate_exact_size(vec2(SIDE, SIDE), sense);
-    plot.widget_info(|| WidgetInfo::labeled(Role::Canvas, enabled, "Pressure curve"));
+    plot.widget_info(|| WidgetInfo::labeled(Role::Canvas, enabled, tr("Pressure curve")));
     let inner = rect.shrink(8.0);
     let painter = ui.painter_at(rect.expand(REMOVED));
     draw(&painter, rect, inner, curve, live);
@@ -45,7 +46,7 @@ pub(super) fn edit_curve(ui: &mut Ui, curve: &mut PressureCurve, live: Option<f6
         let area = Rect::from_center_size(at, theme::at_least(ui, vec2(GRABBED, GRABBED)));
         let id = plot.id.with(("point", index));
         let response = ui.interact(area, id, Sense::click_and_drag());
-        let name = format!("curve point {}", index + 1);
+        let name = tr_format!("curve point {index}", index = index + 1);
         response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &name));
         let out = response.interact_pointer_pos().is_some_and(|pointer| is_out(inner, pointer));
         if move_point(ui, &response, index, inner, &mut points) && !out {
@@ -61,17 +62,19 @@ pub(super) fn edit_curve(ui: &mut Ui, curve: &mut PressureCurve, live: Option<f6
         let active = response.hovered() || response.dragged() || response.has_focus();
         draw_point(&painter, in_window(inner, points.list()[index]), active, goes);
         let [x, y] = points.list()[index];
-        response.on_hover_text(format!(
+        response.on_hover_text(tr_format!(
             "The pen's {x:.2} becomes {y:.2}. Drag it, or out of the field to remove it (right \
-             button, Delete)"
+             button, Delete)",
+            x,
+            y
         ));
     }
     if let Some(index) = removed {
         points.remove(index);
     }
-    plot.on_hover_text(
+    plot.on_hover_text(tr(
         "The pen's pressure goes to the right, the brush's up. A click adds a point",
-    );
+    ));
     if points != before {
         *curve = PressureCurve::Points(points);
     }

@@ -7,6 +7,7 @@ use eframe::egui::{
 };
 
 use super::curve_editor::SIDE;
+use crate::language::tr;
 use crate::pen::{Pen, TestField, TestPoint};
 use crate::theme;
 
@@ -17,7 +18,7 @@ const WIDEST: f32 = 26.0;
 pub(super) fn test_field(ui: &mut Ui, field: &mut TestField, pen: &Pen) {
     // Sensing drags keeps the window in its place while the pen draws.
     let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::drag());
-    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "Test field"));
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, tr("Test field")));
     let layer = ui.layer_id();
     let pressed = ui.input(|input| input.pointer.latest_pos());
     let reachable =
@@ -28,7 +29,13 @@ pub(super) fn test_field(ui: &mut Ui, field: &mut TestField, pen: &Pen) {
     ui.painter().rect(rect, theme::CORNER_RADIUS, colors.well, edge, StrokeKind::Inside);
     if field.strokes().is_empty() {
         let font = TextStyle::Body.resolve(ui.style());
-        ui.painter().text(rect.center(), Align2::CENTER_CENTER, "Draw here", font, colors.faint);
+        ui.painter().text(
+            rect.center(),
+            Align2::CENTER_CENTER,
+            tr("Draw here"),
+            font,
+            colors.faint,
+        );
     }
     let painter = ui.painter_at(rect.shrink(1.0));
     for stroke in field.strokes() {
@@ -37,8 +44,9 @@ pub(super) fn test_field(ui: &mut Ui, field: &mut TestField, pen: &Pen) {
     if field.is_drawing() {
         ui.ctx().request_repaint();
     }
-    response
-        .on_hover_text("Draws a line as wide as the brush would press, with the settings shown");
+    response.on_hover_text(tr(
+        "Draws a line as wide as the brush would press, with the settings shown",
+    ));
 }
 
 fn draw_stroke(painter: &eframe::egui::Painter, rect: Rect, stroke: &[TestPoint]) {

@@ -6,6 +6,8 @@ use session::brushes::{
     TwistUse,
 };
 
+use crate::language::{tr, tr_format};
+
 /// Angle of a brush that is fixed first, in degrees.
 const FIRST_TILT_DEG: f64 = 30.0;
 
@@ -13,9 +15,9 @@ const FIRST_TILT_DEG: f64 = 30.0;
 pub(super) fn curve_presets(ui: &mut Ui, curve: &mut PressureCurve) {
     ui.horizontal(|ui| {
         for (preset, name, tip) in [
-            (PressureCurve::SOFT, "Soft", "A light hand presses well"),
-            (PressureCurve::LINEAR, "Linear", "The pressure of the pen as it is"),
-            (PressureCurve::FIRM, "Firm", "Only a heavy hand presses well"),
+            (PressureCurve::SOFT, tr("Soft"), tr("A light hand presses well")),
+            (PressureCurve::LINEAR, tr("Linear"), tr("The pressure of the pen as it is")),
+            (PressureCurve::FIRM, tr("Firm"), tr("Only a heavy hand presses well")),
         ] {
             if ui.selectable_label(*curve == preset, name).on_hover_text(tip).clicked() {
                 *curve = preset;
@@ -28,13 +30,13 @@ pub(super) fn curve_presets(ui: &mut Ui, curve: &mut PressureCurve) {
 pub(super) fn stabiliser(ui: &mut Ui, settings: &mut StabiliserSettings) {
     ui.horizontal(|ui| {
         for (method, name, tip) in [
-            (StabiliserMethod::Off, "Off", "The brush is where the pen is"),
+            (StabiliserMethod::Off, tr("Off"), tr("The brush is where the pen is")),
             (
                 StabiliserMethod::Average,
-                "Average",
-                "The brush is at the mean of the pen's last way",
+                tr("Average"),
+                tr("The brush is at the mean of the pen's last way"),
             ),
-            (StabiliserMethod::String, "String", "The pen pulls the brush by a string"),
+            (StabiliserMethod::String, tr("String"), tr("The pen pulls the brush by a string")),
         ] {
             ui.selectable_value(&mut settings.method, method, name).on_hover_text(tip);
         }
@@ -42,11 +44,11 @@ pub(super) fn stabiliser(ui: &mut Ui, settings: &mut StabiliserSettings) {
             return;
         }
         let drag = DragValue::new(&mut settings.length).range(0.1..=500.0).speed(0.1);
-        let drag = ui.add(drag.max_decimals(1)).accessible_name("Length of the stabiliser");
-        drag.on_hover_text("Length of the averaged way, or of the string");
+        let drag = ui.add(drag.max_decimals(1)).accessible_name(tr("Length of the stabiliser"));
+        drag.on_hover_text(tr("Length of the averaged way, or of the string"));
         for (unit, name, tip) in [
-            (LengthUnit::Mm, "mm", "On the canvas, whatever the zoom"),
-            (LengthUnit::Px, "px", "In the window, whatever the zoom"),
+            (LengthUnit::Mm, "mm", tr("On the canvas, whatever the zoom")),
+            (LengthUnit::Px, "px", tr("In the window, whatever the zoom")),
         ] {
             ui.selectable_value(&mut settings.unit, unit, name).on_hover_text(tip);
         }
@@ -57,21 +59,21 @@ pub(super) fn stabiliser(ui: &mut Ui, settings: &mut StabiliserSettings) {
 pub(super) fn tilt(ui: &mut Ui, tilt: &mut TiltUse) {
     ui.horizontal(|ui| {
         for (choice, name, tip) in [
-            (TiltUse::AsSet, "As all", "As for all brushes"),
-            (TiltUse::Pen, "Pen", "Leans as the pen does"),
-            (TiltUse::Ignored, "Ignored", "Held as with a mouse, whatever the pen does"),
+            (TiltUse::AsSet, tr("As all"), tr("As for all brushes")),
+            (TiltUse::Pen, tr("Pen"), tr("Leans as the pen does")),
+            (TiltUse::Ignored, tr("Ignored"), tr("Held as with a mouse, whatever the pen does")),
         ] {
             let choice = ui.selectable_value(tilt, choice, name);
-            choice.accessible_name(format!("tilt {name}")).on_hover_text(tip);
+            choice.accessible_name(tr_format!("tilt {name}", name)).on_hover_text(tip);
         }
         let fixed = matches!(tilt, TiltUse::Fixed(_));
-        let button = ui.selectable_label(fixed, "Fixed").accessible_name("tilt Fixed");
-        if button.on_hover_text("Always leans by this angle").clicked() && !fixed {
+        let button = ui.selectable_label(fixed, tr("Fixed")).accessible_name(tr("tilt Fixed"));
+        if button.on_hover_text(tr("Always leans by this angle")).clicked() && !fixed {
             *tilt = TiltUse::Fixed(FIRST_TILT_DEG);
         }
         if let TiltUse::Fixed(degrees) = tilt {
             let drag = DragValue::new(degrees).range(0.0..=80.0).max_decimals(0);
-            ui.add(drag.suffix("\u{b0}")).accessible_name("Angle of the tilt");
+            ui.add(drag.suffix("\u{b0}")).accessible_name(tr("Angle of the tilt"));
         }
     });
 }
@@ -80,21 +82,21 @@ pub(super) fn tilt(ui: &mut Ui, tilt: &mut TiltUse) {
 pub(super) fn twist(ui: &mut Ui, twist: &mut TwistUse) {
     ui.horizontal(|ui| {
         for (choice, name, tip) in [
-            (TwistUse::AsSet, "As all", "As for all brushes"),
-            (TwistUse::Device, "Pen", "Turns with the pen, where it measures that"),
-            (TwistUse::Stroke, "Stroke", "The broad side turns across the stroke"),
+            (TwistUse::AsSet, tr("As all"), tr("As for all brushes")),
+            (TwistUse::Device, tr("Pen"), tr("Turns with the pen, where it measures that")),
+            (TwistUse::Stroke, tr("Stroke"), tr("The broad side turns across the stroke")),
         ] {
             let choice = ui.selectable_value(twist, choice, name);
-            choice.accessible_name(format!("twist {name}")).on_hover_text(tip);
+            choice.accessible_name(tr_format!("twist {name}", name)).on_hover_text(tip);
         }
         let fixed = matches!(twist, TwistUse::Fixed(_));
-        let button = ui.selectable_label(fixed, "Fixed").accessible_name("twist Fixed");
-        if button.on_hover_text("Always at this angle").clicked() && !fixed {
+        let button = ui.selectable_label(fixed, tr("Fixed")).accessible_name(tr("twist Fixed"));
+        if button.on_hover_text(tr("Always at this angle")).clicked() && !fixed {
             *twist = TwistUse::Fixed(0.0);
         }
         if let TwistUse::Fixed(degrees) = twist {
             let drag = DragValue::new(degrees).range(0.0..=360.0).max_decimals(0);
-            ui.add(drag.suffix("\u{b0}")).accessible_name("Angle of the twist");
+            ui.add(drag.suffix("\u{b0}")).accessible_name(tr("Angle of the twist"));
         }
     });
 }
@@ -104,8 +106,8 @@ pub(super) fn range(ui: &mut Ui, options: &mut BrushOptions) {
     ui.horizontal(|ui| {
         let [least, most] = options.range;
         for (end, limits, name, tip) in [
-            (0, [0.0, most], "Least pressure", "Pressure at the lightest touch"),
-            (1, [least, 1.0], "Most pressure", "Pressure at the heaviest touch"),
+            (0, [0.0, most], tr("Least pressure"), tr("Pressure at the lightest touch")),
+            (1, [least, 1.0], tr("Most pressure"), tr("Pressure at the heaviest touch")),
         ] {
             let share = &mut options.range[end];
             let drag = DragValue::from_get_set(|set| {
@@ -117,6 +119,6 @@ pub(super) fn range(ui: &mut Ui, options: &mut BrushOptions) {
             let drag = drag.range(100.0 * limits[0]..=100.0 * limits[1]).max_decimals(0);
             ui.add(drag.suffix(" %")).accessible_name(name).on_hover_text(tip);
         }
-        ui.weak("lightest to heaviest");
+        ui.weak(tr("lightest to heaviest"));
     });
 }

@@ -7,6 +7,7 @@ use super::curve_editor::edit_curve;
 use super::field::test_field;
 use super::rows;
 use crate::floating;
+use crate::language::{brush_label, tr, tr_format};
 use crate::panels::controls::button;
 use crate::pen::{Pen, PenSettings, ReportKind, TestField};
 
@@ -46,13 +47,14 @@ impl PenWindow {
             return;
         }
         self.read(cx.pen);
-        floating::show(context, "Pen", "pen", open, |ui| {
+        floating::show(context, tr("Pen"), "pen", open, |ui| {
             ui.set_width(WIDTH);
             ui.horizontal(|ui| {
-                let tip = "Settings for all brushes that have no own ones";
-                ui.selectable_value(&mut self.only_brush, false, "All brushes").on_hover_text(tip);
-                let only = format!("Only {}", cx.brush);
-                let tip = "Options of the brush in hand, which come before those for all";
+                let tip = tr("Settings for all brushes that have no own ones");
+                ui.selectable_value(&mut self.only_brush, false, tr("All brushes"))
+                    .on_hover_text(tip);
+                let only = tr_format!("Only {brush}", brush = brush_label(cx.brush));
+                let tip = tr("Options of the brush in hand, which come before those for all");
                 ui.selectable_value(&mut self.only_brush, true, only).on_hover_text(tip);
             });
             ui.separator();
@@ -110,17 +112,17 @@ impl PenWindow {
                 eframe::egui::Layout::right_to_left(eframe::egui::Align::Center),
                 |ui| {
                     let nothing =
-                        self.field.strokes().is_empty().then_some("nothing was drawn yet");
-                    if button(ui, "Clear", "Clears the field", nothing) {
+                        self.field.strokes().is_empty().then_some(tr("nothing was drawn yet"));
+                    if button(ui, tr("Clear"), tr("Clears the field"), nothing) {
                         self.field.clear();
                     }
                     let curve = cx.options.curve.as_ref().unwrap_or(&cx.settings.curve);
                     ui.weak(match (self.live, self.measures) {
                         (Some(live), _) => {
                             let brush = cx.options.in_range(curve.at(live));
-                            format!("pen {live:.2}, brush {brush:.2}")
+                            tr_format!("pen {live:.2}, brush {brush:.2}", live, brush)
                         }
-                        (None, Some(false)) => "no pressure: by speed".to_owned(),
+                        (None, Some(false)) => tr("no pressure: by speed").to_owned(),
                         (None, _) => String::new(),
                     });
                 },
@@ -132,8 +134,8 @@ impl PenWindow {
 /// Whether the brush has a curve of its own.
 fn own_curve(ui: &mut Ui, cx: &mut PenContext<'_>) {
     let mut own = cx.options.curve.is_some();
-    let tip = "This brush has a pressure curve of its own";
-    if ui.checkbox(&mut own, "Own curve").on_hover_text(tip).changed() {
+    let tip = tr("This brush has a pressure curve of its own");
+    if ui.checkbox(&mut own, tr("Own curve")).on_hover_text(tip).changed() {
         let general: &PressureCurve = &cx.settings.curve;
         cx.options.curve = own.then(|| general.clone());
     }
@@ -141,41 +143,41 @@ fn own_curve(ui: &mut Ui, cx: &mut PenContext<'_>) {
 
 fn general_rows(ui: &mut Ui, settings: &mut PenSettings) {
     grid(ui, |ui| {
-        ui.label("Stabiliser");
+        ui.label(tr("Stabiliser"));
         rows::stabiliser(ui, &mut settings.stabiliser);
         ui.end_row();
-        ui.label("Tilt and twist");
+        ui.label(tr("Tilt and twist"));
         let tip =
-            "The brush follows tilt and twist of the pen; otherwise it is held as with a mouse";
-        ui.checkbox(&mut settings.pen_tilt, "From the pen").on_hover_text(tip);
+            tr("The brush follows tilt and twist of the pen; otherwise it is held as with a mouse");
+        ui.checkbox(&mut settings.pen_tilt, tr("From the pen")).on_hover_text(tip);
         ui.end_row();
-        ui.label("Without twist");
-        let tip = "The broad side turns across the direction of the stroke";
-        ui.checkbox(&mut settings.follow, "Turns across the stroke").on_hover_text(tip);
+        ui.label(tr("Without twist"));
+        let tip = tr("The broad side turns across the direction of the stroke");
+        ui.checkbox(&mut settings.follow, tr("Turns across the stroke")).on_hover_text(tip);
         ui.end_row();
     });
 }
 
 fn brush_rows(ui: &mut Ui, options: &mut BrushOptions, settings: &PenSettings) {
     grid(ui, |ui| {
-        ui.label("Pressure");
+        ui.label(tr("Pressure"));
         rows::range(ui, options);
         ui.end_row();
-        ui.label("Tilt");
+        ui.label(tr("Tilt"));
         rows::tilt(ui, &mut options.tilt);
         ui.end_row();
-        ui.label("Twist");
+        ui.label(tr("Twist"));
         rows::twist(ui, &mut options.twist);
         ui.end_row();
         let mut own = options.stabiliser.is_some();
-        let tip = "This brush has a stabiliser of its own";
-        if ui.checkbox(&mut own, "Own stabiliser").on_hover_text(tip).changed() {
+        let tip = tr("This brush has a stabiliser of its own");
+        if ui.checkbox(&mut own, tr("Own stabiliser")).on_hover_text(tip).changed() {
             options.stabiliser = own.then_some(settings.stabiliser);
         }
         match &mut options.stabiliser {
             Some(own) => rows::stabiliser(ui, own),
             None => {
-                ui.weak("as for all brushes");
+                ui.weak(tr("as for all brushes"));
             }
         }
         ui.end_row();

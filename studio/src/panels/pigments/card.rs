@@ -7,6 +7,7 @@ use pigment::palette::Hides;
 
 use super::catalogue::Catalogue;
 use crate::chart::{Chart, Curve};
+use crate::language::{tr, tr_format};
 use crate::panels::controls::millimetres;
 
 /// Width of the card, in points.
@@ -29,11 +30,12 @@ pub(in crate::panels) fn card(
         }
     });
     let (grid, colors) = (catalogue.library.grid, catalogue.colors(pigment));
-    let mut curves = vec![Curve::new("full", grid, &colors.masstone).colored(colors.masstone_srgb)];
+    let mut curves =
+        vec![Curve::new(tr("full"), grid, &colors.masstone).colored(colors.masstone_srgb)];
     if let (Some(tint), Some(srgb)) = (&colors.tint, colors.tint_srgb) {
-        curves.push(Curve::new("one in ten", grid, tint).colored(srgb));
+        curves.push(Curve::new(tr("one in ten"), grid, tint).colored(srgb));
     }
-    let chart = Chart { curves: &curves, marks: &[], quantity: "reflectance", max: Some(1.0) };
+    let chart = Chart { curves: &curves, marks: &[], quantity: tr("reflectance"), max: Some(1.0) };
     chart.show(ui, vec2(WIDTH, 120.0));
     for line in lines(catalogue, pigment, scattering_per_mm) {
         ui.label(line);
@@ -48,21 +50,27 @@ fn lines(catalogue: &Catalogue, pigment: PigmentId, scattering_per_mm: f64) -> V
     let power = catalogue.strength(pigment);
     let mut lines = vec![match power.hides {
         Some(Hides::From(thickness)) => {
-            format!("hides from {}", millimetres(thickness / scattering_per_mm))
+            tr_format!("hides from {height}", height = millimetres(thickness / scattering_per_mm))
         }
         Some(Hides::Never { contrast }) => {
-            format!("hides at no height (contrast {:.0} % at max)", 100.0 * contrast)
+            tr_format!(
+                "hides at no height (contrast {contrast:.0} % at max)",
+                contrast = 100.0 * contrast
+            )
         }
-        None => "hiding power not known".to_owned(),
+        None => tr("hiding power not known").to_owned(),
     }];
     if let Some(percent) = power.tints_percent {
-        lines.push(format!("tinting strength {percent:.0} % of the library's strongest"));
+        lines.push(tr_format!(
+            "tinting strength {percent:.0} % of the library's strongest",
+            percent
+        ));
     }
     if known.guessed {
-        lines.push("guessed from a colour, not measured".to_owned());
+        lines.push(tr("guessed from a colour, not measured").to_owned());
     }
     if !known.identified {
-        lines.push("scattering not identified: mixtures with it are a guess".to_owned());
+        lines.push(tr("scattering not identified: mixtures with it are a guess").to_owned());
     }
     lines
 }

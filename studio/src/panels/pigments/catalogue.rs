@@ -11,6 +11,8 @@ use render::light::Light;
 
 use session::PaintingState;
 
+use crate::language::tr;
+
 /// Colour of one pigment, alone and as a tint.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::panels) struct PigmentColors {
@@ -79,8 +81,8 @@ impl Catalogue {
             Some(Hides::From(thickness)) => {
                 super::super::controls::millimetres(thickness / scattering_per_mm)
             }
-            Some(Hides::Never { .. }) => "never".to_owned(),
-            None => "not known".to_owned(),
+            Some(Hides::Never { .. }) => tr("never").to_owned(),
+            None => tr("not known").to_owned(),
         }
     }
 }

@@ -8,6 +8,7 @@ use render::paint::strokes::{Action, LayerRef};
 use super::catalogue::Catalogue;
 use super::list::PigmentList;
 use crate::floating;
+use crate::language::{layer_label, tr};
 use crate::panels::PanelContext;
 use session::{LayerState, PaintingState};
 
@@ -61,7 +62,7 @@ impl Exchange {
             self.open = false;
         }
         let mut open = self.open;
-        let chosen = floating::show(context, "Exchange a pigment", id, &mut open, |ui| {
+        let chosen = floating::show(context, tr("Exchange a pigment"), id, &mut open, |ui| {
             ui.set_width(WIDTH);
             self.contents(ui, catalogue, cx.painting)
         });
@@ -87,8 +88,8 @@ impl Exchange {
         painting: &PaintingState,
     ) -> Option<PigmentId> {
         ui.horizontal(|ui| {
-            ui.label("In");
-            let tip = "Layers in which the pigment is replaced";
+            ui.label(tr("In"));
+            let tip = tr("Layers in which the pigment is replaced");
             let shown =
                 ComboBox::from_id_salt("scope").selected_text(scope_name(painting, self.scope));
             let scopes = shown.show_ui(ui, |ui| {
@@ -97,13 +98,13 @@ impl Exchange {
                         .on_hover_text(tip);
                 }
             });
-            scopes.response.accessible_name("In").on_hover_text(tip);
+            scopes.response.accessible_name(tr("In")).on_hover_text(tip);
             let here = pigments(painting, self.scope);
             if !here.contains(&self.from) {
                 self.from = here.first().copied().unwrap_or(self.from);
             }
-            ui.label("exchange");
-            let tip = "The pigment to replace";
+            ui.label(tr("exchange"));
+            let tip = tr("The pigment to replace");
             let shown = ComboBox::from_id_salt("from").width(150.0);
             let shown = shown.selected_text(catalogue.name(self.from));
             let from = shown.show_ui(ui, |ui| {
@@ -112,15 +113,15 @@ impl Exchange {
                     ui.selectable_value(&mut self.from, pigment, name).on_hover_text(tip);
                 }
             });
-            from.response.accessible_name("Exchange").on_hover_text(tip);
+            from.response.accessible_name(tr("Exchange")).on_hover_text(tip);
         });
-        ui.label("for");
+        ui.label(tr("for"));
         let (scope, from) = (self.scope, self.from);
         self.list.show(ui, catalogue, painting.medium.scattering_per_mm, |to| {
             if to == from {
-                Some("it is the pigment to replace".to_owned())
+                Some(tr("it is the pigment to replace").to_owned())
             } else if layers(painting, scope, from, to).is_empty() {
-                Some("every such layer already has it".to_owned())
+                Some(tr("every such layer already has it").to_owned())
             } else {
                 None
             }
@@ -131,11 +132,12 @@ impl Exchange {
 /// Display name of the layers.
 fn scope_name(painting: &PaintingState, scope: ExchangeScope) -> String {
     match scope {
-        ExchangeScope::AllLayers => "all layers".to_owned(),
-        ExchangeScope::Layer(LayerRef::Wet) => "the wet layer".to_owned(),
-        ExchangeScope::Layer(layer) => {
-            state(painting, layer).map_or_else(|| "no layer".to_owned(), LayerState::label)
-        }
+        ExchangeScope::AllLayers => tr("all layers").to_owned(),
+        ExchangeScope::Layer(LayerRef::Wet) => tr("the wet layer").to_owned(),
+        ExchangeScope::Layer(layer) => match state(painting, layer) {
+            Some(state) => layer_label(&state.label()),
+            None => tr("no layer").to_owned(),
+        },
     }
 }
 

@@ -4,6 +4,7 @@ use eframe::egui::{Align, Key, Rect, ScrollArea, TextEdit, TextStyle, Ui, pos2, 
 
 use super::card::card;
 use super::catalogue::Catalogue;
+use crate::language::{tr, tr_format};
 use crate::panels::controls::{mark, patch, row};
 use crate::panels::fitted_text::text;
 use crate::panels::search::{self, Highlight};
@@ -34,12 +35,12 @@ impl PigmentList {
         self.highlight.read_arrows(ui, ui.memory(|memory| memory.has_focus(id)));
         let field = TextEdit::singleline(&mut self.search)
             .id(id)
-            .hint_text("name or colour index")
+            .hint_text(tr("name or colour index"))
             .desired_width(f32::INFINITY);
-        let field = ui.add(field).accessible_name("Search").on_hover_text(
+        let field = ui.add(field).accessible_name(tr("Search")).on_hover_text(tr(
             "Lists only pigments whose name or colour index contains this text. Enter takes the \
              marked one, arrows move the mark",
-        );
+        ));
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let searches = field.has_focus() || entered;
         heads(ui, catalogue);
@@ -50,7 +51,7 @@ impl PigmentList {
         let marked = self.highlight.among(&self.search, found.len());
         let moved = std::mem::take(&mut self.highlight.moved);
         if found.is_empty() {
-            ui.weak(format!("no pigment of {} matches", catalogue.library.title));
+            ui.weak(tr_format!("no pigment of {title} matches", title = catalogue.library.title));
         }
         let mut chosen = None;
         let list = ScrollArea::vertical().max_height(LIST).min_scrolled_height(LIST);
@@ -106,9 +107,9 @@ fn heads(ui: &mut Ui, catalogue: &Catalogue) {
     let [_, name, index, hides] = places(rect);
     let any_marked = catalogue.library.ids().any(|p| !remark(catalogue, p).is_empty());
     for (place, align, words) in [
-        (name, Align::Min, "pigment"),
-        (index, Align::Min, if any_marked { "index" } else { "" }),
-        (hides, Align::Max, "hides from"),
+        (name, Align::Min, tr("pigment")),
+        (index, Align::Min, if any_marked { tr("index") } else { "" }),
+        (hides, Align::Max, tr("hides from")),
     ] {
         text(
             ui,
@@ -144,7 +145,7 @@ fn remark(catalogue: &Catalogue, pigment: PigmentId) -> &str {
     let known = &catalogue.library[pigment];
     match (&known.color_index, known.guessed) {
         (Some(index), _) => index,
-        (None, true) => "guessed",
+        (None, true) => tr("guessed"),
         (None, false) => "",
     }
 }

@@ -9,6 +9,7 @@ use super::next_step::next_step;
 use super::state::Reference;
 use crate::files::{DrawingKind, FileRequest};
 use crate::keymap::hint;
+use crate::language::{tr, tr_format};
 
 impl Reference {
     /// Draws the list of guides with its buttons.
@@ -17,28 +18,38 @@ impl Reference {
         let size = picture.file_size();
         ui.add_space(4.0);
         ui.horizontal_wrapped(|ui| {
-            let nothing = (!self.combing.can_undo()).then_some("There is no guide to undo");
-            let tip = &format!("Undoes the last guide{}", hint(ui.ctx(), "undo"));
-            if named_button(ui, "Undo", "Undo guide", tip, nothing) {
+            let nothing = (!self.combing.can_undo()).then_some(tr("There is no guide to undo"));
+            let tip = &tr_format!("Undoes the last guide{hint}", hint = hint(ui.ctx(), "undo"));
+            if named_button(ui, tr("Undo"), tr("Undo guide"), tip, nothing) {
                 self.undo();
             }
             let empty =
-                self.combing.combed().lines.is_empty().then_some("There is no guide to save");
-            if button(ui, "Save guides\u{2026}", "Saves the guides beside the picture", empty) {
+                self.combing.combed().lines.is_empty().then_some(tr("There is no guide to save"));
+            if button(
+                ui,
+                tr("Save guides\u{2026}"),
+                tr("Saves the guides beside the picture"),
+                empty,
+            ) {
                 cx.file(FileRequest::SaveDrawing(self.combing.drawn(&path, size)));
             }
-            if button(ui, "Open guides\u{2026}", "Opens a file of guides for this picture", None) {
+            if button(
+                ui,
+                tr("Open guides\u{2026}"),
+                tr("Opens a file of guides for this picture"),
+                None,
+            ) {
                 cx.file(FileRequest::OpenDrawing(DrawingKind::Guides, path.clone()));
             }
         });
         self.camera_row(ui);
         if self.combing.combed().lines.is_empty() {
-            let words = "Draw lines as strokes should run, from their start to their end";
+            let words = tr("Draw lines as strokes should run, from their start to their end");
             ui.label(RichText::new(words).weak());
         }
         if let Some(file) = self.combing.file() {
             let command = paint_command(&path, self.combing.combed().camera, file);
-            next_step(ui, "Paints along the guides", &command);
+            next_step(ui, tr("Paints along the guides"), &command);
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let mut removed = None;
@@ -58,8 +69,9 @@ impl Reference {
         ui.horizontal_wrapped(|ui| {
             let camera = self.combing.combed().camera;
             let mut is_view = camera.is_some();
-            let view = ui.checkbox(&mut is_view, "View of a model");
-            let tip = "The picture shows a model, seen from the camera that it was painted with";
+            let view = ui.checkbox(&mut is_view, tr("View of a model"));
+            let tip =
+                tr("The picture shows a model, seen from the camera that it was painted with");
             if view.on_hover_text(tip).changed() {
                 self.combing.set_view(is_view);
             }
@@ -67,9 +79,14 @@ impl Reference {
             let mut changed = false;
             let [around, above, view] = &mut camera;
             for (value, range, name, tip) in [
-                (around, -360.0..=360.0, "around", "Degrees around the model, 0 from the front"),
-                (above, -90.0..=90.0, "above", "Degrees above the horizon"),
-                (view, 1.0..=170.0, "view", "Angle of the field of view in degrees"),
+                (
+                    around,
+                    -360.0..=360.0,
+                    tr("around"),
+                    tr("Degrees around the model, 0 from the front"),
+                ),
+                (above, -90.0..=90.0, tr("above"), tr("Degrees above the horizon")),
+                (view, 1.0..=170.0, tr("view"), tr("Angle of the field of view in degrees")),
             ] {
                 let drag = DragValue::new(value).range(range).speed(1.0).max_decimals(1);
                 let drag = ui.add(drag.prefix(format!("{name} ")).suffix("\u{b0}"));
@@ -93,16 +110,23 @@ impl Reference {
         ui.horizontal(|ui| {
             let chosen = Button::selectable(
                 self.combing.selected == index,
-                format!("Guide {number}, {length:.0} px"),
+                tr_format!("Guide {number}, {length:.0} px", number, length),
             );
-            if ui.add(chosen).on_hover_text("Selects the guide").clicked() {
+            if ui.add(chosen).on_hover_text(tr("Selects the guide")).clicked() {
                 self.combing.selected = index;
             }
-            let (name, tip) = (format!("Reverse guide {number}"), "Strokes flow the other way");
-            if named_button(ui, "Reverse", &name, tip, None) {
+            let (name, tip) =
+                (tr_format!("Reverse guide {number}", number), tr("Strokes flow the other way"));
+            if named_button(ui, tr("Reverse"), &name, tip, None) {
                 self.combing.reverse(index);
             }
-            named_button(ui, "\u{d7}", &format!("Delete guide {number}"), "Removes the guide", None)
+            named_button(
+                ui,
+                "\u{d7}",
+                &tr_format!("Delete guide {number}", number),
+                tr("Removes the guide"),
+                None,
+            )
         })
         .inner
     }

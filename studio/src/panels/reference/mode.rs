@@ -1,5 +1,7 @@
 //! The use of the pointer on the picture.
 
+use crate::language::tr;
+
 /// The use of the primary button on the reference picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum ReferenceMode {
@@ -19,18 +21,18 @@ impl ReferenceMode {
     /// Text of the button.
     pub(super) fn name(self) -> &'static str {
         match self {
-            Self::Pick => "Pick colour",
-            Self::Mark => "Mark samples",
-            Self::Comb => "Comb",
+            Self::Pick => tr("Pick colour"),
+            Self::Mark => tr("Mark samples"),
+            Self::Comb => tr("Comb"),
         }
     }
 
     /// Tooltip of the button.
     pub(super) fn description(self) -> &'static str {
         match self {
-            Self::Pick => "A click picks a colour to match",
-            Self::Mark => "Lines over passages of brushwork, from which samples are taken",
-            Self::Comb => "Lines along which strokes run on a model or a picture",
+            Self::Pick => tr("A click picks a colour to match"),
+            Self::Mark => tr("Lines over passages of brushwork, from which samples are taken"),
+            Self::Comb => tr("Lines along which strokes run on a model or a picture"),
         }
     }
 }

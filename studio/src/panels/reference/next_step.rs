@@ -3,11 +3,12 @@
 use eframe::egui::{Label, RichText, Ui};
 
 use super::super::controls::named_button;
+use crate::language::tr;
 
 /// Draws a command with a button that copies it; `tip` tells what it does.
 pub(super) fn next_step(ui: &mut Ui, tip: &str, command: &str) {
     ui.horizontal(|ui| {
-        if named_button(ui, "Copy", "Copy command", "Copies the command", None) {
+        if named_button(ui, tr("Copy"), tr("Copy command"), tr("Copies the command"), None) {
             ui.ctx().copy_text(command.to_owned());
         }
         let text = RichText::new(command).monospace().size(11.0);

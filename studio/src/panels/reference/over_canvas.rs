@@ -10,6 +10,7 @@ use eframe::egui::{
 use super::place::OverlayPlace;
 use super::state::Reference;
 use crate::keymap::hint;
+use crate::language::{tr, tr_format};
 use crate::theme;
 use crate::view::{Placement, SurfaceView};
 
@@ -42,10 +43,12 @@ impl Reference {
     pub(super) fn over_controls(&mut self, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
             let loaded = self.picture.is_some();
-            let over = ui.add_enabled(loaded, Button::selectable(self.over.shown, "Over canvas"));
+            let over =
+                ui.add_enabled(loaded, Button::selectable(self.over.shown, tr("Over canvas")));
             let key = hint(ui.ctx(), "reference-over");
-            let tip = format!(
-                "Lays the picture over the canvas, to draw after{key}. It is never painted"
+            let tip = tr_format!(
+                "Lays the picture over the canvas, to draw after{key}. It is never painted",
+                key
             );
             if over.on_hover_text(tip).clicked() {
                 self.toggle_over_canvas();
@@ -56,18 +59,19 @@ impl Reference {
             let mut percent = self.over.opacity * 100.0;
             ui.spacing_mut().slider_width = 80.0;
             let slider = Slider::new(&mut percent, 0.0..=100.0).fixed_decimals(0).suffix(" %");
-            let slider = ui.add(slider).accessible_name("Opacity over the canvas");
-            if slider.on_hover_text("How much the picture hides the painting").changed() {
+            let slider = ui.add(slider).accessible_name(tr("Opacity over the canvas"));
+            if slider.on_hover_text(tr("How much the picture hides the painting")).changed() {
                 self.over.opacity = percent / 100.0;
             }
-            let moving = ui.add(Button::selectable(self.over.moving, "Move"));
-            let tip = "Drag the picture, its corners and the handle above it; while this is off it \
-                       is locked, and the pen paints";
+            let moving = ui.add(Button::selectable(self.over.moving, tr("Move")));
+            let tip =
+                tr("Drag the picture, its corners and the handle above it; while this is off it \
+                       is locked, and the pen paints");
             if moving.on_hover_text(tip).clicked() {
                 self.over.moving ^= true;
             }
-            let fit = ui.button("Fit to canvas");
-            if fit.on_hover_text("Fits the whole picture into the canvas").clicked() {
+            let fit = ui.button(tr("Fit to canvas"));
+            if fit.on_hover_text(tr("Fits the whole picture into the canvas")).clicked() {
                 self.over.place = None;
             }
         });
@@ -123,16 +127,16 @@ impl Reference {
             let to = response.interact_pointer_pos().filter(|_| response.dragged());
             (to.map(|point| on_canvas.mm(point)), response)
         };
-        let names = ["upper left", "upper right", "lower right", "lower left"];
+        let names = [tr("upper left"), tr("upper right"), tr("lower right"), tr("lower left")];
         for (corner, name) in CORNERS.into_iter().zip(names) {
             let at = on_canvas.point(place.point(corner, aspect));
-            let (to, response) = handle(at, &format!("Scale by the {name} corner"));
+            let (to, response) = handle(at, &tr_format!("Scale by the {name} corner", name));
             response.on_hover_cursor(CursorIcon::ResizeNwSe);
             if let Some(to) = to {
                 moved = place.scaled_to(to, aspect);
             }
         }
-        let (to, response) = handle(turn_handle(on_canvas, &place, aspect), "Turn the picture");
+        let (to, response) = handle(turn_handle(on_canvas, &place, aspect), tr("Turn the picture"));
         response.on_hover_cursor(CursorIcon::Alias);
         if let Some(to) = to {
             moved = place.turned_to(to);

@@ -12,6 +12,7 @@ use super::mode::ReferenceMode;
 use super::picture::PendingPicture;
 use super::picture_view::PictureView;
 use super::state::Reference;
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Usual height of the list of what is drawn, in points.
@@ -28,7 +29,7 @@ impl Reference {
         }
         let area = ui.available_size().max(vec2(40.0, 40.0));
         let (rect, response) = ui.allocate_exact_size(area, Sense::click_and_drag());
-        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Reference picture"));
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr("Reference picture")));
         ui.painter().rect_filled(rect, 0.0, theme::SURROUND);
         self.hovered = response.contains_pointer();
         if self.picture.is_none() {
@@ -81,10 +82,10 @@ impl Reference {
         let name = name.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
         let text = match &self.error {
             Some(error) => error.clone(),
-            None if self.reading.is_some() => format!("Reading {name}"),
-            None => "A reference picture to pick colours from: open one, or drop it \
-                     on the window"
-                .to_owned(),
+            None if self.reading.is_some() => tr_format!("Reading {name}", name),
+            None => tr("A reference picture to pick colours from: open one, or drop it \
+                     on the window")
+            .to_owned(),
         };
         let inner = rect.shrink(16.0);
         let mut within = ui.new_child(eframe::egui::UiBuilder::new().max_rect(inner));
@@ -149,7 +150,7 @@ impl Reference {
         let picture = self.picture.as_ref()?;
         let texture = self.texture.get_or_insert_with(|| {
             let image = picture.on_screen(self.grey, self.exposure);
-            context.load_texture("reference picture", image, TextureOptions::LINEAR)
+            context.load_texture(tr("reference picture"), image, TextureOptions::LINEAR)
         });
         Some(texture.id())
     }

@@ -9,6 +9,7 @@ use render::photograph::Picture as Linear;
 use spectra::color::RgbSpace;
 
 use crate::files::{ReadPicture, on_screen, read_picture};
+use crate::language::tr;
 
 /// Maximum of the longer side in pixels; larger pictures are reduced.
 const LONGEST: usize = 2048;
@@ -121,7 +122,9 @@ impl PendingPicture {
         match self.receiver.try_recv() {
             Ok(read) => Some(read),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err("the picture cannot be read".to_owned())),
+            Err(TryRecvError::Disconnected) => {
+                Some(Err(tr("the picture cannot be read").to_owned()))
+            }
         }
     }
 }

@@ -13,6 +13,7 @@ use super::overlay::screen_color;
 use super::state::Reference;
 use crate::files::{DrawingKind, FileRequest};
 use crate::keymap::hint;
+use crate::language::{tr, tr_format};
 use crate::theme;
 
 /// Width of the figure and the button at the right of a sample, in points.
@@ -26,12 +27,12 @@ impl Reference {
         ui.add_space(4.0);
         ui.horizontal_wrapped(|ui| {
             for (spacing, name, tip) in [
-                (false, "Scribble", "A line over a passage is a new sample; a click selects one"),
+                (false, tr("Scribble"), tr("A line over a passage is a new sample; a click selects one")),
                 (
                     true,
-                    "Spacing",
-                    "A line between the middles of two neighbouring strokes, or a click on each, \
-                     tells how far apart the strokes of the selected sample are; also with Shift",
+                    tr("Spacing"),
+                    tr("A line between the middles of two neighbouring strokes, or a click on each, \
+                     tells how far apart the strokes of the selected sample are; also with Shift"),
                 ),
             ] {
                 let chosen = Button::selectable(self.spacing == spacing, name);
@@ -39,27 +40,27 @@ impl Reference {
                     (self.spacing, self.first_place) = (spacing, None);
                 }
             }
-            let nothing = (!self.samples.can_undo()).then_some("There is no mark to undo");
-            let tip = format!("Undoes the last mark{}", hint(ui.ctx(), "undo"));
-            if named_button(ui, "Undo", "Undo mark", &tip, nothing) {
+            let nothing = (!self.samples.can_undo()).then_some(tr("There is no mark to undo"));
+            let tip = tr_format!("Undoes the last mark{hint}", hint = hint(ui.ctx(), "undo"));
+            if named_button(ui, tr("Undo"), tr("Undo mark"), &tip, nothing) {
                 self.undo();
             }
-            let empty = self.samples.marks().is_empty().then_some("There is no mark to save");
-            if button(ui, "Save marks\u{2026}", "Saves the marks beside the picture", empty) {
+            let empty = self.samples.marks().is_empty().then_some(tr("There is no mark to save"));
+            if button(ui, tr("Save marks\u{2026}"), tr("Saves the marks beside the picture"), empty) {
                 cx.file(FileRequest::SaveDrawing(self.samples.drawn(&path)));
             }
-            if button(ui, "Open marks\u{2026}", "Opens a file of marks for this picture", None) {
+            if button(ui, tr("Open marks\u{2026}"), tr("Opens a file of marks for this picture"), None) {
                 cx.file(FileRequest::OpenDrawing(DrawingKind::Marks, path.clone()));
             }
         });
         if self.samples.marks().is_empty() {
-            ui.label(RichText::new("Draw a line over a passage whose strokes you like").weak());
+            ui.label(RichText::new(tr("Draw a line over a passage whose strokes you like")).weak());
         }
         if let Some(fault) = self.samples.fault() {
             ui.label(RichText::new(&fault.text).color(theme::colors(ui.ctx()).strong));
             ui.label(RichText::new(fault.hint.as_deref().unwrap_or_default()).weak());
         } else if let Some(file) = self.samples.file() {
-            next_step(ui, "Takes the samples", &sample_command(&path, file));
+            next_step(ui, tr("Takes the samples"), &sample_command(&path, file));
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let mut removed = None;
@@ -85,13 +86,15 @@ impl Reference {
             }
             self.name_field(ui, index, &name, size);
             let (words, tip) = match spacing {
-                Some(px) => (format!("{px:.1} px"), "Distance of neighbouring strokes"),
-                None => ("estimated".to_owned(), "The distance of strokes will be estimated"),
+                Some(px) => (format!("{px:.1} px"), tr("Distance of neighbouring strokes")),
+                None => {
+                    (tr("estimated").to_owned(), tr("The distance of strokes will be estimated"))
+                }
             };
             ui.add_sized(vec2(62.0, 18.0), Label::new(RichText::new(words).weak()))
                 .on_hover_text(tip);
-            let delete = format!("Delete {name}");
-            named_button(ui, "\u{d7}", &delete, "Removes the sample", None)
+            let delete = tr_format!("Delete {name}", name);
+            named_button(ui, "\u{d7}", &delete, tr("Removes the sample"), None)
         })
         .inner
     }
@@ -102,7 +105,7 @@ impl Reference {
         let mut typed = own.map_or_else(|| name.to_owned(), |(_, typed)| typed);
         let width = (ui.available_width() - RIGHT).max(40.0);
         let field = ui.add(TextEdit::singleline(&mut typed).desired_width(width));
-        let field = field.on_hover_text("Name of the sample, different from all others");
+        let field = field.on_hover_text(tr("Name of the sample, different from all others"));
         if field.gained_focus() {
             self.samples.selected = index;
         }
@@ -119,10 +122,10 @@ impl Reference {
 fn patch(ui: &mut Ui, name: &str, index: usize, selected: bool) -> bool {
     let (rect, response) =
         ui.allocate_exact_size(theme::at_least(ui, vec2(20.0, 20.0)), Sense::click());
-    let words = format!("Select {name}");
+    let words = tr_format!("Select {name}", name);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, selected, &words));
     let width = if selected { 2.0 } else { 0.0 };
     let edge = Stroke::new(width, theme::colors(ui.ctx()).strong);
     ui.painter().rect(rect.shrink(2.0), 2, screen_color(index), edge, StrokeKind::Outside);
-    response.on_hover_text("Selects the sample; Spacing is for the selected one").clicked()
+    response.on_hover_text(tr("Selects the sample; Spacing is for the selected one")).clicked()
 }

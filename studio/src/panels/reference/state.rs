@@ -13,6 +13,7 @@ use super::place::OverCanvas;
 use super::pointer_line::PointerLine;
 use super::samples::SampleMarks;
 use crate::files::{Drawing, DrawnFile, Problem, ReferenceChange};
+use crate::language::{tr, tr_format};
 
 /// Default radius of the averaged disc, in pixels of the picture.
 const RADIUS: f32 = 2.0;
@@ -141,18 +142,28 @@ impl Reference {
                 self.renaming = None;
                 self.samples.open(marks.samples, path, size);
                 let other = marks.painting.filter(|painting| !is_named(painting, &own))?;
-                let text = format!("{file} marks the picture {other}, not {own}");
-                Some(Problem::new(text, "look whether the lines are where they should be"))
+                let text =
+                    tr_format!("{file} marks the picture {other}, not {own}", file, other, own);
+                Some(Problem::new(text, tr("look whether the lines are where they should be")))
             }
             Drawing::Guides(guides) => {
                 let wanted = guides.size_px.map(|side| side as usize);
                 if wanted != size {
                     let [[width, height], [own_width, own_height]] = [wanted, size];
-                    let text = format!(
+                    let text = tr_format!(
                         "{file}: guides of a picture of {width} x {height} pixels, but {own} has \
-                         {own_width} x {own_height}"
+                         {own_width} x {own_height}",
+                        file,
+                        width,
+                        height,
+                        own,
+                        own_width,
+                        own_height
                     );
-                    return Some(Problem::new(text, "open the picture that they were drawn on"));
+                    return Some(Problem::new(
+                        text,
+                        tr("open the picture that they were drawn on"),
+                    ));
                 }
                 self.mode = ReferenceMode::Comb;
                 let combed = Combed { lines: guides.lines, camera: guides.camera };

@@ -7,6 +7,7 @@ use session::swatches::{KeptMixture, SwatchChange, Usable};
 
 use super::grid::reason;
 use crate::files::FileRequest;
+use crate::language::{tr, tr_format};
 use crate::panels::PanelContext;
 use crate::panels::controls::button;
 use crate::panels::laying::lay_on_palette;
@@ -36,34 +37,39 @@ pub(super) fn show(
             ui.end_row();
         }
     });
-    let medium = format!("{:.0} % medium; {}", 100.0 * kept.vehicle, kept.library);
-    ui.weak(medium).on_hover_text("Share of medium in a load, and the library it was kept from");
+    let medium = tr_format!(
+        "{vehicle:.0} % medium; {library}",
+        vehicle = 100.0 * kept.vehicle,
+        library = kept.library
+    );
+    ui.weak(medium)
+        .on_hover_text(tr("Share of medium in a load, and the library it was kept from"));
     let usable = kept.usable(&cx.painting.library, &cx.painting.slots);
     let reason = reason(cx, &usable);
     ui.horizontal(|ui| {
-        let tip = "Adds this mixture to the selected brush, as a tube does";
-        if button(ui, "Load the brush", tip, reason.as_deref()) {
+        let tip = tr("Adds this mixture to the selected brush, as a tube does");
+        if button(ui, tr("Load the brush"), tip, reason.as_deref()) {
             cx.load(kept.recipe.clone(), kept.vehicle);
         }
-        let tip = "Puts this mixture on a free place of the palette";
-        if button(ui, "Lay on the palette", tip, reason.as_deref()) {
+        let tip = tr("Puts this mixture on a free place of the palette");
+        if button(ui, tr("Lay on the palette"), tip, reason.as_deref()) {
             lay_on_palette(cx, kept.recipe.clone(), kept.vehicle);
         }
     });
     ui.horizontal(|ui| {
         let mut change = None;
-        if button(ui, "Rename", "Gives this mixture another name", None) {
+        if button(ui, tr("Rename"), tr("Gives this mixture another name"), None) {
             *typed = Some(kept.name.clone());
         }
-        let first = before.is_none().then_some("it is the first");
-        if button(ui, "Earlier", "Moves it one place towards the first", first) {
+        let first = before.is_none().then_some(tr("it is the first"));
+        if button(ui, tr("Earlier"), tr("Moves it one place towards the first"), first) {
             change = before.map(|to| SwatchChange::Move(index, to));
         }
-        let last = after.is_none().then_some("it is the last");
-        if button(ui, "Later", "Moves it one place towards the last", last) {
+        let last = after.is_none().then_some(tr("it is the last"));
+        if button(ui, tr("Later"), tr("Moves it one place towards the last"), last) {
             change = after.map(|to| SwatchChange::Move(index, to));
         }
-        if button(ui, "Forget", "Removes this mixture from the list", None) {
+        if button(ui, tr("Forget"), tr("Removes this mixture from the list"), None) {
             change = Some(SwatchChange::Remove(index));
         }
         if let Some(change) = change {
@@ -89,8 +95,8 @@ fn name(
         return;
     };
     let field = TextEdit::singleline(text).desired_width(f32::INFINITY).char_limit(60);
-    let response = ui.add(field).accessible_name("Name of the mixture");
-    let response = response.on_hover_text("Enter accepts the name, Escape cancels");
+    let response = ui.add(field).accessible_name(tr("Name of the mixture"));
+    let response = response.on_hover_text(tr("Enter accepts the name, Escape cancels"));
     if response.lost_focus() {
         if !ui.input(|input| input.key_pressed(Key::Escape)) {
             cx.file(FileRequest::Swatches(SwatchChange::Rename(index, text.clone())));
@@ -106,9 +112,9 @@ fn add_tubes(ui: &mut Ui, cx: &mut PanelContext<'_>, usable: &Usable) {
     let Usable::NotOnPalette(away) = usable else { return };
     let held: Vec<_> = cx.painting.slots.iter().copied().flatten().collect();
     let full = held.len() + away.len() > SLOTS;
-    let reason = full.then_some("the palette has no room for them: replace tubes first");
-    let tip = "Puts the tubes that this mixture needs on the palette";
-    if button(ui, "Add its tubes", tip, reason) {
+    let reason = full.then_some(tr("the palette has no room for them: replace tubes first"));
+    let tip = tr("Puts the tubes that this mixture needs on the palette");
+    if button(ui, tr("Add its tubes"), tip, reason) {
         let all = held.iter().chain(away);
         let names = all.map(|&pigment| cx.painting.library[pigment].name.as_str());
         let palette = PaletteSpec::from_names(names);

@@ -5,6 +5,7 @@ use eframe::egui::{
 };
 use session::swatches::{KeptMixture, Usable};
 
+use crate::language::{tr, tr_format};
 use crate::panels::PanelContext;
 use crate::panels::controls::patch;
 use crate::theme;
@@ -71,7 +72,7 @@ fn one(
     chosen: bool,
 ) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), Sense::click_and_drag());
-    let name = format!("mixture {}", kept.name);
+    let name = tr_format!("mixture {name}", name = kept.name);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));
     let colors = theme::colors(ui.ctx());
     patch(ui.painter(), rect.shrink(3.0), color);
@@ -106,22 +107,29 @@ fn tip(ui: &mut Ui, cx: &PanelContext<'_>, kept: &KeptMixture, usable: &Usable) 
     }
     match reason(cx, usable) {
         Some(reason) => ui.weak(reason),
-        None => ui.weak("Double click loads the brush; drag to another place."),
+        None => ui.weak(tr("Double click loads the brush; drag to another place.")),
     };
 }
 
 /// Why a mixture cannot be loaded now; `None` if it can.
 pub(super) fn reason(cx: &PanelContext<'_>, usable: &Usable) -> Option<String> {
-    let verb = |count: usize| if count == 1 { "is" } else { "are" };
     match usable {
         Usable::Now => None,
         Usable::NotOnPalette(away) => {
             let names: Vec<&str> =
                 away.iter().map(|pigment| cx.painting.library[*pigment].name.as_str()).collect();
-            Some(format!("{} {} not on the palette.", names.join(", "), verb(names.len())))
+            let all = names.join(", ");
+            Some(match names.len() {
+                1 => tr_format!("{name} is not on the palette.", name = all),
+                _ => tr_format!("{names} are not on the palette.", names = all),
+            })
         }
         Usable::NotInLibrary(names) => {
-            Some(format!("{} {} not in the open library.", names.join(", "), verb(names.len())))
+            let all = names.join(", ");
+            Some(match names.len() {
+                1 => tr_format!("{name} is not in the open library.", name = all),
+                _ => tr_format!("{names} are not in the open library.", names = all),
+            })
         }
     }
 }

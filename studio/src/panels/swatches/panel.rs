@@ -7,6 +7,7 @@ use super::chosen::{self, Place};
 use super::colors::SwatchColors;
 use super::grid::{self, GridRequest};
 use crate::files::{FileRequest, SwatchFormat};
+use crate::language::tr;
 use crate::panels::controls::item;
 use crate::panels::{PanelContext, Request};
 
@@ -31,8 +32,8 @@ impl Swatches {
             (0..book.swatches.len()).filter(|&index| self.all_libraries || own(index)).collect();
         if shown.is_empty() {
             ui.weak(
-                "No mixture is kept. \u{201c}Keep\u{201d} in the panel Brush keeps what the brush holds, beside a \
-                 recipe it keeps that.",
+                tr("No mixture is kept. \u{201c}Keep\u{201d} in the panel Brush keeps what the brush holds, beside a \
+                 recipe it keeps that."),
             );
             return;
         }
@@ -81,19 +82,27 @@ impl Swatches {
 
     fn header(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, book: &SwatchBook) {
         ui.horizontal(|ui| {
-            let all = ui.checkbox(&mut self.all_libraries, "All libraries");
-            all.on_hover_text("Shows mixtures that were kept from other libraries too");
-            ui.menu_button("Import, export", |ui| {
+            let all = ui.checkbox(&mut self.all_libraries, tr("All libraries"));
+            all.on_hover_text(tr("Shows mixtures that were kept from other libraries too"));
+            ui.menu_button(tr("Import, export"), |ui| {
                 let tip =
-                    "Adds mixtures (.json), or colours (.gpl, .ase, .aco) to find recipes for";
-                if item(ui, "Import...", tip, None) {
+                    tr("Adds mixtures (.json), or colours (.gpl, .ase, .aco) to find recipes for");
+                if item(ui, tr("Import..."), tip, None) {
                     cx.file(FileRequest::ImportSwatches);
                 }
-                let none = book.swatches.is_empty().then_some("no mixture is kept");
+                let none = book.swatches.is_empty().then_some(tr("no mixture is kept"));
                 for (format, name, tip) in [
-                    (SwatchFormat::Json, "Export mixtures...", "Writes all recipes as JSON"),
-                    (SwatchFormat::Gpl, "Export colours (.gpl)...", "For GIMP, Inkscape and Krita"),
-                    (SwatchFormat::Ase, "Export colours (.ase)...", "For Adobe programs"),
+                    (
+                        SwatchFormat::Json,
+                        tr("Export mixtures..."),
+                        tr("Writes all recipes as JSON"),
+                    ),
+                    (
+                        SwatchFormat::Gpl,
+                        tr("Export colours (.gpl)..."),
+                        tr("For GIMP, Inkscape and Krita"),
+                    ),
+                    (SwatchFormat::Ase, tr("Export colours (.ase)..."), tr("For Adobe programs")),
                 ] {
                     if item(ui, name, tip, none) {
                         cx.file(FileRequest::ExportSwatches(format));
@@ -101,7 +110,7 @@ impl Swatches {
                 }
             })
             .response
-            .on_hover_text("Imports and exports mixtures and their colours");
+            .on_hover_text(tr("Imports and exports mixtures and their colours"));
         });
     }
 }

@@ -6,6 +6,7 @@ use render::layer::SLOTS;
 use render::paint::strokes::{Action, PaletteSpec};
 
 use crate::floating;
+use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, button_background, patch};
 use crate::panels::fitted_text::text;
 use crate::panels::pigments::{Catalogue, PigmentList};
@@ -37,7 +38,7 @@ impl Chooser {
         cx: &mut PanelContext<'_>,
     ) {
         let mut open = self.open;
-        floating::show(context, "Choose tubes", "choose tubes", &mut open, |ui| {
+        floating::show(context, tr("Choose tubes"), tr("choose tubes"), &mut open, |ui| {
             ui.set_width(WIDTH);
             self.contents(ui, catalogue, cx);
         });
@@ -52,25 +53,25 @@ impl Chooser {
         });
         ui.horizontal(|ui| {
             let held = cx.painting.slots[self.slot];
-            let name = held.map_or("empty", |pigment| catalogue.name(pigment));
-            ui.label(format!("Slot {}: {name}", self.slot + 1));
+            let name = held.map_or(tr("empty"), |pigment| catalogue.name(pigment));
+            ui.label(tr_format!("Slot {slot}: {name}", slot = self.slot + 1, name));
             let disabled_reason = match held {
-                None => Some("the slot is empty"),
+                None => Some(tr("the slot is empty")),
                 Some(_) if cx.painting.slots.iter().flatten().count() == 1 => {
-                    Some("the palette needs at least one pigment")
+                    Some(tr("the palette needs at least one pigment"))
                 }
                 Some(_) => None,
             };
-            let tip = "Empties the slot; there must be no wet paint of it";
-            if button(ui, "Take off", tip, disabled_reason) {
+            let tip = tr("Empties the slot; there must be no wet paint of it");
+            if button(ui, tr("Take off"), tip, disabled_reason) {
                 set_slot(cx, self.slot, None);
             }
         });
         ui.separator();
         ui.horizontal(|ui| {
             ui.label(&catalogue.library.title);
-            let tip = "Opens a pigment library or a painting with its own";
-            if button(ui, "Open another library...", tip, None) {
+            let tip = tr("Opens a pigment library or a painting with its own");
+            if button(ui, tr("Open another library..."), tip, None) {
                 cx.file(FileRequest::Open(None));
             }
         });
@@ -78,7 +79,7 @@ impl Chooser {
         let scattering = cx.painting.medium.scattering_per_mm;
         let chosen = self.list.show(ui, catalogue, scattering, |pigment| {
             let slot = slots.iter().position(|&held| held == Some(pigment))?;
-            Some(format!("it is already in slot {}", slot + 1))
+            Some(tr_format!("it is already in slot {slot}", slot = slot + 1))
         });
         if let Some(pigment) = chosen {
             set_slot(cx, self.slot, Some(pigment));
@@ -88,7 +89,12 @@ impl Chooser {
     fn slot(&mut self, ui: &mut Ui, catalogue: &Catalogue, held: Option<PigmentId>, slot: usize) {
         let (rect, response) =
             ui.allocate_exact_size(theme::at_least(ui, vec2(42.0, 42.0)), Sense::click());
-        button_background(ui, &response, &format!("slot {}", slot + 1), slot == self.slot);
+        button_background(
+            ui,
+            &response,
+            &tr_format!("slot {slot}", slot = slot + 1),
+            slot == self.slot,
+        );
         let (upper, lower) = rect.shrink(5.0).split_top_bottom_at_fraction(0.6);
         let color = held.map(|pigment| catalogue.colors(pigment).masstone_srgb);
         patch(ui.painter(), upper, color);
@@ -97,8 +103,8 @@ impl Chooser {
         if response.clicked() {
             self.slot = slot;
         }
-        let name = held.map_or("empty", |pigment| catalogue.name(pigment));
-        response.on_hover_text(format!("{name}: choose the pigment of this slot"));
+        let name = held.map_or(tr("empty"), |pigment| catalogue.name(pigment));
+        response.on_hover_text(tr_format!("{name}: choose the pigment of this slot", name));
     }
 }
 

@@ -10,6 +10,7 @@ use render::layer::SLOTS;
 use super::chooser::Chooser;
 use super::squeeze::{DraggedTube, load};
 use super::tube;
+use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, button_background, item, slider};
 use crate::panels::pigments::{Catalogue, CatalogueCache, Exchange, ExchangeScope, card};
 use crate::panels::{Mode, PanelContext};
@@ -59,7 +60,7 @@ impl Tubes {
         let context = ui.ctx().clone();
         drag(ui, cx);
         self.chooser.show(&context, &catalogue, cx);
-        self.exchange.show(&context, "exchange a tube", &catalogue, cx);
+        self.exchange.show(&context, tr("exchange a tube"), &catalogue, cx);
     }
 
     /// Opens the window that chooses the pigment of a slot.
@@ -76,16 +77,26 @@ impl Tubes {
     ) {
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         let Some(pigment) = cx.painting.slots[slot] else {
-            button_background(ui, &response, &format!("empty slot {}", slot + 1), false);
+            button_background(
+                ui,
+                &response,
+                &tr_format!("empty slot {slot}", slot = slot + 1),
+                false,
+            );
             tube::draw_empty(ui, rect);
             if response.clicked() {
                 self.chooser.open(slot);
             }
-            response.on_hover_text("Puts a pigment of the library on the palette");
+            response.on_hover_text(tr("Puts a pigment of the library on the palette"));
             return;
         };
         let name = catalogue.name(pigment);
-        button_background(ui, &response, &format!("tube of {name}"), slot == cx.tools.tube);
+        button_background(
+            ui,
+            &response,
+            &tr_format!("tube of {name}", name),
+            slot == cx.tools.tube,
+        );
         let (masstone, tint) = (cx.painting.masstones[slot], cx.painting.tints[slot]);
         tube::draw(ui, rect, masstone, tint, name);
         response.dnd_set_drag_payload(DraggedTube { slot });
@@ -94,27 +105,34 @@ impl Tubes {
         let scattering = cx.painting.medium.scattering_per_mm;
         response.on_hover_ui(|ui| {
             card(ui, catalogue, pigment, scattering);
-            ui.weak("Click, then click on the palette to squeeze. Double click loads the brush.");
+            ui.weak(tr(
+                "Click, then click on the palette to squeeze. Double click loads the brush.",
+            ));
         });
     }
 
     fn menu(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, slot: usize, pigment: PigmentId) {
-        if item(ui, "Load the brush", "Loads the selected brush with this paint", no_brush(cx)) {
+        if item(
+            ui,
+            tr("Load the brush"),
+            tr("Loads the selected brush with this paint"),
+            no_brush(cx),
+        ) {
             cx.tools.tube = slot;
             load(cx, slot);
         }
-        let tip = "The next clicks on palette or canvas squeeze this tube";
-        if item(ui, "Squeeze", tip, None) {
+        let tip = tr("The next clicks on palette or canvas squeeze this tube");
+        if item(ui, tr("Squeeze"), tip, None) {
             cx.tools.tube = slot;
             cx.tools.mode = Mode::Squeeze;
         }
         ui.separator();
-        let tip = "Puts a pigment of the library into this slot";
-        if item(ui, "Put another here...", tip, None) {
+        let tip = tr("Puts a pigment of the library into this slot");
+        if item(ui, tr("Put another here..."), tip, None) {
             self.chooser.open(slot);
         }
-        let tip = "Replaces the pigment in existing paint";
-        if item(ui, "Exchange in the painting...", tip, None) {
+        let tip = tr("Replaces the pigment in existing paint");
+        if item(ui, tr("Exchange in the painting..."), tip, None) {
             self.exchange.open(pigment, ExchangeScope::AllLayers);
         }
     }
@@ -124,30 +142,30 @@ impl Tubes {
         let slot = cx.tools.tube.min(SLOTS - 1);
         let held = cx.painting.slots[slot];
         let name = held.map(|pigment| cx.painting.library[pigment].name.as_str());
-        ui.label(RichText::new(name.unwrap_or("no tube selected")).strong());
+        ui.label(RichText::new(name.unwrap_or(tr("no tube selected"))).strong());
         ui.horizontal(|ui| {
-            let empty = name.is_none().then_some("the slot is empty");
-            let tip = "Loads the selected brush, with the height and medium set in its panel";
-            if button(ui, "Load brush", tip, empty.or(no_brush(cx))) {
+            let empty = name.is_none().then_some(tr("the slot is empty"));
+            let tip = tr("Loads the selected brush, with the height and medium set in its panel");
+            if button(ui, tr("Load brush"), tip, empty.or(no_brush(cx))) {
                 load(cx, slot);
             }
             let squeezing = cx.tools.mode == Mode::Squeeze;
             let tip =
-                "A click on palette or canvas squeezes this tube, until another tool is chosen";
+                tr("A click on palette or canvas squeezes this tube, until another tool is chosen");
             ui.add_enabled_ui(empty.is_none(), |ui| {
-                let button = ui.add(Button::new("Squeeze").selected(squeezing));
+                let button = ui.add(Button::new(tr("Squeeze")).selected(squeezing));
                 let button = button.on_hover_text(tip);
-                if button.on_disabled_hover_text("the slot is empty").clicked() {
+                if button.on_disabled_hover_text(tr("the slot is empty")).clicked() {
                     cx.tools.mode = Mode::Squeeze;
                 }
             });
-            if button(ui, "Tubes...", "Chooses which pigments are on the palette", None) {
+            if button(ui, tr("Tubes..."), tr("Chooses which pigments are on the palette"), None) {
                 self.chooser.open(slot);
             }
         });
         let amount = Slider::new(&mut cx.tools.squeeze_mm3, 1.0..=1000.0).logarithmic(true);
         let amount = amount.fixed_decimals(0).suffix(" mm3");
-        slider(ui, "Amount", "Volume of one squeeze, in cubic millimetres", amount);
+        slider(ui, tr("Amount"), tr("Volume of one squeeze, in cubic millimetres"), amount);
     }
 }
 
@@ -178,7 +196,7 @@ fn tube_size(room: Vec2, per_row: usize, rows: usize) -> Vec2 {
 /// Reason why no brush can be loaded, if any.
 fn no_brush(cx: &PanelContext<'_>) -> Option<&'static str> {
     let known = cx.painting.brushes.iter().any(|brush| brush.name == cx.tools.brush);
-    (!known).then_some("no brush is selected")
+    (!known).then_some(tr("no brush is selected"))
 }
 
 fn clicked(response: &Response, cx: &mut PanelContext<'_>, slot: usize) {

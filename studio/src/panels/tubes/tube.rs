@@ -5,6 +5,7 @@ use eframe::egui::{
     Ui, pos2, vec2,
 };
 
+use crate::language::tr;
 use crate::panels::controls::patch;
 use crate::panels::fitted_text::text_from_top;
 use crate::theme;
@@ -64,7 +65,7 @@ pub(super) fn draw_empty(ui: &Ui, area: Rect) {
     let middle = body.center();
     painter.hline(middle.x - 6.0..=middle.x + 6.0, middle.y, plus);
     painter.vline(middle.x, middle.y - 6.0..=middle.y + 6.0, plus);
-    names(ui, area, "empty");
+    names(ui, area, tr("empty"));
 }
 
 /// Draws the drop of paint that follows the pointer while a tube is dragged.

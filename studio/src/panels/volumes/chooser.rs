@@ -6,6 +6,7 @@ use render::paint::document::Medium;
 use session::volumes::SceneState;
 
 use crate::floating;
+use crate::language::{tr, tr_format};
 use crate::panels::controls::button;
 use crate::panels::pigments::{CatalogueCache, PigmentList};
 
@@ -43,21 +44,21 @@ impl TubeChooser {
         let catalogue = self.catalogue.under(&state.library, &state.light);
         let scattering = Medium::of(&state.library).scattering_per_mm;
         let (mut open, mut choice) = (true, None);
-        floating::show(context, "Choose a pigment", "choose a pigment", &mut open, |ui| {
+        floating::show(context, tr("Choose a pigment"), tr("choose a pigment"), &mut open, |ui| {
             ui.set_width(WIDTH);
-            ui.label(format!("Tube {}: {name}", tube + 1));
-            ui.weak("What was poured from this tube is paint of its new pigment.");
+            ui.label(tr_format!("Tube {tube}: {name}", tube = tube + 1, name));
+            ui.weak(tr("What was poured from this tube is paint of its new pigment."));
             ui.horizontal(|ui| {
                 ui.label(&state.library.title);
-                let tip = "Fills all tubes from another pigment library (.json)";
-                if button(ui, "Open another library...", tip, None) {
+                let tip = tr("Fills all tubes from another pigment library (.json)");
+                if button(ui, tr("Open another library..."), tip, None) {
                     choice = Some(TubeChoice::Library);
                 }
             });
             let held = |pigment: PigmentId| {
                 let name = catalogue.name(pigment);
                 let number = state.tubes.iter().position(|tube| tube.name == name)?;
-                Some(format!("it is already in tube {}", number + 1))
+                Some(tr_format!("it is already in tube {number}", number = number + 1))
             };
             if let Some(pigment) = self.list.show(ui, &catalogue, scattering, held) {
                 choice = Some(TubeChoice::Pigment(tube, catalogue.name(pigment).to_owned()));

@@ -8,6 +8,7 @@ use session::volumes::VolumeCommand;
 use super::context::SceneContext;
 use super::time_bar::seconds_text;
 use crate::keymap::hint;
+use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, named_button, row, row_height};
 use crate::panels::fitted_text::text;
 use crate::theme;
@@ -22,16 +23,17 @@ const REMOVE: f32 = 28.0;
 pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let events = Arc::clone(&cx.state.events);
     ui.horizontal(|ui| {
-        let reason = events.is_empty().then_some("nothing was done yet");
+        let reason = events.is_empty().then_some(tr("nothing was done yet"));
         let key = hint(ui.ctx(), "scene.undo");
-        let tip = format!("Takes back what was done last, and replays the scene without it{key}");
-        if button(ui, "Undo", &tip, reason) {
+        let tip =
+            tr_format!("Takes back what was done last, and replays the scene without it{key}", key);
+        if button(ui, tr("Undo"), &tip, reason) {
             cx.command(VolumeCommand::Undo);
         }
         ui.weak(match events.len() {
-            0 => "no events yet".to_owned(),
-            1 => "1 event".to_owned(),
-            count => format!("{count} events"),
+            0 => tr("no events yet").to_owned(),
+            1 => tr("1 event").to_owned(),
+            count => tr_format!("{count} events", count),
         });
     });
     ui.spacing_mut().item_spacing.y = 1.0;
@@ -62,11 +64,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
                     theme::colors(ui.ctx()).text,
                     &event.label,
                 );
-                if response.on_hover_text("Goes to the moment at which it begins").clicked() {
+                if response.on_hover_text(tr("Goes to the moment at which it begins")).clicked() {
                     cx.command(VolumeCommand::Seek(event.from));
                 }
-                let name = format!("Remove event {}", number + 1);
-                let tip = "Removes it, and replays the scene without it";
+                let name = tr_format!("Remove event {number}", number = number + 1);
+                let tip = tr("Removes it, and replays the scene without it");
                 if named_button(ui, "x", &name, tip, None) {
                     cx.command(VolumeCommand::Remove(number));
                 }

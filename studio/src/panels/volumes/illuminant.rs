@@ -4,6 +4,7 @@ use eframe::egui::Ui;
 use session::volumes::SceneState;
 use spectra::light_from_text;
 
+use crate::language::tr;
 use crate::panels::light::{IlluminantControl, White, power_chart};
 use crate::theme;
 
@@ -16,7 +17,7 @@ pub struct SceneIlluminant {
 
 impl Default for SceneIlluminant {
     fn default() -> Self {
-        Self { control: IlluminantControl::new("Illuminant", "Temperature"), white: None }
+        Self { control: IlluminantControl::new(tr("Illuminant"), tr("Temperature")), white: None }
     }
 }
 
@@ -24,10 +25,10 @@ impl SceneIlluminant {
     /// Draws the choice of the illuminant, its power and its white. Returns the light that was
     /// chosen.
     pub(super) fn show(&mut self, ui: &mut Ui, state: &SceneState) -> Option<String> {
-        ui.label("Light on pigments").on_hover_text(
+        ui.label(tr("Light on pigments")).on_hover_text(tr(
             "Light on the pigments of glazes and of the exported painting; the subject's own \
              colours stay as they are",
-        );
+        ));
         let chosen = self.control.show(ui, &state.illuminant);
         let light = &state.light;
         let preview = self.control.preview().and_then(|name| light_from_text(&name).ok());

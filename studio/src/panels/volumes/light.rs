@@ -4,6 +4,7 @@ use eframe::egui::Ui;
 use session::volumes::VolumeCommand;
 
 use super::context::SceneContext;
+use crate::language::tr;
 use crate::panels::light::{Direction, direction_control, direction_text};
 
 /// Side of the direction control, in points.
@@ -18,13 +19,14 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let mut direction =
         Direction { azimuth_deg: light.azimuth_deg, elevation_deg: light.elevation_deg };
     let before = direction;
-    ui.label("Direction");
+    ui.label(tr("Direction"));
     ui.horizontal(|ui| {
         let (response, _) = direction_control(ui, SIZE, &mut direction, AMBIENT);
-        response.on_hover_text("Drag it, or use the arrow keys. The light turns with the camera");
+        response
+            .on_hover_text(tr("Drag it, or use the arrow keys. The light turns with the camera"));
         ui.vertical(|ui| {
             ui.label(direction_text(before));
-            ui.weak("clockwise from the top");
+            ui.weak(tr("clockwise from the top"));
         });
     });
     if direction != before {

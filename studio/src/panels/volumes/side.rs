@@ -4,6 +4,7 @@ use eframe::egui::{Button, CornerRadius, RichText, ScrollArea, Ui, vec2};
 
 use super::context::{SceneContext, SceneTab};
 use super::{events, export, here, light, tool, tubes, view};
+use crate::language::tr;
 use crate::panels::controls::row_height;
 use crate::panels::section::section;
 use crate::theme;
@@ -15,19 +16,21 @@ impl SceneTab {
     /// Name and description.
     fn words(self) -> (&'static str, &'static str) {
         match self {
-            Self::View => ("View", "The picture that is shown"),
-            Self::Light => ("Light", "Where the light comes from, and the light on pigments"),
-            Self::Here => ("Here", "Colour and paint at the last right click"),
-            Self::Events => ("Events", "All that was done, to go back to and to take back"),
-            Self::Export => ("Export", "Pictures, a painting, the script, an animation"),
+            Self::View => (tr("View"), tr("The picture that is shown")),
+            Self::Light => {
+                (tr("Light"), tr("Where the light comes from, and the light on pigments"))
+            }
+            Self::Here => (tr("Here"), tr("Colour and paint at the last right click")),
+            Self::Events => (tr("Events"), tr("All that was done, to go back to and to take back")),
+            Self::Export => (tr("Export"), tr("Pictures, a painting, the script, an animation")),
         }
     }
 }
 
 /// Draws the side panel.
 pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
-    section(ui, "Tubes", |ui| tubes::show(ui, cx));
-    section(ui, "Tool in hand", |ui| tool::show(ui, cx));
+    section(ui, tr("Tubes"), |ui| tubes::show(ui, cx));
+    section(ui, tr("Tool in hand"), |ui| tool::show(ui, cx));
     ui.add_space(6.0);
     tabs(ui, &mut cx.tools.tab);
     ui.add_space(4.0);

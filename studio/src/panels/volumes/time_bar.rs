@@ -8,6 +8,7 @@ use session::volumes::{STEPS_A_SECOND, SceneState, SceneTool, VolumeCommand};
 
 use super::context::SceneContext;
 use crate::keymap::hint;
+use crate::language::{tr, tr_format};
 use crate::panels::controls::row_height;
 use crate::theme;
 
@@ -44,27 +45,31 @@ pub fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     ui.horizontal_centered(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let key = |ui: &Ui, name| hint(ui.ctx(), name);
-        let tip = format!("Goes to the start{}", key(ui, "scene.start"));
-        if sign_button(ui, Sign::Start, "From the start", &tip) {
+        let tip = format!("{}{}", tr("Goes to the start"), key(ui, "scene.start"));
+        if sign_button(ui, Sign::Start, tr("From the start"), &tip) {
             cx.command(VolumeCommand::Seek(0));
         }
         let (sign, name, tip) = match time.playing {
-            true => (Sign::Pause, "Pause", "Stops time"),
-            false => (Sign::Play, "Play", "Lets time run"),
+            true => (Sign::Pause, tr("Pause"), tr("Stops time")),
+            false => (Sign::Play, tr("Play"), tr("Lets time run")),
         };
         let tip = format!("{tip}{}", key(ui, "scene.play"));
         if sign_button(ui, sign, name, &tip) {
             cx.command(VolumeCommand::Play(!time.playing));
         }
-        let tip = format!("Takes one step of 1/120 s{}", key(ui, "scene.step"));
-        if sign_button(ui, Sign::Step, "Step", &tip) {
+        let tip = format!("{}{}", tr("Takes one step of 1/120 s"), key(ui, "scene.step"));
+        if sign_button(ui, Sign::Step, tr("Step"), &tip) {
             cx.command(VolumeCommand::StepOnce);
         }
         ui.add_space(10.0);
         let size = vec2((ui.available_width() - TEXT).max(60.0), row_height(ui, BUTTON));
         let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
         track(ui, rect, response, cx);
-        let words = format!("{} of {}", seconds_text(time.step), seconds_text(time.end));
+        let words = tr_format!(
+            "{step} of {end}",
+            step = seconds_text(time.step),
+            end = seconds_text(time.end)
+        );
         let at = pos2(rect.right() + TEXT - 4.0, rect.center().y);
         let font = FontId::proportional(12.0);
         ui.painter().text(at, Align2::RIGHT_CENTER, words, font, theme::colors(ui.ctx()).text);
@@ -123,11 +128,11 @@ fn length(state: &SceneState) -> u64 {
 fn track(ui: &Ui, rect: Rect, response: Response, cx: &mut SceneContext<'_>) {
     let (time, length) = (cx.state.time, length(cx.state));
     response.widget_info(|| {
-        let mut info = WidgetInfo::slider(true, time.step as f64, "Time");
+        let mut info = WidgetInfo::slider(true, time.step as f64, tr("Time"));
         info.current_text_value = Some(seconds_text(time.step));
         info
     });
-    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, "Time"));
+    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, tr("Time")));
     let line = Rect::from_center_size(rect.center(), vec2(rect.width() - 12.0, 6.0));
     let x =
         |step: u64| line.left() + line.width() * (step.min(length) as f64 / length as f64) as f32;
@@ -167,7 +172,7 @@ fn track(ui: &Ui, rect: Rect, response: Response, cx: &mut SceneContext<'_>) {
         theme::colors(ui.ctx()).strong,
         Stroke::new(1.5, theme::colors(ui.ctx()).bar),
     );
-    response.on_hover_text("Drag to go to a moment; the scene is replayed to the bit");
+    response.on_hover_text(tr("Drag to go to a moment; the scene is replayed to the bit"));
 }
 
 #[cfg(test)]

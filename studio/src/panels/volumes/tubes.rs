@@ -5,6 +5,7 @@ use session::volumes::{SceneTool, VolumeCommand};
 
 use super::chooser::TubeChoice;
 use super::context::{SceneContext, SceneFileRequest};
+use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, button_background, item};
 use crate::panels::tubes::{TUBE_SIZE, draw_tube};
 
@@ -15,7 +16,7 @@ const ROW: usize = 4;
 pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let tubes = cx.state.tubes.clone();
     if tubes.is_empty() {
-        ui.weak("This scene has no pigments: what is poured shows the subject's own colours.");
+        ui.weak(tr("This scene has no pigments: what is poured shows the subject's own colours."));
         return;
     }
     ui.scope(|ui| {
@@ -26,19 +27,24 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
                     let number = row * ROW + column;
                     let (rect, response) = ui.allocate_exact_size(TUBE_SIZE, Sense::click());
                     let chosen = number == cx.tools.grip.tube;
-                    button_background(ui, &response, &format!("tube of {}", tube.name), chosen);
+                    button_background(
+                        ui,
+                        &response,
+                        &tr_format!("tube of {name}", name = tube.name),
+                        chosen,
+                    );
                     draw_tube(ui, rect, tube.masstone, tube.tint, &tube.name);
                     if response.clicked() {
                         cx.tools.grip.tube = number;
                         cx.tools.grip.tool = SceneTool::Pour;
                     }
                     response.context_menu(|ui| {
-                        let tip = "Puts another pigment of the library into this tube";
-                        if item(ui, "Put another here...", tip, None) {
+                        let tip = tr("Puts another pigment of the library into this tube");
+                        if item(ui, tr("Put another here..."), tip, None) {
                             cx.tools.chooser.open(number);
                         }
-                        let tip = "Fills all tubes from another pigment library (.json)";
-                        if item(ui, "Open a library...", tip, None) {
+                        let tip = tr("Fills all tubes from another pigment library (.json)");
+                        if item(ui, tr("Open a library..."), tip, None) {
                             cx.file(SceneFileRequest::Library);
                         }
                     });
@@ -47,7 +53,9 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
                             ui.strong(&tube.name);
                             ui.weak(format!("{}", number + 1));
                         });
-                        ui.label("Takes this tube in hand, to pour it; a right click changes it");
+                        ui.label(tr(
+                            "Takes this tube in hand, to pour it; a right click changes it",
+                        ));
                     });
                 }
             });
@@ -55,11 +63,11 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     });
     let chosen = tubes.get(cx.tools.grip.tube).map(|tube| tube.name.as_str());
     ui.horizontal(|ui| {
-        ui.label(RichText::new(chosen.unwrap_or("no tube in hand")).strong());
+        ui.label(RichText::new(chosen.unwrap_or(tr("no tube in hand"))).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let tip = "Chooses the pigment of the tube in hand, or another library";
-            let reason = chosen.is_none().then_some("no tube is in hand");
-            if button(ui, "Tube...", tip, reason) {
+            let tip = tr("Chooses the pigment of the tube in hand, or another library");
+            let reason = chosen.is_none().then_some(tr("no tube is in hand"));
+            if button(ui, tr("Tube..."), tip, reason) {
                 cx.tools.chooser.open(cx.tools.grip.tube);
             }
         });

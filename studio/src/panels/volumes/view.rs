@@ -5,6 +5,7 @@ use session::volumes::{Inside, Show};
 
 use super::context::SceneContext;
 use crate::keymap::hint;
+use crate::language::tr;
 use crate::panels::controls::row_height;
 
 /// Choices in a row.
@@ -13,7 +14,7 @@ const ROW: usize = 3;
 /// Draws the choice of the picture, the hatching, and what volumes show inside.
 pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     let look = cx.state.look;
-    ui.label("Picture");
+    ui.label(tr("Picture"));
     for row in Show::ALL.chunks(ROW) {
         let choices = row.iter().map(|&one| {
             let key =
@@ -26,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
         }
     }
     ui.add_space(4.0);
-    ui.label("Inside of the volumes");
+    ui.label(tr("Inside of the volumes"));
     let key = hint(ui.ctx(), "scene.inside");
     let has_tubes = !cx.state.tubes.is_empty();
     for row in Inside::choices(cx.state.by_region).chunks(ROW) {
@@ -40,8 +41,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut SceneContext<'_>) {
     ui.add_space(4.0);
     let mut hatching = look.hatching;
     let key = hint(ui.ctx(), "scene.hatching");
-    let tip = format!("Pencil strokes that show how the light falls{key}");
-    if ui.checkbox(&mut hatching, "Hatching").on_hover_text(tip).changed() {
+    let tip = format!("{}{key}", tr("Pencil strokes that show how the light falls"));
+    if ui.checkbox(&mut hatching, tr("Hatching")).on_hover_text(tip).changed() {
         cx.change_look(|look| look.hatching = hatching);
     }
 }
@@ -69,40 +70,40 @@ fn choose<T: Copy + PartialEq>(
 
 fn show_name(show: Show) -> &'static str {
     match show {
-        Show::Final => "Final",
-        Show::Volumes => "Volumes",
-        Show::Mask => "Mask",
-        Show::Grey => "Grey",
-        Show::Color => "Colour",
-        Show::Hatching => "Strokes",
+        Show::Final => tr("Final"),
+        Show::Volumes => tr("Volumes"),
+        Show::Mask => tr("Mask"),
+        Show::Grey => tr("Grey"),
+        Show::Color => tr("Colour"),
+        Show::Hatching => tr("Strokes"),
     }
 }
 
 fn show_tip(show: Show) -> &'static str {
     match show {
-        Show::Final => "The drawing, with colour inside of the volumes",
-        Show::Volumes => "The volumes themselves over the grey drawing",
-        Show::Mask => "White inside of the volumes, black outside",
-        Show::Grey => "The grey drawing alone",
-        Show::Color => "Colour everywhere",
-        Show::Hatching => "The pencil strokes alone",
+        Show::Final => tr("The drawing, with colour inside of the volumes"),
+        Show::Volumes => tr("The volumes themselves over the grey drawing"),
+        Show::Mask => tr("White inside of the volumes, black outside"),
+        Show::Grey => tr("The grey drawing alone"),
+        Show::Color => tr("Colour everywhere"),
+        Show::Hatching => tr("The pencil strokes alone"),
     }
 }
 
 fn inside_name(inside: Inside) -> &'static str {
     match inside {
-        Inside::OwnColours => "Own",
-        Inside::Glaze => "Glaze",
-        Inside::Both => "Both",
-        Inside::ByRegion => "By region",
+        Inside::OwnColours => tr("Own"),
+        Inside::Glaze => tr("Glaze"),
+        Inside::Both => tr("Both"),
+        Inside::ByRegion => tr("By region"),
     }
 }
 
 fn inside_tip(inside: Inside) -> &'static str {
     match inside {
-        Inside::OwnColours => "The subject's own colours",
-        Inside::Glaze => "A film of the poured pigments over the grey drawing",
-        Inside::Both => "A film of the poured pigments over the subject's own colours",
-        Inside::ByRegion => "What the script names for each of its regions",
+        Inside::OwnColours => tr("The subject's own colours"),
+        Inside::Glaze => tr("A film of the poured pigments over the grey drawing"),
+        Inside::Both => tr("A film of the poured pigments over the subject's own colours"),
+        Inside::ByRegion => tr("What the script names for each of its regions"),
     }
 }

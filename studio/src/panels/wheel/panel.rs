@@ -8,6 +8,7 @@ use super::plane::Plane;
 use super::plot::{self, Mark};
 use super::reach::Reach;
 use super::view::WheelView;
+use crate::language::{tr, tr_format};
 use crate::panels::PanelContext;
 use crate::panels::controls::slider;
 use crate::panels::eyedropper::{Color, SearchPanel, TargetColor};
@@ -44,7 +45,7 @@ impl Wheel {
         let wanted = target.as_ref().or(wanted);
         match made.as_deref() {
             None => {
-                ui.weak("Mixing the tubes ...");
+                ui.weak(tr("Mixing the tubes ..."));
             }
             Some(Err(error)) => reason(ui, error),
             Some(Ok(_)) => self.wheel(ui, cx, made.as_ref(), wanted),
@@ -52,14 +53,15 @@ impl Wheel {
         ui.separator();
         match self.target.clone() {
             None => {
-                ui.weak("Click a colour in the wheel to find its recipes.");
+                ui.weak(tr("Click a colour in the wheel to find its recipes."));
             }
             Some(target) => {
                 ui.horizontal(|ui| {
                     ui.label(&target.name);
-                    let clear =
-                        ui.small_button("Clear").accessible_name("Clear the wheel's colour");
-                    if clear.on_hover_text("Forgets the colour that was clicked").clicked() {
+                    let clear = ui
+                        .small_button(tr("Clear"))
+                        .accessible_name(tr("Clear the wheel's colour"));
+                    if clear.on_hover_text(tr("Forgets the colour that was clicked")).clicked() {
                         self.search.forget();
                         self.target = None;
                     }
@@ -72,14 +74,14 @@ impl Wheel {
     fn lightness_row(&mut self, ui: &mut Ui) {
         let mut all = self.lightness.is_none();
         ui.horizontal(|ui| {
-            let response = ui.checkbox(&mut all, "All lightnesses");
-            response.on_hover_text("Shows what the tubes reach at any lightness, or at one");
+            let response = ui.checkbox(&mut all, tr("All lightnesses"));
+            response.on_hover_text(tr("Shows what the tubes reach at any lightness, or at one"));
         });
         let mut lightness = self.lightness.unwrap_or(50.0);
         ui.add_enabled_ui(!all, |ui| {
             let control = Slider::new(&mut lightness, 5.0..=95.0).fixed_decimals(0);
-            let tip = "L* of the region: mixtures whose lightness is within 5 of it";
-            slider(ui, "Lightness", tip, control);
+            let tip = tr("L* of the region: mixtures whose lightness is within 5 of it");
+            slider(ui, tr("Lightness"), tip, control);
         });
         self.lightness = (!all).then_some(lightness);
     }
@@ -114,7 +116,7 @@ impl Wheel {
     ) -> Option<TargetColor> {
         let side = ui.available_width().min(LARGEST);
         let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Colour wheel"));
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr("Colour wheel")));
         let plane = Plane::with_chroma(rect, self.view.chroma);
         let painter = ui.painter_at(rect);
         plot::frame(&painter, &plane);
@@ -157,7 +159,7 @@ fn request(painting: &PaintingState) -> WheelRequest {
 
 fn reason(ui: &mut Ui, error: &PaletteError) {
     ui.label(format!("{error}."));
-    ui.weak("Put tubes on the palette whose mixtures were measured.");
+    ui.weak(tr("Put tubes on the palette whose mixtures were measured."));
 }
 
 /// Marks of what the brush holds and of the colour that is wanted.
@@ -181,24 +183,28 @@ fn held(painting: &PaintingState, brush: &str) -> Option<(Lab, [u8; 3])> {
 /// Says how near the tubes come to the colour that is wanted, and the brush to it.
 fn legend(ui: &mut Ui, cx: &PanelContext<'_>, nearest: Option<f64>, wanted: Option<&TargetColor>) {
     let Some(wanted) = wanted else {
-        ui.weak("Ring: what the brush holds.");
+        ui.weak(tr("Ring: what the brush holds."));
         return;
     };
     let words = match nearest {
-        None => format!("Square: {}.", wanted.name),
+        None => tr_format!("Square: {name}.", name = wanted.name),
         Some(nearest) if nearest <= REACHED => {
-            format!("Square: {}. The tubes reach it.", wanted.name)
+            tr_format!("Square: {name}. The tubes reach it.", name = wanted.name)
         }
         Some(nearest) => {
-            format!("Square: {}. The tubes come within \u{2206}E {nearest:.1}.", wanted.name)
+            tr_format!(
+                "Square: {name}. The tubes come within \u{2206}E {nearest:.1}.",
+                name = wanted.name,
+                nearest
+            )
         }
     };
-    let tip = "CIEDE2000 to the nearest mixture of up to four tubes, in shares of any size";
+    let tip = tr("CIEDE2000 to the nearest mixture of up to four tubes, in shares of any size");
     ui.label(words).on_hover_text(tip);
     if let Some((held, _)) = held(cx.painting, &cx.tools.brush) {
         let lab = wanted.lab(cx.painting.library.grid, &cx.painting.light.viewing);
         let apart = delta_e_ciede2000(lab, held);
-        ui.weak(format!("Ring: what the brush holds, \u{2206}E {apart:.1} from it."));
+        ui.weak(tr_format!("Ring: what the brush holds, \u{2206}E {apart:.1} from it.", apart));
     }
 }
 
@@ -214,9 +220,11 @@ fn tip(response: Response, painting: &PaintingState, wheel: &ColorWheel, plane: 
         }
         None => {
             let [a, b] = plane.place(pointer);
-            format!(
+            tr_format!(
                 "a* {a:.0}, b* {b:.0}. Lines: mixtures of two tubes; small dots: tints with white. \
-                 Click to find recipes for this colour."
+                 Click to find recipes for this colour.",
+                a,
+                b
             )
         }
     };

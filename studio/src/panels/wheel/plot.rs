@@ -7,6 +7,7 @@ use pigment::palette::{Appearance, Boundary, ColorWheel};
 use spectra::color::{Lab, Rgb};
 
 use super::plane::{Plane, RING};
+use crate::language::tr;
 use crate::theme;
 
 /// Points around which a mark is drawn.
@@ -38,10 +39,10 @@ pub(super) fn frame(painter: &Painter, plane: &Plane) {
     }
     let font = FontId::proportional(10.0);
     let names = [
-        (rect.right_center(), Align2::RIGHT_BOTTOM, "+a* red"),
-        (rect.left_center(), Align2::LEFT_BOTTOM, "green"),
-        (rect.center_top(), Align2::LEFT_TOP, " +b* yellow"),
-        (rect.center_bottom(), Align2::LEFT_BOTTOM, " blue"),
+        (rect.right_center(), Align2::RIGHT_BOTTOM, tr("+a* red")),
+        (rect.left_center(), Align2::LEFT_BOTTOM, tr("green")),
+        (rect.center_top(), Align2::LEFT_TOP, tr(" +b* yellow")),
+        (rect.center_bottom(), Align2::LEFT_BOTTOM, tr(" blue")),
     ];
     for (at, align, name) in names {
         painter.text(at, align, name, font.clone(), colors.faint);
