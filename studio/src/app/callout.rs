@@ -3,7 +3,6 @@
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2};
 
-use crate::language::tr;
 use crate::theme;
 
 /// Room around the text, in points.
