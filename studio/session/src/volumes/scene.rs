@@ -34,7 +34,7 @@ pub(super) struct Scene {
     pub(super) folder: PathBuf,
     pub(super) file: Option<PathBuf>,
     pub(super) settings: Settings,
-    /// What the regions of the script showed when it was opened.
+    /// The choice of each region of the script when it was opened; `None` leaves it to the settings.
     insides: Vec<Option<settings::Inside>>,
     /// Whether they differed.
     by_region: bool,
