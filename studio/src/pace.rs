@@ -85,6 +85,8 @@ fn change<T>(context: &Context, change: impl FnOnce(&mut Pace) -> T) -> T {
 mod tests {
     use std::sync::{Arc, Mutex};
 
+    use eframe::egui::RawInput;
+
     use super::*;
 
     const MS: Duration = Duration::from_millis(1);
@@ -109,39 +111,51 @@ mod tests {
         }
     }
 
-    /// A context with a display of 50 Hz, and the delays of the frames that were asked for.
-    fn paced() -> (Context, impl Fn() -> Vec<Duration>) {
+    /// A context with a display of 50 Hz after its first frames, which egui asks for itself, and the
+    /// delays of the frames that were asked for.
+    fn paced(start: Instant) -> (Context, impl Fn() -> Vec<Duration>) {
         let (context, asked) = (Context::default(), Arc::new(Mutex::new(Vec::new())));
         let noted = Arc::clone(&asked);
         context.set_request_repaint_callback(move |info| noted.lock().unwrap().push(info.delay));
         set_display(&context, Some(50_000));
-        (context, move || std::mem::take(&mut *asked.lock().unwrap()))
+        let asked = move || std::mem::take(&mut *asked.lock().unwrap());
+        for _ in 0..3 {
+            frame(&context, start);
+        }
+        asked();
+        (context, asked)
+    }
+
+    fn frame(context: &Context, now: Instant) {
+        context.begin_pass(RawInput::default());
+        begin_frame(context, now);
+        context.end_pass().textures_delta.clear();
     }
 
     #[test]
     fn news_is_drawn_in_the_next_slot_and_settles_in_one_more() {
-        let ((context, asked), start) = (paced(), Instant::now());
-        wake_at(&context, start);
-        assert_eq!(asked(), [AT_ONCE], "before the first frame");
-        begin_frame(&context, start);
-        assert_eq!(asked(), [20 * MS], "one more frame for what the news changed");
-        begin_frame(&context, start + 20 * MS);
-        assert!(asked().is_empty(), "and no third one");
-        wake_at(&context, start + 25 * MS);
+        let start = Instant::now();
+        let (context, asked) = paced(start);
+        wake_at(&context, start + 5 * MS);
         assert_eq!(asked(), [15 * MS]);
-        begin_frame(&context, start + 40 * MS);
-        asked();
+        frame(&context, start + 20 * MS);
+        assert_eq!(asked(), [20 * MS], "one more frame for what the news changed");
+        frame(&context, start + 40 * MS);
+        assert!(asked().is_empty(), "and no third one");
         wake_at(&context, start + 200 * MS);
         assert_eq!(asked(), [AT_ONCE], "the last frame is old");
+        wake_at(&context, start + 201 * MS);
+        assert!(asked().is_empty(), "it comes already");
     }
 
     #[test]
     fn a_frame_that_is_due_soon_waits_for_the_slot_and_a_later_one_for_its_time() {
-        let ((context, asked), start) = (paced(), Instant::now());
-        begin_frame(&context, start);
-        for soon in [0, 10, 70] {
+        let start = Instant::now();
+        let (context, asked) = paced(start);
+        for (soon, wanted) in [(70, 70), (10, 18), (0, 18)] {
+            frame(&context, start);
             frame_after(&context, soon * MS, start + 2 * MS);
+            assert_eq!(asked(), [wanted * MS], "in {soon} ms");
         }
-        assert_eq!(asked(), [18 * MS, 18 * MS, 70 * MS]);
     }
 }
