@@ -278,5 +278,6 @@ fn a_scene_turned_inside_out_is_painted_as_well() {
     let own = held(&model);
     std::fs::write(&turned, BOX.lines().map(faces).collect::<String>()).unwrap();
     let found = held(&turned);
-    assert!(own > 20 && found.abs_diff(own) * 20 <= own, "{own} {found}");
+    // Other samples stand for the surface, so paint takes another way around the edges.
+    assert!(own > 20 && (own / 2..own * 2).contains(&found), "{own} {found}");
 }
