@@ -34,11 +34,12 @@ pub(crate) struct SubjectOptions {
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u64).range(LEAST..=MOST))]
     height: Option<u64>,
     /// Camera that shows all of a mesh: degrees around it and above the horizon, and the angle of
-    /// view, such as `30,20,30`; or a file of keyframes (.toml). Of a picture with --depth: degrees
-    /// to the right and upwards
+    /// view, such as `30,20,30`; or a file of keyframes (.toml). Of a picture, where its camera
+    /// may move: degrees to the right and upwards
     #[arg(long, value_name = "DEG,DEG[,DEG]|FILE", allow_hyphen_values = true)]
     camera: Option<String>,
-    /// Turn the camera around a mesh in this number of frames; before a picture with --depth it swings
+    /// Turn the camera around a mesh in this number of frames; before a picture, where its camera
+    /// may move, it swings
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     turntable: Option<u64>,
 }

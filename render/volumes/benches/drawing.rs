@@ -59,6 +59,7 @@ impl Scene {
             counts: self.counts.clone(),
             table: Shells::washed().table().clone(),
             inside: Inside::OwnColors,
+            stain: Region::UNSTAINED,
         };
         reveal(&mut self.compute, shaded, visible, &[region], Some([1.0; 3]), 1).unwrap()
     }

@@ -16,7 +16,8 @@ pub(super) struct FormOptions {
     /// right) and green (upwards) point about one half, and whose blue is the strength of flow
     #[arg(long, value_name = "FILE")]
     directions: Option<PathBuf>,
-    /// Depth of a picture, which makes a relief of it: white is near, black is far (.png, .jpg)
+    /// Depth of a picture, which makes a relief of it, before which --camera and --turntable move:
+    /// white is near, black is far (.png, .jpg)
     #[arg(long, value_name = "FILE")]
     depth: Option<PathBuf>,
 }

@@ -46,7 +46,7 @@ impl Job {
         check_outputs(&verb)?;
         let path = verb.subject.clone().unwrap_or_default();
         let library = verb.pigments.library()?;
-        let mut script = script(&verb, &path, library.as_ref())?;
+        let mut script = script(&verb, &path, library.as_ref(), console)?;
         let rate = verb.animation.rate();
         let frames = Times::frames(&script, rate).map_err(|fault| script.located(fault))?;
         let scene = script.scene(&path, &verb.subject_options, frames)?;
@@ -59,7 +59,7 @@ impl Job {
         let located = |fault| script.located(fault);
         let folder = path.parent().unwrap_or(Path::new(""));
         let of_script = (&script.script, &settings);
-        let pigments = verb.pigments.materials(of_script, (library, folder), located, console)?;
+        let pigments = verb.pigments.materials(of_script, (library, folder), located)?;
         check_layers(&verb, pigments.is_some())?;
         let own_library = || script.script.library_file(folder).filter(|_| pigments.is_some());
         let library = verb.pigments.input().cloned().or_else(own_library);
@@ -70,9 +70,9 @@ impl Job {
         let title = own_title.or(stem).unwrap_or_default();
         let script_text = match verb.outputs.script_folder() {
             None => String::new(),
-            Some(folder) => {
-                let materials = (library.as_deref(), verb.pigments.illuminant());
-                script.text(&scene, &title, &folder, materials)?
+            Some(to) => {
+                let light = verb.pigments.light(&script.script, folder);
+                script.text(&scene, &title, &to, (library.as_deref(), light.as_deref()))?
             }
         };
         let beginning = script.beginning(&scene, &settings)?;
@@ -114,6 +114,11 @@ impl Job {
             _ => Snapshots::none(device),
         };
         let mut painter = self.painter()?;
+        if painter.counts_elsewhere() {
+            console.warnings(&[format!(
+                "{backend} writes no buffers from fragments; volumes are counted on the processor"
+            )])?;
+        }
         let still = self.rehearsed(animation.is_some(), &mut snapshots)?;
         let recording = match (animation, digest) {
             (Some(animation), Some(digest)) => {
@@ -221,11 +226,17 @@ fn check_layers(verb: &Stencil, has_pigments: bool) -> Result<()> {
 }
 
 /// The script with all that options change of it.
-fn script(verb: &Stencil, path: &Path, library: Option<&PigmentLibrary>) -> Result<OpenScript> {
+fn script(
+    verb: &Stencil,
+    path: &Path,
+    library: Option<&PigmentLibrary>,
+    console: &mut Console<'_>,
+) -> Result<OpenScript> {
     let mut open = OpenScript::of(path, &verb.pours)?;
     let usual = (verb.pigments.any() && !open.is_file()).then_some(Preset::Grisaille);
     verb.settings.apply(&mut open.script, usual)?;
     verb.pours.apply(&mut open.script, verb.pigments.palette(), library)?;
+    verb.pigments.apply(&mut open.script, console)?;
     // A script that is written plays the same.
     open.script = open.script.rounded();
     open.script.check().map_err(|fault| open.located(fault))?;

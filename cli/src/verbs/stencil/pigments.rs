@@ -7,7 +7,7 @@ use calibrate::Backing;
 use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::paint::document::Lighting;
-use render::paint::ground::{GroundKind, MeasuredPrimer, Primer, PrimerSpectrum};
+use render::paint::ground::{GroundKind, GroundSpec, MeasuredPrimer, Primer, PrimerSpectrum};
 use render::volumes::painter::VolumePigments;
 use render::volumes::script::Script;
 use render::volumes::settings::{Inside, Settings};
@@ -30,17 +30,11 @@ pub(super) struct PigmentOptions {
     /// Up to eight pigments of the volumes, separated by commas
     #[arg(long, value_name = "PIGMENTS", requires = "pigments")]
     palette: Vec<String>,
-    /// Ground: linen, paper or panel
-    #[arg(
-        long,
-        value_name = "KIND",
-        default_value = "panel",
-        requires = "pigments",
-        value_parser = grounds()
-    )]
-    ground: GroundKind,
-    /// Reflectance of the ground as measured, 0 to 1, white or black [default: the white of the
-    /// library]
+    /// Ground: linen, paper or panel [default: that of the script, or panel]
+    #[arg(long, value_name = "KIND", value_parser = grounds())]
+    ground: Option<GroundKind>,
+    /// Reflectance of the ground as measured, 0 to 1, white or black, or one spectrum of a file
+    /// [default: that of the script, or the white of the library]
     #[arg(long, value_name = "GROUND")]
     over: Option<String>,
     /// Light: D65, A, FL11, 5600K, or the file of a lamp [default: that of the script, or D65]
@@ -59,9 +53,28 @@ impl PigmentOptions {
         self.pigments.is_some()
     }
 
-    /// The light of `--illuminant`.
-    pub(super) fn illuminant(&self) -> Option<&str> {
-        self.illuminant.as_deref()
+    /// The light of `--illuminant`, or of a script, which lies in `folder`.
+    pub(super) fn light(&self, script: &Script, folder: &Path) -> Option<String> {
+        self.illuminant.clone().or_else(|| script.light(folder))
+    }
+
+    /// Gives a script the ground of the options.
+    pub(super) fn apply(&self, script: &mut Script, console: &mut Console<'_>) -> Result<()> {
+        if let Some(kind) = self.ground {
+            let reflectance = script.ground.take().and_then(|own| own.reflectance);
+            script.ground = Some(GroundSpec { reflectance, ..kind.spec(1) });
+        }
+        let Some(text) = &self.over else { return Ok(()) };
+        let primer = match ground(text, console)? {
+            Backing::Even(reflectance) => Primer::Grey(reflectance),
+            Backing::Measured(spectrum) => {
+                let (grid, values) = (spectrum.grid(), spectrum.values().to_vec());
+                Primer::Measured(MeasuredPrimer { spectrum: PrimerSpectrum { grid, values } })
+            }
+        };
+        let before = script.ground.take().unwrap_or_else(|| GroundKind::Panel.spec(1));
+        script.ground = Some(GroundSpec { reflectance: Some(primer), ..before });
+        Ok(())
     }
 
     /// The lists of `--palette`.
@@ -81,8 +94,7 @@ impl PigmentOptions {
         &self,
         (script, settings): (&Script, &Settings),
         (given, folder): (Option<PigmentLibrary>, &Path),
-        located: impl FnOnce(Box<Fault>) -> Failure,
-        console: &mut Console<'_>,
+        located: impl Fn(Box<Fault>) -> Failure,
     ) -> Result<Option<VolumePigments>> {
         let styles = script.region_styles(settings);
         let shows_films = styles.iter().any(|style| style.inside != Inside::OwnColors);
@@ -99,32 +111,26 @@ impl PigmentOptions {
                 "add --palette with up to eight of its pigments, or --paint for each pour",
             ));
         }
-        let slots = script.slots(&library).map_err(located)?;
-        let mut ground_spec = self.ground.spec(1);
-        if let Some(text) = &self.over {
-            ground_spec.reflectance = Some(match ground(text, console)? {
-                Backing::Even(reflectance) => Primer::Grey(reflectance),
-                Backing::Measured(spectrum) => {
-                    let (grid, values) = (spectrum.grid(), spectrum.values().to_vec());
-                    Primer::Measured(MeasuredPrimer { spectrum: PrimerSpectrum { grid, values } })
-                }
-            });
-        }
+        let slots = script.slots(&library).map_err(&located)?;
+        let ground = script.ground_under(&library).map_err(located)?;
         // Films are thinner than the relief of a ground, which would only hide the drawing.
         let usual = Lighting::default();
-        let illuminant = self.illuminant.clone().or_else(|| script.illuminant.clone());
-        let illuminant = illuminant.unwrap_or(usual.illuminant);
+        let illuminant = self.light(script, folder).unwrap_or(usual.illuminant);
         let lighting = Lighting { illuminant, relief: 0.0, ..Lighting::default() };
         // An unknown light is refused before anything is painted.
         viewing(&lighting.illuminant, &lighting.observer)?;
         let library = Arc::new(library);
-        Ok(Some(VolumePigments { library, slots, own_colors: None, ground: ground_spec, lighting }))
+        Ok(Some(VolumePigments { library, slots, own_colors: None, ground, lighting }))
     }
 
     /// No pigments; refuses options that are of pigments.
     fn without_library(&self) -> Result<Option<VolumePigments>> {
-        let given = [("--over", &self.over), ("--illuminant", &self.illuminant)];
-        match given.iter().find(|(_, value)| value.is_some()) {
+        let given = [
+            ("--ground", self.ground.is_some()),
+            ("--over", self.over.is_some()),
+            ("--illuminant", self.illuminant.is_some()),
+        ];
+        match given.iter().find(|(_, is_given)| *is_given) {
             None => Ok(None),
             Some((option, _)) => Err(Failure::usage(
                 format!("{option} needs pigments, but no library is given"),

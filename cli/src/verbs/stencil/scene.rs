@@ -11,6 +11,7 @@ use render::volumes::script::{
 use render::volumes::settings::Settings;
 use render::volumes::toml_text::{Fault, KeyPath, KeyStep};
 use render::watercolor::PhotographPainter;
+use spectra::instrument::split_file_and_name;
 
 use super::cameras::{camera_table, model_cameras, picture_cameras};
 use super::pours::PourOptions;
@@ -154,7 +155,7 @@ impl OpenScript {
     }
 
     /// The script as text, to be written into `folder`: with the paths of the subject and of the
-    /// `library` from there, if it has a file, and with the light of its paint.
+    /// `library` and a lamp from there, if they have files, and with the light of its paint.
     pub(super) fn text(
         &self,
         scene: &Scene,
@@ -165,9 +166,11 @@ impl OpenScript {
         let mut script = self.script.clone();
         script.subject = path_from(&scene.subject, folder);
         script.library = library.map(|file| path_from(file, folder)).or(script.library);
-        // The files of lamps have no place in a script.
-        let light = light.filter(|light| is_light(light)).map(str::to_owned);
-        script.illuminant = light.or(script.illuminant);
+        (script.illuminant, script.lamp) = match light {
+            Some(light) if is_light(light) => (Some(light.to_owned()), None),
+            Some(lamp) => (None, Some(lamp_from(lamp, folder))),
+            None => (None, None),
+        };
         script.title = title.to_owned();
         Ok(script.to_text()?)
     }
@@ -234,6 +237,13 @@ fn path_from(subject: &Path, folder: &Path) -> String {
         _ => subject.to_owned(),
     };
     path.to_string_lossy().into_owned()
+}
+
+/// The file of a lamp from a folder, with the name of its spectrum if it has one.
+fn lamp_from(lamp: &str, folder: &Path) -> String {
+    let (file, name) = split_file_and_name(lamp);
+    let file = path_from(Path::new(file), folder);
+    name.map_or(file.clone(), |name| format!("{file}#{name}"))
 }
 
 /// Whether a subject is a script.

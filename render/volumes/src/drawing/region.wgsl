@@ -6,7 +6,7 @@ struct RegionParams {
     last: i32,
     // Whether the grey of the samples lies under this region.
     first_region: u32,
-    factor: vec3<f32>,
+    stain: vec3<f32>,
     // Whether the inside is the samples' own colour.
     own_colors: u32,
     tints: array<vec4<f32>, 16>,
@@ -29,9 +29,12 @@ fn volumes_region(@builtin(global_invocation_id) id: vec3<u32>) {
     if params.first_region == 1u {
         under = vec3(own.w);
     }
+    if counts[at] > 0 {
+        under *= params.stain;
+    }
     let count = u32(clamp(counts[at], 0, params.last));
     let tint = params.tints[count / 4u][count % 4u];
-    var color = own.xyz * params.factor;
+    var color = own.xyz;
     if params.own_colors == 0u {
         color = inside[at].xyz;
     }

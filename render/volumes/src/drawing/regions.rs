@@ -13,8 +13,6 @@ pub const MOST_REGIONS: usize = 64;
 pub enum Inside {
     /// The surface's own colour.
     OwnColors,
-    /// The surface's own colour times one colour, encoded sRGB in 0..1.
-    Multiplied([f32; 3]),
     /// A picture of the size of the shaded one, encoded sRGB; its fourth value is not used. This
     /// is where films of pigment come in.
     Picture(ColorImage),
@@ -30,6 +28,14 @@ pub struct Region {
     pub table: TintTable,
     /// Colours inside.
     pub inside: Inside,
+    /// Colour that what lies below is multiplied by where the count is above 0, encoded sRGB in
+    /// 0..1: [`Region::UNSTAINED`], or the one colour of a stained drawing.
+    pub stain: [f32; 3],
+}
+
+impl Region {
+    /// The stain that leaves everything as it is.
+    pub const UNSTAINED: [f32; 3] = [1.0; 3];
 }
 
 /// Checks the number of regions and their colours.
@@ -41,10 +47,8 @@ pub fn checked_regions(regions: &[Region]) -> Result<(), DrawingError> {
         return Err(DrawingError::Regions { most: MOST_REGIONS, found: regions.len() });
     }
     for region in regions {
-        if let Inside::Multiplied(color) = region.inside {
-            for value in color {
-                check_range("colour of a region", value, [0.0, 1.0])?;
-            }
+        for value in region.stain {
+            check_range("stain of a region", value, [0.0, 1.0])?;
         }
     }
     Ok(())
@@ -57,16 +61,17 @@ mod tests {
 
     #[test]
     fn too_many_regions_and_colours_that_are_none_are_refused() {
-        let region = |inside| Region {
+        let region = |stain| Region {
             counts: Field::filled(1, 1, 0).into(),
             table: TintTable::hard(),
-            inside,
+            inside: Inside::OwnColors,
+            stain,
         };
-        let own = region(Inside::OwnColors);
+        let own = region(Region::UNSTAINED);
         assert_eq!(checked_regions(&vec![own.clone(); 64]), Ok(()));
         let error = checked_regions(&vec![own; 65]).unwrap_err();
         assert_eq!(error.to_string(), "a picture has at most 64 regions, found `65`");
-        let error = checked_regions(&[region(Inside::Multiplied([0.5, f32::NAN, 0.1]))]);
+        let error = checked_regions(&[region([0.5, f32::NAN, 0.1])]);
         assert!(matches!(error, Err(DrawingError::Setting { .. })));
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! ten Bosch 2005 copies alpha over the colour where the stencil is 0. Here the count of each
 //! region selects a tint t, and its colour is laid over what is there: (1 - t) under + t inside.
+//! A region may stain what is there first: under times one colour.
 
 use rayon::prelude::*;
 
@@ -79,13 +80,14 @@ fn reveal_on_cpu(
         let [r, g, b, grey] = shaded.values()[sample];
         let under = [grey; 3];
         Some(regions.iter().fold(under, |under, region| {
-            let tint = region.table.tint(region.counts.host().values()[sample]);
+            let count = region.counts.host().values()[sample];
+            let under = if count > 0 { stained(under, region.stain) } else { under };
+            let tint = region.table.tint(count);
             if tint <= 0.0 {
                 return under;
             }
             let inside = match &region.inside {
                 Inside::OwnColors => [r, g, b],
-                Inside::Multiplied([red, green, blue]) => [r * red, g * green, b * blue],
                 Inside::Picture(picture) => {
                     let [r, g, b, _] = picture.host().values()[sample];
                     [r, g, b]
@@ -109,6 +111,12 @@ fn reveal_on_cpu(
 #[inline(always)]
 fn mixed(under: [f32; 3], inside: [f32; 3], tint: f32) -> [f32; 3] {
     std::array::from_fn(|i| under[i] * (1.0 - tint) + inside[i] * tint)
+}
+
+/// Exact for a stain of 1.
+#[inline(always)]
+fn stained(under: [f32; 3], stain: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|i| under[i] * stain[i])
 }
 
 /// How the samples of a pixel become its colour.
@@ -153,7 +161,7 @@ struct RegionParams {
     size: [u32; 2],
     last: i32,
     first_region: u32,
-    factor: [f32; 3],
+    stain: [f32; 3],
     own_colors: u32,
     tints: [[f32; 4]; TINTS / 4],
 }
@@ -161,7 +169,7 @@ struct RegionParams {
 pub(crate) static REGION: Kernel = Kernel {
     name: "volumes_region",
     source: include_str!("region.wgsl"),
-    parameters: layout!(RegionParams { size, last, first_region, factor, own_colors, tints }),
+    parameters: layout!(RegionParams { size, last, first_region, stain, own_colors, tints }),
     structs: &[],
     storage: &[Storage::Read, Storage::Read, Storage::Read, Storage::Write],
 };
@@ -194,16 +202,15 @@ fn reveal_on_gpu(
     let (width, height) = shaded.size();
     let composed = gpu.plane::<[f32; 4]>(width, height)?;
     for (index, region) in regions.iter().enumerate() {
-        let (factor, inside) = match &region.inside {
-            Inside::OwnColors => ([1.0; 3], None),
-            Inside::Multiplied(factor) => (*factor, None),
-            Inside::Picture(picture) => ([1.0; 3], Some(picture.plane())),
+        let inside = match &region.inside {
+            Inside::OwnColors => None,
+            Inside::Picture(picture) => Some(picture.plane()),
         };
         let params = RegionParams {
             size: [width as u32, height as u32],
             last: region.table.tints().len() as i32 - 1,
             first_region: (index == 0).into(),
-            factor,
+            stain: region.stain,
             own_colors: inside.is_none().into(),
             tints: packed(&region.table),
         };

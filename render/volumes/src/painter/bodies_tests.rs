@@ -31,6 +31,7 @@ fn red_and_blue(sunk: f32) -> [usize; 2] {
         inside: Inside::OwnColors,
         shells: vec![1.0],
         tints: vec![0.0, 1.0],
+        stain: "#ffffff".to_owned(),
     };
     let mut painter = VolumePainter::new(&mesh, &Settings::default(), &[style]).unwrap();
     let framing = Framing { aspect: 1.25, ..Framing::default() };

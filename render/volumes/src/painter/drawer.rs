@@ -114,7 +114,13 @@ impl Drawer {
         Ok(Sight { visible, shaded, counts })
     }
 
-    /// The counts of all regions.
+    /// Whether gated surfaces are counted on the processor, though pictures are made elsewhere.
+    pub(super) fn counts_elsewhere(&self) -> bool {
+        !self.scene.gates
+    }
+
+    /// The counts of all regions. What the device of the scene cannot count the processor counts,
+    /// for the same samples.
     fn counts(
         &mut self,
         world: &World,
@@ -125,12 +131,29 @@ impl Drawer {
         let all = Volumes { volumes: world.volumes(), facing: &facing };
         check_regions(all, self.regions.len())?;
         self.scene.tell_bodies(&self.facets, &world.grid().bodies.of_triangles)?;
-        let in_sight = InSight::new(camera, visible);
+        let elsewhere = self.counts_elsewhere();
+        let seen = match elsewhere {
+            true => Some(Image::from(self.scene.compute.download(visible)?)),
+            false => None,
+        };
+        if elsewhere {
+            self.load_on_host()?;
+        }
+        if let Some(host) = self.host.as_mut().filter(|_| elsewhere) {
+            host.tell_bodies(&self.facets, &world.grid().bodies.of_triangles)?;
+        }
+        let in_sight = InSight::new(camera, seen.as_ref().unwrap_or(visible));
         let gate = self.settings.drawing.gate;
         let mut counts = Vec::with_capacity(self.regions.len());
         for (region, surfaces) in self.regions.iter().enumerate().zip(&mut self.surfaces) {
             surfaces.update(all, region, gate, &in_sight);
-            counts.push(surfaces.counts(&mut self.scene, visible, camera)?);
+            counts.push(match (&seen, &mut self.host) {
+                (Some(seen), Some(host)) if surfaces.gated() => {
+                    let counted = surfaces.counts(host, seen, camera)?;
+                    self.scene.compute.upload(counted.host())?
+                }
+                _ => surfaces.counts(&mut self.scene, visible, camera)?,
+            });
         }
         Ok(counts)
     }
@@ -156,6 +179,7 @@ impl Drawer {
             counts: counts.clone(),
             table: look.shells.table().clone(),
             inside: Inside::OwnColors,
+            stain: look.stain,
         };
         regions.map(region).collect()
     }

@@ -61,6 +61,7 @@ impl Films {
         let own = FilmPainterSettings {
             under: settings.drawing.under,
             inside: looks::inside(regions),
+            neutral: settings.drawing.neutral,
             pencil: settings.hatching.pencil,
             cell_mm: CELL_MM,
             ..FilmPainterSettings::default()

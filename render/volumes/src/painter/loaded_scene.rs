@@ -18,6 +18,9 @@ pub(super) struct LoadedScene {
     pub(super) normals: Image<[f32; 4]>,
     bodies: Vec<u32>,
     pub(super) counter: InsideCounter,
+    /// Whether it counts volumes with gates: only a device whose fragments can write to buffers
+    /// does, and the processor.
+    pub(super) gates: bool,
 }
 
 impl LoadedScene {
@@ -33,6 +36,7 @@ impl LoadedScene {
             normals: compute.upload(&gated(facets, &[]))?,
             bodies: Vec::new(),
             counter: InsideCounter::default(),
+            gates: compute.device().is_none_or(Device::scatters),
             compute,
         })
     }
@@ -53,11 +57,6 @@ impl LoadedScene {
     /// Whether it is in the processor's memory.
     pub(super) fn is_host(&self) -> bool {
         matches!(self.compute, Compute::Cpu)
-    }
-
-    /// Whether it counts volumes with a gate.
-    pub(super) fn gates(&self) -> bool {
-        self.compute.device().is_none_or(Device::scatters)
     }
 }
 

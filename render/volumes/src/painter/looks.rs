@@ -16,6 +16,8 @@ pub(super) struct RegionLook {
     pub(super) name: String,
     pub(super) inside: InsidePaint,
     pub(super) shells: Shells,
+    /// Colour that the drawing is multiplied by inside, encoded sRGB.
+    pub(super) stain: [f32; 3],
 }
 
 impl RegionLook {
@@ -24,6 +26,7 @@ impl RegionLook {
             name: style.name.clone(),
             inside: style.inside,
             shells: Shells::new(style.shells.clone(), style.tints.clone())?,
+            stain: encoded(&style.stain),
         })
     }
 }
@@ -62,8 +65,12 @@ pub(super) fn drawing_look(settings: &Settings) -> DrawingLook {
 
 /// Colour of the paper, encoded sRGB.
 pub(super) fn paper(settings: &Settings) -> [f32; 3] {
-    let white = Rgb([1.0; 3]);
-    Rgb::from_hex(&settings.picture.paper).unwrap_or(white).0.map(|value| value as f32)
+    encoded(&settings.picture.paper)
+}
+
+/// A colour written `#rrggbb`; white if it is none.
+fn encoded(text: &str) -> [f32; 3] {
+    Rgb::from_hex(text).unwrap_or(Rgb([1.0; 3])).0.map(|value| value as f32)
 }
 
 /// How films stand over their rims.

@@ -60,8 +60,12 @@ impl RegionSurfaces {
         }
     }
 
-    /// The count of each sample. A device whose fragments cannot write to buffers counts without
-    /// gates.
+    /// Whether a surface has a gate.
+    pub(super) fn gated(&self) -> bool {
+        self.gates.iter().any(|gate| *gate != OPEN)
+    }
+
+    /// The count of each sample, by a scene that counts with gates if a surface has one.
     pub(super) fn counts(
         &self,
         scene: &mut LoadedScene,
@@ -69,9 +73,8 @@ impl RegionSurfaces {
         camera: &Camera,
     ) -> Result<Image<i32>, DeviceError> {
         let closed = self.surfaces.closed();
-        let gated = scene.gates() && self.gates.iter().any(|gate| *gate != OPEN);
         let LoadedScene { compute, model, normals, counter, .. } = scene;
-        if !gated {
+        if !self.gated() {
             return counter.counts(compute, (model, visible), camera, closed);
         }
         let gates = Gates { surfaces: &self.gates, normals };

@@ -115,6 +115,7 @@ impl VolumePainter {
                     ))?,
                     table: TintTable::hard(),
                     inside: Inside::OwnColors,
+                    stain: Region::UNSTAINED,
                 };
                 drawer.revealed(&sight, &[everywhere], Some(paper))
             }

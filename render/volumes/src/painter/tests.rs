@@ -106,7 +106,8 @@ impl Scene {
 
 fn style(shells: &[f32], tints: &[f32]) -> RegionStyle {
     let inside = settings::Inside::OwnColors;
-    RegionStyle { name: String::new(), inside, shells: shells.to_vec(), tints: tints.to_vec() }
+    let (shells, tints) = (shells.to_vec(), tints.to_vec());
+    RegionStyle { name: String::new(), inside, shells, tints, stain: "#ffffff".to_owned() }
 }
 
 fn single(center: Vec3, radius: f32, region: u16) -> Single {

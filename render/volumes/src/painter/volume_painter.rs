@@ -38,9 +38,8 @@ impl VolumePainter {
     }
 
     /// Makes pictures on another device. They agree with those of the processor to rounding, but for
-    /// outlines within a pixel. A device whose fragments cannot write to buffers knows no gate:
-    /// there paint shows on both sides of walls thinner than a cell. Films of pigments stay on the
-    /// processor.
+    /// outlines within a pixel. Films of pigments stay on the processor, and so do the counts of
+    /// volumes if the device cannot count them with their gates ([`Self::counts_elsewhere`]).
     ///
     /// # Errors
     /// [`PaintingError::Device`] if the device cannot hold the scene.
@@ -70,6 +69,13 @@ impl VolumePainter {
     #[must_use]
     pub fn compute_name(&self) -> &str {
         self.drawer.compute_name()
+    }
+
+    /// Whether the processor counts the volumes though a device makes the pictures: its fragments
+    /// cannot write to buffers, and without that it would show paint on both sides of thin walls.
+    #[must_use]
+    pub fn counts_elsewhere(&self) -> bool {
+        self.drawer.counts_elsewhere()
     }
 
     /// Whether the scene is shown in measured pigments.

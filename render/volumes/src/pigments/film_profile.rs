@@ -23,9 +23,13 @@ impl Default for FilmProfile {
 /// Narrowest rim in radii, which keeps divisions finite.
 const NARROWEST: f32 = 1e-4;
 
+/// Height at the very edge of a film whose rim is not wider than usual.
+const LEAST: f32 = 0.25;
+
 impl FilmProfile {
     /// Height relative to that of a film without rim, at a depth of `depth` radii inside of the
-    /// farthest reach of the volume: a quarter at its very edge, 1 far inside.
+    /// farthest reach of the volume: a quarter at its very edge, less for rims wider than usual, and
+    /// 1 far inside.
     #[must_use]
     #[inline]
     pub fn height(&self, depth: f32) -> f32 {
@@ -34,7 +38,9 @@ impl FilmProfile {
         if rims >= 3.0 {
             return 1.0;
         }
-        let risen = 0.25 + 0.75 * smooth_step(rims);
+        // Volumes with wide rims blend where they meet.
+        let least = LEAST * (Self::default().rim / self.rim.max(NARROWEST)).min(1.0);
+        let risen = least + (1.0 - least) * smooth_step(rims);
         risen * (1.0 + self.edge * (1.0 - smooth_step(rims * (1.0 / 3.0))))
     }
 
@@ -66,6 +72,8 @@ mod tests {
         assert!(at(0.15) > 1.25 && at(0.05) < at(0.1), "{}", at(0.15));
         let most = (0..1000).map(|i| at(i as f32 / 1000.0)).fold(0.0, f32::max);
         assert!(most <= profile.most() && most > 1.2, "{most}");
+        let wide = FilmProfile { rim: 1.0, edge: 0.0, ..profile };
+        assert!(wide.height(0.0) < 0.04 && wide.height(1.0) == 1.0, "{}", wide.height(0.0));
         let hard = FilmProfile { rim: 0.0, edge: 0.0, ..profile };
         assert_eq!(hard.height(0.01), 1.0);
         assert!(hard.height(0.0).is_finite());

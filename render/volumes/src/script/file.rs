@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use paint::ground::GroundSpec;
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
@@ -41,9 +42,17 @@ pub struct Script {
     /// Light that pigments are seen under, such as `A` or `5600K`; without it D65.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub illuminant: Option<String>,
+    /// File of the lamp that pigments are seen under instead, beside the script: `FILE`, or
+    /// `FILE#NAME` for one spectrum of several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lamp: Option<String>,
     /// Pigments by their letters, at most eight; slots of paint are in the order of the letters.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub palette: BTreeMap<String, String>,
+    /// The ground under pigments: linen, paper or panel; without it a panel with the white of the
+    /// library.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ground: Option<GroundSpec>,
     /// Settings of the grid that differ from the preset's.
     #[serde(default, skip_serializing_if = "Table::is_empty")]
     pub grid: Table,
@@ -93,7 +102,9 @@ impl Script {
             preset: None,
             library: None,
             illuminant: None,
+            lamp: None,
             palette: BTreeMap::new(),
+            ground: None,
             grid: Table::new(),
             settings: Table::new(),
             camera: None,

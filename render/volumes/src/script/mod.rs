@@ -13,11 +13,15 @@
 //! seconds = 6.0
 //! preset = "washed"                 # left out: sketch
 //! library = "mine.pigments.json"    # of the palette, beside the script
-//! illuminant = "A"                  # light on pigments; left out: D65
+//! illuminant = "A"                  # light on pigments, or lamp = "lamp.csv"; left out: D65
 //!
 //! [palette]                         # left out: colours are the subject's own
 //! B = "Ultramarine"
 //! Y = "Chrome Yellow"
+//!
+//! [ground]                          # under pigments, as of scripts of strokes; left out: a panel
+//! kind = "linen"                    # linen, paper or panel
+//! reflectance = 0.85                # left out: the white of the library
 //!
 //! [grid]                            # short for [settings.grid]
 //! cell = 0.083
@@ -35,6 +39,7 @@
 //! inside = "own-colours"
 //! shells = [1.0, 0.93, 0.86]
 //! tint = [0.0, 0.35, 0.7, 1.0]
+//! stain = "#e8d8b8"                 # colour of the drawing inside, below its own colours
 //!
 //! [[pour]]                          # `at` a place, or `picked` of the first picture, or a `path`
 //! path = [[0.0, 0.1, 0.6, 0.3], [2.0, 0.5, 0.6, 0.2]]   # seconds from its start, then place

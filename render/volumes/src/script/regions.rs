@@ -1,6 +1,7 @@
 //! Regions of a script: names, and how their volumes show what they hold.
 
 use paint::strokes::similar_names;
+use spectra::color::Rgb;
 
 use super::file::Script;
 use super::ranges::check_name;
@@ -19,6 +20,9 @@ pub struct RegionStyle {
     pub shells: Vec<f32>,
     /// Share of colour by the number of shells, one more than there are shells.
     pub tints: Vec<f32>,
+    /// Colour that the drawing is multiplied by inside, below the share of colour: `#rrggbb`, white
+    /// for a drawing that stays grey.
+    pub stain: String,
 }
 
 impl Script {
@@ -39,7 +43,8 @@ impl Script {
             let even = || narrow(&even_tints(shells.len()));
             let tints = if tints.is_empty() { even() } else { tints };
             let inside = region.inside.unwrap_or(drawing.inside);
-            RegionStyle { name: region.name.clone(), inside, shells, tints }
+            let stain = region.stain.as_ref().unwrap_or(&drawing.stain).clone();
+            RegionStyle { name: region.name.clone(), inside, shells, tints, stain }
         };
         regions.iter().map(style).collect()
     }
@@ -83,6 +88,15 @@ impl Script {
                 (None, Some(_)) => &[],
                 (None, None) => &tints,
             };
+            if let Some(stain) = region.stain.as_ref().filter(|own| Rgb::from_hex(own).is_none()) {
+                let (key, hint) = (table.key("stain"), "#ffffff leaves the drawing grey");
+                return Err(Fault::new(
+                    &key,
+                    "a colour written #rrggbb",
+                    stain.escape_debug(),
+                    hint,
+                ));
+            }
             check_shells(&table, region.shells.as_deref().unwrap_or(&shells), tint)?;
         }
         Ok(())

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use paint::ground::{GroundSpec, MeasuredPrimer, Primer};
 use pigment::digits;
 use toml::{Table, Value};
 
@@ -55,6 +56,7 @@ impl Script {
             seconds: time(self.seconds),
             grid: table(&self.grid),
             settings: table(&self.settings),
+            ground: self.ground.as_ref().map(ground),
             camera: self.camera.as_ref().map(camera),
             regions: self.regions.iter().map(region).collect(),
             keeps: self.keeps.iter().map(keep).collect(),
@@ -84,6 +86,19 @@ fn value(own: &Value) -> Value {
         Value::Table(inner) => Value::Table(table(inner)),
         other => other.clone(),
     }
+}
+
+/// A ground whose reflectance has six digits.
+fn ground(own: &GroundSpec) -> GroundSpec {
+    let mut own = own.clone();
+    match &mut own.reflectance {
+        Some(Primer::Grey(grey)) => *grey = six(*grey),
+        Some(Primer::Measured(MeasuredPrimer { spectrum })) => {
+            spectrum.values.iter_mut().for_each(|value| *value = six(*value));
+        }
+        Some(Primer::Color(_) | Primer::Toned(_)) | None => {}
+    }
+    own
 }
 
 fn camera(camera: &CameraTable) -> CameraTable {

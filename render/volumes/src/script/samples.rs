@@ -1,7 +1,7 @@
 //! Scripts for tests.
 
 /// A script with every table and nearly every key.
-pub(super) const WHOLE: &str = r#"format = "paint-volumes"
+pub(super) const WHOLE: &str = r##"format = "paint-volumes"
 version = 1
 title = "A jug wakes up"
 subject = "shape:still-life"
@@ -14,6 +14,20 @@ illuminant = "5600K"
 [palette]
 B = "Ultramarine"
 Y = "Chrome Yellow"
+
+[ground]
+kind = "linen"
+seed = 3
+threads_per_cm = 12.5
+relief_mm = 0.1
+
+[ground.reflectance.spectrum]
+values = [0.7, 0.8, 0.85]
+
+[ground.reflectance.spectrum.grid]
+start_nm = 400.0
+step_nm = 150.0
+count = 3
 
 [grid]
 cell = 0.083
@@ -45,6 +59,7 @@ name = "glow"
 inside = "own-colours"
 shells = [1.0, 0.93, 0.86]
 tint = [0.0, 0.35, 0.7, 1.0]
+stain = "#e8d8b8"
 
 [[keep]]
 box = [[-1.0, -1.0, -1.0], [1.0, 2.0, 1.0]]
@@ -101,7 +116,7 @@ at_s = 5.0
 at_s = 5.5
 at = [0.1, 0.6, 0.3]
 radius = 0.25
-"#;
+"##;
 
 /// The shortest script.
 pub(super) const SHORT: &str =

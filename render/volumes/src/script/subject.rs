@@ -71,7 +71,10 @@ impl Script {
         if !self.subject.starts_with("shape:") {
             check_beside("subject", &self.subject)?;
         }
-        self.library.as_deref().map_or(Ok(()), |library| check_beside("library", library))
+        for (key, path) in [("library", &self.library), ("lamp", &self.lamp)] {
+            path.as_deref().map_or(Ok(()), |path| check_beside(key, path))?;
+        }
+        Ok(())
     }
 }
 

@@ -23,6 +23,10 @@ pub struct RegionTable {
     /// steps where `shells` are given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tint: Option<Vec<f64>>,
+    /// Colour that the drawing is multiplied by inside, below its own colours; the settings' own
+    /// without it. Not in pigments.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stain: Option<String>,
 }
 
 /// `[[keep]]`: volumes stay inside; one of the three keys.

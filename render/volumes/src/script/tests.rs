@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use paint::ground::{GroundKind, GroundSpec, Primer};
 use pigment::PigmentLibrary;
 
 use super::samples::{DESCRIBED, SHORT, WHOLE};
@@ -71,6 +72,7 @@ fn what_a_script_leaves_out_has_its_default() {
         inside: Inside::OwnColors,
         shells: vec![1.0],
         tints: vec![0.0, 1.0],
+        stain: "#ffffff".to_owned(),
     };
     assert_eq!(styles, [sketch]);
     assert_eq!(own.events(), []);
@@ -93,6 +95,7 @@ fn settings_and_regions_are_put_together() {
         (&glow.shells[..], &glow.tints[..]),
         (&[1.0, 0.93, 0.86][..], &[0.0, 0.35, 0.7, 1.0][..])
     );
+    assert_eq!((sky.stain.as_str(), glow.stain.as_str()), ("#ffffff", "#e8d8b8"));
     let shells = "preset = \"washed\"\n[[region]]\nname = \"a\"\nshells = [1.0, 0.5]";
     let own = script(&format!("{SHORT}{shells}"));
     assert_eq!(own.region_styles(&Settings::default())[0].tints, [0.0, 0.5, 1.0]);
@@ -213,6 +216,26 @@ fn a_library_is_that_of_the_program_or_a_file() {
     assert_eq!(opened("mine.json", folder.path()).unwrap(), Some(mine));
     let error = opened("none.json", folder.path()).unwrap_err().to_string();
     assert!(error.contains("none.json"), "{error}");
+}
+
+#[test]
+fn ground_and_lamp_are_those_of_the_script() {
+    let library = PigmentLibrary::van_gogh_oils();
+    assert_eq!(script(SHORT).ground_under(&library), Ok(GroundKind::Panel.spec(1)));
+    let text = |primer: &str| format!("{SHORT}[ground]\nkind = \"paper\"\n{primer}");
+    let own = script(&text("reflectance = 0.123456789")).rounded();
+    let wanted =
+        GroundSpec { reflectance: Some(Primer::Grey(0.123457)), ..GroundKind::Paper.spec(1) };
+    assert_eq!(own.ground_under(&library), Ok(wanted));
+    let wrong = text("reflectance = { rgb = \"white\" }");
+    let fault = script(&wrong).ground_under(&library).unwrap_err();
+    let error = ScriptError::located("s.toml", &wrong, fault).to_string();
+    assert!(error.starts_with("s.toml, line 5: ground takes a ground that can be made"), "{error}");
+    let folder = Path::new("here");
+    assert_eq!(script(SHORT).light(folder), None);
+    assert_eq!(script(WHOLE).light(folder).as_deref(), Some("5600K"));
+    let lamp = script(&format!("{SHORT}lamp = \"lamps.csv#bulb\"\n")).light(folder);
+    assert_eq!(lamp, Some(folder.join("lamps.csv#bulb").display().to_string()));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::setting::{
     Setting,
-    Takes::{Number, Numbers, Words},
+    Takes::{Color, Number, Numbers, Switch, Words},
 };
 use crate::pigments::{FilmKind, InsidePaint, UnderPainting};
 
@@ -18,6 +18,9 @@ pub struct DrawingTable {
     /// Share of colour by the number of shells that hold a place, from 0 shells on, 0..=1 and
     /// rising: one more than there are shells. Empty for even steps from 0 to 1.
     pub tint: Vec<f32>,
+    /// Colour that the drawing is multiplied by inside of volumes, below its own colours, written
+    /// `#rrggbb`; not in pigments.
+    pub stain: String,
     /// Cosine between the normals of a place and of its cell below which it is not painted,
     /// -1..=1.
     pub gate: f32,
@@ -25,6 +28,8 @@ pub struct DrawingTable {
     pub inside: InsidePaint,
     /// Layer under a film of pigments.
     pub under: UnderPainting,
+    /// Whether the greys of a grisaille take a third paint against the cast of white and black.
+    pub neutral: bool,
     /// Where the film of pigments lies.
     pub film: FilmKind,
     /// Width of the thin rim of a film by the radius, 0..=1.
@@ -38,9 +43,11 @@ impl Default for DrawingTable {
         Self {
             shells: vec![1.0, 0.93, 0.86, 0.79],
             tint: Vec::new(),
+            stain: "#ffffff".to_owned(),
             gate: -0.2,
             inside: InsidePaint::OwnColors,
             under: UnderPainting::Grisaille,
+            neutral: true,
             film: FilmKind::Surface,
             rim: 0.15,
             edge: 0.5,
@@ -99,7 +106,7 @@ impl Default for HatchingTable {
 const INSIDE: &[&str] = &["own-colours", "glaze", "both"];
 const UNDER: &[&str] = &["grisaille", "own-colours", "none"];
 
-pub(super) const SETTINGS: [Setting; 16] = [
+pub(super) const SETTINGS: [Setting; 18] = [
     Setting::new(
         "drawing.shells",
         Numbers(0.01, 1.0),
@@ -111,6 +118,13 @@ pub(super) const SETTINGS: [Setting; 16] = [
         Numbers(0.0, 1.0),
         "",
         "Share of colour in 0, 1, 2, ... shells, rising; [] takes even steps from 0 to 1.",
+    ),
+    Setting::new(
+        "drawing.stain",
+        Color,
+        "",
+        "The drawing is multiplied by this colour inside of volumes, below its own colours; not in \
+         pigments.",
     ),
     Setting::new(
         "drawing.gate",
@@ -125,6 +139,12 @@ pub(super) const SETTINGS: [Setting; 16] = [
         "Volumes show the scene's own colours, a glaze of the poured pigments, or both.",
     ),
     Setting::new("drawing.under", Words(UNDER), "", "Painting that lies under the glaze."),
+    Setting::new(
+        "drawing.neutral",
+        Switch,
+        "",
+        "Whether greys of the grisaille take a third paint against the cast of white and black.",
+    ),
     Setting::new(
         "drawing.film",
         Words(&["surface", "through"]),

@@ -5,6 +5,9 @@ use graphics::mesh::SampleModel;
 
 use super::tests::{flat, is_exact, run, single};
 use super::*;
+use crate::surfaces::VolumeSurfaces;
+use crate::volume::Particles;
+use crate::wetting::SurfaceSamples;
 
 #[test]
 fn a_full_world_keeps_paint_where_it_is_or_in_the_tube() {
@@ -46,4 +49,32 @@ fn volumes_on_a_surface_come_to_rest() {
     let rested = world.volumes.clone();
     run(&mut world, 10);
     assert_eq!(world.volumes, rested);
+}
+
+#[test]
+fn particles_and_samples_take_no_more_memory_than_they_may() {
+    use std::mem::size_of_val;
+    let mut world =
+        World::of(&SampleModel::StillLife.mesh(3000), &WorldSettings::default()).unwrap();
+    let place = world.grid().samples.places[100];
+    world.pour(Pour::at(place, 60.0, 0.5, Recipe::of_slot(0))).unwrap();
+    run(&mut world, 120);
+    let (mut bytes, mut particles) = (0, 0);
+    for volume in world.volumes() {
+        let Particles { places, velocities, samples } = &volume.particles;
+        let along: usize =
+            places.iter().chain(velocities).map(|along| size_of_val(&along[..])).sum();
+        bytes += size_of_val(volume) + along + size_of_val(&samples[..]);
+        particles += samples.len();
+    }
+    // Drawn with four shells, each with faces of its own.
+    let drawn = VolumeSurfaces::of(world.volumes());
+    bytes += 4 * (size_of_val(&drawn.vertices[..]) + size_of_val(&drawn.triangles[..]));
+    assert!(particles > 500 && bytes <= 400 * particles, "{} a particle", bytes / particles);
+    let SurfaceSamples { places, normals, areas, triangles, cells, starts, bodies, .. } =
+        &world.grid().samples;
+    let vectors = size_of_val(&places[..]) + size_of_val(&normals[..]);
+    let numbers = [triangles, cells, starts, bodies].map(|own| size_of_val(&own[..]));
+    let bytes = vectors + size_of_val(&areas[..]) + numbers.iter().sum::<usize>();
+    assert!(bytes <= 64 * places.len(), "{} a sample", bytes / places.len());
 }

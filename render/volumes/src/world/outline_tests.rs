@@ -2,9 +2,10 @@
 
 use glam::Vec3;
 
-use super::tests::{flat, run};
+use super::tests::{flat, level, run};
 use super::*;
 use crate::containing::Inside;
+use crate::motion::MotionSettings;
 
 /// Places along each side of the sheet at which it is looked at.
 const SIDE: usize = 240;
@@ -16,6 +17,8 @@ struct Outline {
     /// Distances of the nearest dry and the farthest wet place from where paint is poured, over
     /// the radius of a circle of the same area.
     rim: [f64; 2],
+    /// Wet area by the area that its paint covers as a film.
+    area: f64,
 }
 
 fn outline(world: &World, from: Vec3) -> Outline {
@@ -49,7 +52,10 @@ fn outline(world: &World, from: Vec3) -> Outline {
     let farthest = places.clone().filter(|at| wet[*at]).map(|at| distance(&at)).fold(0.0, f32::max);
     let equal = f64::from(width) * (area as f64 / std::f64::consts::PI).sqrt();
     let rim = [distance(&nearest(false)), farthest].map(|at| f64::from(at) / equal);
-    Outline { apart: 1.0 - held as f64 / area as f64, rim }
+    let on_scene: u64 = world.tally().on_scene.iter().sum();
+    let covered = on_scene as f64 * world.quantum_mm3() / 0.02;
+    let wet_mm2 = area as f64 * f64::from(width * width);
+    Outline { apart: 1.0 - held as f64 / area as f64, rim, area: wet_mm2 / covered }
 }
 
 #[test]
@@ -64,7 +70,7 @@ fn paint_soaks_outward_from_where_it_is_poured() {
             for seconds in [0.2, 0.5, 1.0, 2.0, 4.0] {
                 let steps = seconds * f64::from(STEPS_PER_SECOND) - world.steps() as f64;
                 run(&mut world, steps as usize);
-                let Outline { apart, rim: [dry, wet] } = outline(&world, from);
+                let Outline { apart, rim: [dry, wet], .. } = outline(&world, from);
                 let place = format!("{x} {z}, {rate} cells/s, {seconds} s: {apart} {dry} {wet}");
                 assert!(apart < 1e-3, "{place}");
                 // A single cell fills as a disk about its middle.
@@ -77,5 +83,26 @@ fn paint_soaks_outward_from_where_it_is_poured() {
                 assert!(is_round || seconds < 0.5, "{place}");
             }
         }
+    }
+}
+
+#[test]
+fn smooth_paint_spreads_as_a_disc_whose_area_is_that_of_the_paint() {
+    let motion = MotionSettings { microstructure: 0.0, kick: 0.0, ..MotionSettings::default() };
+    let cell = 1.0 / 40.0;
+    let settings = WorldSettings { unit_mm: Some(1.0), cell, motion, ..WorldSettings::default() };
+    let mut world = World::of(&level(12.0, 0.0), &settings).unwrap();
+    let mut before = 0.0;
+    // A rim is made of whole cells, so it is the rounder the more cells it is away.
+    for (cells, round) in [(7.0, 0.9..1.1), (15.0, 0.92..1.06)] {
+        let covered = std::f64::consts::PI * cells * cells * 0.3 * 0.3;
+        let pour = Pour::at(Vec3::ZERO, 0.02 * (covered - before), 1.0, Recipe::of_slot(0));
+        world.pour(pour).unwrap();
+        before = covered;
+        run(&mut world, 1200);
+        let Outline { apart, rim: [dry, wet], area } = outline(&world, Vec3::ZERO);
+        let found = format!("{cells} cells: {apart} {dry} {wet} {area}");
+        assert!(apart == 0.0 && round.contains(&dry) && round.contains(&wet), "{found}");
+        assert!((0.97..1.03).contains(&area), "{found}");
     }
 }

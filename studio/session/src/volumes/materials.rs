@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pigment::library::PigmentLibrary;
 use render::light::Light;
 use render::paint::document::{Lighting, Slots};
-use render::paint::ground::GroundKind;
+use render::paint::ground::GroundSpec;
 use render::volumes::painter::VolumePigments;
 use render::volumes::script::{Script, ScriptError, is_light};
 use spectra::hint::Hint;
@@ -34,6 +34,8 @@ pub(super) struct Materials {
     pub(super) tubes: Arc<Vec<SceneTube>>,
     /// Pigments of the volumes by slot.
     pub(super) slots: Slots,
+    /// The ground under them.
+    ground: GroundSpec,
 }
 
 impl Materials {
@@ -41,12 +43,18 @@ impl Materials {
     /// Without a library the palette is of the one that comes with the program.
     ///
     /// # Errors
-    /// [`FileFailure`] for a library that cannot be read, and a pigment that it does not have.
+    /// [`FileFailure`] for a library that cannot be read, a pigment that it does not have, and the
+    /// file of a lamp, by which the studio lights nothing.
     pub(super) fn of(
         script: &Script,
         (name, text): (&str, &str),
         folder: &Path,
     ) -> Result<Self, FileFailure> {
+        if let Some(lamp) = &script.lamp {
+            let what = format!("{name}: the studio lights no pigments by the lamp `{lamp}`");
+            let hint = Hint::new("leave lamp out, or give illuminant = \"A\" or a temperature");
+            return Err(FileFailure { what, hint: Some(hint) });
+        }
         let named = script.open_library(folder);
         let named = named.map_err(|error| FileFailure::explained(&error))?;
         let shipped = PigmentLibrary::van_gogh_oils();
@@ -67,12 +75,13 @@ impl Materials {
         file: Option<PathBuf>,
     ) -> Result<Self, MaterialsFault> {
         let slots = script.slots(&library).map_err(MaterialsFault::Script)?;
+        let ground = script.ground_under(&library).map_err(MaterialsFault::Script)?;
         let Lighting { illuminant, observer, .. } = lighting(script);
         let light = Light::named(&library, &illuminant, &observer);
         let light = light.map_err(|error| FileFailure::explained(&error))?;
         let light = Arc::new(light);
         let tubes = Arc::new(tubes(script, &slots, &library, &light));
-        Ok(Self { library, file, illuminant, light, tubes, slots })
+        Ok(Self { library, file, illuminant, light, tubes, slots, ground })
     }
 
     /// These for a script that has changed.
@@ -99,14 +108,13 @@ impl Materials {
         })
     }
 
-    /// Pigments, ground and light of paintings of the scene, on the ground that the command line
-    /// takes; none for a scene without tubes.
+    /// Pigments, ground and light of paintings of the scene; none for a scene without tubes.
     pub(super) fn painted(&self, script: &Script) -> Option<VolumePigments> {
         (!self.tubes.is_empty()).then(|| VolumePigments {
             library: Arc::clone(&self.library),
             slots: self.slots,
             own_colors: None,
-            ground: GroundKind::Panel.spec(1),
+            ground: self.ground.clone(),
             lighting: lighting(script),
         })
     }

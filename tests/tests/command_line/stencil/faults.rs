@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use suite::program::repository;
+use suite::program::{impasto, repository};
 
 use super::{SMALL, done, folder, path, stencil};
 
@@ -183,4 +183,21 @@ fn the_guide_has_a_row_for_every_setting() {
         }
     }
     assert!(count > 40, "{count} settings");
+}
+
+#[test]
+fn the_help_names_only_options_of_the_verb() {
+    for verb in ["stencil", "watercolor", "painterly"] {
+        let help = impasto(&[verb, "--help"]).out;
+        let words = help.split(|letter: char| !(letter.is_ascii_alphanumeric() || letter == '-'));
+        let named: Vec<&str> = words.filter(|word| word.starts_with("--")).collect();
+        let is_listed = |option: &str| {
+            let lines = help.lines().map(str::trim_start);
+            let mut own = lines.filter(|line| line.starts_with('-'));
+            own.any(|line| line.split([' ', ',', '[']).any(|word| word == option))
+        };
+        assert!(named.len() > 20, "{verb}: {named:?}");
+        let others: Vec<_> = named.into_iter().filter(|option| !is_listed(option)).collect();
+        assert!(others.is_empty(), "{verb}: {others:?}");
+    }
 }

@@ -112,3 +112,88 @@ fn a_written_script_knows_its_pigments_and_guards_them() {
         refused.err
     );
 }
+
+#[test]
+fn a_written_script_holds_its_ground_and_its_lamp() {
+    let folder = folder();
+    let library = library();
+    let lamp = "nm,halogen,led\n380,0.1,0.02\n500,0.5,0.4\n600,0.9,0.7\n730,1.3,0.05\n";
+    std::fs::write(path(&folder, "lamp.csv"), lamp).unwrap();
+    std::fs::write(path(&folder, "paper.csv"), "nm,rag\n380,0.512345678\n730,0.8\n").unwrap();
+    let [model, script, lamp, paper] =
+        ["box.obj", "s.toml", "lamp.csv#led", "paper.csv"].map(|name| path(&folder, name));
+    let files = ["1.png", "1.exr", "2.png", "2.exr"].map(|name| path(&folder, name));
+    let [one, layers, other, again] = &files;
+    let scene = [&[&model[..]], &SMALL[..], &POUR, &["--pigments", &library]].concat();
+    let paint = ["--palette", "Viridian", "--ground", "linen", "--over", &paper];
+    let paint = [&paint[..], &["--illuminant", &lamp]].concat();
+    let exports = ["--picture", one, "--output", layers, "--script-out", &script];
+    done(&[&scene[..], &paint, &exports].concat());
+    std::fs::remove_file(&paper).unwrap();
+    let replayed = |options: &[&str]| {
+        let written = [&script, "--width", "64", "--picture", other, "--output", again];
+        done(&[&written[..], options].concat());
+        [other, again].map(|file| std::fs::read(file).unwrap())
+    };
+    let bytes = [one, layers].map(|file| std::fs::read(file).unwrap());
+    assert!(replayed(&[]) == bytes, "the script alone makes the same picture and painting");
+    for other in [["--over", "black"], ["--ground", "paper"], ["--illuminant", "A"]] {
+        assert!(replayed(&other) != bytes, "{other:?} is another painting");
+    }
+    // Written again from there into another folder, the lamp is found still.
+    let below = path(&folder, "below");
+    std::fs::create_dir(&below).unwrap();
+    let moved = format!("{below}/t.toml");
+    done(&[&script, "--width", "64", "--script-out", &moved]);
+    let options = ["--width", "64", "--picture", other, "--output", again];
+    done(&[&[&moved[..]], &options[..]].concat());
+    assert!([other, again].map(|file| std::fs::read(file).unwrap()) == bytes);
+    let bare =
+        [&[&model[..]], &SMALL[..], &POUR, &["--picture", one, "--ground", "linen"]].concat();
+    let refused = stencil(&bare);
+    assert!(
+        refused.status == 2 && refused.err.contains("--ground needs pigments"),
+        "{}",
+        refused.err
+    );
+}
+
+#[test]
+fn the_passes_hold_the_heights_of_each_pigment() {
+    use exr::prelude::{ReadChannels, ReadLayers, read};
+    let folder = folder();
+    let library = library();
+    let [photo, passes] = ["photo.png", "p.exr"].map(|name| path(&folder, name));
+    image::RgbImage::from_pixel(60, 40, image::Rgb([180; 3])).save(&photo).unwrap();
+    // A photograph is 200 mm wide and fills the picture: a pixel is 1 mm^2.
+    let scene = [&photo, "--width", "200", "--set", "picture.samples=1", "--pigments", &library];
+    let paint = ["--pour", "0.4,0.5,18", "--paint", "Ultramarine=3,Lead White=1"];
+    let told = done(&[&scene[..], &paint, &["--passes", &passes, "--json"]].concat()).json();
+    let image = read().no_deep_data().largest_resolution_level().all_channels();
+    let image = image.all_layers().all_attributes().from_file(&passes).unwrap();
+    let part = |wanted: &str| {
+        let mut layers = image.layer_data.iter();
+        let named = |name: &exr::prelude::Text| name.to_string() == wanted;
+        layers.find(|own| own.attributes.layer_name.as_ref().is_some_and(named)).unwrap()
+    };
+    let values = |wanted: &str, channel: &str| -> Vec<f64> {
+        let channels = &part(wanted).channel_data.list;
+        let own = channels.iter().find(|own| own.name.to_string() == channel).unwrap();
+        own.sample_data.values_as_f32().map(f64::from).collect()
+    };
+    assert_eq!(part("heights").channel_data.list.len(), 2);
+    let [blue, white] = ["Ultramarine", "Lead White"].map(|name| values("heights", name));
+    let laid: f64 = blue.iter().chain(&white).sum();
+    let on_scene = told["paint_mm3"]["on_scene"].as_f64().unwrap();
+    assert!((on_scene - 18.0).abs() < 1e-3, "{told}");
+    assert!((laid / on_scene - 1.0).abs() < 0.02, "{laid} of {on_scene} mm3");
+    let counts = values("count.1", "N");
+    for ((blue, white), count) in blue.iter().zip(&white).zip(&counts) {
+        assert_eq!(*blue > 0.0, *count > 0.0, "a film where volumes are");
+        assert!((blue - 3.0 * white).abs() <= 2e-5, "{blue} {white}");
+    }
+    // The film of the preset grisaille, and somewhat more at its edge.
+    let most = blue.iter().zip(&white).map(|(blue, white)| blue + white).fold(0.0, f64::max);
+    assert!((0.003..0.012).contains(&most), "{most} mm");
+    assert!(counts.iter().filter(|&&count| count > 0.0).count() > 4000);
+}

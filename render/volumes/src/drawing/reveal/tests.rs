@@ -29,7 +29,8 @@ fn counts(width: usize, height: usize, step: usize) -> Field<i32> {
 }
 
 fn region(counts: Field<i32>, tints: &[f32], inside: Inside) -> Region {
-    Region { counts: counts.into(), table: TintTable::new(tints.to_vec()).unwrap(), inside }
+    let table = TintTable::new(tints.to_vec()).unwrap();
+    Region { counts: counts.into(), table, inside, stain: Region::UNSTAINED }
 }
 
 fn picture(size: (usize, usize), regions: &[Region], paper: Option<[f32; 3]>) -> Field<[f32; 4]> {
@@ -88,9 +89,26 @@ fn later_regions_lie_over_earlier_ones() {
     for i in 0..3 {
         assert!((found[i] - (0.75 * red[i] + 0.25 * blue[i])).abs() < 1e-6, "{found:?}");
     }
-    let [r, g, b, _] = shaded(5, 1)[(3, 0)];
-    let factor = Inside::Multiplied([0.5, 0.25, 1.0]);
-    let found = picture((5, 1), &[region(Field::filled(5, 1, 2), &[0.0, 1.0], factor)], None);
+}
+
+#[test]
+fn a_stained_region_multiplies_the_grey_and_shows_colours_at_its_core() {
+    let stain = [0.5, 0.25, 1.0];
+    let counts = field(4, 1, |x, _| x as i32);
+    let own = region(counts.clone(), &[0.0, 0.0, 0.5, 1.0], Inside::OwnColors);
+    let found = picture((4, 1), &[Region { stain, ..own.clone() }], None);
+    let shaded = shaded(4, 1);
+    for (x, share) in [0.0, 0.0, 0.5, 1.0].into_iter().enumerate() {
+        let [r, g, b, grey] = shaded[(x, 0)];
+        let under = stain.map(|stain| if x > 0 { grey * stain } else { grey });
+        let wanted = [0, 1, 2].map(|i| under[i] * (1.0 - share) + [r, g, b][i] * share);
+        assert_eq!(found[(x, 0)][..3], wanted, "{x}");
+    }
+    // Where a region was before, its colours are stained.
+    let colored = region(Field::filled(4, 1, 1), &[0.0, 1.0], Inside::OwnColors);
+    let over = Region { stain, ..region(counts, &[0.0, 0.0, 0.0], Inside::OwnColors) };
+    let found = picture((4, 1), &[colored, over], None);
+    let [r, g, b, _] = shaded[(3, 0)];
     assert_eq!(found[(3, 0)], [0.5 * r, 0.25 * g, b, 1.0]);
     assert!(r > 0.05 && g > 0.05, "{r} {g}");
 }
@@ -123,8 +141,8 @@ fn numbers_that_are_none_are_refused() {
     let compute = &mut Compute::cpu();
     let refused = reveal(compute, &shaded, &visible, &[], Some([0.5, f32::NAN, 1.0]), 1);
     assert!(matches!(refused, Err(DrawingError::Setting { name: "paper", .. })));
-    let inside = Inside::Multiplied([2.0, 0.0, 0.0]);
-    let region = region(Field::filled(2, 2, 1), &[0.0, 1.0], inside);
+    let own = region(Field::filled(2, 2, 1), &[0.0, 1.0], Inside::OwnColors);
+    let region = Region { stain: [2.0, 0.0, 0.0], ..own };
     assert!(reveal(compute, &shaded, &visible, &[region], None, 1).is_err());
 }
 
@@ -139,10 +157,11 @@ fn a_device_composes_the_same_picture() {
                 counts: compute.upload(&counts(width, height, step)).unwrap(),
                 table: TintTable::new(tints.to_vec()).unwrap(),
                 inside,
+                stain: [[0.4, 0.9, 0.7], Region::UNSTAINED][step % 2],
             };
             let mut regions = vec![
                 region(3, &[0.0, 0.25, 0.5, 0.75, 1.0], Inside::OwnColors),
-                region(5, &[0.0, 1.0], Inside::Multiplied([0.4, 0.9, 0.7])),
+                region(5, &[0.0, 0.5], Inside::OwnColors),
                 region(2, &[0.0, 0.0, 0.0, 0.6], Inside::OwnColors),
             ];
             regions[2].inside = Inside::Picture(compute.upload(&inside).unwrap());

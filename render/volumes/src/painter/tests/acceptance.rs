@@ -177,3 +177,52 @@ fn regions_count_their_own_volumes_alone() {
         }
     }
 }
+
+#[test]
+fn where_a_device_knows_no_gates_the_processor_counts() {
+    let Some(device) = test_device::device() else { return };
+    let mut scene = Scene::new(plates(), Framing::default());
+    scene.mesh.colors.fill([0.8, 0.2, 0.1]);
+    scene.settings.unit_mm = 1.0;
+    let mut world = scene.world();
+    world.pour(Pour::at(Vec3::new(0.3, 0.0, 0.2), 1.0, 1.0, Recipe::of_slot(0))).unwrap();
+    steps(&mut world, 300);
+    assert!(!scene.painter().counts_elsewhere());
+    let mut painter = scene.painter().on(device).unwrap();
+    let mut colored = |elevation_deg: f32, gates: bool| {
+        let framing = Framing { elevation_deg, aspect: 150.0 / 114.0, ..Framing::default() };
+        painter.drawer.scene.gates &= gates;
+        assert!(gates || painter.counts_elsewhere());
+        let camera = framing.fit(&scene.mesh.positions);
+        let picture = painter.paint(&world, &camera, SIZE).unwrap();
+        picture.values().iter().filter(|[red, _, blue, _]| red - blue > 0.02).count()
+    };
+    let own = colored(40.0, true);
+    assert_eq!(colored(-40.0, false), 0, "from below, through the wall");
+    let counted = colored(40.0, false);
+    assert!(own > 200 && counted.abs_diff(own) * 500 <= SIZE.0 * SIZE.1, "{own} {counted}");
+}
+
+#[test]
+fn a_scene_turned_inside_out_is_painted_alike() {
+    let inside_out = |faces: bool, normals: bool| {
+        let mut scene = Scene::still_life();
+        let mesh = &mut scene.mesh;
+        if faces {
+            mesh.triangles.iter_mut().for_each(|triangle| triangle.corners.swap(1, 2));
+        }
+        if normals {
+            let along = mesh.normals.iter_mut().flatten();
+            along.for_each(|along| *along = -*along);
+        }
+        let world = scene.poured();
+        let mask = scene.painter().shown(&world, &scene.camera, SIZE, Show::Mask).unwrap();
+        mask.values().iter().filter(|mask| mask[0] > 0.5).count()
+    };
+    let own = inside_out(false, false);
+    assert!(own > 300, "{own}");
+    for (faces, normals) in [(true, true), (true, false), (false, true)] {
+        let found = inside_out(faces, normals);
+        assert!(found.abs_diff(own) * 20 <= own, "{faces} {normals}: {found} of {own}");
+    }
+}

@@ -51,16 +51,17 @@ const OF_PICTURES: [&str; 18] = [
 const OF_SAMPLES: [&str; 2] = ["picture.samples = 2", "picture.paper = \"#102030\""];
 
 /// Settings of the regions that a script does not describe itself.
-const OF_REGIONS: [&str; 3] = [
+const OF_REGIONS: [&str; 4] = [
     "drawing.shells = [1.0, 0.5]",
     "drawing.tint = [0.0, 0.1, 0.2, 0.9, 1.0]",
+    "drawing.stain = \"#ffe0c0\"",
     "drawing.inside = \"glaze\"",
 ];
 
 const OF_FILMS: [&str; 3] =
     ["drawing.film = \"through\"", "drawing.rim = 0.4", "drawing.edge = 2.0"];
 
-const UNDER_FILMS: [&str; 1] = ["drawing.under = \"none\""];
+const UNDER_FILMS: [&str; 2] = ["drawing.neutral = false", "drawing.under = \"none\""];
 
 fn changed(settings: &Settings, change: &str) -> Settings {
     let changed = settings.changed("test.toml", change).unwrap();
@@ -155,8 +156,9 @@ fn settings_of_films_change_the_picture() {
             usual = picture;
         }
     }
+    let own = scene.settings.clone();
     for change in UNDER_FILMS {
-        scene.settings = changed(&scene.settings, change);
+        scene.settings = changed(&own, change);
         let mut painter = scene.painter().with_pigments(pigments()).unwrap();
         let picture = bits(&painter.paint(&world, &scene.camera, SIZE).unwrap());
         assert!(picture != usual, "{change}");
