@@ -9,6 +9,8 @@ mod pen;
 mod pictures;
 
 mod strokes;
+
+mod groups;
 mod tools;
 
 mod replay;
