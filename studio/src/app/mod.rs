@@ -41,6 +41,8 @@ mod crop;
 
 mod volumes;
 
+mod twins;
+
 mod key_editor;
 
 mod help;
@@ -50,6 +52,8 @@ mod studio;
 mod desk;
 
 mod events;
+
+mod aids;
 
 mod quick_palette;
 

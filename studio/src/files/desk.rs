@@ -10,6 +10,7 @@ use sha2::{Digest, Sha256};
 
 use super::drawing::{Drawing, DrawingKind, DrawnFile};
 use super::problem::Problem;
+use crate::pen::DrawingAids;
 
 /// The view of the canvas, the brush and tool in hand, and the reference picture.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -21,6 +22,8 @@ pub struct Desk {
     pub tool: Option<String>,
     /// The view of the canvas.
     pub view: Option<DeskView>,
+    /// Ruler, perspective and symmetry.
+    pub aids: Option<DrawingAids>,
     /// The picture beside the canvas.
     pub reference: Option<DeskReference>,
 }
@@ -146,6 +149,7 @@ mod tests {
             brush: Some("flat".to_owned()),
             tool: Some("pan".to_owned()),
             view: Some(view),
+            aids: Some(DrawingAids { snaps: false, ..DrawingAids::default() }),
             reference: Some(reference),
         };
         let read: Desk = serde_json::from_value(serde_json::to_value(&desk).unwrap()).unwrap();

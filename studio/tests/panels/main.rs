@@ -70,3 +70,5 @@ mod look;
 mod docking;
 
 mod working;
+
+mod aids;
