@@ -96,6 +96,10 @@ pub enum Command {
     PenMove(Vec<PenSample>),
     /// Lifts the brush, which ends the stroke.
     PenUp,
+    /// Begins a group: its strokes are one step of undo and redo.
+    BeginGroup,
+    /// Ends a group. One in which anything but strokes was done is none.
+    EndGroup,
     /// Applies an action. An open stroke is finished first.
     Apply(Action),
     /// Applies an action of light, gloss, stiffness or opacity while its slider is dragged. All
@@ -174,6 +178,21 @@ pub enum Command {
 }
 
 impl Command {
+    /// Whether it is answered while a stroke is open; other commands than those of the pen end the
+    /// stroke.
+    #[must_use]
+    pub fn is_question(&self) -> bool {
+        matches!(
+            self,
+            Self::Snapshot(_)
+                | Self::Keep { .. }
+                | Self::Recording(_)
+                | Self::Pick { .. }
+                | Self::SetUndoBytes(_)
+                | Self::EndAdjustment
+        )
+    }
+
     /// Name of the command for messages.
     pub(super) fn name(&self) -> &'static str {
         match self {
@@ -182,6 +201,7 @@ impl Command {
             Self::PenDown { .. } | Self::ToolDown { .. } | Self::PenMove(_) | Self::PenUp => {
                 "a stroke"
             }
+            Self::BeginGroup | Self::EndGroup => "a group of strokes",
             Self::Apply(action) | Self::Adjust(action) => action.kind(),
             Self::EndAdjustment => "settling",
             Self::GoTo(_) => "going through the history",

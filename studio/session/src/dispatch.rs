@@ -47,25 +47,14 @@ impl WorkerLoop<'_> {
         {
             self.extend(&samples)?;
         }
-        let is_question = |command: &Command| {
-            matches!(
-                command,
-                Command::Snapshot(_)
-                    | Command::Keep { .. }
-                    | Command::Recording(_)
-                    | Command::Pick { .. }
-                    | Command::SetUndoBytes(_)
-                    | Command::EndAdjustment
-            )
-        };
         let waiting = self.open.as_ref().map_or(0, |open| waiting_substeps(open.session()));
         if waiting == 0
-            && let Some(question) = self.inbox.next_if(is_question)
+            && let Some(question) = self.inbox.next_if(Command::is_question)
         {
             return self.answer(question);
         }
         if self.inbox.next_if(|command| matches!(command, Command::PenUp)).is_some()
-            || self.inbox.next_is(|command| !is_question(command))
+            || self.inbox.next_is(|command| !command.is_question())
         {
             // Any other command finishes the stroke first.
             self.lift()?;
@@ -143,6 +132,7 @@ impl WorkerLoop<'_> {
             // A pen command without an open stroke belongs to a stroke that another command has
             // ended or that could not begin. The inbox handles `Cancel` and `Quit` itself.
             Command::PenMove(_) | Command::PenUp | Command::Cancel | Command::Quit => {}
+            Command::BeginGroup | Command::EndGroup if self.open.is_none() => {}
             command if self.open.is_some() => return self.execute_on_painting(command),
             command => {
                 let text = format!("no painting is open for {}", command.name());
@@ -174,8 +164,19 @@ impl WorkerLoop<'_> {
                 self.brush_changed(&name);
                 Ok(())
             }
+            Command::BeginGroup | Command::EndGroup => {
+                let OpenPainting { prepared, groups, .. } = self.open_mut();
+                let (numbers, (_, done)) =
+                    (prepared.session.history_numbers(), prepared.session.history());
+                match command {
+                    Command::BeginGroup => groups.begin(&numbers, done),
+                    _ => groups.end(&numbers, done),
+                }
+                Ok(())
+            }
             Command::Apply(action) => self.apply(&action),
             Command::Adjust(action) => {
+                self.open_mut().groups.give_up();
                 self.session().adjust(&action)?;
                 self.changed();
                 Ok(())
@@ -212,8 +213,27 @@ impl WorkerLoop<'_> {
         }
     }
 
+    /// Undoes or repeats a whole group of strokes, if the action would do that to one of them.
+    fn step_over_group(&mut self, action: &Action) -> Result<Option<Outcome>, SessionError> {
+        let OpenPainting { prepared, groups, .. } = self.open_mut();
+        let session = &mut prepared.session;
+        let (numbers, (_, done)) = (session.history_numbers(), session.history());
+        let to = match action {
+            Action::Undo {} => groups.undo_to(&numbers, done),
+            Action::Redo {} => groups.redo_to(&numbers, done),
+            _ => None,
+        };
+        groups.give_up();
+        let Some(done) = to else { return Ok(None) };
+        session.go_to(done)?;
+        Ok(Some(Outcome::Done))
+    }
+
     fn apply(&mut self, action: &Action) -> Result<(), SessionError> {
-        let outcome = self.session().apply(action)?;
+        let outcome = match self.step_over_group(action)? {
+            Some(outcome) => outcome,
+            None => self.session().apply(action)?,
+        };
         match action {
             Action::Load(Load { brush, .. })
             | Action::Wipe { brush, .. }

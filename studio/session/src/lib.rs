@@ -86,6 +86,8 @@ mod report;
 
 mod stroke_timing;
 
+mod groups;
+
 mod tally;
 
 mod replay;

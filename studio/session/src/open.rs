@@ -9,6 +9,7 @@ use spectra::hint::{Explain, Hint};
 
 use super::command::{Origin, Pace};
 use super::event::{Event, Snapshot};
+use super::groups::Groups;
 use super::prepare::{OpenError, PreparedPainting, prepare, prepare_script};
 use super::replay::{Replay, Step};
 use super::report::Reporter;
@@ -55,8 +56,9 @@ impl WorkerLoop<'_> {
         }
         let reporter = Reporter::new(&prepared);
         let shots = Shots::default();
+        let (groups, recording_stop_reported) = (Groups::default(), false);
         self.open =
-            Some(OpenPainting { prepared, reporter, shots, recording_stop_reported: false });
+            Some(OpenPainting { prepared, reporter, shots, groups, recording_stop_reported });
         self.shot_revision = None;
         self.stroke = None;
         self.kept = None;

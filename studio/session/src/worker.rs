@@ -9,6 +9,7 @@ use spectra::hint::{Explain, Hint};
 
 use super::backend::Backend;
 use super::event::{Event, Snapshot};
+use super::groups::Groups;
 use super::inbox::{Inbox, Wait};
 use super::meter::Meter;
 use super::outbox::Outbox;
@@ -72,6 +73,8 @@ pub(super) struct OpenPainting {
     pub(super) reporter: Reporter,
     /// Pictures of the history.
     pub(super) shots: Shots,
+    /// Strokes that are undone together.
+    pub(super) groups: Groups,
     /// Whether a message said that the recording ended early.
     pub(super) recording_stop_reported: bool,
 }

@@ -15,6 +15,7 @@ impl Studio {
             brush: Some(self.tools.brush.clone()),
             tool: Some(self.tools.mode.name().to_owned()),
             view: Some(DeskView { centre, zoom, rotation, mirror, fitted }),
+            aids: Some(self.aids),
             reference: reference.map(|(path, drawings)| DeskReference::new(path, &drawings)),
         }
     }
@@ -32,6 +33,7 @@ impl Studio {
         if let Some(DeskView { centre, zoom, rotation, mirror, fitted }) = desk.view {
             self.canvas.view = ViewState { centre, zoom, rotation, mirror, fitted };
         }
+        self.aids = desk.aids.unwrap_or(self.aids);
         if let Some(reference) = &desk.reference {
             let (picture, drawings) = (reference.picture.clone(), reference.drawn());
             let restored = ReferenceChange::Restore { picture, drawings };

@@ -46,7 +46,7 @@ impl Studio {
                 self.tools.picked = Some(picked);
                 self.panels.select(Tab::Color);
             }
-            Event::Recording { number, .. } => self.last_recording = Some(number),
+            Event::Recording { number, script } => self.last_recording = Some((number, script)),
             // Handled by the files above.
             Event::Snapshot(_) | Event::Kept(_) | Event::Progress { .. } | Event::Replayed => {}
             Event::DirtyBrush(brush) => {
@@ -75,6 +75,7 @@ impl Studio {
         self.hover = None;
         self.tour.forget();
         self.crop = None;
+        self.twins = None;
         self.set_painting(state);
         let Some(painting) = &self.painting else { return };
         let exists = painting.brushes.iter().any(|brush| brush.name == self.tools.brush);

@@ -30,6 +30,7 @@ impl Studio {
         self.files.note_desk(self.desk());
         self.files.note_drawings(self.panels.reference.unsaved_drawings());
         for command in self.files.update(context) {
+            self.note_command(&command);
             self.worker.ask(command);
         }
         if let Some(StatusNote { text, hint }) = self.files.take_status() {
@@ -105,6 +106,7 @@ impl Studio {
             }
             self.draw(ui);
             self.draw_pen_windows(&context);
+            self.draw_aids_window(&context);
             self.show_quick_palette(&context);
             self.show_tour(&context);
         }
@@ -163,7 +165,10 @@ impl Studio {
     fn send_requests(&mut self) {
         for request in std::mem::take(&mut self.requests) {
             match (request, &self.painting) {
-                (Request::Worker(command), _) => self.worker.ask(command),
+                (Request::Worker(command), _) => {
+                    self.note_command(&command);
+                    self.worker.ask(command);
+                }
                 (Request::File(request), Some(painting)) => self.files.request(request, painting),
                 // No painting is open yet.
                 (request, None) => self.requests.push(request),

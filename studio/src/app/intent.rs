@@ -78,6 +78,16 @@ pub enum Intent {
     Tool(Mode),
     /// Opens or closes the round menu of tubes, mixtures and sizes at the pointer.
     QuickPalette,
+    /// Shows or hides the window of the drawing aids.
+    DrawingAids,
+    /// Shows the ruler, or takes it away.
+    Ruler,
+    /// Shows the perspective guide, or takes it away.
+    Perspective,
+    /// Lets strokes follow the guide that is shown, or not.
+    Snapping,
+    /// Turns symmetry on or off.
+    Symmetry,
     /// Enlarges the view by one step.
     ZoomIn,
     /// Reduces the view by one step.

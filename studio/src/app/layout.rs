@@ -29,7 +29,8 @@ impl Studio {
             let scene = self.volumes.is_some();
             let open = painting.is_some();
             let look = self.files.preferences.look();
-            let state = menus::State { open, scene, history, shown, mirror, look };
+            let aids = self.aids;
+            let state = menus::State { open, scene, history, shown, mirror, aids, look };
             let title = self.title.clone();
             Panel::top("menus").frame(bar).show_separator_line(false).show(ui, |ui| {
                 fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).bar);

@@ -8,6 +8,7 @@ use super::menu_item;
 use super::toolbar::tip;
 use crate::language::tr;
 use crate::panels::Mode;
+use crate::pen::{DrawingAids, GuideKind};
 use crate::theme::{self, Look, ThemeChoice};
 
 /// Program state that enables and checks menu entries.
@@ -23,6 +24,8 @@ pub(super) struct State {
     pub(super) shown: (bool, bool, bool),
     /// Whether the view is mirrored.
     pub(super) mirror: bool,
+    /// Ruler, perspective and symmetry.
+    pub(super) aids: DrawingAids,
     /// Theme, and size of what is touched.
     pub(super) look: Look,
 }
@@ -101,6 +104,7 @@ fn begins_group(intent: Intent) -> bool {
             | Intent::Panels
             | Intent::Tool(Mode::Squeeze)
             | Intent::Tool(Mode::Pan)
+            | Intent::DrawingAids
             | Intent::StandardLayout
             | Intent::Theme(ThemeChoice::Dark)
             | Intent::TouchTargets
@@ -136,6 +140,10 @@ fn checked(intent: Intent, state: State) -> Option<bool> {
         Intent::Palette => Some(state.shown.1),
         Intent::Figures => Some(state.shown.2),
         Intent::Mirror => Some(state.mirror),
+        Intent::Ruler => Some(state.aids.guide == Some(GuideKind::Ruler)),
+        Intent::Perspective => Some(state.aids.guide == Some(GuideKind::Perspective)),
+        Intent::Snapping => Some(state.aids.snaps),
+        Intent::Symmetry => Some(state.aids.symmetry.on),
         Intent::Theme(theme) => Some(state.look.theme == theme),
         Intent::TouchTargets => Some(state.look.touch),
         _ => None,

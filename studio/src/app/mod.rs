@@ -43,6 +43,8 @@ mod crop;
 
 mod volumes;
 
+mod twins;
+
 mod key_editor;
 
 mod help;
@@ -52,6 +54,8 @@ mod studio;
 mod desk;
 
 mod events;
+
+mod aids;
 
 mod quick_palette;
 

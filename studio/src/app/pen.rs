@@ -3,13 +3,14 @@
 use std::time::Instant;
 
 use eframe::egui::{Context, Order, Popup, RawInput, Ui};
-use render::paint::strokes::SampleDecimals;
+use render::paint::strokes::{SampleDecimals, StrokeTool, SurfaceId};
 
 use super::hover::Hover;
 use super::intent::Intent;
 use super::studio::Studio;
+use super::twins::TwinStrokes;
 use crate::pace;
-use crate::panels::Mode;
+use crate::panels::{Mode, Request};
 use crate::pen::{Device, PenEvent, PenTargets, SurfaceTransform};
 use session::Command;
 
@@ -50,6 +51,7 @@ impl Studio {
             blocked
                 || above.is_some_and(|layer| layer.order != Order::Background)
                 || self.canvas.split_handle().is_some_and(|handle| handle.contains(point))
+                || self.aid_handles.iter().any(|handle| handle.contains(point))
                 || self.palette.light_switch().is_some_and(|switch| switch.contains(point))
                 || self.visible.palette
                     && self.palette.rect().contains(point)
@@ -58,6 +60,7 @@ impl Studio {
         let view = PenTargets { surfaces: &transforms, covered: &covered };
         // Copied, because `covered` queries the context while the events are processed.
         let (input_events, modifiers) = ui.input(|input| (input.events.clone(), input.modifiers));
+        self.pen.guide = self.aids.leading();
         let events = self.pen.process_frame(&input_events, modifiers, now, &view);
         events.into_iter().for_each(|event| self.handle_pen_event(event, context));
         if let Some(soon) = self.pen.repaint_after(Instant::now()) {
@@ -73,16 +76,30 @@ impl Studio {
                 self.files.preferences.first_steps_seen = true;
                 let brush = self.brush_for(device);
                 let tool = self.tools.stroke_tool(self.keys.mode(self.tools.mode));
-                self.ask(if tool.is_paint() {
-                    Command::PenDown { surface, brush, decimals: SampleDecimals::PEN }
-                } else {
-                    Command::ToolDown { tool, surface, brush }
-                });
+                let symmetry = self.aids.symmetry;
+                self.twins = (symmetry.on && surface == SurfaceId::Canvas)
+                    .then(|| TwinStrokes::new(symmetry.twins(), tool, &brush));
+                if self.twins.is_some() {
+                    self.ask(Command::BeginGroup);
+                }
+                self.ask(down(tool, surface, brush));
             }
-            PenEvent::Move(samples) => self.ask(Command::PenMove(samples)),
+            PenEvent::Move(samples) => {
+                if let Some(twins) = &mut self.twins {
+                    twins.extend(&samples);
+                }
+                self.ask(Command::PenMove(samples));
+            }
             PenEvent::Up => {
                 self.head = None;
                 self.ask(Command::PenUp);
+                let cut = self.is_stroke_cut();
+                if let Some(twins) = self.twins.take().filter(|_| !cut) {
+                    let (tool, brush) = twins.tool();
+                    let down = || down(tool, SurfaceId::Canvas, brush.to_owned());
+                    twins.commands(down).into_iter().for_each(|command| self.ask(command));
+                    self.ask(Command::EndGroup);
+                }
             }
             PenEvent::Hover { surface, sample, device } => {
                 let brush = self.brush_for(device);
@@ -100,11 +117,47 @@ impl Studio {
         }
     }
 
+    /// Notes a command that goes to the worker.
+    pub(super) fn note_command(&mut self, command: &Command) {
+        self.stroke_cut = cut_after(self.stroke_cut, command);
+    }
+
+    /// Whether a command ended the open stroke before its pen was lifted: then it has no twins.
+    fn is_stroke_cut(&self) -> bool {
+        let queued = self.requests.iter().filter_map(|request| match request {
+            Request::Worker(command) => Some(command),
+            Request::File(_) => None,
+        });
+        queued.fold(self.stroke_cut, cut_after)
+    }
+
     /// Name of the brush that a device moves.
     pub(super) fn brush_for(&self, device: Device) -> String {
         let brushes = self.painting.iter().flat_map(|painting| &painting.brushes);
         let eraser =
             device == Device::Eraser && brushes.into_iter().any(|brush| brush.name == ERASER);
         if eraser { ERASER.to_owned() } else { self.tools.brush.clone() }
+    }
+}
+
+/// Whether a stroke that began with its group is cut after a command, if it was `cut` before.
+fn cut_after(cut: bool, command: &Command) -> bool {
+    match command {
+        Command::BeginGroup => false,
+        Command::PenDown { .. }
+        | Command::ToolDown { .. }
+        | Command::PenMove(_)
+        | Command::PenUp
+        | Command::EndGroup => cut,
+        other => cut || !other.is_question(),
+    }
+}
+
+/// The command that sets a brush down as a tool.
+fn down(tool: StrokeTool, surface: SurfaceId, brush: String) -> Command {
+    if tool.is_paint() {
+        Command::PenDown { surface, brush, decimals: SampleDecimals::PEN }
+    } else {
+        Command::ToolDown { tool, surface, brush }
     }
 }

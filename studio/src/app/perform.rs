@@ -11,6 +11,7 @@ use crate::keymap::Scope;
 use crate::panels::brushes::{wash, wipe};
 use crate::panels::layers::dry;
 use crate::panels::{FileRequest, PanelContext, Request};
+use crate::pen::GuideKind;
 use crate::theme;
 use session::Command;
 
@@ -75,6 +76,11 @@ impl Studio {
             }),
             Intent::Tool(mode) => self.tools.mode = mode,
             Intent::QuickPalette => self.toggle_quick_palette(context),
+            Intent::DrawingAids => self.visible.aids ^= true,
+            Intent::Ruler => self.toggle_guide(GuideKind::Ruler),
+            Intent::Perspective => self.toggle_guide(GuideKind::Perspective),
+            Intent::Snapping => self.toggle_snapping(),
+            Intent::Symmetry => self.toggle_symmetry(),
             Intent::ZoomIn => zoom(self, ZOOM),
             Intent::ZoomOut => zoom(self, 1.0 / ZOOM),
             Intent::Fit => {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use eframe::egui::Context;
-use render::paint::strokes::SurfaceId;
+use eframe::egui::{Context, Rect};
+use render::paint::strokes::{StrokeScript, SurfaceId};
 
 use super::crop::CropTool;
 use super::dashes::Dashes;
@@ -16,6 +16,7 @@ use super::parts::{Parts, StartedWorker};
 use super::quick::QuickPalette;
 use super::side::Panels;
 use super::status::Message;
+use super::twins::TwinStrokes;
 use super::volumes::Volumes;
 use crate::files::{FiguresLog, Files};
 use crate::keymap::{Changes, Keymap};
@@ -23,7 +24,7 @@ use crate::language::Language;
 use crate::panels::own_brushes::OwnBrushes;
 use crate::panels::pen::PenWindow;
 use crate::panels::{FileRequest, Request, Tools};
-use crate::pen::Pen;
+use crate::pen::{DrawingAids, Pen};
 use crate::theme;
 use crate::view::{Outline, SurfaceView};
 use session::volumes::Subject;
@@ -42,6 +43,8 @@ pub struct Studio {
     pub visible: VisibleParts,
     /// Input of pen, mouse and touch.
     pub pen: Pen,
+    /// Ruler, perspective and symmetry over the canvas.
+    pub aids: DrawingAids,
     /// Panels at the right and beside the palette.
     pub panels: Panels,
     /// File dialogs, tasks and preferences.
@@ -73,7 +76,7 @@ pub struct Studio {
     pub(super) message: Option<Message>,
     pub(super) requests: Vec<Request>,
     pub(super) event_count: u64,
-    pub(super) last_recording: Option<u64>,
+    pub(super) last_recording: Option<(u64, Arc<StrokeScript>)>,
     /// Surface of the last pick request, and its x and y in mm as the bits of an `f64`. A
     /// request for the same place is not sent again.
     pub(super) last_pick: Option<(SurfaceId, u64, u64)>,
@@ -81,6 +84,14 @@ pub struct Studio {
     pub(super) mask_points: Vec<[f64; 2]>,
     /// Movement of the dashes around the mask.
     pub(super) mask_dashes: Dashes,
+    /// Where the handles of the drawing aids were drawn, in the window.
+    pub(super) aid_handles: Vec<Rect>,
+    /// Way in mm from the pointer to the handle of a drawing aid that is dragged.
+    pub(super) aid_grabbed: [f64; 2],
+    /// Twins of the open stroke.
+    pub(super) twins: Option<TwinStrokes>,
+    /// Whether another command ended the open stroke.
+    pub(super) stroke_cut: bool,
     pub(super) log: Option<FiguresLog>,
     pub(super) title: String,
     pub(super) tour: Tour,
@@ -103,6 +114,8 @@ pub struct VisibleParts {
     pub pen: bool,
     /// Window of own brushes.
     pub brush_sets: bool,
+    /// Window of the drawing aids.
+    pub aids: bool,
 }
 
 impl Studio {
@@ -146,8 +159,10 @@ impl Studio {
                 first_steps,
                 pen: false,
                 brush_sets: false,
+                aids: false,
             },
             pen,
+            aids: DrawingAids::default(),
             panels,
             files,
             crop: None,
@@ -175,6 +190,10 @@ impl Studio {
             last_pick: None,
             mask_points: Vec::new(),
             mask_dashes: Dashes::default(),
+            aid_handles: Vec::new(),
+            aid_grabbed: [0.0; 2],
+            twins: None,
+            stroke_cut: false,
             log,
             title: String::new(),
             tour: Tour::default(),
@@ -213,7 +232,13 @@ impl Studio {
     /// Number of the recording request that the worker answered last.
     #[must_use]
     pub fn last_recording(&self) -> Option<u64> {
-        self.last_recording
+        self.last_recording.as_ref().map(|(number, _)| *number)
+    }
+
+    /// The recording that the worker answered last.
+    #[must_use]
+    pub fn recorded(&self) -> Option<&StrokeScript> {
+        self.last_recording.as_ref().map(|(_, script)| &**script)
     }
 
     /// Shows the workspace of scenes; it starts when it is shown first.

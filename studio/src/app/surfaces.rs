@@ -80,6 +80,7 @@ impl Studio {
         let split = lights.map(|lights| Split { at: &mut self.tools.split, lights });
         let response = self.canvas.show(ui, area, drag, split);
         self.draw_over(ui, &response);
+        self.draw_aids(ui);
         if !self.is_framing() {
             self.handle_tool(ui, SurfaceId::Canvas, &response, mode);
             self.draw_mask(ui, &response, mode);

@@ -11,6 +11,7 @@ use sha2::{Digest, Sha256};
 use super::drawing::{Drawing, DrawingKind, DrawnFile};
 use super::problem::Problem;
 use crate::language::{tr, tr_format};
+use crate::pen::DrawingAids;
 
 /// The view of the canvas, the brush and tool in hand, and the reference picture.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -22,6 +23,8 @@ pub struct Desk {
     pub tool: Option<String>,
     /// The view of the canvas.
     pub view: Option<DeskView>,
+    /// Ruler, perspective and symmetry.
+    pub aids: Option<DrawingAids>,
     /// The picture beside the canvas.
     pub reference: Option<DeskReference>,
 }
@@ -149,6 +152,7 @@ mod tests {
             brush: Some("flat".to_owned()),
             tool: Some("pan".to_owned()),
             view: Some(view),
+            aids: Some(DrawingAids { snaps: false, ..DrawingAids::default() }),
             reference: Some(reference),
         };
         let read: Desk = serde_json::from_value(serde_json::to_value(&desk).unwrap()).unwrap();

@@ -40,6 +40,8 @@ pub mod pen;
 
 pub mod own_brushes;
 
+pub mod aids;
+
 pub mod figures;
 
 pub mod volumes;

@@ -8,6 +8,7 @@ use eframe::egui::{self, Event, Modifiers, Pos2, RawInput};
 use render::paint::pose::Sample;
 use render::paint::strokes::SurfaceId;
 
+use super::aids::Guide;
 use super::handling::Handling;
 use super::pen_stroke::{PenStroke, brush_sample};
 use super::pointer::Pointer;
@@ -75,6 +76,8 @@ pub struct Pen {
     pub options: BrushOptions,
     /// Options of the brush that the eraser end of a stylus moves.
     pub eraser_options: BrushOptions,
+    /// The guide that leads strokes on the canvas that begin from now on.
+    pub guide: Option<Guide>,
     systems: Systems,
     pointer: Pointer,
     /// Reports received since the last frame.
@@ -302,7 +305,9 @@ impl Pen {
         let from = from.map(|(_, place)| place);
         events.push(PenEvent::Down { surface: transform.surface, device });
         let handling = self.handling(device);
-        self.stroke = Some(PenStroke::new(device, state, at, *transform, from, &handling));
+        let guide = self.guide.filter(|_| transform.surface == SurfaceId::Canvas);
+        let stroke = PenStroke::new(device, state, at, (*transform, guide), from, &handling);
+        self.stroke = Some(stroke);
         // Differs from every hover event, so that the next one is reported as a change.
         self.reported_hover = Some(PenEvent::Up);
     }
@@ -313,7 +318,7 @@ impl Pen {
         stroke.finish(at, &handling);
         flush(&mut stroke, events);
         events.push(PenEvent::Up);
-        self.last_end = Some((stroke.surface(), stroke.position_mm()));
+        self.last_end = Some((stroke.surface(), stroke.end_mm()));
         self.hovering = Some((stroke.device, stroke.state()));
     }
 

@@ -36,6 +36,8 @@ mod heading;
 
 mod stabiliser;
 
+mod aids;
+
 mod pen_stroke;
 
 mod systems;
@@ -52,6 +54,13 @@ mod tests;
 #[cfg(test)]
 mod stabiliser_tests;
 
+#[cfg(test)]
+mod guide_tests;
+
+pub use aids::{
+    AidHandle, AidLines, DrawingAids, Guide, GuideKind, Perspective, Ruler, RulerShape, Symmetry,
+    SymmetryKind, Twin,
+};
 pub use input::{Pen, PenEvent};
 pub use report::{Device, PointerState, Report, ReportKind};
 pub use script::Script;

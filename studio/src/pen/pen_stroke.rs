@@ -6,6 +6,7 @@ use eframe::egui::{Pos2, Vec2};
 use render::paint::pose::Sample;
 use render::paint::strokes::SurfaceId;
 
+use super::aids::{Guide, Lead};
 use super::handling::Handling;
 use super::heading::Heading;
 use super::report::{Device, PointerState};
@@ -30,6 +31,9 @@ const LINE_SPEED_MM_S: f64 = 100.0;
 /// Length over which the pressure of a straight line rises, in mm.
 const LINE_START_MM: f64 = 2.0;
 
+/// Length of the way in points after which perspective takes the direction of a stroke.
+const DECIDED_POINTS: f64 = 14.0;
+
 /// Longest time for which the first samples wait for the direction of the stroke.
 const LONGEST_WAIT: Duration = Duration::from_millis(80);
 
@@ -48,18 +52,19 @@ pub(super) struct PenStroke {
     still: bool,
     heading: Heading,
     stabiliser: Stabiliser,
+    lead: Lead,
     last: Option<Sample>,
     samples: Vec<PenSample>,
 }
 
 impl PenStroke {
-    /// Begins a stroke. With `from`, a position in mm, a straight line leads from there to
-    /// the pen.
+    /// Begins a stroke on a surface, led by a guide if there is one. With `from`, a position in mm, a
+    /// straight line leads from there to the pen.
     pub(super) fn new(
         device: Device,
         state: PointerState,
         at: Instant,
-        transform: SurfaceTransform,
+        (transform, guide): (SurfaceTransform, Option<Guide>),
         from: Option<(f64, f64)>,
         handling: &Handling<'_>,
     ) -> Self {
@@ -75,6 +80,7 @@ impl PenStroke {
             still: false,
             heading: Heading::new(handling.first_twist()),
             stabiliser: Stabiliser::new(method, length_mm),
+            lead: Lead::new(guide, DECIDED_POINTS * transform.mm_per_point()),
             last: None,
             samples: Vec::new(),
         };
@@ -103,6 +109,11 @@ impl PenStroke {
         self.transform.position_mm(self.state.at)
     }
 
+    /// The place on the surface where the brush is when it has caught up, in mm.
+    pub(super) fn end_mm(&self) -> (f64, f64) {
+        self.lead.led(self.position_mm())
+    }
+
     /// Follows a change of zoom, pan or rotation.
     pub(super) fn set_transform(&mut self, transform: SurfaceTransform) {
         self.transform = transform;
@@ -117,18 +128,19 @@ impl PenStroke {
         self.state = state;
         self.moved = at;
         self.still = false;
-        let before = self.stabiliser.brush();
-        let place = self.stabiliser.follow(self.position_mm());
+        let (before, free) = (self.lead.last(), self.stabiliser.is_off() && self.lead.is_off());
+        let place = self.follow(handling);
         if handling.follows() {
             let step = match before {
-                Some(before) if !self.stabiliser.is_off() => self.way_in_window(before, place),
+                Some(before) if !free => self.way_in_window(self.lead.led(before), place),
                 _ => step,
             };
             self.heading.add(step);
         }
         self.add_sample(place, pressure, seconds, at, handling);
         let measured = handling.measured_twist(&state).is_some();
-        if measured || self.heading.is_clear() || self.has_waited(at) {
+        let clear = self.heading.is_clear() || self.has_waited(at);
+        if measured || clear && !self.lead.is_open() {
             self.start_heading(handling);
         }
     }
@@ -136,7 +148,7 @@ impl PenStroke {
     /// Adds one sample when the pen comes to rest, and further ones only while the pressure
     /// changes.
     pub(super) fn add_rest_sample(&mut self, now: Instant, handling: &Handling<'_>) {
-        if self.has_waited(now) {
+        if self.has_waited(now) && !self.lead.is_open() {
             self.start_heading(handling);
         }
         if now.saturating_duration_since(self.moved) < STILL {
@@ -147,14 +159,42 @@ impl PenStroke {
         let last = self.last.map_or(0.0, |last| last.pressure);
         if !self.still || (pressure - last).abs() > CHANGED {
             self.still = true;
-            let place = self.stabiliser.follow(self.position_mm());
+            let place = self.follow(handling);
             self.add_sample(place, pressure, seconds, now, handling);
         }
     }
 
+    /// Place of the brush for the present place of the pen: behind it, and on the line of a guide.
+    fn follow(&mut self, handling: &Handling<'_>) -> (f64, f64) {
+        let place = self.stabiliser.follow(self.position_mm());
+        self.led(place, handling)
+    }
+
+    /// The place on the line of a guide. Once that line is decided, the samples that waited for it
+    /// are put on it, and a brush that follows its direction starts across it.
+    fn led(&mut self, place: (f64, f64), handling: &Handling<'_>) -> (f64, f64) {
+        let waited = self.lead.is_open();
+        let place = self.lead.follow(place);
+        if !waited || self.lead.is_open() {
+            return place;
+        }
+        for PenSample { sample, .. } in &mut self.samples {
+            (sample.x_mm, sample.y_mm) = self.lead.led((sample.x_mm, sample.y_mm));
+        }
+        let first = self.samples.first().map(|first| (first.sample.x_mm, first.sample.y_mm));
+        if let Some(first) = first
+            && !self.heading.is_started()
+        {
+            self.heading = Heading::new(handling.first_twist());
+            self.heading.add(self.way_in_window(first, place));
+            self.start_heading(handling);
+        }
+        place
+    }
+
     /// Time until [`Self::add_rest_sample`] must be called; `None` if it would do nothing.
     pub(super) fn next_rest_sample(&self, now: Instant) -> Option<Duration> {
-        let waits = (!self.heading.is_started())
+        let waits = (!self.heading.is_started() && !self.lead.is_open())
             .then(|| LONGEST_WAIT.saturating_sub(now.saturating_duration_since(self.began)));
         [waits, self.next_still_sample(now)].into_iter().flatten().min()
     }
@@ -175,6 +215,7 @@ impl PenStroke {
     /// and for a device without pressure those that lift it.
     pub(super) fn finish(&mut self, at: Instant, handling: &Handling<'_>) {
         self.catch_up(at, handling);
+        self.lead.settle();
         self.start_heading(handling);
         if self.state.pressure.is_some() {
             return;
@@ -183,18 +224,19 @@ impl PenStroke {
         for pressure in self.pressure_model.end_pressures(self.seconds(at)) {
             seconds += END_INTERVAL_SECONDS;
             let pressure = handling.pressure_by_speed(pressure);
-            self.add_sample(self.position_mm(), pressure, seconds, at, handling);
+            self.add_sample(self.end_mm(), pressure, seconds, at, handling);
         }
     }
 
     /// Leads the brush to the last place of the pen, as fast as a straight line is drawn.
     fn catch_up(&mut self, at: Instant, handling: &Handling<'_>) {
-        let mut before = self.stabiliser.brush().unwrap_or_else(|| self.position_mm());
+        let mut before = self.lead.last().unwrap_or_else(|| self.position_mm());
         let mut seconds = self.last_seconds().max(self.seconds(at));
         let pressure = self.last.map_or(0.0, |last| last.pressure);
         for place in self.stabiliser.catch_up() {
+            let place = self.led(place, handling);
             if handling.follows() {
-                self.heading.add(self.way_in_window(before, place));
+                self.heading.add(self.way_in_window(self.lead.led(before), place));
             }
             seconds += distance(before, place) / LINE_SPEED_MM_S;
             self.add_sample(place, pressure, seconds, at, handling);
@@ -204,7 +246,8 @@ impl PenStroke {
 
     /// Line in the window from the brush to the pen, if the brush stays behind.
     pub(super) fn string_line(&self) -> Option<[Pos2; 2]> {
-        let brush = self.stabiliser.brush().filter(|_| !self.stabiliser.is_off())?;
+        let free = self.stabiliser.is_off() && self.lead.is_off();
+        let brush = self.lead.last().filter(|_| !free)?;
         Some([self.state.at + self.way_in_window(self.position_mm(), brush), self.state.at])
     }
 
@@ -217,10 +260,11 @@ impl PenStroke {
     }
 
     /// Removes and returns the samples since the last call. There are none before the direction
-    /// of a stroke that the brush follows is known: a brush that turned on the canvas would
-    /// paint a hook.
+    /// of a stroke that the brush or a guide follows is known: a brush that turned on the canvas
+    /// would paint a hook.
     pub(super) fn take_samples(&mut self) -> Vec<PenSample> {
-        if self.heading.is_started() { std::mem::take(&mut self.samples) } else { Vec::new() }
+        let waits = !self.heading.is_started() || self.lead.is_open();
+        if waits { Vec::new() } else { std::mem::take(&mut self.samples) }
     }
 
     fn has_waited(&self, now: Instant) -> bool {
@@ -242,7 +286,10 @@ impl PenStroke {
 
     /// Adds a straight line from `from`, in mm, to the current position.
     fn add_straight_line(&mut self, from: (f64, f64), at: Instant, handling: &Handling<'_>) {
-        let to = self.position_mm();
+        let (from, to) = match self.lead.is_off() {
+            true => (from, self.position_mm()),
+            false => (self.lead.follow(from), self.lead.follow(self.position_mm())),
+        };
         let length = (to.0 - from.0).hypot(to.1 - from.1);
         if length < LINE_START_MM {
             return;

@@ -74,7 +74,7 @@ impl TestField {
                     (f64::from(place.x) * MM_PER_POINT, f64::from(place.y) * MM_PER_POINT)
                 });
                 self.stroke =
-                    Some(PenStroke::new(device, state, arrived, transform, None, handling));
+                    Some(PenStroke::new(device, state, arrived, (transform, None), None, handling));
                 self.strokes.push(Vec::new());
                 let surplus = self.strokes.len().saturating_sub(MOST_STROKES);
                 self.strokes.drain(..surplus);

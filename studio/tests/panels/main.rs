@@ -82,3 +82,5 @@ mod language;
 mod docking;
 
 mod working;
+
+mod aids;

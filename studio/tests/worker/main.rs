@@ -10,6 +10,8 @@ mod pictures;
 
 mod strokes;
 
+mod groups;
+
 mod tools;
 
 mod replay;

@@ -2,7 +2,7 @@
 
 use eframe::egui::Key;
 
-use super::row::{NONE, entry, key};
+use super::row::{NONE, SHIFT, entry, key};
 use crate::app::intent::{Entry, Intent, Menu};
 use crate::panels::Mode;
 
@@ -83,5 +83,40 @@ pub(super) const ENTRIES: &[Entry] = &[
         "Quick palette",
         "Opens tubes, mixtures and brush sizes at the pointer; so does the right button on the canvas",
         &[key(NONE, Key::C)],
+    ),
+    entry(
+        Intent::DrawingAids,
+        Menu::Tools,
+        "Drawing aids...",
+        "Ruler, perspective and symmetry with their handles and settings",
+        &[key(SHIFT, Key::G)],
+    ),
+    entry(
+        Intent::Ruler,
+        Menu::Tools,
+        "Ruler",
+        "Shows a line or an ellipse that strokes keep to",
+        &[key(NONE, Key::U)],
+    ),
+    entry(
+        Intent::Perspective,
+        Menu::Tools,
+        "Perspective",
+        "Shows vanishing points that strokes run to",
+        &[key(NONE, Key::V)],
+    ),
+    entry(
+        Intent::Snapping,
+        Menu::Tools,
+        "Strokes follow the guide",
+        "Leads strokes along ruler or perspective; otherwise they are only shown",
+        &[key(NONE, Key::G)],
+    ),
+    entry(
+        Intent::Symmetry,
+        Menu::Tools,
+        "Symmetry",
+        "Paints each stroke again when it ends, mirrored or turned",
+        &[key(NONE, Key::Y)],
     ),
 ];

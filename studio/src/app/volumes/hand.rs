@@ -58,7 +58,7 @@ impl Volumes {
         // Paint is poured at once: it has no direction that the pen would wait for, and no brush.
         pen.settings.follow = false;
         pen.settings.stabiliser.method = StabiliserMethod::Off;
-        pen.options = BrushOptions::default();
+        (pen.options, pen.guide) = (BrushOptions::default(), None);
         let now = Instant::now();
         for event in pen.process_frame(&events, Modifiers::NONE, now, &targets) {
             self.handle_pen(event);
