@@ -66,7 +66,8 @@ fn strokes(pen: &mut Pen, strokes: &[Vec<PointerState>], modifiers: Modifiers) -
 }
 
 fn stroke(guide: Option<Guide>, holds: Vec<PointerState>) -> Vec<Sample> {
-    let mut pen = Pen { guide, ..Pen::new(PenSettings::default()) };
+    let mut pen = Pen::new(PenSettings::default());
+    pen.guide = guide;
     strokes(&mut pen, &[holds], Modifiers::NONE).remove(0)
 }
 
@@ -109,7 +110,8 @@ fn a_stroke_along_the_ruler_is_straight_and_keeps_time_and_pressure() {
 fn a_stabilised_stroke_ends_on_the_ruler_too() {
     let mut settings = PenSettings::default();
     settings.stabiliser.method = StabiliserMethod::String;
-    let mut pen = Pen { guide: Some(ruler()), ..Pen::new(settings) };
+    let mut pen = Pen::new(settings);
+    pen.guide = Some(ruler());
     let led = strokes(&mut pen, &[wavy()], Modifiers::NONE).remove(0);
     assert!(off(&led, [[10.0, 20.0], [110.0, 95.0]]) < 1e-9);
     let (first, last) = (led[0], led[led.len() - 1]);
@@ -149,7 +151,8 @@ fn strokes_on_the_palette_are_free() {
 
 #[test]
 fn a_line_with_shift_goes_on_along_the_ruler() {
-    let mut pen = Pen { guide: Some(ruler()), ..Pen::new(PenSettings::default()) };
+    let mut pen = Pen::new(PenSettings::default());
+    pen.guide = Some(ruler());
     let shift = Modifiers::SHIFT;
     let both = strokes(&mut pen, &[wavy(), vec![hold(150.0, 60.0), hold(150.0, 60.0)]], shift);
     let [first, second] = &both[..] else { panic!("two strokes: {}", both.len()) };
