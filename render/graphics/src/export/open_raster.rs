@@ -160,7 +160,8 @@ mod tests {
     fn file() -> Vec<u8> {
         let mut file = OpenRaster::new((400, 2), 0.1).unwrap();
         file.layer("Ground", true, &Field::filled(400, 2, [65535, 65535, 60000, 65535])).unwrap();
-        file.layer("Red & \"blue\" <1>", false, &Field::filled(400, 2, [9000, 0, 0, 1000])).unwrap();
+        file.layer("Red & \"blue\" <1>", false, &Field::filled(400, 2, [9000, 0, 0, 1000]))
+            .unwrap();
         file.finish(&Field::filled(400, 2, [0.5, 0.4, 0.3, 1.0])).unwrap().bytes
     }
 

@@ -116,7 +116,10 @@ fn actions_on_layers_are_undone_recorded_and_mean_the_same_layer_after_each_othe
     assert_eq!(dry.iter().map(|layer| layer.id.0).collect::<Vec<_>>(), [1, 2]);
     assert_eq!((dry[1].name.as_str(), dry[1].visible, dry[1].opacity), ("low", false, 0.5));
     let (labels, done) = session.history();
-    assert_eq!(labels[labels.len() - 3..], ["hide low", "merge Layer 3 with Layer 1", "50 % of low"]);
+    assert_eq!(
+        labels[labels.len() - 3..],
+        ["hide low", "merge Layer 3 with Layer 1", "50 % of low"]
+    );
     let nothing = session.apply(&Action::Order { layer: id(2), to: 1 }).unwrap();
     assert_eq!(nothing, Outcome::Nothing, "it lies there");
     session.go_to(done - 5).unwrap();
