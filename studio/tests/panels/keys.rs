@@ -185,6 +185,11 @@ fn tooltips_tell_the_keys_in_use() {
     let file = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("keys-tips.png");
     image::RgbImage::new(30, 20).save(&file).unwrap();
     window.studio_mut().panels.reference.open(&context, &file);
+    window.studio_mut().panels.reference.toggle_over_canvas();
+    while !window.studio().panels.reference.is_over_canvas() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        window.harness().step();
+    }
     window.settle();
     assert!(tells(&mut window, "Over canvas", "to draw after (key F5). It is never"));
     window.studio_mut().open_scene(&context, Subject::Shape("village".to_owned()));

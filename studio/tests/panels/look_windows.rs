@@ -17,7 +17,7 @@ const OVER: [Over; 6] = [
     ("Pen", "Pressure curve", |window| window.studio_mut().visible.pen = true),
     ("Own brushes", "New set", |window| window.studio_mut().visible.brush_sets = true),
     ("New", "Begin", |window| window.key(Modifiers::COMMAND, Key::N)),
-    ("browser", "The folder above", |window| window.key(Modifiers::COMMAND, Key::O)),
+    ("browser", "Grid", |window| window.key(Modifiers::COMMAND, Key::O)),
     ("quick palette", "quick Vermilion", |window| window.key(Modifiers::NONE, Key::C)),
     ("crop", "Shape of the crop", |window| {
         window.studio_mut().crop = Some(CropTool::new((320, 200)));

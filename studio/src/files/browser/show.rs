@@ -6,7 +6,7 @@ use eframe::egui::text::{CCursor, CCursorRange};
 use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{
     Align, Button, ComboBox, Context, Event, Frame, Id, Key, Layout, Modal, Modifiers, RichText,
-    TextEdit, Ui, vec2,
+    TextEdit, Ui, Vec2, vec2,
 };
 
 use super::places_view;
@@ -15,6 +15,7 @@ use super::thumbnails::Thumbnails;
 use crate::files::browser_look::BrowserOrder;
 use crate::files::default_button;
 use crate::language::{tr, tr_format};
+use crate::theme;
 
 const WIDTH: f32 = 860.0;
 const HEIGHT: f32 = 440.0;
@@ -64,7 +65,8 @@ impl Browser {
     fn path_line(&mut self, ui: &mut Ui) -> Option<Answer> {
         let mut answer = None;
         ui.horizontal(|ui| {
-            let up = ui.button(tr("Up")).on_hover_text(tr("The folder above (Backspace)"));
+            let up = Button::new(tr("Up")).min_size(theme::at_least(ui, Vec2::ZERO));
+            let up = ui.add(up).on_hover_text(tr("The folder above (Backspace)"));
             if up.clicked() {
                 self.up();
             }

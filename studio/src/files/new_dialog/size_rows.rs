@@ -1,6 +1,6 @@
 //! Rows of the dialog for format, size and cells.
 
-use eframe::egui::{ComboBox, DragValue, RichText, Ui};
+use eframe::egui::{Button, ComboBox, DragValue, RichText, Ui, Vec2};
 
 use super::dialog::NewDialog;
 use super::memory::in_mib;
@@ -21,7 +21,12 @@ impl NewDialog {
             side(ui, tr("Height"), unit, &mut canvas.height_mm);
             for unit in LengthUnit::ALL {
                 let tip = tr("Unit of the size");
-                ui.selectable_value(&mut self.new.unit, unit, unit.sign()).on_hover_text(tip);
+                let chosen = self.new.unit == unit;
+                let button = Button::selectable(chosen, unit.sign())
+                    .min_size(theme::at_least(ui, Vec2::ZERO));
+                if ui.add(button).on_hover_text(tip).clicked() {
+                    self.new.unit = unit;
+                }
             }
         });
         grid_row(ui, tr("Cell"), |ui| {
