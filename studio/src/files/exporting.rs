@@ -18,7 +18,7 @@ use spectra::file::write_whole;
 /// An export of a painting that the painter chose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Export {
-    /// Its kind.
+    /// Kind of the file that is made.
     pub kind: ExportKind,
     /// Resolution of a picture; layers, spectra and maps have one value a cell.
     pub pixels: PixelsPerCell,
