@@ -173,12 +173,12 @@ fn the_passes_hold_the_heights_of_each_pigment() {
     let image = image.all_layers().all_attributes().from_file(&passes).unwrap();
     let part = |wanted: &str| {
         let mut layers = image.layer_data.iter();
-        let named = |name: &exr::prelude::Text| name.to_string() == wanted;
+        let named = |name: &exr::prelude::Text| *name == *wanted;
         layers.find(|own| own.attributes.layer_name.as_ref().is_some_and(named)).unwrap()
     };
     let values = |wanted: &str, channel: &str| -> Vec<f64> {
         let channels = &part(wanted).channel_data.list;
-        let own = channels.iter().find(|own| own.name.to_string() == channel).unwrap();
+        let own = channels.iter().find(|own| own.name == *channel).unwrap();
         own.sample_data.values_as_f32().map(f64::from).collect()
     };
     assert_eq!(part("heights").channel_data.list.len(), 2);
