@@ -127,7 +127,7 @@ impl Files {
         if let Some((done, of)) = self.replay {
             let fraction = done as f32 / of.max(1) as f32;
             let words = |ui: &mut Ui| {
-                bar(ui, &tr_format!("playing, action {done} of {of}", done, of), Some(fraction))
+                bar(ui, &tr_format!("playing, action {done} of {of}", done, of), Some(fraction));
             };
             card(ui, words, |ui| {
                 if ui.button(tr("Stop")).on_hover_text(tr("Ends the recording here")).clicked() {

@@ -14,7 +14,7 @@ pub enum Language {
 }
 
 impl Language {
-    /// All languages.
+    /// Every language, in the order in which the preferences list them.
     pub const ALL: [Self; 2] = [Self::English, Self::German];
 
     /// Name of the language in itself.

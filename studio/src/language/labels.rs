@@ -43,6 +43,9 @@ pub const PATTERNS: [&str; 34] = [
     "layer {number}",
 ];
 
+/// Patterns of the paint in a label.
+pub const PAINTS: [&str; 2] = ["{first} and {second}", "{count} pigments"];
+
 /// Words of the libraries that the window shows: heads of brushes, tools of scenes, and what the
 /// labels of the history name.
 pub const WORDS: [&str; 17] = [
@@ -105,7 +108,7 @@ pub fn action_label(english: &str) -> String {
             continue;
         };
         let values: Vec<(&str, String)> =
-            values.into_iter().map(|(name, value)| (name, value_text(value))).collect();
+            values.into_iter().map(|(name, value)| (name, value_text(name, value))).collect();
         let values: Vec<(&str, &dyn Display)> =
             values.iter().map(|(name, value)| (*name, value as &dyn Display)).collect();
         return filled(translated, &values);
@@ -113,8 +116,16 @@ pub fn action_label(english: &str) -> String {
     english.to_owned()
 }
 
-/// A value of a label: a layer by its number, or a word that has a translation.
-fn value_text(value: &str) -> String {
+/// A value of a label: a layer by its number, paint of several pigments, or a word that has a
+/// translation.
+fn value_text(name: &str, value: &str) -> String {
+    for pattern in PAINTS.iter().filter(|_| name == "paint") {
+        if let (Some(translated), Some(parts)) = (translation(pattern), matched(pattern, value)) {
+            let parts: Vec<(&str, &dyn Display)> =
+                parts.iter().map(|(name, part)| (*name, part as &dyn Display)).collect();
+            return filled(translated, &parts);
+        }
+    }
     match (matched("layer {number}", value).as_deref(), translation("layer {number}")) {
         (Some([(name, number)]), Some(pattern)) => filled(pattern, &[(name, number)]),
         _ => layer_label(&brush_label(value)),
@@ -169,6 +180,8 @@ mod tests {
             ("hide layer 3", "Schicht 3 ausblenden"),
             ("50 % of layer 1", "Schicht 1 zu 50 %"),
             ("Zinc White for Lead White, wet paint", "Zinc White statt Lead White, nasse Farbe"),
+            ("squeeze Minium and Viridian", "Minium und Viridian ausdr\u{fc}cken"),
+            ("name sky and sea", "Name sky and sea"),
             ("squeeze medium on the canvas", "Malmittel auf die Leinwand dr\u{fc}cken"),
         ] {
             assert_eq!(action_label(label), wanted, "{label}");

@@ -18,7 +18,7 @@ mod labels;
 
 pub use choice::Language;
 pub use current::{set_system, speak, spoken};
-pub use labels::{PATTERNS, WORDS, action_label, brush_label, layer_label};
+pub use labels::{PAINTS, PATTERNS, WORDS, action_label, brush_label, layer_label};
 pub use table::{Table, placeholders, table};
 pub use text::{english, filled, tr, translation};
 

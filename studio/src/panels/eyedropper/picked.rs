@@ -45,7 +45,7 @@ pub(super) fn show_picked(ui: &mut Ui, cx: &mut PanelContext<'_>, picked: &Picke
         }
     }
     let mut recipes_requested = false;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let has_wet = paints.last().is_some_and(Option::is_some);
         let load = ui.add_enabled(has_wet, Button::new(tr("Load the brush")));
         let load = load
@@ -108,7 +108,7 @@ pub(in crate::panels) fn layer(
     paint: &LayerPaint,
 ) {
     ui.separator();
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label(name);
         let mut details = format!("{:.3} mm", paint.thickness_mm);
         if paint.vehicle >= 0.005 {
