@@ -40,11 +40,6 @@ impl Stabiliser {
         self.method == StabiliserMethod::Off
     }
 
-    /// Place of the brush; `None` before the pen had one.
-    pub(super) fn brush(&self) -> Option<Place> {
-        self.brush
-    }
-
     /// Moves the pen and returns the place of the brush.
     pub(super) fn follow(&mut self, pen: Place) -> Place {
         let brush = match self.method {
