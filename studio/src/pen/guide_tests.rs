@@ -9,7 +9,7 @@ use session::brushes::StabiliserMethod;
 
 use super::{
     Device, Guide, Pen, PenEvent, PenSettings, PenTargets, Perspective, PointerState, Ruler,
-    Script, SurfaceTransform,
+    RulerShape, Script, SurfaceTransform,
 };
 
 /// Canvas of 200 x 150 mm at 4 points per mm; right of it the palette, which begins at 0 mm too.
@@ -39,7 +39,7 @@ fn wavy() -> Vec<PointerState> {
     (0..60).map(at).collect()
 }
 
-/// Samples of a stroke of one pen after another, and the frame of the first of them.
+/// Samples of each of the strokes of a pen, one after another.
 fn strokes(pen: &mut Pen, strokes: &[Vec<PointerState>], modifiers: Modifiers) -> Vec<Vec<Sample>> {
     let (start, transforms) = (Instant::now(), transforms());
     let mut script = Script::new(Device::Pen);
@@ -65,9 +65,14 @@ fn strokes(pen: &mut Pen, strokes: &[Vec<PointerState>], modifiers: Modifiers) -
     all
 }
 
-fn stroke(guide: Option<Guide>, holds: Vec<PointerState>) -> Vec<Sample> {
-    let mut pen = Pen::new(PenSettings::default());
+fn led_by(guide: Option<Guide>, settings: PenSettings) -> Pen {
+    let mut pen = Pen::new(settings);
     pen.guide = guide;
+    pen
+}
+
+fn stroke(guide: Option<Guide>, holds: Vec<PointerState>) -> Vec<Sample> {
+    let mut pen = led_by(guide, PenSettings::default());
     strokes(&mut pen, &[holds], Modifiers::NONE).remove(0)
 }
 
@@ -110,8 +115,7 @@ fn a_stroke_along_the_ruler_is_straight_and_keeps_time_and_pressure() {
 fn a_stabilised_stroke_ends_on_the_ruler_too() {
     let mut settings = PenSettings::default();
     settings.stabiliser.method = StabiliserMethod::String;
-    let mut pen = Pen::new(settings);
-    pen.guide = Some(ruler());
+    let mut pen = led_by(Some(ruler()), settings);
     let led = strokes(&mut pen, &[wavy()], Modifiers::NONE).remove(0);
     assert!(off(&led, [[10.0, 20.0], [110.0, 95.0]]) < 1e-9);
     let (first, last) = (led[0], led[led.len() - 1]);
@@ -120,11 +124,16 @@ fn a_stabilised_stroke_ends_on_the_ruler_too() {
 
 #[test]
 fn perspective_leads_all_samples_to_the_point_of_the_first_direction() {
-    let led = stroke(Some(perspective()), wavy());
+    let at = |step: u8| {
+        let along = 0.7 * f64::from(step);
+        hold(60.0 + along, 50.0 + 0.7 * along + 0.8 * (2.0 * along).sin())
+    };
+    let holds: Vec<PointerState> = (0..60).map(at).collect();
+    let led = stroke(Some(perspective()), holds.clone());
     let start = [led[0].x_mm, led[0].y_mm];
     assert_eq!(start, [60.0, 50.0]);
     assert!(off(&led, [[0.0, 0.0], start]) < 1e-9, "away from the first vanishing point");
-    assert_eq!(led.len(), stroke(None, wavy()).len(), "no sample is lost");
+    assert_eq!(led.len(), stroke(None, holds).len(), "no sample is lost");
     let twists = led.iter().map(|sample| sample.twist_deg);
     let (least, most) = (twists.clone().fold(360.0, f64::min), twists.fold(-360.0, f64::max));
     assert!(most - least < 1e-3, "the brush does not turn: {least} to {most}");
@@ -150,14 +159,29 @@ fn strokes_on_the_palette_are_free() {
 }
 
 #[test]
-fn a_line_with_shift_goes_on_along_the_ruler() {
-    let mut pen = Pen::new(PenSettings::default());
-    pen.guide = Some(ruler());
+fn a_line_with_shift_goes_on_parallel_to_the_ruler() {
+    let Guide::Ruler(ruler) = ruler() else { panic!("a ruler") };
+    let parallel = Guide::Ruler(Ruler { shape: RulerShape::Parallel, ..ruler });
+    let mut pen = led_by(Some(parallel), PenSettings::default());
     let shift = Modifiers::SHIFT;
     let both = strokes(&mut pen, &[wavy(), vec![hold(150.0, 60.0), hold(150.0, 60.0)]], shift);
     let [first, second] = &both[..] else { panic!("two strokes: {}", both.len()) };
-    assert!(off(second, [[10.0, 20.0], [110.0, 95.0]]) < 1e-9);
-    let (end, start) = (first[first.len() - 1], second[0]);
-    let gap = (end.x_mm - start.x_mm).hypot(end.y_mm - start.y_mm);
+    let end = first[first.len() - 1];
+    let line = [[end.x_mm, end.y_mm], [end.x_mm + 4.0, end.y_mm + 3.0]];
+    assert!(off(second, line) < 1e-9, "on the line of the first");
+    let gap = (end.x_mm - second[0].x_mm).hypot(end.y_mm - second[0].y_mm);
     assert!(gap < 1e-9, "from the end of the first: {gap} mm");
+}
+
+#[test]
+fn pens_with_twist_and_mice_are_led_from_the_first_sample_to_the_last() {
+    let twisted = wavy().into_iter().map(|state| PointerState { twist_deg: Some(30.0), ..state });
+    let led = stroke(Some(perspective()), twisted.collect());
+    let (first, last) = (led[0], led[led.len() - 1]);
+    let line = [[first.x_mm, first.y_mm], [last.x_mm, last.y_mm]];
+    assert!(off(&led, line) < 1e-9 && last.twist_deg == led[5].twist_deg, "{first:?} {last:?}");
+    let mouse = wavy().into_iter().map(|state| PointerState { pressure: None, ..state });
+    let led = stroke(Some(ruler()), mouse.collect());
+    assert!(led[led.len() - 1].pressure < 0.1, "the mouse is lifted");
+    assert!(off(&led, [[10.0, 20.0], [110.0, 95.0]]) < 1e-9);
 }
