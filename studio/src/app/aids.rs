@@ -5,6 +5,7 @@ use eframe::egui::{
 };
 
 use super::studio::Studio;
+use crate::language::tr;
 use crate::panels::aids;
 use crate::pen::{AidHandle, AidLines, DrawingAids, GuideKind};
 use crate::theme;
@@ -53,25 +54,24 @@ impl Studio {
     /// Shows or takes away a guide, and says so.
     pub(super) fn toggle_guide(&mut self, kind: GuideKind) {
         self.aids.toggle(kind);
-        let name = match kind {
-            GuideKind::Ruler => "ruler",
-            GuideKind::Perspective => "perspective guide",
+        let text = match (kind, self.aids.guide.is_some(), self.aids.snaps) {
+            (GuideKind::Ruler, false, _) => tr("the ruler is off"),
+            (GuideKind::Ruler, true, true) => tr("strokes follow the ruler"),
+            (GuideKind::Ruler, true, false) => tr("the ruler is shown"),
+            (GuideKind::Perspective, false, _) => tr("the perspective guide is off"),
+            (GuideKind::Perspective, true, true) => tr("strokes follow the perspective guide"),
+            (GuideKind::Perspective, true, false) => tr("the perspective guide is shown"),
         };
-        let text = match (self.aids.guide, self.aids.snaps) {
-            (None, _) => format!("the {name} is off"),
-            (Some(_), true) => format!("strokes follow the {name}"),
-            (Some(_), false) => format!("the {name} is shown"),
-        };
-        self.say_of_aids(text);
+        self.say_of_aids(text.to_owned());
     }
 
     /// Lets strokes follow the guide or not, and says so.
     pub(super) fn toggle_snapping(&mut self) {
         self.aids.snaps ^= true;
         let text = match (self.aids.snaps, self.aids.guide) {
-            (true, Some(_)) => "strokes follow the guide",
-            (true, None) => "strokes follow the guide once one is shown",
-            (false, _) => "strokes are free",
+            (true, Some(_)) => tr("strokes follow the guide"),
+            (true, None) => tr("strokes follow the guide once one is shown"),
+            (false, _) => tr("strokes are free"),
         };
         self.say_of_aids(text.to_owned());
     }
@@ -80,14 +80,14 @@ impl Studio {
     pub(super) fn toggle_symmetry(&mut self) {
         self.aids.symmetry.on ^= true;
         let text = match self.aids.symmetry.on {
-            true => "strokes are repeated by symmetry when they end",
-            false => "symmetry is off",
+            true => tr("strokes are repeated by symmetry when they end"),
+            false => tr("symmetry is off"),
         };
         self.say_of_aids(text.to_owned());
     }
 
     fn say_of_aids(&mut self, text: String) {
-        let hint = "Tools, Drawing aids has handles and settings".to_owned();
+        let hint = tr("Tools, Drawing aids has handles and settings").to_owned();
         self.show_message(text, Some(hint), false);
     }
 
