@@ -40,7 +40,8 @@ const WIDTH: f32 = 440.0;
 impl Studio {
     /// Draws the lines over canvas, palette and tubes. They take no clicks.
     pub(super) fn draw_first_steps(&self, ui: &Ui) {
-        if !self.visible.first_steps || self.painting.is_none() || self.tour.is_running() {
+        let busy = self.tour.is_running() || self.crop.is_some();
+        if !self.visible.first_steps || self.painting.is_none() || busy {
             return;
         }
         let painter = ui.painter();

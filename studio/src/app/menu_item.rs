@@ -5,15 +5,17 @@ use eframe::egui::{Button, Response, Role, Stroke, Ui, WidgetInfo, vec2};
 /// Room for the tick before a name, in spaces of the font.
 const INDENT: &str = "      ";
 
-/// Adds an entry with its shortcut. `checked` draws a tick or leaves its room free.
+/// Adds an entry with its shortcut. `checked` draws a tick or leaves its room free, as `indented`
+/// does for an entry beside others that have a tick.
 pub(super) fn show(
     ui: &mut Ui,
     name: &str,
     shortcut: &str,
     enabled: bool,
     checked: Option<bool>,
+    indented: bool,
 ) -> Response {
-    let indent = if checked.is_some() { INDENT } else { "" };
+    let indent = if indented || checked.is_some() { INDENT } else { "" };
     let button = Button::new(format!("{indent}{name}")).shortcut_text(shortcut);
     let response = ui.add_enabled(enabled, button);
     // The name alone, without indent and shortcut.

@@ -45,14 +45,17 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
             (Menu::Help, tr("Help"), tr("Keys, first steps and a guided tour")),
         ] {
             let opened = menu_button(ui, name, |ui| {
-                for entry in entries().filter(|entry| entry.menu == menu) {
+                let own = || entries().filter(move |entry| entry.menu == menu);
+                let ticks = own().any(|entry| checked(entry.intent, state).is_some());
+                for entry in own() {
                     if begins_group(entry.intent) {
                         ui.separator();
                     }
                     let (enabled, checked) =
                         (enabled(entry.intent, state), checked(entry.intent, state));
                     let keys = entry.shortcut_text(ui.ctx());
-                    let response = menu_item::show(ui, tr(entry.name), &keys, enabled, checked);
+                    let response =
+                        menu_item::show(ui, tr(entry.name), &keys, enabled, checked, ticks);
                     let response = response.on_hover_ui(|ui| tip(ui, entry));
                     if response.clicked() {
                         clicked = Some(entry.intent);

@@ -59,11 +59,14 @@ impl Studio {
         let canvas = self.canvas.rect();
         let at_canvas = (canvas.right_top() + vec2(-GAP, GAP), Align2::RIGHT_TOP);
         let (at, pivot) = place.map_or(at_canvas, |(_, at, pivot)| (at, pivot));
+        // Beside the toolbar, whose buttons it would hide.
+        let room = context.content_rect();
+        let left = self.canvas.rect().left().clamp(room.left(), room.right());
         let area = Area::new(Id::unique("tour"))
             .order(Order::Foreground)
             .pivot(pivot)
             .fixed_pos(at)
-            .constrain_to(context.content_rect());
+            .constrain_to(room.with_min_x(left));
         let pressed = area.show(context, |ui| {
             Frame::popup(ui.style()).inner_margin(10).show(ui, |ui| self.tour_card(ui)).inner
         });

@@ -171,6 +171,17 @@ impl Files {
         self.notices.push(Notice::problem(problem));
     }
 
+    /// The messages over the window that stay until they are closed.
+    pub fn notices(&self) -> impl Iterator<Item = &str> {
+        self.notices.iter().filter(|notice| notice.until.is_none()).map(|it| it.text.as_str())
+    }
+
+    /// Content of the file that the painting was opened from; `None` for one begun bare.
+    #[must_use]
+    pub fn opened_content(&self) -> Option<&[u8]> {
+        self.start.as_deref().map(Vec::as_slice)
+    }
+
     /// Whether a recording is being played.
     #[must_use]
     pub fn is_playing(&self) -> bool {

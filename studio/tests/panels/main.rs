@@ -63,6 +63,8 @@ mod volumes;
 
 mod whole;
 
+mod monkey;
+
 mod volume_paint;
 
 mod volume_files;

@@ -18,6 +18,8 @@ mod recovery;
 
 mod scene;
 
+mod painter;
+
 use std::io::Write;
 
 use render::gpu::{BackendChoice, choose};

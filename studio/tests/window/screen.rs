@@ -1,6 +1,7 @@
 //! A virtual X screen with simulated keyboard and pointer.
 
 use std::io::{BufRead, BufReader};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -14,6 +15,10 @@ use x11rb::wrapper::ConnectionExt as _;
 pub(crate) const RETURN: u32 = 0xff0d;
 pub(crate) const CONTROL: u32 = 0xffe3;
 pub(crate) const SHIFT: u32 = 0xffe1;
+
+/// Numbers of the buttons of a mouse.
+const PRIMARY: u8 = 1;
+pub(crate) const SECONDARY: u8 = 3;
 
 /// A running X server.
 pub(crate) struct Screen {
@@ -53,11 +58,16 @@ impl Pixels {
         let thread = std::thread::current();
         let test = thread.name().and_then(|name| name.split("::").next()).unwrap_or("window");
         let path = format!("{}/window-{test}-{name}.png", env!("CARGO_TARGET_TMPDIR"));
+        self.save(Path::new(&path));
+        path
+    }
+
+    /// Saves the picture as a PNG.
+    pub(crate) fn save(&self, path: &Path) {
         let bytes: Vec<u8> = self.rows.iter().flatten().copied().collect();
         let (width, height) = (self.width as u32, self.height as u32);
-        let saved = image::save_buffer(&path, &bytes, width, height, image::ColorType::Rgb8);
+        let saved = image::save_buffer(path, &bytes, width, height, image::ColorType::Rgb8);
         saved.expect("a picture is written");
-        path
     }
 }
 
@@ -141,18 +151,27 @@ impl Screen {
 
     /// Presses or releases the primary button.
     pub(crate) fn button(&self, pressed: bool) {
+        self.numbered_button(PRIMARY, pressed);
+    }
+
+    fn numbered_button(&self, number: u8, pressed: bool) {
         let kind = if pressed { xproto::BUTTON_PRESS_EVENT } else { xproto::BUTTON_RELEASE_EVENT };
-        self.fake(kind, 1);
+        self.fake(kind, number);
         self.connection.sync().expect("the server is there");
     }
 
     /// Clicks at a position.
     pub(crate) fn click(&self, at: (i32, i32)) {
+        self.click_with(PRIMARY, at);
+    }
+
+    /// Clicks at a position with the button of this number.
+    pub(crate) fn click_with(&self, number: u8, at: (i32, i32)) {
         self.point(at);
         std::thread::sleep(Duration::from_millis(80));
-        self.button(true);
+        self.numbered_button(number, true);
         std::thread::sleep(Duration::from_millis(80));
-        self.button(false);
+        self.numbered_button(number, false);
     }
 
     /// Drags along a line with 125 pointer positions per second.

@@ -25,14 +25,17 @@ pub(super) fn show(ui: &mut Ui, state: Option<&SceneState>, title: &str) -> Opti
             (SceneMenu::Help, tr("Help"), tr("The table of keys")),
         ] {
             let opened = menu_button(ui, name, |ui| {
-                for entry in SCENE_ENTRIES.iter().filter(|entry| entry.menu == menu) {
+                let own = || SCENE_ENTRIES.iter().filter(move |entry| entry.menu == menu);
+                let ticks = own().any(|entry| checked(entry.intent, state).is_some());
+                for entry in own() {
                     if begins_group(entry.intent) {
                         ui.separator();
                     }
                     let (enabled, checked) =
                         (enabled(entry.intent, state), checked(entry.intent, state));
                     let keys = entry.shortcut_text(ui.ctx());
-                    let response = menu_item::show(ui, tr(entry.name), &keys, enabled, checked);
+                    let response =
+                        menu_item::show(ui, tr(entry.name), &keys, enabled, checked, ticks);
                     if response.on_hover_ui(|ui| tip(ui, entry)).clicked() {
                         clicked = Some(entry.intent);
                         ui.close();

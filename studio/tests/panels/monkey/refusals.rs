@@ -1,0 +1,24 @@
+//! Messages with which the program refuses what cannot be done, rightly.
+
+/// Parts of these messages.
+const REFUSALS: [&str; 14] = [
+    "is too high for more",
+    "is piled as high as it can be",
+    "mm more at most, found",
+    "is still wet, so it cannot leave the palette",
+    "the layer has no ",
+    " already",
+    "is not on the palette now",
+    "one of the two layers is hidden",
+    "lies between the two layers",
+    "a recipe needs parts above 0",
+    "has no opacity of its own",
+    "on top of all layers",
+    "a painting is being opened",
+    "is not a valid file name",
+];
+
+/// Whether a message is a refusal.
+pub(super) fn is_refusal(message: &str) -> bool {
+    REFUSALS.iter().any(|part| message.contains(part))
+}
