@@ -12,7 +12,7 @@ impl Hand<'_> {
         self.station("first-start");
         self.choose("Help", "Guided tour");
         for step in TourStep::ALL {
-            assert_eq!(self.twin.studio().tour().step(), Some(step));
+            assert_eq!(self.twin.studio().tour().step(), Some(step), "the tour goes on");
             self.station(&format!("tour-{step:?}").to_lowercase());
             self.take(step);
         }
