@@ -311,15 +311,15 @@ mod tests {
         let none = |letters: &str| (letters.to_owned(), None);
         let [first, second] = [(1, 7.0), (2, 50.0)].map(|(id, x)| touch(id, TouchPhase::Start, x));
         let [end, last] = [(1, 7.0), (2, 50.0)].map(|(id, x)| touch(id, TouchPhase::End, x));
-        assert_eq!(frame(0, &[first.clone()]), none(""));
-        assert_eq!(frame(50, &[second.clone()]), none(""));
-        assert_eq!(frame(90, &[last.clone()]), none(""));
-        assert_eq!(frame(100, &[end.clone()]), (String::new(), Some((2, 7.0))));
+        assert_eq!(frame(0, std::slice::from_ref(&first)), none(""));
+        assert_eq!(frame(50, std::slice::from_ref(&second)), none(""));
+        assert_eq!(frame(90, std::slice::from_ref(&last)), none(""));
+        assert_eq!(frame(100, std::slice::from_ref(&end)), (String::new(), Some((2, 7.0))));
         assert_eq!(frame(116, &[]), none(""), "it is told once");
         // The first finger rests, which paints, before the second one comes.
-        assert_eq!(frame(1000, &[first.clone()]), none(""));
+        assert_eq!(frame(1000, std::slice::from_ref(&first)), none(""));
         assert_eq!(frame(1080, &[]), none("P"));
-        assert_eq!(frame(1100, &[second.clone()]), none("R"));
+        assert_eq!(frame(1100, std::slice::from_ref(&second)), none("R"));
         assert_eq!(frame(1150, &[end.clone(), last.clone()]), none(""));
         // All in one slow frame, once with a stroke before the second finger.
         let whole = [first.clone(), second.clone(), end.clone(), last.clone()];
