@@ -1,7 +1,7 @@
 //! Messages with which the program refuses what cannot be done, rightly.
 
 /// Parts of these messages.
-const REFUSALS: [&str; 14] = [
+const REFUSALS: [&str; 15] = [
     "is too high for more",
     "is piled as high as it can be",
     "mm more at most, found",
@@ -16,6 +16,8 @@ const REFUSALS: [&str; 14] = [
     "on top of all layers",
     "a painting is being opened",
     "is not a valid file name",
+    // A brush that is made larger just after a change of the palette asks for the paint that it had.
+    "recipe: pigments of the palette",
 ];
 
 /// Whether a message is a refusal.
