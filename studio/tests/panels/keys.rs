@@ -178,7 +178,6 @@ fn tooltips_tell_the_keys_in_use() {
         ("scene.play", "F6"),
         ("scene.step", "F7"),
         ("scene.start", "F8"),
-        ("scene.hatching", "F9"),
         ("scene.volumes", "Shift+F2"),
         ("scene.inside", "Shift+F3"),
     ];
@@ -202,7 +201,6 @@ fn tooltips_tell_the_keys_in_use() {
         ("From the start", "Goes to the start (key F8)"),
         ("Play", "Lets time run (key F6)"),
         ("Step", "1/120 s (key F7)"),
-        ("Hatching", "light falls (key F9)"),
         ("Volumes", "grey drawing (key Shift+F2)"),
         ("Own", "own colours (key Shift+F3)"),
     ] {
