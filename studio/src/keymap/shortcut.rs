@@ -50,7 +50,7 @@ impl Shortcut {
     /// The shortcut of a pressed key.
     ///
     /// # Errors
-    /// [`InvalidShortcut`] if the key or a modifier has a meaning of its own.
+    /// `InvalidShortcut` if the key or a modifier has a meaning of its own.
     pub fn of_press(key: Key, held: Modifiers) -> Result<Self, InvalidShortcut> {
         let reserved = |why| Err(InvalidShortcut::Reserved(why));
         match key {

@@ -41,7 +41,7 @@ pub fn write(document: &Document) -> Result<Vec<u8>, PaintingFileError> {
 /// leaves out and [`read_table`](super::read_table) reads.
 ///
 /// # Errors
-/// [`PaintingFileError::Unwritable`] in the cases of [`write`], for the palette and the brushes as
+/// [`PaintingFileError::Unwritable`] in the cases of [`write()`], for the palette and the brushes as
 /// well.
 pub fn write_with_table(
     document: &Document,
