@@ -99,7 +99,7 @@ impl DeskReference {
         self.drawings.iter().filter_map(read).collect()
     }
 
-    /// What the painter should know of the picture: it is gone, or is another one now.
+    /// Message to the painter if the picture is gone or was replaced by another one.
     pub(super) fn remark(&self) -> Option<Problem> {
         let wanted = self.sha256.as_ref()?;
         let name = self.picture.display();

@@ -1,4 +1,4 @@
-//! What a session keeps besides its documents, so that another one can go on from it.
+//! State of a session besides its documents, from which another session can go on.
 //!
 //! A session restored from its documents and a [`KeptSession`] paints the same bits as the session
 //! itself would have: its brushes are the same heads with the same paint, and its recording goes

@@ -42,7 +42,7 @@ pub(super) struct RecordingFile {
     now: Option<Written>,
 }
 
-/// What is written of the present recording.
+/// Part of the present recording that is already written.
 #[derive(Debug)]
 struct Written {
     bytes: u64,

@@ -48,7 +48,7 @@ struct Place {
     bytes: usize,
 }
 
-/// What a recovered session goes on from.
+/// State from which a recovered session goes on.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RecoveredWork {
     /// Brushes, recording and mask.
@@ -83,8 +83,8 @@ pub(super) fn describe(
 }
 
 impl WorkFile {
-    /// What is described; the recording lies in `folder`, `paint` is the paint of all brushes and
-    /// the mask, read from `path`.
+    /// Returns the state that the file describes. The recording lies in `folder`; `paint` is the
+    /// paint of all brushes and the mask, read from `path`.
     pub(super) fn read(
         self,
         folder: &Path,

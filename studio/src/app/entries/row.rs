@@ -1,4 +1,4 @@
-//! What the tables of menu entries are written with.
+//! Constants and functions that shorten the tables of menu entries.
 
 use eframe::egui::{Key, Modifiers};
 
