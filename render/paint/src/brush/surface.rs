@@ -11,6 +11,11 @@ use super::net::{Net, Point, ROWS};
 const ALONG: f32 = 4.0;
 const AROUND: f32 = 6.0;
 
+/// Longest spans along the head and around it, in paint cells, whose facets are that long: those of
+/// a round brush of 60 cells.
+const SPAN_ALONG: f32 = 30.0;
+const SPAN_AROUND: f32 = 24.0;
+
 /// Maximum number of paint cells of a head. On a larger head they are wider than the cells of
 /// the canvas.
 const MOST_CELLS: f32 = 1_048_576.0;
@@ -29,8 +34,11 @@ struct Span {
 }
 
 impl Span {
-    /// Facets of a span of `length` paint cells, each of about `facet` cells.
-    fn new(length: f32, facet: f32) -> Self {
+    /// Facets of a span of `length` paint cells, each of about `facet` cells. On a span longer than
+    /// `usual`, facets grow with the square root of its length: a larger head bends less, so they
+    /// stay as near to its surface.
+    fn new(length: f32, facet: f32, usual: f32) -> Self {
+        let facet = (facet * (length / usual).max(1.0).sqrt()).round();
         let facets = (length / facet).round().max(1.0);
         let cells = (length / facets).round().clamp(1.0, facet);
         let weights = (0..=facets as usize).map(|i| b_spline(i as f32 / facets)).collect();
@@ -56,8 +64,8 @@ impl LimitSurface {
     /// cells of the canvas.
     pub(super) fn new(columns: usize, perimeter: f32, length: f32) -> Self {
         let cell = (perimeter * length / MOST_CELLS).sqrt().max(1.0);
-        let around = Span::new(perimeter / columns as f32 / cell, AROUND);
-        let along = Span::new(length / SPANS as f32 / cell, ALONG);
+        let around = Span::new(perimeter / columns as f32 / cell, AROUND, SPAN_AROUND);
+        let along = Span::new(length / SPANS as f32 / cell, ALONG, SPAN_ALONG);
         let vertices = (SPANS * along.facets + 1) * columns * around.facets;
         Self {
             columns,
@@ -181,11 +189,13 @@ mod tests {
     #[test]
     fn facets_have_about_as_many_cells_as_asked_for_and_large_heads_wider_ones() {
         for length in 8..200 {
-            let span = Span::new(length as f32, 6.0);
+            let span = Span::new(length as f32, 6.0, 200.0);
             let cell = length as f32 / (span.facets * span.cells) as f32;
             assert!((4..=6).contains(&span.cells), "{length}: {span:?}");
             assert!((0.8..1.5).contains(&cell), "{length}: {cell}");
         }
+        let of_a_long_span = Span::new(96.0, AROUND, SPAN_AROUND);
+        assert_eq!((of_a_long_span.facets, of_a_long_span.cells), (8, 12), "twice as long");
         let large = LimitSurface::new(8, 6000.0, 5000.0);
         let (around, along) = (large.facets(), large.cells_of_facet());
         let cells = around.0 * along.0 * around.1 * along.1;

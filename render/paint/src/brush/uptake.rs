@@ -107,6 +107,10 @@ pub(super) fn rates(
     }
 }
 
+/// Length of hair in mm beyond which paint flows along it less often, in proportion: on long hair,
+/// the paint that a stroke takes from the tip changes the mean that the coat follows less.
+const LONG_HAIR_MM: f64 = 20.0;
+
 /// Number of rows of paint cells, from the tip, that hold the paint of a head: all `rows` of hair,
 /// the bank at the edge of a blade. A row is `row_mm` long.
 pub(super) fn rows_with_paint(of: &Proportions, rows: usize, row_mm: f64) -> usize {
@@ -118,11 +122,12 @@ pub(super) fn rows_with_paint(of: &Proportions, rows: usize, row_mm: f64) -> usi
 /// those of the canvas.
 pub(super) fn wicking(of: &Proportions, sub_step: u32, rows: usize, cell_mm: f64) -> Wicking {
     let uptake = uptake(of);
-    let between = ((uptake.wicking_every_mm / cell_mm).round() as u32).max(1);
+    let with_paint = rows_with_paint(of, rows, cell_mm);
+    let longer = (with_paint as f64 * cell_mm / LONG_HAIR_MM).max(1.0);
+    let between = ((uptake.wicking_every_mm * longer / cell_mm).round() as u32).max(1);
     if !sub_step.is_multiple_of(between) {
         return Wicking::default();
     }
-    let with_paint = rows_with_paint(of, rows, cell_mm);
     // Sums over a group must fit into 32 bits.
     let most = 2048.0 / with_paint as f64;
     let hairs = (uptake.spread_mm / cell_mm).min(most).max(1.0) as u32;
