@@ -26,6 +26,43 @@ impl std::fmt::Display for CellPlace {
     }
 }
 
+/// Row numbers of the records of a CSV file, which are its line numbers from 1.
+///
+/// The position that a CSV parser states lies before the rest of a CRLF and before blank lines, so the
+/// lines are counted here from its bytes.
+#[derive(Debug)]
+pub struct RowNumbers<'a> {
+    bytes: &'a [u8],
+    /// Bytes whose lines are counted already.
+    counted: usize,
+    row: u64,
+}
+
+impl<'a> RowNumbers<'a> {
+    /// Rows of the file `bytes`, of which nothing is counted yet.
+    #[must_use]
+    pub fn of(bytes: &'a [u8]) -> Self {
+        Self { bytes, counted: 0, row: 1 }
+    }
+
+    /// Row of the record that the parser found at `offset` bytes; offsets must not fall.
+    pub fn at(&mut self, offset: u64) -> u64 {
+        let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.bytes.len());
+        let blank = self.bytes[offset..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
+        let end = offset + blank.count();
+        for index in self.counted..end {
+            let ends_line = match self.bytes[index] {
+                b'\n' => true,
+                b'\r' => self.bytes.get(index + 1) != Some(&b'\n'),
+                _ => false,
+            };
+            self.row += u64::from(ends_line);
+        }
+        self.counted = self.counted.max(end);
+        self.row
+    }
+}
+
 /// A CSV table that cannot be read. Every variant names the file and the row.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CsvTableError {
@@ -72,4 +109,22 @@ pub fn wavelength_of_header(lower: &str) -> Option<f64> {
         return None;
     }
     bare.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_lines_of_the_file_with_any_ending_and_after_blank_lines() {
+        for end in ["\n", "\r\n", "\r"] {
+            let text = ["a,b", "1,2", "", "", "3,\"4", "4\"", "5,6"].join(end);
+            let mut numbers = RowNumbers::of(text.as_bytes());
+            let mut reader = csv::ReaderBuilder::new().from_reader(text.as_bytes());
+            let rows: Vec<u64> = (reader.records())
+                .map(|record| numbers.at(record.unwrap().position().unwrap().byte()))
+                .collect();
+            assert_eq!(rows, [2, 5, 7], "{end:?}");
+        }
+    }
 }

@@ -10,7 +10,7 @@ use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
-use spectra::csv_table::{CellPlace, CsvTableError};
+use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers};
 
 /// Greatest reflectance of a reading, as a fraction; a value above is a mistaken unit.
 const LARGEST_REFLECTANCE: f64 = 2.0;
@@ -86,12 +86,18 @@ fn names_sample(header: &str, separator: char) -> bool {
 /// Largest amount of a pigment; beyond it sums lose their small terms.
 const LARGEST_AMOUNT: f64 = 1e12;
 
+/// Cells of a row below the header, and the number of the row in the file, from 1.
+pub(super) struct CsvRow {
+    pub(super) number: u64,
+    pub(super) cells: csv::StringRecord,
+}
+
 /// A CSV table: its header row, the meaning of each column, and the rows below.
 pub(super) struct CsvRows {
     pub(super) file: Arc<str>,
     pub(super) headers: Vec<String>,
     pub(super) columns: Vec<Column>,
-    pub(super) rows: Vec<csv::StringRecord>,
+    pub(super) rows: Vec<CsvRow>,
     /// Whether numbers have a decimal comma. Only possible where commas do not separate cells.
     decimal_comma: bool,
     spectra_only: bool,
@@ -135,16 +141,25 @@ impl CsvRows {
             headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
         headers.truncate(width);
         let columns = columns(file, &headers, kind)?;
-        let rows: Vec<csv::StringRecord> =
-            records.filter(|record| record.iter().any(|cell| !cell.is_empty())).collect();
+        let mut numbers = RowNumbers::of(text.as_bytes());
+        let rows: Vec<CsvRow> = records
+            .filter(|cells| cells.iter().any(|cell| !cell.is_empty()))
+            .map(|cells| CsvRow {
+                number: numbers.at(cells.position().map_or(0, csv::Position::byte)),
+                cells,
+            })
+            .collect();
         if rows.is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
         let is_number = |column: &Column| {
             matches!(column, Column::Wavelength(_) | Column::Pigment(_) | Column::Thickness)
         };
-        let has_comma = |row: &csv::StringRecord| {
-            row.iter().zip(&columns).any(|(cell, column)| is_number(column) && cell.contains(','))
+        let has_comma = |row: &CsvRow| {
+            row.cells
+                .iter()
+                .zip(&columns)
+                .any(|(cell, column)| is_number(column) && cell.contains(','))
         };
         let decimal_comma = separator != b',' && rows.iter().any(has_comma);
         let file = file.into();
@@ -182,8 +197,8 @@ impl CsvRows {
         self.rows.iter().map(|row| self.reading(row)).collect()
     }
 
-    fn reading(&self, record: &csv::StringRecord) -> Result<Reading, MeasurementError> {
-        let row = record.position().map_or(0, csv::Position::line);
+    fn reading(&self, record: &CsvRow) -> Result<Reading, MeasurementError> {
+        let (row, record) = (record.number, &record.cells);
         let surplus_is_empty = record.iter().skip(self.columns.len()).all(str::is_empty);
         if record.len() < self.columns.len() || !surplus_is_empty {
             return Err(MeasurementError::Sheet(CsvTableError::RowLength {

@@ -57,7 +57,8 @@ impl Recipes {
         let mut rows: Vec<(String, Reading)> = Vec::new();
         let mut places: BTreeMap<String, u64> = BTreeMap::new();
         for (cells, row) in table_rows.rows.iter().zip(table_rows.readings()?) {
-            let key = reading.and_then(|index| cells.get(index)).filter(|name| !name.is_empty());
+            let key =
+                reading.and_then(|index| cells.cells.get(index)).filter(|name| !name.is_empty());
             let key = key.unwrap_or(&row.sample).to_owned();
             if let Some(&first) = places.get(&key) {
                 let (file, second) = (file.to_owned(), row.row);

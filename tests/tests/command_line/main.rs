@@ -8,6 +8,7 @@ mod bad_files;
 mod demo;
 mod errors;
 mod matching;
+mod misread;
 mod painterly;
 mod stencil;
 mod verbs;

@@ -2,7 +2,7 @@
 //! wavelengths in nm.
 
 use spectra::Grid;
-use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
+use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers, wavelength_of_header};
 use spectra::hint::{Explain, Fault, Hint};
 use spectra::optics::Surface;
 
@@ -74,9 +74,10 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
     let header = reader.headers().map_err(broken)?.clone();
     let (grid, columns) = grid(file, &header)?;
     let mut curves: Vec<(String, [Vec<f64>; 5])> = Vec::new();
+    let mut numbers = RowNumbers::of(text.as_bytes());
     for record in reader.records() {
         let record = record.map_err(broken)?;
-        let row = record.position().map_or(0, csv::Position::line);
+        let row = numbers.at(record.position().map_or(0, csv::Position::byte));
         if record.iter().all(str::is_empty) {
             continue;
         }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use spectra::csv_table::RowNumbers;
 use spectra::file::{FileError, read};
 use spectra::hint::{Explain, Fault, Hint};
 
@@ -66,9 +67,10 @@ impl PriceList {
             found.ok_or_else(|| PriceError::MissingColumn { file: file.to_owned(), column })
         };
         let (pigment, price) = (column("pigment")?, column("price")?);
+        let mut numbers = RowNumbers::of(bytes);
         for record in reader.records() {
             let record = record.map_err(broken)?;
-            let row = record.position().map_or(0, csv::Position::line);
+            let row = numbers.at(record.position().map_or(0, csv::Position::byte));
             let place = format!("{file}, row {row}");
             let cell = |column| record.get(column).unwrap_or_default();
             let price = parse_price(cell(price), &place)?;
