@@ -42,6 +42,8 @@ pub mod blur;
 
 pub mod encoding;
 
+pub mod jpeg_end;
+
 pub mod picture;
 
 pub mod exr_picture;

@@ -9,6 +9,7 @@ use spectra::color::Rgb;
 use spectra::hint::{Explain, Fault, Hint};
 
 use crate::field::Field;
+use crate::jpeg_end::is_cut_off_jpeg;
 
 /// A picture in linear sRGB, white at 1, one colour per cell.
 pub type Picture = Field<[f32; 3]>;
@@ -47,6 +48,9 @@ impl Photograph {
             name: name.to_owned(),
             reason: error.to_string(),
         };
+        if is_cut_off_jpeg(bytes) {
+            return Err(PhotographError::CutOff { name: name.to_owned(), bytes: bytes.len() });
+        }
         let mut reader = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(|error| rejected(error.into()))?;
@@ -235,6 +239,14 @@ pub enum PhotographError {
         /// Reason given by the decoder.
         reason: String,
     },
+    /// The file is a JPEG picture that ends too early.
+    #[error("{name}: the JPEG file is cut off after {bytes} bytes: its end marker is missing")]
+    CutOff {
+        /// Path of the file.
+        name: String,
+        /// Length of the file.
+        bytes: usize,
+    },
     /// The picture has more than [`MOST_PIXELS`] pixels.
     #[error("{name}: a photograph has {MOST_PIXELS} pixels at most, found `{width} x {height}`")]
     TooLarge {
@@ -252,6 +264,9 @@ impl Explain for PhotographError {
         Some(Hint::new(match self {
             Self::Unreadable { .. } => "check the path",
             Self::NoPicture { .. } => "save it as PNG or JPEG",
+            Self::CutOff { .. } => {
+                "copy or download the file again; the decoder would fill the missing part with grey"
+            }
             Self::TooLarge { .. } => "make it smaller; a canvas has fewer cells",
         }))
     }
@@ -260,6 +275,24 @@ impl Explain for PhotographError {
         match self {
             Self::Unreadable { .. } => Fault::Environment,
             _ => Fault::Input,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_that_is_cut_off_is_refused() {
+        let picture = image::RgbImage::from_fn(90, 60, |x, y| image::Rgb([x as u8, y as u8, 200]));
+        for format in [image::ImageFormat::Jpeg, image::ImageFormat::Png] {
+            let mut whole = Cursor::new(Vec::new());
+            picture.write_to(&mut whole, format).unwrap();
+            let whole = whole.into_inner();
+            assert!(Photograph::from_bytes("whole", &whole).is_ok(), "{format:?}");
+            let cut = Photograph::from_bytes("cut", &whole[..whole.len() / 3]);
+            assert!(cut.is_err(), "{format:?}");
         }
     }
 }

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use spectra::hint::{Explain, Hint};
 
+use crate::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
+
 /// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;
 
@@ -65,7 +67,11 @@ impl ToneRamp {
     pub fn open(path: &Path) -> Result<Self, ToneRampError> {
         let rejected =
             |reason: String| ToneRampError::NoPicture { name: path.display().to_string(), reason };
-        let reader = image::ImageReader::open(path).map_err(|error| rejected(error.to_string()))?;
+        let bytes = std::fs::read(path).map_err(|error| rejected(error.to_string()))?;
+        if is_cut_off_jpeg(&bytes) {
+            return Err(rejected(CUT_OFF.to_owned()));
+        }
+        let reader = image::ImageReader::new(std::io::Cursor::new(bytes));
         let reader = reader.with_guessed_format().map_err(|error| rejected(error.to_string()))?;
         let picture = reader.decode().map_err(|error| rejected(error.to_string()))?.into_rgb16();
         let y = picture.height() / 2;

@@ -1,11 +1,14 @@
 //! Relief taken from the grey values of a picture.
 
+use std::io::Cursor;
+
 use image::{ImageReader, Limits};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::error::{GroundError, check_range};
 use graphics::field::Field;
+use graphics::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
 
 /// Relief from a grey picture with 8 or 16 bits, stretched over the canvas. Heights are
 /// proportional to the stored values: black is 0, white is `depth_mm`. Coloured pictures
@@ -65,9 +68,13 @@ impl PictureRelief {
 
     fn read(&self) -> Result<image::ImageBuffer<image::Luma<u16>, Vec<u16>>, GroundError> {
         let rejected = |reason: String| GroundError::Picture { path: self.path.clone(), reason };
-        let reader = ImageReader::open(&self.path).map_err(|error| rejected(error.to_string()))?;
-        let mut reader =
-            reader.with_guessed_format().map_err(|error| rejected(error.to_string()))?;
+        let bytes = std::fs::read(&self.path).map_err(|error| rejected(error.to_string()))?;
+        if is_cut_off_jpeg(&bytes) {
+            return Err(rejected(CUT_OFF.to_owned()));
+        }
+        let mut reader = ImageReader::new(Cursor::new(bytes))
+            .with_guessed_format()
+            .map_err(|error| rejected(error.to_string()))?;
         let mut limits = Limits::default();
         limits.max_image_width = Some(LARGEST);
         limits.max_image_height = Some(LARGEST);

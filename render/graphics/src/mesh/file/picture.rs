@@ -4,6 +4,7 @@ use std::io::Cursor;
 
 use image::{ImageReader, Limits};
 
+use crate::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
 use crate::mesh::model::Texture;
 
 /// Longest side of an accepted texture, in texels: the usual limit of graphics devices.
@@ -12,6 +13,9 @@ const LONGEST: u32 = 16_384;
 impl Texture {
     /// Decodes a PNG or JPEG image; the error is the decoder's reason.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+        if is_cut_off_jpeg(bytes) {
+            return Err(CUT_OFF.to_owned());
+        }
         let mut reader = ImageReader::new(Cursor::new(bytes))
             .with_guessed_format()
             .map_err(|error| error.to_string())?;

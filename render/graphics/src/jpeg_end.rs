@@ -1,0 +1,64 @@
+//! Whether a JPEG file is whole. Decoders paint the missing part of a cut one grey.
+
+/// First bytes of every JPEG file: the marker that starts the picture.
+const START: [u8; 2] = [0xff, 0xd8];
+/// Second byte of the marker that ends the picture.
+const END: u8 = 0xd9;
+
+/// Reason given for a file that [`is_cut_off_jpeg`].
+pub const CUT_OFF: &str = "the JPEG file is cut off: its end marker is missing";
+
+/// Whether `bytes` are a JPEG file that stops before its end marker (ISO/IEC 10918-1, B.1.1). Other formats
+/// are not: their decoders refuse cut files.
+#[must_use]
+pub fn is_cut_off_jpeg(bytes: &[u8]) -> bool {
+    if !bytes.starts_with(&START) {
+        return false;
+    }
+    let mut at = START.len();
+    // Between markers lie segments, which state their length and may hold a whole thumbnail, and the
+    // coded data of scans, in which 0xff is followed by 0.
+    while let Some(found) = bytes[at..].windows(2).position(|pair| is_marker(pair[0], pair[1])) {
+        let marker = at + found;
+        if bytes[marker + 1] == END {
+            return false;
+        }
+        let Some(length) = bytes.get(marker + 2..marker + 4) else { return true };
+        at = marker + 2 + usize::from(u16::from_be_bytes([length[0], length[1]]));
+        if at >= bytes.len() {
+            return true;
+        }
+    }
+    true
+}
+
+/// Whether two bytes are a marker other than padding, stuffed data, a restart or the start.
+fn is_marker(first: u8, second: u8) -> bool {
+    first == 0xff && !matches!(second, 0x00 | 0x01 | 0xd0..=0xd8 | 0xff)
+}
+
+#[cfg(test)]
+mod tests {
+    use image::codecs::jpeg::JpegEncoder;
+
+    use super::*;
+
+    #[test]
+    fn a_jpeg_is_cut_off_wherever_its_end_is_missing() {
+        let picture =
+            image::RgbImage::from_fn(64, 48, |x, y| image::Rgb([x as u8 * 4, y as u8, 9]));
+        let mut whole = Vec::new();
+        JpegEncoder::new(&mut whole).encode_image(&picture).unwrap();
+        assert!(!is_cut_off_jpeg(&whole));
+        for length in 2..whole.len() {
+            assert!(is_cut_off_jpeg(&whole[..length]), "{length} of {} bytes", whole.len());
+        }
+        // A camera's preview has an end marker of its own, inside a segment.
+        let preview: Vec<u8> =
+            [&[0xff, 0xe1, 0, 6, 0xff, 0xd9, 0xff, 0xd9][..], &whole[2..]].concat();
+        let with_preview = [&START[..], &preview].concat();
+        assert!(!is_cut_off_jpeg(&with_preview));
+        assert!(is_cut_off_jpeg(&with_preview[..with_preview.len() - 2]));
+        assert!(!is_cut_off_jpeg(b"\x89PNG"));
+    }
+}
