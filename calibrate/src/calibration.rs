@@ -205,7 +205,7 @@ fn evidence(
         let recipe: Recipe = in_library.iter().copied().zip(shares).collect();
         let mixture = library.mix(recipe).expect("shares sum to 1");
         let predicted = mixture.hiding(library.saunderson);
-        (observation.sample.clone(), observation.reflectance.as_slice(), predicted)
+        (observation.sample.clone(), observation.as_read.as_slice(), predicted)
     });
     let Scores { rms, delta_e, per_sample } = Scores::of(&weights, films).rounded();
     Evidence {

@@ -173,7 +173,7 @@ impl Comparable {
             let mixture = library.mix(&recipe).expect("shares sum to 1");
             let excluded = settings.excluded.contains(&observation.sample);
             let predicted = mixture.hiding(library.saunderson);
-            film(observation.sample, recipe, observation.reflectance, predicted, excluded)
+            film(observation.sample, recipe, observation.as_read, predicted, excluded)
         });
         Ok(films.collect())
     }

@@ -11,6 +11,7 @@ use crate::fitting_error::FittingError;
 use crate::observation::{BelowSurface, Observation};
 use crate::readings::Readings;
 use crate::report::ErrorReport;
+use crate::surface_choice::{check_above_surface, usual_below_readings};
 use crate::swatch::SwatchSet;
 use pigment::PigmentId;
 use pigment::evaluate::Viewing;
@@ -36,12 +37,13 @@ pub struct FitOptions {
     pub method: Method,
     /// Name of the white whose S is 1. Default: the pigment called white that occurs in most samples.
     pub reference: Option<String>,
-    /// Surface of the films. Default: k1 = 0.03 and k2 = 0.6; for absolute amounts k1 = 0 and the k2
-    /// that predicts unseen films best.
+    /// Surface of the films. Default: k2 = 0.6 and k1 = 0.03, or less where a reading is lower; for
+    /// absolute amounts k1 = 0 and the k2 that predicts unseen films best.
     pub surface: Option<Surface>,
     /// Whether the readings contain the mirror reflection, where no `surface` says so.
     pub specular: Specular,
-    /// Treatment of readings below k1. Default: refuse where `surface` is given, else read as black.
+    /// Treatment of readings below k1. Default: refuse where `surface` is given; else none is below,
+    /// because k1 is lowered. If given without `surface`, k1 stays 0.03.
     pub below_surface: Option<BelowSurface>,
     /// Smoothness of K and S over wavelength.
     pub smoothness: Smoothness,
@@ -180,14 +182,28 @@ impl PreparedFit {
             Some(_) => BelowSurface::Refuse,
             None => BelowSurface::Floor,
         });
+        if options.surface.is_none() || below_surface == BelowSurface::Floor {
+            let usual = Surface::of_most_paints(options.specular);
+            let Surface { k1, k2, .. } = options.surface.unwrap_or(usual);
+            check_above_surface(&set, k1, k2).map_err(CalibrationError::from)?;
+        }
         let model = match options.amounts {
             AmountKind::Relative => {
                 let reference = reference(&set, options.reference.as_deref())?;
                 let name = &set.pigments[reference.index()];
                 let note = Remark::note(format!("reference white: {name}"));
                 remarks.push(note);
-                let usual = Surface::of_most_paints(options.specular);
-                FilmModel::Relative { reference, surface: options.surface.unwrap_or(usual) }
+                // Who says how readings below k1 are treated means the usual k1.
+                let surface = match (options.surface, options.below_surface) {
+                    (Some(surface), _) => surface,
+                    (None, Some(_)) => Surface::of_most_paints(options.specular),
+                    (None, None) => {
+                        let (surface, lowered) = usual_below_readings(&set, options.specular);
+                        remarks.extend(lowered);
+                        surface
+                    }
+                };
+                FilmModel::Relative { reference, surface }
             }
             AmountKind::Absolute => {
                 if options.reference.is_some() || options.method != Method::Refined {

@@ -44,6 +44,8 @@ pub mod readings;
 
 pub mod observation;
 
+mod surface_choice;
+
 pub mod fit;
 
 mod scores;

@@ -44,8 +44,12 @@ pub struct Observation {
     pub shares: Vec<f64>,
     /// K/S at each wavelength, 0 and up.
     pub ratio: Vec<f64>,
-    /// Measured reflectance of a film that hides, surface included.
+    /// Measured reflectance of a film that hides, surface included, as `ratio` gives it. The fit aims at
+    /// this: readings that no paint under this surface can have are moved to the nearest that one can.
     pub reflectance: Vec<f64>,
+    /// Reflectance with which a prediction is compared: like `reflectance`, but as the instrument read it
+    /// where the film was taken to hide, and where a reading was moved.
+    pub as_read: Vec<f64>,
     /// How K/S was computed, and how far readings over different backings differ.
     pub hiding: Hiding,
     /// Standard deviation of repeated readings; `None` if none were repeated.
@@ -139,8 +143,25 @@ impl SurfaceConversion<'_> {
         measured.iter().enumerate().map(at).collect()
     }
 
+    fn is_below(&self, reading: f64) -> bool {
+        reading < self.surface.floor()
+    }
+
+    fn is_above(&self, reading: f64) -> bool {
+        reading > self.surface.measured_from_internal(1.0) + 1e-9
+    }
+
+    /// Whether no paint under this surface has this reading, so that [`Self::internal`] moves it.
+    fn is_moved(&self, reading: f64) -> bool {
+        self.is_below(reading) || self.is_above(reading)
+    }
+
     fn observation(&self, swatch: &Swatch) -> Result<Observation, MeasurementError> {
-        let (ratio, hiding) = match two_backings(&swatch.films) {
+        let external = |&q: &f64| {
+            self.surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(q))
+        };
+        let pair = two_backings(&swatch.films);
+        let (ratio, hiding) = match pair {
             Some((light, dark)) => self.over_two_backings(swatch, light, dark)?,
             None => {
                 let internal = self.internal(swatch, &thickest(&swatch.films).reflectance)?;
@@ -148,18 +169,28 @@ impl SurfaceConversion<'_> {
                 (ratio, Hiding::Assumed(largest_difference(&swatch.films)))
             }
         };
-        let external = |&q: &f64| {
-            self.surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(q))
+        let reflectance: Vec<f64> = ratio.iter().map(external).collect();
+        let as_read = match pair {
+            Some(((light, _), (dark, _))) => {
+                let readings = light.iter().zip(dark);
+                let kept = readings.zip(&reflectance).map(|((&light, &dark), &hiding)| {
+                    let moved = self.is_moved(light) || self.is_moved(dark);
+                    if moved { f64::midpoint(light, dark) } else { hiding }
+                });
+                kept.collect()
+            }
+            None => thickest(&swatch.films).reflectance.clone(),
         };
         let spreads: Vec<f64> = swatch.films.iter().filter_map(|film| film.spread).collect();
         Ok(Observation {
             sample: swatch.sample.clone(),
             shares: swatch.shares.clone(),
-            reflectance: ratio.iter().map(external).collect(),
+            reflectance,
+            as_read,
             ratio,
             hiding,
-            below_surface: count(swatch, |r| r < self.surface.floor()),
-            above_white: count(swatch, |r| r > self.surface.measured_from_internal(1.0) + 1e-9),
+            below_surface: count(swatch, |r| self.is_below(r)),
+            above_white: count(swatch, |r| self.is_above(r)),
             spread: spreads.into_iter().reduce(f64::max),
         })
     }

@@ -63,10 +63,12 @@ impl SyntheticMixtures {
             let measured = |q: &f64| {
                 surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(*q))
             };
+            let reflectance: Vec<f64> = ratio.iter().map(measured).collect();
             mixtures.observations.push(Observation {
+                as_read: reflectance.clone(),
                 sample: format!("S{number:02}"),
                 shares,
-                reflectance: ratio.iter().map(measured).collect(),
+                reflectance,
                 ratio,
                 hiding: Hiding::Assumed(None),
                 spread: None,

@@ -120,9 +120,8 @@ pub fn leave_out(
         Ok(predictions.collect())
     };
     let predictions = plan.predictions(&candidates, predict)?;
-    let sample = |index: usize| {
-        (observations[index].sample.clone(), observations[index].reflectance.as_slice())
-    };
+    let sample =
+        |index: usize| (observations[index].sample.clone(), observations[index].as_read.as_slice());
     Ok(summary(set, plan, predictions, sample))
 }
 

@@ -5,6 +5,11 @@ use spectra::instrument::MeasuredQuantity;
 
 use spectra::csv_table::{CellPlace, CsvTableError};
 
+/// The k1 that lies below the reading `least` by a little, with the three digits in which k1 is written.
+pub(crate) fn k1_below(least: f64) -> f64 {
+    (least * 0.95 * 1000.0).floor() / 1000.0
+}
+
 /// Readings that cannot be used. Every variant names the place of the fault.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeasurementError {
@@ -146,6 +151,26 @@ pub enum MeasurementError {
         k2: f64,
         /// Least reading of all files, as a fraction.
         least: f64,
+    },
+    /// Most readings of films are below what a paint's surface reflects by itself.
+    #[error(
+        "{file}, row {row}: beginning with sample {sample}, {below} of {count} readings of paint are below k1 = {k1}: the surface alone would reflect more"
+    )]
+    MostBelowSurface {
+        /// File name as the caller gave it.
+        file: String,
+        /// Row of the first such film, the header being row 1.
+        row: u64,
+        /// Name of the first sample with such a reading.
+        sample: String,
+        /// Number of readings below k1.
+        below: usize,
+        /// Number of all readings of films.
+        count: usize,
+        /// Share of light that the surface reflects.
+        k1: f64,
+        /// A surface below every reading, as settings take it.
+        below_all: String,
     },
     /// A reading is above the greatest value under this surface.
     #[error(
@@ -296,7 +321,10 @@ impl Explain for MeasurementError {
             }
             Self::BelowSurface { least, k2, .. } => format!(
                 "give a k1 below every reading, such as [saunderson={:.3},{k2}], or read such samples as black: [below_surface=floor]",
-                (least * 0.95 * 1000.0).floor() / 1000.0
+                k1_below(*least)
+            ),
+            Self::MostBelowSurface { below_all, .. } => format!(
+                "readings in fractions (white near 1) take [fraction]; for a surface that reflects less, give its k1 and k2, such as [saunderson={below_all}]"
             ),
             Self::NoBareBacking { backing, .. } => format!(
                 "add a row with film `none` and backing `{backing}`: the card without paint"

@@ -26,6 +26,7 @@ pub use averaged::{AveragedSpectra, AveragedSpectrum, SpectrumNameError};
 pub use column::names_a_pigment;
 pub use csv::is_measurement_csv;
 pub use error::MeasurementError;
+pub(crate) use error::k1_below;
 pub use recipes::{Recipes, RecipesError};
 pub use records::RecordChoice;
 pub use scale::{Scale, ScaleChoice};

@@ -66,7 +66,7 @@ pub(super) struct CalibrationOptions {
     reference: Option<String>,
     #[command(flatten)]
     surface: SurfaceOptions,
-    /// Treatment of a reading below k1 [default: refuse where --saunderson is given, else floor]
+    /// Treatment of a reading below k1 [default: refuse]; without --saunderson, k1 stays 0.03
     #[arg(long, value_enum)]
     below_surface: Option<Below>,
     /// Smoothness of K and S over wavelength: auto, none, or a weight such as 10

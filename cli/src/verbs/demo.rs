@@ -5,8 +5,10 @@ use std::time::Instant;
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
+use calibrate::observation::BelowSurface;
 use calibrate::{Fit, FitOptions, Readings};
 use clap::Args;
+use spectra::optics::{Specular, Surface};
 
 use super::{fit_report, library};
 use crate::console::Console;
@@ -78,6 +80,10 @@ impl Demo {
 fn fit_oils() -> Result<Fit> {
     let readings = Readings::from_csv(NAME, OILS)?;
     let options = FitOptions {
+        // The published readings of three samples lie below the usual k1, at which the library that
+        // ships was made.
+        surface: Some(Surface::of_most_paints(Specular::Included)),
+        below_surface: Some(BelowSurface::Floor),
         reference: Some("Zinc White".to_owned()),
         title: Some("Van Gogh's oils".to_owned()),
         licence: Some("CC0 1.0".to_owned()),

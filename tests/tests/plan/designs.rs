@@ -58,14 +58,14 @@ impl Bench {
                     internal.unwrap_or(BLACK).clamp(BLACK, 1.0)
                 };
                 let internal: Vec<f64> = truth.iter().map(read).collect();
+                let reflectance: Vec<f64> =
+                    internal.iter().map(|&r| surface.measured_from_internal(r)).collect();
                 Observation {
                     sample: index.to_string(),
                     shares,
                     ratio: internal.iter().map(|&r| absorption_over_scattering(r)).collect(),
-                    reflectance: internal
-                        .iter()
-                        .map(|&r| surface.measured_from_internal(r))
-                        .collect(),
+                    as_read: reflectance.clone(),
+                    reflectance,
                     hiding: Hiding::Assumed(None),
                     spread: Some(NOISE),
                     below_surface: 0,
