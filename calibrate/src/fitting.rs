@@ -5,6 +5,7 @@ use std::path::Path;
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
+use crate::backings::check_backings;
 use crate::calibration::{Calibration, CalibrationError, calibrate};
 use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness};
 use crate::fitting_error::FittingError;
@@ -182,6 +183,7 @@ impl PreparedFit {
             Some(_) => BelowSurface::Refuse,
             None => BelowSurface::Floor,
         });
+        check_backings(&set)?;
         if options.surface.is_none() || below_surface == BelowSurface::Floor {
             let usual = Surface::of_most_paints(options.specular);
             let Surface { k1, k2, .. } = options.surface.unwrap_or(usual);

@@ -46,6 +46,8 @@ pub mod observation;
 
 mod surface_choice;
 
+mod backings;
+
 pub mod fit;
 
 mod scores;

@@ -17,7 +17,7 @@ pub const BLACK: f64 = 1e-3;
 pub const HIDING_DIFFERENCE: f64 = 0.05;
 /// Least difference of the mean reflectances of two backings from which K/S can be computed; chosen by
 /// eye.
-const LEAST_CONTRAST: f64 = 0.05;
+pub(crate) const LEAST_CONTRAST: f64 = 0.05;
 /// Relative difference of two thicknesses that a gauge cannot tell apart; chosen by eye.
 const SAME_THICKNESS: f64 = 0.05;
 /// Internal reflectance above which a reading is refused rather than read as white; chosen by eye.
@@ -252,7 +252,7 @@ fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
 }
 
 /// Whether two thicknesses cannot be told apart by a gauge, or both are unknown.
-fn alike(first: Option<f64>, second: Option<f64>) -> bool {
+pub(crate) fn alike(first: Option<f64>, second: Option<f64>) -> bool {
     match (first, second) {
         (Some(a), Some(b)) => (a - b).abs() <= SAME_THICKNESS * a.max(b),
         (None, None) => true,

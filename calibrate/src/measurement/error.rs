@@ -10,6 +10,15 @@ pub(crate) fn k1_below(least: f64) -> f64 {
     (least * 0.95 * 1000.0).floor() / 1000.0
 }
 
+/// Remark that `others` more samples have a fault.
+fn also(others: usize) -> String {
+    match others {
+        0 => String::new(),
+        1 => "; one more sample is".to_owned(),
+        _ => format!("; {others} more samples are"),
+    }
+}
+
 /// Readings that cannot be used. Every variant names the place of the fault.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeasurementError {
@@ -172,6 +181,32 @@ pub enum MeasurementError {
         /// A surface below every reading, as settings take it.
         below_all: String,
     },
+    /// A film is darker over the brighter of two cards.
+    #[error(
+        "{file}, row {row}: sample {sample} is darker over the brighter card {bright} than over {dark}, by {by:.3} at {nm} nm (too dark from {first_nm} to {last_nm} nm){}", also(*others)
+    )]
+    DarkerOverBrighter {
+        /// File name as the caller gave it.
+        file: String,
+        /// Row of the first reading of the sample, the header being row 1.
+        row: u64,
+        /// Name of the sample.
+        sample: String,
+        /// Backing whose bare card is the brighter.
+        bright: String,
+        /// Backing whose bare card is the darker.
+        dark: String,
+        /// Largest difference of reflectance.
+        by: f64,
+        /// Wavelength of the largest difference, in nm.
+        nm: f64,
+        /// First wavelength at which the film is too dark, in nm.
+        first_nm: f64,
+        /// Last wavelength at which the film is too dark, in nm.
+        last_nm: f64,
+        /// Number of further samples with this fault.
+        others: usize,
+    },
     /// A reading is above the greatest value under this surface.
     #[error(
         "{file}, row {row}: sample {sample} reads `{measured}` at {nm} nm, above a perfect white"
@@ -325,6 +360,9 @@ impl Explain for MeasurementError {
             ),
             Self::MostBelowSurface { below_all, .. } => format!(
                 "readings in fractions (white near 1) take [fraction]; for a surface that reflects less, give its k1 and k2, such as [saunderson={below_all}]"
+            ),
+            Self::DarkerOverBrighter { bright, dark, sample, .. } => format!(
+                "paint cannot do this; {bright} and {dark} may be exchanged in the column `backing`, or leave the sample out: [exclude={sample}]"
             ),
             Self::NoBareBacking { backing, .. } => format!(
                 "add a row with film `none` and backing `{backing}`: the card without paint"
