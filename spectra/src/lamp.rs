@@ -12,10 +12,14 @@ use crate::irregular::IrregularSpectrum;
 /// (chosen by eye).
 const NEGATIVE_NOISE: f64 = 0.01;
 
+/// Band in nm that a lamp must be measured in: it holds nearly all of the luminance and chroma.
+const NEEDED_NM: [f64; 2] = [420.0, 680.0];
+
 /// A light from `bytes`, the content of `file`, in any format of [`Format`] or as two columns
 /// `nm, power`. The format is detected from the content.
 ///
-/// Power may be in any unit and at any wavelengths; outside them the end values are held. From
+/// Power may be in any unit, at any wavelengths from 420 nm or less to 680 nm or more; outside them the
+/// end values are held. From
 /// 360 to 830 nm negative power down to -1 % of the peak is set to 0 as noise. `spectrum`
 /// selects one of several spectra by name. The light is called `file`, or `file#spectrum`.
 ///
@@ -45,8 +49,14 @@ pub fn lamp_from_bytes(
 
 fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
     let (file, name) = (file.to_owned(), measured.name.clone());
-    if !matches!(measured.quantity, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
-        return Err(LampError::Quantity { file, name, found: measured.quantity });
+    let found = match measured.quantity {
+        MeasuredQuantity::Unstated if measured.is_relative_to_white() => {
+            MeasuredQuantity::Reflectance
+        }
+        stated => stated,
+    };
+    if !matches!(found, MeasuredQuantity::Power | MeasuredQuantity::Unstated) {
+        return Err(LampError::Quantity { file, name, found });
     }
     let nm = &measured.wavelengths_nm;
     if nm.len() < 2 {
@@ -54,13 +64,13 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
     }
     let (start_nm, end_nm) = (nm[0], nm[nm.len() - 1]);
     let band = Grid::cie();
-    if end_nm < band.start_nm() || start_nm > band.end_nm() {
-        return Err(LampError::Band { file, start_nm, end_nm });
-    }
     let within = || nm.iter().zip(&measured.values).filter(|(nm, _)| band.covers(**nm));
     let peak = within().fold(0.0, |most: f64, (_, &power)| most.max(power));
     if let Some((&nm, &power)) = within().find(|(_, power)| **power < -NEGATIVE_NOISE * peak) {
         return Err(LampError::Power { file, name, nm, power });
+    }
+    if start_nm > NEEDED_NM[0] || end_nm < NEEDED_NM[1] {
+        return Err(LampError::Band { file, start_nm, end_nm });
     }
     let values = measured.values.iter().map(|power| power.max(0.0)).collect();
     Ok(IrregularSpectrum::new(nm.clone(), values).map_err(IlluminantError::from)?)
@@ -105,9 +115,9 @@ pub enum LampError {
         /// Number of wavelengths.
         count: usize,
     },
-    /// No wavelength is visible; the file may use another unit.
+    /// Much of the visible band is not measured; the file may use another unit.
     #[error(
-        "{file}: a lamp needs wavelengths from 360 to 830 nm, found `{start_nm}` to `{end_nm}` nm"
+        "{file}: a lamp must be measured from {} to {} nm or beyond, found `{start_nm}` to `{end_nm}` nm", NEEDED_NM[0], NEEDED_NM[1]
     )]
     Band {
         /// Path of the file.
@@ -139,7 +149,9 @@ impl Explain for LampError {
             Self::Power { .. } => {
                 "only noise down to -1 % of the peak is taken as 0: measure again, or cut the file"
             }
-            Self::Band { .. } => "wavelengths are in nm",
+            Self::Band { .. } => {
+                "wavelengths are in nm; only beyond this band are the end values of a file held"
+            }
             Self::Light(error) => return error.hint(),
             Self::TooShort { .. } => return None,
         };
@@ -162,14 +174,14 @@ mod tests {
     #[test]
     fn two_columns_with_header_and_comments_are_read() {
         for text in [
-            "# lamp\nnm;power\n400;1\n500;2\n600;3\n",
-            "nm\tpower\n400\t1\n500\t2\n600\t3\n",
-            "400 , 1\n500 , 2\n600 , 3\n",
-            "600,3\n500,2\n400,1\n",
+            "# lamp\nnm;power\n400;1\n500;2\n700;4\n",
+            "nm\tpower\n400\t1\n500\t2\n700\t4\n",
+            "400 , 1\n500 , 2\n700 , 4\n",
+            "700,4\n500,2\n400,1\n",
         ] {
             let lamp = lamp(text).unwrap();
             let found = [360, 450, 600, 800].map(|nm| at(&lamp, nm));
-            assert_eq!(found, [1.0, 1.5, 3.0, 3.0], "{text}");
+            assert_eq!(found, [1.0, 1.5, 3.0, 4.0], "{text}");
         }
     }
 
@@ -188,7 +200,7 @@ mod tests {
 
     #[test]
     fn negative_noise_is_set_to_zero_and_more_is_refused() {
-        let noisy = lamp("350,-50\n400,-0.9\n500,100\n600,50\n").unwrap();
+        let noisy = lamp("350,-50\n400,-0.9\n500,100\n700,50\n").unwrap();
         assert_eq!((at(&noisy, 400), at(&noisy, 500)), (0.0, 100.0));
         let refused = lamp("400,-1.1\n500,100\n").unwrap_err().to_string();
         assert_eq!(refused, "l: power of `l` at 400 nm must be 0 and up, found `-1.1`");
@@ -196,7 +208,7 @@ mod tests {
 
     #[test]
     fn one_of_several_spectra_is_selected_by_name() {
-        let text = b"nm;desk;shop\n400;1;3\n500;2;6\n";
+        let text = b"nm;desk;shop\n400;1;3\n700;2;6\n";
         let error = lamp_from_bytes("l", text, None).unwrap_err();
         assert_eq!(error.hint().unwrap().to_string(), "name one: \"l#desk\" or \"#shop\"");
         let shop = lamp_from_bytes("l", text, Some("shop")).unwrap();
@@ -211,6 +223,36 @@ mod tests {
             let error = lamp(&format!("nm,{heading}\n400,1\n500,2\n")).unwrap_err();
             assert!(error.to_string().contains(heading), "{error}");
             assert!(error.hint().is_some_and(|hint| hint.to_string().contains(word)), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_lamp_that_is_not_measured_in_the_visible_band_is_refused() {
+        for text in [
+            "500,1\n510,1\n",
+            "801,1\n2499,1\n",
+            "300,1\n380,2\n",
+            "430,1\n700,1\n",
+            "400,1\n670,1\n",
+        ] {
+            let refused = lamp(text).unwrap_err();
+            assert!(matches!(refused, LampError::Band { .. }), "{text}: {refused}");
+            assert!(refused.to_string().contains("420 to 680 nm"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn readings_relative_to_a_white_are_no_lamp() {
+        let processed = "SpectraSuite Data File\nReference Spectrum Present: Yes\n\
+            Number of Pixels in Processed Spectrum: 2\n>>>>>Begin Processed Spectral Data<<<<<\n\
+            400\t50\n700\t60\n";
+        let table = "BEGIN_DATA_FORMAT\nSAMPLE_ID SPECTRAL_PCT400 SPECTRAL_PCT700\n\
+            END_DATA_FORMAT\nBEGIN_DATA\nA 40 50\nEND_DATA\n";
+        let printed = "CTI3\nDEVICE_CLASS \"OUTPUT\"\nBEGIN_DATA_FORMAT\nSAMPLE_ID SPEC_400 SPEC_700\n\
+            END_DATA_FORMAT\nBEGIN_DATA\nA 40 50\nEND_DATA\n";
+        for text in [processed, table, printed, "nm,%R\n400,50\n700,60\n"] {
+            let refused = lamp(text).unwrap_err().to_string();
+            assert!(refused.contains("found `reflectance`"), "{text}: {refused}");
         }
     }
 }

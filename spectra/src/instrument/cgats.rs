@@ -179,7 +179,14 @@ impl Table {
                 return quantity;
             }
         }
-        if self.keyword("DEVICE_CLASS").is_some_and(|class| class.starts_with("DISPLAY")) {
+        match self.keyword("DEVICE_CLASS") {
+            Some(class) if class.starts_with("DISPLAY") => return Power,
+            // A printer's or a scanner's target.
+            Some("OUTPUT" | "INPUT") => return Reflectance,
+            _ => {}
+        }
+        // Argyll's samples of a display's light begin with this word.
+        if self.keyword("CCSS").is_some() {
             return Power;
         }
         let describes_a_light = |text: &str| text.to_ascii_lowercase().contains("spectral power");
@@ -234,6 +241,8 @@ mod tests {
             ("MEAS_TYPE \"EMISSION\"", MeasuredQuantity::Power),
             ("MEAS_TYPE \"TRANSMISSIVE\"", MeasuredQuantity::Transmittance),
             ("DEVICE_CLASS \"DISPLAY\"", MeasuredQuantity::Power),
+            ("DEVICE_CLASS \"OUTPUT\"", MeasuredQuantity::Reflectance),
+            ("CCSS", MeasuredQuantity::Power),
             ("DESCRIPTOR \"Argyll Spectral Power of F8\"", MeasuredQuantity::Power),
         ] {
             let found = read("f", &FILE.replace("CGATS.17", keyword)).unwrap();

@@ -116,6 +116,16 @@ impl MeasuredSpectrum {
         }
     }
 
+    /// Whether the values are relative to a white, as the file shows by their unit or by the white
+    /// reading from which they were computed, though it may not name the quantity.
+    #[must_use]
+    pub fn is_relative_to_white(&self) -> bool {
+        let has_white = |(key, value): &(String, String)| {
+            key == "Reference Spectrum Present" && value.starts_with("Yes")
+        };
+        self.unit != Unit::Unstated || self.details.iter().any(has_white)
+    }
+
     /// The reflectance on a regular grid ([`Grid::suited_to`] the wavelengths, irregular
     /// ones interpolated linearly), as a fraction.
     ///
@@ -173,9 +183,12 @@ pub enum ReflectanceError {
 impl Explain for ReflectanceError {
     fn hint(&self) -> Option<Hint> {
         let sentence = match self {
-            Self::Quantity {
-                found: MeasuredQuantity::Counts | MeasuredQuantity::Power, ..
-            } => "reference counts to a white and a dark reading first",
+            Self::Quantity { found: MeasuredQuantity::Counts, .. } => {
+                "reference counts to a white and a dark reading first"
+            }
+            Self::Quantity { found: MeasuredQuantity::Power, .. } => {
+                "the light of a lamp is no reflectance; it can be the light under which colours are seen"
+            }
             Self::Quantity { .. } => "export the spectrum as reflectance",
             Self::Values { .. } | Self::Wavelengths { .. } => return None,
         };

@@ -3,7 +3,8 @@
 //! dark, reference, sample and processed (W D R S P).
 //!
 //! With a reference the software writes percent of it (or absorbance) and does not state which;
-//! without one it writes counts. Jaz files contain the counts as well.
+//! without one it writes counts. Jaz files contain the counts as well. Absolute irradiance is told only
+//! by the first line of a Jaz file, or by the ending (`.JazIrrad`, `.OVIrrad`).
 
 use super::axis::Axis;
 use super::columns::{ColumnLabel, table};
@@ -17,6 +18,9 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     // Lines outside the data are left empty, so that the others keep their line numbers.
     let mut data: Option<String> = None;
     let mut last = 0;
+    let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
+    let first = text.trim_start().lines().next().unwrap_or_default().to_ascii_lowercase();
+    let is_irradiance = ending.ends_with("irrad") || first.contains("irradiance");
     for (number, line) in lines(text) {
         last = number;
         if line.starts_with(">>>>>Begin") {
@@ -39,6 +43,11 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         blocks.push(spectra(file, &data, details, last)?);
     }
     blocks.retain(|block| !block.is_empty());
+    if is_irradiance {
+        for block in &mut blocks {
+            block[0].quantity = MeasuredQuantity::Power;
+        }
+    }
     if blocks.len() > 1 {
         let name = stem(file);
         for (block, number) in blocks.iter_mut().zip(1..) {
@@ -157,5 +166,20 @@ mod tests {
         let records = read("a.jaz", text).unwrap();
         assert_eq!(choose_spectrum("a.jaz", &records, None).unwrap().name, "a");
         assert_eq!(choose_spectrum("a.jaz", &records[3..], None).unwrap().name, "a (D)");
+    }
+
+    #[test]
+    fn absolute_irradiance_is_the_power_of_a_light() {
+        let text = "Jaz Absolute Irradiance File\nReference Spectrum Present: Yes\n\
+            >>>>>Begin Processed\nW\tD\tS\tP\n400.0\t1\t50\t0.5\n700.0\t1\t20\t0.7\n>>>>>End\n";
+        let quantity = |file: &str, text: &str| read(file, text).unwrap()[0].quantity;
+        assert_eq!(quantity("a.txt", text), MeasuredQuantity::Power);
+        let data = text.replace("Absolute Irradiance", "Data");
+        assert_eq!(quantity("a.jaz", &data), MeasuredQuantity::Unstated);
+        for file in ["sun.JazIrrad", "b/sun.OVIrrad"] {
+            assert_eq!(quantity(file, &data), MeasuredQuantity::Power, "{file}");
+            let lamp = crate::lamp::lamp_from_bytes(file, data.as_bytes(), None);
+            assert!(lamp.is_ok(), "{lamp:?}");
+        }
     }
 }
