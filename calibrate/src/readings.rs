@@ -52,6 +52,9 @@ pub struct ReadingOptions {
     pub format: Option<ReadingFormat>,
     /// Percent or fraction. Default: what the file states, else what its largest value suggests.
     pub scale: ScaleChoice,
+    /// Headings of the columns that are pigments. Default: every column of a CSV that is not known as
+    /// something else and holds amounts.
+    pub pigments: Option<Vec<String>>,
     /// Whether transmittance counts as reflectance, for spectrometers that measured in transmission
     /// mode over a white tile. Counts and powers of lamps never do.
     pub transmittance_is_reflectance: bool,
@@ -115,7 +118,7 @@ impl Readings {
     /// # Errors
     /// [`ReadingsError::Measurement`] with row and column.
     pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, ReadingsError> {
-        let (table, remarks) = csv_table(file, bytes, ScaleChoice::ByFile, false)?;
+        let (table, remarks) = csv_table(file, bytes, &ReadingOptions::default(), false)?;
         Ok(Self { table, inputs: vec![Input::new(file, bytes)], remarks })
     }
 
@@ -124,14 +127,38 @@ impl Readings {
     ///
     /// # Errors
     /// [`ReadingsError::Recipes`] with the row.
-    pub fn with_recipes(mut self, path: impl AsRef<Path>) -> Result<Self, ReadingsError> {
+    pub fn with_recipes(self, path: impl AsRef<Path>) -> Result<Self, ReadingsError> {
+        self.with_recipes_of(path, None)
+    }
+
+    /// Adds the recipes of a CSV file like [`Readings::with_recipes`], of the columns headed as one of
+    /// `pigments`.
+    ///
+    /// # Errors
+    /// [`ReadingsError::Recipes`] with the row.
+    pub fn with_recipes_of(
+        mut self,
+        path: impl AsRef<Path>,
+        pigments: Option<&[String]>,
+    ) -> Result<Self, ReadingsError> {
         let (file, bytes) = content(path.as_ref())?;
-        let recipes = Recipes::from_csv(&file, &bytes)?;
+        let recipes = Recipes::from_csv(&file, &bytes, pigments)?;
         self.table.remarks.clear();
         self.table = recipes.joined_to(self.table)?;
         self.remarks.extend(self.table.remarks.iter().map(Remark::warning));
         self.inputs.push(Input::new(file, &bytes));
         Ok(self)
+    }
+
+    /// Checks that some file has a column for each of `pigments`.
+    ///
+    /// # Errors
+    /// [`MeasurementError::NoPigmentColumn`] for the first that has none.
+    pub fn check_has_pigments(&self, pigments: &[String]) -> Result<(), MeasurementError> {
+        match pigments.iter().find(|name| !self.table.pigments.contains(name)) {
+            Some(name) => Err(MeasurementError::NoPigmentColumn { name: name.clone() }),
+            None => Ok(()),
+        }
     }
 
     /// Groups the readings by sample.
@@ -156,7 +183,7 @@ impl Readings {
             let of_file = match instrument_file(&file, &bytes, options.format)? {
                 Some(spectra) => instrument_table(&file, spectra, options, references.as_ref())?,
                 None if references.is_some() => return Err(ReadingsError::CsvOfCounts { file }),
-                None => csv_table(&file, &bytes, options.scale, spectra_only)?,
+                None => csv_table(&file, &bytes, options, spectra_only)?,
             };
             tables.push(of_file.0);
             remarks.extend(of_file.1);
@@ -235,13 +262,13 @@ fn instrument_table(
 fn csv_table(
     file: &str,
     bytes: &[u8],
-    scale: ScaleChoice,
+    options: &ReadingOptions,
     spectra_only: bool,
 ) -> Result<(MeasurementTable, Vec<Remark>), MeasurementError> {
     let table = if spectra_only {
-        MeasurementTable::spectra_from_csv(file, bytes, scale)?
+        MeasurementTable::spectra_from_csv(file, bytes, options.scale)?
     } else {
-        MeasurementTable::from_csv(file, bytes, scale)?
+        MeasurementTable::from_csv_with(file, bytes, options.scale, options.pigments.as_deref())?
     };
     let (_, encoding) = decode_text(bytes);
     let is_utf8 = encoding == "UTF-8";

@@ -57,23 +57,29 @@ impl ReadingOptions {
                 (_, true) => ScaleChoice::Known(Scale::Fraction),
                 _ => ScaleChoice::ByFile,
             },
+            pigments: None,
             transmittance_is_reflectance: self.as_reflectance,
             references: self.referencing.reference_files(),
         }
     }
 }
 
-/// Reads measurement files and, if given, a separate file of recipes. Prints remarks on them.
+/// Reads measurement files and, if given, a separate file of recipes. If `pigments` are named, no other
+/// columns are pigments. Prints remarks on the files.
 pub(crate) fn measurements(
     paths: &[PathBuf],
     recipes: Option<&Path>,
+    pigments: &[String],
     options: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> Result<Readings> {
-    let mut readings = Readings::open_all(paths, &options.options())?;
+    let named = (!pigments.is_empty()).then(|| pigments.to_vec());
+    let options = calibrate::ReadingOptions { pigments: named, ..options.options() };
+    let mut readings = Readings::open_all(paths, &options)?;
     if let Some(recipes) = recipes {
-        readings = readings.with_recipes(recipes)?;
+        readings = readings.with_recipes_of(recipes, options.pigments.as_deref())?;
     }
+    readings.check_has_pigments(pigments)?;
     console.remarks(&readings.remarks)?;
     Ok(readings)
 }

@@ -2,6 +2,7 @@
 
 use spectra::csv_table::{CellPlace, CsvTableError, wavelength_of_header};
 
+use super::coordinates::is_coordinate;
 use super::error::MeasurementError;
 
 /// Meaning of one column.
@@ -29,12 +30,14 @@ pub(super) enum TableKind {
     Recipes,
 }
 
-/// Reads a header row: one meaning per column. Checks that there is a sample column, that no name occurs
+/// Reads a header row: one meaning per column. `pigments` are the headings that name pigments; without
+/// them, every other heading does. Checks that there is a sample column, that no name occurs
 /// twice and that wavelengths rise.
 pub(super) fn columns(
     file: &str,
     headers: &[String],
     kind: TableKind,
+    pigments: Option<&[String]>,
 ) -> Result<Vec<Column>, MeasurementError> {
     let place = |index: usize| CellPlace::new(file, 1, &headers[index]);
     // A header such as R254 may be a pigment (Pigment Red 254) or a wavelength.
@@ -71,7 +74,15 @@ pub(super) fn columns(
             _ => column(name, letters),
         };
         let out_of_range = || MeasurementError::WavelengthRange { place: place(index) };
-        columns.push(column.ok_or_else(out_of_range)?);
+        let is_named = |names: &[String]| names.iter().any(|pigment| pigment == name);
+        columns.push(match (column.ok_or_else(out_of_range)?, pigments) {
+            (Column::Pigment(_) | Column::Ignored, Some(names)) if is_named(names) => {
+                Column::Pigment(name.to_owned())
+            }
+            (Column::Pigment(_), Some(_)) => Column::Ignored,
+            (Column::Pigment(_), None) if is_coordinate(headers, index) => Column::Ignored,
+            (column, _) => column,
+        });
     }
     if !columns.contains(&Column::Sample) {
         return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
@@ -143,7 +154,20 @@ pub fn names_a_pigment(name: &str) -> bool {
 pub(super) const MEASURABLE_NM: std::ops::RangeInclusive<f64> = 200.0..=2500.0;
 
 /// Headings of instruments' tables and of notes, none of which is the name of a pigment.
-const NO_PIGMENTS: [&str; 36] = [
+const NO_PIGMENTS: [&str; 49] = [
+    "no",
+    "no.",
+    "nr",
+    "nr.",
+    "#",
+    "id",
+    "index",
+    "row",
+    "batch",
+    "gloss",
+    "temperature",
+    "humidity",
+    "remark",
     "l*",
     "a*",
     "b*",
@@ -201,7 +225,7 @@ mod tests {
     fn a_letter_with_a_number_is_a_pigment_beside_plain_wavelengths() {
         let columns = |names: &[&str], kind| {
             let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-            columns("f", &names, kind).unwrap()
+            columns("f", &names, kind, None).unwrap()
         };
         let beside = columns(&["sample", "R254", "R101", "400"], TableKind::Readings);
         assert_eq!(beside[1], Column::Pigment("R254".into()));

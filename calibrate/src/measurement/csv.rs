@@ -7,7 +7,9 @@ use spectra::instrument::decode_text;
 
 use super::column::{Column, TableKind, columns};
 use super::common_grid::{grid_of, on_grid};
+use super::csv_row::CsvRow;
 use super::error::MeasurementError;
+use super::no_amounts::without_amounts;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
 use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers};
@@ -25,7 +27,21 @@ impl MeasurementTable {
         bytes: &[u8],
         scale: ScaleChoice,
     ) -> Result<Self, MeasurementError> {
-        Self::read(file, bytes, scale, false)
+        Self::from_csv_with(file, bytes, scale, None)
+    }
+
+    /// Reads the measurement table in `bytes`; of its columns only those headed as one of `pigments` are
+    /// pigments. Without `pigments`, all are that are not known as something else and hold amounts.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] with row and column.
+    pub fn from_csv_with(
+        file: &str,
+        bytes: &[u8],
+        scale: ScaleChoice,
+        pigments: Option<&[String]>,
+    ) -> Result<Self, MeasurementError> {
+        Self::read(CsvRows::open(file, bytes, TableKind::Readings, pigments)?, scale)
     }
 
     /// Reads only the spectra of the table: all other columns but the names are ignored, and the table has
@@ -38,16 +54,12 @@ impl MeasurementTable {
         bytes: &[u8],
         scale: ScaleChoice,
     ) -> Result<Self, MeasurementError> {
-        Self::read(file, bytes, scale, true)
+        let rows = CsvRows::open(file, bytes, TableKind::Readings, None)?;
+        Self::read(CsvRows { spectra_only: true, ..rows }, scale)
     }
 
-    fn read(
-        file: &str,
-        bytes: &[u8],
-        scale: ScaleChoice,
-        spectra_only: bool,
-    ) -> Result<Self, MeasurementError> {
-        let table = CsvRows { spectra_only, ..CsvRows::open(file, bytes, TableKind::Readings)? };
+    fn read(table: CsvRows, scale: ScaleChoice) -> Result<Self, MeasurementError> {
+        let spectra_only = table.spectra_only;
         let mut readings = table.readings()?;
         let scale = table.scaled(&mut readings, scale)?;
         let wavelengths = table.columns.iter().filter_map(|column| match column {
@@ -83,14 +95,18 @@ fn names_sample(header: &str, separator: char) -> bool {
     header.split(separator).any(|cell| plain(cell) == "sample")
 }
 
+/// The finite number in a cell. With decimal commas, a point may separate thousands.
+fn parsed(cell: &str, decimal_comma: bool) -> Option<f64> {
+    let value = match decimal_comma {
+        true if cell.contains('.') => None,
+        true => cell.replace(',', ".").parse::<f64>().ok(),
+        false => cell.parse::<f64>().ok(),
+    };
+    value.filter(|value| value.is_finite())
+}
+
 /// Largest amount of a pigment; beyond it sums lose their small terms.
 const LARGEST_AMOUNT: f64 = 1e12;
-
-/// Cells of a row below the header, and the number of the row in the file, from 1.
-pub(super) struct CsvRow {
-    pub(super) number: u64,
-    pub(super) cells: csv::StringRecord,
-}
 
 /// A CSV table: its header row, the meaning of each column, and the rows below.
 pub(super) struct CsvRows {
@@ -110,6 +126,7 @@ impl CsvRows {
         file: &str,
         bytes: &[u8],
         kind: TableKind,
+        pigments: Option<&[String]>,
     ) -> Result<Self, MeasurementError> {
         let (text, _) = decode_text(bytes);
         if text.trim_start().starts_with('{') {
@@ -140,7 +157,7 @@ impl CsvRows {
         let width =
             headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
         headers.truncate(width);
-        let columns = columns(file, &headers, kind)?;
+        let mut columns = columns(file, &headers, kind, pigments)?;
         let mut numbers = RowNumbers::of(text.as_bytes());
         let rows: Vec<CsvRow> = records
             .filter(|cells| cells.iter().any(|cell| !cell.is_empty()))
@@ -162,6 +179,12 @@ impl CsvRows {
                 .any(|(cell, column)| is_number(column) && cell.contains(','))
         };
         let decimal_comma = separator != b',' && rows.iter().any(has_comma);
+        if pigments.is_none() {
+            let number = |cell: &str| parsed(cell, decimal_comma);
+            for place in without_amounts(&columns, &rows, number) {
+                columns[place] = Column::Ignored;
+            }
+        }
         let file = file.into();
         Ok(Self { file, headers, columns, rows, decimal_comma, spectra_only: false })
     }
@@ -184,7 +207,7 @@ impl CsvRows {
             .collect();
         let what = || {
             format!(
-                "{}: columns that name no pigment are ignored: {}",
+                "{}: columns that hold no amounts of a pigment are ignored: {}",
                 self.file,
                 ignored.join(", ")
             )
@@ -226,15 +249,7 @@ impl CsvRows {
                     text: cell.to_owned(),
                 })
             };
-            let number = |wanted| {
-                // With decimal commas, a point may separate thousands.
-                let value = match self.decimal_comma {
-                    true if cell.contains('.') => None,
-                    true => cell.replace(',', ".").parse::<f64>().ok(),
-                    false => cell.parse::<f64>().ok(),
-                };
-                value.filter(|value| value.is_finite()).ok_or_else(|| wrong(wanted))
-            };
+            let number = |wanted| parsed(cell, self.decimal_comma).ok_or_else(|| wrong(wanted));
             match column {
                 Column::Sample if cell.is_empty() => return Err(wrong("the sample's name")),
                 Column::Sample | Column::Backing if cell.contains(char::is_control) => {
@@ -242,11 +257,7 @@ impl CsvRows {
                 }
                 Column::Sample => cell.clone_into(&mut reading.sample),
                 Column::Film => {
-                    reading.film = match cell.to_ascii_lowercase().as_str() {
-                        "paint" | "" => Film::Paint,
-                        "none" => Film::None,
-                        _ => return Err(wrong("`paint` or `none`")),
-                    }
+                    reading.film = Film::named(cell).ok_or_else(|| wrong("`paint` or `none`"))?;
                 }
                 Column::Backing => cell.clone_into(&mut reading.backing),
                 Column::Thickness if cell.is_empty() => {}

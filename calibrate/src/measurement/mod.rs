@@ -6,13 +6,21 @@
 
 mod error;
 
+mod error_hint;
+
 mod scale;
 
 mod table;
 
+mod coordinates;
+
 mod column;
 
 mod common_grid;
+
+mod csv_row;
+
+mod no_amounts;
 
 mod csv;
 

@@ -36,13 +36,18 @@ struct StatedColumns {
 
 impl Recipes {
     /// Reads the recipes in `bytes`, the content of `file`. Columns are `sample`, then optionally `film`,
-    /// `backing`, `thickness_mm`, and one for each pigment. Where one sample was read several times, over
+    /// `backing`, `thickness_mm`, and one for each pigment (those headed as one of `pigments`, if given).
+    /// Where one sample was read several times, over
     /// two backings or bare, a column `reading` holds the name of each reading in the measurement file.
     ///
     /// # Errors
     /// [`RecipesError`] with the row.
-    pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, RecipesError> {
-        let table_rows = CsvRows::open(file, bytes, TableKind::Recipes)?;
+    pub fn from_csv(
+        file: &str,
+        bytes: &[u8],
+        pigments: Option<&[String]>,
+    ) -> Result<Self, RecipesError> {
+        let table_rows = CsvRows::open(file, bytes, TableKind::Recipes, pigments)?;
         let position = |wanted: Column| table_rows.columns.iter().position(|c| *c == wanted);
         let is_wavelength = |column: &Column| matches!(column, Column::Wavelength(_));
         if let Some(index) = table_rows.columns.iter().position(is_wavelength) {

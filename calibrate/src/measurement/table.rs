@@ -16,6 +16,17 @@ pub enum Film {
     None,
 }
 
+impl Film {
+    /// The kind of surface that a cell of the column `film` names; an empty cell is paint.
+    pub(super) fn named(cell: &str) -> Option<Self> {
+        match cell.to_ascii_lowercase().as_str() {
+            "paint" | "" => Some(Self::Paint),
+            "none" => Some(Self::None),
+            _ => None,
+        }
+    }
+}
+
 /// One reading of reflectance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {

@@ -55,6 +55,11 @@ pub(super) struct CalibrationOptions {
     /// several times (over white, over black, bare).
     #[arg(long, value_name = "FILE")]
     recipes: Option<PathBuf>,
+    /// Heading of a column that is a pigment (may be repeated): the others are ignored
+    ///
+    /// [default: every column that is not known as something else and holds amounts]
+    #[arg(long, value_name = "NAME")]
+    pigments: Vec<String>,
     /// Method of the fit
     #[arg(long, value_enum, default_value = "refined")]
     method: MethodName,
@@ -91,7 +96,7 @@ impl CalibrationOptions {
 
     /// Reads the measurement files and prints remarks on them.
     pub(super) fn readings(&self, console: &mut Console<'_>) -> Result<Readings> {
-        measurements(&self.files, self.recipes.as_deref(), &self.reading, console)
+        measurements(&self.files, self.recipes.as_deref(), &self.pigments, &self.reading, console)
     }
 
     /// Options of the fit; colour errors are computed under `viewing`.

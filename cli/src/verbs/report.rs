@@ -119,7 +119,7 @@ impl Report {
             return Ok(None);
         }
         let recipes = self.recipes.as_deref();
-        let readings = measurements(&self.files, recipes, &self.reading, console)?;
+        let readings = measurements(&self.files, recipes, &[], &self.reading, console)?;
         Ok(Some(Comparable::of(&readings.swatches()?, library)?))
     }
 
