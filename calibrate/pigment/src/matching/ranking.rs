@@ -55,8 +55,18 @@ pub fn recipes(
     target: &Target,
     request: &MatchRequest,
 ) -> Result<Vec<RecipeMatch>, MatchError> {
-    let control = SearchControl::default();
-    Ok(recipes_with_control(library, target, request, &control)?.unwrap_or_default())
+    Ok(recipes_and_nearest(library, target, request)?.0)
+}
+
+/// Searches recipes like [`recipes`], and tells the distance of the nearest recipe of all, which the list
+/// may leave out because another is as near within the tolerance.
+pub(super) fn recipes_and_nearest(
+    library: &PigmentLibrary,
+    target: &Target,
+    request: &MatchRequest,
+) -> Result<(Vec<RecipeMatch>, f64), MatchError> {
+    let found = searched(library, target, request, &SearchControl::default())?;
+    Ok(found.unwrap_or_else(|| (Vec::new(), f64::INFINITY)))
 }
 
 /// Searches recipes like [`recipes`], under the control of another thread. Returns `None` if the search
@@ -74,6 +84,16 @@ pub fn recipes_with_control(
     request: &MatchRequest,
     control: &SearchControl,
 ) -> Result<Option<Vec<RecipeMatch>>, MatchError> {
+    Ok(searched(library, target, request, control)?.map(|(recipes, _)| recipes))
+}
+
+/// Recipes and the distance of the nearest of all.
+fn searched(
+    library: &PigmentLibrary,
+    target: &Target,
+    request: &MatchRequest,
+    control: &SearchControl,
+) -> Result<Option<(Vec<RecipeMatch>, f64)>, MatchError> {
     request.check(library)?;
     let forward = Forward::new(library, request).expect("the method fits the grid");
     let candidates = search(&forward, request, target, control);
@@ -91,9 +111,10 @@ pub fn recipes_with_control(
         return Ok(None);
     }
     let cost = |candidate: &Candidate| cost(library, request, candidate);
-    let ranked = ranked(found, request, &cost);
+    let nearest = found.iter().map(|(_, c)| c.distance).fold(f64::INFINITY, f64::min);
+    let ranked = ranked(found, nearest, request, &cost);
     let recipes = ranked.into_iter().map(|found| recipe(&forward, request, target, found, &cost));
-    Ok(Some(recipes.collect()))
+    Ok(Some((recipes.collect(), nearest)))
 }
 
 /// Number of recipes in whole parts searched for each one returned. More are searched because those that add
@@ -105,10 +126,10 @@ type Found = (Option<Vec<u32>>, Candidate);
 
 fn ranked(
     mut found: Vec<Found>,
+    nearest: f64,
     request: &MatchRequest,
     cost: &dyn Fn(&Candidate) -> f64,
 ) -> Vec<Found> {
-    let nearest = found.iter().map(|(_, c)| c.distance).fold(f64::INFINITY, f64::min);
     let equal = |c: &Candidate| c.distance <= nearest + request.tolerance;
     let smallest = |c: &Candidate| c.shares.iter().copied().fold(1.0, f64::min);
     found.sort_by(|(_, a), (_, b)| {

@@ -4,7 +4,7 @@ use spectra::hint::Hint;
 
 use super::error::MatchError;
 use super::options::MatchOptions;
-use super::ranking::{RecipeMatch, recipes};
+use super::ranking::{RecipeMatch, recipes, recipes_and_nearest};
 use super::request::MatchRequest;
 use super::target::{ColorTarget, Target, TargetColor};
 use super::viewing_condition::Metric;
@@ -38,13 +38,15 @@ pub struct RecipeMatches {
     pub by_cie1976: Vec<RecipeMatch>,
     /// Choices made in the search, and warnings.
     pub remarks: Vec<Remark>,
+    nearest: f64,
 }
 
 impl RecipeMatches {
-    /// Least distance of any recipe, in CIEDE2000.
+    /// Least distance of any recipe that was found, in CIEDE2000. The list may leave that recipe out for
+    /// another one that is as near within the tolerance.
     #[must_use]
     pub fn nearest(&self) -> f64 {
-        self.recipes.iter().map(|recipe| recipe.distance).fold(f64::INFINITY, f64::min)
+        self.nearest
     }
 
     /// Advice for a target from which all recipes differ visibly; `None` if one is nearer than 1
@@ -103,16 +105,51 @@ impl RecipeSearch<'_> {
             remarks.extend(check_visible_band(reflectance.grid())?);
         }
         let target = target.under(&self.request.conditions)?;
-        let found = recipes(self.library, &target, &self.request)?;
+        let (found, nearest) = recipes_and_nearest(self.library, &target, &self.request)?;
         if found.is_empty() {
             return Err(MatchError::NoRecipe);
         }
-        let mut matches = RecipeMatches { target, recipes: found, by_cie1976: Vec::new(), remarks };
+        let by_cie1976 = Vec::new();
+        let mut matches = RecipeMatches { target, recipes: found, by_cie1976, remarks, nearest };
         if matches.nearest() > FAR {
             let metric = Metric::Cie1976;
             let request = MatchRequest { metric, count: 1, ..self.request.clone() };
             matches.by_cie1976 = recipes(self.library, &matches.target, &request)?;
         }
         Ok(matches)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn search(target: &str, options: MatchOptions) -> RecipeMatches {
+        let oils = PigmentLibrary::van_gogh_oils();
+        oils.recipes_for(&target.parse().unwrap(), &options).unwrap()
+    }
+
+    #[test]
+    fn a_target_out_of_reach_gets_the_nearest_recipe_there_is() {
+        for (target, names, known) in [
+            ("85,0,110", &["Lead White", "Chrome Yellow", "Chrome Yellow (Otero)"][..], 6.023),
+            ("30,60,-30", &["Cochineal Lake", "Viridian"][..], 13.62),
+        ] {
+            let only = names.iter().map(|name| (*name).to_owned()).collect();
+            let found = search(target, MatchOptions { only, ..MatchOptions::default() });
+            assert!(found.nearest() < known, "{target}: {}", found.nearest());
+            assert!(found.recipes[0].distance < known + 0.05, "{target}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_is_told_though_the_list_stops_within_the_tolerance() {
+        let of = |tolerance: f64| {
+            search("45,10,20", MatchOptions { tolerance, count: 1, ..MatchOptions::default() })
+        };
+        let (fine, coarse) = (of(0.0), of(2.0));
+        assert!((fine.nearest() - coarse.nearest()).abs() < 1e-9);
+        assert!(coarse.recipes[0].distance > coarse.nearest(), "{:?}", coarse.recipes[0]);
+        assert!(coarse.recipes[0].distance <= coarse.nearest() + 2.0);
     }
 }

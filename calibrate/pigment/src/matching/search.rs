@@ -12,6 +12,10 @@ use super::search_control::SearchControl;
 use super::target::Target;
 use crate::recipe::PigmentId;
 
+/// Distance of the nearest recipe beyond which a target is out of reach, and sets are searched from more
+/// starting points.
+const FAR: f64 = 2.0;
+
 /// Most sets of one size that are tried: all sets of four out of 30 pigments. For a larger library
 /// only the nearest smaller recipes are extended.
 const MOST_SETS: usize = 30_000;
@@ -52,6 +56,17 @@ pub(super) fn search(
             break;
         }
         sets = grown;
+    }
+    // Beyond the gamut the distance has several minima, many of them near one pigment.
+    if found.iter().all(|candidate| candidate.distance > FAR) && !control.cancelled() {
+        found.par_iter_mut().for_each_init(Scratch::default, |scratch, candidate| {
+            for corner in corners(request, &candidate.pigments) {
+                let end = descend(forward, request, target, &corner, scratch);
+                if end.distance < candidate.distance {
+                    *candidate = end;
+                }
+            }
+        });
     }
     found.sort_by(|a, b| {
         a.distance.total_cmp(&b.distance).then_with(|| a.pigments.cmp(&b.pigments))
@@ -141,6 +156,16 @@ fn starts(
     }
     starts.extend(candidate(request, set, &even, middle));
     starts
+}
+
+/// Starting points at which one pigment of the set has as much as the bounds allow.
+fn corners(request: &MatchRequest, set: &[PigmentId]) -> Vec<Candidate> {
+    let (thinnest, thickest) = request.thickness();
+    let most_of = |main: &PigmentId| {
+        let wished: Vec<f64> = set.iter().map(|p| f64::from(u8::from(p == main))).collect();
+        candidate(request, set, &wished, (thinnest * thickest).sqrt())
+    };
+    set.iter().filter_map(most_of).collect()
 }
 
 /// Shares within their bounds, as near to the proportions of `wished` as those allow.
