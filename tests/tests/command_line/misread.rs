@@ -32,3 +32,30 @@ fn rows_are_those_of_the_file_with_crlf_and_blank_lines() {
         refused(&run("prices.csv", prices.as_bytes(), &matching), &["row 4", "`dear`"]);
     }
 }
+
+#[test]
+fn lamps_and_paint_are_not_taken_for_each_other() {
+    let grey = suite::program::repository("spectra/examples/paints.csv");
+    let lamp = |name: &str, text: &str| {
+        run(name, text.as_bytes(), &["color", grey.as_str(), "--illuminant", "FILE"])
+    };
+    refused(&lamp("narrow.csv", "nm,power\n500,1\n510,2\n"), &["420 to 680 nm", "narrow.csv"]);
+    refused(&lamp("paint.csv", "nm,%R\n400,10\n700,20\n"), &["found `reflectance`", "hint: "]);
+    let irradiance = "Jaz Absolute Irradiance File\n>>>>>Begin Processed\nW\tD\tS\tP\n\
+        400\t1\t50\t0.5\n500\t1\t50\t0.5\n700\t1\t20\t0.7\n>>>>>End\n";
+    let paint = run("sun.JazIrrad", irradiance.as_bytes(), &["color", "FILE"]);
+    refused(&paint, &["the power of a light", "--illuminant"]);
+}
+
+#[test]
+fn pigments_can_be_named() {
+    let table = "sample,White,Red,No,L,a,b,400,500,600,700\n\
+        w,1,0,1,92,0,2,0.8,0.82,0.84,0.85\nr,0,1,2,40,50,30,0.05,0.06,0.5,0.6\n\
+        m,0.5,0.5,3,60,30,10,0.2,0.25,0.65,0.7\n";
+    let fitted = run("lab.csv", table.as_bytes(), &["fit", "FILE"]);
+    assert_eq!(fitted.status, 0, "{}", fitted.err);
+    assert!(fitted.out.contains("2 pigments from 3 samples"), "{}", fitted.out);
+    assert!(fitted.err.contains("ignored: No, L, a, b"), "{}", fitted.err);
+    let one = ["fit", "FILE", "--pigments", "White", "--pigments", "Blue"];
+    refused(&run("lab.csv", table.as_bytes(), &one), &["`Blue`", "heading of a column"]);
+}

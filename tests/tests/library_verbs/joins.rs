@@ -70,7 +70,7 @@ fn a_merged_library_mixes_as_its_sources_do() {
     assert_eq!(library.pigments.len(), 6);
     assert_eq!(library.inputs.len(), 1, "the same file twice is one input");
     assert_eq!(library.licence, "CC0 1.0", "the same licence twice is one");
-    assert!(library.evidence.is_none() && library.pigments[0].notes[0].contains("off by 1.34"));
+    assert!(library.evidence.is_none() && library.pigments[0].notes[0].contains("off by 1.38"));
     assert!(
         furthest(&read(&oils()), &library) < ROUNDING,
         "{}",
