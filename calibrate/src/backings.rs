@@ -1,6 +1,6 @@
 //! Films over two cards whose names may be exchanged.
 
-use crate::measurement::MeasurementError;
+use crate::measurement::{DarkerFilm, MeasurementError};
 use crate::observation::{LEAST_CONTRAST, alike};
 use crate::swatch::{Swatch, SwatchFilm, SwatchSet};
 
@@ -16,18 +16,13 @@ const CHANCE: f64 = 3.0;
 /// [`MeasurementError::DarkerOverBrighter`] for the first such sample.
 pub(crate) fn check_backings(set: &SwatchSet) -> Result<(), MeasurementError> {
     let mut faults = set.swatches.iter().filter_map(|swatch| fault(set, swatch));
-    match faults.next() {
-        Some(mut first) => {
-            if let MeasurementError::DarkerOverBrighter { others, .. } = &mut first {
-                *others = faults.count();
-            }
-            Err(first)
-        }
-        None => Ok(()),
-    }
+    faults.next().map_or(Ok(()), |first| {
+        let film = DarkerFilm { others: faults.count(), ..first };
+        Err(MeasurementError::DarkerOverBrighter(Box::new(film)))
+    })
 }
 
-fn fault(set: &SwatchSet, swatch: &Swatch) -> Option<MeasurementError> {
+fn fault(set: &SwatchSet, swatch: &Swatch) -> Option<DarkerFilm> {
     let pairs =
         swatch.films.iter().flat_map(|bright| swatch.films.iter().map(move |d| (bright, d)));
     let (bright, dark, places) = pairs
@@ -36,7 +31,7 @@ fn fault(set: &SwatchSet, swatch: &Swatch) -> Option<MeasurementError> {
         .find(|(_, _, places)| !places.is_empty())?;
     let by = |&at: &usize| dark.reflectance[at] - bright.reflectance[at];
     let worst = places.iter().copied().max_by(|a, b| by(a).total_cmp(&by(b)))?;
-    Some(MeasurementError::DarkerOverBrighter {
+    Some(DarkerFilm {
         file: swatch.file.to_string(),
         row: swatch.row,
         sample: swatch.sample.clone(),
@@ -44,8 +39,7 @@ fn fault(set: &SwatchSet, swatch: &Swatch) -> Option<MeasurementError> {
         dark: dark.backing.clone(),
         by: by(&worst),
         nm: set.grid.nm(worst),
-        first_nm: set.grid.nm(places[0]),
-        last_nm: set.grid.nm(places[places.len() - 1]),
+        band_nm: [places[0], places[places.len() - 1]].map(|at| set.grid.nm(at)),
         others: 0,
     })
 }

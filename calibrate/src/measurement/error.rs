@@ -1,5 +1,6 @@
 //! Faults of measurement files, each with its place.
 
+use super::darker_film::DarkerFilm;
 use spectra::instrument::MeasuredQuantity;
 
 use spectra::csv_table::{CellPlace, CsvTableError};
@@ -7,15 +8,6 @@ use spectra::csv_table::{CellPlace, CsvTableError};
 /// The k1 that lies below the reading `least` by a little, with the three digits in which k1 is written.
 pub(crate) fn k1_below(least: f64) -> f64 {
     (least * 0.95 * 1000.0).floor() / 1000.0
-}
-
-/// Remark that `others` more samples have a fault.
-fn also(others: usize) -> String {
-    match others {
-        0 => String::new(),
-        1 => "; one more sample is".to_owned(),
-        _ => format!("; {others} more samples are"),
-    }
 }
 
 /// Readings that cannot be used. Every variant names the place of the fault.
@@ -187,31 +179,8 @@ pub enum MeasurementError {
         below_all: String,
     },
     /// A film is darker over the brighter of two cards.
-    #[error(
-        "{file}, row {row}: sample {sample} is darker over the brighter card {bright} than over {dark}, by {by:.3} at {nm} nm (too dark from {first_nm} to {last_nm} nm){}", also(*others)
-    )]
-    DarkerOverBrighter {
-        /// File name as the caller gave it.
-        file: String,
-        /// Row of the first reading of the sample, the header being row 1.
-        row: u64,
-        /// Name of the sample.
-        sample: String,
-        /// Backing whose bare card is the brighter.
-        bright: String,
-        /// Backing whose bare card is the darker.
-        dark: String,
-        /// Largest difference of reflectance.
-        by: f64,
-        /// Wavelength of the largest difference, in nm.
-        nm: f64,
-        /// First wavelength at which the film is too dark, in nm.
-        first_nm: f64,
-        /// Last wavelength at which the film is too dark, in nm.
-        last_nm: f64,
-        /// Number of further samples with this fault.
-        others: usize,
-    },
+    #[error("{0}")]
+    DarkerOverBrighter(Box<DarkerFilm>),
     /// A reading is above the greatest value under this surface.
     #[error(
         "{file}, row {row}: sample {sample} reads `{measured}` at {nm} nm, above a perfect white"

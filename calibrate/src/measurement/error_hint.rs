@@ -59,8 +59,9 @@ impl Explain for MeasurementError {
             Self::MostBelowSurface { below_all, .. } => format!(
                 "readings in fractions (white near 1) take [fraction]; for a surface that reflects less, give its k1 and k2, such as [saunderson={below_all}]"
             ),
-            Self::DarkerOverBrighter { bright, dark, sample, .. } => format!(
-                "paint cannot do this; {bright} and {dark} may be exchanged in the column `backing`, or leave the sample out: [exclude={sample}]"
+            Self::DarkerOverBrighter(film) => format!(
+                "paint cannot do this; {} and {} may be exchanged in the column `backing`, or leave the sample out: [exclude={}]",
+                film.bright, film.dark, film.sample
             ),
             Self::NoPigmentColumn { .. } => {
                 "[pigments=NAME] takes the heading of a column, once for each pigment".into()

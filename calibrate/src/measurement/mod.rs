@@ -4,6 +4,8 @@
 //! `backing`, `thickness_mm`, `replicate`, then one for each pigment (amount), then the wavelengths in nm.
 //! Readings without amounts take them from a CSV of recipes.
 
+mod darker_film;
+
 mod error;
 
 mod error_hint;
@@ -33,6 +35,7 @@ mod records;
 pub use averaged::{AveragedSpectra, AveragedSpectrum, SpectrumNameError};
 pub use column::names_a_pigment;
 pub use csv::is_measurement_csv;
+pub use darker_film::DarkerFilm;
 pub use error::MeasurementError;
 pub(crate) use error::k1_below;
 pub use recipes::{Recipes, RecipesError};
