@@ -132,10 +132,10 @@ fn sprague_is_refused_below_six_wavelengths() {
 fn a_lamp_is_read_from_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("lamp.csv");
-    std::fs::write(&file, "# desk lamp\nnm,power\n400,1\n600,3\n").unwrap();
+    std::fs::write(&file, "# desk lamp\nnm,power\n400,1\n700,4\n").unwrap();
     let lamp = light_from_text(file.to_str().unwrap()).unwrap();
     let at = |nm: f64| lamp.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap();
-    assert_eq!([at(360.0), at(500.0), at(700.0)], [1.0, 2.0, 3.0], "{}", lamp.name());
+    assert_eq!([at(360.0), at(500.0), at(800.0)], [1.0, 2.0, 4.0], "{}", lamp.name());
 
     std::fs::write(&file, "400,1\n600,-3\n").unwrap();
     let error = light_from_text(file.to_str().unwrap()).unwrap_err();
