@@ -47,9 +47,6 @@ const INTERVAL: Duration = Duration::from_millis(4);
 /// all the time.
 const MARGIN: f64 = 1.5;
 
-/// Time that the program gets to become still.
-const STILL: Duration = Duration::from_secs(3);
-
 /// All measurements.
 const NAMES: [&str; 5] = ["round", "flat", "idle", "strokes", "large"];
 
@@ -134,8 +131,8 @@ fn speed(
 /// Prints the share of one core that the program takes at rest.
 fn idle(screen: &Screen, folder: &Path, seconds: f64) {
     let program = start(screen, folder, &[]);
-    std::thread::sleep(STILL);
     let usage = Usage::of(&program.child);
+    usage.settle();
     let before = usage.processor_seconds();
     std::thread::sleep(Duration::from_secs_f64(seconds));
     let share = 100.0 * (usage.processor_seconds() - before) / seconds;
@@ -145,14 +142,14 @@ fn idle(screen: &Screen, folder: &Path, seconds: f64) {
 /// Prints the memory at the start and after 200 strokes.
 fn strokes(screen: &Screen, folder: &Path) {
     let program = start(screen, folder, &[]);
-    std::thread::sleep(STILL);
     let usage = Usage::of(&program.child);
+    usage.settle();
     println!("  at the start: {}", usage.memory());
     let hand = Hand::over(&program);
     for number in 0..200 {
         hand.stroke(number);
         if (number + 1) % 50 == 0 {
-            std::thread::sleep(STILL);
+            usage.settle();
             println!("  after {:3} strokes: {}", number + 1, usage.memory());
         }
     }
@@ -163,12 +160,12 @@ fn large(screen: &Screen, folder: &Path) -> Result<(), Box<dyn Error>> {
     let path = folder.join("large.exr");
     paintings::bare(&path, 8000)?;
     let program = start(screen, folder, &[&path]);
-    std::thread::sleep(STILL);
     let usage = Usage::of(&program.child);
+    usage.settle();
     println!("  8000 x 8000 cells, opened: {}", usage.memory());
     let hand = Hand::over(&program);
     (0..2).for_each(|number| hand.stroke(40 * number));
-    std::thread::sleep(STILL);
+    usage.settle();
     println!("  after two strokes: {}", usage.memory());
     Ok(())
 }

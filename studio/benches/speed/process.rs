@@ -2,9 +2,16 @@
 
 use std::path::PathBuf;
 use std::process::Child;
+use std::time::Duration;
 
 /// Ticks of the processor time in a second, as Linux reports it on all common machines.
 const TICKS: f64 = 100.0;
+
+/// Share of a core below which a program is at rest: its log of figures draws a frame a second.
+const REST: f64 = 0.2;
+
+/// Seconds after which the wait for rest ends.
+const LONGEST: usize = 120;
 
 /// A process.
 pub(crate) struct Usage {
@@ -14,6 +21,21 @@ pub(crate) struct Usage {
 impl Usage {
     pub(crate) fn of(child: &Child) -> Self {
         Self { folder: PathBuf::from(format!("/proc/{}", child.id())) }
+    }
+
+    /// Waits until the process has been at rest for two seconds.
+    pub(crate) fn settle(&self) {
+        let mut still = 0;
+        for _ in 0..LONGEST {
+            let before = self.processor_seconds();
+            std::thread::sleep(Duration::from_secs(1));
+            let rests = self.processor_seconds() - before < REST;
+            still = if rests { still + 1 } else { 0 };
+            if still == 2 {
+                return;
+            }
+        }
+        println!("  still at work after {LONGEST} s");
     }
 
     /// Memory in use now and at most so far, in words.

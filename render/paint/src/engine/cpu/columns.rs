@@ -2,7 +2,7 @@
 //! penetration of the head need not sum the pigments.
 
 use crate::layer::{Cell, Layer, SLOTS};
-use graphics::tile::{Rect, TileSet};
+use graphics::tile::{Rect, TILE, TileSet};
 
 /// A layer and the volume of each of its cells; 40 bytes a cell.
 #[derive(Debug, Clone)]
@@ -72,14 +72,26 @@ impl Columns {
         self.volume[index] = cell.volume();
     }
 
-    /// Replaces the cells under `part`, whose upper left cell goes to column `x` of
-    /// row `y`.
+    /// Replaces the cells under `part`, whose upper left cell goes to column `x` of row `y`. Where
+    /// neither has paint, nothing is written, so that no memory is taken there.
     pub(super) fn put(&mut self, (x, y): (usize, usize), part: &Layer) {
-        self.layer.put((x, y), part);
+        let (width, pigments) = (self.layer.width(), self.layer.pigments.values_mut());
+        let vehicle = self.layer.vehicle.values_mut();
         for row in 0..part.height() {
-            let first = (y + row) * self.layer.width() + x;
-            for (column, volume) in self.volume[first..][..part.width()].iter_mut().enumerate() {
-                *volume = part.cell(row * part.width() + column).volume();
+            for column in (0..part.width()).step_by(TILE) {
+                let count = TILE.min(part.width() - column);
+                let first = (y + row) * width + x + column;
+                let volume = &mut self.volume[first..][..count];
+                let from = row * part.width() + column;
+                let found = (from..from + count).map(|index| part.cell(index));
+                let bare = volume.iter().all(|&volume| volume == 0);
+                if bare && found.clone().all(|cell| cell.volume() == 0) {
+                    continue;
+                }
+                let cells = pigments[first..].iter_mut().zip(&mut vehicle[first..]).zip(volume);
+                for (((pigments, vehicle), volume), cell) in cells.zip(found) {
+                    (*pigments, *vehicle, *volume) = (cell.pigments, cell.vehicle, cell.volume());
+                }
             }
         }
     }
@@ -145,4 +157,33 @@ pub(super) struct Row<'a> {
     pub(super) pigments: &'a mut [[u32; SLOTS]],
     pub(super) vehicle: &'a mut [u32],
     pub(super) volume: &'a mut [u32],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_replaces_paint_by_paint_and_by_bare_canvas() {
+        let paint = Cell { pigments: [3; SLOTS], vehicle: 5 };
+        let (mut full, mut part) = (Layer::empty(200, 3), Layer::empty(150, 2));
+        (0..600).for_each(|index| full.set_cell(index, paint));
+        let alone = Cell { pigments: [0; SLOTS], vehicle: 7 };
+        part.set_cell(149, alone);
+        for before in [full, Layer::empty(200, 3)] {
+            let mut columns = Columns::new(before.clone());
+            columns.put((40, 1), &part);
+            for index in 0..600 {
+                let (x, y) = (index % 200, index / 200);
+                let inside = (40..190).contains(&x) && y >= 1;
+                let wanted = match (x, y) {
+                    (189, 1) => alone,
+                    _ if inside => Cell::default(),
+                    _ => before.cell(index),
+                };
+                assert_eq!(columns.cell(index), wanted, "({x}, {y})");
+                assert_eq!(columns.volume()[index], wanted.volume(), "({x}, {y})");
+            }
+        }
+    }
 }
