@@ -36,6 +36,9 @@ pub fn run(start: Start) -> Result<(), Problem> {
             let context = &creation.egui_ctx;
             if let Some(drawn) = &creation.wgpu_render_state {
                 view::set_format(context, drawn.target_format);
+                if drawn.adapter.get_info().device_type == DeviceType::Cpu {
+                    view::draw_meshes(context);
+                }
             }
             let mut files = Files::new(context, start.home, start.preferences);
             files.pace = start.pace;

@@ -10,6 +10,8 @@ mod quad;
 
 mod fills;
 
+mod meshes;
+
 mod picture;
 
 mod outline;
@@ -21,6 +23,7 @@ mod surface;
 mod light_switch;
 
 pub use fills::quicken;
+pub use meshes::draw_meshes;
 pub use outline::Outline;
 pub use picture::{DrawnPart, Picture};
 pub use quad::fill_rect;

@@ -1,6 +1,6 @@
-//! Render pipelines for textured and coloured quads.
+//! Render pipelines for textured and coloured quads, and for the meshes of the interface.
 
-use eframe::egui_wgpu::wgpu;
+use eframe::egui_wgpu::{CallbackResources, wgpu};
 use wgpu::util::DeviceExt;
 use wgpu::{
     AddressMode, BindGroup, BindGroupLayout, Buffer, Device, FilterMode, RenderPipeline, Sampler,
@@ -19,6 +19,8 @@ pub(super) struct Pipelines {
     pub(super) textured: RenderPipeline,
     /// Draws the interpolated colours of the vertices.
     pub(super) flat_color: RenderPipeline,
+    /// Draws a texture times the colours of the vertices, premultiplied, over what is there.
+    pub(super) blended: RenderPipeline,
     layout: BindGroupLayout,
     /// Nearest-neighbour and linear filtering.
     samplers: [Sampler; 2],
@@ -45,7 +47,7 @@ impl Pipelines {
         // egui works in encoded values. A target with an sRGB format encodes what is
         // written, so the shader must decode it first.
         let constants = [("output_is_linear", f64::from(u8::from(format.is_srgb())))];
-        let pipeline = |fragment: &str, groups: &[Option<&BindGroupLayout>]| {
+        let pipeline = |fragment: &str, groups: &[Option<&BindGroupLayout>], blend| {
             let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(fragment),
                 bind_group_layouts: groups,
@@ -75,7 +77,7 @@ impl Pipelines {
                     module: &module,
                     entry_point: Some(fragment),
                     compilation_options: options,
-                    targets: &[Some(format.into())],
+                    targets: &[Some(wgpu::ColorTargetState { blend, ..format.into() })],
                 }),
                 multiview_mask: None,
                 cache: None,
@@ -91,9 +93,23 @@ impl Pipelines {
                 ..wgpu::SamplerDescriptor::default()
             })
         });
-        let textured = pipeline("textured", &[Some(&layout)]);
-        let flat_color = pipeline("flat_color", &[]);
-        Self { format, textured, flat_color, layout, samplers }
+        let textured = pipeline("textured", &[Some(&layout)], None);
+        let flat_color = pipeline("flat_color", &[], None);
+        let over = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+        let blended = pipeline("blended", &[Some(&layout)], over);
+        Self { format, textured, flat_color, blended, layout, samplers }
+    }
+
+    /// The pipelines for targets of this format, built when they are first asked for.
+    pub(super) fn of<'a>(
+        device: &Device,
+        format: TextureFormat,
+        resources: &'a mut CallbackResources,
+    ) -> &'a Self {
+        if resources.get().is_none_or(|kept: &Self| kept.format != format) {
+            resources.insert(Self::new(device, format));
+        }
+        resources.entry::<Self>().or_insert_with(|| Self::new(device, format))
     }
 
     /// Creates a texture of `size` cells, with a bind group for each sampler.

@@ -60,7 +60,8 @@ impl LazyTexture {
         cells.pending.iter().map(|(_, image)| image.pixels.len()).sum()
     }
 
-    fn upload(&self, device: &Device, queue: &Queue, pipelines: &Pipelines) {
+    /// Uploads what was written, into a texture that is created the first time.
+    pub(super) fn upload(&self, device: &Device, queue: &Queue, pipelines: &Pipelines) {
         let mut cells = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let TextureState { size, pending, texture } = &mut *cells;
         let (texture, _) = texture.get_or_insert_with(|| pipelines.texture(device, *size));
@@ -78,7 +79,8 @@ impl LazyTexture {
         }
     }
 
-    fn bind_group(&self, smooth: bool) -> Option<BindGroup> {
+    /// The texture as a shader reads it, once it was uploaded.
+    pub(super) fn bind_group(&self, smooth: bool) -> Option<BindGroup> {
         let cells = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         cells.texture.as_ref().map(|(_, bind_group)| bind_group[usize::from(smooth)].clone())
     }
@@ -118,7 +120,8 @@ pub(super) struct QuadCanvas {
     pub(super) visible: Rect,
     /// Pixels per point.
     pub(super) density: f32,
-    format: TextureFormat,
+    /// Format of the window's pixels.
+    pub(super) format: TextureFormat,
 }
 
 impl QuadCanvas {
@@ -198,10 +201,7 @@ impl CallbackTrait for DrawQuads {
         _: &mut wgpu::CommandEncoder,
         resources: &mut CallbackResources,
     ) -> Vec<wgpu::CommandBuffer> {
-        if resources.get().is_none_or(|kept: &Pipelines| kept.format != self.format) {
-            resources.insert(Pipelines::new(device, self.format));
-        }
-        let Some(pipelines) = resources.get::<Pipelines>() else { return Vec::new() };
+        let pipelines = Pipelines::of(device, self.format, resources);
         for (texture, _) in self.quads.iter().filter_map(|quad| quad.texture.as_ref()) {
             texture.upload(device, queue, pipelines);
         }

@@ -1,4 +1,4 @@
-// Draws textured and coloured quads. It has no options beyond that, because a software
+// Draws textured and coloured quads, and the meshes of the interface. It has no options beyond that, because a software
 // driver executes every line of a shader for every pixel.
 
 // The target encodes what is written, so values are decoded to linear light first.
@@ -23,16 +23,25 @@ fn vertex_main(
 }
 
 fn output(color: vec3<f32>) -> vec4<f32> {
+    return translucent(vec4(color, 1.0));
+}
+
+fn translucent(color: vec4<f32>) -> vec4<f32> {
     if output_is_linear {
-        let high = pow((color + 0.055) / 1.055, vec3(2.4));
-        return vec4(select(high, color / 12.92, color <= vec3(0.04045)), 1.0);
+        let high = pow((color.rgb + 0.055) / 1.055, vec3(2.4));
+        return vec4(select(high, color.rgb / 12.92, color.rgb <= vec3(0.04045)), color.a);
     }
-    return vec4(color, 1.0);
+    return color;
 }
 
 @fragment
 fn textured(in: Vertex) -> @location(0) vec4<f32> {
     return output(textureSample(cells, cell_sampler, in.uv).rgb);
+}
+
+@fragment
+fn blended(in: Vertex) -> @location(0) vec4<f32> {
+    return translucent(textureSample(cells, cell_sampler, in.uv) * in.color);
 }
 
 @fragment

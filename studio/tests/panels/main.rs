@@ -86,3 +86,5 @@ mod docking;
 mod working;
 
 mod aids;
+
+mod meshes;
