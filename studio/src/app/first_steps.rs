@@ -6,6 +6,7 @@ use super::callout::{Arrow, plate};
 use super::intent::Intent;
 use super::places::{self, Part};
 use super::studio::Studio;
+use crate::files::bottom_of_notices;
 use crate::keymap::text;
 use crate::language::{tr, tr_format};
 
@@ -47,13 +48,11 @@ impl Studio {
         let painter = ui.painter();
         let canvas = self.canvas.rect();
         let width = WIDTH.min(canvas.width() - 16.0);
-        plate(
-            painter,
-            canvas.center_top() + 14.0 * eframe::egui::Vec2::Y,
-            Arrow::None,
-            width,
-            &canvas_lines(ui.ctx()),
-        );
+        // Messages stand at the top of the window, and would cover the lines.
+        let covered = bottom_of_notices(ui.ctx()).unwrap_or(f32::MIN);
+        let top = canvas.top().max(covered) + 14.0;
+        let lines = canvas_lines(ui.ctx());
+        plate(painter, pos2(canvas.center().x, top), Arrow::None, width, &lines);
         if !self.visible.palette || !self.visible.panels {
             return;
         }

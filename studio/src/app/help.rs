@@ -1,7 +1,7 @@
 //! The window with the table of keys, in which they are changed.
 
 use eframe::egui::{
-    Align, Button, Context, Grid, Label, Layout, RichText, ScrollArea, TextEdit, Ui, vec2,
+    Align, Button, Context, Grid, Label, Layout, RichText, ScrollArea, TextStyle, Ui, Vec2, vec2,
 };
 
 use super::key_editor::KeyEditor;
@@ -9,6 +9,7 @@ use super::volumes::SCENE_POINTER;
 use crate::floating;
 use crate::keymap::{Changes, KeyRow, KeyTable, Keymap, Scope, Shortcut, text};
 use crate::language::{english, tr, tr_format};
+use crate::panels::{small_button, text_field};
 use crate::theme;
 
 /// Width of the window, in points.
@@ -19,6 +20,9 @@ const TITLE: f32 = 124.0;
 
 /// Width of the column of keys, in points.
 const KEYS: f32 = 250.0;
+
+/// Width of the column of keys with large targets, in points.
+const KEYS_TOUCH: f32 = 344.0;
 
 /// Gestures and held keys, which cannot be changed, with descriptions.
 const POINTER: &[(&str, &str)] = &[
@@ -53,12 +57,13 @@ pub(super) fn show(
     changes: &mut Changes,
 ) {
     let shown = floating::show(context, tr("Keys"), "keys", open, |ui| {
-        let height = floating::height_of_contents(ui.ctx()) - 70.0;
         ui.set_width(WIDTH);
         let table = keymap.table(editor.scope);
         head(ui, editor, table, changes);
         notice(ui, editor, table, changes);
         ui.separator();
+        let head = ui.min_rect().height() + ui.spacing().item_spacing.y;
+        let height = floating::height_of_contents(ui.ctx()) - head;
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.set_width(WIDTH - 16.0);
             let mut group = "";
@@ -94,8 +99,7 @@ fn head(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Cha
                 editor.scope = scope;
             }
         }
-        let find =
-            TextEdit::singleline(&mut editor.find).hint_text(tr("find")).desired_width(180.0);
+        let find = text_field(&mut editor.find).hint_text(tr("find")).desired_width(180.0);
         ui.add(find)
             .accessible_name(tr("Find an action"))
             .on_hover_text(tr("Shows only what has this word"));
@@ -139,10 +143,20 @@ fn key_row(
     table: &KeyTable,
     changes: &mut Changes,
 ) {
-    ui.horizontal(|ui| {
+    ui.horizontal_top(|ui| {
         column(ui, TITLE, |ui| ui.strong(&row.title));
-        column(ui, KEYS, |ui| keys_of_row(ui, row, editor, table, changes));
-        ui.add(Label::new(RichText::new(&row.description).weak()).truncate());
+        let keys = if theme::is_touch(ui.ctx()) { KEYS_TOUCH } else { KEYS };
+        column(ui, keys, |ui| keys_of_row(ui, row, editor, table, changes));
+        description(ui, &row.description);
+    });
+}
+
+/// Draws a description in the room that is left: its first line beside the keys, others below.
+fn description(ui: &mut Ui, text: &str) {
+    let above = 0.5 * (ui.spacing().interact_size.y - ui.text_style_height(&TextStyle::Body));
+    ui.vertical(|ui| {
+        ui.add_space(above.max(0.0));
+        ui.add(Label::new(RichText::new(text).weak()).wrap());
     });
 }
 
@@ -155,10 +169,12 @@ fn keys_of_row(
     changes: &mut Changes,
 ) {
     ui.spacing_mut().item_spacing.x = 3.0;
+    let touched = Vec2::splat(theme::target(ui));
     for &key in &row.keys {
         chip(ui, row, Some(key), editor);
         let name = tr_format!("remove {key} of {title}", key = key.text(), title = row.title);
-        let cross = ui.add(Button::new("\u{d7}").small().frame(false)).accessible_name(&name);
+        let cross = small_button(ui, "\u{d7}").frame(false).min_size(touched);
+        let cross = ui.add(cross).accessible_name(&name);
         if cross.on_hover_text(tr("Removes this key")).clicked() {
             editor.stop();
             table.remove(&row.name, key, changes);
@@ -167,7 +183,7 @@ fn keys_of_row(
     chip(ui, row, None, editor);
     if row.keys != row.standard {
         let name = tr_format!("standard keys of {title}", title = row.title);
-        let back = ui.add(Button::new(tr("standard")).small()).accessible_name(&name);
+        let back = ui.add(small_button(ui, tr("standard"))).accessible_name(&name);
         let keys: Vec<String> = row.standard.iter().map(Shortcut::text).collect();
         let keys = if keys.is_empty() { tr("none").to_owned() } else { keys.join(", ") };
         if back.on_hover_text(tr_format!("Back to the standard: {keys}", keys)).clicked() {
@@ -204,7 +220,7 @@ fn chip(ui: &mut Ui, row: &KeyRow, key: Option<Shortcut>, editor: &mut KeyEditor
             tr("Click and press one more key for this; Escape leaves it"),
         ),
     };
-    let mut button = Button::new(shown).small();
+    let mut button = small_button(ui, &shown).min_size(Vec2::splat(theme::target(ui)));
     if waits {
         button = button.fill(theme::colors(ui.ctx()).chosen);
     }

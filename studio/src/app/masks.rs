@@ -14,6 +14,9 @@ use session::{Command, MaskState};
 /// Distance in points by which the pen moves for another point of a polygon.
 const STEP: f32 = 3.0;
 
+/// Width of the outline, in points.
+const WIDTH: f32 = 1.2;
+
 /// Most points of a polygon, within the limit of a script.
 const MOST_POINTS: usize = 4000;
 
@@ -97,11 +100,13 @@ fn draw_outline(painter: &Painter, placement: &Placement, mask: &MaskState, phas
 /// that the dashes of joined lines follow each other.
 fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
     let way = to - from;
+    // The stairs of an outline are shorter than the line is wide: longer ends close their corners.
+    let cap = 0.5 * WIDTH * way.normalized();
     let along = |point: Pos2| point.x + point.y + phase;
     let (start, end) = (along(from), along(to));
     let run = end - start;
     if run.abs() < 0.01 {
-        painter.line_segment([from, to], Stroke::new(1.2, Color32::WHITE));
+        painter.line_segment([from, to], Stroke::new(WIDTH, Color32::WHITE));
         return;
     }
     let (low, high) = (start.min(end), start.max(end));
@@ -111,7 +116,7 @@ fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
         let next = ((dash + 1.0) * DASH).min(high).max(at + 0.01);
         let color = if dash.rem_euclid(2.0) < 0.5 { Color32::BLACK } else { Color32::WHITE };
         let place = |value: f32| from + way * ((value - start) / run);
-        painter.line_segment([place(at), place(next)], Stroke::new(1.2, color));
+        painter.line_segment([place(at) - cap, place(next) + cap], Stroke::new(WIDTH, color));
         at = next;
     }
 }

@@ -97,7 +97,8 @@ pub(super) fn show(ui: &mut Ui, state: &State) -> bool {
             if message.failed {
                 text = text.strong();
             }
-            ui.add(eframe::egui::Label::new(text).truncate()).on_hover_text(&words);
+            // A text that is cut tells all of itself under the pointer.
+            ui.add(eframe::egui::Label::new(text).truncate());
         });
     });
     dismissed

@@ -14,7 +14,7 @@ pub struct HeightRequest {
 }
 
 /// Height to which a longer panel that scrolls may be reduced, in points.
-const LEAST: f32 = 200.0;
+const LEAST: f32 = 192.0;
 
 /// Shares `room` points among groups from the top down. A panel that should be seen whole is
 /// not reduced below the room; others may scroll. Where they do not fit, those that were not

@@ -45,7 +45,7 @@ pub(super) fn dialog(
         ui.add_space(4.0);
         content(ui);
         ui.add_space(8.0);
-        ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
+        buttons_at_right(ui, |ui| {
             if ui.button(yes.0).on_hover_text(yes.1).clicked() {
                 choice = Some(Choice::Yes);
             }
@@ -63,6 +63,12 @@ pub(super) fn dialog(
         choice = Some(Choice::Yes);
     }
     choice.or_else(|| modal.should_close().then_some(Choice::Cancelled))
+}
+
+/// A row of buttons at the right edge; the first one stands outermost.
+fn buttons_at_right(ui: &mut Ui, buttons: impl FnOnce(&mut Ui)) {
+    // The row gives the height in which high buttons centre their words.
+    ui.horizontal(|ui| ui.with_layout(Layout::right_to_left(Align::Center), buttons));
 }
 
 /// Asks if changes should be saved before they are lost.
@@ -235,7 +241,7 @@ pub(super) fn preferences(ctx: &Context, preferences: &mut Preferences) -> bool 
             pen(ui, &mut preferences.pen);
         });
         ui.add_space(8.0);
-        ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
+        buttons_at_right(ui, |ui| {
             open = !ui.button(tr("Close")).on_hover_text(tr("Changes have taken effect (Esc)")).clicked();
         });
     });

@@ -101,6 +101,7 @@ pub use figures_log::{FiguresLog, FrameFigures};
 pub use home::Home;
 pub use new_canvas::{CanvasPreset, KeptCanvases, LengthUnit, NewCanvas};
 pub use notice::StatusNote;
+pub(crate) use notices::bottom_of_notices;
 pub use own_brushes::BrushSets;
 pub(crate) use picture_file::{ReadPicture, on_screen, read_picture};
 pub use preferences::{Backend, Preferences, ToolPreferences};

@@ -24,6 +24,16 @@ const BUTTONS_WIDTH: f32 = 140.0;
 /// Maximum number of messages shown at a time.
 const MAX_NOTICES: usize = 4;
 
+/// Bottom of the messages in the last frame, in points; `None` without messages.
+pub(crate) fn bottom_of_notices(ctx: &Context) -> Option<f32> {
+    let shown = ctx.memory(|memory| memory.area_rect(area_id()))?;
+    (shown.height() > 1.0).then_some(shown.bottom())
+}
+
+fn area_id() -> Id {
+    Id::unique("file notices")
+}
+
 /// A button that was clicked, with the index of the session, notice or job.
 enum Clicked {
     Recover(usize),
@@ -46,7 +56,7 @@ impl Files {
         let excess = self.notices.len().saturating_sub(MAX_NOTICES);
         self.notices.drain(..excess);
         let mut clicked = None;
-        Area::new(Id::unique("file notices"))
+        Area::new(area_id())
             .order(Order::Foreground)
             .anchor(Align2::CENTER_TOP, vec2(0.0, 44.0))
             .show(ctx, |ui| {

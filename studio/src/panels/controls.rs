@@ -3,8 +3,8 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{
-    Align, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense, Slider,
-    Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Align, Align2, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense,
+    Slider, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, vec2,
 };
 
 use crate::language::tr;
@@ -82,11 +82,16 @@ pub(super) fn named_button(
 }
 
 /// A button as high as a line of text, or high enough to be touched.
-pub(super) fn small_button<'a>(ui: &Ui, shown: &'a str) -> Button<'a> {
+pub(crate) fn small_button<'a>(ui: &Ui, shown: &'a str) -> Button<'a> {
     match theme::is_touch(ui.ctx()) {
         true => Button::new(shown),
         false => Button::new(shown).small(),
     }
+}
+
+/// A field of one line, whose text stands in its middle where the field is high.
+pub(crate) fn text_field(text: &mut String) -> TextEdit<'_> {
+    TextEdit::singleline(text).align(Align2::LEFT_CENTER)
 }
 
 /// Adds a button to a menu, which closes on a click.

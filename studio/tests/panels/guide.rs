@@ -94,6 +94,22 @@ fn the_first_steps_stay_within_a_small_window() {
 }
 
 #[test]
+fn a_message_does_not_cover_the_first_steps() {
+    let mut window = Window::first_start("first-steps-message", SIZE);
+    let place = |window: &mut Window| place_of_text(window, "Press here").unwrap();
+    let before = place(&mut window);
+    window.click("Load brush");
+    window.settle();
+    window.click("Keep this mixture");
+    window.settle();
+    window.save("first-steps-message");
+    let message = place_of_text(&mut window, "Kept").expect("a message");
+    let lines = place(&mut window);
+    assert!(message.intersects(before), "{message} would cover {before}");
+    assert!(lines.top() > message.bottom(), "{message} covers {lines}");
+}
+
+#[test]
 fn the_sample_painting_opens_with_wet_and_dry_paint_and_nothing_to_save() {
     let mut window = Window::open("sample");
     let middle = window.studio().canvas.rect().center();

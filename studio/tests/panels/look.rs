@@ -1,7 +1,7 @@
 //! Tests of themes, touch targets and scale: what is written is read, what is touched is
 //! large enough.
 
-use eframe::egui::{Rect, Theme, Vec2, vec2};
+use eframe::egui::{Key, Modifiers, Rect, Theme, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use image::RgbaImage;
 use render::paint::strokes::{Action, Squeeze, SurfaceId};
@@ -84,7 +84,7 @@ fn a_long_name_of_brush_or_pigment_is_not_cut() {
     window.click("Rename");
     let field = window.harness().get_by_label("Name of the brush");
     field.type_text(" for the thin branches at the edge");
-    window.harness().key_press(eframe::egui::Key::Enter);
+    window.harness().key_press(Key::Enter);
     window.harness().run_ok();
     let names = seen(&mut window);
     let brush = names.iter().find(|text| text.words.contains("branches")).unwrap();
@@ -116,6 +116,38 @@ fn the_brush_panel_is_whole_in_a_window_of_a_thousand_points() {
             assert!(knife.is_whole(), "{knife:?}");
         }
     }
+}
+
+#[test]
+fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
+    let mut window = Window::sized("whole-tip", SIZES[0], 1.0);
+    for look in [(ThemeChoice::Dark, false), (ThemeChoice::Light, false)] {
+        set_look(&mut window, look);
+        show(&mut window, Tab::Brush);
+        // With paint there are numbers above; without, the panel is shorter, and Light stays open.
+        for key in [Key::D, Key::W] {
+            window.click("Load brush");
+            window.key(Modifiers::NONE, key);
+            window.settle();
+            let [tip, below] = ["Marks of the tip", "Fold Light"]
+                .map(|label| window.harness().get_by_label(label).rect());
+            window.save(&format!("whole-tip-{key:?}"));
+            assert!(tip.bottom() < below.top(), "{look:?} {key:?}: {tip} {below}");
+        }
+    }
+}
+
+#[test]
+fn words_stand_in_the_middle_of_high_buttons() {
+    let mut window = Window::sized("high-buttons", SIZES[0], 1.0);
+    set_look(&mut window, (ThemeChoice::Dark, true));
+    window.key(Modifiers::COMMAND, Key::Comma);
+    window.settle();
+    let button = window.harness().get_by_label("Close").rect();
+    let words = seen(&mut window).into_iter().find(|text| text.words == "Close").unwrap();
+    window.save("high-buttons");
+    let off = (words.rect.center() - button.center()).length();
+    assert!(off < 2.0, "{} in {button}", words.rect);
 }
 
 #[test]
@@ -210,7 +242,7 @@ fn everything_that_is_touched_is_44_points_wide_and_high() {
         let small = small(&mut window);
         assert!(small.is_empty(), "{opener}: {small:#?}");
         window.save(&format!("touch-{opener}"));
-        window.key(eframe::egui::Modifiers::NONE, eframe::egui::Key::Escape);
+        window.key(Modifiers::NONE, Key::Escape);
     }
 }
 

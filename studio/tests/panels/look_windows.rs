@@ -13,9 +13,10 @@ use super::look::{cut, set_look, small};
 /// A window over the canvas: its name, a label that is seen while it is open, and how it is opened.
 type Over = (&'static str, &'static str, fn(&mut Window));
 
-const OVER: [Over; 6] = [
+const OVER: [Over; 7] = [
     ("Pen", "Pressure curve", |window| window.studio_mut().visible.pen = true),
     ("Own brushes", "New set", |window| window.studio_mut().visible.brush_sets = true),
+    ("Keys", "All to standard", |window| window.key(Modifiers::NONE, Key::F1)),
     ("New", "Begin", |window| window.key(Modifiers::COMMAND, Key::N)),
     ("browser", "Grid", |window| window.key(Modifiers::COMMAND, Key::O)),
     ("quick palette", "quick Vermilion", |window| window.key(Modifiers::NONE, Key::C)),

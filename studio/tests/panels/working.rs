@@ -20,7 +20,7 @@ fn message(window: &Window) -> String {
 #[test]
 fn tools_of_the_toolbar_work_the_wet_paint_and_the_status_line_tells_what_they_took() {
     let mut window = Window::open("working");
-    window.click("Load from tube");
+    window.click("Load brush");
     draw(&mut window, 8.0, 0.6);
     window.settle();
     let brush = |window: &Window| {
@@ -54,7 +54,7 @@ fn tools_of_the_toolbar_work_the_wet_paint_and_the_status_line_tells_what_they_t
 #[test]
 fn a_tool_over_dry_paint_alone_says_that_there_was_no_wet_paint() {
     let mut window = Window::open("working-dry");
-    window.click("Load from tube");
+    window.click("Load brush");
     draw(&mut window, 8.0, 0.6);
     window.key(Modifiers::NONE, Key::D);
     window.settle();
@@ -141,7 +141,7 @@ fn the_pen_draws_masks_which_the_brush_tab_inverts_and_takes_off() {
 #[test]
 fn a_mask_by_paint_locks_the_bare_canvas() {
     let mut window = Window::open("working-lock");
-    window.click("Load from tube");
+    window.click("Load brush");
     draw(&mut window, 8.0, 0.6);
     window.click("Mask");
     window.click("Any paint");

@@ -23,9 +23,12 @@ const MARGIN: f32 = 6.0;
 /// Space between the tabs and their panel, in points.
 const BELOW_TABS: f32 = 4.0;
 
-/// Height from which a panel scrolls beside others, in points; one and a half times that for
-/// touch.
-const LONG: f32 = 620.0;
+/// Height from which a panel scrolls beside others, in points. The panel of a clean brush is higher,
+/// so that a wash does not fold the panels below it in a low window.
+const LONG: f32 = 540.0;
+
+/// Height from which a panel with large targets scrolls beside others, in points.
+const LONG_TOUCH: f32 = 930.0;
 
 /// Height of a panel before it was drawn, in points.
 const UNKNOWN: f32 = 300.0;
@@ -168,7 +171,7 @@ impl Panels {
         tab_heights: &[f32],
         height: f32,
     ) -> Vec<Option<f32>> {
-        let long = if theme::is_touch(context) { 1.5 * LONG } else { LONG };
+        let long = if theme::is_touch(context) { LONG_TOUCH } else { LONG };
         let requests = column.groups.iter().zip(panels).map(|(group, panels)| {
             let content =
                 panels.get(group.chosen).and_then(|panel| self.content_heights.get(&panel.tab));

@@ -43,7 +43,8 @@ impl Volumes {
                 if let Some(message) =
                     message.filter(|message| message.is_displayed(Instant::now()))
                 {
-                    ui.add(Label::new(&message.text).truncate()).on_hover_text(&message.text);
+                    // A text that is cut tells all of itself under the pointer.
+                    ui.add(Label::new(&message.text).truncate());
                 }
             });
         });

@@ -11,7 +11,7 @@ use crate::theme;
 use session::{BrushState, PaintingState};
 
 /// Height of a row, in points.
-const HEIGHT: f32 = 34.0;
+const HEIGHT: f32 = 31.0;
 
 /// Paint height at which the bar is full, in mm.
 const FULL_MM: f64 = 1.0;
@@ -30,7 +30,7 @@ impl Row<'_> {
     pub(super) fn show(&self, ui: &mut Ui, painting: &PaintingState) -> Response {
         let label = brush_label(self.label);
         let response = row(ui, HEIGHT, &label, self.is_selected);
-        let inner = response.rect.shrink2(vec2(6.0, 3.0));
+        let inner = response.rect.shrink2(vec2(6.0, 2.0));
         let between = |left: f32, right: f32| {
             Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
         };

@@ -11,7 +11,7 @@ use crate::theme;
 use session::{BrushState, BrushSwatch, FilmColor};
 
 /// Height of the swatch, in points.
-const HEIGHT: f32 = 54.0;
+const HEIGHT: f32 = 50.0;
 
 /// Height of the bare edge of ground and cards above and below the film, in points.
 const EDGE: f32 = 7.0;
@@ -77,24 +77,18 @@ fn tip(response: Response, swatch: &BrushSwatch) {
          {black}; over a white card, {white}. Their bare edges show above and below.", film = lab(swatch.opaque), ground = lab(swatch.over_ground), black = lab(swatch.over_cards[0]), white = lab(swatch.over_cards[1])));
 }
 
+/// The numbers below the swatch; returns whether the mixture is to be kept.
 fn numbers(ui: &mut Ui, swatch: &BrushSwatch, brush: &BrushState) -> bool {
-    let [l, a, b] = swatch.opaque.lab.to_array();
     let thickness = millimetres(swatch.thickness_mm);
     let medium = tr_format!(
         "{thickness} at the tip, {vehicle:.0} % medium",
         thickness,
         vehicle = 100.0 * brush.vehicle
     );
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 10.0;
-        let lab = ui.monospace(format!("Lab {l:.1} {a:.1} {b:.1}"));
-        lab.on_hover_text(tr("CIELAB of the film that hides, under the light of the painting"));
-        let hides =
-            ui.weak(tr_format!("hides {contrast:.0} %", contrast = 100.0 * swatch.contrast));
-        hides.on_hover_text(tr(
-            "Contrast ratio of the film: its luminance over the black card relative to that over \
-             the white one. From 98 % on it hides",
-        ));
+    ui.scope(|ui| {
+        // Nothing is clicked in this line: it is only as high as its text.
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.horizontal(|ui| color(ui, swatch));
     });
     let line = ui.horizontal(|ui| {
         let words = ui.weak(medium);
@@ -107,6 +101,19 @@ fn numbers(ui: &mut Ui, swatch: &BrushSwatch, brush: &BrushState) -> bool {
         .inner
     });
     line.inner
+}
+
+/// The colour of the film, and how much of the ground it hides.
+fn color(ui: &mut Ui, swatch: &BrushSwatch) {
+    let [l, a, b] = swatch.opaque.lab.to_array();
+    ui.spacing_mut().item_spacing.x = 10.0;
+    let lab = ui.monospace(format!("Lab {l:.1} {a:.1} {b:.1}"));
+    lab.on_hover_text(tr("CIELAB of the film that hides, under the light of the painting"));
+    let hides = ui.weak(tr_format!("hides {contrast:.0} %", contrast = 100.0 * swatch.contrast));
+    hides.on_hover_text(tr(
+        "Contrast ratio of the film: its luminance over the black card relative to that over the \
+         white one. From 98 % on it hides",
+    ));
 }
 
 fn screen(color: FilmColor) -> Color32 {

@@ -7,7 +7,7 @@ use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, percent, slider};
 use crate::panels::{Mode, PanelContext};
 
-/// Draws the settings of the tool in use, if it has some, with a line below.
+/// Draws the settings of the tool in use, if it has some.
 pub(super) fn show(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     match cx.tools.mode {
         Mode::Blend => {
@@ -29,9 +29,8 @@ pub(super) fn show(ui: &mut Ui, cx: &mut PanelContext<'_>) {
             ui.weak(tr("Paint stays in the valleys of the ground"));
         }
         Mode::Mask => mask(ui, cx),
-        _ => return,
+        _ => {}
     }
-    ui.separator();
 }
 
 fn mask(ui: &mut Ui, cx: &mut PanelContext<'_>) {

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use eframe::egui::{Align2, DragValue, Key, TextEdit, Ui, vec2};
+use eframe::egui::{Align2, DragValue, Key, Ui, vec2};
 use spectra::swatch_file::{SwatchFile, SwatchFileError, read_aco, read_ase, read_gpl};
 
 use super::super::context::PanelContext;
@@ -13,6 +13,7 @@ use super::search::SearchPanel;
 use super::swatch::swatch;
 use super::target::{Color, TargetColor};
 use crate::language::{tr, tr_format};
+use crate::panels::text_field;
 
 /// State of the eyedropper panel: target colour, swatches and recipe search.
 #[derive(Debug, Default)]
@@ -106,7 +107,7 @@ impl Eyedropper {
                 let [l, a, b] = wanted.lab(grid, viewing).to_array();
                 patch.on_hover_text(format!("{}: Lab {l:.2} {a:.2} {b:.2}", wanted.name));
             }
-            let field = TextEdit::singleline(&mut self.text)
+            let field = text_field(&mut self.text)
                 .hint_text(tr("Target: #rrggbb or L,a,b"))
                 .desired_width(f32::INFINITY)
                 .align(Align2::LEFT_CENTER);

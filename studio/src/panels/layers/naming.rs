@@ -1,7 +1,7 @@
 //! Editing the name of a dry layer in its row.
 
 use eframe::egui::text::{CCursor, CCursorRange};
-use eframe::egui::{Key, TextEdit, Ui};
+use eframe::egui::{Key, Ui};
 use render::paint::document::LayerId;
 use render::paint::dry_layer::MAX_LAYER_NAME;
 use render::paint::strokes::{Action, LayerRef};
@@ -9,6 +9,7 @@ use session::LayerState;
 
 use crate::language::{layer_label, tr_format};
 use crate::panels::PanelContext;
+use crate::panels::text_field;
 
 /// The name that is being edited, if one is.
 #[derive(Debug, Clone, Default)]
@@ -39,7 +40,7 @@ impl Naming {
         let Some(edited) = self.0.as_mut().filter(|edited| edited.layer == layer.id) else {
             return;
         };
-        let field = TextEdit::singleline(&mut edited.text);
+        let field = text_field(&mut edited.text);
         let field =
             field.char_limit(MAX_LAYER_NAME).hint_text(layer_label(&format!("Layer {}", layer.id)));
         let mut output = field.desired_width(ui.available_width()).show(ui);

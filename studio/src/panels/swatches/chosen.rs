@@ -1,6 +1,6 @@
 //! The selected mixture: its recipe, and what can be done with it.
 
-use eframe::egui::{Grid, Key, TextEdit, Ui, vec2};
+use eframe::egui::{Grid, Key, Ui, vec2};
 use render::layer::SLOTS;
 use render::paint::strokes::{Action, PaletteSpec};
 use session::swatches::{KeptMixture, SwatchChange, Usable};
@@ -9,7 +9,7 @@ use super::grid::reason;
 use crate::files::FileRequest;
 use crate::language::{tr, tr_format};
 use crate::panels::PanelContext;
-use crate::panels::controls::button;
+use crate::panels::controls::{button, text_field};
 use crate::panels::laying::lay_on_palette;
 
 /// Place of a mixture in the list, and of its neighbours among those that are shown.
@@ -94,7 +94,7 @@ fn name(
         ui.strong(&kept.name);
         return;
     };
-    let field = TextEdit::singleline(text).desired_width(f32::INFINITY).char_limit(60);
+    let field = text_field(text).desired_width(f32::INFINITY).char_limit(60);
     let response = ui.add(field).accessible_name(tr("Name of the mixture"));
     let response = response.on_hover_text(tr("Enter accepts the name, Escape cancels"));
     if response.lost_focus() {

@@ -14,9 +14,13 @@ impl Hand<'_> {
     /// The frame of a crop, left again.
     pub(super) fn crop(&mut self) {
         self.choose("Edit", "Crop...");
-        let [from, to] =
-            [(30.0, 20.0), (150.0, 90.0)].map(|(x, y)| self.twin.point(SurfaceId::Canvas, x, y));
-        self.drag(&[from, to]);
+        self.station("crop-all");
+        for (handle, x_mm, y_mm) in
+            [("Crop upper left", 30.0, 20.0), ("Crop lower right", 150.0, 90.0)]
+        {
+            let (from, to) = (self.place(handle), self.twin.point(SurfaceId::Canvas, x_mm, y_mm));
+            self.drag(&[from, to]);
+        }
         self.station("crop");
         self.escape();
     }
@@ -27,7 +31,8 @@ impl Hand<'_> {
         self.wait_for("reference.png");
         std::thread::sleep(Duration::from_secs(1));
         self.station("browser");
-        self.double_click("reference.png");
+        self.click("reference.png");
+        self.click("Open");
         self.wait_for("Reference picture");
         self.station("reference");
         self.key(NONE, Key::O);
@@ -64,6 +69,8 @@ impl Hand<'_> {
         }
         self.key(NONE, Key::F1);
         self.station("keys");
+        self.click("Find an action");
+        self.text("mirror");
         self.click("change M of Mirror");
         self.station("keys-change");
         self.escape();
@@ -73,7 +80,13 @@ impl Hand<'_> {
         self.key(NONE, Key::F12);
         self.choose("View", "Large targets for touch");
         self.station("touch");
-        self.choose("View", "Large targets for touch");
+        self.click("View");
+        self.picture("touch-menu-view");
+        self.escape();
+        self.key(CTRL, Key::Comma);
+        self.station("touch-preferences");
+        self.click("Large targets");
+        self.click("Close");
         self.choose("View", "Palette");
         self.station("without-palette");
         self.choose("View", "Palette");

@@ -39,11 +39,14 @@ impl Hand<'_> {
             TourStep::Dry => self.key(Modifiers::NONE, Key::D),
             TourStep::Glaze => {
                 self.key(Modifiers::NONE, Key::W);
-                // The medium of the loads: the number beside the slider is typed.
+                // The medium of the loads, which is seen once the other panels are folded.
+                self.click("Fold Light");
                 self.set_medium("99");
                 self.double_click("tube of Cochineal Lake");
                 self.paint(Canvas, &[(40.0, 20.0), (90.0, 60.0), (140.0, 40.0)]);
                 self.set_medium("15");
+                self.station("tour-brush-unfolded");
+                self.click("Unfold Light");
             }
             TourStep::Relight => self.key(Modifiers::NONE, Key::L),
         }

@@ -12,7 +12,7 @@ use super::harness::Window;
 use crate::program::{Program, keep_preferences};
 
 /// Sizes of the screen, and of the window that fills it.
-const SIZES: [(u16, u16); 3] = [(1280, 800), (1024, 700), (1920, 1080)];
+const SIZES: [(u16, u16); 4] = [(1280, 800), (1024, 700), (1440, 900), (1920, 1080)];
 
 const THEMES: [(&str, ThemeChoice); 2] =
     [("dark", ThemeChoice::Dark), ("light", ThemeChoice::Light)];
