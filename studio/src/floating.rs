@@ -35,9 +35,14 @@ pub(crate) fn set_room(context: &Context, room: Rect) {
     context.data_mut(|data| data.insert_temp(facts_id(), facts));
 }
 
+/// The part of the window that floating windows stay in.
+pub(crate) fn room(context: &Context) -> Rect {
+    facts(context).room
+}
+
 /// Height that the contents of a floating window may have, in points.
 pub(crate) fn height_of_contents(context: &Context) -> f32 {
-    (facts(context).room.height() - FRAME - 2.0 * MARGIN).max(120.0)
+    (room(context).height() - FRAME - 2.0 * MARGIN).max(120.0)
 }
 
 /// Draws the window `title` while `open` is true; its close button and Escape clear `open`.

@@ -59,8 +59,8 @@ impl Studio {
         let canvas = self.canvas.rect();
         let at_canvas = (canvas.right_top() + vec2(-GAP, GAP), Align2::RIGHT_TOP);
         let (at, pivot) = place.map_or(at_canvas, |(_, at, pivot)| (at, pivot));
-        // Beside the toolbar, whose buttons it would hide.
-        let room = context.content_rect();
+        // Beside the toolbar, whose buttons it would hide, and above the status line.
+        let room = floating::room(context);
         let left = self.canvas.rect().left().clamp(room.left(), room.right());
         let area = Area::new(Id::unique("tour"))
             .order(Order::Foreground)

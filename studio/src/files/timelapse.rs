@@ -161,7 +161,8 @@ impl TimelapseExport {
         ui.end_row();
         ui.radio_value(every, Every::Actions, tr("One after"))
             .on_hover_text(tr("Actions that change the canvas: strokes, drying, light and so on"));
-        let drag = DragValue::new(&mut self.actions).range(1..=1_000_000).suffix(tr(" actions"));
+        let unit = if self.actions == 1 { tr(" action") } else { tr(" actions") };
+        let drag = DragValue::new(&mut self.actions).range(1..=1_000_000).suffix(unit);
         ui.add_enabled(*every == Every::Actions, drag)
             .on_hover_text(tr("Actions between two frames"));
         ui.end_row();

@@ -1,6 +1,7 @@
 //! Tests of the history panel.
 
 use eframe::egui::accesskit::Toggled;
+use eframe::egui::vec2;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use render::paint::strokes::Action;
@@ -64,6 +65,18 @@ fn a_long_list_scrolls_to_the_current_entry() {
     harness.state_mut().painting.history_done = 40;
     harness.run();
     assert!(there(&harness, 40) && !there(&harness, 1500), "the list follows");
+}
+
+#[test]
+fn the_current_entry_stays_in_sight_in_a_lower_list() {
+    let mut long = painting();
+    long.history = (1..=40).map(|number| format!("stroke {number}")).collect();
+    long.history_done = 40;
+    let mut harness = history(long);
+    harness.set_size(vec2(760.0, 300.0));
+    harness.run();
+    let current = harness.get_by_label("40 stroke 40").rect();
+    assert!(current.bottom() < 300.0, "{current}");
 }
 
 #[test]

@@ -3,15 +3,16 @@
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Key, Modifiers, vec2};
+use eframe::egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::Queryable;
 use image::{Rgb as Pixel, RgbImage};
 use render::export::linear_exr;
 use render::field::Field;
 use render::paint::strokes::SurfaceId;
+use studio::app::CropTool;
 use studio::panels::reference::Reference;
 
-use super::harness::Window;
+use super::harness::{Window, button};
 use super::panel_window::{PanelWindow, made_painting};
 
 fn file(name: &str) -> PathBuf {
@@ -113,6 +114,20 @@ fn a_crop_is_framed_with_handles_and_applied_with_enter() {
     assert!(window.studio().crop.is_none(), "the frame is gone");
     assert!(window.studio().files.has_unsaved_changes(), "the part is in no file");
     assert_eq!(window.studio().painting().unwrap().history_done, 0, "undo ends at a crop");
+}
+
+#[test]
+fn a_handle_of_a_crop_follows_to_the_place_of_its_release() {
+    let mut window = Window::open("crop-release");
+    window.studio_mut().crop = Some(CropTool::new((320, 200)));
+    window.settle();
+    let handle = window.harness().get_by_label("Crop right").rect().center();
+    let to = window.point(SurfaceId::Canvas, 20.0, 10.0);
+    window.frame(vec![Event::PointerMoved(handle), button(handle, true)]);
+    window.frame(vec![Event::PointerMoved(handle.lerp(to, 0.5))]);
+    window.frame(vec![Event::PointerMoved(to), button(to, false)]);
+    window.settle();
+    assert!(window.harness().query_by_label("20.0 x 20.0 mm").is_some(), "as far as the pen went");
 }
 
 #[test]

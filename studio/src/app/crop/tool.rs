@@ -102,7 +102,9 @@ impl CropTool {
             let rect = Rect::from_center_size(at, theme::at_least(ui, vec2(HANDLE, HANDLE)));
             let response = ui.interact(rect, Id::unique(name), Sense::drag());
             response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
-            if let Some(point) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+            // Movements just before the release may come in its frame.
+            let held = response.dragged() || response.drag_stopped();
+            if let Some(point) = response.interact_pointer_pos().filter(|_| held) {
                 let to = placement.cell(point);
                 self.frame = before.dragged(handle, to, self.shape, self.cells);
             }

@@ -61,7 +61,7 @@ pub(super) const ENTRIES: &[Entry] = &[
         Intent::OpenReference,
         Menu::File,
         "Pin a picture...",
-        "Shows a reference picture beside the canvas, to match colours of",
+        "Shows a reference picture beside the canvas, to match its colours",
         &[],
     ),
     entry(

@@ -31,8 +31,8 @@ const LEAST: f32 = 160.0;
 /// State of the history panel.
 #[derive(Debug, Clone, Default)]
 pub struct History {
-    /// Number of done actions that the list last scrolled to.
-    shown: Option<usize>,
+    /// Number of done actions that the list last scrolled to, and its height then in points.
+    shown: Option<(usize, f32)>,
     pictures: Pictures,
 }
 
@@ -46,20 +46,20 @@ impl History {
 
     fn list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         let (done, count) = (cx.painting.history_done, cx.painting.history.len());
-        let moved = self.shown != Some(done);
-        self.shown = Some(done);
         let mut clicked = None;
         ui.spacing_mut().item_spacing.y = 1.0;
         // The lines above and below the list stay in the panel.
         let high = row_height(ui, ROW);
         let others = 3.0 * ui.spacing().interact_size.y + 12.0;
         let most = (ui.clip_rect().height() - others).max(LEAST);
+        // In a lower list the current row would be out of sight.
+        let moved = self.shown.replace((done, most)) != Some((done, most));
         let mut list = ScrollArea::vertical().max_height(most).auto_shrink([false, true]);
         if moved {
             // Invisible rows are not laid out, so the offset is computed from the row
             // number.
-            let before = (done as f32 - 4.0).max(0.0);
-            list = list.vertical_scroll_offset(before * (high + 1.0));
+            let before = done as f32 * (high + 1.0) - 0.5 * (most - high);
+            list = list.vertical_scroll_offset(before.max(0.0));
         }
         list.show_rows(ui, high, count + 1, |ui, rows| {
             for index in rows {
