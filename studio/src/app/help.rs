@@ -9,7 +9,7 @@ use super::volumes::SCENE_POINTER;
 use crate::floating;
 use crate::keymap::{Changes, KeyRow, KeyTable, Keymap, Scope, Shortcut, text};
 use crate::language::{english, tr, tr_format};
-use crate::panels::{small_button, text_field};
+use crate::panels::small_button;
 use crate::theme;
 
 /// Width of the window, in points.
@@ -99,7 +99,7 @@ fn head(ui: &mut Ui, editor: &mut KeyEditor, table: &KeyTable, changes: &mut Cha
                 editor.scope = scope;
             }
         }
-        let find = text_field(&mut editor.find).hint_text(tr("find")).desired_width(180.0);
+        let find = theme::text_field(&mut editor.find).hint_text(tr("find")).desired_width(180.0);
         ui.add(find)
             .accessible_name(tr("Find an action"))
             .on_hover_text(tr("Shows only what has this word"));

@@ -190,7 +190,9 @@ impl Studio {
             self.open_quick_palette(ui.ctx(), point, true);
         }
         let primary = ui.input(|input| input.pointer.button_down(PointerButton::Primary));
-        if mode == Mode::Pick && primary && response.is_pointer_button_down_on() {
+        let held = primary && response.is_pointer_button_down_on();
+        // Pressed and released within a frame, the pen is never held.
+        if mode == Mode::Pick && (held || response.clicked()) {
             let place = (surface, x_mm.to_bits(), y_mm.to_bits());
             if self.last_pick != Some(place) {
                 self.last_pick = Some(place);

@@ -52,7 +52,8 @@ impl Studio {
             None => {}
         }
         let place = self.tour.step().and_then(|step| self.place_of(step, context));
-        if let Some((place, ..)) = place {
+        let dialog = context.memory(|memory| memory.top_modal_layer().is_some());
+        if let Some((place, ..)) = place.filter(|_| !dialog) {
             let layer = LayerId::new(Order::Foreground, Id::unique("place of the tour"));
             outline(&context.layer_painter(layer), place.shrink(2.0));
         }

@@ -3,8 +3,8 @@
 use std::ops::RangeInclusive;
 
 use eframe::egui::{
-    Align, Align2, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense,
-    Slider, Stroke, StrokeKind, TextEdit, Ui, WidgetInfo, vec2,
+    Align, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense, Slider,
+    Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 
 use crate::language::tr;
@@ -87,11 +87,6 @@ pub(crate) fn small_button<'a>(ui: &Ui, shown: &'a str) -> Button<'a> {
         true => Button::new(shown),
         false => Button::new(shown).small(),
     }
-}
-
-/// A field of one line, whose text stands in its middle where the field is high.
-pub(crate) fn text_field(text: &mut String) -> TextEdit<'_> {
-    TextEdit::singleline(text).align(Align2::LEFT_CENTER)
 }
 
 /// Adds a button to a menu, which closes on a click.

@@ -50,5 +50,5 @@ pub mod revisions;
 
 pub use crate::files::FileRequest;
 pub use context::{PanelContext, Request};
-pub(crate) use controls::{small_button, text_field};
+pub(crate) use controls::small_button;
 pub use tools::{Mode, Tools};

@@ -2,7 +2,8 @@
 
 use eframe::egui::style::ScrollStyle;
 use eframe::egui::{
-    Context, FontFamily, FontId, Margin, Style, TextStyle, Theme, ThemePreference, Ui, Vec2, vec2,
+    Align2, Context, FontFamily, FontId, Margin, Style, TextEdit, TextStyle, Theme,
+    ThemePreference, Ui, Vec2, vec2,
 };
 use serde::{Deserialize, Serialize};
 
@@ -73,6 +74,11 @@ pub fn panel_width(context: &Context) -> f32 {
 #[must_use]
 pub fn target(ui: &Ui) -> f32 {
     if is_touch(ui.ctx()) { TOUCH_TARGET } else { 0.0 }
+}
+
+/// A field of one line, whose text stands in its middle where the field is high.
+pub(crate) fn text_field(text: &mut String) -> TextEdit<'_> {
+    TextEdit::singleline(text).align(Align2::LEFT_CENTER)
 }
 
 /// A size, made large enough to be touched if it is to be.

@@ -115,7 +115,7 @@ fn pixels(window: &Window) -> Vec<[u8; 3]> {
 #[test]
 fn strokes_follow_the_ruler_while_they_are_to_and_are_free_else() {
     let mut window = Window::open("aids-ruler");
-    window.click("Load from tube");
+    window.click("Load brush");
     paint(&mut window, &wavy(8.0, 8.0));
     let free = last(&window);
     assert!(extent(&free)[1] > 1.0, "{:?}", extent(&free));
@@ -148,7 +148,7 @@ fn strokes_follow_the_ruler_while_they_are_to_and_are_free_else() {
 #[test]
 fn strokes_in_perspective_run_to_a_vanishing_point() {
     let mut window = Window::open("aids-perspective");
-    window.click("Load from tube");
+    window.click("Load brush");
     window.key(Modifiers::NONE, Key::V);
     window.harness().run_steps(2);
     let [left, right] = [0, 1].map(|at| window.studio().aids.perspective.points[at]);
@@ -175,7 +175,7 @@ fn strokes_in_perspective_run_to_a_vanishing_point() {
 #[test]
 fn a_stroke_is_painted_mirrored_too_and_undone_with_its_twins() {
     let mut window = Window::open("aids-symmetry");
-    window.click("Load from tube");
+    window.click("Load brush");
     let bare = pixels(&window);
     window.key(Modifiers::NONE, Key::Y);
     window.harness().run_steps(2);
@@ -224,7 +224,7 @@ fn a_stroke_is_painted_mirrored_too_and_undone_with_its_twins() {
 #[test]
 fn tools_are_repeated_around_the_centre_and_strokes_on_the_palette_are_not() {
     let mut window = Window::open("aids-radial");
-    window.click("Load from tube");
+    window.click("Load brush");
     aids(&mut window).symmetry.on = true;
     aids(&mut window).symmetry.kind = SymmetryKind::Radial;
     aids(&mut window).symmetry.arms = 5;
@@ -257,7 +257,7 @@ fn tools_are_repeated_around_the_centre_and_strokes_on_the_palette_are_not() {
 #[test]
 fn a_stroke_that_another_action_ends_has_no_twins() {
     let mut window = Window::open("aids-cut");
-    window.click("Load from tube");
+    window.click("Load brush");
     window.key(Modifiers::NONE, Key::Y);
     let report = |window: &mut Window, kind| {
         let report = Report { device: Device::Pen, arrived: Instant::now(), kind };

@@ -18,7 +18,7 @@ fn hold(window: &Window, x_mm: f64, y_mm: f64, pressure: f64) -> PointerState {
 /// Plays a stroke of a loaded brush from x = 6 to 26 mm with 200 reports per second in
 /// frames of 20 ms. Returns its end in the window.
 fn stroke(window: &mut Window, y_mm: f64, pressure: f64) -> Pos2 {
-    window.click("Load from tube");
+    window.click("Load brush");
     draw(window, y_mm, pressure)
 }
 

@@ -150,3 +150,15 @@ fn a_mask_by_paint_locks_the_bare_canvas() {
     assert!((0.3..0.99).contains(&share), "{share}");
     window.save("working-lock");
 }
+
+#[test]
+fn a_tap_within_one_frame_picks_a_colour() {
+    let mut window = Window::open("working-tap");
+    let at = window.point(SurfaceId::Canvas, 10.0, 10.0);
+    window.key(Modifiers::NONE, Key::I);
+    window.frame(vec![Event::PointerMoved(at)]);
+    assert!(!window.shows("sRGB"), "nothing is picked yet");
+    window.frame(vec![button(at, true), button(at, false)]);
+    window.settle();
+    assert!(window.shows("sRGB"), "the colour is told");
+}

@@ -15,7 +15,6 @@ use super::thumbnails::Thumbnails;
 use crate::files::browser_look::BrowserOrder;
 use crate::files::default_button;
 use crate::language::{tr, tr_format};
-use crate::panels::text_field;
 use crate::theme;
 
 const WIDTH: f32 = 860.0;
@@ -71,7 +70,7 @@ impl Browser {
             if up.clicked() {
                 self.up();
             }
-            let edit = text_field(&mut self.typed_folder).desired_width(f32::INFINITY);
+            let edit = theme::text_field(&mut self.typed_folder).desired_width(f32::INFINITY);
             let typed = ui.add(edit).accessible_name(tr("Folder"));
             let typed = typed.on_hover_text(tr("The folder; Enter opens what is typed"));
             if typed.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter)) {
@@ -84,7 +83,7 @@ impl Browser {
     /// The letters that names must have, the order, and the form of the files.
     fn look_line(&mut self, ui: &mut Ui) {
         ui.horizontal(|ui| {
-            let edit = text_field(&mut self.typed_filter).hint_text(tr("Filter by name"));
+            let edit = theme::text_field(&mut self.typed_filter).hint_text(tr("Filter by name"));
             let edit = ui.add(edit.desired_width(260.0)).accessible_name(tr("Filter by name"));
             edit.on_hover_text(tr(
                 "Shows only names with these letters; typing into the list does too",
@@ -123,7 +122,7 @@ impl Browser {
         ui.horizontal(|ui| {
             if self.options.saving {
                 ui.label(tr("Name"));
-                let edit = text_field(&mut self.name).desired_width(260.0);
+                let edit = theme::text_field(&mut self.name).desired_width(260.0);
                 let edit = ui.add(edit).on_hover_text(tr("The file's name; Enter saves"));
                 if !std::mem::replace(&mut self.name_focused, true) {
                     edit.request_focus();

@@ -5,7 +5,7 @@ use eframe::egui::{Button, ComboBox, Ui};
 use super::dialog::NewDialog;
 use crate::files::new_canvas::KeptCanvases;
 use crate::language::tr;
-use crate::panels::text_field;
+use crate::theme;
 
 impl NewDialog {
     /// Adds the choice of a preset, and keeping and removing one.
@@ -31,7 +31,7 @@ impl NewDialog {
         if let Some(preset) = wanted {
             (self.preset, self.new) = (preset.name, preset.canvas);
         }
-        let edit = text_field(&mut self.preset).hint_text(tr("Name")).desired_width(120.0);
+        let edit = theme::text_field(&mut self.preset).hint_text(tr("Name")).desired_width(120.0);
         let edit = ui.add(edit).accessible_name(tr("Name of the preset"));
         edit.on_hover_text(tr("Name under which these settings are kept"));
         let named = !self.preset.trim().is_empty();

@@ -13,7 +13,7 @@ use super::tip::TipPreview;
 use super::tool;
 use crate::keymap::hint;
 use crate::language::{tr, tr_format};
-use crate::panels::controls::{button, button_background, item, percent, slider, text_field};
+use crate::panels::controls::{button, button_background, item, percent, slider};
 use crate::panels::{PanelContext, tubes};
 use crate::theme;
 
@@ -154,7 +154,7 @@ impl Brushes {
     fn rename(&mut self, ui: &mut Ui, index: usize) {
         let Some((_, typed)) = &mut self.renaming else { return };
         let response = ui
-            .add(text_field(typed).desired_width(f32::INFINITY).char_limit(40))
+            .add(theme::text_field(typed).desired_width(f32::INFINITY).char_limit(40))
             .accessible_name(tr("Name of the brush"))
             .on_hover_text(tr("Enter accepts the name, Escape cancels"));
         let (enter, escape) =

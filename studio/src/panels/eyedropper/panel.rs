@@ -13,7 +13,7 @@ use super::search::SearchPanel;
 use super::swatch::swatch;
 use super::target::{Color, TargetColor};
 use crate::language::{tr, tr_format};
-use crate::panels::text_field;
+use crate::theme;
 
 /// State of the eyedropper panel: target colour, swatches and recipe search.
 #[derive(Debug, Default)]
@@ -107,7 +107,7 @@ impl Eyedropper {
                 let [l, a, b] = wanted.lab(grid, viewing).to_array();
                 patch.on_hover_text(format!("{}: Lab {l:.2} {a:.2} {b:.2}", wanted.name));
             }
-            let field = text_field(&mut self.text)
+            let field = theme::text_field(&mut self.text)
                 .hint_text(tr("Target: #rrggbb or L,a,b"))
                 .desired_width(f32::INFINITY)
                 .align(Align2::LEFT_CENTER);

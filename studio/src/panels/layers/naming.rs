@@ -9,7 +9,7 @@ use session::LayerState;
 
 use crate::language::{layer_label, tr_format};
 use crate::panels::PanelContext;
-use crate::panels::text_field;
+use crate::theme;
 
 /// The name that is being edited, if one is.
 #[derive(Debug, Clone, Default)]
@@ -40,7 +40,7 @@ impl Naming {
         let Some(edited) = self.0.as_mut().filter(|edited| edited.layer == layer.id) else {
             return;
         };
-        let field = text_field(&mut edited.text);
+        let field = theme::text_field(&mut edited.text);
         let field =
             field.char_limit(MAX_LAYER_NAME).hint_text(layer_label(&format!("Layer {}", layer.id)));
         let mut output = field.desired_width(ui.available_width()).show(ui);

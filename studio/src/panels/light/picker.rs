@@ -8,7 +8,7 @@ use eframe::egui::{
 };
 use spectra::{ColorTemperature, Illuminant, light_from_text};
 
-use super::super::controls::{mark, text_field};
+use super::super::controls::mark;
 use super::super::search::{self, Highlight};
 use super::illuminants::{Kind, ListedIlluminant, listed_illuminants};
 use crate::language::{tr, tr_format};
@@ -75,7 +75,7 @@ impl Picker {
     fn list(&mut self, ui: &mut Ui, chosen: &str, opened: bool) -> Option<String> {
         let id = ui.scope_id().with("search of a light");
         self.highlight.read_arrows(ui, ui.memory(|memory| memory.has_focus(id)));
-        let field = text_field(&mut self.search)
+        let field = theme::text_field(&mut self.search)
             .id(id)
             .hint_text(tr("Search, or 3200K, D5600K"))
             .desired_width(f32::INFINITY)

@@ -8,7 +8,8 @@ use super::row::preset_row;
 use crate::files::BrushSets;
 use crate::floating;
 use crate::language::tr;
-use crate::panels::controls::{button, text_field};
+use crate::panels::controls::button;
+use crate::theme;
 
 /// Width of the window, in points.
 const WIDTH: f32 = 400.0;
@@ -233,7 +234,7 @@ enum Typed {
 
 /// A field for a name: Enter accepts it, Escape cancels.
 fn name_field(ui: &mut Ui, typed: &mut String, name: &str) -> Typed {
-    let field = text_field(typed).desired_width(f32::INFINITY).char_limit(80);
+    let field = theme::text_field(typed).desired_width(f32::INFINITY).char_limit(80);
     let response = ui.add(field.hint_text(name)).accessible_name(name);
     let escape = ui.input(|input| input.key_pressed(Key::Escape));
     if response.lost_focus() {

@@ -5,7 +5,7 @@ use eframe::egui::{Align, Key, Rect, ScrollArea, TextStyle, Ui, pos2, vec2};
 use super::card::card;
 use super::catalogue::Catalogue;
 use crate::language::{tr, tr_format};
-use crate::panels::controls::{mark, patch, row, text_field};
+use crate::panels::controls::{mark, patch, row};
 use crate::panels::fitted_text::text;
 use crate::panels::search::{self, Highlight};
 use crate::theme;
@@ -33,7 +33,7 @@ impl PigmentList {
     ) -> Option<PigmentId> {
         let id = ui.scope_id().with("search of a pigment");
         self.highlight.read_arrows(ui, ui.memory(|memory| memory.has_focus(id)));
-        let field = text_field(&mut self.search)
+        let field = theme::text_field(&mut self.search)
             .id(id)
             .hint_text(tr("name or colour index"))
             .desired_width(f32::INFINITY);

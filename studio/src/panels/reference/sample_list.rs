@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 
 use super::super::context::PanelContext;
-use super::super::controls::{button, named_button, text_field};
+use super::super::controls::{button, named_button};
 use super::command::sample_command;
 use super::next_step::next_step;
 use super::overlay::screen_color;
@@ -104,7 +104,7 @@ impl Reference {
         let own = self.renaming.take_if(|(renamed, _)| *renamed == index);
         let mut typed = own.map_or_else(|| name.to_owned(), |(_, typed)| typed);
         let width = (ui.available_width() - RIGHT).max(40.0);
-        let field = ui.add(text_field(&mut typed).desired_width(width));
+        let field = ui.add(theme::text_field(&mut typed).desired_width(width));
         let field = field.on_hover_text(tr("Name of the sample, different from all others"));
         if field.gained_focus() {
             self.samples.selected = index;

@@ -9,8 +9,9 @@ use super::grid::reason;
 use crate::files::FileRequest;
 use crate::language::{tr, tr_format};
 use crate::panels::PanelContext;
-use crate::panels::controls::{button, text_field};
+use crate::panels::controls::button;
 use crate::panels::laying::lay_on_palette;
+use crate::theme;
 
 /// Place of a mixture in the list, and of its neighbours among those that are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,7 +95,7 @@ fn name(
         ui.strong(&kept.name);
         return;
     };
-    let field = text_field(text).desired_width(f32::INFINITY).char_limit(60);
+    let field = theme::text_field(text).desired_width(f32::INFINITY).char_limit(60);
     let response = ui.add(field).accessible_name(tr("Name of the mixture"));
     let response = response.on_hover_text(tr("Enter accepts the name, Escape cancels"));
     if response.lost_focus() {

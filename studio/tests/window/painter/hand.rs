@@ -108,8 +108,13 @@ impl<'a> Hand<'a> {
     pub(super) fn double_click(&mut self, label: &str) {
         let at = self.place(label);
         let screen = self.program.screen;
-        screen.click(self.on_screen(at));
-        screen.click(self.on_screen(at));
+        screen.point(self.on_screen(at));
+        std::thread::sleep(Duration::from_millis(150));
+        // Quickly: frames of a busy computer lie far apart, and would make two clicks of it.
+        for pressed in [true, false, true, false] {
+            screen.button(pressed);
+            std::thread::sleep(Duration::from_millis(15));
+        }
         self.twin_click(at, PointerButton::Primary);
         self.twin_click(at, PointerButton::Primary);
         self.wait();
@@ -158,6 +163,8 @@ impl<'a> Hand<'a> {
         screen.point(self.on_screen(along[0]));
         std::thread::sleep(Duration::from_millis(80));
         screen.button(true);
+        // Between press and release there is a frame, also of a busy computer.
+        std::thread::sleep(Duration::from_millis(100));
         for &point in &along {
             screen.point(self.on_screen(point));
             std::thread::sleep(Duration::from_millis(8));
