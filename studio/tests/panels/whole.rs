@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use eframe::egui::{DroppedFile, Event, Key, Modifiers, Role, ViewportCommand, ViewportId};
+use eframe::egui::{DroppedFile, Event, Key, Modifiers, Role, ViewportCommand, ViewportId, vec2};
 use egui_kittest::kittest::Queryable;
 use image::{Rgb, RgbImage};
 use render::paint::strokes::{Action, Load, Squeeze, SurfaceId};
@@ -63,7 +63,7 @@ fn squeeze(window: &mut Window, recipe: &[(&str, f64)]) {
 
 #[test]
 fn picked_palette_paint_is_matched_loaded_and_squeezed() {
-    let mut window = Window::open("picked-and-matched");
+    let mut window = Window::sized("picked-and-matched", vec2(1600.0, 1500.0), 1.0);
     squeeze(&mut window, &[("Zinc White", 3.0), ("Ultramarine", 1.0)]);
     window.studio_mut().tools.mode = Mode::Pick;
     press(&mut window, SurfaceId::Palette, 20.0, 15.0);
