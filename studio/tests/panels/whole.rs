@@ -172,7 +172,7 @@ fn a_color_of_the_reference_picture_finds_recipes() {
         window.harness().step();
     }
     let place = window.harness().get_by_label("Reference picture").rect();
-    window.pen_stroke(&[place.center() - eframe::egui::vec2(0.0, 20.0); 2]);
+    window.pen_stroke(&[place.center() - vec2(0.0, 20.0); 2]);
     wait_for(&mut window, "Load recipe 1");
     window.save("reference-window");
     let wanted = window.studio().panels.eyedropper.target().unwrap().clone();
