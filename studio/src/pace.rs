@@ -13,6 +13,9 @@ const USUAL_HZ: f64 = 60.0;
 /// Rates of displays that are believed, in hertz.
 const RATES_HZ: std::ops::RangeInclusive<f64> = 24.0..=500.0;
 
+/// Time from one frame to the next while frames give way to the paint: 20 a second.
+const SLOT_BEHIND: Duration = Duration::from_millis(48);
+
 /// Delay of a frame that is wanted at once. Without any delay egui would draw two frames.
 const AT_ONCE: Duration = Duration::from_nanos(1);
 
@@ -47,6 +50,12 @@ pub(crate) fn begin_frame(context: &Context, now: Instant) {
 /// Asks for a frame because there is news. May be called from any thread.
 pub(crate) fn wake(context: &Context) {
     wake_at(context, Instant::now());
+}
+
+/// Time to wait before a frame that would begin `now`, so that a processor which draws and paints
+/// has 20 frames a second to draw. Called where input of the window system asks for frames, too.
+pub(crate) fn give_way(context: &Context, now: Instant) -> Duration {
+    change(context, |pace| delay(pace.last, now, SLOT_BEHIND))
 }
 
 fn wake_at(context: &Context, now: Instant) {
@@ -146,6 +155,14 @@ mod tests {
         assert_eq!(asked(), [AT_ONCE], "the last frame is old");
         wake_at(&context, start + 201 * MS);
         assert!(asked().is_empty(), "it comes already");
+    }
+
+    #[test]
+    fn frames_that_give_way_to_the_paint_are_twenty_a_second() {
+        let start = Instant::now();
+        let (context, _) = paced(start);
+        let waits = [0, 30, 48, 900].map(|ms| give_way(&context, start + ms * MS));
+        assert_eq!(waits, [48 * MS, 18 * MS, Duration::ZERO, Duration::ZERO]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Opens the studio in a window of the operating system.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use eframe::egui::{Context, IconData, RawInput, Ui, ViewportBuilder, vec2};
 use eframe::egui_wgpu::{SurfaceConfig, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu};
@@ -34,9 +34,11 @@ pub fn run(start: Start) -> Result<(), Problem> {
         options,
         Box::new(move |creation| {
             let context = &creation.egui_ctx;
+            let mut draws_on_processor = false;
             if let Some(drawn) = &creation.wgpu_render_state {
                 view::set_format(context, drawn.target_format);
-                if drawn.adapter.get_info().device_type == DeviceType::Cpu {
+                draws_on_processor = drawn.adapter.get_info().device_type == DeviceType::Cpu;
+                if draws_on_processor {
                     view::draw_meshes(context);
                 }
             }
@@ -53,7 +55,8 @@ pub fn run(start: Start) -> Result<(), Problem> {
                 display.and_then(|display| display.refresh_rate_millihertz()),
             );
             let parts = Parts { worker, pen, files, open: start.file, log: start.figures };
-            Ok(Box::new(Framed { studio: Studio::new(context, parts) }))
+            let studio = Studio::new(context, parts);
+            Ok(Box::new(Framed { studio, draws_on_processor, waited: [Duration::ZERO; 2] }))
         }),
     );
     made.map_err(|error| failure(&error))
@@ -62,6 +65,9 @@ pub fn run(start: Start) -> Result<(), Problem> {
 /// Adapter from eframe's application trait to [`Studio`].
 struct Framed {
     studio: Studio,
+    draws_on_processor: bool,
+    /// How long the previous frame and this one waited for the paint.
+    waited: [Duration; 2],
 }
 
 impl App for Framed {
@@ -71,10 +77,15 @@ impl App for Framed {
 
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         let busy = frame.info().cpu_usage.map(Duration::from_secs_f32);
+        let busy = busy.map(|busy| busy.saturating_sub(self.waited[0]));
         self.studio.ui(ui, busy);
     }
 
     fn raw_input_hook(&mut self, context: &Context, input: &mut RawInput) {
+        let gives_way = self.draws_on_processor && self.studio.figures().paint_is_behind;
+        let wait = if gives_way { pace::give_way(context, Instant::now()) } else { Duration::ZERO };
+        std::thread::sleep(wait);
+        self.waited = [self.waited[1], wait];
         self.studio.raw_input(context, input);
     }
 

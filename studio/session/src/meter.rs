@@ -12,6 +12,9 @@ const SPAN: Duration = Duration::from_secs(1);
 /// sent only between slices.
 const SLICE: Duration = Duration::from_millis(8);
 
+/// Painting time in ms that may wait without the paint being behind: three frames of 50 ms.
+const BEHIND_MS: f64 = 150.0;
+
 /// Measures painting speed and the latency of samples.
 #[derive(Debug)]
 pub(super) struct Meter {
@@ -74,6 +77,7 @@ impl Meter {
             waiting_substeps: behind,
             mean_latency_ms: total_ms / self.samples.len().max(1) as f64,
             max_latency_ms: self.samples.iter().map(|(_, ms)| *ms).fold(0.0, f64::max),
+            paint_is_behind: 1000.0 * behind as f64 / self.speed > BEHIND_MS,
         }
     }
 }
@@ -96,6 +100,8 @@ mod tests {
         let performance = meter.performance(at(1100), 7);
         assert_eq!((performance.substeps_per_second, performance.waiting_substeps), (300.0, 7));
         assert_eq!((performance.mean_latency_ms, performance.max_latency_ms), (30.0, 60.0));
+        assert!(!performance.paint_is_behind, "7 sub-steps take a few milliseconds");
+        assert!(meter.performance(at(1100), 400).paint_is_behind, "400 take more than 150 ms");
         let later = meter.performance(at(5000), 0);
         assert_eq!(later, Performance::default(), "nothing happened for a second");
     }

@@ -29,6 +29,9 @@ const SHORTEST_INTERVAL: Duration = Duration::from_micros(16_000);
 /// Maximum time between two renderings, if they take long.
 const LONGEST_INTERVAL: Duration = Duration::from_millis(33);
 
+/// Time between two renderings while the paint is behind the pen: 20 a second.
+const INTERVAL_BEHIND: Duration = Duration::from_millis(48);
+
 /// One picture and the tiles that must be sent.
 #[derive(Debug)]
 struct UnsentTiles {
@@ -70,6 +73,8 @@ pub(super) struct Outbox {
     next: Instant,
     /// Arrival times of the samples that are painted and whose tiles are not all sent yet.
     arrived: VecDeque<Instant>,
+    /// Whether the paint is behind the pen, so that pictures give way to it.
+    pub(super) paint_is_behind: bool,
 }
 
 impl Outbox {
@@ -87,6 +92,7 @@ impl Outbox {
             unconfirmed: 0,
             next: Instant::now(),
             arrived: VecDeque::new(),
+            paint_is_behind: false,
         }
     }
 
@@ -189,7 +195,8 @@ impl Outbox {
                 meter.add_sample(now, arrived);
             }
         }
-        self.next = start + (3 * (now - start)).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL);
+        let interval = (3 * (now - start)).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL);
+        self.next = start + if self.paint_is_behind { INTERVAL_BEHIND } else { interval };
         Ok(())
     }
 }

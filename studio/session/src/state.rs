@@ -199,4 +199,6 @@ pub struct Performance {
     pub mean_latency_ms: f64,
     /// Longest such time of the last second, in ms.
     pub max_latency_ms: f64,
+    /// Whether the paint is so far behind the pen that pictures should give way to it.
+    pub paint_is_behind: bool,
 }

@@ -251,6 +251,7 @@ impl<'a> WorkerLoop<'a> {
             _ => 0,
         };
         let performance = self.meter.performance(now, behind);
+        self.outbox.paint_is_behind = performance.paint_is_behind;
         if performance != self.performance {
             self.performance = performance;
             (self.send)(Event::Performance(performance));

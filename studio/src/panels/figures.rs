@@ -67,6 +67,7 @@ mod tests {
             waiting_substeps: 17,
             mean_latency_ms: 8.04,
             max_latency_ms: 12.26,
+            paint_is_behind: false,
         };
         let figures = lines(rate, worker, "CPU, 2 threads");
         let values: Vec<&str> = figures.iter().map(|(_, value)| value.as_str()).collect();
