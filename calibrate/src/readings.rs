@@ -11,7 +11,7 @@ use spectra::referencing::{
 
 use crate::measurement::{
     MeasurementError, MeasurementTable, Recipes, RecipesError, RecordChoice, Scale, ScaleChoice,
-    is_measurement_csv,
+    begins_with_samples, is_measurement_csv,
 };
 use crate::swatch::SwatchSet;
 use pigment::library::Input;
@@ -226,8 +226,9 @@ fn instrument_file(
         Some(ReadingFormat::Instrument(format)) => Some(format),
         None => {
             let (text, _) = decode_text(bytes);
-            let is_csv = is_measurement_csv(&text);
-            if is_csv { None } else { Format::detect(file, &text) }
+            let known = if begins_with_samples(&text) { None } else { Format::detect(file, &text) };
+            // A table without numbers below its headings is no columns of numbers.
+            known.filter(|format| *format != Format::Columns || !is_measurement_csv(&text))
         }
     };
     format.map(|format| read(file, bytes, Some(format))).transpose()

@@ -9,6 +9,8 @@ use super::column::{Column, TableKind, columns};
 use super::common_grid::{grid_of, on_grid};
 use super::csv_row::CsvRow;
 use super::error::MeasurementError;
+use super::heading_row::{HeadingRow, plain_heading};
+use super::name_column::{filled_column, name_rank};
 use super::no_amounts::without_amounts;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
@@ -66,7 +68,11 @@ impl MeasurementTable {
             Column::Wavelength(nm) => Some(*nm),
             _ => None,
         });
-        let wavelengths: Vec<f64> = wavelengths.collect();
+        let mut wavelengths: Vec<f64> = wavelengths.collect();
+        if wavelengths.is_sorted_by(|a, b| a > b) {
+            wavelengths.reverse();
+            readings.iter_mut().for_each(|reading| reading.reflectance.reverse());
+        }
         let grid = grid_of(&wavelengths);
         let resampled_from = Grid::through(&wavelengths).is_none().then_some(wavelengths.len());
         for reading in &mut readings {
@@ -79,20 +85,20 @@ impl MeasurementTable {
     }
 }
 
-/// Whether a text is the CSV of this module rather than an instrument's file: its first line has a column
-/// `sample`.
+/// Whether a text is the CSV of this module rather than an instrument's file: some line names a column of
+/// samples and wavelengths, or the first line a column `sample`.
 #[must_use]
 pub fn is_measurement_csv(text: &str) -> bool {
-    [',', ';', '\t'].into_iter().any(|separator| names_sample(first_line(text), separator))
+    HeadingRow::of(text, TableKind::Readings).is_some()
 }
 
-fn first_line(text: &str) -> &str {
-    text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default()
-}
-
-fn names_sample(header: &str, separator: char) -> bool {
-    let plain = |cell: &str| cell.trim().trim_matches('"').trim().to_ascii_lowercase();
-    header.split(separator).any(|cell| plain(cell) == "sample")
+/// Whether the first line of a text names a column `sample`, which no instrument's file does.
+#[must_use]
+pub fn begins_with_samples(text: &str) -> bool {
+    let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+    let is_sample =
+        |cell: &str| cell.trim().trim_matches('"').trim().eq_ignore_ascii_case("sample");
+    [',', ';', '\t'].into_iter().any(|separator| first.split(separator).any(is_sample))
 }
 
 /// The finite number in a cell. With decimal commas, a point may separate thousands.
@@ -105,16 +111,48 @@ fn parsed(cell: &str, decimal_comma: bool) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
+/// Makes the column of names the first of those headed as one in which every row has a name.
+fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]) {
+    let Some(taken) = columns.iter().position(|column| *column == Column::Sample) else { return };
+    let mut places: Vec<(Option<usize>, usize)> = (0..columns.len())
+        .filter(|&place| place == taken || columns[place] == Column::Ignored)
+        .map(|place| (name_rank(&headers[place]), place))
+        .filter(|&(rank, place)| rank.is_some() || place == taken)
+        .collect();
+    places.sort_by_key(|&(rank, place)| (place != taken, rank));
+    let places: Vec<usize> = places.into_iter().map(|(_, place)| place).collect();
+    if let Some(filled) = filled_column(&places, rows) {
+        columns[taken] = Column::Ignored;
+        columns[filled] = Column::Sample;
+    }
+}
+
+/// Whether commas in the cells of numbers are decimal signs. Where commas separate the cells as well, those
+/// of quoted readings are, since no reflectance has thousands; amounts alone could have them.
+fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> bool {
+    let decides = |column: &Column| match column {
+        Column::Wavelength(_) => true,
+        Column::Pigment(_) | Column::Thickness => separator != b',',
+        _ => false,
+    };
+    let has_comma = |row: &CsvRow| {
+        row.cells.iter().zip(columns).any(|(cell, column)| decides(column) && cell.contains(','))
+    };
+    rows.iter().any(has_comma)
+}
+
 /// Largest amount of a pigment; beyond it sums lose their small terms.
 const LARGEST_AMOUNT: f64 = 1e12;
 
 /// A CSV table: its header row, the meaning of each column, and the rows below.
 pub(super) struct CsvRows {
     pub(super) file: Arc<str>,
+    /// Row of the headers in the file, from 1.
+    pub(super) heading_row: u64,
     pub(super) headers: Vec<String>,
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<CsvRow>,
-    /// Whether numbers have a decimal comma. Only possible where commas do not separate cells.
+    /// Whether numbers have a decimal comma; between commas such cells are quoted.
     decimal_comma: bool,
     spectra_only: bool,
 }
@@ -135,50 +173,36 @@ impl CsvRows {
         if text.trim().is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
-        let header = first_line(&text);
-        let other = [';', '\t'].into_iter().find(|&separator| names_sample(header, separator));
-        let separator = other.filter(|_| !names_sample(header, ',')).map_or(b',', |c| c as u8);
+        let unknown = HeadingRow { separator: b',', offset: 0 };
+        let heading = HeadingRow::of(&text, kind).unwrap_or(unknown);
+        let separator = heading.separator;
+        let mut numbers = RowNumbers::of(text.as_bytes());
+        let heading_row = numbers.at(heading.offset as u64);
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
             .trim(csv::Trim::All)
             .delimiter(separator)
-            .from_reader(text.as_bytes());
+            .from_reader(&text.as_bytes()[heading.offset..]);
         let mut records =
             reader.records().map(|r| r.expect("decoded text can always be split into records"));
         let header = records.next().unwrap_or_default();
-        // `400,5` is a wavelength where commas do not separate cells.
-        let plain = |name: &str| {
-            let pointed = name.replace(',', ".");
-            if pointed.parse::<f64>().is_ok() { pointed } else { name.to_owned() }
-        };
-        let mut headers: Vec<String> = header.iter().map(plain).collect();
+        let mut headers: Vec<String> = header.iter().map(plain_heading).collect();
         // Spreadsheets often leave empty columns at the right.
         let width =
             headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
         headers.truncate(width);
-        let mut columns = columns(file, &headers, kind, pigments)?;
-        let mut numbers = RowNumbers::of(text.as_bytes());
+        let mut columns = columns(file, heading_row, &headers, kind, pigments)?;
+        let byte = |cells: &csv::StringRecord| cells.position().map_or(0, csv::Position::byte);
         let rows: Vec<CsvRow> = records
             .filter(|cells| cells.iter().any(|cell| !cell.is_empty()))
-            .map(|cells| CsvRow {
-                number: numbers.at(cells.position().map_or(0, csv::Position::byte)),
-                cells,
-            })
+            .map(|cells| CsvRow { number: numbers.at(heading.offset as u64 + byte(&cells)), cells })
             .collect();
         if rows.is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
-        let is_number = |column: &Column| {
-            matches!(column, Column::Wavelength(_) | Column::Pigment(_) | Column::Thickness)
-        };
-        let has_comma = |row: &CsvRow| {
-            row.cells
-                .iter()
-                .zip(&columns)
-                .any(|(cell, column)| is_number(column) && cell.contains(','))
-        };
-        let decimal_comma = separator != b',' && rows.iter().any(has_comma);
+        take_filled_names(&headers, &mut columns, &rows);
+        let decimal_comma = has_decimal_commas(separator, &columns, &rows);
         if pigments.is_none() {
             let number = |cell: &str| parsed(cell, decimal_comma);
             for place in without_amounts(&columns, &rows, number) {
@@ -186,7 +210,8 @@ impl CsvRows {
             }
         }
         let file = file.into();
-        Ok(Self { file, headers, columns, rows, decimal_comma, spectra_only: false })
+        let spectra_only = false;
+        Ok(Self { file, heading_row, headers, columns, rows, decimal_comma, spectra_only })
     }
 
     /// Names of the pigment columns.
@@ -202,7 +227,7 @@ impl CsvRows {
     pub(super) fn remarks(&self) -> Vec<String> {
         let named = self.headers.iter().zip(&self.columns);
         let ignored: Vec<&str> = named
-            .filter(|(_, column)| **column == Column::Ignored)
+            .filter(|(name, column)| **column == Column::Ignored && !name.is_empty())
             .map(|(name, _)| name.as_str())
             .collect();
         let what = || {

@@ -23,10 +23,12 @@ pub enum MeasurementError {
         file: String,
     },
     /// A column has no header.
-    #[error("{file}, row 1: column number {number} has no header")]
+    #[error("{file}, row {row}: column number {number} has no header")]
     UnnamedColumn {
         /// File name as the caller gave it.
         file: String,
+        /// Row of the headers in the file, from 1.
+        row: u64,
         /// Column number, counted from 1.
         number: usize,
     },
@@ -48,9 +50,9 @@ pub enum MeasurementError {
         /// Wavelength in nm.
         nm: f64,
     },
-    /// The wavelengths of the columns do not rise.
-    #[error("{place}: wavelengths must rise, found {nm} nm after {before} nm")]
-    FallingWavelength {
+    /// The wavelengths of the columns neither rise nor fall throughout.
+    #[error("{place}: wavelengths must rise or fall throughout, found {nm} nm after {before} nm")]
+    UnorderedWavelength {
         /// File, row and column.
         place: CellPlace,
         /// Wavelength of the column before, in nm.

@@ -10,12 +10,12 @@ impl Explain for MeasurementError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
             Self::Sheet(CsvTableError::MissingColumn { .. }) => {
-                "the first row names the columns: sample, film, backing, one per pigment, then wavelengths such as 400".into()
+                "one row names the columns: sample (or Name, Sample ID ..), film, backing, one per pigment, then wavelengths such as 400".into()
             }
             Self::RepeatedColumn { .. } | Self::RepeatedWavelength { .. } => {
                 "remove or rename one of the two columns".into()
             }
-            Self::FallingWavelength { .. } => {
+            Self::UnorderedWavelength { .. } => {
                 "order the wavelength columns from short to long".into()
             }
             Self::Sheet(CsvTableError::RowLength { wanted, found, .. }) if found > wanted => {
@@ -25,7 +25,7 @@ impl Explain for MeasurementError {
                 "the row may be cut off; write empty cells as `,,`".into()
             }
             Self::Sheet(CsvTableError::Cell { text, .. }) if text.contains(',') => {
-                "numbers take a decimal point, not a comma".into()
+                "numbers have a decimal point, or a decimal comma in every reading of the file".into()
             }
             Self::Sheet(CsvTableError::Cell { wanted: "a reflectance", text, .. })
                 if text.is_empty() =>

@@ -4,6 +4,7 @@ mod bad_files;
 mod formats;
 mod fuzz;
 mod recipes;
+mod tables;
 
 use std::path::PathBuf;
 
