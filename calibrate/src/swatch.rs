@@ -179,6 +179,7 @@ fn swatch(
             file: first.file.to_string(),
             row: first.row,
             sample: sample.to_owned(),
+            has_cards: table.readings.iter().any(|reading| reading.film == Film::None),
         });
     }
     let mut films: Vec<SwatchFilm> = Vec::new();

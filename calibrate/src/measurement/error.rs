@@ -131,6 +131,8 @@ pub enum MeasurementError {
         row: u64,
         /// Name of the sample.
         sample: String,
+        /// Whether some row of the files is a bare card.
+        has_cards: bool,
     },
     /// A reading is below the surface's own reflection.
     #[error(
@@ -200,9 +202,7 @@ pub enum MeasurementError {
         measured: f64,
     },
     /// The backing of a film was not measured bare.
-    #[error(
-        "{file}, row {row}: sample {sample} lies on `{backing}`, of which there is no bare reading"
-    )]
+    #[error("{file}, row {row}: sample {sample} {}", no_bare_reading(backing))]
     NoBareBacking {
         /// File name as the caller gave it.
         file: String,
@@ -210,7 +210,7 @@ pub enum MeasurementError {
         row: u64,
         /// Name of the sample.
         sample: String,
-        /// Name of the backing.
+        /// Name of the backing; empty if the files name none.
         backing: String,
     },
     /// Two files have different wavelengths.
@@ -282,4 +282,11 @@ pub enum MeasurementError {
     /// The files hold bare cards only.
     #[error("no row is a film of paint")]
     NoFilms,
+}
+
+fn no_bare_reading(backing: &str) -> String {
+    if backing.is_empty() {
+        return "lies on a backing of which there is no bare reading".to_owned();
+    }
+    format!("lies on `{backing}`, of which there is no bare reading")
 }

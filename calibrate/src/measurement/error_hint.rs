@@ -66,11 +66,17 @@ impl Explain for MeasurementError {
             Self::NoPigmentColumn { .. } => {
                 "[pigments=NAME] takes the heading of a column, once for each pigment".into()
             }
+            Self::NoBareBacking { backing, .. } if backing.is_empty() => {
+                "add a row with the reading of the bare card or paper, and a column `film` with `none` in it and `paint` in the others; more than one card takes a column `backing` too. A file of recipes may have these columns instead: [recipes=FILE.csv]".into()
+            }
             Self::NoBareBacking { backing, .. } => format!(
                 "add a row with film `none` and backing `{backing}`: the card without paint"
             ),
             Self::NoFilms => {
                 "a film has `paint` (or nothing) in the column film, and amounts in the pigment columns".into()
+            }
+            Self::NoRecipe { has_cards: false, .. } => {
+                "if it is a bare card or paper, say so in a column `film`: `none` for it, `paint` for the others; else write its amounts in the pigment columns. A file of recipes may have both: [recipes=FILE.csv]".into()
             }
             Self::NoRecipe { .. } => {
                 "write the amounts in the pigment columns, or in a file of recipes ([recipes=FILE.csv]); film `none` is a bare card".into()

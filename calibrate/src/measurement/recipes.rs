@@ -154,6 +154,7 @@ impl Recipes {
                 file: self.file.clone(),
                 row: row.map_or(0, |(_, row)| row.row),
                 sample: reading.sample.clone(),
+                has_cards: readings.iter().any(|reading| reading.film == Film::None),
             }
             .into());
         }
