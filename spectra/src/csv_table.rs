@@ -10,19 +10,37 @@ pub struct CellPlace {
     pub row: u64,
     /// Heading of the column.
     pub column: String,
+    /// Name of the cell in a workbook, such as `C5`.
+    pub cell: Option<String>,
 }
 
 impl CellPlace {
     /// The cell of `file` in row `row` (from 1), under the heading `column`.
     #[must_use]
     pub fn new(file: &str, row: u64, column: &str) -> Self {
-        Self { file: file.to_owned(), row, column: column.to_owned() }
+        Self { file: file.to_owned(), row, column: column.to_owned(), cell: None }
+    }
+
+    /// The place with the name of its cell in a workbook, of which `index` is the column from 0.
+    #[must_use]
+    pub fn in_workbook(self, index: usize) -> Self {
+        let mut letters = Vec::new();
+        let mut rest = index + 1;
+        while rest > 0 {
+            letters.push(char::from(b'A' + u8::try_from((rest - 1) % 26).unwrap_or(0)));
+            rest = (rest - 1) / 26;
+        }
+        let letters: String = letters.into_iter().rev().collect();
+        Self { cell: Some(format!("{letters}{}", self.row)), ..self }
     }
 }
 
 impl std::fmt::Display for CellPlace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}, row {}, column `{}`", self.file, self.row, self.column)
+        match &self.cell {
+            Some(cell) => write!(f, "{}, cell {cell}, column `{}`", self.file, self.column),
+            None => write!(f, "{}, row {}, column `{}`", self.file, self.row, self.column),
+        }
     }
 }
 
@@ -164,6 +182,14 @@ mod tests {
                 .map(|record| numbers.at(record.unwrap().position().unwrap().byte()))
                 .collect();
             assert_eq!(rows, [2, 5, 7], "{end:?}");
+        }
+    }
+
+    #[test]
+    fn cells_of_a_workbook_are_named_by_letters_and_row() {
+        for (index, cell) in [(0, "A7"), (25, "Z7"), (26, "AA7"), (701, "ZZ7"), (702, "AAA7")] {
+            let place = CellPlace::new("f", 7, "x").in_workbook(index);
+            assert_eq!(place.to_string(), format!("f, cell {cell}, column `x`"));
         }
     }
 

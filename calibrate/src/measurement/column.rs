@@ -31,17 +31,16 @@ pub(super) enum TableKind {
     Recipes,
 }
 
-/// Reads a header row, that of row `row`: one meaning per column. `pigments` are the headings that name
+/// Reads a header row whose cells stand at `place`: one meaning per column. `pigments` are the headings that name
 /// pigments; without them, every other heading does. Checks that there is a column of names, that no name
 /// occurs twice and that wavelengths rise or fall throughout.
 pub(super) fn columns(
-    file: &str,
-    row: u64,
+    place: &dyn Fn(usize) -> CellPlace,
     headers: &[String],
     kind: TableKind,
     pigments: Option<&[String]>,
 ) -> Result<Vec<Column>, MeasurementError> {
-    let place = |index: usize| CellPlace::new(file, row, &headers[index]);
+    let file = || headers.first().map_or_else(String::new, |_| place(0).file);
     // A header such as R254 may be a pigment (Pigment Red 254) or a wavelength.
     let plain = |header: &String| {
         let lower = header.trim().to_ascii_lowercase();
@@ -58,12 +57,12 @@ pub(super) fn columns(
             continue;
         }
         // Row numbers that programs for statistics write first have no heading.
-        if name.is_empty() && index == 0 {
+        if names[..=index].iter().all(|name| name.is_empty()) {
             columns.push(Column::Ignored);
             continue;
         }
         if name.is_empty() {
-            let (file, number) = (file.to_owned(), index + 1);
+            let (CellPlace { file, row, .. }, number) = (place(index), index + 1);
             return Err(MeasurementError::UnnamedColumn { file, row, number });
         }
         if let Some(before) = headers[..index].iter().position(|h| h.trim() == name) {
@@ -99,7 +98,7 @@ pub(super) fn columns(
     }
     if !columns.contains(&Column::Sample) {
         return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
-            file: file.to_owned(),
+            file: file(),
             column: "sample",
         }));
     }
@@ -110,7 +109,7 @@ pub(super) fn columns(
     let wavelengths: Vec<(usize, f64)> = wavelengths.collect();
     if wavelengths.is_empty() && kind == TableKind::Readings {
         return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
-            file: file.to_owned(),
+            file: file(),
             column: "400 (a wavelength in nm)",
         }));
     }
@@ -256,7 +255,8 @@ mod tests {
     fn wavelengths_fall_or_rise_and_turn_nowhere() {
         let columns = |names: &str| {
             let names: Vec<String> = names.split(',').map(str::to_owned).collect();
-            columns("f", 3, &names, TableKind::Readings, None).map_err(|error| error.to_string())
+            let place = |index: usize| CellPlace::new("f", 3, &names[index]);
+            columns(&place, &names, TableKind::Readings, None).map_err(|error| error.to_string())
         };
         assert_eq!(columns("Name,700,600,500").unwrap()[1], Column::Wavelength(700.0));
         assert_eq!(
@@ -270,7 +270,13 @@ mod tests {
     fn readings_without_the_specular_component_are_ignored_beside_those_with_it() {
         let columns = |names: [&str; 5]| {
             let names = names.map(str::to_owned);
-            columns("f", 1, &names, TableKind::Readings, None).unwrap()
+            columns(
+                &|index| CellPlace::new("f", 1, &names[index]),
+                &names,
+                TableKind::Readings,
+                None,
+            )
+            .unwrap()
         };
         let both = columns(["Data Name", "SCI 400nm", "SCI 410nm", "SCE 400nm", "SCE 410nm"]);
         let nm = Column::Wavelength;
@@ -283,7 +289,7 @@ mod tests {
     fn a_letter_with_a_number_is_a_pigment_beside_plain_wavelengths() {
         let columns = |names: &[&str], kind| {
             let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-            columns("f", 1, &names, kind, None).unwrap()
+            columns(&|index| CellPlace::new("f", 1, &names[index]), &names, kind, None).unwrap()
         };
         let beside = columns(&["sample", "R254", "R101", "400"], TableKind::Readings);
         assert_eq!(beside[1], Column::Pigment("R254".into()));

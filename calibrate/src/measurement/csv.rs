@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use spectra::Grid;
-use spectra::instrument::decode_text;
+use spectra::instrument::FileText;
 
 use super::column::{Column, TableKind, columns};
 use super::common_grid::{grid_of, on_grid};
@@ -80,7 +80,8 @@ impl MeasurementTable {
             reading.reflectance = on_grid(grid, &wavelengths, values);
         }
         let pigments = if spectra_only { Vec::new() } else { table.pigments() };
-        let remarks = if spectra_only { Vec::new() } else { table.remarks() };
+        let mut remarks = if spectra_only { Vec::new() } else { table.remarks() };
+        remarks.extend(table.sheet_remark.clone());
         Ok(Self { pigments, grid, resampled_from, scale, readings, remarks })
     }
 }
@@ -154,7 +155,11 @@ pub(super) struct CsvRows {
     pub(super) rows: Vec<CsvRow>,
     /// Whether numbers have a decimal comma; between commas such cells are quoted.
     decimal_comma: bool,
+    /// Whether the rows are those of a workbook's sheet.
+    is_sheet: bool,
     spectra_only: bool,
+    /// Message about other sheets.
+    sheet_remark: Option<String>,
 }
 
 impl CsvRows {
@@ -166,7 +171,12 @@ impl CsvRows {
         kind: TableKind,
         pigments: Option<&[String]>,
     ) -> Result<Self, MeasurementError> {
-        let (text, _) = decode_text(bytes);
+        let content = FileText::of(file, bytes).map_err(MeasurementError::Instrument)?;
+        let Some(content) = content else {
+            let found = "a binary file of an instrument";
+            return Err(MeasurementError::NoTable { file: file.to_owned(), found });
+        };
+        let (file, text) = (content.file.as_str(), &content.text);
         if text.trim_start().starts_with('{') {
             return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
         }
@@ -174,7 +184,7 @@ impl CsvRows {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
         let unknown = HeadingRow { separator: b',', offset: 0 };
-        let heading = HeadingRow::of(&text, kind).unwrap_or(unknown);
+        let heading = HeadingRow::of(text, kind).unwrap_or(unknown);
         let separator = heading.separator;
         let mut numbers = RowNumbers::of(text.as_bytes());
         let heading_row = numbers.at(heading.offset as u64);
@@ -192,7 +202,11 @@ impl CsvRows {
         let width =
             headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
         headers.truncate(width);
-        let mut columns = columns(file, heading_row, &headers, kind, pigments)?;
+        let place = |index: usize| {
+            let place = CellPlace::new(file, heading_row, &headers[index]);
+            if content.is_sheet { place.in_workbook(index) } else { place }
+        };
+        let mut columns = columns(&place, &headers, kind, pigments)?;
         let byte = |cells: &csv::StringRecord| cells.position().map_or(0, csv::Position::byte);
         let rows: Vec<CsvRow> = records
             .filter(|cells| cells.iter().any(|cell| !cell.is_empty()))
@@ -210,8 +224,23 @@ impl CsvRows {
             }
         }
         let file = file.into();
-        let spectra_only = false;
-        Ok(Self { file, heading_row, headers, columns, rows, decimal_comma, spectra_only })
+        Ok(Self {
+            file,
+            heading_row,
+            headers,
+            columns,
+            rows,
+            decimal_comma,
+            is_sheet: content.is_sheet,
+            spectra_only: false,
+            sheet_remark: content.remark,
+        })
+    }
+
+    /// The cell in row `row`, in the column `index` from 0.
+    pub(super) fn place(&self, row: u64, index: usize) -> CellPlace {
+        let place = CellPlace::new(&self.file, row, &self.headers[index]);
+        if self.is_sheet { place.in_workbook(index) } else { place }
     }
 
     /// Names of the pigment columns.
@@ -269,7 +298,7 @@ impl CsvRows {
         for (index, (cell, column)) in record.iter().zip(&self.columns).enumerate() {
             let wrong = |wanted| {
                 MeasurementError::Sheet(CsvTableError::Cell {
-                    place: CellPlace::new(&self.file, row, &self.headers[index]),
+                    place: self.place(row, index),
                     wanted,
                     text: cell.to_owned(),
                 })
@@ -332,18 +361,15 @@ impl CsvRows {
                 scale
             }
         };
-        let names = self
-            .headers
-            .iter()
-            .zip(&self.columns)
-            .filter(|(_, column)| matches!(column, Column::Wavelength(_)));
-        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
+        let indices: Vec<usize> = (0..self.columns.len())
+            .filter(|&index| matches!(self.columns[index], Column::Wavelength(_)))
+            .collect();
         for reading in readings {
-            for (value, name) in reading.reflectance.iter_mut().zip(&names) {
+            for (value, &index) in reading.reflectance.iter_mut().zip(&indices) {
                 let fraction = *value * scale.to_fraction();
                 if !(0.0..=LARGEST_REFLECTANCE).contains(&fraction) {
                     return Err(MeasurementError::Reflectance {
-                        place: CellPlace::new(&self.file, reading.row, name),
+                        place: self.place(reading.row, index),
                         range: scale.range(),
                         value: *value,
                     });

@@ -1,7 +1,7 @@
 //! Faults of measurement files, each with its place.
 
 use super::darker_film::DarkerFilm;
-use spectra::instrument::MeasuredQuantity;
+use spectra::instrument::{InstrumentError, MeasuredQuantity};
 
 use spectra::csv_table::{CellPlace, CsvTableError};
 
@@ -16,6 +16,9 @@ pub enum MeasurementError {
     /// A cell, row or column of the table is faulty.
     #[error(transparent)]
     Sheet(CsvTableError),
+    /// The file is binary, or a damaged workbook.
+    #[error(transparent)]
+    Instrument(InstrumentError),
     /// The file holds no readings.
     #[error("{file}: the file holds no readings")]
     Empty {

@@ -9,6 +9,7 @@ use super::error::{MeasurementError, k1_below};
 impl Explain for MeasurementError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
+            Self::Instrument(error) => return error.hint(),
             Self::Sheet(CsvTableError::MissingColumn { .. }) => {
                 "one row names the columns: sample (or Name, Sample ID ..), film, backing, one per pigment, then wavelengths such as 400".into()
             }
