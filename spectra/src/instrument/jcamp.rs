@@ -323,7 +323,7 @@ mod tests {
         ##VAR_NAME= WAVELENGTH, REFLECTANCE, PAGE NUMBER\n##SYMBOL= X, Y, N\n\
         ##VAR_TYPE= INDEPENDENT, DEPENDENT, PAGE\n##VAR_DIM= 4, 4, 2\n\
         ##UNITS= NANOMETERS, PERCENT,\n##FIRST= 400, , 1\n##LAST= 430, , 2\n##FACTOR= 0.5, 0.1, 1\n\
-        ##PAGE= N=1\n##DATA TABLE= (X++(Y..Y)), XYDATA\n800 120 130 130 95\n\
+        ##PAGE= N=1\n##DATA TABLE= (X++(Y..Y)), XYDATA\n800 120 130\n840 130 95\n\
         ##PAGE= N=2\n##DATA TABLE= (XY..XY), XYPOINTS\n860, 95; 840 130\n820 130 800,120\n\
         ##END NTUPLES= UV/VIS SPECTRUM\n##END=\n";
 
@@ -340,17 +340,17 @@ mod tests {
                 (MeasuredQuantity::Reflectance, Unit::Percent)
             );
         }
-        assert_eq!((found[0].line, found[1].line), (13, 16));
+        assert_eq!((found[0].line, found[1].line), (13, 17));
     }
 
     #[test]
     fn faults_of_tuples_name_their_line() {
         for (old, new, at) in [
-            ("130 130 95", "130 95", 14),
+            ("840 130 95", "840 130", 15),
             ("(X++(Y..Y))", "(Z++(Y..Y))", 13),
             ("NANOMETERS", "SECONDS", 13),
             ("FACTOR= 0.5", "FACTOR= x", 11),
-            ("LAST= 430", "LAST= 830", 14),
+            ("LAST= 430", "LAST= 830", 15),
             ("##SYMBOL= X, Y, N\n", "", 12),
         ] {
             let found = read("f", &TUPLES.replacen(old, new, 1));

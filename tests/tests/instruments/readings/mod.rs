@@ -5,6 +5,7 @@ mod formats;
 mod fuzz;
 mod recipes;
 mod tables;
+mod workbooks;
 
 use std::path::PathBuf;
 
