@@ -167,7 +167,7 @@ fn swatch(
             return Err(MeasurementError::Contradiction {
                 place: CellPlace::new(&reading.file, reading.row, &table.pigments[index]),
                 sample: sample.to_owned(),
-                first_file: first.file.to_string(),
+                first_file: Arc::clone(&first.file),
                 first_row: first.row,
                 amount: reading.amounts[index],
             });

@@ -10,36 +10,42 @@ pub struct CellPlace {
     pub row: u64,
     /// Heading of the column.
     pub column: String,
-    /// Name of the cell in a workbook, such as `C5`.
-    pub cell: Option<String>,
+    /// Number of the column in the sheet of a workbook, from 0.
+    pub sheet_column: Option<u32>,
 }
 
 impl CellPlace {
     /// The cell of `file` in row `row` (from 1), under the heading `column`.
     #[must_use]
     pub fn new(file: &str, row: u64, column: &str) -> Self {
-        Self { file: file.to_owned(), row, column: column.to_owned(), cell: None }
+        Self { file: file.to_owned(), row, column: column.to_owned(), sheet_column: None }
     }
 
-    /// The place with the name of its cell in a workbook, of which `index` is the column from 0.
+    /// The place in the sheet of a workbook, of which `index` is the column from 0.
     #[must_use]
     pub fn in_workbook(self, index: usize) -> Self {
-        let mut letters = Vec::new();
-        let mut rest = index + 1;
-        while rest > 0 {
-            letters.push(char::from(b'A' + u8::try_from((rest - 1) % 26).unwrap_or(0)));
-            rest = (rest - 1) / 26;
-        }
-        let letters: String = letters.into_iter().rev().collect();
-        Self { cell: Some(format!("{letters}{}", self.row)), ..self }
+        Self { sheet_column: u32::try_from(index).ok(), ..self }
     }
+}
+
+/// Letters of the column `index`, from 0, of a sheet: `A` to `Z`, then `AA`.
+fn column_letters(index: u32) -> String {
+    let mut letters = String::new();
+    let mut rest = index.saturating_add(1);
+    while rest > 0 {
+        let letter = u8::try_from((rest - 1) % 26).unwrap_or(0);
+        letters.insert(0, char::from(b'A' + letter));
+        rest = (rest - 1) / 26;
+    }
+    letters
 }
 
 impl std::fmt::Display for CellPlace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match &self.cell {
-            Some(cell) => write!(f, "{}, cell {cell}, column `{}`", self.file, self.column),
-            None => write!(f, "{}, row {}, column `{}`", self.file, self.row, self.column),
+        let Self { file, row, column, sheet_column } = self;
+        match sheet_column.map(column_letters) {
+            Some(letters) => write!(f, "{file}, cell {letters}{row}, column `{column}`"),
+            None => write!(f, "{file}, row {row}, column `{column}`"),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Faults of measurement files, each with its place.
 
+use std::sync::Arc;
+
 use super::darker_film::DarkerFilm;
 use spectra::instrument::{InstrumentError, MeasuredQuantity};
 
@@ -119,7 +121,7 @@ pub enum MeasurementError {
         /// Name of the sample.
         sample: String,
         /// File that holds the other amount.
-        first_file: String,
+        first_file: Arc<str>,
         /// Row of the other amount.
         first_row: u64,
         /// Amount in this row.

@@ -226,7 +226,7 @@ pub(super) mod tests {
         for length in 3..bytes.len() {
             match read_binary("some.asd", &bytes[..length]) {
                 Err(error) => {
-                    assert!(error.to_string().starts_with("some.asd: faulty ASD"), "{error}")
+                    assert!(error.to_string().starts_with("some.asd: faulty ASD"), "{error}");
                 }
                 Ok(found) => {
                     assert_eq!(length, without_white);
