@@ -9,12 +9,13 @@ use super::column::{Column, TableKind, columns};
 use super::common_grid::{grid_of, on_grid};
 use super::csv_row::CsvRow;
 use super::error::MeasurementError;
-use super::heading_row::{HeadingRow, plain_heading};
+use super::heading_row::HeadingRow;
 use super::name_column::{filled_column, name_rank};
 use super::no_amounts::without_amounts;
+use super::raw_rows::RawRows;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
-use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers};
+use spectra::csv_table::{CellPlace, CsvTableError};
 
 /// Greatest reflectance of a reading, as a fraction; a value above is a mistaken unit.
 const LARGEST_REFLECTANCE: f64 = 2.0;
@@ -90,7 +91,7 @@ impl MeasurementTable {
 /// samples and wavelengths, or the first line a column `sample`.
 #[must_use]
 pub fn is_measurement_csv(text: &str) -> bool {
-    HeadingRow::of(text, TableKind::Readings).is_some()
+    HeadingRow::of(text, TableKind::Readings).is_some() || RawRows::turned(text).is_some()
 }
 
 /// Whether the first line of a text names a column `sample`, which no instrument's file does.
@@ -149,7 +150,9 @@ const LARGEST_AMOUNT: f64 = 1e12;
 pub(super) struct CsvRows {
     pub(super) file: Arc<str>,
     /// Row of the headers in the file, from 1.
-    pub(super) heading_row: u64,
+    heading_row: u64,
+    /// In a table with a column for each sample: the row of each header.
+    heading_rows: Option<Vec<u64>>,
     pub(super) headers: Vec<String>,
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<CsvRow>,
@@ -183,35 +186,15 @@ impl CsvRows {
         if text.trim().is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
-        let unknown = HeadingRow { separator: b',', offset: 0 };
-        let heading = HeadingRow::of(text, kind).unwrap_or(unknown);
-        let separator = heading.separator;
-        let mut numbers = RowNumbers::of(text.as_bytes());
-        let heading_row = numbers.at(heading.offset as u64);
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .trim(csv::Trim::All)
-            .delimiter(separator)
-            .from_reader(&text.as_bytes()[heading.offset..]);
-        let mut records =
-            reader.records().map(|r| r.expect("decoded text can always be split into records"));
-        let header = records.next().unwrap_or_default();
-        let mut headers: Vec<String> = header.iter().map(plain_heading).collect();
-        // Spreadsheets often leave empty columns at the right.
-        let width =
-            headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
-        headers.truncate(width);
+        let RawRows { separator, heading_row, headings: headers, rows, heading_rows } =
+            RawRows::of(text, kind);
         let place = |index: usize| {
-            let place = CellPlace::new(file, heading_row, &headers[index]);
-            if content.is_sheet { place.in_workbook(index) } else { place }
+            let row = heading_rows.as_ref().map_or(heading_row, |rows| rows[index]);
+            let place = CellPlace::new(file, row, &headers[index]);
+            let is_plain = content.is_sheet && heading_rows.is_none();
+            if is_plain { place.in_workbook(index) } else { place }
         };
         let mut columns = columns(&place, &headers, kind, pigments)?;
-        let byte = |cells: &csv::StringRecord| cells.position().map_or(0, csv::Position::byte);
-        let rows: Vec<CsvRow> = records
-            .filter(|cells| cells.iter().any(|cell| !cell.is_empty()))
-            .map(|cells| CsvRow { number: numbers.at(heading.offset as u64 + byte(&cells)), cells })
-            .collect();
         if rows.is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
@@ -227,6 +210,7 @@ impl CsvRows {
         Ok(Self {
             file,
             heading_row,
+            heading_rows,
             headers,
             columns,
             rows,
@@ -237,10 +221,25 @@ impl CsvRows {
         })
     }
 
-    /// The cell in row `row`, in the column `index` from 0.
-    pub(super) fn place(&self, row: u64, index: usize) -> CellPlace {
-        let place = CellPlace::new(&self.file, row, &self.headers[index]);
-        if self.is_sheet { place.in_workbook(index) } else { place }
+    /// The header `index`, from 0.
+    pub(super) fn header_place(&self, index: usize) -> CellPlace {
+        let row = self.heading_rows.as_ref().map_or(self.heading_row, |rows| rows[index]);
+        CellPlace::new(&self.file, row, &self.headers[index])
+    }
+
+    /// The cell of `row` below the header `index`, from 0; of a table with a column for each sample, in the
+    /// column of the sample.
+    fn place(&self, row: &CsvRow, index: usize) -> CellPlace {
+        match &self.heading_rows {
+            Some(rows) => {
+                let sample = row.cells.get(0).unwrap_or_default();
+                CellPlace::new(&self.file, rows[index], sample)
+            }
+            None if self.is_sheet => {
+                CellPlace::new(&self.file, row.number, &self.headers[index]).in_workbook(index)
+            }
+            None => CellPlace::new(&self.file, row.number, &self.headers[index]),
+        }
     }
 
     /// Names of the pigment columns.
@@ -274,8 +273,8 @@ impl CsvRows {
         self.rows.iter().map(|row| self.reading(row)).collect()
     }
 
-    fn reading(&self, record: &CsvRow) -> Result<Reading, MeasurementError> {
-        let (row, record) = (record.number, &record.cells);
+    fn reading(&self, csv_row: &CsvRow) -> Result<Reading, MeasurementError> {
+        let (row, record) = (csv_row.number, &csv_row.cells);
         let surplus_is_empty = record.iter().skip(self.columns.len()).all(str::is_empty);
         if record.len() < self.columns.len() || !surplus_is_empty {
             return Err(MeasurementError::Sheet(CsvTableError::RowLength {
@@ -298,7 +297,7 @@ impl CsvRows {
         for (index, (cell, column)) in record.iter().zip(&self.columns).enumerate() {
             let wrong = |wanted| {
                 MeasurementError::Sheet(CsvTableError::Cell {
-                    place: self.place(row, index),
+                    place: self.place(csv_row, index),
                     wanted,
                     text: cell.to_owned(),
                 })
@@ -364,12 +363,12 @@ impl CsvRows {
         let indices: Vec<usize> = (0..self.columns.len())
             .filter(|&index| matches!(self.columns[index], Column::Wavelength(_)))
             .collect();
-        for reading in readings {
+        for (reading, row) in readings.iter_mut().zip(&self.rows) {
             for (value, &index) in reading.reflectance.iter_mut().zip(&indices) {
                 let fraction = *value * scale.to_fraction();
                 if !(0.0..=LARGEST_REFLECTANCE).contains(&fraction) {
                     return Err(MeasurementError::Reflectance {
-                        place: self.place(reading.row, index),
+                        place: self.place(row, index),
                         range: scale.range(),
                         value: *value,
                     });

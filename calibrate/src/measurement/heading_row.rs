@@ -51,6 +51,16 @@ impl HeadingRow {
         }
         best.map(|(_, found)| found)
     }
+
+    /// The first row that is not empty, with the separator that occurs most often in it.
+    pub(super) fn first(text: &str) -> Self {
+        let offset = text.len() - text.trim_start_matches(['\n', '\r', ' ']).len();
+        let line = text[offset..].lines().next().unwrap_or_default();
+        let count = |separator: &u8| line.bytes().filter(|byte| byte == separator).count();
+        // The first of several: the maximum is searched from behind.
+        let separator = SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',');
+        Self { separator, offset }
+    }
 }
 
 /// How much a row looks like headings; `None` if it has no column for names, or only that.

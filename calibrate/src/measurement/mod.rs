@@ -25,6 +25,8 @@ mod column;
 
 mod heading_row;
 
+mod raw_rows;
+
 mod common_grid;
 
 mod no_amounts;

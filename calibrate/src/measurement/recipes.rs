@@ -51,7 +51,7 @@ impl Recipes {
         let position = |wanted: Column| table_rows.columns.iter().position(|c| *c == wanted);
         let is_wavelength = |column: &Column| matches!(column, Column::Wavelength(_));
         if let Some(index) = table_rows.columns.iter().position(is_wavelength) {
-            let place = table_rows.place(table_rows.heading_row, index);
+            let place = table_rows.header_place(index);
             return Err(RecipesError::Wavelength { place });
         }
         let pigments = table_rows.pigments();

@@ -61,6 +61,7 @@ fn every_way_to_write_a_table_gives_the_same_colors() {
             "wavelength\tRed\tBlue\n400\t0.1\t0.5\n500\t0.2\t0.4\n600\t0.6\t0.2\n700\t0.7\t0.1\n"
                 .to_owned(),
         ),
+        ("a column a sample with films", "wavelength\tRed\tBlue\nfilm\tpaint\tpaint\n400\t0,1\t0,5\n500\t0,2\t0,4\n600\t0,6\t0,2\n700\t0,7\t0,1\n".to_owned()),
         ("title", format!("My paints\nDate,1.1.2026\nName,Anna\n\n{}", heading("Name"))),
         ("quoted commas", comma(",")),
         ("commas between semicolons", comma(";")),
@@ -94,6 +95,12 @@ fn rows_of_errors_are_lines_of_the_file() {
             "row 4, column `Name`: expected the sample's name",
         ),
         ("Title\nName,400,500\nRed,0.1\n", "row 3: expected 3 cells"),
+        ("sample;A;B\n\nfilm;paint;none\n400;0,1;0,2\n500;0,1;x\n", "row 5, column `B`"),
+        (
+            "sample;A;B\n\nfilm;paint;none\n400;0,1;0,2\n500;0,1;-1\n",
+            "row 5, column `B`: expected a reflectance from 0 to 2",
+        ),
+        ("sample;A;B\n\nfilm;paint;none\n500;0,1;0,2\n400;1;1\n450;1;1\n", "row 6, column `450`"),
     ] {
         let run = color("table.csv", content);
         assert_eq!(run.status, 1, "{content}\n{}", run.err);
