@@ -82,7 +82,7 @@ pub(super) fn columns(
         let column = match name.to_ascii_lowercase().as_str() {
             "reading" if kind == TableKind::Recipes => Some(Column::Reading),
             // Readings without the specular component beside those with it are other readings.
-            _ if has_included && has_word(name, "sce") => Some(Column::Ignored),
+            _ if has_included && excludes_specular(name) => Some(Column::Ignored),
             _ => column(name, letters),
         };
         let out_of_range = || MeasurementError::WavelengthRange { place: place(index) };
@@ -130,6 +130,11 @@ pub(super) fn columns(
 pub(super) fn is_wavelength_heading(heading: &str) -> bool {
     let nm = wavelength_of_header(&heading.trim().to_ascii_lowercase());
     nm.is_some_and(|nm| MEASURABLE_NM.contains(&nm))
+}
+
+/// Whether `heading` is that of readings without the specular component, such as `SCE 400nm`.
+pub(super) fn excludes_specular(heading: &str) -> bool {
+    has_word(heading, "sce") && is_wavelength_heading(heading)
 }
 
 /// Whether a heading in lower case is a single letter before a number, such as `r254`, which may

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use spectra::Grid;
 use spectra::instrument::FileText;
 
-use super::column::{Column, TableKind, columns};
+use super::column::{Column, TableKind, columns, excludes_specular};
 use super::common_grid::{grid_of, on_grid};
 use super::csv_row::CsvRow;
 use super::error::MeasurementError;
@@ -82,7 +82,7 @@ impl MeasurementTable {
         }
         let pigments = if spectra_only { Vec::new() } else { table.pigments() };
         let mut remarks = if spectra_only { Vec::new() } else { table.remarks() };
-        remarks.extend(table.sheet_remark.clone());
+        remarks.extend(table.left_out.clone());
         Ok(Self { pigments, grid, resampled_from, scale, readings, remarks })
     }
 }
@@ -161,8 +161,8 @@ pub(super) struct CsvRows {
     /// Whether the rows are those of a workbook's sheet.
     is_sheet: bool,
     spectra_only: bool,
-    /// Message about other sheets.
-    sheet_remark: Option<String>,
+    /// Messages about readings that are not taken: of other sheets, without the specular component.
+    left_out: Vec<String>,
 }
 
 impl CsvRows {
@@ -206,6 +206,14 @@ impl CsvRows {
                 columns[place] = Column::Ignored;
             }
         }
+        let excluded = headers
+            .iter()
+            .zip(&columns)
+            .filter(|(name, column)| **column == Column::Ignored && excludes_specular(name));
+        let excluded = (excluded.count() > 0).then(|| {
+            format!("{file}: readings without the specular component (SCE) are left out; those with it are read")
+        });
+        let left_out = content.remark.into_iter().chain(excluded);
         let file = file.into();
         Ok(Self {
             file,
@@ -217,7 +225,7 @@ impl CsvRows {
             decimal_comma,
             is_sheet: content.is_sheet,
             spectra_only: false,
-            sheet_remark: content.remark,
+            left_out: left_out.collect(),
         })
     }
 
@@ -256,6 +264,7 @@ impl CsvRows {
         let named = self.headers.iter().zip(&self.columns);
         let ignored: Vec<&str> = named
             .filter(|(name, column)| **column == Column::Ignored && !name.is_empty())
+            .filter(|(name, _)| !excludes_specular(name))
             .map(|(name, _)| name.as_str())
             .collect();
         let what = || {

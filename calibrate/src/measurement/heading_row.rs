@@ -118,6 +118,7 @@ mod tests {
         assert_eq!(readings("Date\t1.1.26\nwavelength\t400\t410\nA\t1\t2\n"), Some(('\t', 12)));
         assert_eq!(readings("Name,Anna\nwavelength,Red,Blue\n400,1,2\n"), None);
         assert_eq!(readings("400,1\n410,2\n"), None);
+        assert_eq!(readings("Name,500\nwavelength,Red\n400,1\n"), None, "a name that is a number");
     }
 
     #[test]

@@ -67,7 +67,13 @@ impl Layout {
 fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     let mut cells: Vec<&str> = match separator {
         Some(separator) => {
-            line.split(separator).map(|cell| cell.trim().trim_matches('"')).collect()
+            // A separator between quotes is part of its cell.
+            let mut quoted = false;
+            let cells = line.split(|c: char| {
+                quoted ^= c == '"';
+                c == separator && !quoted
+            });
+            cells.map(|cell| cell.trim().trim_matches('"')).collect()
         }
         None => line.split_whitespace().collect(),
     };
@@ -78,8 +84,7 @@ fn split(line: &str, separator: Option<char>) -> Vec<&str> {
 
 fn is_row(cells: &[&str], separator: Option<char>) -> bool {
     let numeric = |cell: &&str| {
-        number(cell, Decimal::Point).is_some()
-            || (separator != Some(',') && number(cell, Decimal::Comma).is_some())
+        number(cell, Decimal::Point).is_some() || number(cell, Decimal::Comma).is_some()
     };
     cells.len() > 1 && cells.iter().all(numeric)
 }
@@ -100,6 +105,8 @@ mod tests {
             ("400,0.5", Some(','), Point),
             ("400, 0.5", Some(','), Point),
             ("400 , 0.5", Some(','), Point),
+            ("\"400\",\"0,5\"", Some(','), Comma),
+            ("400,\"0,5\"", Some(','), Comma),
         ] {
             assert_eq!(
                 Layout::of([line].into_iter()),

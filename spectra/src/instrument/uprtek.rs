@@ -18,10 +18,14 @@ fn wavelength(key: &str) -> Option<f64> {
     number(key.strip_suffix("nm")?, Decimal::Point).filter(|nm| (100.0..=5000.0).contains(nm))
 }
 
-/// Whether a text has such rows.
+/// Keys of figures that stand beside the spectrum of a light.
+const OF_A_LIGHT: [&str; 6] = ["Model Name", "LUX", "CCT", "PPFD", "LambdaP", "IRR"];
+
+/// Whether a text has such rows, and figures of a light.
 pub(super) fn is_text(text: &str) -> bool {
-    let rows = lines(text).filter_map(|(_, line)| key_and_value(line));
-    rows.filter(|(key, _)| wavelength(key).is_some()).take(2).count() == 2
+    let rows = || lines(text).filter_map(|(_, line)| key_and_value(line));
+    let wavelengths = rows().filter(|(key, _)| wavelength(key).is_some()).take(2).count();
+    wavelengths == 2 && rows().any(|(key, _)| OF_A_LIGHT.contains(&key))
 }
 
 /// The readings of a file, each in a column: the power of a light.
@@ -90,6 +94,7 @@ mod tests {
     #[test]
     fn rows_of_wavelengths_are_the_power_of_a_light() {
         assert!(is_text(FILE) && !is_text("Model Name\tLI-180\n380nm\t1\n"));
+        assert!(!is_text("nm,reflectance\n380nm,1\n381nm,1\n"), "no light");
         let found = &read("a/sky.txt", FILE).unwrap()[0];
         assert_eq!((found.name.as_str(), found.line), ("sky", 5));
         assert_eq!(
