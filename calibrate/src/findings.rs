@@ -140,7 +140,10 @@ fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
             "taken to hide though their readings over different backings differ (K/S needs two backings of different reflectance, each read bare, under films of one thickness)",
             denied,
         ),
-        listed("taken to hide, for want of a second backing", plain),
+        listed(
+            "taken to hide, for want of a second backing (the columns `film` and `backing` tell cards; washes that never hide take absolute amounts)",
+            plain,
+        ),
     ]
     .into_iter()
     .flatten()

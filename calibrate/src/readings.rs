@@ -4,14 +4,14 @@ use std::path::Path;
 
 use spectra::file::{FileError, read as read_file};
 use spectra::hint::{Explain, Fault, Hint};
-use spectra::instrument::{Format, InstrumentError, InstrumentFile, decode_text, read};
+use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, read};
 use spectra::referencing::{
     OpenedReferences, ReferenceFiles, ReferenceFilesError, ReferencingError, TileSource,
 };
 
 use crate::measurement::{
     MeasurementError, MeasurementTable, Recipes, RecipesError, RecordChoice, Scale, ScaleChoice,
-    is_measurement_csv,
+    begins_with_samples, is_measurement_csv,
 };
 use crate::swatch::SwatchSet;
 use pigment::library::Input;
@@ -221,16 +221,21 @@ fn instrument_file(
     bytes: &[u8],
     format: Option<ReadingFormat>,
 ) -> Result<Option<InstrumentFile>, InstrumentError> {
-    let format = match format {
-        Some(ReadingFormat::Csv) => None,
-        Some(ReadingFormat::Instrument(format)) => Some(format),
-        None => {
-            let (text, _) = decode_text(bytes);
-            let is_csv = is_measurement_csv(&text);
-            if is_csv { None } else { Format::detect(file, &text) }
+    match format {
+        Some(ReadingFormat::Csv) => return Ok(None),
+        Some(ReadingFormat::Instrument(format)) => {
+            return read(file, bytes, Some(format)).map(Some);
         }
+        None => {}
+    }
+    let Some(content) = FileText::of(file, bytes)? else {
+        return read(file, bytes, None).map(Some);
     };
-    format.map(|format| read(file, bytes, Some(format))).transpose()
+    let text = &content.text;
+    let known = if begins_with_samples(text) { None } else { Format::detect(file, text) };
+    // A table without numbers below its headings is no columns of numbers.
+    let known = known.filter(|format| *format != Format::Columns || !is_measurement_csv(text));
+    known.map(|_| read(file, bytes, None)).transpose()
 }
 
 fn instrument_table(
@@ -270,7 +275,8 @@ fn csv_table(
     } else {
         MeasurementTable::from_csv_with(file, bytes, options.scale, options.pigments.as_deref())?
     };
-    let (_, encoding) = decode_text(bytes);
+    let content = FileText::of(file, bytes).map_err(MeasurementError::Instrument)?;
+    let (file, encoding) = content.map_or((file.to_owned(), "UTF-8"), |c| (c.file, c.encoding));
     let is_utf8 = encoding == "UTF-8";
     let encoding = if is_utf8 { String::new() } else { format!(" ({encoding})") };
     let summary = format!("{file}{encoding}: {} readings", table.readings.len());

@@ -167,7 +167,7 @@ fn swatch(
             return Err(MeasurementError::Contradiction {
                 place: CellPlace::new(&reading.file, reading.row, &table.pigments[index]),
                 sample: sample.to_owned(),
-                first_file: first.file.to_string(),
+                first_file: Arc::clone(&first.file),
                 first_row: first.row,
                 amount: reading.amounts[index],
             });
@@ -179,6 +179,7 @@ fn swatch(
             file: first.file.to_string(),
             row: first.row,
             sample: sample.to_owned(),
+            has_cards: table.readings.iter().any(|reading| reading.film == Film::None),
         });
     }
     let mut films: Vec<SwatchFilm> = Vec::new();

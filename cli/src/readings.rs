@@ -22,11 +22,13 @@ pub(crate) struct ReadingOptions {
     fraction: bool,
     /// Format of the measurement files [default: found by content]
     ///
-    /// csv: a column `sample`, then optionally film, backing, thickness_mm, one per pigment, then
-    /// the wavelengths; commas, or semicolons or tabs with decimal commas. cgats: CGATS.17, Argyll
-    /// .ti3 and .sp, X-Rite and GretagMacbeth text. qtx: Datacolor. ocean-optics: SpectraSuite,
-    /// OceanView, Jaz. jcamp-dx. avantes: AvaSoft text. bruker: OPUS .dpt. columns: wavelength,
-    /// then one or more spectra. cxf: CxF3. tm27: IES TM-27 .spdx. sekonic: SpectroMaster CSV.
+    /// csv: a column `sample` (or Name, Sample ID ..), then optionally film, backing, thickness_mm, one
+    /// per pigment, then the wavelengths; commas, semicolons or tabs, or a sheet of .xlsx. cgats:
+    /// CGATS.17, Argyll .ti3 and .sp, X-Rite and GretagMacbeth text. qtx: Datacolor. ocean-optics:
+    /// SpectraSuite, OceanView, Jaz, .ProcSpec. jcamp-dx. avantes: AvaSoft text, .TRM, .ROH, .RFL8 and
+    /// others. bruker: OPUS .dpt. columns: wavelength, then one or more spectra. cxf: CxF3. tm27: IES
+    /// TM-27 .spdx. sekonic: SpectroMaster CSV. asd: FieldSpec .asd or text. sed: Spectral Evolution.
+    /// svc: Spectra Vista .sig. uprtek: UPRtek or LI-180. xlsx: columns in a workbook.
     #[arg(long, value_name = "NAME", value_parser = format_names(), hide_possible_values = true)]
     format: Option<String>,
     /// Read values that an instrument's file calls transmittance as reflectance

@@ -10,19 +10,43 @@ pub struct CellPlace {
     pub row: u64,
     /// Heading of the column.
     pub column: String,
+    /// Number of the column in the sheet of a workbook, from 0.
+    pub sheet_column: Option<u32>,
 }
 
 impl CellPlace {
     /// The cell of `file` in row `row` (from 1), under the heading `column`.
     #[must_use]
     pub fn new(file: &str, row: u64, column: &str) -> Self {
-        Self { file: file.to_owned(), row, column: column.to_owned() }
+        Self { file: file.to_owned(), row, column: column.to_owned(), sheet_column: None }
     }
+
+    /// The place in the sheet of a workbook, of which `index` is the column from 0.
+    #[must_use]
+    pub fn in_workbook(self, index: usize) -> Self {
+        Self { sheet_column: u32::try_from(index).ok(), ..self }
+    }
+}
+
+/// Letters of the column `index`, from 0, of a sheet: `A` to `Z`, then `AA`.
+fn column_letters(index: u32) -> String {
+    let mut letters = String::new();
+    let mut rest = index.saturating_add(1);
+    while rest > 0 {
+        let letter = u8::try_from((rest - 1) % 26).unwrap_or(0);
+        letters.insert(0, char::from(b'A' + letter));
+        rest = (rest - 1) / 26;
+    }
+    letters
 }
 
 impl std::fmt::Display for CellPlace {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}, row {}, column `{}`", self.file, self.row, self.column)
+        let Self { file, row, column, sheet_column } = self;
+        match sheet_column.map(column_letters) {
+            Some(letters) => write!(f, "{file}, cell {letters}{row}, column `{column}`"),
+            None => write!(f, "{file}, row {row}, column `{column}`"),
+        }
     }
 }
 
@@ -98,17 +122,56 @@ pub enum CsvTableError {
     },
 }
 
+/// Words that stand beside a wavelength in headings of instruments and spreadsheets.
+const WORDS: [&str; 18] = [
+    "nm",
+    "nanometer",
+    "nanometers",
+    "r",
+    "x",
+    "spec",
+    "spectral",
+    "refl",
+    "reflectance",
+    "reflect",
+    "sci",
+    "sce",
+    "wl",
+    "lambda",
+    "wavelength",
+    "pct",
+    "dec",
+    "wave",
+];
+
 /// The wavelength in nm in a column's heading, which must be in lower case: `400`, `400nm`,
-/// `r400`, `spec_400` or `nm400`. `None` for any other heading.
+/// `400[nm]`, `r400`, `spec_400`, `nm400` or `sci 400 nm`. `None` for any other heading.
 #[must_use]
 pub fn wavelength_of_header(lower: &str) -> Option<f64> {
-    let bare =
-        ["spec_", "nm", "r"].iter().find_map(|prefix| lower.strip_prefix(prefix)).unwrap_or(lower);
-    let bare = bare.strip_suffix("nm").unwrap_or(bare).trim();
-    if !bare.starts_with(|c: char| c.is_ascii_digit()) {
-        return None;
+    let mut rest = lower.trim();
+    let mut nm = None;
+    while let Some(first) = rest.chars().next() {
+        let length = if first.is_ascii_digit() {
+            let other = |c: char| !(c.is_ascii_digit() || c == '.');
+            let length = rest.find(other).unwrap_or(rest.len());
+            if nm.replace(rest[..length].parse().ok()?).is_some() {
+                return None;
+            }
+            length
+        } else if first.is_ascii_lowercase() {
+            let length = rest.find(|c: char| !c.is_ascii_lowercase()).unwrap_or(rest.len());
+            if !WORDS.contains(&&rest[..length]) {
+                return None;
+            }
+            length
+        } else if " _[]()%.".contains(first) {
+            1
+        } else {
+            return None;
+        };
+        rest = &rest[length..];
     }
-    bare.parse().ok()
+    nm
 }
 
 #[cfg(test)]
@@ -125,6 +188,46 @@ mod tests {
                 .map(|record| numbers.at(record.unwrap().position().unwrap().byte()))
                 .collect();
             assert_eq!(rows, [2, 5, 7], "{end:?}");
+        }
+    }
+
+    #[test]
+    fn cells_of_a_workbook_are_named_by_letters_and_row() {
+        for (index, cell) in [(0, "A7"), (25, "Z7"), (26, "AA7"), (701, "ZZ7"), (702, "AAA7")] {
+            let place = CellPlace::new("f", 7, "x").in_workbook(index);
+            assert_eq!(place.to_string(), format!("f, cell {cell}, column `x`"));
+        }
+    }
+
+    #[test]
+    fn wavelengths_are_found_in_headings_of_instruments() {
+        for heading in [
+            "400",
+            "400.0",
+            "400nm",
+            "400 nm",
+            "400[nm]",
+            "400 (nm)",
+            "r400",
+            "r400 nm",
+            "r%400",
+            "spec_400",
+            "spectral_nm_400",
+            "spectral_nm400",
+            "nm400",
+            "sci 400nm",
+            "400nm (sce)",
+            "wl400",
+            "lambda_400",
+            "x400",
+        ] {
+            assert_eq!(wavelength_of_header(heading), Some(400.0), "{heading}");
+        }
+        for heading in [
+            "", "nm", "pr254", "400-410", "400 410", "-400", "d65 400", "l*", "w/m2", "4.0.0",
+            "r*400",
+        ] {
+            assert_eq!(wavelength_of_header(heading), None, "{heading}");
         }
     }
 }

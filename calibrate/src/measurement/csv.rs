@@ -3,16 +3,19 @@
 use std::sync::Arc;
 
 use spectra::Grid;
-use spectra::instrument::decode_text;
+use spectra::instrument::FileText;
 
-use super::column::{Column, TableKind, columns};
+use super::column::{Column, TableKind, columns, excludes_specular};
 use super::common_grid::{grid_of, on_grid};
 use super::csv_row::CsvRow;
 use super::error::MeasurementError;
+use super::heading_row::HeadingRow;
+use super::name_column::{filled_column, name_rank};
 use super::no_amounts::without_amounts;
+use super::raw_rows::RawRows;
 use super::scale::{Scale, ScaleChoice};
 use super::table::{Film, MeasurementTable, Reading};
-use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers};
+use spectra::csv_table::{CellPlace, CsvTableError};
 
 /// Greatest reflectance of a reading, as a fraction; a value above is a mistaken unit.
 const LARGEST_REFLECTANCE: f64 = 2.0;
@@ -66,7 +69,11 @@ impl MeasurementTable {
             Column::Wavelength(nm) => Some(*nm),
             _ => None,
         });
-        let wavelengths: Vec<f64> = wavelengths.collect();
+        let mut wavelengths: Vec<f64> = wavelengths.collect();
+        if wavelengths.is_sorted_by(|a, b| a > b) {
+            wavelengths.reverse();
+            readings.iter_mut().for_each(|reading| reading.reflectance.reverse());
+        }
         let grid = grid_of(&wavelengths);
         let resampled_from = Grid::through(&wavelengths).is_none().then_some(wavelengths.len());
         for reading in &mut readings {
@@ -74,25 +81,26 @@ impl MeasurementTable {
             reading.reflectance = on_grid(grid, &wavelengths, values);
         }
         let pigments = if spectra_only { Vec::new() } else { table.pigments() };
-        let remarks = if spectra_only { Vec::new() } else { table.remarks() };
+        let mut remarks = if spectra_only { Vec::new() } else { table.remarks() };
+        remarks.extend(table.left_out.clone());
         Ok(Self { pigments, grid, resampled_from, scale, readings, remarks })
     }
 }
 
-/// Whether a text is the CSV of this module rather than an instrument's file: its first line has a column
-/// `sample`.
+/// Whether a text is the CSV of this module rather than an instrument's file: some line names a column of
+/// samples and wavelengths, or the first line a column `sample`.
 #[must_use]
 pub fn is_measurement_csv(text: &str) -> bool {
-    [',', ';', '\t'].into_iter().any(|separator| names_sample(first_line(text), separator))
+    HeadingRow::of(text, TableKind::Readings).is_some() || RawRows::turned(text).is_some()
 }
 
-fn first_line(text: &str) -> &str {
-    text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default()
-}
-
-fn names_sample(header: &str, separator: char) -> bool {
-    let plain = |cell: &str| cell.trim().trim_matches('"').trim().to_ascii_lowercase();
-    header.split(separator).any(|cell| plain(cell) == "sample")
+/// Whether the first line of a text names a column `sample`, which no instrument's file does.
+#[must_use]
+pub fn begins_with_samples(text: &str) -> bool {
+    let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
+    let is_sample =
+        |cell: &str| cell.trim().trim_matches('"').trim().eq_ignore_ascii_case("sample");
+    [',', ';', '\t'].into_iter().any(|separator| first.split(separator).any(is_sample))
 }
 
 /// The finite number in a cell. With decimal commas, a point may separate thousands.
@@ -105,18 +113,56 @@ fn parsed(cell: &str, decimal_comma: bool) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
+/// Makes the column of names the first of those headed as one in which every row has a name.
+fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]) {
+    let Some(taken) = columns.iter().position(|column| *column == Column::Sample) else { return };
+    let mut places: Vec<(Option<usize>, usize)> = (0..columns.len())
+        .filter(|&place| place == taken || columns[place] == Column::Ignored)
+        .map(|place| (name_rank(&headers[place]), place))
+        .filter(|&(rank, place)| rank.is_some() || place == taken)
+        .collect();
+    places.sort_by_key(|&(rank, place)| (place != taken, rank));
+    let places: Vec<usize> = places.into_iter().map(|(_, place)| place).collect();
+    if let Some(filled) = filled_column(&places, rows) {
+        columns[taken] = Column::Ignored;
+        columns[filled] = Column::Sample;
+    }
+}
+
+/// Whether commas in the cells of numbers are decimal signs. Where commas separate the cells as well, those
+/// of quoted readings are, since no reflectance has thousands; amounts alone could have them.
+fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> bool {
+    let decides = |column: &Column| match column {
+        Column::Wavelength(_) => true,
+        Column::Pigment(_) | Column::Thickness => separator != b',',
+        _ => false,
+    };
+    let has_comma = |row: &CsvRow| {
+        row.cells.iter().zip(columns).any(|(cell, column)| decides(column) && cell.contains(','))
+    };
+    rows.iter().any(has_comma)
+}
+
 /// Largest amount of a pigment; beyond it sums lose their small terms.
 const LARGEST_AMOUNT: f64 = 1e12;
 
 /// A CSV table: its header row, the meaning of each column, and the rows below.
 pub(super) struct CsvRows {
     pub(super) file: Arc<str>,
+    /// Row of the headers in the file, from 1.
+    heading_row: u64,
+    /// In a table with a column for each sample: the row of each header.
+    heading_rows: Option<Vec<u64>>,
     pub(super) headers: Vec<String>,
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<CsvRow>,
-    /// Whether numbers have a decimal comma. Only possible where commas do not separate cells.
+    /// Whether numbers have a decimal comma; between commas such cells are quoted.
     decimal_comma: bool,
+    /// Whether the rows are those of a workbook's sheet.
+    is_sheet: bool,
     spectra_only: bool,
+    /// Messages about readings that are not taken: of other sheets, without the specular component.
+    left_out: Vec<String>,
 }
 
 impl CsvRows {
@@ -128,65 +174,80 @@ impl CsvRows {
         kind: TableKind,
         pigments: Option<&[String]>,
     ) -> Result<Self, MeasurementError> {
-        let (text, _) = decode_text(bytes);
+        let content = FileText::of(file, bytes).map_err(MeasurementError::Instrument)?;
+        let Some(content) = content else {
+            let found = "a binary file of an instrument";
+            return Err(MeasurementError::NoTable { file: file.to_owned(), found });
+        };
+        let (file, text) = (content.file.as_str(), &content.text);
         if text.trim_start().starts_with('{') {
             return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
         }
         if text.trim().is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
-        let header = first_line(&text);
-        let other = [';', '\t'].into_iter().find(|&separator| names_sample(header, separator));
-        let separator = other.filter(|_| !names_sample(header, ',')).map_or(b',', |c| c as u8);
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .trim(csv::Trim::All)
-            .delimiter(separator)
-            .from_reader(text.as_bytes());
-        let mut records =
-            reader.records().map(|r| r.expect("decoded text can always be split into records"));
-        let header = records.next().unwrap_or_default();
-        // `400,5` is a wavelength where commas do not separate cells.
-        let plain = |name: &str| {
-            let pointed = name.replace(',', ".");
-            if pointed.parse::<f64>().is_ok() { pointed } else { name.to_owned() }
+        let RawRows { separator, heading_row, headings: headers, rows, heading_rows } =
+            RawRows::of(text, kind);
+        let place = |index: usize| {
+            let row = heading_rows.as_ref().map_or(heading_row, |rows| rows[index]);
+            let place = CellPlace::new(file, row, &headers[index]);
+            let is_plain = content.is_sheet && heading_rows.is_none();
+            if is_plain { place.in_workbook(index) } else { place }
         };
-        let mut headers: Vec<String> = header.iter().map(plain).collect();
-        // Spreadsheets often leave empty columns at the right.
-        let width =
-            headers.iter().rposition(|header| !header.is_empty()).map_or(0, |last| last + 1);
-        headers.truncate(width);
-        let mut columns = columns(file, &headers, kind, pigments)?;
-        let mut numbers = RowNumbers::of(text.as_bytes());
-        let rows: Vec<CsvRow> = records
-            .filter(|cells| cells.iter().any(|cell| !cell.is_empty()))
-            .map(|cells| CsvRow {
-                number: numbers.at(cells.position().map_or(0, csv::Position::byte)),
-                cells,
-            })
-            .collect();
+        let mut columns = columns(&place, &headers, kind, pigments)?;
         if rows.is_empty() {
             return Err(MeasurementError::Empty { file: file.to_owned() });
         }
-        let is_number = |column: &Column| {
-            matches!(column, Column::Wavelength(_) | Column::Pigment(_) | Column::Thickness)
-        };
-        let has_comma = |row: &CsvRow| {
-            row.cells
-                .iter()
-                .zip(&columns)
-                .any(|(cell, column)| is_number(column) && cell.contains(','))
-        };
-        let decimal_comma = separator != b',' && rows.iter().any(has_comma);
+        take_filled_names(&headers, &mut columns, &rows);
+        let decimal_comma = has_decimal_commas(separator, &columns, &rows);
         if pigments.is_none() {
             let number = |cell: &str| parsed(cell, decimal_comma);
             for place in without_amounts(&columns, &rows, number) {
                 columns[place] = Column::Ignored;
             }
         }
+        let excluded = headers
+            .iter()
+            .zip(&columns)
+            .filter(|(name, column)| **column == Column::Ignored && excludes_specular(name));
+        let excluded = (excluded.count() > 0).then(|| {
+            format!("{file}: readings without the specular component (SCE) are left out; those with it are read")
+        });
+        let left_out = content.remark.into_iter().chain(excluded);
         let file = file.into();
-        Ok(Self { file, headers, columns, rows, decimal_comma, spectra_only: false })
+        Ok(Self {
+            file,
+            heading_row,
+            heading_rows,
+            headers,
+            columns,
+            rows,
+            decimal_comma,
+            is_sheet: content.is_sheet,
+            spectra_only: false,
+            left_out: left_out.collect(),
+        })
+    }
+
+    /// The header `index`, from 0.
+    pub(super) fn header_place(&self, index: usize) -> CellPlace {
+        let row = self.heading_rows.as_ref().map_or(self.heading_row, |rows| rows[index]);
+        CellPlace::new(&self.file, row, &self.headers[index])
+    }
+
+    /// The cell of `row` below the header `index`, from 0; of a table with a column for each sample, in the
+    /// column of the sample.
+    fn place(&self, row: &CsvRow, index: usize) -> CellPlace {
+        match &self.heading_rows {
+            Some(rows) => {
+                let sample = row.cells.get(0).unwrap_or_default();
+                CellPlace::new(&self.file, rows[index], sample)
+            }
+            None if self.is_sheet => {
+                CellPlace::new(&self.file, row.number, &self.headers[index]).in_workbook(index)
+            }
+            None => CellPlace::new(&self.file, row.number, &self.headers[index]),
+        }
     }
 
     /// Names of the pigment columns.
@@ -202,7 +263,8 @@ impl CsvRows {
     pub(super) fn remarks(&self) -> Vec<String> {
         let named = self.headers.iter().zip(&self.columns);
         let ignored: Vec<&str> = named
-            .filter(|(_, column)| **column == Column::Ignored)
+            .filter(|(name, column)| **column == Column::Ignored && !name.is_empty())
+            .filter(|(name, _)| !excludes_specular(name))
             .map(|(name, _)| name.as_str())
             .collect();
         let what = || {
@@ -220,8 +282,8 @@ impl CsvRows {
         self.rows.iter().map(|row| self.reading(row)).collect()
     }
 
-    fn reading(&self, record: &CsvRow) -> Result<Reading, MeasurementError> {
-        let (row, record) = (record.number, &record.cells);
+    fn reading(&self, csv_row: &CsvRow) -> Result<Reading, MeasurementError> {
+        let (row, record) = (csv_row.number, &csv_row.cells);
         let surplus_is_empty = record.iter().skip(self.columns.len()).all(str::is_empty);
         if record.len() < self.columns.len() || !surplus_is_empty {
             return Err(MeasurementError::Sheet(CsvTableError::RowLength {
@@ -244,7 +306,7 @@ impl CsvRows {
         for (index, (cell, column)) in record.iter().zip(&self.columns).enumerate() {
             let wrong = |wanted| {
                 MeasurementError::Sheet(CsvTableError::Cell {
-                    place: CellPlace::new(&self.file, row, &self.headers[index]),
+                    place: self.place(csv_row, index),
                     wanted,
                     text: cell.to_owned(),
                 })
@@ -307,18 +369,15 @@ impl CsvRows {
                 scale
             }
         };
-        let names = self
-            .headers
-            .iter()
-            .zip(&self.columns)
-            .filter(|(_, column)| matches!(column, Column::Wavelength(_)));
-        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
-        for reading in readings {
-            for (value, name) in reading.reflectance.iter_mut().zip(&names) {
+        let indices: Vec<usize> = (0..self.columns.len())
+            .filter(|&index| matches!(self.columns[index], Column::Wavelength(_)))
+            .collect();
+        for (reading, row) in readings.iter_mut().zip(&self.rows) {
+            for (value, &index) in reading.reflectance.iter_mut().zip(&indices) {
                 let fraction = *value * scale.to_fraction();
                 if !(0.0..=LARGEST_REFLECTANCE).contains(&fraction) {
                     return Err(MeasurementError::Reflectance {
-                        place: CellPlace::new(&self.file, reading.row, name),
+                        place: self.place(row, index),
                         range: scale.range(),
                         value: *value,
                     });

@@ -1,7 +1,9 @@
 //! Faults of measurement files, each with its place.
 
+use std::sync::Arc;
+
 use super::darker_film::DarkerFilm;
-use spectra::instrument::MeasuredQuantity;
+use spectra::instrument::{InstrumentError, MeasuredQuantity};
 
 use spectra::csv_table::{CellPlace, CsvTableError};
 
@@ -16,6 +18,9 @@ pub enum MeasurementError {
     /// A cell, row or column of the table is faulty.
     #[error(transparent)]
     Sheet(CsvTableError),
+    /// The file is binary, or a damaged workbook.
+    #[error(transparent)]
+    Instrument(InstrumentError),
     /// The file holds no readings.
     #[error("{file}: the file holds no readings")]
     Empty {
@@ -23,10 +28,12 @@ pub enum MeasurementError {
         file: String,
     },
     /// A column has no header.
-    #[error("{file}, row 1: column number {number} has no header")]
+    #[error("{file}, row {row}: column number {number} has no header")]
     UnnamedColumn {
         /// File name as the caller gave it.
         file: String,
+        /// Row of the headers in the file, from 1.
+        row: u64,
         /// Column number, counted from 1.
         number: usize,
     },
@@ -48,9 +55,9 @@ pub enum MeasurementError {
         /// Wavelength in nm.
         nm: f64,
     },
-    /// The wavelengths of the columns do not rise.
-    #[error("{place}: wavelengths must rise, found {nm} nm after {before} nm")]
-    FallingWavelength {
+    /// The wavelengths of the columns neither rise nor fall throughout.
+    #[error("{place}: wavelengths must rise or fall throughout, found {nm} nm after {before} nm")]
+    UnorderedWavelength {
         /// File, row and column.
         place: CellPlace,
         /// Wavelength of the column before, in nm.
@@ -114,7 +121,7 @@ pub enum MeasurementError {
         /// Name of the sample.
         sample: String,
         /// File that holds the other amount.
-        first_file: String,
+        first_file: Arc<str>,
         /// Row of the other amount.
         first_row: u64,
         /// Amount in this row.
@@ -129,6 +136,8 @@ pub enum MeasurementError {
         row: u64,
         /// Name of the sample.
         sample: String,
+        /// Whether some row of the files is a bare card.
+        has_cards: bool,
     },
     /// A reading is below the surface's own reflection.
     #[error(
@@ -198,9 +207,7 @@ pub enum MeasurementError {
         measured: f64,
     },
     /// The backing of a film was not measured bare.
-    #[error(
-        "{file}, row {row}: sample {sample} lies on `{backing}`, of which there is no bare reading"
-    )]
+    #[error("{file}, row {row}: sample {sample} {}", no_bare_reading(backing))]
     NoBareBacking {
         /// File name as the caller gave it.
         file: String,
@@ -208,7 +215,7 @@ pub enum MeasurementError {
         row: u64,
         /// Name of the sample.
         sample: String,
-        /// Name of the backing.
+        /// Name of the backing; empty if the files name none.
         backing: String,
     },
     /// Two files have different wavelengths.
@@ -280,4 +287,11 @@ pub enum MeasurementError {
     /// The files hold bare cards only.
     #[error("no row is a film of paint")]
     NoFilms,
+}
+
+fn no_bare_reading(backing: &str) -> String {
+    if backing.is_empty() {
+        return "lies on a backing of which there is no bare reading".to_owned();
+    }
+    format!("lies on `{backing}`, of which there is no bare reading")
 }

@@ -9,13 +9,14 @@ use super::error::{MeasurementError, k1_below};
 impl Explain for MeasurementError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
+            Self::Instrument(error) => return error.hint(),
             Self::Sheet(CsvTableError::MissingColumn { .. }) => {
-                "the first row names the columns: sample, film, backing, one per pigment, then wavelengths such as 400".into()
+                "one row names the columns: sample (or Name, Sample ID ..), film, backing, one per pigment, then wavelengths such as 400".into()
             }
             Self::RepeatedColumn { .. } | Self::RepeatedWavelength { .. } => {
                 "remove or rename one of the two columns".into()
             }
-            Self::FallingWavelength { .. } => {
+            Self::UnorderedWavelength { .. } => {
                 "order the wavelength columns from short to long".into()
             }
             Self::Sheet(CsvTableError::RowLength { wanted, found, .. }) if found > wanted => {
@@ -25,7 +26,7 @@ impl Explain for MeasurementError {
                 "the row may be cut off; write empty cells as `,,`".into()
             }
             Self::Sheet(CsvTableError::Cell { text, .. }) if text.contains(',') => {
-                "numbers take a decimal point, not a comma".into()
+                "numbers have a decimal point, or a decimal comma in every reading of the file".into()
             }
             Self::Sheet(CsvTableError::Cell { wanted: "a reflectance", text, .. })
                 if text.is_empty() =>
@@ -66,11 +67,17 @@ impl Explain for MeasurementError {
             Self::NoPigmentColumn { .. } => {
                 "[pigments=NAME] takes the heading of a column, once for each pigment".into()
             }
+            Self::NoBareBacking { backing, .. } if backing.is_empty() => {
+                "add a row with the reading of the bare card or paper, and a column `film` with `none` in it and `paint` in the others; more than one card takes a column `backing` too. A file of recipes may have these columns instead: [recipes=FILE.csv]".into()
+            }
             Self::NoBareBacking { backing, .. } => format!(
                 "add a row with film `none` and backing `{backing}`: the card without paint"
             ),
             Self::NoFilms => {
                 "a film has `paint` (or nothing) in the column film, and amounts in the pigment columns".into()
+            }
+            Self::NoRecipe { has_cards: false, .. } => {
+                "if it is a bare card or paper, say so in a column `film`: `none` for it, `paint` for the others; else write its amounts in the pigment columns. A file of recipes may have both: [recipes=FILE.csv]".into()
             }
             Self::NoRecipe { .. } => {
                 "write the amounts in the pigment columns, or in a file of recipes ([recipes=FILE.csv]); film `none` is a bare card".into()

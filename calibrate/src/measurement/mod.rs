@@ -1,6 +1,7 @@
 //! Tables of spectrometer readings of paint, from a CSV or from an instrument's file.
 //!
-//! In the CSV each row is a reading. Columns are named, in any order: `sample`, then optionally `film`,
+//! In the CSV each row is a reading. Columns are named, in any order: `sample` (or another heading of names,
+//! such as `Name`), then optionally `film`,
 //! `backing`, `thickness_mm`, `replicate`, then one for each pigment (amount), then the wavelengths in nm.
 //! Readings without amounts take them from a CSV of recipes.
 
@@ -16,11 +17,17 @@ mod table;
 
 mod coordinates;
 
+mod csv_row;
+
+mod name_column;
+
 mod column;
 
-mod common_grid;
+mod heading_row;
 
-mod csv_row;
+mod raw_rows;
+
+mod common_grid;
 
 mod no_amounts;
 
@@ -34,7 +41,7 @@ mod records;
 
 pub use averaged::{AveragedSpectra, AveragedSpectrum, SpectrumNameError};
 pub use column::names_a_pigment;
-pub use csv::is_measurement_csv;
+pub use csv::{begins_with_samples, is_measurement_csv};
 pub use darker_film::DarkerFilm;
 pub use error::MeasurementError;
 pub(crate) use error::k1_below;

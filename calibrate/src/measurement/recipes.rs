@@ -51,7 +51,7 @@ impl Recipes {
         let position = |wanted: Column| table_rows.columns.iter().position(|c| *c == wanted);
         let is_wavelength = |column: &Column| matches!(column, Column::Wavelength(_));
         if let Some(index) = table_rows.columns.iter().position(is_wavelength) {
-            let place = CellPlace::new(file, 1, &table_rows.headers[index]);
+            let place = table_rows.header_place(index);
             return Err(RecipesError::Wavelength { place });
         }
         let pigments = table_rows.pigments();
@@ -154,6 +154,7 @@ impl Recipes {
                 file: self.file.clone(),
                 row: row.map_or(0, |(_, row)| row.row),
                 sample: reading.sample.clone(),
+                has_cards: readings.iter().any(|reading| reading.film == Film::None),
             }
             .into());
         }

@@ -44,8 +44,8 @@ enum Below {
 /// Measurement files and settings of the fit.
 #[derive(Debug, Args)]
 pub(super) struct CalibrationOptions {
-    /// Measurement files: CSV (columns sample, film, backing, one per pigment, then wavelengths), or
-    /// an instrument's files with --recipes
+    /// Measurement files: CSV or .xlsx (columns sample, film, backing, one per pigment, then
+    /// wavelengths), or an instrument's files with --recipes
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Recipes of samples whose files hold none (CSV): columns sample, one per pigment

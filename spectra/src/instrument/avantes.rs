@@ -5,7 +5,7 @@
 //! reference.
 
 use super::axis::Axis;
-use super::columns::{ColumnLabel, table};
+use super::columns::{ColumnLabel, below, table};
 use super::error::InstrumentError;
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Unit, stem};
 use super::text::lines;
@@ -16,11 +16,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         pair[0].1.trim_start().starts_with("Wave") && pair[1].1.trim_start().starts_with("[nm]")
     });
     let Some([(_, headings), (at, units)]) = heading else { return Ok(Vec::new()) };
-    let mut data = "\n".repeat(*at);
-    for (_, line) in &lines[*at..] {
-        data.push_str(line);
-        data.push('\n');
-    }
+    let data = below(text, *at);
     let table = table(file, &data)?;
     let Some((row, first)) = table.rows.first() else { return Ok(Vec::new()) };
     let cells = |line: &'_ str| -> Vec<String> {

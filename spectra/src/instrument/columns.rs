@@ -48,7 +48,10 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         .map(|column| {
             let heading = headings.get(column).copied().unwrap_or_default();
             let quantity = match MeasuredQuantity::of_words(heading) {
-                MeasuredQuantity::Unstated => MeasuredQuantity::of_words(&words),
+                MeasuredQuantity::Unstated => match MeasuredQuantity::of_words(&words) {
+                    MeasuredQuantity::Unstated if is_of_a_light(&words) => MeasuredQuantity::Power,
+                    stated => stated,
+                },
                 stated => stated,
             };
             let name = if width > 2 && !heading.is_empty() {
@@ -68,6 +71,13 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             table.spectrum(file, column, axis, ColumnLabel { name, quantity, unit })
         })
         .collect()
+}
+
+/// Whether the lines above the rows state figures of a light, as light meters do.
+fn is_of_a_light(words: &str) -> bool {
+    let is_figure = |word: &str| ["lux", "cct", "cri", "ppfd", "duv"].contains(&word);
+    let lower = words.to_ascii_lowercase();
+    lower.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| is_figure(word)).count() > 1
 }
 
 /// Whether a heading names a sample rather than a quantity.
@@ -146,6 +156,16 @@ pub(super) fn table<'a>(file: &str, text: &'a str) -> Result<NumberTable<'a>, In
     Ok(table)
 }
 
+/// The text with its first `count` lines left empty, so that the others keep their numbers.
+pub(super) fn below(text: &str, count: usize) -> String {
+    let mut data = "\n".repeat(count);
+    for (_, line) in lines(text).skip(count) {
+        data.push_str(line);
+        data.push('\n');
+    }
+    data
+}
+
 /// Numbered lines that are neither empty nor comments.
 fn content(text: &str) -> impl Iterator<Item = (usize, &str)> + Clone {
     let trimmed = lines(text).map(|(number, line)| (number, line.trim_matches([' ', '\0'])));
@@ -168,6 +188,14 @@ mod tests {
         let found = read("a/b.txt", "wavelength,reflectance\n400,0.1\n410,0.2\n").unwrap();
         assert_eq!((found[0].name.as_str(), found[0].line), ("b", 2));
         assert_eq!(found[0].quantity, MeasuredQuantity::Reflectance);
+    }
+
+    #[test]
+    fn figures_of_a_light_above_the_rows_make_them_its_power() {
+        let text = "LUX = 695\nCCT = 5198\n400 0.1\n410 0.2\n";
+        assert_eq!(read("f", text).unwrap()[0].quantity, MeasuredQuantity::Power);
+        let text = text.replace("CCT", "x");
+        assert_eq!(read("f", &text).unwrap()[0].quantity, MeasuredQuantity::Unstated);
     }
 
     #[test]

@@ -12,6 +12,26 @@ pub enum InstrumentError {
         /// Path of the file.
         file: String,
     },
+    /// The file is of a format that is known and not read.
+    #[error("{file}: this is {kind}, which is not read")]
+    NotRead {
+        /// Path of the file.
+        file: String,
+        /// The kind of file, with its article.
+        kind: &'static str,
+        /// The way to a file that is read.
+        way: &'static str,
+    },
+    /// A binary file, or a part of it, does not follow its format.
+    #[error("{file}: faulty {format} file: {fault}")]
+    Faulty {
+        /// Path of the file.
+        file: String,
+        /// Name of the format as which it was read.
+        format: &'static str,
+        /// What is wrong, and where.
+        fault: String,
+    },
     /// The file contains no spectrum.
     #[error("{file}: no spectrum in this {format} file")]
     Empty {
@@ -116,6 +136,11 @@ impl InstrumentError {
         let text = short.chars().map(printable).collect();
         Self::Line { file: file.to_owned(), line, expected, text }
     }
+
+    /// An error for a binary file that does not follow its format.
+    pub(super) fn faulty(file: &str, format: &'static str, fault: impl Into<String>) -> Self {
+        Self::Faulty { file: file.to_owned(), format, fault: fault.into() }
+    }
 }
 
 impl Explain for InstrumentError {
@@ -126,6 +151,10 @@ impl Explain for InstrumentError {
             }
             Self::Empty { .. } => {
                 "check that the export holds spectra, or name the format with [format]"
+            }
+            Self::NotRead { way, .. } => way,
+            Self::Faulty { .. } => {
+                "the file may be cut off: copy it again, or export text from the instrument's program"
             }
             Self::Duplicate { .. } => "remove one of the two",
             Self::Unlike { .. } => "remove the wrong one; nearly equal values would be averaged",

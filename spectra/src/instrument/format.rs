@@ -1,7 +1,7 @@
 //! The file formats: their names, and detection by content.
 
-use super::columns;
 use super::text::lines;
+use super::{asd, columns, spectral_evolution, svc, uprtek};
 
 /// A file format of measuring instruments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,11 +11,11 @@ pub enum Format {
     Cgats,
     /// Datacolor QTX: text with sections in square brackets.
     Qtx,
-    /// Ocean Optics: SpectraSuite, OceanView, Jaz.
+    /// Ocean Optics: SpectraSuite, OceanView, Jaz, binary `.ProcSpec`.
     OceanOptics,
     /// JCAMP-DX, a labelled text format of spectroscopy.
     Jcamp,
-    /// Avantes AvaSoft text.
+    /// Avantes AvaSoft: text, or binary files such as `.ROH`, `.TRM` and `.RFL8`.
     Avantes,
     /// Bruker OPUS data point table.
     Bruker,
@@ -27,11 +27,21 @@ pub enum Format {
     Tm27,
     /// Sekonic SpectroMaster CSV.
     Sekonic,
+    /// ASD FieldSpec: binary `.asd`, or the text converted from it.
+    Asd,
+    /// Spectral Evolution `.sed`.
+    SpectralEvolution,
+    /// Spectra Vista `.sig`.
+    Svc,
+    /// UPRtek's light meters and the LI-COR LI-180.
+    Uprtek,
+    /// Excel workbook `.xlsx`: a table or columns in one of its sheets.
+    Workbook,
 }
 
 impl Format {
     /// All formats, for lists of choices.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 15] = [
         Self::Cgats,
         Self::Qtx,
         Self::OceanOptics,
@@ -42,6 +52,11 @@ impl Format {
         Self::Cxf,
         Self::Tm27,
         Self::Sekonic,
+        Self::Asd,
+        Self::SpectralEvolution,
+        Self::Svc,
+        Self::Uprtek,
+        Self::Workbook,
     ];
 
     /// Short name of the format, as a setting takes it.
@@ -58,6 +73,11 @@ impl Format {
             Self::Cxf => "cxf",
             Self::Tm27 => "tm27",
             Self::Sekonic => "sekonic",
+            Self::Asd => "asd",
+            Self::SpectralEvolution => "sed",
+            Self::Svc => "svc",
+            Self::Uprtek => "uprtek",
+            Self::Workbook => "xlsx",
         }
     }
 
@@ -75,6 +95,11 @@ impl Format {
             Self::Cxf => "CxF3",
             Self::Tm27 => "IES TM-27",
             Self::Sekonic => "Sekonic",
+            Self::Asd => "ASD FieldSpec",
+            Self::SpectralEvolution => "Spectral Evolution",
+            Self::Svc => "Spectra Vista",
+            Self::Uprtek => "UPRtek or LI-180",
+            Self::Workbook => "Excel workbook",
         }
     }
 
@@ -84,7 +109,7 @@ impl Format {
         Self::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
     }
 
-    /// Detects the format of a file from its content. Bruker OPUS files contain only numbers
+    /// Detects the format of a text file from its content. Bruker OPUS files contain only numbers
     /// and are recognised by the ending `.dpt` of `file`.
     #[must_use]
     pub fn detect(file: &str, text: &str) -> Option<Self> {
@@ -100,6 +125,10 @@ impl Format {
         }
         if start.starts_with("##") {
             return Some(Self::Jcamp);
+        } else if svc::is_text(text) {
+            return Some(Self::Svc);
+        } else if asd::is_text(text) {
+            return Some(Self::Asd);
         }
         let mut before = "";
         for (_, line) in lines(text) {
@@ -114,11 +143,16 @@ impl Format {
                 return Some(Self::Sekonic);
             } else if before.starts_with("Wave") && line.starts_with("[nm]") {
                 return Some(Self::Avantes);
+            } else if spectral_evolution::is_heading(before, line) {
+                return Some(Self::SpectralEvolution);
             }
             before = line;
         }
         if file.to_ascii_lowercase().ends_with(".dpt") {
             return Some(Self::Bruker);
+        }
+        if uprtek::is_text(text) {
+            return Some(Self::Uprtek);
         }
         columns::is_column_text(text).then_some(Self::Columns)
     }

@@ -3,14 +3,15 @@
 //!
 //! McDonald and Wilks, "JCAMP-DX: a standard form for exchange of infrared spectra in computer
 //! readable form", Applied Spectroscopy 42 (1988) 151. Supported are XYDATA= (X++(Y..Y)) in
-//! every packed form and XYPOINTS= (XY..XY), but not NTUPLES.
+//! every packed form, XYPOINTS= (XY..XY), and the pages of NTUPLES.
 
 use super::axis::Axis;
 use super::error::InstrumentError;
-use super::jcamp_data::{Scaling, points, runs};
+use super::jcamp_data::{Field, Scaling, StatedStep, points, runs};
+use super::jcamp_tuples::pages;
 use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::number::{Decimal, required_number};
-use super::points::{Duplicates, ordered};
+use super::points::{Duplicates, Ordered, Point, ordered};
 use super::text::lines;
 
 /// A processed spectrum with all values above this percentage is in fact counts.
@@ -34,7 +35,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         let label = normalize(label);
         // The labels of a LINK block end where its first inner block begins.
         if label == "TITLE" && !block.fields.is_empty() || label == "END" {
-            records.extend(std::mem::take(&mut block).spectrum(file)?);
+            records.extend(std::mem::take(&mut block).spectra(file)?);
         }
         ended = (number, label == "END");
         if label != "END" {
@@ -61,12 +62,6 @@ fn normalize(label: &str) -> String {
     kept.map(|c| c.to_ascii_uppercase()).collect()
 }
 
-/// A label, and the lines of its value.
-struct Field<'a> {
-    label: String,
-    lines: Vec<(usize, &'a str)>,
-}
-
 /// The labelled records of a block.
 #[derive(Default)]
 struct Block<'a> {
@@ -84,12 +79,47 @@ impl Block<'_> {
         required_number(file, line, "a number", text, Decimal::Point).map(Some)
     }
 
-    /// The spectrum of the block, if it has one.
-    fn spectrum(self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
-        if let Some((line, text)) = self.field("NTUPLES") {
-            let expected = "XYDATA or XYPOINTS (NTUPLES are not supported)";
-            return Err(InstrumentError::line(file, line, expected, text));
+    /// The spectra of the block: one, or one for each page of NTUPLES.
+    fn spectra(self, file: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+        if self.field("NTUPLES").is_none() {
+            return Ok(self.spectrum(file)?.into_iter().collect());
         }
+        let title = self.field("TITLE").map_or("", |(_, title)| title);
+        let pages = pages(file, &self.fields)?;
+        let several = pages.len() > 1;
+        let spectrum = |page: super::jcamp_tuples::Page| {
+            let axis = axis(file, page.line, &page.x_units)?;
+            let ordered = in_nm(file, page.points, axis)?;
+            let words = format!("{} {}", page.units, page.variable);
+            let is_percent = words.contains('%') || words.to_ascii_lowercase().contains("percent");
+            let mut details = self.details();
+            details.extend((!page.name.is_empty()).then(|| ("PAGE".to_owned(), page.name.clone())));
+            Ok(MeasuredSpectrum {
+                name: if several { format!("{title} {}", page.name) } else { title.to_owned() },
+                quantity: MeasuredQuantity::of_words(&words),
+                role: Role::Main,
+                unit: if is_percent { Unit::Percent } else { Unit::Unstated },
+                wavelengths_nm: ordered.wavelengths_nm,
+                values: ordered.values,
+                line: page.line,
+                details,
+                remarks: ordered.remarks,
+            })
+        };
+        pages.into_iter().map(spectrum).collect()
+    }
+
+    /// The step that DELTAX states.
+    fn stated_step(&self, file: &str) -> Result<Option<StatedStep>, InstrumentError> {
+        let Some(step) = self.number(file, "DELTAX")? else { return Ok(None) };
+        let (line, text) = self.field("DELTAX").unwrap_or((1, ""));
+        let decimals = text.trim().split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        let rounding = 0.5 * 10_f64.powi(-i32::try_from(decimals).unwrap_or(0));
+        Ok(Some(StatedStep { line, step, rounding }))
+    }
+
+    /// The spectrum of the block, if it has one.
+    fn spectrum(&self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
         let is_data = |field: &&Field<'_>| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str());
         let Some(data) = self.fields.iter().find(is_data) else { return Ok(None) };
         let (line, form) = data.lines[0];
@@ -99,12 +129,11 @@ impl Block<'_> {
             first_x: self.number(file, "FIRSTX")?,
             last_x: self.number(file, "LASTX")?,
             count: self.number(file, "NPOINTS")?,
+            stated_step: self.stated_step(file)?,
         };
         let axis = match self.field("XUNITS") {
             None => Axis::Nanometres,
-            Some((line, units)) => Axis::of_words(units).ok_or_else(|| {
-                InstrumentError::line(file, line, "NANOMETERS, MICROMETERS or 1/CM", units)
-            })?,
+            Some((line, units)) => axis(file, line, units)?,
         };
         let shape: String = form.chars().filter(|c| !c.is_whitespace()).collect();
         let lines = &data.lines[1..];
@@ -126,11 +155,7 @@ impl Block<'_> {
         if raw.is_empty() {
             return Ok(None);
         }
-        let in_nm = raw.into_iter().map(|mut point| {
-            point.nm = axis.nm(point.nm);
-            point
-        });
-        let ordered = ordered(file, in_nm.collect(), Duplicates::Average)?;
+        let ordered = in_nm(file, raw, axis)?;
         let (line, title) = self.field("TITLE").unwrap_or((line, ""));
         let (quantity, role, unit) = self.kind(title, &ordered.values);
         Ok(Some(MeasuredSpectrum {
@@ -174,13 +199,55 @@ impl Block<'_> {
     /// The records that are not needed to read the data.
     fn details(&self) -> Vec<(String, String)> {
         let needed = [
-            "TITLE", "JCAMPDX", "XUNITS", "YUNITS", "XFACTOR", "YFACTOR", "FIRSTX", "LASTX",
-            "FIRSTY", "MINX", "MAXX", "MINY", "MAXY", "NPOINTS", "DELTAX", "XYDATA", "XYPOINTS",
+            "TITLE",
+            "JCAMPDX",
+            "XUNITS",
+            "YUNITS",
+            "XFACTOR",
+            "YFACTOR",
+            "FIRSTX",
+            "LASTX",
+            "FIRSTY",
+            "MINX",
+            "MAXX",
+            "MINY",
+            "MAXY",
+            "NPOINTS",
+            "DELTAX",
+            "XYDATA",
+            "XYPOINTS",
             "BLOCKID",
+            "NTUPLES",
+            "VARNAME",
+            "SYMBOL",
+            "VARTYPE",
+            "VARFORM",
+            "VARDIM",
+            "UNITS",
+            "FIRST",
+            "LAST",
+            "MIN",
+            "MAX",
+            "FACTOR",
+            "PAGE",
+            "DATATABLE",
+            "ENDNTUPLES",
         ];
         let kept = self.fields.iter().filter(|field| !needed.contains(&field.label.as_str()));
         kept.map(|field| (field.label.clone(), field.lines[0].1.to_owned())).collect()
     }
+}
+
+/// The unit of abscissas that `units`, in line `line`, names.
+fn axis(file: &str, line: usize, units: &str) -> Result<Axis, InstrumentError> {
+    let expected = "NANOMETERS, MICROMETERS or 1/CM";
+    Axis::of_words(units).ok_or_else(|| InstrumentError::line(file, line, expected, units))
+}
+
+/// Points whose abscissas have the unit `axis`, in order of wavelength.
+fn in_nm(file: &str, raw: Vec<Point>, axis: Axis) -> Result<Ordered, InstrumentError> {
+    let in_nm = raw.into_iter().map(|point| Point { nm: axis.nm(point.nm), ..point });
+    ordered(file, in_nm.collect(), Duplicates::Average)
 }
 
 #[cfg(test)]
@@ -232,6 +299,69 @@ mod tests {
         assert_eq!((found[0].name.as_str(), found[0].line), ("A", 4));
         assert_eq!(found[0].values, [12.0, 13.0, 13.0, 9.5]);
         assert_eq!((found[1].quantity, found[1].role), (MeasuredQuantity::Counts, Role::Dark));
+    }
+
+    #[test]
+    fn the_announced_step_is_checked_and_used() {
+        let text = |delta: &str| {
+            block("A", &format!("##DELTAX= {delta}\n##XYDATA= (X++(Y..Y))\n800 120 130 130 95"))
+        };
+        for delta in ["10", "-10", "10.00", "0", "1E1"] {
+            assert!(read("f", &text(delta)).is_ok(), "{delta}");
+        }
+        let error = read("f", &text("5")).unwrap_err().to_string();
+        assert!(
+            error.starts_with("f, line 10: expected a DELTAX") && error.contains("10 does"),
+            "{error}"
+        );
+        let alone = text("10").replace("##LASTX= 430\n", "");
+        assert_eq!(read("f", &alone).unwrap()[0].wavelengths_nm, [400.0, 410.0, 420.0, 430.0]);
+        assert!(read("f", &alone.replace("##DELTAX= 10\n", "")).is_err(), "no step at all");
+    }
+
+    const TUPLES: &str = "##TITLE= Paint\n##JCAMP-DX= 5.01\n##NTUPLES= UV/VIS SPECTRUM\n\
+        ##VAR_NAME= WAVELENGTH, REFLECTANCE, PAGE NUMBER\n##SYMBOL= X, Y, N\n\
+        ##VAR_TYPE= INDEPENDENT, DEPENDENT, PAGE\n##VAR_DIM= 4, 4, 2\n\
+        ##UNITS= NANOMETERS, PERCENT,\n##FIRST= 400, , 1\n##LAST= 430, , 2\n##FACTOR= 0.5, 0.1, 1\n\
+        ##PAGE= N=1\n##DATA TABLE= (X++(Y..Y)), XYDATA\n800 120 130\n840 130 95\n\
+        ##PAGE= N=2\n##DATA TABLE= (XY..XY), XYPOINTS\n860, 95; 840 130\n820 130 800,120\n\
+        ##END NTUPLES= UV/VIS SPECTRUM\n##END=\n";
+
+    #[test]
+    fn every_page_of_tuples_is_a_spectrum() {
+        let found = read("f", TUPLES).unwrap();
+        let names: Vec<&str> = found.iter().map(|record| record.name.as_str()).collect();
+        assert_eq!(names, ["Paint N=1", "Paint N=2"]);
+        for record in &found {
+            assert_eq!(record.wavelengths_nm, [400.0, 410.0, 420.0, 430.0]);
+            assert_eq!(record.values, [12.0, 13.0, 13.0, 9.5]);
+            assert_eq!(
+                (record.quantity, record.unit),
+                (MeasuredQuantity::Reflectance, Unit::Percent)
+            );
+        }
+        assert_eq!((found[0].line, found[1].line), (13, 17));
+    }
+
+    #[test]
+    fn faults_of_tuples_name_their_line() {
+        for (old, new, at) in [
+            ("840 130 95", "840 130", 15),
+            ("(X++(Y..Y))", "(Z++(Y..Y))", 13),
+            ("NANOMETERS", "SECONDS", 13),
+            ("FACTOR= 0.5", "FACTOR= x", 11),
+            ("LAST= 430", "LAST= 830", 15),
+            ("##SYMBOL= X, Y, N\n", "", 12),
+        ] {
+            let found = read("f", &TUPLES.replacen(old, new, 1));
+            let line = match found {
+                Err(InstrumentError::Line { line, .. } | InstrumentError::Count { line, .. }) => {
+                    line
+                }
+                other => panic!("{new}: {other:?}"),
+            };
+            assert_eq!(line, at, "{new}");
+        }
     }
 
     #[test]

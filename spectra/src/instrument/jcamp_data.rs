@@ -13,6 +13,37 @@ use super::points::Point;
 /// count can request.
 const MOST_POINTS: usize = 4_000_000;
 
+/// A labelled record, and the lines of its value.
+pub(super) struct Field<'a> {
+    /// The label without spaces and signs, in upper case.
+    pub(super) label: String,
+    pub(super) lines: Vec<(usize, &'a str)>,
+}
+
+/// The step of abscissas that a file states (DELTAX).
+#[derive(Clone, Copy)]
+pub(super) struct StatedStep {
+    pub(super) line: usize,
+    pub(super) step: f64,
+    /// Half of the last decimal in which it is written.
+    pub(super) rounding: f64,
+}
+
+/// Share by which a stated step may differ from the one that limits and number give.
+const STEP_TOLERANCE: f64 = 0.01;
+
+impl StatedStep {
+    fn check(&self, file: &str, step: f64) -> Result<(), InstrumentError> {
+        let apart = (self.step.abs() - step.abs()).abs();
+        if self.step == 0.0 || apart <= self.rounding.max(STEP_TOLERANCE * step.abs()) {
+            return Ok(());
+        }
+        let expected = "a DELTAX that leads from FIRSTX to LASTX in NPOINTS steps";
+        let text = format!("{}, where {step} does", self.step);
+        Err(InstrumentError::line(file, self.line, expected, &text))
+    }
+}
+
 /// Factors and limits that convert the numbers of a block into abscissas and ordinates.
 pub(super) struct Scaling {
     pub(super) x: f64,
@@ -20,6 +51,7 @@ pub(super) struct Scaling {
     pub(super) first_x: Option<f64>,
     pub(super) last_x: Option<f64>,
     pub(super) count: Option<f64>,
+    pub(super) stated_step: Option<StatedStep>,
 }
 
 impl Scaling {
@@ -122,11 +154,17 @@ pub(super) fn runs(
     let steps = (ordinates.len() - 1) as f64;
     // A file that was cut off still states the step of the whole.
     let intervals = scaling.count.filter(|count| *count > 1.0).map_or(steps, |count| count - 1.0);
-    let Some(last_x) = scaling.last_x else {
-        return Err(InstrumentError::line(file, line, "##LASTX=", "no such label"));
-    };
     let first_x = scaling.first_x.unwrap_or(first_x);
-    let step = (last_x - first_x) / intervals;
+    let step = match (scaling.last_x, scaling.stated_step) {
+        (Some(last_x), _) => (last_x - first_x) / intervals,
+        (None, Some(stated)) => stated.step,
+        (None, None) => {
+            return Err(InstrumentError::line(file, line, "##LASTX=", "no such label"));
+        }
+    };
+    if let Some(stated) = scaling.stated_step {
+        stated.check(file, step)?;
+    }
     let at = |index: usize| first_x + step * index as f64;
     for &(line, x, index) in &starts {
         // Abscissas of rows are often rounded to whole units.

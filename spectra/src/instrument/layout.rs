@@ -18,7 +18,7 @@ impl Layout {
         let mut best: (usize, Option<Self>) = (0, None);
         for separator in [Some(';'), Some('\t'), None, Some(',')] {
             let cells = lines.clone().map(|line| split(line, separator));
-            let rows = cells.filter(|cells| is_row(cells, separator));
+            let rows = cells.filter(|cells| is_row(cells));
             let (mut count, mut commas) = (0, false);
             for row in rows {
                 count += 1;
@@ -39,7 +39,7 @@ impl Layout {
 
     /// Whether all cells of a line are numbers, and there are at least two.
     pub(super) fn is_row(&self, line: &str) -> bool {
-        is_row(&split(line, self.separator), self.separator)
+        is_row(&split(line, self.separator))
     }
 
     /// The numbers of a line. It must have `width` cells, or any number of 2 and more if
@@ -67,7 +67,13 @@ impl Layout {
 fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     let mut cells: Vec<&str> = match separator {
         Some(separator) => {
-            line.split(separator).map(|cell| cell.trim().trim_matches('"')).collect()
+            // A separator between quotes is part of its cell.
+            let mut quoted = false;
+            let cells = line.split(|c: char| {
+                quoted ^= c == '"';
+                c == separator && !quoted
+            });
+            cells.map(|cell| cell.trim().trim_matches('"')).collect()
         }
         None => line.split_whitespace().collect(),
     };
@@ -76,10 +82,9 @@ fn split(line: &str, separator: Option<char>) -> Vec<&str> {
     cells
 }
 
-fn is_row(cells: &[&str], separator: Option<char>) -> bool {
+fn is_row(cells: &[&str]) -> bool {
     let numeric = |cell: &&str| {
-        number(cell, Decimal::Point).is_some()
-            || (separator != Some(',') && number(cell, Decimal::Comma).is_some())
+        number(cell, Decimal::Point).is_some() || number(cell, Decimal::Comma).is_some()
     };
     cells.len() > 1 && cells.iter().all(numeric)
 }
@@ -100,6 +105,8 @@ mod tests {
             ("400,0.5", Some(','), Point),
             ("400, 0.5", Some(','), Point),
             ("400 , 0.5", Some(','), Point),
+            ("\"400\",\"0,5\"", Some(','), Comma),
+            ("400,\"0,5\"", Some(','), Comma),
         ] {
             assert_eq!(
                 Layout::of([line].into_iter()),

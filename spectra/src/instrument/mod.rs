@@ -26,6 +26,20 @@ mod bruker;
 
 mod avantes;
 
+mod binary_bytes;
+
+mod asd;
+
+mod spectral_evolution;
+
+mod svc;
+
+mod uprtek;
+
+mod avasoft7;
+
+mod avasoft8;
+
 mod ocean_optics;
 
 mod qtx;
@@ -38,9 +52,21 @@ mod cgats;
 
 mod jcamp_data;
 
+mod jcamp_tuples;
+
 mod jcamp;
 
 mod xml;
+
+mod zip_archive;
+
+mod procspec;
+
+mod workbook;
+
+mod content_kind;
+
+mod file_text;
 
 mod cxf;
 
@@ -57,6 +83,7 @@ mod open;
 pub use choice::{ChoiceError, choose_spectrum, split_file_and_name};
 pub use cxf::{CxfHead, write_cxf};
 pub use error::InstrumentError;
+pub use file_text::FileText;
 pub use format::Format;
 pub use measured::{MeasuredQuantity, MeasuredSpectrum, ReflectanceError, Role, Unit};
 pub use open::{OpenError, OpenedSpectrum, open, open_spectrum};

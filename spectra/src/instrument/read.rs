@@ -1,10 +1,12 @@
 //! Reading a file of any format.
 
+use super::content_kind::ContentKind;
 use super::error::InstrumentError;
+use super::file_text::FileText;
 use super::format::Format;
 use super::measured::MeasuredSpectrum;
-use super::text::decode_text;
-use super::{avantes, bruker, cgats, columns, cxf, jcamp, ocean_optics, qtx, sekonic, tm27};
+use super::{asd, avantes, avasoft7, avasoft8, bruker, cgats, columns, cxf, jcamp, ocean_optics};
+use super::{procspec, qtx, sekonic, spectral_evolution, svc, tm27, uprtek};
 
 /// The content of an instrument's file.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,30 +21,174 @@ pub struct InstrumentFile {
 /// detected.
 ///
 /// # Errors
-/// [`InstrumentError`] with the line.
+/// [`InstrumentError`] with the line, or with the place in a binary file.
 pub fn read(
     file: &str,
     bytes: &[u8],
     format: Option<Format>,
 ) -> Result<InstrumentFile, InstrumentError> {
-    let (text, _) = decode_text(bytes);
-    let format = format
-        .or_else(|| Format::detect(file, &text))
-        .ok_or_else(|| InstrumentError::Unrecognised { file: file.to_owned() })?;
-    let spectra = match format {
-        Format::Cgats => cgats::read(file, &text),
-        Format::Jcamp => jcamp::read(file, &text),
-        Format::Qtx => qtx::read(file, &text),
-        Format::OceanOptics => ocean_optics::read(file, &text),
-        Format::Avantes => avantes::read(file, &text),
-        Format::Bruker => bruker::read(file, &text),
-        Format::Columns => columns::read(file, &text),
-        Format::Cxf => cxf::read(file, &text),
-        Format::Tm27 => tm27::read(file, &text),
-        Format::Sekonic => sekonic::read(file, &text),
+    let Some(text) = FileText::of(file, bytes)? else { return read_binary(file, bytes, format) };
+    let told = format.filter(|format| *format != Format::Workbook);
+    let found = told
+        .or_else(|| Format::detect(&text.file, &text.text))
+        .ok_or_else(|| InstrumentError::Unrecognised { file: text.file.clone() })?;
+    let file = text.file.as_str();
+    let spectra = match found {
+        Format::Cgats => cgats::read(file, &text.text),
+        Format::Jcamp => jcamp::read(file, &text.text),
+        Format::Qtx => qtx::read(file, &text.text),
+        Format::OceanOptics => ocean_optics::read(file, &text.text),
+        Format::Avantes => avantes::read(file, &text.text),
+        Format::Bruker => bruker::read(file, &text.text),
+        Format::Columns | Format::Workbook => columns::read(file, &text.text),
+        Format::Cxf => cxf::read(file, &text.text),
+        Format::Tm27 => tm27::read(file, &text.text),
+        Format::Sekonic => sekonic::read(file, &text.text),
+        Format::Asd => asd::read_text(file, &text.text),
+        Format::SpectralEvolution => spectral_evolution::read(file, &text.text),
+        Format::Svc => svc::read(file, &text.text),
+        Format::Uprtek => uprtek::read(file, &text.text),
     }?;
+    let format = if text.is_sheet && told.is_none() { Format::Workbook } else { found };
+    let mut found = checked(file, format, spectra)?;
+    for spectrum in &mut found.spectra {
+        spectrum.remarks.extend(text.remark.clone());
+    }
+    Ok(found)
+}
+
+/// Reads a binary file, in which `format` must be its own if it is given.
+fn read_binary(
+    file: &str,
+    bytes: &[u8],
+    format: Option<Format>,
+) -> Result<InstrumentFile, InstrumentError> {
+    let own = match ContentKind::of(file, bytes)? {
+        ContentKind::Asd => Format::Asd,
+        ContentKind::ProcSpec => Format::OceanOptics,
+        ContentKind::AvaSoft7 | ContentKind::AvaSoft8 => Format::Avantes,
+        ContentKind::Text | ContentKind::Workbook => Format::Workbook,
+    };
+    if format.is_some_and(|format| format != own) {
+        return Err(InstrumentError::NotRead {
+            file: file.to_owned(),
+            kind: "a binary file of another format",
+            way: "leave out [format]",
+        });
+    }
+    let spectra = match ContentKind::of(file, bytes)? {
+        ContentKind::Asd => asd::read_binary(file, bytes),
+        ContentKind::ProcSpec => procspec::read(file, bytes),
+        ContentKind::AvaSoft7 => avasoft7::read(file, bytes),
+        ContentKind::AvaSoft8 => avasoft8::read(file, bytes),
+        ContentKind::Text | ContentKind::Workbook => Ok(Vec::new()),
+    }?;
+    checked(file, own, spectra)
+}
+
+fn checked(
+    file: &str,
+    format: Format,
+    spectra: Vec<MeasuredSpectrum>,
+) -> Result<InstrumentFile, InstrumentError> {
     if spectra.is_empty() {
         return Err(InstrumentError::Empty { file: file.to_owned(), format: format.title() });
     }
     Ok(InstrumentFile { format, spectra })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{asd, avasoft7, avasoft8, procspec, workbook};
+    use super::*;
+
+    /// Name, bytes and format of a small file of every binary format.
+    fn samples() -> Vec<(&'static str, Vec<u8>, Format)> {
+        let counts = [100.0, 200.0, 600.0, 700.0];
+        let pixels = [30.0, 110.0, 10.0, 20.0, 90.0, 10.0, 60.0, 110.0, 10.0];
+        vec![
+            ("some.asd", asd::tests::asd(0, &counts, Some(&[1000.0; 4])), Format::Asd),
+            ("some.trm", avasoft7::tests::avasoft7(70.0, &pixels), Format::Avantes),
+            ("some.rfl8", avasoft8::tests::avasoft8(b"AVS82", 2, 4), Format::Avantes),
+            ("some.ProcSpec", procspec::tests::procspec("x"), Format::OceanOptics),
+            (
+                "some.xlsx",
+                workbook::tests::workbook(&[("A", workbook::tests::ROWS)]),
+                Format::Workbook,
+            ),
+        ]
+    }
+
+    #[test]
+    fn binary_files_are_known_by_their_content_in_their_own_format_only() {
+        for (file, bytes, format) in samples().into_iter().take(4) {
+            let found = read(file, &bytes, None).unwrap();
+            assert_eq!(found.format, format, "{file}");
+            assert_eq!(read("other.txt", &bytes, Some(format)).unwrap().format, format, "{file}");
+            let told = read(file, &bytes, Some(Format::Cgats)).unwrap_err();
+            assert!(matches!(told, InstrumentError::NotRead { .. }), "{told}");
+        }
+    }
+
+    #[test]
+    fn columns_in_a_workbook_are_read() {
+        let cell = |name: &str, value: &str| format!("<c r=\"{name}\"><v>{value}</v></c>");
+        let heading = "<row r=\"1\"><c r=\"A1\" t=\"str\"><v>nm</v></c><c r=\"B1\" t=\"str\"><v>Reflectance</v></c></row>";
+        let row = |row: usize, nm: &str, value: &str| {
+            let (nm, value) = (cell(&format!("A{row}"), nm), cell(&format!("B{row}"), value));
+            format!("<row r=\"{row}\">{nm}{value}</row>")
+        };
+        let rows = format!(
+            "{heading}{}{}{}",
+            row(2, "400", "0.25"),
+            row(4, "410", "0.5"),
+            row(5, "420", "1")
+        );
+        let book = workbook::tests::workbook(&[("Data", &rows), ("Notes", heading)]);
+        let found = read("a/red.xlsx", &book, None).unwrap();
+        assert_eq!(
+            (found.format, &found.spectra[0].values),
+            (Format::Workbook, &vec![0.25, 0.5, 1.0])
+        );
+        assert!(found.spectra[0].remarks[0].contains("`Data` is read, not `Notes`"));
+        let bad = workbook::tests::workbook(&[(
+            "Data",
+            &rows.replace("0.5<", "x<").replace("r=\"B4\"", "r=\"B4\" t=\"str\""),
+        )]);
+        let error = read("a/red.xlsx", &bad, None).unwrap_err().to_string();
+        assert!(error.starts_with("a/red.xlsx, sheet `Data`, line 4: "), "{error}");
+    }
+
+    #[test]
+    fn damaged_binary_files_never_panic_and_no_error_holds_their_bytes() {
+        let mut state = 1_u64;
+        let mut random = |below: usize| {
+            // Multiplier of Knuth's MMIX.
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as usize % below
+        };
+        for (file, bytes, _) in samples() {
+            let mut damaged: Vec<Vec<u8>> =
+                (0..bytes.len()).map(|end| bytes[..end].to_vec()).collect();
+            for _ in 0..1500 {
+                let mut copy = bytes.clone();
+                for _ in 0..=random(4) {
+                    let at = random(copy.len());
+                    copy[at] = random(256) as u8;
+                }
+                copy.truncate(copy.len() - random(3) * random(copy.len()) / 4);
+                damaged.push(copy);
+            }
+            for copy in damaged {
+                if let Err(error) = read(file, &copy, None) {
+                    let told = error.to_string();
+                    assert!(told.contains(file), "{told}");
+                    let is_plain = |c: char| !c.is_control();
+                    assert!(told.chars().all(is_plain), "{told:?}");
+                }
+            }
+        }
+    }
 }

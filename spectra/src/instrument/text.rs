@@ -15,6 +15,13 @@ pub fn decode_text(bytes: &[u8]) -> (String, &'static str) {
     (text.into_owned(), encoding.name())
 }
 
+/// Whether bytes are UTF-16, by their mark or their zeros.
+pub(super) fn is_utf16(bytes: &[u8]) -> bool {
+    let marked = Encoding::for_bom(bytes).map(|(encoding, _)| encoding);
+    let encoding = marked.unwrap_or_else(|| guess_encoding(bytes));
+    encoding == UTF_16LE || encoding == UTF_16BE
+}
+
 /// Instrument files are mostly ASCII, of which every second byte is zero in UTF-16.
 fn guess_encoding(bytes: &[u8]) -> &'static Encoding {
     let start = &bytes[..bytes.len().min(200)];

@@ -34,6 +34,41 @@ fn parted(full: &str) -> (String, String) {
     (spectra, amounts)
 }
 
+/// Readings of bare paper and of washes of two paints with invented K and S on it.
+fn washes() -> String {
+    let nm: Vec<f64> = (0..16).map(|step| 400.0 + 20.0 * f64::from(step)).collect();
+    let band = |nm: f64, center: f64| (-((nm - center) / 70.0).powi(2)).exp();
+    let paper = |nm: f64| 0.8 + 0.1 * (nm - 400.0) / 300.0;
+    let wash = |amounts: [f64; 2], nm: f64| {
+        let k = amounts[0] * (1.5 + 100.0 * band(nm, 590.0))
+            + amounts[1] * (6.0 + 90.0 * band(nm, 430.0));
+        let s = amounts[0] * 4.0 + amounts[1] * 12.0;
+        if s == 0.0 {
+            return paper(nm);
+        }
+        // Kubelka (1948), a layer on a ground.
+        let a = 1.0 + k / s;
+        let b = (a * a - 1.0).sqrt();
+        let b_coth = b / (b * s).tanh();
+        (1.0 - paper(nm) * (a - b_coth)) / (a - paper(nm) + b_coth)
+    };
+    let header = nm.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+    let mut text = format!("sample,film,Ultramarine,Burnt Sienna,{header}\n");
+    let ladder = [0.01, 0.02, 0.04, 0.08];
+    let alone = ladder.iter().flat_map(|&amount| [[amount, 0.0], [0.0, amount]]);
+    for amounts in std::iter::once([0.0, 0.0]).chain(alone).chain([[0.02, 0.02], [0.04, 0.01]]) {
+        let (name, film) = match amounts {
+            [0.0, 0.0] => ("paper".to_owned(), "none"),
+            [first, second] => (format!("U {first} S {second}"), "paint"),
+        };
+        let values: Vec<String> =
+            nm.iter().map(|&nm| format!("{:.4}", wash(amounts, nm))).collect();
+        let [first, second] = amounts;
+        text += &format!("{name},{film},{first},{second},{}\n", values.join(","));
+    }
+    text
+}
+
 #[test]
 fn every_command_of_the_page_on_measuring_runs() {
     let page = std::fs::read_to_string(repository("docs/guide/measuring.md")).unwrap();
@@ -44,12 +79,15 @@ fn every_command_of_the_page_on_measuring_runs() {
         let text: String = (0..31).map(count).collect();
         std::fs::write(folder.path().join(name), text).unwrap();
     }
+    std::fs::write(folder.path().join("washes.csv"), washes()).unwrap();
     let mut ran = 0;
     for block in page.split("```sh\n").skip(1) {
         let block = block.split("```").next().unwrap().replace("\\\n", " ");
         for line in block.lines().filter_map(|line| line.trim().strip_prefix("impasto ")) {
             let in_folder = |word: String| {
-                let is_file = [".csv", ".json", ".txt"].iter().any(|end| word.ends_with(end));
+                // A spectrum of a file stands behind its name.
+                let file = word.split('#').next().unwrap_or_default();
+                let is_file = [".csv", ".json", ".txt"].iter().any(|end| file.ends_with(end));
                 if is_file { folder.path().join(word).display().to_string() } else { word }
             };
             let words: Vec<String> = words(line).into_iter().map(in_folder).collect();
@@ -71,5 +109,5 @@ fn every_command_of_the_page_on_measuring_runs() {
             }
         }
     }
-    assert!(ran >= 8, "{ran} commands");
+    assert!(ran >= 11, "{ran} commands");
 }

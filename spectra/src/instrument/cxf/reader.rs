@@ -32,6 +32,15 @@ pub(in crate::instrument) fn read(
     text: &str,
 ) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let root = parse(file, text)?;
+    // CxF 1 and 2 hold samples and no resources.
+    let is_older = root.name.eq_ignore_ascii_case("cxf") && root.child("Resources").is_none();
+    if is_older && (root.name != "CxF" || root.child("SampleSet").is_some()) {
+        return Err(InstrumentError::NotRead {
+            file: file.to_owned(),
+            kind: "a Color Exchange Format file older than CxF3",
+            way: "export it as CxF3 or CGATS",
+        });
+    }
     if root.name != "CxF" {
         return Err(InstrumentError::line(file, root.line, "a CxF element", &root.name));
     }
@@ -340,6 +349,15 @@ mod tests {
             file(&(object("a", &reflectance("s", "80")) + &object("b", &reflectance("s", "2"))));
         let units: Vec<_> = read("f", &text).unwrap().into_iter().map(|r| r.unit).collect();
         assert_eq!(units, [Unit::Percent, Unit::Percent]);
+    }
+
+    #[test]
+    fn files_older_than_cxf3_are_refused_by_name() {
+        for text in ["<CXF><SampleSet/></CXF>", "<CxF><SampleSet/></CxF>"] {
+            let error = read("f.cxf", text).unwrap_err();
+            assert!(matches!(error, InstrumentError::NotRead { .. }), "{error}");
+            assert!(error.to_string().contains("older than CxF3"), "{error}");
+        }
     }
 
     #[test]

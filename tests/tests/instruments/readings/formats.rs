@@ -12,7 +12,7 @@ const MADDER: [f64; 7] = [20.0, 10.5, 12.0, 15.25, 60.0, 70.0, 75.0];
 const SLATE: [f64; 7] = [50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.5];
 
 /// File, format, names of its spectra, and the reading of a perfect white.
-const FILES: [(&str, Format, &[&str], f64); 14] = [
+const FILES: [(&str, Format, &[&str], f64); 18] = [
     ("two.cgats", Format::Cgats, &["Madder", "Slate"], 1.0),
     ("two.ti3", Format::Cgats, &["Madder", "Slate"], 100.0),
     ("madder.sp", Format::Cgats, &["madder"], 100.0),
@@ -24,6 +24,10 @@ const FILES: [(&str, Format, &[&str], f64); 14] = [
     ("points.jdx", Format::Jcamp, &["Madder", "Slate"], 100.0),
     ("packed.jdx", Format::Jcamp, &["Madder"], 100.0),
     ("wavenumbers.jdx", Format::Jcamp, &["Madder"], 1.0),
+    ("tuples.jdx", Format::Jcamp, &["Paints N=1", "Paints N=2"], 100.0),
+    ("madder.asd.txt", Format::Asd, &["madder"], 1.0),
+    ("madder.sed", Format::SpectralEvolution, &["madder"], 100.0),
+    ("madder.sig", Format::Svc, &["madder"], 100.0),
     ("madder.ttt", Format::Avantes, &["madder"], 100.0),
     ("madder.dpt", Format::Bruker, &["madder"], 1.0),
     ("columns.txt", Format::Columns, &["Madder", "Slate"], 100.0),
@@ -66,6 +70,9 @@ fn what_the_files_say_of_themselves_is_kept() {
         ("two.qtx", MeasuredQuantity::Reflectance, Unit::Percent),
         ("madder.sp", MeasuredQuantity::Reflectance, Unit::Percent),
         ("madder.ttt", MeasuredQuantity::Reflectance, Unit::Percent),
+        ("madder.asd.txt", MeasuredQuantity::Reflectance, Unit::Fraction),
+        ("madder.sed", MeasuredQuantity::Reflectance, Unit::Percent),
+        ("madder.sig", MeasuredQuantity::Reflectance, Unit::Percent),
         ("packed.jdx", MeasuredQuantity::Reflectance, Unit::Percent),
         ("two.cgats", MeasuredQuantity::Unstated, Unit::Unstated),
         ("madder.jaz", MeasuredQuantity::Unstated, Unit::Unstated),

@@ -4,6 +4,8 @@ mod bad_files;
 mod formats;
 mod fuzz;
 mod recipes;
+mod tables;
+mod workbooks;
 
 use std::path::PathBuf;
 

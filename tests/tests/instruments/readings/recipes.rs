@@ -146,3 +146,46 @@ fn columns_of_instruments_are_no_pigments() {
     assert!(run.err.contains("are ignored: L*"), "{}", run.err);
     assert_eq!(run.json()["pigments"], 2, "{}", run.out);
 }
+
+/// Two amounts of one paint over paper, which is measured bare and stands in the first row.
+const WASHES: &str = "\
+sample,film,Blue,400,500,600
+paper,none,,0.9,0.9,0.9
+thin,paint,0.1,0.8,0.7,0.5
+thick,paint,0.2,0.7,0.55,0.3
+";
+
+fn fit_washes(readings: &str, options: &[&str]) -> Run {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    std::fs::write(path("washes.csv"), readings).unwrap();
+    impasto(&[&["fit", &path("washes.csv"), "--json"], options].concat())
+}
+
+#[test]
+fn washes_without_their_bare_paper_are_told_which_columns_they_need() {
+    let absolute = ["--amounts", "absolute"];
+    let run = fit_washes(WASHES, &absolute);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let without: String = WASHES
+        .lines()
+        .map(|line| {
+            let (name, rest) = line.split_once(',').unwrap();
+            format!("{name},{}\n", rest.split_once(',').unwrap().1)
+        })
+        .collect();
+    let unmarked = fit_washes(&without, &absolute);
+    let no_paper = fit_washes(&without.replace("paper,,0.9,0.9,0.9\n", ""), &absolute);
+    for (run, words) in [
+        (unmarked, ["row 2: sample paper is paint", "column `film`", "`none`", "--recipes"]),
+        (no_paper, ["no bare reading", "column `film`", "column `backing`", "--recipes"]),
+    ] {
+        assert_eq!(run.status, 1, "{}", run.err);
+        assert!(!run.err.contains("``"), "{}", run.err);
+        for word in words {
+            assert!(run.err.contains(word), "`{word}` is missing: {}", run.err);
+        }
+    }
+    let relative = fit_washes(&WASHES.replace("Blue", "White"), &[]);
+    assert!(relative.out.contains("columns `film` and `backing`"), "{}", relative.out);
+}

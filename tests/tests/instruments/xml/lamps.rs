@@ -31,6 +31,20 @@ fn a_sekonic_lamp_is_read_at_its_finest() {
 }
 
 #[test]
+fn a_light_meters_file_is_a_lamp_and_no_reflectance() {
+    let lamp = lamp_from_bytes("li180.txt", &fixture("li180.txt"), None).unwrap();
+    assert_eq!((at(&lamp, 380), at(&lamp, 430), at(&lamp, 780)), (0.88, 0.93, 2.0));
+    let folder = tempfile::tempdir().unwrap();
+    let file =
+        write(folder.path(), "li180.txt", std::str::from_utf8(&fixture("li180.txt")).unwrap());
+    let run = impasto(&["color", &file]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    for word in ["li180 is the power of a light", "--illuminant"] {
+        assert!(run.err.contains(word), "`{word}` is missing: {}", run.err);
+    }
+}
+
+#[test]
 fn a_lamp_is_chosen_by_name() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("conditions.cxf");

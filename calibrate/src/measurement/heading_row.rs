@@ -1,0 +1,129 @@
+//! The row of headings in a table of text: where it begins, and what separates its cells.
+//!
+//! Programs of instruments write a title or lines about the measurement above it, and spreadsheets a
+//! line `sep=;`.
+
+use super::column::{TableKind, is_wavelength_heading};
+use super::name_column::{name_column, name_rank};
+
+/// Most lines above the headings of a table; chosen by eye.
+const MOST_ABOVE: usize = 200;
+
+/// Separators of cells, in the order in which they are tried.
+const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+
+/// Where the headings of a table stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct HeadingRow {
+    /// The character between cells, an ASCII character.
+    pub(super) separator: u8,
+    /// Number of bytes of the text before the row.
+    pub(super) offset: usize,
+}
+
+impl HeadingRow {
+    /// The headings of a table in `text`. The first line is that row if a cell of it is `sample`; otherwise
+    /// the row is the one with the most wavelengths (of a file of recipes, the most cells) among those
+    /// with a column for names.
+    pub(super) fn of(text: &str, kind: TableKind) -> Option<Self> {
+        let mut best: Option<(usize, Self)> = None;
+        let mut offset = 0;
+        let mut is_first = true;
+        for line in text.split_inclusive(['\n', '\r']).take(2 * MOST_ABOVE) {
+            let at = offset;
+            offset += line.len();
+            if line.trim().is_empty() {
+                continue;
+            }
+            for separator in SEPARATORS {
+                let cells = cells(line, separator);
+                let found = Self { separator, offset: at };
+                if is_first && cells.iter().any(|cell| cell.eq_ignore_ascii_case("sample")) {
+                    return Some(found);
+                }
+                if let Some(score) = score(&cells, kind)
+                    && best.is_none_or(|(most, _)| score > most)
+                {
+                    best = Some((score, found));
+                }
+            }
+            is_first = false;
+        }
+        best.map(|(_, found)| found)
+    }
+
+    /// The first row that is not empty, with the separator that occurs most often in it.
+    pub(super) fn first(text: &str) -> Self {
+        let offset = text.len() - text.trim_start_matches(['\n', '\r', ' ']).len();
+        let line = text[offset..].lines().next().unwrap_or_default();
+        let count = |separator: &u8| line.bytes().filter(|byte| byte == separator).count();
+        // The first of several: the maximum is searched from behind.
+        let separator = SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',');
+        Self { separator, offset }
+    }
+}
+
+/// How much a row looks like headings; `None` if it has no column for names, or only that.
+fn score(cells: &[String], kind: TableKind) -> Option<usize> {
+    let names: Vec<&str> = cells.iter().map(String::as_str).collect();
+    let wavelengths = names.iter().filter(|cell| is_wavelength_heading(cell)).count();
+    match kind {
+        TableKind::Readings => {
+            name_column(&names, is_wavelength_heading)?;
+            (wavelengths > 1).then_some(wavelengths)
+        }
+        TableKind::Recipes => {
+            names.iter().find_map(|name| name_rank(name))?;
+            (names.len() > 1).then_some(names.len())
+        }
+    }
+}
+
+/// The cells of a line, without empty ones at its end.
+fn cells(line: &str, separator: u8) -> Vec<String> {
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .delimiter(separator)
+        .from_reader(line.as_bytes());
+    let record = reader.records().next().and_then(Result::ok).unwrap_or_default();
+    let mut cells: Vec<String> = record.iter().map(plain_heading).collect();
+    while cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
+}
+
+/// A heading; `400,5` is a wavelength where commas do not separate cells.
+pub(super) fn plain_heading(heading: &str) -> String {
+    let pointed = heading.replace(',', ".");
+    if pointed.parse::<f64>().is_ok() { pointed } else { heading.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(text: &str, kind: TableKind) -> Option<(char, usize)> {
+        HeadingRow::of(text, kind).map(|row| (char::from(row.separator), row.offset))
+    }
+
+    #[test]
+    fn lines_above_the_headings_are_passed_over() {
+        let readings = |text: &str| found(text, TableKind::Readings);
+        assert_eq!(readings("sample,400\n"), Some((',', 0)));
+        assert_eq!(readings("My paints\n\nName;400;410\n"), Some((';', 11)));
+        assert_eq!(readings("sep=;\r\nName,Anna\r\nName;400,5;410,5\r\n"), Some((';', 18)));
+        assert_eq!(readings("Date\t1.1.26\nwavelength\t400\t410\nA\t1\t2\n"), Some(('\t', 12)));
+        assert_eq!(readings("Name,Anna\nwavelength,Red,Blue\n400,1,2\n"), None);
+        assert_eq!(readings("400,1\n410,2\n"), None);
+        assert_eq!(readings("Name,500\nwavelength,Red\n400,1\n"), None, "a name that is a number");
+    }
+
+    #[test]
+    fn recipes_have_the_row_with_the_most_cells() {
+        assert_eq!(found("Name,Anna\nName,White,Red\nw,1,\n", TableKind::Recipes), Some((',', 10)));
+        assert_eq!(found("White,Red\n1,2\n", TableKind::Recipes), None);
+    }
+}
