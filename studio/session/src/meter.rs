@@ -101,7 +101,7 @@ mod tests {
         assert_eq!((performance.substeps_per_second, performance.waiting_substeps), (300.0, 7));
         assert_eq!((performance.mean_latency_ms, performance.max_latency_ms), (30.0, 60.0));
         assert!(!performance.paint_is_behind, "7 sub-steps take a few milliseconds");
-        assert!(meter.performance(at(1100), 400).paint_is_behind, "400 take more than 150 ms");
+        assert!(meter.performance(at(1100), 600).paint_is_behind, "600 take 200 ms");
         let later = meter.performance(at(5000), 0);
         assert_eq!(later, Performance::default(), "nothing happened for a second");
     }

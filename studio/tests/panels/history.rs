@@ -68,6 +68,21 @@ fn a_long_list_scrolls_to_the_current_entry() {
 }
 
 #[test]
+fn the_list_follows_a_recording_that_is_played() {
+    let mut harness = history(painting());
+    harness.set_size(vec2(360.0, 260.0));
+    for count in (0..=420).step_by(35) {
+        let painting = &mut harness.state_mut().painting;
+        painting.history = (1..=count).map(|number| format!("stroke {number}")).collect();
+        painting.history_done = count;
+        harness.step();
+    }
+    harness.run();
+    let current = harness.get_by_label("420 stroke 420").rect();
+    assert!(current.bottom() < 260.0, "{current}");
+}
+
+#[test]
 fn the_current_entry_stays_in_sight_in_a_lower_list() {
     let mut long = painting();
     long.history = (1..=40).map(|number| format!("stroke {number}")).collect();

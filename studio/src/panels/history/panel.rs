@@ -48,6 +48,8 @@ impl History {
         let (done, count) = (cx.painting.history_done, cx.painting.history.len());
         let mut clicked = None;
         ui.spacing_mut().item_spacing.y = 1.0;
+        // A list that just grew would spring back to where it ended before.
+        ui.spacing_mut().scroll.kinetic.rubber_band = false;
         // The lines above and below the list stay in the panel.
         let high = row_height(ui, ROW);
         let others = 3.0 * ui.spacing().interact_size.y + 12.0;

@@ -1,5 +1,7 @@
 //! The state of a painting in the machine's memory, and what changes it.
 
+use std::sync::Arc;
+
 use super::bed::Bed;
 use super::below::Below;
 use super::columns::Columns;
@@ -22,9 +24,9 @@ use graphics::tile::{Rect, Tile, TileSet};
 #[derive(Debug)]
 pub struct CpuPaint {
     /// Height of the ground in quanta.
-    ground: Field<i32>,
-    /// Height of ground and dry paint in quanta.
-    floor: Field<i32>,
+    ground: Arc<Field<i32>>,
+    /// Height of ground and dry paint in quanta; shared with `ground` until paint dries.
+    floor: Arc<Field<i32>>,
     pub(super) wet: Columns,
     /// Surface before the stroke.
     pub(super) bed: Bed,
@@ -42,11 +44,12 @@ pub struct CpuPaint {
 impl CpuPaint {
     /// A canvas without paint over a ground of height `floor`, in quanta.
     pub(crate) fn new(floor: Field<i32>) -> Self {
+        let floor = Arc::new(floor);
         Self {
             wet: Columns::new(Layer::empty(floor.width(), floor.height())),
             bed: Bed::unknown(floor.bounds()),
             mask: None,
-            ground: floor.clone(),
+            ground: Arc::clone(&floor),
             floor,
             brushes: Vec::new(),
             dry: Vec::new(),
@@ -151,7 +154,8 @@ impl CpuPaint {
 
     pub(crate) fn remove_dry_layer(&mut self, index: usize) -> Layer {
         let layer = self.dry.remove(index);
-        layer.for_each_column(&mut self.floor, |floor, volume| floor - volume as i32);
+        let floor = Arc::make_mut(&mut self.floor);
+        layer.for_each_column(floor, |floor, volume| floor - volume as i32);
         layer.part(self.bounds())
     }
 
@@ -161,7 +165,7 @@ impl CpuPaint {
     }
 
     pub(crate) fn floor(&self) -> Field<i32> {
-        self.floor.clone()
+        Field::clone(&self.floor)
     }
 
     pub(crate) fn save_tile(&mut self, tile: Tile, slot: UndoSlot) {
@@ -207,7 +211,8 @@ impl CpuPaint {
 
     /// Adds a dry layer and raises the floor by its height.
     fn insert_sparse(&mut self, index: usize, layer: SparseLayer) {
-        layer.for_each_column(&mut self.floor, |floor, volume| floor + volume as i32);
+        let floor = Arc::make_mut(&mut self.floor);
+        layer.for_each_column(floor, |floor, volume| floor + volume as i32);
         self.dry.insert(index, layer);
     }
 }
