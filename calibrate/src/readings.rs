@@ -287,7 +287,7 @@ fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
     let mut remarks = vec![Remark::note(format!("{summary} in {unit}, {}", table.grid))];
     remarks.extend(table.resampled_from.map(|count| {
         Remark::note(format!(
-            "{count} irregular wavelengths brought to that grid by straight lines"
+            "{count} irregular wavelengths brought to that grid by a cubic spline"
         ))
     }));
     remarks.extend(table.remarks.iter().map(Remark::warning));
