@@ -82,3 +82,4 @@ pub use leave_out::{FitValidation, ValidationOptions, validate};
 pub use plan::plan;
 pub use readings::{ReadingFormat, ReadingOptions, Readings, ReadingsError};
 pub use report::ErrorReport;
+pub use scores::shares_of_squares;

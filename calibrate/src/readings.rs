@@ -1,5 +1,6 @@
 //! Measurement files of any known format, read together.
 
+use std::fs::File;
 use std::path::Path;
 
 use spectra::file::{FileError, read as read_file};
@@ -10,8 +11,8 @@ use spectra::referencing::{
 };
 
 use crate::measurement::{
-    MeasurementError, MeasurementTable, Recipes, RecipesError, RecordChoice, Scale, ScaleChoice,
-    is_measurement_csv,
+    LargeCsv, LargeCsvChoice, LargeCsvError, MeasurementError, MeasurementTable, Recipes,
+    RecipesError, RecordChoice, Scale, ScaleChoice, is_measurement_csv,
 };
 use crate::swatch::SwatchSet;
 use pigment::library::Input;
@@ -178,6 +179,13 @@ impl Readings {
         let (mut tables, mut inputs, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
         remarks.extend(references.iter().flat_map(References::remark));
         for path in paths {
+            if let Some((table, input, of_file)) = large_csv(path.as_ref(), options, spectra_only)?
+            {
+                tables.push(table);
+                inputs.push(input);
+                remarks.extend(of_file);
+                continue;
+            }
             let (file, bytes) = content(path.as_ref())?;
             inputs.push(Input::new(&file, &bytes));
             let of_file = match instrument_file(&file, &bytes, options.format)? {
@@ -276,6 +284,31 @@ fn csv_table(
     let summary = format!("{file}{encoding}: {} readings", table.readings.len());
     let remarks = remarks(&summary, &table);
     Ok((table, remarks))
+}
+
+/// The table of a large measurement CSV, which is read in pieces; `None` for any other file.
+fn large_csv(
+    path: &Path,
+    options: &ReadingOptions,
+    spectra_only: bool,
+) -> Result<Option<(MeasurementTable, Input, Vec<Remark>)>, ReadingsError> {
+    let is_csv = options.format.is_none_or(|format| format == ReadingFormat::Csv);
+    if !is_csv || options.references.is_some() {
+        return Ok(None);
+    }
+    let unreadable = |reason| FileError::reading(path, reason);
+    let Some(large) = LargeCsv::open(path).map_err(unreadable)? else { return Ok(None) };
+    let pigments = options.pigments.as_deref();
+    let choice = LargeCsvChoice { scale: options.scale, pigments, spectra_only };
+    let table = large.table(choice).map_err(|error| match error {
+        LargeCsvError::System(reason) => unreadable(reason).into(),
+        LargeCsvError::Measurement(error) => ReadingsError::Measurement(error),
+    })?;
+    let content = File::open(path).map_err(unreadable)?;
+    let input = Input::of_reader(large.file(), content).map_err(unreadable)?;
+    let summary = format!("{}: {} readings", large.file(), table.readings.len());
+    let remarks = remarks(&summary, &table);
+    Ok(Some((table, input, remarks)))
 }
 
 /// Remarks about one file: `summary` with unit and grid, and the table's own as warnings.
