@@ -13,6 +13,12 @@ const STEPS: usize = 40;
 /// Colour difference that counts as much as an amount beyond its limit by a factor of e; chosen by eye.
 const PENALTY: f64 = 30.0;
 
+/// First and last step of the thickness where amounts are at their limits, as a fraction; chosen by eye.
+const FIRST_STEP: f64 = 0.25;
+const LAST_STEP: f64 = 1e-3;
+/// The step is halved where the distance stays above this fraction of the one before; chosen by eye.
+const LEAST_GAIN: f64 = 0.999;
+
 /// Returns the recipe found from `start` within the bounds; `None` if no film of the request holds
 /// amounts within their limits.
 pub(super) fn descend(
@@ -40,10 +46,26 @@ pub(super) fn descend(
     if keeps {
         return Some(free);
     }
-    // The film is now about as thick as is best within the limits, at which they are bounds of shares.
-    let start = within_limits(request, &free)?;
-    let range = (free.thickness, free.thickness);
-    Some(descend_within(forward, request, target, &start, (range, true), scratch))
+    // The film is now about as thick as is best within the limits, which at one thickness are bounds of
+    // shares. Nearby thicknesses are tried in halving steps.
+    let mut at_thickness = |near: &Candidate, thickness: f64| {
+        let start = within_limits(request, &Candidate { thickness, ..near.clone() })?;
+        let range = (thickness, thickness);
+        Some(descend_within(forward, request, target, &start, (range, true), scratch))
+    };
+    let mut best = at_thickness(&free, free.thickness)?;
+    let mut step = if range.0 < range.1 { FIRST_STEP } else { 0.0 };
+    while step > LAST_STEP {
+        let before = best.distance;
+        for thickness in [best.thickness * (1.0 + step), best.thickness / (1.0 + step)] {
+            let tried = at_thickness(&best, thickness.clamp(range.0, range.1));
+            best = tried.filter(|tried| tried.distance < best.distance).unwrap_or(best);
+        }
+        if best.distance > LEAST_GAIN * before {
+            step /= 2.0;
+        }
+    }
+    Some(best)
 }
 
 /// Descends with the thickness in a range: with limits of amounts as bounds of the shares if `bounds_hold`,
