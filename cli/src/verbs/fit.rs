@@ -35,7 +35,8 @@ pub(crate) struct Fit {
     source: String,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON: samples, pigments, rms, delta_e, per_sample, warnings, seconds
+    /// Print JSON: samples, pigments, rms, delta_e, per_sample, shares_of_squares, warnings,
+    /// seconds
     #[arg(long)]
     json: bool,
 }

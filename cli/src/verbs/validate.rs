@@ -32,7 +32,8 @@ pub(crate) struct Validate {
     with: Vec<String>,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON: samples, pigments, rms, delta_e, per_sample, warnings, seconds
+    /// Print JSON: samples, pigments, rms, delta_e, per_sample, shares_of_squares, warnings,
+    /// seconds, strength_free, by_pigment
     #[arg(long)]
     json: bool,
 }
