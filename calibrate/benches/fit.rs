@@ -18,6 +18,7 @@ use calibrate::swatch::SwatchSet;
 use calibrate::synthetic::SyntheticMixtures;
 use calibrate::validation::{ValidationPlan, leave_out};
 use divan::{Bencher, black_box};
+use spectra::Grid;
 use spectra::optics::{Specular, Surface};
 
 fn main() {
@@ -70,6 +71,18 @@ fn refined_at_the_papers_size(bencher: Bencher<'_, '_>, smoothness: &str) {
     let smoothness = if smoothness == "none" { Smoothness::None } else { Smoothness::Auto };
     bencher
         .bench_local(|| fit_refined(black_box(&problem), &weights, Refinement::whole(smoothness)));
+}
+
+/// 60 pigments, 2000 mixtures and 401 wavelengths: all that a workshop may ever measure.
+#[divan::bench(sample_count = 1, sample_size = 1)]
+fn refined_of_a_large_set(bencher: Bencher<'_, '_>) {
+    let grid = Grid::from_nm(380.0, 1.0, 401).expect("a grid");
+    let made = SyntheticMixtures::of_size(1, 0.002, grid, 60, 2000);
+    let problem =
+        Problem::new(made.grid, made.surface, &made.observations, PigmentId(0)).expect("a problem");
+    let weights = Viewing::default().weights(grid).expect("weights");
+    let how = Refinement::whole(Smoothness::Auto);
+    bencher.bench_local(|| fit_refined(black_box(&problem), &weights, how));
 }
 
 #[divan::bench]

@@ -10,7 +10,7 @@ use spectra::optics::{Surface, UnevenFilm};
 use crate::calibration::{Calibration, CalibrationError, pigment};
 use crate::findings;
 use crate::fit::{
-    FiniteProblem, FitError, FitSettings, MeasuredFilm, Refined, Refinement, Smoothness,
+    FiniteProblem, FitError, FitSettings, MeasuredFilm, Refined, Refinement, Smoothness, Watch,
     fit_finite, root_mean_square,
 };
 use crate::measurement::MeasurementError;
@@ -73,10 +73,25 @@ pub fn calibrate_absolute(
     settings: &FitSettings,
     viewing: &Viewing,
 ) -> Result<Calibration, CalibrationError> {
+    calibrate_absolute_watched(set, film, settings, viewing, Watch::default())
+}
+
+/// Fits like [`calibrate_absolute`], and tells `watch` the stages of the fit.
+///
+/// # Errors
+/// [`CalibrationError`] if readings cannot be used or the fit fails.
+pub fn calibrate_absolute_watched(
+    set: &SwatchSet,
+    film: UnevenFilm,
+    settings: &FitSettings,
+    viewing: &Viewing,
+    watch: Watch<'_>,
+) -> Result<Calibration, CalibrationError> {
     let problem = films(set)?;
     let dark = findings::below_surface(set, film.surface, settings.below_surface)?;
     let own = Viewing::default().weights(set.grid).expect("the method fits the grid");
-    let fit = fit_finite(&problem, film, &own, Refinement::whole(settings.smoothness))?;
+    let how = Refinement { watch, ..Refinement::whole(settings.smoothness) };
+    let fit = fit_finite(&problem, film, &own, how)?;
 
     let weights = viewing.weights(set.grid).expect("the method fits the grid");
     let films = problem.films.iter().enumerate().map(|(index, measured)| {
@@ -100,6 +115,7 @@ pub fn calibrate_absolute(
         } else {
             Vec::new()
         },
+        measured_amounts: measured_amounts(&problem, PigmentId(index)),
         ..pigment(name, &fit.curves[index], deviations.map(|all| &all[index]))
     });
     Ok(Calibration {
@@ -120,6 +136,15 @@ pub fn calibrate_absolute(
         observations: Vec::new(),
         condition: None,
         state: Some(fit.state),
+    })
+}
+
+/// Least and greatest amount of a pigment in the films that contain it.
+fn measured_amounts(problem: &FiniteProblem, pigment: PigmentId) -> Option<[f64; 2]> {
+    let recipes = problem.films.iter().map(|film| &film.recipe);
+    let amounts = recipes.flatten().filter(|(known, _)| *known == pigment);
+    amounts.fold(None, |range: Option<[f64; 2]>, &(_, amount)| {
+        Some(range.map_or([amount; 2], |[least, most]| [least.min(amount), most.max(amount)]))
     })
 }
 

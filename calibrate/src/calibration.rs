@@ -6,7 +6,7 @@ use spectra::optics::Surface;
 use crate::findings;
 use crate::fit::{
     Condition, FitError, FitSettings, Method, Problem, Refined, RefinedState, Refinement,
-    Unidentified, Unknown, condition, fit_qp, fit_refined, fit_weighted, linear_deviations,
+    Unidentified, Unknown, Watch, condition, fit_qp, fit_refined, fit_weighted, linear_deviations,
     unidentified,
 };
 use crate::measurement::MeasurementError;
@@ -47,13 +47,29 @@ pub fn calibrate(
     settings: &FitSettings,
     viewing: &Viewing,
 ) -> Result<Calibration, CalibrationError> {
+    calibrate_watched(set, reference, surface, settings, viewing, Watch::default())
+}
+
+/// Fits like [`calibrate`], and tells `watch` the stages of the fit.
+///
+/// # Errors
+/// [`CalibrationError`] if readings cannot be used or the fit fails.
+pub fn calibrate_watched(
+    set: &SwatchSet,
+    reference: PigmentId,
+    surface: Surface,
+    settings: &FitSettings,
+    viewing: &Viewing,
+    watch: Watch<'_>,
+) -> Result<Calibration, CalibrationError> {
     let observations = observations(set, surface, settings.below_surface)?;
     let unknown = unidentified(observations.iter().map(|o| o.shares.as_slice()), reference);
     let (solvable, identified) = without(&observations, &unknown);
     let reference_among =
         identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
     let problem = Problem::new(set.grid, surface, &solvable, PigmentId(reference_among))?;
-    let solution = solve(&problem, settings.method, Refinement::whole(settings.smoothness))?;
+    let how = Refinement { watch, ..Refinement::whole(settings.smoothness) };
+    let solution = solve(&problem, settings.method, how)?;
     let condition = condition(&problem, &solution.curves);
 
     let mut pigments: Vec<(PigmentId, Pigment)> = identified
@@ -117,6 +133,7 @@ pub(crate) fn pigment(name: &str, curves: &Curves, deviations: Option<&Curves>) 
         scattering_sd: deviation(|curves| &curves.scattering),
         identified: true,
         guessed: false,
+        measured_amounts: None,
         notes: Vec::new(),
     }
 }
@@ -125,7 +142,7 @@ pub(crate) fn pigment(name: &str, curves: &Curves, deviations: Option<&Curves>) 
 pub(crate) fn solve(
     problem: &Problem,
     method: Method,
-    how: Refinement,
+    how: Refinement<'_>,
 ) -> Result<Solution, FitError> {
     let plain = |curves: Vec<Curves>| Solution {
         deviations: how.deviations.then(|| linear_deviations(problem, &curves)),
@@ -179,6 +196,7 @@ fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) 
         scattering_sd: Vec::new(),
         identified: false,
         guessed: false,
+        measured_amounts: None,
         notes: vec![format!(
             "only K/S is known, from the masstone {}; S = 1 stands for an unknown scattering, so that mixtures with this pigment are a guess",
             sample.sample

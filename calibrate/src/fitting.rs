@@ -4,10 +4,10 @@ use std::path::Path;
 
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
-use crate::absolute::{CHOICE_FITS, calibrate_absolute, chosen_film, films};
+use crate::absolute::{CHOICE_FITS, calibrate_absolute_watched, chosen_film, films};
 use crate::backings::check_backings;
-use crate::calibration::{Calibration, CalibrationError, calibrate};
-use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness};
+use crate::calibration::{Calibration, CalibrationError, calibrate_watched};
+use crate::fit::{Condition, FitSettings, Method, RefinedState, Smoothness, Watch};
 use crate::fitting_error::FittingError;
 use crate::observation::{BelowSurface, Observation};
 use crate::readings::Readings;
@@ -245,12 +245,21 @@ impl PreparedFit {
     /// # Errors
     /// [`FittingError::Calibration`] if readings cannot be used or the fit fails.
     pub fn fit(&self) -> Result<Fit, FittingError> {
+        self.fit_watched(Watch::default())
+    }
+
+    /// Fits like [`Self::fit`], and tells `watch` the stages of the fit.
+    ///
+    /// # Errors
+    /// [`FittingError::Calibration`] if readings cannot be used or the fit fails.
+    pub fn fit_watched(&self, watch: Watch<'_>) -> Result<Fit, FittingError> {
         let Calibration { mut library, observations, condition, state } = match self.model {
             FilmModel::Relative { reference, surface } => {
-                calibrate(&self.set, reference, surface, &self.settings, &self.viewing)?
+                let Self { set, settings, viewing, .. } = self;
+                calibrate_watched(set, reference, surface, settings, viewing, watch)?
             }
             FilmModel::Absolute(film) => {
-                calibrate_absolute(&self.set, film, &self.settings, &self.viewing)?
+                calibrate_absolute_watched(&self.set, film, &self.settings, &self.viewing, watch)?
             }
         };
         library.inputs = self.inputs.clone();

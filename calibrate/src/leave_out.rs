@@ -8,6 +8,9 @@ use crate::report::ErrorReport;
 use crate::validation::{DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films};
 use pigment::evaluate::Viewing;
 
+/// Pigments that a report names for their part of the error.
+const NAMED_PIGMENTS: usize = 4;
+
 /// Options of [`validate`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ValidationOptions {
@@ -44,7 +47,20 @@ impl FitValidation {
         };
         let light = [self.viewing.illuminant.name(), self.viewing.observer.name()];
         let title = format!("{count} mixtures, left out {manner}");
-        ErrorReport::new(title, delta_e, *rms, light, per_sample)
+        ErrorReport::new(title, delta_e, *rms, light, per_sample).with_lines(self.findings())
+    }
+
+    /// Which pigments carry the error, and how much of it is strength.
+    fn findings(&self) -> Vec<String> {
+        let pigments: Vec<String> = (self.errors.by_pigment.iter().take(NAMED_PIGMENTS))
+            .map(|p| format!("{} {:.0} % in {}", p.pigment, 100.0 * p.share, p.mixtures))
+            .collect();
+        let by_pigment = (!pigments.is_empty())
+            .then(|| format!("by pigment, in number of mixtures: {}", pigments.join(", ")));
+        let strength = self.errors.strength_free.map(|free| {
+            format!("with the strength of each mixture free the mean would be {:.2}", free.mean)
+        });
+        by_pigment.into_iter().chain(strength).collect()
     }
 
     /// Names the mixtures that could not be left out.
@@ -101,11 +117,23 @@ impl PreparedFit {
         options: &ValidationOptions,
         progress: &(dyn Fn() + Sync),
     ) -> Result<FitValidation, FittingError> {
+        self.validate_fit(self.fit()?, options, progress)
+    }
+
+    /// Validates like [`Self::validate`], where `fit` is the fit of all samples that [`Self::fit`] made.
+    ///
+    /// # Errors
+    /// [`FittingError`] if a name is unknown, a fit fails, or no mixture can be left out.
+    pub fn validate_fit(
+        &self,
+        fit: Fit,
+        options: &ValidationOptions,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<FitValidation, FittingError> {
         if let Some(folds) = options.folds.filter(|folds| *folds < 2) {
             return Err(FittingError::Folds { folds });
         }
         let chosen = self.chosen(options)?;
-        let fit = self.fit()?;
         let folds = match self.model {
             FilmModel::Relative { .. } => options.folds,
             FilmModel::Absolute(_) => options.folds.or(Some(DEFAULT_FOLDS)),

@@ -40,6 +40,8 @@ pub mod measurement;
 
 pub mod swatch;
 
+mod readings_error;
+
 pub mod readings;
 
 pub mod observation;
@@ -80,5 +82,7 @@ pub use fitting::{FilmModel, Fit, FitOptions, PreparedFit, fit};
 pub use fitting_error::FittingError;
 pub use leave_out::{FitValidation, ValidationOptions, validate};
 pub use plan::plan;
-pub use readings::{ReadingFormat, ReadingOptions, Readings, ReadingsError};
+pub use readings::{ReadingFormat, ReadingOptions, Readings};
+pub use readings_error::ReadingsError;
 pub use report::ErrorReport;
+pub use scores::shares_of_squares;

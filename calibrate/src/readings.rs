@@ -1,18 +1,17 @@
 //! Measurement files of any known format, read together.
 
+use std::fs::File;
 use std::path::Path;
 
 use spectra::file::{FileError, read as read_file};
-use spectra::hint::{Explain, Fault, Hint};
 use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, read};
-use spectra::referencing::{
-    OpenedReferences, ReferenceFiles, ReferenceFilesError, ReferencingError, TileSource,
-};
+use spectra::referencing::{OpenedReferences, ReferenceFiles, ReferenceFilesError, TileSource};
 
 use crate::measurement::{
-    MeasurementError, MeasurementTable, Recipes, RecipesError, RecordChoice, Scale, ScaleChoice,
-    begins_with_samples, is_measurement_csv,
+    LargeCsv, LargeCsvChoice, LargeCsvError, MeasurementError, MeasurementTable, Recipes,
+    RecordChoice, Scale, ScaleChoice, begins_with_samples, is_measurement_csv,
 };
+use crate::readings_error::ReadingsError;
 use crate::swatch::SwatchSet;
 use pigment::library::Input;
 use pigment::remark::Remark;
@@ -178,6 +177,13 @@ impl Readings {
         let (mut tables, mut inputs, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
         remarks.extend(references.iter().flat_map(References::remark));
         for path in paths {
+            if let Some((table, input, of_file)) = large_csv(path.as_ref(), options, spectra_only)?
+            {
+                tables.push(table);
+                inputs.push(input);
+                remarks.extend(of_file);
+                continue;
+            }
             let (file, bytes) = content(path.as_ref())?;
             inputs.push(Input::new(&file, &bytes));
             let of_file = match instrument_file(&file, &bytes, options.format)? {
@@ -284,6 +290,31 @@ fn csv_table(
     Ok((table, remarks))
 }
 
+/// The table of a large measurement CSV, which is read in pieces; `None` for any other file.
+fn large_csv(
+    path: &Path,
+    options: &ReadingOptions,
+    spectra_only: bool,
+) -> Result<Option<(MeasurementTable, Input, Vec<Remark>)>, ReadingsError> {
+    let is_csv = options.format.is_none_or(|format| format == ReadingFormat::Csv);
+    if !is_csv || options.references.is_some() {
+        return Ok(None);
+    }
+    let unreadable = |reason| FileError::reading(path, reason);
+    let Some(large) = LargeCsv::open(path).map_err(unreadable)? else { return Ok(None) };
+    let pigments = options.pigments.as_deref();
+    let choice = LargeCsvChoice { scale: options.scale, pigments, spectra_only };
+    let table = large.table(choice).map_err(|error| match error {
+        LargeCsvError::System(reason) => unreadable(reason).into(),
+        LargeCsvError::Measurement(error) => ReadingsError::Measurement(error),
+    })?;
+    let content = File::open(path).map_err(unreadable)?;
+    let input = Input::of_reader(large.file(), content).map_err(unreadable)?;
+    let summary = format!("{}: {} readings", large.file(), table.readings.len());
+    let remarks = remarks(&summary, &table);
+    Ok(Some((table, input, remarks)))
+}
+
 /// Remarks about one file: `summary` with unit and grid, and the table's own as warnings.
 fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
     let unit = match table.scale {
@@ -293,7 +324,7 @@ fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
     let mut remarks = vec![Remark::note(format!("{summary} in {unit}, {}", table.grid))];
     remarks.extend(table.resampled_from.map(|count| {
         Remark::note(format!(
-            "{count} irregular wavelengths brought to that grid by straight lines"
+            "{count} irregular wavelengths brought to that grid by a cubic spline"
         ))
     }));
     remarks.extend(table.remarks.iter().map(Remark::warning));
@@ -302,67 +333,4 @@ fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
 
 fn content(path: &Path) -> Result<(String, Vec<u8>), FileError> {
     Ok((path.display().to_string(), read_file(path)?))
-}
-
-/// Measurement files that cannot be read.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadingsError {
-    /// A file cannot be read.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// An instrument's file is faulty.
-    #[error(transparent)]
-    Instrument(#[from] InstrumentError),
-    /// Readings are faulty or contradict each other.
-    #[error(transparent)]
-    Measurement(#[from] MeasurementError),
-    /// The recipes are faulty or do not fit the readings.
-    #[error(transparent)]
-    Recipes(#[from] RecipesError),
-    /// White, dark or tile cannot be read.
-    #[error(transparent)]
-    References(#[from] ReferenceFilesError),
-    /// Counts and white do not make a reflectance.
-    #[error("{file}: cannot be set against the white of {white}")]
-    Referencing {
-        /// File of the samples.
-        file: String,
-        /// White as the caller named it.
-        white: String,
-        /// Reason with the wavelength.
-        #[source]
-        reason: ReferencingError,
-    },
-    /// A white is given, but the file is a measurement CSV, which holds reflectances.
-    #[error("a white needs counts as an instrument writes them, found a CSV: `{file}`")]
-    CsvOfCounts {
-        /// File name as the caller gave it.
-        file: String,
-    },
-}
-
-impl Explain for ReadingsError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Instrument(error) => error.hint(),
-            Self::Measurement(error) => error.hint(),
-            Self::Recipes(error) => error.hint(),
-            Self::References(error) => error.hint(),
-            Self::Referencing { reason, .. } => reason.hint(),
-            Self::CsvOfCounts { .. } => Some(Hint::new(
-                "give the spectrometer's own file, or two columns `nm counts`, or leave out [white]",
-            )),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Instrument(error) => error.fault(),
-            Self::References(error) => error.fault(),
-            Self::CsvOfCounts { .. } => Fault::Setting,
-            Self::Measurement(_) | Self::Recipes(_) | Self::Referencing { .. } => Fault::Input,
-        }
-    }
 }

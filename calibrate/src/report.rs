@@ -2,11 +2,14 @@
 
 use std::fmt;
 
+use crate::scores::shares_of_squares;
 use pigment::evaluate::Summary;
 use pigment::library::{Evidence, SampleEvidence};
 
 /// Characters of a line of samples.
 const LINE: usize = 96;
+/// Samples that are named for their share of the error.
+const NAMED: usize = 4;
 /// Most samples in one line.
 const COLUMNS: usize = 8;
 
@@ -20,6 +23,8 @@ pub struct ErrorReport<'a> {
     observer: String,
     samples: &'a [SampleEvidence],
     shown: usize,
+    /// Further findings, below the summary.
+    lines: Vec<String>,
 }
 
 impl<'a> ErrorReport<'a> {
@@ -46,7 +51,13 @@ impl<'a> ErrorReport<'a> {
             observer: observer.to_owned(),
             samples,
             shown: usize::MAX,
+            lines: Vec::new(),
         }
+    }
+
+    /// The report with further findings below its summary.
+    pub(crate) fn with_lines(self, lines: Vec<String>) -> Self {
+        Self { lines, ..self }
     }
 
     /// The report with only the `count` worst samples.
@@ -67,6 +78,21 @@ impl fmt::Display for ErrorReport<'_> {
             "colour error: mean {mean:.2}, median {median:.2}, 90 % below {p90:.2}, largest {max:.2}; rms {rms:.4}"
         )?;
         write!(f, "(CIEDE2000 under {illuminant}, observer {observer}; rms of reflectance)")?;
+        let shares = shares_of_squares(self.samples);
+        if shares.len() > NAMED {
+            let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+            let named = &shares[..NAMED];
+            let each: Vec<String> = named
+                .iter()
+                .map(|(sample, share)| format!("{sample} {}", percent(*share)))
+                .collect();
+            let all = percent(named.iter().map(|(_, share)| share).sum());
+            let each = each.join(", ");
+            write!(f, "\n{NAMED} of {} samples carry {all} of the squares: {each}", shares.len())?;
+        }
+        for line in &self.lines {
+            write!(f, "\n{line}")?;
+        }
         let mut sorted: Vec<&SampleEvidence> = self.samples.iter().collect();
         sorted.sort_by(|a, b| b.delta_e.total_cmp(&a.delta_e));
         let width = sorted.iter().map(|s| s.sample.chars().count()).max().unwrap_or(0);

@@ -47,3 +47,32 @@ fn summary(per_sample: &[SampleEvidence]) -> Summary {
     let errors: Vec<f64> = per_sample.iter().map(|s| s.delta_e).collect();
     Summary::of(&errors)
 }
+
+/// Share of each sample in the sum of all squared colour errors, 0 to 1, the greatest first; samples of
+/// equal shares in their order. Empty if all errors are 0.
+#[must_use]
+pub fn shares_of_squares(per_sample: &[SampleEvidence]) -> Vec<(&str, f64)> {
+    let total: f64 = per_sample.iter().map(|s| s.delta_e * s.delta_e).sum();
+    if total <= 0.0 {
+        return Vec::new();
+    }
+    let share = |s: &'_ SampleEvidence| s.delta_e * s.delta_e / total;
+    let mut shares: Vec<(&str, f64)> =
+        per_sample.iter().map(|s| (s.sample.as_str(), share(s))).collect();
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+    shares
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_of_squares_sum_to_one_and_fall() {
+        let samples = [("a", 1.0), ("b", 3.0), ("c", 0.0)]
+            .map(|(name, delta_e)| SampleEvidence { sample: name.to_owned(), delta_e });
+        let shares = shares_of_squares(&samples);
+        assert_eq!(shares, [("b", 0.9), ("a", 0.1), ("c", 0.0)]);
+        assert!(shares_of_squares(&samples[2..]).is_empty());
+    }
+}

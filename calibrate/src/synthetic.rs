@@ -27,17 +27,21 @@ pub struct SyntheticMixtures {
 
 impl SyntheticMixtures {
     /// Data of the size of the published experiment (Baxter, Wendt and Lin 2004): 11 pigments and 71
-    /// mixtures at 101 wavelengths (400 to 700 nm by 3 nm). The mixtures are every masstone, two tints
-    /// with white of each other pigment (10 % and 40 %), then random mixtures of two or three. Readings
-    /// have normal noise of standard deviation `noise` in reflectance.
+    /// mixtures at 101 wavelengths (400 to 700 nm by 3 nm), as [`Self::of_size`] makes them.
+    #[must_use]
+    pub fn paper_size(seed: u64, noise: f64) -> Self {
+        Self::of_size(seed, noise, Grid::from_nm(400.0, 3.0, 101).expect("a grid"), 11, 71)
+    }
+
+    /// The first `count` of every masstone, two tints with white of each other pigment (10 % and 40 %),
+    /// then random mixtures of two or three of `pigments`, which are two or more. Readings on `grid` have
+    /// normal noise of standard deviation `noise` in reflectance.
     ///
     /// K and S are exponentials of a level plus a few smooth bumps.
     #[must_use]
-    pub fn paper_size(seed: u64, noise: f64) -> Self {
-        let grid = Grid::from_nm(400.0, 3.0, 101).expect("a grid");
+    pub fn of_size(seed: u64, noise: f64, grid: Grid, pigments: usize, count: usize) -> Self {
         let surface = Surface::of_most_paints(Specular::Included);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let pigments = 11;
         let white = Curves {
             grid,
             absorption: curve(&mut random, grid, (-6.0, -5.0), 2),
@@ -49,7 +53,7 @@ impl SyntheticMixtures {
             let scattering = curve(&mut random, grid, (-2.0, 0.3), 3);
             curves.push(Curves { grid, absorption, scattering });
         }
-        let observations = recipes(&mut random, pigments, 71);
+        let observations = recipes(&mut random, pigments, count);
         let mut mixtures =
             Self { grid, surface, curves, truth: Vec::new(), observations: Vec::new() };
         for (number, shares) in observations.into_iter().enumerate() {

@@ -12,7 +12,7 @@ use crate::fit::{
 use crate::observation::{Observation, observations};
 use crate::scores::Scores;
 use crate::swatch::SwatchSet;
-use pigment::evaluate::{Summary, Viewing};
+use pigment::evaluate::{Summary, Viewing, delta_e};
 use pigment::library::SampleEvidence;
 use pigment::{Curves, PigmentId};
 
@@ -31,6 +31,24 @@ pub struct Validation {
     pub per_sample: Vec<SampleEvidence>,
     /// Mixtures that could not be left out, since a pigment would not be identified without them.
     pub needed: Vec<String>,
+    /// Summary of the colour errors that would remain if the amounts of all pigments of each mixture but
+    /// its main one were free by one common factor: the part of the errors that is not strength. `None`
+    /// for absolute amounts.
+    pub strength_free: Option<Summary>,
+    /// Pigments by their part of the error, the greatest first; empty for absolute amounts.
+    pub by_pigment: Vec<PigmentError>,
+}
+
+/// Part of the errors of a validation in mixtures with one pigment.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PigmentError {
+    /// Name of the pigment.
+    pub pigment: String,
+    /// Number of mixtures with it that were left out.
+    pub mixtures: usize,
+    /// Their share in the sum of all squared colour errors, 0 to 1. A mixture counts for each of its
+    /// pigments, so that the shares do not sum to 1.
+    pub share: f64,
 }
 
 /// Settings of a validation: the fit, and the mixtures that are left out.
@@ -97,6 +115,7 @@ pub fn leave_out(
         .filter(|&i| is_mixture(&observations[i]) && chosen(&observations[i]))
         .filter(|&i| unknown.iter().all(|u| observations[i].shares[u.pigment.index()] == 0.0))
         .collect();
+    let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
         let rest: Vec<Observation> =
             all_but(observations.len(), group).iter().map(|&i| observations[i].clone()).collect();
@@ -110,19 +129,74 @@ pub fn leave_out(
             (plan.progress)();
             let target = &observations[index];
             let needed = unknown.iter().any(|u| target.shares[u.pigment.index()] > 0.0);
-            let parts = identified.iter().zip(&solution.curves).map(|(pigment, curves)| {
-                let (absorption, scattering) = curves.as_slices();
-                (target.shares[pigment.index()], absorption, scattering)
-            });
-            let predicted = Curves::weighted_sum(set.grid, parts).hiding(surface);
-            Prediction { index, predicted: (!needed).then_some(predicted) }
+            let larger =
+                |a: usize, b: usize| if target.shares[b] > target.shares[a] { b } else { a };
+            let main = (0..target.shares.len()).reduce(larger).map(PigmentId);
+            let film = |strength: f64| {
+                let parts = identified.iter().zip(&solution.curves).map(|(pigment, curves)| {
+                    let (absorption, scattering) = curves.as_slices();
+                    let share = target.shares[pigment.index()];
+                    let scale = if Some(*pigment) == main { 1.0 } else { strength };
+                    (share * scale, absorption, scattering)
+                });
+                Curves::weighted_sum(set.grid, parts).hiding(surface)
+            };
+            let error = |strength: f64| delta_e(&weights, &target.as_read, &film(strength));
+            let prediction = || (film(1.0), Some(least_error(error)));
+            Prediction { index, predicted: (!needed).then(prediction) }
         });
         Ok(predictions.collect())
     };
     let predictions = plan.predictions(&candidates, predict)?;
+    let predicted = predictions.iter().filter(|prediction| prediction.predicted.is_some());
+    let mixtures: Vec<&Observation> =
+        predicted.map(|prediction| &observations[prediction.index]).collect();
     let sample =
         |index: usize| (observations[index].sample.clone(), observations[index].as_read.as_slice());
-    Ok(summary(set, plan, predictions, sample))
+    let errors = summary(set, plan, predictions, sample);
+    Ok(Validation { by_pigment: by_pigment(set, &mixtures, &errors.per_sample), ..errors })
+}
+
+/// Factors of the strength that are tried, from 1/4 to 4, evenly spaced in their logarithm.
+const STRENGTHS: i32 = 33;
+/// Steps in which the best of them is refined, each of which halves the distance.
+const HALVINGS: usize = 12;
+
+/// Least `error` of any strength from 1/4 to 4.
+fn least_error(error: impl Fn(f64) -> f64) -> f64 {
+    let range = 4f64.ln();
+    let at = |log: f64| (error(log.exp()), log);
+    let nearer = |a: (f64, f64), b: (f64, f64)| if b.0 < a.0 { b } else { a };
+    let last = f64::from(STRENGTHS - 1);
+    let coarse = (0..STRENGTHS).map(|i| at(range * (2.0 * f64::from(i) / last - 1.0)));
+    let mut best = coarse.reduce(nearer).expect("there are strengths");
+    let mut step = range / last;
+    for _ in 0..HALVINGS {
+        best = [best.1 - step, best.1 + step].map(at).into_iter().fold(best, nearer);
+        step /= 2.0;
+    }
+    best.0
+}
+
+/// Part of the errors in mixtures with each pigment.
+fn by_pigment(
+    set: &SwatchSet,
+    mixtures: &[&Observation],
+    errors: &[SampleEvidence],
+) -> Vec<PigmentError> {
+    let square = |error: &SampleEvidence| error.delta_e * error.delta_e;
+    let total: f64 = errors.iter().map(square).sum();
+    let of = |(index, name): (usize, &String)| {
+        let pairs = mixtures.iter().zip(errors).filter(|(mixture, _)| mixture.shares[index] > 0.0);
+        let (count, sum) =
+            pairs.fold((0, 0.0), |(count, sum), (_, error)| (count + 1, sum + square(error)));
+        let share = if total > 0.0 { sum / total } else { 0.0 };
+        PigmentError { pigment: name.clone(), mixtures: count, share }
+    };
+    let all = set.pigments.iter().enumerate().map(of);
+    let mut found: Vec<PigmentError> = all.filter(|pigment| pigment.mixtures > 0).collect();
+    found.sort_by(|a, b| b.share.total_cmp(&a.share));
+    found
 }
 
 /// Refits without each film of two pigments or more, for absolute amounts, and predicts it.
@@ -145,7 +219,7 @@ pub fn leave_out_films(
         let fit = fit_finite(&part, film, &weights, how)?;
         let predictions = group.iter().map(|&index| {
             (plan.progress)();
-            Prediction { index, predicted: Some(problem.predicted(&fit, film, index)) }
+            Prediction { index, predicted: Some((problem.predicted(&fit, film, index), None)) }
         });
         Ok(predictions.collect())
     };
@@ -159,7 +233,8 @@ pub fn leave_out_films(
 /// Prediction of a left-out sample; `None` if a pigment would not be identified without it.
 struct Prediction {
     index: usize,
-    predicted: Option<Vec<f64>>,
+    /// Predicted reflectance, and the colour error that remains if the strength is free.
+    predicted: Option<(Vec<f64>, Option<f64>)>,
 }
 
 fn summary<'a>(
@@ -170,14 +245,18 @@ fn summary<'a>(
 ) -> Validation {
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
     let mut films = Vec::new();
-    let mut needed = Vec::new();
+    let (mut needed, mut strength_free) = (Vec::new(), Vec::new());
     for Prediction { index, predicted } in predictions {
         let (name, measured) = sample(index);
         match predicted {
-            Some(predicted) => films.push((name, measured, predicted)),
+            Some((predicted, free)) => {
+                films.push((name, measured, predicted));
+                strength_free.extend(free);
+            }
             None => needed.push(name),
         }
     }
     let Scores { rms, delta_e, per_sample } = Scores::of(&weights, films);
-    Validation { rms, delta_e, per_sample, needed }
+    let strength_free = (!strength_free.is_empty()).then(|| Summary::of(&strength_free));
+    Validation { rms, delta_e, per_sample, needed, strength_free, by_pigment: Vec::new() }
 }

@@ -2,16 +2,36 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Progress bar that counts steps. Shown only on a terminal, after one second.
+/// Time after which a bar or spinner is shown.
+const DELAY: Duration = Duration::from_secs(1);
+/// Time between two pictures of a bar or spinner.
+const TICK: Duration = Duration::from_millis(200);
+
+/// Shows `bar` after one second, unless it is done before or there is no terminal. The returned flag says
+/// that it is done.
+fn shown_late(bar: &ProgressBar, terminal: bool) -> Arc<AtomicBool> {
+    let done = Arc::new(AtomicBool::new(!terminal));
+    if terminal {
+        let (bar, done) = (bar.clone(), Arc::clone(&done));
+        std::thread::spawn(move || {
+            std::thread::sleep(DELAY);
+            if !done.load(Ordering::Relaxed) {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
+                bar.enable_steady_tick(TICK);
+            }
+        });
+    }
+    done
+}
+
+/// Progress bar that counts steps. Shown only on a terminal, after one second, also before its first step.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    start: Instant,
-    terminal: bool,
-    shown: AtomicBool,
+    done: Arc<AtomicBool>,
 }
 
 impl Progress {
@@ -23,15 +43,12 @@ impl Progress {
         let bar = ProgressBar::with_draw_target(Some(steps as u64), hidden)
             .with_style(style)
             .with_message(label);
-        Self { bar, start: Instant::now(), terminal, shown: AtomicBool::new(false) }
+        let done = shown_late(&bar, terminal);
+        Self { bar, done }
     }
 
     /// Counts one finished step. May be called from any thread.
     pub(crate) fn step(&self) {
-        let late = self.start.elapsed() > Duration::from_secs(1);
-        if self.terminal && late && !self.shown.swap(true, Ordering::Relaxed) {
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-        }
         self.bar.inc(1);
     }
 
@@ -42,6 +59,7 @@ impl Progress {
 
     /// Clears the bar.
     pub(crate) fn done(&self) {
+        self.done.store(true, Ordering::Relaxed);
         self.bar.finish_and_clear();
     }
 }
@@ -55,20 +73,18 @@ pub(crate) struct Waiting {
 
 impl Waiting {
     pub(crate) fn new(label: &'static str, terminal: bool) -> Self {
-        let bar =
-            ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden()).with_message(label);
-        let done = Arc::new(AtomicBool::new(!terminal));
-        if terminal {
-            let (bar, done) = (bar.clone(), Arc::clone(&done));
-            std::thread::spawn(move || {
-                std::thread::sleep(Duration::from_secs(1));
-                if !done.load(Ordering::Relaxed) {
-                    bar.set_draw_target(ProgressDrawTarget::stderr());
-                    bar.enable_steady_tick(Duration::from_millis(200));
-                }
-            });
-        }
+        let style = ProgressStyle::with_template("{spinner} {msg} ({elapsed})")
+            .expect("the template is constant and valid");
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden())
+            .with_style(style)
+            .with_message(label);
+        let done = shown_late(&bar, terminal);
         Self { bar, done }
+    }
+
+    /// Replaces the label. May be called from any thread.
+    pub(crate) fn say(&self, label: String) {
+        self.bar.set_message(label);
     }
 }
 

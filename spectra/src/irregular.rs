@@ -3,7 +3,11 @@
 use crate::grid::Grid;
 use crate::hint::Explain;
 use crate::interpolate::Extrapolation;
+use crate::spline::Spline;
 use crate::wavelength::{Wavelength, WavelengthError};
+
+/// Fewest values for a spline, as Sprague's polynomial needs on a regular grid.
+const LEAST_OF_SPLINE: usize = 6;
 
 /// Values at strictly rising wavelengths with no regular step, as spectrometers with an array
 /// detector give them.
@@ -74,15 +78,47 @@ impl IrregularSpectrum {
         Ok(self.values[before] * (1.0 - fraction) + self.values[after] * fraction)
     }
 
-    /// The spectrum on `grid`, interpolated linearly; outside the band the end values hold.
-    /// Values at the wavelengths of `grid` itself are returned unchanged.
+    /// The spectrum on `grid`, interpolated by a natural cubic spline, linearly if there are fewer
+    /// than six values; outside the band the end values hold. Values at the wavelengths of `grid`
+    /// itself are returned unchanged. If no value is negative, none becomes so.
+    ///
+    /// This suits reflectances, which are smooth. A lamp with lines is interpolated linearly
+    /// ([`IrregularSpectrum::at_linear`]), since a spline would swing beside each line.
     #[must_use]
     pub fn on_grid(&self, grid: Grid) -> Vec<f64> {
         if Grid::through(&self.nm) == Some(grid) {
             return self.values.clone();
         }
-        let at = |nm| self.at_linear(nm, Extrapolation::Hold).expect("end values hold everywhere");
-        grid.wavelengths_nm().map(at).collect()
+        let curve = self.smooth_curve();
+        let last = self.nm.len() - 1;
+        let held = |nm| self.values[if nm < self.nm[0] { 0 } else { last }];
+        grid.wavelengths_nm().map(|nm| curve.at(nm).unwrap_or_else(|| held(nm))).collect()
+    }
+
+    /// The curve through the values of a smooth quantity.
+    pub(crate) fn smooth_curve(&self) -> SmoothCurve<'_> {
+        let enough = self.nm.len() >= LEAST_OF_SPLINE;
+        let spline = enough.then(|| Spline::through(&self.nm, &self.values));
+        let is_negative = self.values.iter().any(|&value| value < 0.0);
+        let least = if is_negative { f64::NEG_INFINITY } else { 0.0 };
+        SmoothCurve { spectrum: self, spline, least }
+    }
+}
+
+/// A spectrum as a natural cubic spline, or as straight lines if it has fewer than six values.
+#[derive(Debug)]
+pub(crate) struct SmoothCurve<'a> {
+    spectrum: &'a IrregularSpectrum,
+    spline: Option<Spline<'a>>,
+    /// Least value of the curve: 0 unless the spectrum itself has negative values.
+    least: f64,
+}
+
+impl SmoothCurve<'_> {
+    /// The value at `nm`; `None` outside the band.
+    pub(crate) fn at(&self, nm: f64) -> Option<f64> {
+        let linear = self.spectrum.at_linear(nm, Extrapolation::Refuse).ok()?;
+        Some(self.spline.as_ref().map_or(linear, |spline| spline.at(nm).max(self.least)))
     }
 }
 

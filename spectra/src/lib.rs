@@ -49,6 +49,8 @@ mod interpolate;
 
 mod spectrum;
 
+mod spline;
+
 mod irregular;
 
 pub mod csv_table;

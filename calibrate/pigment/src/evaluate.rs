@@ -56,13 +56,14 @@ impl Summary {
 /// (Hyndman and Fan 1996, definition 7, as numpy does); 0 for no values.
 #[must_use]
 pub fn percentile(values: &[f64], percent: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
+    let Some(last) = values.len().checked_sub(1) else { return 0.0 };
     let position = percent / 100.0 * last as f64;
     let below = position.floor() as usize;
     let fraction = position - below as f64;
-    sorted[below] + fraction * (sorted[(below + 1).min(last)] - sorted[below])
+    let mut partly_sorted = values.to_vec();
+    let (_, &mut low, above) = partly_sorted.select_nth_unstable_by(below, f64::total_cmp);
+    let high = above.iter().copied().min_by(f64::total_cmp).unwrap_or(low);
+    low + fraction * (high - low)
 }
 
 #[cfg(test)]

@@ -1,9 +1,13 @@
 //! Standard deviations of K and S.
 
+use rayon::prelude::*;
+
+use super::banded::{BandedCholesky, TOGETHER};
 use super::curves::CurveTable;
 use super::forward::{Data, Forward};
 use super::objective::{Objective, RIDGE};
 use super::problem::Problem;
+use super::stage::{FitStage, Watch};
 use pigment::Curves;
 use pigment::evaluate::percentile;
 
@@ -21,6 +25,7 @@ pub(super) fn standard_deviations<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
     curves: &CurveTable,
+    watch: Watch<'_>,
 ) -> CurveTable {
     let layout = objective.data.layout;
     let per = layout.per_wavelength();
@@ -28,12 +33,7 @@ pub(super) fn standard_deviations<F: Forward>(
     let mut variances = vec![RIDGE.recip(); layout.len()];
     if let Some(factor) = objective.local(unknowns).matrix.cholesky() {
         let inverse = factor.inverse_band();
-        let mut spread = vec![0.0; layout.len()];
-        for gradient in objective.gradients_by_sample(unknowns) {
-            for (total, pull) in spread.iter_mut().zip(factor.solve(&gradient)) {
-                *total += pull * pull;
-            }
-        }
+        let spread = spread_of_gradients(objective, unknowns, &factor, watch);
         for (i, variance) in variances.iter_mut().enumerate() {
             *variance = f64::max(inverse.at(i, i), spread[i]);
         }
@@ -54,6 +54,40 @@ pub(super) fn standard_deviations<F: Forward>(
         })
         .collect();
     CurveTable { absorption, scattering }
+}
+
+/// Sum over samples of the squared steps that their own gradients alone would make, by unknown. Samples
+/// are added in their order, on any number of threads.
+fn spread_of_gradients<F: Forward>(
+    objective: &Objective<'_, F>,
+    unknowns: &[f64],
+    factor: &BandedCholesky,
+    watch: Watch<'_>,
+) -> Vec<f64> {
+    let layout = objective.data.layout;
+    let linear = objective.data.linear(&layout.curves(unknowns));
+    let samples: Vec<usize> = (0..objective.data.recipes.len()).collect();
+    let mut spread = vec![0.0; layout.len()];
+    for several in samples.chunks(TOGETHER * rayon::current_num_threads()) {
+        watch.tell(FitStage::Deviations { done: several[0], of: samples.len() });
+        let steps = several.par_chunks(TOGETHER).map(|group| {
+            let mut right = vec![[0.0; TOGETHER]; layout.len()];
+            for (place, &index) in group.iter().enumerate() {
+                for (unknown, value) in objective.gradient_of_sample(&linear, index) {
+                    right[unknown][place] += value;
+                }
+            }
+            factor.solve_together(&mut right);
+            right
+        });
+        let steps: Vec<Vec<[f64; TOGETHER]>> = steps.collect();
+        spread.par_iter_mut().enumerate().for_each(|(unknown, total)| {
+            for group in &steps {
+                group[unknown].iter().for_each(|pull| *total += pull * pull);
+            }
+        });
+    }
+    spread
 }
 
 /// By pigment, the fraction (0 to 1) of the information on its log S that comes from the data rather

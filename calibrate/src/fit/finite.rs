@@ -82,7 +82,7 @@ pub fn fit_finite(
     problem: &FiniteProblem,
     film: UnevenFilm,
     weights: &TristimulusWeights,
-    how: Refinement,
+    how: Refinement<'_>,
 ) -> Result<Refined, FitError> {
     if problem.films.is_empty() {
         return Err(FitError::Empty);

@@ -1,6 +1,7 @@
 //! The two optical models that predict films in a fit: films that hide, and films over a known backing.
 
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 use spectra::optics::{Surface, UnevenFilm, infinite_film, infinite_film_slope};
 
 use super::curves::{CurveTable, Layout};
@@ -60,6 +61,8 @@ pub(super) struct Data<'a, F> {
     pub(super) recipes: &'a [Vec<(usize, f64)>],
     /// Measured reflectance by sample and wavelength.
     pub(super) target: &'a [Vec<f64>],
+    /// Cube roots of the measured reflectance.
+    pub(super) roots: Vec<Vec<f64>>,
     /// Standard deviation of repeated readings in measured reflectance; 0 if unknown.
     pub(super) reading_sd: f64,
     /// Places of each sample's unknowns within a wavelength.
@@ -103,7 +106,8 @@ impl<'a, F: Forward> Data<'a, F> {
                 absorption.chain(scattering).collect()
             })
             .collect();
-        Self { layout, forward, recipes, target, reading_sd, places }
+        let roots = target.iter().map(|row| row.iter().map(|value| value.cbrt()).collect());
+        Self { layout, forward, recipes, target, roots: roots.collect(), reading_sd, places }
     }
 
     /// Normal matrix of the slopes at one wavelength, all samples having equal weight.
@@ -128,38 +132,37 @@ impl<'a, F: Forward> Data<'a, F> {
 
     /// Predicted measured reflectance by sample and wavelength.
     pub(super) fn values(&self, curves: &CurveTable) -> Vec<Vec<f64>> {
-        (0..self.recipes.len())
-            .map(|index| {
-                (0..self.layout.wavelengths)
-                    .map(|at| {
-                        let (k, s) = self.mixed(curves, index, at);
-                        self.forward.reflectance(index, at, k, s)
-                    })
-                    .collect()
-            })
-            .collect()
+        let of_sample = |index: usize| -> Vec<f64> {
+            let at_one = |at: usize| {
+                let (k, s) = self.mixed(curves, index, at);
+                self.forward.reflectance(index, at, k, s)
+            };
+            (0..self.layout.wavelengths).map(at_one).collect()
+        };
+        (0..self.recipes.len()).into_par_iter().map(of_sample).collect()
     }
 
     /// Linearises the model at `curves`, with slopes over log K and log S.
     pub(super) fn linear(&self, curves: &CurveTable) -> Linear {
-        let wavelengths = self.layout.wavelengths;
-        let mut linear = Linear { values: Vec::new(), slopes: Vec::new() };
-        for (index, recipe) in self.recipes.iter().enumerate() {
-            let mut values = Vec::with_capacity(wavelengths);
-            let mut slopes = Vec::with_capacity(wavelengths * self.places[index].len());
-            for at in 0..wavelengths {
-                let (k, s) = self.mixed(curves, index, at);
-                let [value, over_k, over_s] = self.forward.linearised(index, at, k, s);
-                values.push(value);
-                slopes.extend(recipe.iter().map(|&(p, c)| over_k * c * curves.absorption[p][at]));
-                let scattering =
-                    recipe.iter().filter(|&&(p, _)| self.layout.scattering(p).is_some());
-                slopes.extend(scattering.map(|&(p, c)| over_s * c * curves.scattering[p][at]));
-            }
-            linear.values.push(values);
-            linear.slopes.push(slopes);
+        let samples = (0..self.recipes.len()).into_par_iter();
+        let (values, slopes) = samples.map(|index| self.linear_of_sample(curves, index)).unzip();
+        Linear { values, slopes }
+    }
+
+    /// Values and slopes of one sample.
+    fn linear_of_sample(&self, curves: &CurveTable, index: usize) -> (Vec<f64>, Vec<f64>) {
+        let (recipe, wavelengths) = (&self.recipes[index], self.layout.wavelengths);
+        let mut values = Vec::with_capacity(wavelengths);
+        let mut slopes = Vec::with_capacity(wavelengths * self.places[index].len());
+        for at in 0..wavelengths {
+            let (k, s) = self.mixed(curves, index, at);
+            let [value, over_k, over_s] = self.forward.linearised(index, at, k, s);
+            values.push(value);
+            slopes.extend(recipe.iter().map(|&(p, c)| over_k * c * curves.absorption[p][at]));
+            let scattering = recipe.iter().filter(|&&(p, _)| self.layout.scattering(p).is_some());
+            slopes.extend(scattering.map(|&(p, c)| over_s * c * curves.scattering[p][at]));
         }
-        linear
+        (values, slopes)
     }
 
     fn mixed(&self, curves: &CurveTable, index: usize, at: usize) -> (f64, f64) {

@@ -11,6 +11,8 @@
 //! Absolute amounts on known backings have a method of their own, [`fit_finite`], which fits the finite
 //! layer equation.
 
+mod stage;
+
 mod curves;
 
 mod problem;
@@ -52,4 +54,5 @@ pub(crate) use problem::root_mean_square;
 pub use problem::{FitError, Problem};
 pub use program::fit_qp;
 pub use refined::{Refined, RefinedState, Refinement, fit_refined};
+pub use stage::{FitStage, Watch};
 pub use weighted::fit_weighted;

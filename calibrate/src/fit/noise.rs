@@ -3,6 +3,8 @@
 //! One part of the noise is perceptually uniform (errors of mixing and weighing), the other is constant
 //! in reflectance (errors of the instrument).
 
+use rayon::prelude::*;
+
 use super::color_term::ColorTerm;
 use pigment::evaluate::percentile;
 /// Least standard deviation of a residual, as a cube root of reflectance; chosen by eye.
@@ -107,30 +109,33 @@ impl<'a> Noise<'a> {
     /// Ratio of the two kinds of noise (constant over uniform) under which the residuals of `values` are
     /// most likely by Laplace's law.
     pub(super) fn likeliest_ratio(&self, values: &[Vec<f64>]) -> f64 {
+        let residuals: Vec<f64> = values
+            .iter()
+            .zip(self.target)
+            .zip(&self.even)
+            .flat_map(|((row, target), even)| {
+                let pairs = row.iter().zip(target).zip(even);
+                pairs.map(|((v, t), even)| even * (v.cbrt() - t.cbrt()))
+            })
+            .collect();
         let score = |ratio: f64| {
             let (mut sum, mut logs, mut count) = (0.0, 0.0, 0.0);
-            for (index, row) in values.iter().enumerate() {
-                for (at, value) in row.iter().enumerate() {
-                    let residual =
-                        self.even[index][at] * (value.cbrt() - self.target[index][at].cbrt());
-                    let sd = (1.0 + (ratio * self.slope[index][at]).powi(2)).sqrt();
-                    sum += (residual / sd).abs();
-                    logs += sd.ln();
-                    count += 1.0;
-                }
+            for (residual, slope) in residuals.iter().zip(self.slope.iter().flatten()) {
+                let sd = (1.0 + (ratio * slope).powi(2)).sqrt();
+                sum += (residual / sd).abs();
+                logs += sd.ln();
+                count += 1.0;
             }
             count * (sum / count).max(f64::MIN_POSITIVE).ln() + logs
         };
-        let candidates = (0..RATIOS).map(|i| {
-            LEAST_RATIO * 10f64.powf(RATIO_DECADES * f64::from(i) / f64::from(RATIOS - 1))
-        });
-        let mut best = (score(0.0), 0.0);
-        for ratio in candidates {
-            let score = score(ratio);
-            if score < best.0 {
-                best = (score, ratio);
-            }
-        }
-        best.1
+        let candidate = |i: i32| match i {
+            0 => 0.0,
+            _ => LEAST_RATIO * 10f64.powf(RATIO_DECADES * f64::from(i - 1) / f64::from(RATIOS - 1)),
+        };
+        let scores = (0..=RATIOS).into_par_iter().map(|i| (score(candidate(i)), candidate(i)));
+        let scores: Vec<(f64, f64)> = scores.collect();
+        let best =
+            scores.into_iter().reduce(|best, next| if next.0 < best.0 { next } else { best });
+        best.map_or(0.0, |(_, ratio)| ratio)
     }
 }

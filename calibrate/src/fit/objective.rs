@@ -1,9 +1,11 @@
 //! Cost of the refinement, and the steps of the Levenberg-Marquardt method that minimise it.
 
-use super::banded::{Banded, BandedCholesky};
+use rayon::prelude::*;
+
+use super::banded::{Banded, BandedCholesky, ColumnsMut};
 use super::color_term::{ColorResidual, ColorTerm};
 use super::curves::{LOWER, UPPER};
-use super::forward::{Data, Forward};
+use super::forward::{Data, Forward, Linear};
 
 /// Strength of the pull of every unknown towards its start, in 1 / (log unit)^2: a standard deviation of 10.
 /// It only keeps unknowns that no sample determines from diverging.
@@ -76,19 +78,20 @@ pub(super) fn robust(squared: f64, knee: f64) -> (f64, f64) {
 impl<F: Forward> Objective<'_, F> {
     pub(super) fn cost(&self, unknowns: &[f64]) -> f64 {
         let values = self.data.values(&self.data.layout.curves(unknowns));
-        let mut cost = self.prior_cost(unknowns);
-        for (index, row) in values.iter().enumerate() {
-            let pairs = row.iter().zip(&self.data.target[index]).zip(&self.weights[index]);
-            for ((value, target), weight) in pairs {
-                let residual = weight * (value.cbrt() - target.cbrt());
-                cost += robust(residual * residual, self.knee).0;
-            }
-            if let Some(color) = &self.color {
+        let of_sample = |(index, row): (usize, &Vec<f64>)| {
+            let pairs = row.iter().zip(&self.data.roots[index]).zip(&self.weights[index]);
+            let spectral = pairs.map(|((value, root), weight)| {
+                let residual = weight * (value.cbrt() - root);
+                robust(residual * residual, self.knee).0
+            });
+            let color = self.color.as_ref().map(|color| {
                 let difference = color.term.difference(index, row);
-                cost += color.strength * robust(difference * difference, color.knee).0;
-            }
-        }
-        cost
+                color.strength * robust(difference * difference, color.knee).0
+            });
+            spectral.chain(color).collect::<Vec<f64>>()
+        };
+        let terms: Vec<Vec<f64>> = values.par_iter().enumerate().map(of_sample).collect();
+        terms.iter().flatten().fold(self.prior_cost(unknowns), |cost, term| cost + term)
     }
 
     pub(super) fn local(&self, unknowns: &[f64]) -> Local {
@@ -106,36 +109,22 @@ impl<F: Forward> Objective<'_, F> {
             slopes: Vec::new(),
         };
         self.add_priors(unknowns, &mut local);
+        let costs = self.add_spectral(&linear, &mut local);
         for index in 0..self.data.recipes.len() {
-            let places = self.data.places(index);
-            for at in 0..layout.wavelengths {
-                let value = linear.values[index][at];
-                let weight = self.weights[index][at];
-                let root = value.cbrt();
-                let residual = weight * (root - self.data.target[index][at].cbrt());
-                let (cost, share) = robust(residual * residual, self.knee);
-                local.cost += cost;
-                let over_value = weight / (3.0 * root * root);
-                let slopes = &linear.slopes[index][at * places.len()..(at + 1) * places.len()];
-                for (a, &place) in places.iter().enumerate() {
-                    let slope = share * over_value * slopes[a];
-                    local.gradient[at * per + place] += slope * residual;
-                    for (b, &other) in places[..=a].iter().enumerate() {
-                        let (row, column) = (place.max(other), place.min(other));
-                        let product = slope * over_value * slopes[b];
-                        local.matrix.add(at * per + row, at * per + column, product);
-                    }
-                }
-            }
+            local.cost = costs.iter().fold(local.cost, |cost, terms| cost + terms[index]);
         }
         local.diagonal = (0..layout.len()).map(|i| local.matrix.diagonal(i)).collect();
         if let Some(color) = &self.color {
-            for (index, values) in linear.values.iter().enumerate() {
+            let row = |(index, values): (usize, &Vec<f64>)| {
                 let row = color.term.linear(index, values);
                 let squared: f64 = row.residual.iter().map(|v| v * v).sum();
                 let (cost, share) = robust(squared, color.knee);
-                local.cost += color.strength * cost;
-                local.color.push((row, color.strength * share));
+                (row, color.strength * share, color.strength * cost)
+            };
+            let rows: Vec<_> = linear.values.par_iter().enumerate().map(row).collect();
+            for (row, weight, cost) in rows {
+                local.cost += cost;
+                local.color.push((row, weight));
             }
             local.slopes = linear.slopes;
             self.add_color(&mut local);
@@ -143,26 +132,52 @@ impl<F: Forward> Objective<'_, F> {
         local
     }
 
-    /// Gradient of each sample's spectral term over all unknowns.
-    pub(super) fn gradients_by_sample(&self, unknowns: &[f64]) -> impl Iterator<Item = Vec<f64>> {
-        let layout = self.data.layout;
-        let per = layout.per_wavelength();
-        let linear = self.data.linear(&layout.curves(unknowns));
-        (0..self.data.recipes.len()).map(move |index| {
-            let mut gradient = vec![0.0; layout.len()];
-            let places = self.data.places(index);
-            for at in 0..layout.wavelengths {
-                let (value, weight) = (linear.values[index][at], self.weights[index][at]);
+    /// Adds the spectral term to gradient and matrix, all wavelengths in parallel, and returns its cost by
+    /// wavelength and sample.
+    fn add_spectral(&self, linear: &Linear, local: &mut Local) -> Vec<Vec<f64>> {
+        let per = self.data.layout.per_wavelength();
+        let at_one = |(at, (gradient, mut matrix)): (usize, (&mut [f64], ColumnsMut<'_>))| {
+            let of_sample = |index: usize| {
+                let places = self.data.places(index);
+                let value = linear.values[index][at];
+                let weight = self.weights[index][at];
                 let root = value.cbrt();
-                let residual = weight * (root - self.data.target[index][at].cbrt());
-                let (_, share) = robust(residual * residual, self.knee);
-                let pull = share * residual * weight / (3.0 * root * root);
+                let residual = weight * (root - self.data.roots[index][at]);
+                let (cost, share) = robust(residual * residual, self.knee);
+                let over_value = weight / (3.0 * root * root);
                 let slopes = &linear.slopes[index][at * places.len()..(at + 1) * places.len()];
-                for (&place, slope) in places.iter().zip(slopes) {
-                    gradient[at * per + place] += pull * slope;
+                for (a, &place) in places.iter().enumerate() {
+                    let slope = share * over_value * slopes[a];
+                    gradient[place] += slope * residual;
+                    for (b, &other) in places[..=a].iter().enumerate() {
+                        let (row, column) = (place.max(other), place.min(other));
+                        matrix.add(row, column, slope * over_value * slopes[b]);
+                    }
                 }
-            }
-            gradient
+                cost
+            };
+            (0..self.data.recipes.len()).map(of_sample).collect()
+        };
+        let parts = local.gradient.par_chunks_mut(per).zip(local.matrix.by_columns(per));
+        parts.enumerate().map(at_one).collect()
+    }
+
+    /// Places and values of the gradient of one sample's spectral term, where it is not 0.
+    pub(super) fn gradient_of_sample(
+        &self,
+        linear: &Linear,
+        index: usize,
+    ) -> impl Iterator<Item = (usize, f64)> {
+        let per = self.data.layout.per_wavelength();
+        let places = self.data.places(index);
+        (0..self.data.layout.wavelengths).flat_map(move |at| {
+            let (value, weight) = (linear.values[index][at], self.weights[index][at]);
+            let root = value.cbrt();
+            let residual = weight * (root - self.data.roots[index][at]);
+            let (_, share) = robust(residual * residual, self.knee);
+            let pull = share * residual * weight / (3.0 * root * root);
+            let slopes = &linear.slopes[index][at * places.len()..(at + 1) * places.len()];
+            places.iter().zip(slopes).map(move |(&place, slope)| (at * per + place, pull * slope))
         })
     }
 
@@ -225,10 +240,10 @@ impl<F: Forward> Objective<'_, F> {
             matrix.hold(i);
             right[i] = 0.0;
         }
-        let factor = matrix.clone().cholesky()?;
         if self.color.is_none() {
-            return Some(factor.solve(&right));
+            return Some(matrix.cholesky()?.solve(&right));
         }
+        let factor = matrix.clone().cholesky()?;
         let product = |v: &[f64]| {
             let mut product = matrix.times(v);
             self.add_color_product(local, v, &mut product);
@@ -290,40 +305,49 @@ impl<F: Forward> Objective<'_, F> {
 
     fn add_color(&self, local: &mut Local) {
         let per = self.data.layout.per_wavelength();
-        for (index, (row, weight)) in local.color.iter().enumerate() {
-            let places = self.data.places(index);
-            for (at, components) in row.slopes.iter().enumerate() {
+        let Local { gradient, diagonal, color, slopes, .. } = local;
+        let parts = gradient.par_chunks_mut(per).zip(diagonal.par_chunks_mut(per));
+        parts.enumerate().for_each(|(at, (gradient, diagonal))| {
+            for (index, (row, weight)) in color.iter().enumerate() {
+                let places = self.data.places(index);
+                let components = &row.slopes[at];
                 let along: f64 = components.iter().zip(&row.residual).map(|(s, r)| s * r).sum();
                 let square: f64 = components.iter().map(|s| s * s).sum();
-                let slopes = &local.slopes[index][at * places.len()..];
+                let slopes = &slopes[index][at * places.len()..];
                 for (&place, slope) in places.iter().zip(slopes) {
-                    local.gradient[at * per + place] += weight * along * slope;
-                    local.diagonal[at * per + place] += weight * square * slope * slope;
+                    gradient[place] += weight * along * slope;
+                    diagonal[place] += weight * square * slope * slope;
                 }
             }
-        }
+        });
     }
 
     fn add_color_product(&self, local: &Local, vector: &[f64], product: &mut [f64]) {
         let per = self.data.layout.per_wavelength();
-        for (index, (row, weight)) in local.color.iter().enumerate() {
+        let movement = |(index, (row, _)): (usize, &(ColorResidual, f64))| {
             let places = self.data.places(index);
             let slopes = local.slopes[index].chunks_exact(places.len());
             let mut moved = [0.0; 3];
-            for (at, (components, slopes)) in row.slopes.iter().zip(slopes.clone()).enumerate() {
+            for (at, (components, slopes)) in row.slopes.iter().zip(slopes).enumerate() {
                 let pairs = places.iter().zip(slopes);
                 let change: f64 = pairs.map(|(place, s)| s * vector[at * per + place]).sum();
                 for (m, component) in moved.iter_mut().zip(components) {
                     *m += component * change;
                 }
             }
-            for (at, (components, slopes)) in row.slopes.iter().zip(slopes).enumerate() {
-                let along: f64 = components.iter().zip(&moved).map(|(c, m)| c * m).sum();
-                for (place, slope) in places.iter().zip(slopes) {
-                    product[at * per + place] += weight * along * slope;
+            moved
+        };
+        let moved: Vec<[f64; 3]> = local.color.par_iter().enumerate().map(movement).collect();
+        product.par_chunks_mut(per).enumerate().for_each(|(at, product)| {
+            for (index, ((row, weight), moved)) in local.color.iter().zip(&moved).enumerate() {
+                let places = self.data.places(index);
+                let along: f64 = row.slopes[at].iter().zip(moved).map(|(c, m)| c * m).sum();
+                let slopes = &local.slopes[index][at * places.len()..];
+                for (&place, slope) in places.iter().zip(slopes) {
+                    product[place] += weight * along * slope;
                 }
             }
-        }
+        });
     }
 }
 

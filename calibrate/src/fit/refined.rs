@@ -9,6 +9,7 @@ use super::forward::{Data, Forward};
 use super::noise::Noise;
 use super::objective::{ColorPart, Objective, RIDGE};
 use super::problem::{FitError, Problem};
+use super::stage::{FitStage, Watch};
 use super::weighted::weighted;
 use pigment::Curves;
 use pigment::fit_settings::Smoothness;
@@ -75,27 +76,29 @@ pub struct RefinedState {
 }
 
 /// Settings of one refinement.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Refinement {
+#[derive(Debug, Clone, Copy)]
+pub struct Refinement<'a> {
     /// Smoothing of K and S over wavelength.
     pub smoothness: Smoothness,
     /// Estimates of another fit of nearly the same data, to be reused; `None` to estimate them.
     pub state: Option<RefinedState>,
     /// Whether standard deviations are computed; predictions do without them.
     pub deviations: bool,
+    /// Function that is told the stages of the fit.
+    pub watch: Watch<'a>,
 }
 
-impl Refinement {
+impl Refinement<'_> {
     /// Refinement with standard deviations, all estimates made from the data.
     #[must_use]
     pub fn whole(smoothness: Smoothness) -> Self {
-        Self { smoothness, state: None, deviations: true }
+        Self { smoothness, state: None, deviations: true, watch: Watch::default() }
     }
 
     /// Refinement without standard deviations, for a prediction.
     #[must_use]
     pub fn prediction(smoothness: Smoothness, state: Option<RefinedState>) -> Self {
-        Self { smoothness, state, deviations: false }
+        Self { smoothness, state, deviations: false, watch: Watch::default() }
     }
 }
 
@@ -116,10 +119,11 @@ impl Refinement {
 pub fn fit_refined(
     problem: &Problem,
     weights: &TristimulusWeights,
-    how: Refinement,
+    how: Refinement<'_>,
 ) -> Result<Refined, FitError> {
     // A weighted fit may set a pigment to 0, where its logarithm has no slope.
-    let start = CurveTable::off_zero(&weighted(problem)?.into_curves(problem.grid), OFF_ZERO);
+    let start = weighted(problem, how.watch)?.into_curves(problem.grid);
+    let start = CurveTable::off_zero(&start, OFF_ZERO);
     let data = Data::hiding(problem);
     Ok(refine(&data, &start, weights, problem.grid, how))
 }
@@ -130,7 +134,7 @@ pub(super) fn refine<F: Forward>(
     start: &CurveTable,
     weights: &TristimulusWeights,
     grid: Grid,
-    how: Refinement,
+    how: Refinement<'_>,
 ) -> Refined {
     let smoothness = how.smoothness;
     let layout = data.layout;
@@ -158,7 +162,9 @@ pub(super) fn refine<F: Forward>(
         scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
         color: None,
     };
-    settle(&mut objective, &noise, state.noise_ratio, &mut unknowns);
+    let watched =
+        |estimate: usize| move |round: usize| how.watch.tell(FitStage::Spectra { estimate, round });
+    settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, watched(1));
     let rounds = if !estimate {
         0
     } else if smoothness == Smoothness::Auto && layout.wavelengths > 2 {
@@ -168,7 +174,7 @@ pub(super) fn refine<F: Forward>(
     };
     for round in 0..rounds {
         state.noise_ratio = noise.likeliest_ratio(&data.values(&layout.curves(&unknowns)));
-        settle(&mut objective, &noise, state.noise_ratio, &mut unknowns);
+        settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, watched(round + 2));
         if round + 1 == rounds {
             break;
         }
@@ -180,6 +186,7 @@ pub(super) fn refine<F: Forward>(
         objective.smoothness = next;
     }
 
+    how.watch.tell(FitStage::Colors);
     let differences: Vec<f64> = data
         .values(&layout.curves(&unknowns))
         .iter()
@@ -195,7 +202,7 @@ pub(super) fn refine<F: Forward>(
     let curves = layout.curves(&unknowns);
     let (mut deviations, mut scattering_known) = (None, Vec::new());
     if how.deviations {
-        let table = standard_deviations(&objective, &unknowns, &curves);
+        let table = standard_deviations(&objective, &unknowns, &curves, how.watch);
         deviations = Some(table.into_curves(grid));
         objective.smoothness = 0.0;
         scattering_known = share_of_scattering_known(&objective, &unknowns);
@@ -209,9 +216,11 @@ fn settle<F: Forward>(
     noise: &Noise<'_>,
     ratio: f64,
     unknowns: &mut Vec<f64>,
+    watch: impl Fn(usize),
 ) {
     let mut before = f64::INFINITY;
     for round in 0..SCALE_ROUNDS {
+        watch(round + 1);
         let values = objective.data.values(&objective.data.layout.curves(unknowns));
         let (weights, sd) = noise.weights(ratio, &values, before / SCALE_FALL);
         objective.weights = weights;

@@ -3,6 +3,7 @@
 use super::curves::CurveTable;
 use super::problem::{FitError, Problem};
 use super::program::solve_all;
+use super::stage::{FitStage, Watch};
 use pigment::Curves;
 use spectra::optics::{infinite_film_from_ratio, infinite_film_slope};
 
@@ -22,10 +23,10 @@ const LEAST_SCATTERING: f64 = 1e-3;
 /// # Errors
 /// [`FitError::Solver`] if the solver does not reach its tolerance.
 pub fn fit_weighted(problem: &Problem) -> Result<Vec<Curves>, FitError> {
-    Ok(weighted(problem)?.into_curves(problem.grid))
+    Ok(weighted(problem, Watch::default())?.into_curves(problem.grid))
 }
 
-pub(super) fn weighted(problem: &Problem) -> Result<CurveTable, FitError> {
+pub(super) fn weighted(problem: &Problem, watch: Watch<'_>) -> Result<CurveTable, FitError> {
     let wavelengths = problem.grid.count();
     let slope = |ratio: f64| {
         let r = infinite_film_from_ratio(ratio).min(1.0 - 1e-9);
@@ -35,7 +36,8 @@ pub(super) fn weighted(problem: &Problem) -> Result<CurveTable, FitError> {
         problem.ratio.iter().map(|row| row.iter().map(|&q| slope(q)).collect()).collect();
     let mut scattering = vec![vec![1.0f64; wavelengths]; problem.recipes.len()];
     let mut best: Option<(Vec<f64>, CurveTable)> = None;
-    for _ in 0..ROUNDS {
+    for round in 1..=ROUNDS {
+        watch.tell(FitStage::Programs { round, of: ROUNDS });
         let curves = solve_all(problem, |at| {
             let pairs = slopes.iter().zip(&scattering);
             pairs.map(|(slope, s)| slope[at] / f64::max(s[at], LEAST_SCATTERING)).collect()

@@ -33,6 +33,8 @@ mod no_amounts;
 
 mod csv;
 
+mod pieces;
+
 mod averaged;
 
 mod recipes;
@@ -45,6 +47,7 @@ pub use csv::{begins_with_samples, is_measurement_csv};
 pub use darker_film::DarkerFilm;
 pub use error::MeasurementError;
 pub(crate) use error::k1_below;
+pub(crate) use pieces::{LargeCsv, LargeCsvChoice, LargeCsvError};
 pub use recipes::{Recipes, RecipesError};
 pub use records::RecordChoice;
 pub use scale::{Scale, ScaleChoice};

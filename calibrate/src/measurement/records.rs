@@ -43,7 +43,7 @@ impl MeasurementTable {
     /// Wavelengths outside 200 to 2500 nm are cut off. Outside 400 to 700 nm the ends of a spectrum are
     /// cut off up to their last impossible value. Values down to -2 % count as 0, with a remark. A
     /// spectrum is refused if most of its values are impossible, or one from 400 to 700 nm is. Spectra on
-    /// different wavelengths are interpolated linearly to the grid of the coarsest, where all overlap.
+    /// different wavelengths are interpolated to the grid of the coarsest, where all overlap.
     ///
     /// # Errors
     /// [`MeasurementError`] with the line on which the spectrum begins.

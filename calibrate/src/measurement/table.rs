@@ -55,8 +55,7 @@ pub struct MeasurementTable {
     pub pigments: Vec<String>,
     /// Wavelengths of every reading.
     pub grid: Grid,
-    /// Number of irregular wavelengths in the file, if the readings were interpolated (linearly) to the
-    /// grid.
+    /// Number of irregular wavelengths in the file, if the readings were interpolated to the grid.
     pub resampled_from: Option<usize>,
     /// Unit in which the file is written.
     pub scale: Scale,

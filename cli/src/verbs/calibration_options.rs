@@ -3,15 +3,15 @@
 use std::path::PathBuf;
 
 use calibrate::evaluate::Viewing;
-use calibrate::fit::{Method, Smoothness};
+use calibrate::fit::{FitStage, Method, Smoothness, Watch};
 use calibrate::library::AmountKind;
 use calibrate::observation::BelowSurface;
-use calibrate::{FitOptions, PreparedFit, Readings};
+use calibrate::{Fit, FitOptions, PreparedFit, Readings};
 use clap::{Args, ValueEnum};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::progress::Progress;
+use crate::progress::{Progress, Waiting};
 use crate::readings::{ReadingOptions, measurements};
 use crate::surface::SurfaceOptions;
 
@@ -158,6 +158,13 @@ pub(super) fn prepare_fit(
     progress.done();
     console.remarks(&prepared.remarks)?;
     Ok(prepared)
+}
+
+/// Fits all samples, and shows the stages of the fit.
+pub(super) fn watched_fit(prepared: &PreparedFit, console: &Console<'_>) -> Result<Fit> {
+    let waiting = Waiting::new("fitting", console.screen.progress);
+    let told = |stage: FitStage| waiting.say(format!("fitting: {stage}"));
+    Ok(prepared.fit_watched(Watch::new(&told))?)
 }
 
 /// Parses a finite number of 0 and up.

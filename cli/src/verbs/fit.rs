@@ -5,13 +5,12 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::calibration_options::{CalibrationOptions, prepare_fit};
+use super::calibration_options::{CalibrationOptions, prepare_fit, watched_fit};
 use super::fit_report;
 use crate::console::Console;
 use crate::failure::Result;
 use crate::input::ViewingOptions;
 use crate::output::Output;
-use crate::progress::Waiting;
 
 /// Fit K and S of every pigment to measured mixtures, and write the library
 ///
@@ -36,7 +35,8 @@ pub(crate) struct Fit {
     source: String,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON: samples, pigments, rms, delta_e, per_sample, warnings, seconds
+    /// Print JSON: samples, pigments, rms, delta_e, per_sample, shares_of_squares, warnings,
+    /// seconds
     #[arg(long)]
     json: bool,
 }
@@ -52,9 +52,7 @@ impl Fit {
         let output = self.output.as_deref().map(open).transpose()?;
         let readings = self.options.readings(console)?;
         let prepared = prepare_fit(&readings, &options, console)?;
-        let waiting = Waiting::new("fitting", console.screen.progress);
-        let fit = prepared.fit()?;
-        drop(waiting);
+        let fit = watched_fit(&prepared, console)?;
         console.remarks(&fit.remarks)?;
         if let Some(output) = output {
             output.write(fit.library.to_json())?;

@@ -1,11 +1,12 @@
 //! JSON of `fit` and `validate`.
 
-use calibrate::Fit;
 use calibrate::evaluate::Summary;
 use calibrate::library::{Evidence, SampleEvidence};
+use calibrate::{Fit, shares_of_squares};
 use serde_json::{Value, json};
 
-/// Returns the JSON object of `fit` and `validate`, with `seconds` rounded to 1 ms.
+/// Returns the JSON object of `fit` and `validate`, with `seconds` rounded to 1 ms. Shares of the sum of
+/// squared colour errors come with the greatest first.
 pub(super) fn to_json(
     pigments: usize,
     rms: f64,
@@ -14,12 +15,15 @@ pub(super) fn to_json(
     warnings: &[String],
     seconds: f64,
 ) -> Value {
+    let entry = |(sample, share): (&str, f64)| json!({ "sample": sample, "share": share });
+    let shares: Vec<Value> = shares_of_squares(per_sample).into_iter().map(entry).collect();
     json!({
         "samples": per_sample.len(),
         "pigments": pigments,
         "rms": rms,
         "delta_e": delta_e,
         "per_sample": per_sample,
+        "shares_of_squares": shares,
         "warnings": warnings,
         "seconds": (seconds * 1e3).round() / 1e3,
     })

@@ -1,7 +1,9 @@
 //! Report of the recipes that `match` found: text and JSON.
 
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{FilmKind, MatchRequest, RecipeMatch, RecipeMatches};
+use calibrate::matching::{
+    AmountLimit, FilmKind, RecipeMatch, RecipeMatches, RecipeSearch, ToleranceOrigin,
+};
 use serde_json::{Map, Value, json};
 use spectra::color::{Lab, Rgb};
 
@@ -16,7 +18,7 @@ const REACHED: f64 = 1.0;
 /// Library and settings that all recipes of a run share.
 pub(super) struct RecipeReport<'a> {
     pub(super) library: &'a PigmentLibrary,
-    pub(super) request: &'a MatchRequest,
+    pub(super) search: &'a RecipeSearch<'a>,
     /// Mass of the mixture in grams.
     pub(super) grams: Option<f64>,
 }
@@ -24,7 +26,7 @@ pub(super) struct RecipeReport<'a> {
 impl RecipeReport<'_> {
     /// Names of the lights, in the order of the options.
     fn lights(&self) -> impl Iterator<Item = &str> {
-        self.request.conditions.iter().map(|condition| condition.viewing.illuminant.name())
+        self.search.request.conditions.iter().map(|condition| condition.viewing.illuminant.name())
     }
 
     /// Encoded sRGB of `lab`, seen adapted to its light.
@@ -61,6 +63,13 @@ impl RecipeReport<'_> {
                 "out of reach of these pigments: the nearest is {nearest:.2} CIEDE2000 away"
             ))?;
         }
+        console.line(format!("     {}", self.equally_near()))?;
+        if let Some(free) = matched.beyond_measured() {
+            console.line(format!(
+                "     amounts stay within those measured; without that limit (--beyond-measured) \
+                 the nearest is {free:.2} away instead of {nearest:.2}"
+            ))?;
+        }
         let lights: Vec<String> = self.lights().map(|light| format!("{light:>8}")).collect();
         console.line(format!("     {}  (CIEDE2000)", lights.join(" ")))?;
         for (rank, recipe) in matched.recipes.iter().enumerate() {
@@ -73,6 +82,20 @@ impl RecipeReport<'_> {
             self.print_recipe("", recipe, console)?;
         }
         Ok(())
+    }
+
+    /// The tolerance of the search and its reason.
+    fn equally_near(&self) -> String {
+        let tolerance = self.search.request.tolerance;
+        let reason = match self.search.tolerance_origin {
+            ToleranceOrigin::Given => "as --tolerance says",
+            ToleranceOrigin::Library => "the mean error of this library's fit",
+            ToleranceOrigin::Usual => "the usual tolerance",
+        };
+        format!(
+            "equally near within {} CIEDE2000, {reason}: the plainest first",
+            format!("{tolerance:.3}").trim_end_matches('0').trim_end_matches('.')
+        )
     }
 
     fn print_recipe(
@@ -109,7 +132,7 @@ impl RecipeReport<'_> {
         let names = recipe.shares.iter().map(|(id, _)| &self.library[*id]);
         let width = names.clone().map(|p| p.name.chars().count()).max().unwrap_or(0);
         let mut lines = Vec::new();
-        for (place, ((_, share), pigment)) in recipe.shares.iter().zip(names).enumerate() {
+        for (place, ((id, share), pigment)) in recipe.shares.iter().zip(names).enumerate() {
             let mut line = match &recipe.parts {
                 Some(parts) => format!("{:4}  {:width$}", parts[place], pigment.name),
                 None => format!("{:6.2} %  {:width$}", 100.0 * share, pigment.name),
@@ -121,6 +144,11 @@ impl RecipeReport<'_> {
             }
             if pigment.guessed {
                 line += "  (guessed, not measured)";
+            }
+            match recipe.at_limit.iter().find(|(limited, _)| limited == id) {
+                Some((_, AmountLimit::Least)) => line += "  (the least that was measured)",
+                Some((_, AmountLimit::Greatest)) => line += "  (the most that was measured)",
+                None => {}
             }
             lines.push(line.trim_end().to_owned());
         }
@@ -138,6 +166,9 @@ impl RecipeReport<'_> {
             "hex": self.display_color(matched.target.lab[0]).to_hex(),
             "reached": matched.nearest() <= REACHED,
             "nearest": matched.nearest(),
+            "beyond_measured": matched.beyond_measured(),
+            "tolerance": self.search.request.tolerance,
+            "tolerance_origin": self.search.tolerance_origin.name(),
             "recipes": list(&matched.recipes),
             "by_cie1976": list(&matched.by_cie1976),
         })
@@ -155,6 +186,12 @@ impl RecipeReport<'_> {
             if self.library[*id].guessed {
                 entry["guessed"] = json!(true);
             }
+            if let Some((_, limit)) = recipe.at_limit.iter().find(|(limited, _)| limited == id) {
+                entry["at_limit"] = match limit {
+                    AmountLimit::Least => json!("least measured"),
+                    AmountLimit::Greatest => json!("greatest measured"),
+                };
+            }
             entry
         });
         let wavelengths: Vec<f64> = self.library.grid.wavelengths_nm().collect();
@@ -167,7 +204,7 @@ impl RecipeReport<'_> {
             "wavelengths_nm": wavelengths,
             "reflectance": recipe.reflectance,
         });
-        if self.request.film != FilmKind::Hiding {
+        if self.search.request.film != FilmKind::Hiding {
             entry["thickness"] = json!(recipe.thickness);
         }
         if let Some(cost) = recipe.cost {

@@ -57,9 +57,13 @@ pub(crate) struct Match {
     /// repeated), or a CSV with the columns pigment and price
     #[arg(long, value_name = "PRICE")]
     cost: Vec<String>,
-    /// Difference in CIEDE2000 within which recipes count as equally near
-    #[arg(long, value_name = "DELTA_E", allow_hyphen_values = true, default_value_t = 0.05)]
-    tolerance: f64,
+    /// Difference in CIEDE2000 within which recipes count as equally near [default: the mean error of
+    /// the library's fit, or 0.05 if it records none]
+    #[arg(long, value_name = "DELTA_E", allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+    /// Allow absolute amounts outside the range that was measured of each pigment
+    #[arg(long)]
+    beyond_measured: bool,
     /// Number of recipes to show for each target
     #[arg(long, value_name = "N", default_value_t = 5)]
     count: usize,
@@ -94,8 +98,7 @@ impl Match {
         for text in &self.targets {
             all_targets.extend(targets(text, &self.reading, console)?);
         }
-        let report =
-            RecipeReport { library: &library, request: &search.request, grams: self.grams };
+        let report = RecipeReport { library: &library, search: &search, grams: self.grams };
         let progress = Progress::new(all_targets.len(), "matching", console.screen.progress);
         let mut found = Vec::new();
         for target in &all_targets {
@@ -144,6 +147,7 @@ impl Match {
             whole_parts: self.parts,
             prices: prices(&self.cost)?,
             tolerance: self.tolerance,
+            beyond_measured: self.beyond_measured,
             count: self.count,
         })
     }

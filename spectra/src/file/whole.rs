@@ -20,6 +20,14 @@ pub struct FileError {
     pub reason: Arc<io::Error>,
 }
 
+impl FileError {
+    /// The error `reason` of reading `path`, for files that are not read by [`read`].
+    #[must_use]
+    pub fn reading(path: &Path, reason: io::Error) -> Self {
+        error(path, FileAction::Read, reason)
+    }
+}
+
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: cannot be {}", self.path.display(), self.action.participle())

@@ -127,7 +127,7 @@ impl MeasuredSpectrum {
     }
 
     /// The reflectance on a regular grid ([`Grid::suited_to`] the wavelengths, irregular
-    /// ones interpolated linearly), as a fraction.
+    /// ones interpolated by a spline), as a fraction.
     ///
     /// # Errors
     /// [`ReflectanceError`] if the spectrum is another quantity, or has a value outside

@@ -5,7 +5,8 @@ use crate::instrument::MeasuredSpectrum;
 use crate::interpolate::Extrapolation;
 use crate::irregular::IrregularSpectrum;
 
-/// A sample's or white's reading and its dark, each interpolated linearly.
+/// A sample's or white's reading and its dark, each interpolated linearly: counts hold the lines of the
+/// lamp, beside which a spline would swing.
 pub(super) struct Reading<'a> {
     /// `sample` or `white`, for errors.
     pub(super) role: &'static str,

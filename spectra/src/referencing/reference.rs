@@ -83,8 +83,8 @@ impl Referencing {
         if samples.is_empty() { spectra.iter().collect() } else { samples }
     }
 
-    /// The reflectance of `sample` at its own wavelengths, as a fraction. White, dark and
-    /// tile are interpolated linearly. The remarks of the result name every assumption.
+    /// The reflectance of `sample` at its own wavelengths, as a fraction. White and
+    /// dark, which hold the lines of the lamp, are interpolated linearly, a measured tile by a spline. The remarks of the result name every assumption.
     ///
     /// # Errors
     /// [`ReferencingError`] for readings that do not belong together, and for too much or
@@ -102,14 +102,14 @@ impl Referencing {
             remarks.push("no dark was subtracted".to_owned());
         }
         let least = self.least_signal(&white);
+        let tile_curve = self.tile.curve();
         let at = |nm: f64| {
             let light = white.at(nm)?;
             if light <= least {
                 let name = self.white.name.clone();
                 return Err(ReferencingError::Dim { name, nm, light, least });
             }
-            let tile = self.tile.at(nm);
-            let tile = tile.ok_or(ReferencingError::Uncovered { role: "tile", nm })?;
+            let tile = tile_curve.at(nm).ok_or(ReferencingError::Uncovered { role: "tile", nm })?;
             let reflectance = tile * scale * sample_reading.at(nm)? / light;
             if reflectance < -NEGATIVE_NOISE {
                 let name = sample.name.clone();

@@ -4,8 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::error::ReferencingError;
 use crate::instrument::{MeasuredQuantity, MeasuredSpectrum};
-use crate::interpolate::Extrapolation;
-use crate::irregular::IrregularSpectrum;
+use crate::irregular::{IrregularSpectrum, SmoothCurve};
 
 /// Band in nm where every value must be sound. Outside it unsound values are left out.
 pub(super) const VISIBLE_NM: RangeInclusive<f64> = 380.0..=730.0;
@@ -66,11 +65,27 @@ impl Tile {
         Ok(Self::Measured(irregular(spectrum.wavelengths_nm.clone(), values)))
     }
 
+    /// The tile as a curve over wavelength.
+    pub(super) fn curve(&self) -> TileCurve<'_> {
+        match self {
+            Self::Even(value) => TileCurve::Even(*value),
+            Self::Measured(spectrum) => TileCurve::Measured(spectrum.smooth_curve()),
+        }
+    }
+}
+
+/// The reflectance of a white over wavelength.
+pub(super) enum TileCurve<'a> {
+    Even(f64),
+    Measured(SmoothCurve<'a>),
+}
+
+impl TileCurve<'_> {
     /// Reflectance at `nm` as a fraction; `None` outside the measured band.
     pub(super) fn at(&self, nm: f64) -> Option<f64> {
         match self {
             Self::Even(value) => Some(*value),
-            Self::Measured(spectrum) => spectrum.at_linear(nm, Extrapolation::Refuse).ok(),
+            Self::Measured(curve) => curve.at(nm),
         }
     }
 }

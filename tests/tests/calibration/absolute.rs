@@ -4,6 +4,7 @@
 use calibrate::absolute::{calibrate_absolute, chosen_film, films};
 use calibrate::evaluate::Viewing;
 use calibrate::fit::FitSettings;
+use calibrate::library::PigmentLibrary;
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::BelowSurface;
 use calibrate::validation::{ValidationPlan, leave_out_films};
@@ -21,7 +22,15 @@ fn ladders_and_mixtures_without_error_give_back_k_and_s() {
             .library;
     let error = library.evidence.as_ref().unwrap().delta_e;
     assert!(error.max < 0.1, "{error:?}");
+    let again = PigmentLibrary::from_json("library", &library.to_json()).unwrap();
     for (index, pigment) in library.pigments.iter().enumerate() {
+        let swatches = made.swatches().swatches;
+        let amounts = swatches.iter().map(|s| s.amounts[index]).filter(|amount| *amount > 0.0);
+        let measured = amounts.fold([f64::INFINITY, 0.0], |range: [f64; 2], amount| {
+            [range[0].min(amount), range[1].max(amount)]
+        });
+        assert_eq!(pigment.measured_amounts, Some(measured), "{}", pigment.name);
+        assert_eq!(again.pigments[index].measured_amounts, Some(measured), "{}", pigment.name);
         for at in 0..library.grid.count() {
             let (found, truth) = (pigment.absorption[at], made.absorption[index][at]);
             // K below 1 per mL, about a hundredth of the peaks, hardly changes these films.

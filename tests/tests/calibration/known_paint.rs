@@ -1,9 +1,11 @@
 //! Fits of synthetic mixtures whose K and S are known.
 
+use std::sync::Mutex;
+
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
-    FitError, Problem, Refined, Refinement, Smoothness, condition, fit_qp, fit_refined,
-    fit_weighted,
+    FitError, FitStage, Problem, Refined, Refinement, Smoothness, Watch, condition, fit_qp,
+    fit_refined, fit_weighted,
 };
 use calibrate::observation::Observation;
 use calibrate::synthetic::SyntheticMixtures;
@@ -170,4 +172,29 @@ fn pigments_always_mixed_alike_lower_the_rank() {
     assert_eq!(rank(&made.observations), 21);
     // The mixtures determine only the sums of the two K and of the two S: two unknowns fewer.
     assert_eq!(rank(&tied), 19);
+}
+
+#[test]
+fn a_fit_is_the_same_to_the_bit_on_any_number_of_threads_and_tells_its_stages() {
+    // Wide enough that panels of the factor are shared out to threads.
+    let grid = spectra::Grid::from_nm(400.0, 20.0, 16).unwrap();
+    let made = SyntheticMixtures::of_size(7, 0.002, grid, 30, 120);
+    let weights = Viewing::default().weights(grid).unwrap();
+    let fit = |threads: usize| {
+        let stages = Mutex::new(Vec::new());
+        let told = |stage: FitStage| stages.lock().unwrap().push(stage);
+        let how = Refinement { watch: Watch::new(&told), ..Refinement::whole(Smoothness::Auto) };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let refined = pool.install(|| fit_refined(&problem(&made), &weights, how).unwrap());
+        (refined, stages.into_inner().unwrap())
+    };
+    let (one, stages) = fit(1);
+    let three = fit(3).0;
+    assert!(one == three, "a result depends on the number of threads");
+    assert_eq!(stages[0], FitStage::Programs { round: 1, of: 6 });
+    let place = |wanted: fn(&FitStage) -> bool| stages.iter().position(wanted).unwrap();
+    let spectra = place(|stage| matches!(stage, FitStage::Spectra { estimate: 1, round: 1 }));
+    let colors = place(|stage| *stage == FitStage::Colors);
+    let deviations = place(|stage| matches!(stage, FitStage::Deviations { done: 0, of: 120 }));
+    assert!(spectra == 6 && spectra < colors && colors < deviations, "{stages:?}");
 }

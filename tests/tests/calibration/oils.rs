@@ -53,6 +53,15 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
     assert_eq!(found.per_sample.len(), 52);
     let error = found.delta_e;
     assert!(error.mean < 2.8 && error.p90 < 6.0 && error.max < 9.0, "{error:?}");
+    // What carries the error: over a third of it is strength, most of the mixtures are with white.
+    let free = found.strength_free.unwrap();
+    assert!(free.mean < 0.65 * error.mean && free.mean > 0.3 * error.mean, "{free:?} {error:?}");
+    let part = |name: &str| found.by_pigment.iter().find(|p| p.pigment == name).unwrap();
+    assert_eq!(part("Zinc White").mixtures + part("Bone Black").mixtures, 52);
+    assert!((part("Zinc White").share + part("Bone Black").share - 1.0).abs() < 1e-9);
+    assert!(found.by_pigment.is_sorted_by(|a, b| a.share >= b.share), "{:?}", found.by_pigment);
+    let shares = calibrate::shares_of_squares(&found.per_sample);
+    assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
     // The mean error is larger for samples that the fit has not seen.
     let fitted = fitted(Method::Refined, SURFACE).library.evidence.unwrap().delta_e;
     assert!(error.mean > 1.3 * fitted.mean, "{error:?} {fitted:?}");

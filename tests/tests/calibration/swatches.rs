@@ -40,7 +40,7 @@ fn percent_is_told_from_the_whole_file_and_can_be_forced() {
 }
 
 #[test]
-fn irregular_wavelengths_are_brought_to_a_grid_by_straight_lines() {
+fn five_irregular_wavelengths_are_brought_to_a_grid_by_straight_lines() {
     let table = table("sample,W,401,404,411,419,431\na,1,0.401,0.404,0.411,0.419,0.431\n");
     assert_eq!(table.resampled_from, Some(5));
     assert_eq!((table.grid.start_nm(), table.grid.step_nm(), table.grid.count()), (410.0, 10.0, 3));

@@ -209,7 +209,9 @@ fn what_is_required_forbidden_and_bounded_reaches_the_search() {
 #[test]
 fn the_weights_of_lights_count() {
     let under = |weights: [&str; 2]| {
-        let told = matched(&["#4a7d8c", "--illuminant", weights[0], "--illuminant", weights[1]]);
+        let [first, second] = weights;
+        let lights = ["--illuminant", first, "--illuminant", second, "--tolerance", "0.05"];
+        let told = matched(&[&["#4a7d8c"], &lights[..]].concat());
         let differences = told[0]["recipes"][0]["delta_e"].clone();
         (differences["D65"].as_f64().unwrap(), differences["A"].as_f64().unwrap())
     };
@@ -300,4 +302,57 @@ fn absolute_amounts_are_told_on_the_area_and_take_no_grams() {
     suite::near::assert_near("Lab", &numbers(&recipe["lab"]["D65"]), &mixed, 1e-6);
     let grams = impasto(&["match", &path, "#c8b080", "--grams", "4"]);
     assert!(grams.status == 2 && grams.err.contains("absolute"), "{}", grams.err);
+}
+
+#[test]
+fn the_tolerance_follows_the_library_and_is_told() {
+    let usual = matched(&["61.2,0.3,-44.5"]);
+    let fine = matched(&["61.2,0.3,-44.5", "--tolerance", "0"]);
+    let count = |told: &Value| told[0]["recipes"][0]["pigments"].as_array().unwrap().len();
+    assert_eq!(usual[0]["tolerance_origin"], "library");
+    assert!(usual[0]["tolerance"].as_f64().unwrap() > 1.0, "{}", usual[0]["tolerance"]);
+    assert_eq!(
+        (&fine[0]["tolerance"], &fine[0]["tolerance_origin"]),
+        (&0.0.into(), &"given".into())
+    );
+    assert!(count(&usual) == 2 && count(&fine) > 2, "{} and {}", count(&usual), count(&fine));
+    assert_eq!(usual[0]["nearest"], fine[0]["nearest"]);
+    let run = impasto(&["match", &library(), "61.2,0.3,-44.5"]);
+    assert!(run.out.contains("the mean error of this library's fit"), "{}", run.out);
+
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plain.json");
+    let mut oils: Value =
+        serde_json::from_str(&std::fs::read_to_string(library()).unwrap()).unwrap();
+    oils.as_object_mut().unwrap().remove("evidence");
+    std::fs::write(&path, oils.to_string()).unwrap();
+    let run = impasto(&["match", path.to_str().unwrap(), "61.2,0.3,-44.5", "--json"]);
+    assert_eq!(run.json()[0]["tolerance"], 0.05);
+    assert_eq!(run.json()[0]["tolerance_origin"], "usual");
+}
+
+#[test]
+fn amounts_at_their_measured_limit_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("absolute.json");
+    let mut oils: Value =
+        serde_json::from_str(&std::fs::read_to_string(library()).unwrap()).unwrap();
+    (oils["amounts"], oils["reference"]) = ("absolute".into(), Value::Null);
+    for pigment in oils["pigments"].as_array_mut().unwrap() {
+        pigment["measured_amounts"] = serde_json::json!([0.2, 5.0]);
+    }
+    std::fs::write(&path, oils.to_string()).unwrap();
+    let path = path.display().to_string();
+    let arguments = ["match", &path, "#e8eef4", "--over", "0.85", "--at-most", "2"];
+    let run = impasto(&arguments);
+    assert!(run.out.contains("(the least that was measured)"), "{}", run.out);
+    assert!(run.out.contains("without that limit"), "{}", run.out);
+    let amounts = |more: &[&str]| -> Vec<f64> {
+        let told = impasto(&[&arguments, more].concat()).json();
+        let recipes = told[0]["recipes"].as_array().unwrap().clone();
+        let pigments = recipes.iter().flat_map(|r| r["pigments"].as_array().unwrap().clone());
+        pigments.map(|pigment| pigment["amount"].as_f64().unwrap()).collect()
+    };
+    assert!(amounts(&["--json"]).iter().all(|amount| *amount >= 0.2 - 1e-9));
+    assert!(amounts(&["--json", "--beyond-measured"]).iter().any(|amount| *amount < 0.2));
 }

@@ -1,8 +1,10 @@
 //! Recipes for films over a ground, and for absolute amounts on an area.
 
+use calibrate::Recipe;
+use calibrate::evaluate::lab;
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{FilmKind, MatchError, MatchRequest, Thickness, recipes};
-use spectra::color::Lab;
+use calibrate::matching::{FilmKind, MatchError, MatchRequest, RecipeMatch, Thickness, recipes};
+use spectra::color::{Lab, delta_e_ciede2000};
 
 use super::{conditions, oils, target_of};
 
@@ -92,5 +94,52 @@ fn absolute_amounts_cost_what_is_laid() {
         let wanted = amount * parts.sum::<f64>();
         assert!((amount - 1.0).abs() > 1e-3, "an amount near 1 tests nothing: {amount}");
         assert!((recipe.cost.unwrap() - wanted).abs() < 1e-9, "{recipe:?}");
+    }
+}
+
+#[test]
+fn absolute_amounts_stay_within_what_was_measured() {
+    const RANGE: [f64; 2] = [0.1, 0.6];
+    let mut library = absolute();
+    for pigment in &mut library.pigments {
+        pigment.measured_amounts = Some(RANGE);
+    }
+    let conditions = conditions(&["D65"]);
+    let paper = vec![0.85; library.grid.count()];
+    let pair = ["Vermilion", "Ultramarine"].map(|name| library.find(name).unwrap());
+    let amounts = |recipe: &RecipeMatch| -> Vec<f64> {
+        recipe.shares.iter().map(|(_, share)| share * recipe.thickness.unwrap()).collect()
+    };
+    for wished in [[0.3, 0.02], [0.9, 0.2], [0.02, 0.03], [0.3, 0.4]] {
+        let recipe: Recipe = pair.into_iter().zip(wished).collect();
+        let wash = library.mix(&recipe).unwrap().film(1.0, &paper, library.film());
+        let target = target_of(&library, &wash, &conditions);
+        let film = MatchRequest::usual_film(&library, paper.clone());
+        let mut request = MatchRequest::new(&library, conditions.clone(), film);
+        (request.allowed, request.tolerance, request.count) = (pair.to_vec(), 0.0, 10);
+        let found = recipes(&library, &target, &request).unwrap();
+        for recipe in &found {
+            let keeps = |amount: &f64| (RANGE[0] - 1e-9..=RANGE[1] + 1e-9).contains(amount);
+            assert!(amounts(recipe).iter().all(keeps), "{wished:?}: {recipe:?}");
+        }
+        let limited = wished.iter().any(|amount| !(RANGE[0]..=RANGE[1]).contains(amount));
+        // The nearest may also leave out the pigment whose amount is too small.
+        let acted = !found[0].at_limit.is_empty() || found[0].shares.len() < 2;
+        assert_eq!(acted, limited, "{wished:?}: {:?}", found[0]);
+        // No recipe of a fine grid within the limits is nearer.
+        let steps =
+            || (0..=50).map(|step| RANGE[0] + (RANGE[1] - RANGE[0]) * f64::from(step) / 50.0);
+        let weights = conditions[0].viewing.weights(library.grid).unwrap();
+        let both = steps().flat_map(|red| steps().map(move |blue| [red, blue]));
+        let alone = steps().flat_map(|amount| [[amount, 0.0], [0.0, amount]]);
+        for tried in both.chain(alone) {
+            let recipe: Recipe = pair.into_iter().zip(tried).collect();
+            let film = library.mix(&recipe).unwrap().film(1.0, &paper, library.film());
+            let apart = delta_e_ciede2000(target.lab[0], lab(&weights, &film));
+            assert!(found[0].distance <= apart + 0.01, "{wished:?}: {apart} with {tried:?}");
+        }
+        request.amounts.clear();
+        let free = recipes(&library, &target, &request).unwrap().remove(0);
+        assert!(free.distance < 1e-3 && free.at_limit.is_empty(), "{wished:?}: {free:?}");
     }
 }

@@ -81,9 +81,10 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
     };
     let equals = equal(&found);
     let smallest = |recipe: &RecipeMatch| recipe.shares.iter().map(|s| s.1).fold(1.0, f64::min);
+    let steps = |recipe: &RecipeMatch| ((recipe.distance - nearest(&found)) / 0.05).floor();
     let order = |a: &RecipeMatch, b: &RecipeMatch| {
-        a.shares.len() < b.shares.len()
-            || (a.shares.len() == b.shares.len() && smallest(a) >= smallest(b))
+        let key = |r: &RecipeMatch| (r.shares.len() as f64, steps(r), -smallest(r));
+        key(a) <= key(b)
     };
     assert!(equals.len() > 1 && equals.is_sorted_by(order), "{equals:?}");
 

@@ -21,6 +21,7 @@ pub(crate) fn pigment(name: &str, k: impl Fn(f64) -> f64, s: impl Fn(f64) -> f64
         scattering_sd: Vec::new(),
         identified: true,
         guessed: false,
+        measured_amounts: None,
         notes: Vec::new(),
     }
 }

@@ -78,6 +78,7 @@ pub fn guessed_pigment(
         scattering_sd: Vec::new(),
         identified: true,
         guessed: true,
+        measured_amounts: None,
         notes: vec![format!("guessed from {color} as {words}; how it mixes is not known")],
     };
     let film: Vec<f64> = (pigment.absorption.iter())

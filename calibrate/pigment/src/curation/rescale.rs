@@ -63,6 +63,7 @@ pub fn with_reference(
             scattering: divided(&pigment.scattering),
             absorption_sd: divided(&pigment.absorption_sd),
             scattering_sd,
+            measured_amounts: None,
             ..pigment.clone()
         }
     };

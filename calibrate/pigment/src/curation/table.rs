@@ -187,6 +187,7 @@ fn pigment(file: &str, name: String, curves: [Vec<f64>; 5]) -> Result<Pigment, T
         scattering_sd,
         identified,
         guessed: false,
+        measured_amounts: None,
         notes: if identified {
             Vec::new()
         } else {

@@ -114,6 +114,13 @@ impl PigmentLibrary {
             if self.pigments[..index].iter().any(|other| other.name == name) {
                 return Err(fault(name, "the name occurs twice".into()));
             }
+            if let Some([least, most]) = pigment.measured_amounts
+                && !(least > 0.0 && least <= most && most.is_finite())
+            {
+                let what =
+                    format!("measured amounts rise from above 0, found `{least}` to `{most}`");
+                return Err(fault(name, what));
+            }
             let curves = [
                 ("absorption", &pigment.absorption, false),
                 ("scattering", &pigment.scattering, false),

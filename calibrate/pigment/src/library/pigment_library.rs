@@ -1,5 +1,6 @@
 //! A library of calibrated pigments on one wavelength grid.
 
+use std::io::{self, Read};
 use std::ops::{Index, IndexMut};
 
 use serde::{Deserialize, Serialize};
@@ -54,6 +55,10 @@ pub struct Pigment {
     /// Whether K and S were guessed from a colour rather than measured.
     #[serde(default, skip_serializing_if = "is_no")]
     pub guessed: bool,
+    /// Least and greatest amount above 0 of the measured films. Only absolute amounts have such limits,
+    /// and files of older versions do not state them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured_amounts: Option<[f64; 2]>,
     /// Warnings about the pigment, in words for the user.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -89,6 +94,27 @@ pub struct Input {
 }
 
 impl Input {
+    /// Record of the file `path` with the content of `reader`, which is never in memory as a whole.
+    ///
+    /// # Errors
+    /// The error of `reader`.
+    pub fn of_reader(path: impl Into<String>, mut reader: impl Read) -> io::Result<Self> {
+        let mut hasher = Sha256::new();
+        let mut buffer = vec![0; 1 << 16];
+        loop {
+            let length = match reader.read(&mut buffer) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                other => other?,
+            };
+            if length == 0 {
+                break;
+            }
+            hasher.update(&buffer[..length]);
+        }
+        let sha256 = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(Self { path: path.into(), sha256 })
+    }
+
     /// Record of the file `path` with the given content.
     #[must_use]
     pub fn new(path: impl Into<String>, content: &[u8]) -> Self {
@@ -241,6 +267,13 @@ impl PigmentLibrary {
     pub fn curves(&self, pigment: PigmentId) -> Curves {
         let Pigment { absorption, scattering, .. } = self[pigment].clone();
         Curves { grid: self.grid, absorption, scattering }
+    }
+
+    /// Mean colour error of the fit in CIEDE2000, as its evidence records it: about how far a mixture is from
+    /// its prediction. `None` for a library made otherwise.
+    #[must_use]
+    pub fn mean_error(&self) -> Option<f64> {
+        self.evidence.as_ref().map(|evidence| evidence.delta_e.mean)
     }
 
     /// Film model that predicts the measured films: their surface and unevenness.

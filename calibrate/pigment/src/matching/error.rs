@@ -110,7 +110,8 @@ impl Explain for MatchError {
             Self::AbsoluteHiding => "give a [thickness]",
             Self::HiddenGround => "give [over] a [thickness], such as 1 or 0.2:3",
             Self::NoRecipe => {
-                "allow more pigments ([at_most]), more parts ([parts]) or a smaller [least]"
+                "allow more pigments ([at_most]), more parts ([parts]), a smaller [least], or amounts that were \
+                 not measured ([beyond_measured])"
             }
             Self::NoPrice { .. } => {
                 "price every pigment that may take part, or leave some out with [without] or [only]"

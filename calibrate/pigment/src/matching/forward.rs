@@ -253,6 +253,7 @@ mod tests {
             scattering_sd: Vec::new(),
             identified: true,
             guessed: false,
+            measured_amounts: None,
             notes: Vec::new(),
         };
         PigmentLibrary {

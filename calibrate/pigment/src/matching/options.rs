@@ -3,7 +3,7 @@
 use super::error::MatchError;
 use super::film::{FilmKind, Thickness};
 use super::prices::PriceList;
-use super::request::{MatchRequest, RequiredPigment};
+use super::request::{MatchRequest, RequiredPigment, USUAL_TOLERANCE};
 use super::viewing_condition::ViewingCondition;
 use crate::backing::Backing;
 use crate::library::{AmountKind, PigmentLibrary};
@@ -18,6 +18,29 @@ pub struct RequiredName {
     pub name: String,
     /// Fixed share of the whole, above 0 and up to 1; `None` if the search chooses it.
     pub share: Option<f64>,
+}
+
+/// Origin of the tolerance of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToleranceOrigin {
+    /// The options state it.
+    Given,
+    /// It is the mean error of the library's fit: recipes that differ by less cannot be told apart.
+    Library,
+    /// It is [`USUAL_TOLERANCE`]: the library records no error, or a smaller one.
+    Usual,
+}
+
+impl ToleranceOrigin {
+    /// Name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::Library => "library",
+            Self::Usual => "usual",
+        }
+    }
 }
 
 /// Options of [`PigmentLibrary::recipes_for`].
@@ -51,8 +74,11 @@ pub struct MatchOptions {
     pub whole_parts: Option<u32>,
     /// Prices of pigments; if there are any, each pigment that may take part needs one.
     pub prices: PriceList,
-    /// CIEDE2000 within which recipes count as equally near, 0 to 1000. Default: 0.05.
-    pub tolerance: f64,
+    /// CIEDE2000 within which recipes count as equally near, 0 to 1000. Default: the mean error of the
+    /// library's fit ([`PigmentLibrary::mean_error`]), or 0.05 if it records none.
+    pub tolerance: Option<f64>,
+    /// Whether absolute amounts may lie outside the range that was measured of each pigment. Default: no.
+    pub beyond_measured: bool,
     /// Number of recipes to return, 1 and up. Default: 5.
     pub count: usize,
 }
@@ -70,7 +96,8 @@ impl Default for MatchOptions {
             least_share: 0.02,
             whole_parts: None,
             prices: PriceList::default(),
-            tolerance: 0.05,
+            tolerance: None,
+            beyond_measured: false,
             count: 5,
         }
     }
@@ -92,10 +119,13 @@ impl MatchOptions {
             at_most: self.at_most,
             least_share: self.least_share,
             whole_parts: self.whole_parts,
-            tolerance: self.tolerance,
+            tolerance: self.tolerance_for(library).0,
             count: self.count,
             ..MatchRequest::new(library, self.conditions.clone(), film)
         };
+        if self.beyond_measured {
+            request.amounts.clear();
+        }
         self.choose_pigments(library, &mut request, &mut remarks)?;
         request.costs = self.prices.of_library(library, &request.allowed)?;
         if self.count == 0 {
@@ -107,6 +137,16 @@ impl MatchOptions {
         }
         remarks.extend(check_visible_band(library.grid)?);
         Ok((request, remarks))
+    }
+
+    /// CIEDE2000 within which recipes of `library` count as equally near, and its origin.
+    #[must_use]
+    pub fn tolerance_for(&self, library: &PigmentLibrary) -> (f64, ToleranceOrigin) {
+        match (self.tolerance, library.mean_error()) {
+            (Some(given), _) => (given, ToleranceOrigin::Given),
+            (None, Some(error)) if error > USUAL_TOLERANCE => (error, ToleranceOrigin::Library),
+            (None, _) => (USUAL_TOLERANCE, ToleranceOrigin::Usual),
+        }
     }
 
     fn check_lights(&self) -> Result<(), MatchError> {

@@ -6,14 +6,14 @@ use super::candidate::Candidate;
 use super::error::MatchError;
 use super::film::FilmKind;
 use super::forward::{Forward, Scratch};
-use super::request::MatchRequest;
+use super::request::{MatchRequest, USUAL_TOLERANCE};
 use super::search::search;
 use super::search_control::SearchControl;
 use super::target::Target;
 use super::whole_parts::in_whole_parts;
 use crate::evaluate::lab;
 use crate::library::{AmountKind, PigmentLibrary};
-use crate::recipe::Recipe;
+use crate::recipe::{PigmentId, Recipe};
 
 /// A recipe that was found for a target.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,16 +32,28 @@ pub struct RecipeMatch {
     pub lab: Vec<Lab>,
     /// Measured reflectance of the recipe on the library's grid.
     pub reflectance: Vec<f64>,
+    /// Pigments whose absolute amount is the least or the greatest that was measured, because the search
+    /// keeps to that range.
+    pub at_limit: Vec<(PigmentId, AmountLimit)>,
     /// Price of one unit of the mixture, or of all absolute amounts together; `None` if prices are
     /// unknown.
     pub cost: Option<f64>,
 }
 
+/// An end of the range of amounts that were measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AmountLimit {
+    /// The least amount above 0.
+    Least,
+    /// The greatest amount.
+    Greatest,
+}
+
 /// Searches recipes of `library` for `target` and returns the best first.
 ///
 /// Recipes that are equally near (within the request's tolerance of the nearest) are ordered by price
-/// where prices are known, then by the number of pigments, then by the largest smallest share. The
-/// others follow by distance. A recipe that adds a pigment to another one of the list without coming
+/// where prices are known, then by the number of pigments, then by distance in steps of
+/// [`USUAL_TOLERANCE`], then by the largest smallest share. The others follow by distance. A recipe that adds a pigment to another one of the list without coming
 /// nearer by more than the tolerance is left out.
 ///
 /// # Errors
@@ -132,12 +144,14 @@ fn ranked(
 ) -> Vec<Found> {
     let equal = |c: &Candidate| c.distance <= nearest + request.tolerance;
     let smallest = |c: &Candidate| c.shares.iter().copied().fold(1.0, f64::min);
+    let steps = |c: &Candidate| ((c.distance - nearest) / USUAL_TOLERANCE).floor();
     found.sort_by(|(_, a), (_, b)| {
         let by_distance = || a.distance.total_cmp(&b.distance);
         let order = match (equal(a), equal(b)) {
             (true, true) => cost(a)
                 .total_cmp(&cost(b))
                 .then(a.pigments.len().cmp(&b.pigments.len()))
+                .then(steps(a).total_cmp(&steps(b)))
                 .then(smallest(b).total_cmp(&smallest(a))),
             (true, false) => std::cmp::Ordering::Less,
             (false, true) => std::cmp::Ordering::Greater,
@@ -194,6 +208,28 @@ fn recipe(
         distance: *distance,
         lab: labs,
         reflectance,
+        at_limit: order.iter().filter_map(|&at| at_limit(request, &candidate, at)).collect(),
         cost: (!request.costs.is_empty()).then(|| cost(&candidate)),
     }
 }
+
+/// The limit of amounts at which the pigment at one place of a recipe lies.
+fn at_limit(
+    request: &MatchRequest,
+    candidate: &Candidate,
+    place: usize,
+) -> Option<(PigmentId, AmountLimit)> {
+    let pigment = candidate.pigments[place];
+    let amount = candidate.shares[place] * candidate.thickness;
+    let [least, most] = request.amount_bounds(pigment)?;
+    if amount <= least * (1.0 + AT_LIMIT) {
+        Some((pigment, AmountLimit::Least))
+    } else if amount >= most * (1.0 - AT_LIMIT) {
+        Some((pigment, AmountLimit::Greatest))
+    } else {
+        None
+    }
+}
+
+/// Relative distance from a limit below which an amount lies at it.
+const AT_LIMIT: f64 = 1e-6;

@@ -3,9 +3,9 @@
 use spectra::hint::Hint;
 
 use super::error::MatchError;
-use super::options::MatchOptions;
+use super::options::{MatchOptions, ToleranceOrigin};
 use super::ranking::{RecipeMatch, recipes, recipes_and_nearest};
-use super::request::MatchRequest;
+use super::request::{MatchRequest, USUAL_TOLERANCE};
 use super::target::{ColorTarget, Target, TargetColor};
 use super::viewing_condition::Metric;
 use crate::library::PigmentLibrary;
@@ -22,6 +22,8 @@ pub struct RecipeSearch<'a> {
     library: &'a PigmentLibrary,
     /// Limits of the recipes.
     pub request: MatchRequest,
+    /// Origin of the request's tolerance.
+    pub tolerance_origin: ToleranceOrigin,
     /// Choices made in preparing the search, and warnings.
     pub remarks: Vec<Remark>,
 }
@@ -39,6 +41,7 @@ pub struct RecipeMatches {
     /// Choices made in the search, and warnings.
     pub remarks: Vec<Remark>,
     nearest: f64,
+    beyond_measured: Option<f64>,
 }
 
 impl RecipeMatches {
@@ -47,6 +50,13 @@ impl RecipeMatches {
     #[must_use]
     pub fn nearest(&self) -> f64 {
         self.nearest
+    }
+
+    /// Least distance of any recipe, in CIEDE2000, if amounts could lie outside the range that was measured
+    /// of each pigment; `None` if that would bring no recipe visibly nearer.
+    #[must_use]
+    pub fn beyond_measured(&self) -> Option<f64> {
+        self.beyond_measured
     }
 
     /// Advice for a target from which all recipes differ visibly; `None` if one is nearer than 1
@@ -65,7 +75,8 @@ impl PigmentLibrary {
     /// [`MatchError`] if a name is unknown, or options exclude each other.
     pub fn recipe_search(&self, options: &MatchOptions) -> Result<RecipeSearch<'_>, MatchError> {
         let (request, remarks) = options.request(self)?;
-        Ok(RecipeSearch { library: self, request, remarks })
+        let tolerance_origin = options.tolerance_for(self).1;
+        Ok(RecipeSearch { library: self, request, tolerance_origin, remarks })
     }
 
     /// Searches recipes for a colour or a measured spectrum.
@@ -79,7 +90,8 @@ impl PigmentLibrary {
     /// for &(pigment, share) in &best.shares {
     ///     println!("{:5.1} % {}", 100.0 * share, oils[pigment].name);
     /// }
-    /// assert!(best.delta_e[0] < 0.1);
+    /// // The first is the plainest that is as near as this library can tell.
+    /// assert!(found.nearest() < 0.1 && best.delta_e[0] < 1.5);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -109,14 +121,34 @@ impl RecipeSearch<'_> {
         if found.is_empty() {
             return Err(MatchError::NoRecipe);
         }
-        let by_cie1976 = Vec::new();
-        let mut matches = RecipeMatches { target, recipes: found, by_cie1976, remarks, nearest };
+        let mut matches = RecipeMatches {
+            beyond_measured: self.nearest_beyond_measured(&target, nearest)?,
+            target,
+            recipes: found,
+            by_cie1976: Vec::new(),
+            remarks,
+            nearest,
+        };
         if matches.nearest() > FAR {
             let metric = Metric::Cie1976;
             let request = MatchRequest { metric, count: 1, ..self.request.clone() };
             matches.by_cie1976 = recipes(self.library, &matches.target, &request)?;
         }
         Ok(matches)
+    }
+
+    /// Distance of the nearest recipe of any amounts, if limits of amounts keep it from being found.
+    fn nearest_beyond_measured(
+        &self,
+        target: &Target,
+        nearest: f64,
+    ) -> Result<Option<f64>, MatchError> {
+        if self.request.amounts.iter().all(Option::is_none) {
+            return Ok(None);
+        }
+        let request = MatchRequest { amounts: Vec::new(), count: 1, ..self.request.clone() };
+        let (_, free) = recipes_and_nearest(self.library, target, &request)?;
+        Ok((free < nearest - USUAL_TOLERANCE).then_some(free))
     }
 }
 
@@ -136,7 +168,8 @@ mod tests {
             ("30,60,-30", &["Cochineal Lake", "Viridian"][..], 13.62),
         ] {
             let only = names.iter().map(|name| (*name).to_owned()).collect();
-            let found = search(target, MatchOptions { only, ..MatchOptions::default() });
+            let tolerance = Some(0.05);
+            let found = search(target, MatchOptions { only, tolerance, ..MatchOptions::default() });
             assert!(found.nearest() < known, "{target}: {}", found.nearest());
             assert!(found.recipes[0].distance < known + 0.05, "{target}");
         }
@@ -145,11 +178,39 @@ mod tests {
     #[test]
     fn the_nearest_is_told_though_the_list_stops_within_the_tolerance() {
         let of = |tolerance: f64| {
+            let tolerance = Some(tolerance);
             search("45,10,20", MatchOptions { tolerance, count: 1, ..MatchOptions::default() })
         };
         let (fine, coarse) = (of(0.0), of(2.0));
         assert!((fine.nearest() - coarse.nearest()).abs() < 1e-9);
         assert!(coarse.recipes[0].distance > coarse.nearest(), "{:?}", coarse.recipes[0]);
         assert!(coarse.recipes[0].distance <= coarse.nearest() + 2.0);
+    }
+
+    #[test]
+    fn the_tolerance_follows_the_error_of_the_library() {
+        let mut oils = PigmentLibrary::van_gogh_oils();
+        let plain = MatchOptions::default();
+        let tolerance = |library: &PigmentLibrary, options: &MatchOptions| {
+            let search = library.recipe_search(options).unwrap();
+            (search.request.tolerance, search.tolerance_origin)
+        };
+        let error = oils.mean_error().unwrap();
+        assert!(error > 1.0, "{error}");
+        assert_eq!(tolerance(&oils, &plain), (error, ToleranceOrigin::Library));
+        let given = MatchOptions { tolerance: Some(0.2), ..plain.clone() };
+        assert_eq!(tolerance(&oils, &given), (0.2, ToleranceOrigin::Given));
+        oils.evidence = None;
+        assert_eq!(tolerance(&oils, &plain), (USUAL_TOLERANCE, ToleranceOrigin::Usual));
+    }
+
+    #[test]
+    fn the_plain_recipe_comes_before_one_of_four_that_the_library_cannot_tell_apart() {
+        let target = "61.2,0.3,-44.5";
+        let fine = search(target, MatchOptions { tolerance: Some(0.0), ..MatchOptions::default() });
+        let usual = search(target, MatchOptions::default());
+        let of = |found: &RecipeMatches| found.recipes[0].shares.len();
+        assert!(of(&fine) > 2 && of(&usual) == 2, "{} and {}", of(&fine), of(&usual));
+        assert!((usual.nearest() - fine.nearest()).abs() < 1e-9);
     }
 }

@@ -17,6 +17,9 @@ const WHOLE_PARTS: std::ops::RangeInclusive<u32> = 1..=1000;
 /// nearly hiding. Chosen by eye.
 const USUAL_WASH: [f64; 2] = [0.01, 10.0];
 
+/// CIEDE2000 within which recipes are equally near, where nothing is known about the library's own error.
+pub const USUAL_TOLERANCE: f64 = 0.05;
+
 /// A pigment that every recipe must contain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RequiredPigment {
@@ -48,6 +51,9 @@ pub struct MatchRequest {
     pub least_share: f64,
     /// Most parts of a recipe in whole parts, 1 to 1000; `None` for shares of any size.
     pub whole_parts: Option<u32>,
+    /// Least and greatest absolute amount of each pigment of the library, above 0; `None` for any amount.
+    /// Empty for no limits. A fixed share has no limit.
+    pub amounts: Vec<Option<[f64; 2]>>,
     /// Price of one unit of amount by pigment of the library, 0 and up; empty if unknown.
     pub costs: Vec<f64>,
     /// Recipes whose distance exceeds the nearest one's by no more than this count as equally near; 0
@@ -59,7 +65,7 @@ pub struct MatchRequest {
 
 impl MatchRequest {
     /// Request with all identified pigments of `library`, up to four in a recipe, shares from 1/50,
-    /// and five recipes.
+    /// amounts as they were measured, and five recipes.
     #[must_use]
     pub fn new(
         library: &PigmentLibrary,
@@ -75,8 +81,9 @@ impl MatchRequest {
             at_most: 4,
             least_share: 0.02,
             whole_parts: None,
+            amounts: measured_amounts(library),
             costs: Vec::new(),
-            tolerance: 0.05,
+            tolerance: USUAL_TOLERANCE,
             count: 5,
         }
     }
@@ -89,11 +96,33 @@ impl MatchRequest {
         }
     }
 
-    /// Least and greatest share of a pigment that takes part.
+    /// Fixed share of a pigment; `None` if the search chooses it.
+    fn fixed_share(&self, pigment: PigmentId) -> Option<f64> {
+        self.required.iter().find(|required| required.pigment == pigment)?.share
+    }
+
+    /// Least and greatest share of a pigment that takes part, whatever its amount.
     pub(super) fn share_bounds(&self, pigment: PigmentId) -> (f64, f64) {
-        match self.required.iter().find(|required| required.pigment == pigment) {
-            Some(RequiredPigment { share: Some(share), .. }) => (*share, *share),
-            _ => (self.least_share, 1.0),
+        let fixed = self.fixed_share(pigment);
+        fixed.map_or((self.least_share, 1.0), |share| (share, share))
+    }
+
+    /// Least and greatest absolute amount of a pigment; `None` for any.
+    pub(super) fn amount_bounds(&self, pigment: PigmentId) -> Option<[f64; 2]> {
+        let limits = self.amounts.get(pigment.index()).copied().flatten();
+        limits.filter(|_| self.fixed_share(pigment).is_none())
+    }
+
+    /// Least and greatest share of a pigment that takes part in a film of this thickness, which is the sum
+    /// of all absolute amounts. The least exceeds the greatest where the film allows no share.
+    pub(super) fn share_bounds_at(&self, pigment: PigmentId, thickness: f64) -> (f64, f64) {
+        let (least, most) = self.share_bounds(pigment);
+        match self.amount_bounds(pigment) {
+            None => (least, most),
+            Some(amounts) => {
+                let [fewest, greatest] = amounts.map(|amount| amount / thickness);
+                (least.max(fewest), most.min(greatest))
+            }
         }
     }
 
@@ -181,5 +210,13 @@ impl MatchRequest {
         let mean = (curves.map(|(k, s)| k + s).sum::<f64>() / count).max(1e-9);
         let [clear, hiding] = USUAL_WASH;
         FilmKind::Over { ground, thickness: Thickness::Between(clear / mean, hiding / mean) }
+    }
+}
+
+/// Measured amounts of each pigment of a library of absolute amounts; empty for others.
+fn measured_amounts(library: &PigmentLibrary) -> Vec<Option<[f64; 2]>> {
+    match library.amounts {
+        AmountKind::Relative => Vec::new(),
+        AmountKind::Absolute => library.pigments.iter().map(|p| p.measured_amounts).collect(),
     }
 }

@@ -41,7 +41,7 @@ pub(super) fn search(
             }
             control.step();
             let starts = starts(request, set, parent.as_ref(), &strength);
-            let ends = starts.iter().map(|s| descend(forward, request, target, s, scratch));
+            let ends = starts.iter().filter_map(|s| descend(forward, request, target, s, scratch));
             ends.min_by(|a, b| a.distance.total_cmp(&b.distance))
         };
         let tried: Vec<(Vec<PigmentId>, Option<Candidate>)> = sets
@@ -62,7 +62,7 @@ pub(super) fn search(
         found.par_iter_mut().for_each_init(Scratch::default, |scratch, candidate| {
             for corner in corners(request, &candidate.pigments) {
                 let end = descend(forward, request, target, &corner, scratch);
-                if end.distance < candidate.distance {
+                if let Some(end) = end.filter(|end| end.distance < candidate.distance) {
                     *candidate = end;
                 }
             }

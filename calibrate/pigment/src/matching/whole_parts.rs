@@ -79,7 +79,11 @@ impl Set<'_> {
     }
 
     fn allows(&self, parts: &[u32]) -> bool {
-        shares(parts).iter().all(|share| *share >= self.request.least_share - 1e-12)
+        let Candidate { pigments, thickness, .. } = self.candidate;
+        pigments.iter().zip(shares(parts)).all(|(&pigment, share)| {
+            let (least, most) = self.request.share_bounds_at(pigment, *thickness);
+            (least - 1e-12..=most + 1e-12).contains(&share)
+        })
     }
 
     fn nearest_rounded(&mut self, most: u32) -> Option<(Vec<u32>, f64)> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use paint::layer::{SLOTS, Slots};
 use pigment::library::AmountKind;
-use pigment::matching::{RecipeSearch, TargetColor};
+use pigment::matching::{RecipeSearch, TargetColor, USUAL_TOLERANCE};
 use pigment::palette::{Cards, Palette, PaletteError};
 use pigment::{ColorTarget, MatchError, MatchOptions, PigmentId, PigmentLibrary, Recipe, Viewing};
 use spectra::color::{ColorCode, ColorCodeError, Lab};
@@ -86,6 +86,7 @@ impl ToneLadder {
             only: names.collect(),
             least_share: LEAST_SHARE,
             count: 1,
+            tolerance: Some(USUAL_TOLERANCE),
             ..MatchOptions::default()
         };
         let search = library.recipe_search(&options)?;
@@ -196,6 +197,7 @@ fn pigments(palette: &Palette<'_>, hue: Lab) -> Result<Vec<PigmentId>, TonesErro
         at_most: HUE_PIGMENTS,
         least_share: LEAST_SHARE,
         count: 1,
+        tolerance: Some(USUAL_TOLERANCE),
         ..MatchOptions::default()
     };
     let (_, recipe) = matched(&library.recipe_search(&options)?, hue)?;

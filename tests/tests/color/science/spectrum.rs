@@ -3,7 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
-use spectra::{Extrapolation, Grid, Illuminant, Observer, Response, Spectrum, TristimulusWeights};
+use spectra::color::delta_e_cie76;
+use spectra::{
+    Extrapolation, Grid, Illuminant, IrregularSpectrum, Observer, Reflectance, Response, Spectrum,
+    TristimulusWeights, Viewing,
+};
 use suite::golden::{Golden, read};
 use suite::near::assert_near;
 
@@ -97,5 +101,31 @@ fn spectra_on_another_grid() {
         let inside = [to.start_nm(), to.end_nm()].iter().all(|&nm| source.grid().covers(nm));
         let refused = spectrum.resampled(to, method, Extrapolation::Refuse);
         assert_eq!(refused.is_ok(), inside, "{told}, ends refused");
+    }
+}
+
+/// An orange of steep flank, at `nm`.
+fn orange(nm: f64) -> f64 {
+    0.06 + 0.7 / (1.0 + f64::exp(-(nm - 575.0) / 9.0))
+}
+
+#[test]
+fn irregular_wavelengths_keep_the_color_under_lamps_with_lines() {
+    // Steps of 6 to 9 nm, which suit a grid of 10 nm.
+    let nm: Vec<f64> =
+        (0..57).map(|i| 365.0 + 7.5 * f64::from(i) + 1.5 * f64::from(i % 2)).collect();
+    let values: Vec<f64> = nm.iter().map(|&nm| orange(nm)).collect();
+    let irregular = IrregularSpectrum::new(nm.clone(), values).unwrap();
+    let grid = Grid::suited_to(&nm).unwrap();
+    let straight = |nm| irregular.at_linear(nm, Extrapolation::Hold).unwrap();
+    for lamp in ["FL2", "FL11", "HP1"] {
+        let viewing = Viewing::named(lamp, "1931-2").unwrap();
+        let lab = |values: Vec<f64>| {
+            viewing.color(&Spectrum::<Reflectance>::new(grid, values).unwrap()).unwrap().lab
+        };
+        let truth = lab(grid.wavelengths_nm().map(orange).collect());
+        let error = delta_e_cie76(truth, lab(irregular.on_grid(grid)));
+        let linear = delta_e_cie76(truth, lab(grid.wavelengths_nm().map(straight).collect()));
+        assert!(error < 0.01 && linear > 0.1, "{lamp}: {error}, linearly {linear}");
     }
 }

@@ -222,3 +222,24 @@ fn a_sample_below_its_dark_is_refused_and_noise_is_black() {
     let error = against(&white, &darks).reflectance(&below(0.02)).unwrap_err();
     assert!(matches!(error, ReferencingError::BelowDark { .. }), "{error}");
 }
+
+#[test]
+fn a_measured_tile_is_a_smooth_curve_between_its_wavelengths() {
+    let ceramic = |nm: f64| 0.85 / (1.0 + f64::exp(-(nm - 395.0) / 12.0));
+    let (sample, white, darks) = measured(10.0, 10.0);
+    let nm: Vec<f64> = (0..52).map(|i| 345.0 + 10.0 * f64::from(i)).collect();
+    let tile = MeasuredSpectrum {
+        quantity: MeasuredQuantity::Reflectance,
+        unit: Unit::Fraction,
+        values: nm.iter().map(|&nm| ceramic(nm)).collect(),
+        wavelengths_nm: nm,
+        ..sample.clone()
+    };
+    let referencing =
+        Referencing { tile: Tile::measured(&tile).unwrap(), ..against(&white, &darks) };
+    let found = referencing.reflectance(&sample).unwrap();
+    for (&nm, value) in found.wavelengths_nm.iter().zip(&found.values) {
+        let wanted = grey(nm) / TILE * ceramic(nm);
+        assert!(nm < 380.0 || (value - wanted).abs() < 5e-5, "{value} for {wanted} at {nm} nm");
+    }
+}
