@@ -78,7 +78,7 @@ impl Validate {
 }
 
 /// Time of a fit without one mixture over that of the fit of all, whose estimates it reuses and whose
-/// standard deviations it lacks. Measured on sets of 60 to 2000 samples: 0.15 to 0.4.
+/// standard deviations it lacks. Measured with the oils on two cores: 0.22; more cores need less.
 const REFIT: f64 = 0.25;
 /// Expected seconds of a validation from which groups are advised.
 const LONG: f64 = 120.0;
