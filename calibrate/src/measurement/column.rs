@@ -31,9 +31,9 @@ pub(super) enum TableKind {
     Recipes,
 }
 
-/// Reads a header row whose cells stand at `place`: one meaning per column. `pigments` are the headings that name
-/// pigments; without them, every other heading does. Checks that there is a column of names, that no name
-/// occurs twice and that wavelengths rise or fall throughout.
+/// Reads a header row whose cells stand at `place`: one meaning per column. `pigments` are the headings
+/// that name pigments; without them, every other heading does. Checks that there is a column of names,
+/// that no name occurs twice and that wavelengths rise or fall throughout.
 pub(super) fn columns(
     place: &dyn Fn(usize) -> CellPlace,
     headers: &[String],

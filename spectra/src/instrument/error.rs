@@ -29,7 +29,7 @@ pub enum InstrumentError {
         file: String,
         /// Name of the format as which it was read.
         format: &'static str,
-        /// What is wrong, and where.
+        /// The fault, and its place in the file.
         fault: String,
     },
     /// The file contains no spectrum.

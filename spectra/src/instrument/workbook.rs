@@ -78,7 +78,7 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
     Ok(Sheet { name, text, others: sheets.into_iter().map(|(name, _)| name).collect() })
 }
 
-/// What a cell holds; `None` if it is empty.
+/// Content of a cell; `None` if it is empty.
 fn content(cell: &DataRef<'_>) -> Option<Content> {
     let text = |text: &str| {
         let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();

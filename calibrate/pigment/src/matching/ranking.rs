@@ -53,8 +53,9 @@ pub enum AmountLimit {
 ///
 /// Recipes that are equally near (within the request's tolerance of the nearest) are ordered by price
 /// where prices are known, then by the number of pigments, then by distance in steps of
-/// [`USUAL_TOLERANCE`], then by the largest smallest share. The others follow by distance. A recipe that adds a pigment to another one of the list without coming
-/// nearer by more than the tolerance is left out.
+/// [`USUAL_TOLERANCE`], then by their smallest share, the greatest first. The others follow by distance.
+/// A recipe that adds a pigment to another one of the list without coming nearer by more than the
+/// tolerance is left out.
 ///
 /// # Errors
 /// [`MatchError`] if the request cannot be met.
