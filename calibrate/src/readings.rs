@@ -3,8 +3,8 @@
 use std::fs::File;
 use std::path::Path;
 
-use spectra::file::{FileError, read as read_file};
-use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, read};
+use spectra::file::FileError;
+use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, bytes_of, read};
 use spectra::referencing::{OpenedReferences, ReferenceFiles, ReferenceFilesError, TileSource};
 
 use crate::measurement::{
@@ -62,7 +62,7 @@ pub struct ReadingOptions {
     pub references: Option<ReferenceFiles>,
 }
 
-/// Readings of one or more measurement files.
+/// Readings of one or more measurement files. A sheet of a workbook is given as `FILE.xlsx#SHEET`.
 ///
 /// ```no_run
 /// let readings = calibrate::Readings::open("swatches.ti3")?.with_recipes("recipes.csv")?;
@@ -332,5 +332,5 @@ fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
 }
 
 fn content(path: &Path) -> Result<(String, Vec<u8>), FileError> {
-    Ok((path.display().to_string(), read_file(path)?))
+    Ok((path.display().to_string(), bytes_of(path)?))
 }

@@ -139,8 +139,9 @@ impl BareCards {
         let mut own: BTreeMap<(String, String), Vec<&Reading>> = BTreeMap::new();
         let mut any: BTreeMap<String, Vec<&Reading>> = BTreeMap::new();
         for reading in table.readings.iter().filter(|r| r.film == Film::None) {
-            own.entry((reading.sample.clone(), reading.backing.clone())).or_default().push(reading);
-            any.entry(reading.backing.clone()).or_default().push(reading);
+            let backing = reading.backing.to_string();
+            own.entry((reading.sample.clone(), backing.clone())).or_default().push(reading);
+            any.entry(backing).or_default().push(reading);
         }
         Self {
             own: own.into_iter().map(|(key, group)| (key, mean(&group))).collect(),
@@ -185,7 +186,7 @@ fn swatch(
     let mut films: Vec<SwatchFilm> = Vec::new();
     for reading in readings {
         let same = |other: &SwatchFilm| {
-            other.backing == reading.backing && other.thickness_mm == reading.thickness_mm
+            *other.backing == *reading.backing && other.thickness_mm == reading.thickness_mm
         };
         if films.iter().any(same) {
             continue;
@@ -196,7 +197,7 @@ fn swatch(
             .copied()
             .collect();
         films.push(SwatchFilm {
-            backing: reading.backing.clone(),
+            backing: reading.backing.to_string(),
             thickness_mm: reading.thickness_mm,
             reflectance: mean(&group),
             spread: spread(&group),
@@ -207,7 +208,7 @@ fn swatch(
         sample: sample.to_owned(),
         file: Arc::clone(&first.file),
         row: first.row,
-        amounts: first.amounts.clone(),
+        amounts: first.amounts.to_vec(),
         shares: first.amounts.iter().map(|amount| amount / total).collect(),
         films,
     })

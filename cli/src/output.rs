@@ -90,7 +90,13 @@ impl Output {
                 "leave out --output and redirect the output of --json",
             ));
         }
-        let is_target = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == target);
+        let is_target = |input: &PathBuf| {
+            // An input may name a sheet of its file.
+            let file = input.to_str().map_or(input.as_path(), |text| {
+                Path::new(spectra::instrument::split_file_and_sheet(text).0)
+            });
+            file.canonicalize().is_ok_and(|input| input == target)
+        };
         if inputs.iter().any(is_target) {
             return Err(Failure::usage(
                 format!("{}: is an input file, which is never overwritten", path.display()),

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use crate::black_body::black_body;
 use crate::daylight::daylight;
-use crate::file::{self, FileError};
+use crate::file::FileError;
 use crate::hint::{Explain, Fault, Hint};
 use crate::illuminant::{Illuminant, IlluminantError};
-use crate::instrument::split_file_and_name;
+use crate::instrument::{bytes_of, split_file_and_name, split_file_and_sheet};
 use crate::lamp::{LampError, lamp_from_bytes};
 
 /// Returns the light that `text` names.
@@ -39,11 +39,10 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
         }
     }
     let (file, spectrum) = split_file_and_name(text);
-    let path = Path::new(file);
-    if !path.is_file() {
+    if !Path::new(split_file_and_sheet(file).0).is_file() {
         return Err(LightError::Unknown { text: text.to_owned() });
     }
-    Ok(lamp_from_bytes(file, &file::read(path)?, spectrum)?)
+    Ok(lamp_from_bytes(file, &bytes_of(file)?, spectrum)?)
 }
 
 /// A text that does not name a light.

@@ -31,6 +31,8 @@ mod common_grid;
 
 mod no_amounts;
 
+mod csv_rows;
+
 mod csv;
 
 mod pieces;

@@ -6,7 +6,7 @@ use spectra::hint::{Explain, Hint};
 use spectra::name_list;
 
 use super::column::{Column, TableKind};
-use super::csv::CsvRows;
+use super::csv_rows::CsvRows;
 use super::error::MeasurementError;
 use super::table::{Film, MeasurementTable, Reading};
 use spectra::csv_table::CellPlace;
@@ -130,7 +130,7 @@ impl Recipes {
         }
         let join = |reading: Reading| {
             let Some(row) = by_name.get(reading.sample.as_str()) else {
-                let amounts = vec![0.0; self.pigments.len()];
+                let amounts = vec![0.0; self.pigments.len()].into();
                 return (reading.film == Film::None).then_some(Reading { amounts, ..reading });
             };
             Some(Reading {

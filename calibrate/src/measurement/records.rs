@@ -76,10 +76,10 @@ impl MeasurementTable {
             row: spectrum.record.line as u64,
             sample: name(&spectrum.record.name),
             film: Film::Paint,
-            backing: String::new(),
+            backing: "".into(),
             thickness_mm: None,
-            amounts: Vec::new(),
-            reflectance: on_grid(grid, &spectrum.wavelengths_nm, spectrum.values),
+            amounts: Box::default(),
+            reflectance: on_grid(grid, &spectrum.wavelengths_nm, spectrum.values).into(),
         });
         Ok(Self {
             pigments: Vec::new(),

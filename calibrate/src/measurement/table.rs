@@ -39,13 +39,13 @@ pub struct Reading {
     /// Whether paint or a bare backing was read.
     pub film: Film,
     /// Name of the backing; empty if the file does not state it.
-    pub backing: String,
+    pub backing: Arc<str>,
     /// Thickness of the film in mm, if known.
     pub thickness_mm: Option<f64>,
     /// Amount of each pigment of the table, 0 and up.
-    pub amounts: Vec<f64>,
+    pub amounts: Box<[f64]>,
     /// Measured reflectance as a fraction, at each wavelength of the table's grid.
-    pub reflectance: Vec<f64>,
+    pub reflectance: Box<[f64]>,
 }
 
 /// All readings of one file, or of several.
@@ -100,13 +100,17 @@ impl MeasurementTable {
                 for (&place, amount) in places.iter().zip(&reading.amounts) {
                     amounts[place] = *amount;
                 }
-                reading.amounts = amounts;
+                reading.amounts = amounts.into();
             }
             all.readings.append(&mut table.readings);
             all.remarks.append(&mut table.remarks);
         }
         let count = all.pigments.len();
-        all.readings.iter_mut().for_each(|reading| reading.amounts.resize(count, 0.0));
+        for reading in all.readings.iter_mut().filter(|reading| reading.amounts.len() < count) {
+            let mut amounts = std::mem::take(&mut reading.amounts).into_vec();
+            amounts.resize(count, 0.0);
+            reading.amounts = amounts.into();
+        }
         Ok(all)
     }
 }

@@ -18,6 +18,8 @@ mod recipe_report;
 
 mod recipe_search;
 
+mod correct;
+
 mod library;
 
 mod plan_report;
@@ -58,6 +60,7 @@ pub(crate) enum Verb {
     Color(color::Color),
     Quadrature(quadrature::Quadrature),
     Match(recipe_search::Match),
+    Correct(Box<correct::Correct>),
     Library(library::Library),
     Plan(plan::Plan),
     Report(report::Report),
@@ -80,6 +83,7 @@ impl Verb {
             Self::Color(verb) => verb.run(console),
             Self::Quadrature(verb) => verb.run(console),
             Self::Match(verb) => verb.run(console),
+            Self::Correct(verb) => verb.run(console),
             Self::Library(verb) => verb.run(console),
             Self::Plan(verb) => verb.run(console),
             Self::Report(verb) => verb.run(console),

@@ -43,6 +43,9 @@ pub(crate) struct Report {
     /// Recipes of the samples in a separate CSV, as for `fit`
     #[arg(long, value_name = "FILE", requires = "files")]
     recipes: Option<PathBuf>,
+    /// Heading of a column that is a pigment, as for `fit` (may be repeated): the others are ignored
+    #[arg(long, value_name = "NAME", requires = "files")]
+    pigments: Vec<String>,
     #[command(flatten)]
     reading: ReadingOptions,
     #[command(flatten)]
@@ -119,7 +122,7 @@ impl Report {
             return Ok(None);
         }
         let recipes = self.recipes.as_deref();
-        let readings = measurements(&self.files, recipes, &[], &self.reading, console)?;
+        let readings = measurements(&self.files, recipes, &self.pigments, &self.reading, console)?;
         Ok(Some(Comparable::of(&readings.swatches()?, library)?))
     }
 

@@ -5,10 +5,10 @@
 //! the R package lightr: version (60 or 70), the serial number and in version 70 a name (a number for
 //! each letter), five coefficients of the wavelength over the pixel, first and last pixel, settings, data.
 
+use super::avasoft::{of_counts, of_pixels};
 use super::binary_bytes::BinaryBytes;
 use super::error::InstrumentError;
-use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
-use super::points::{Duplicates, Point, ordered};
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, stem};
 
 const FORMAT: &str = "Avantes AvaSoft 7";
 
@@ -40,49 +40,23 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<MeasuredSpectrum>, In
         return Err(reader.faulty(format!("it states pixels from {first} to {last}")));
     }
     let count = (last - first) as usize + 1;
-    let nm = |index: usize| {
+    let nm = (0..count).map(|index| {
         let pixel = first + index as f64;
         coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * pixel + coefficient)
-    };
+    });
+    let nm: Vec<f64> = nm.collect();
     let ending = file.rsplit_once('.').map_or("", |(_, ending)| ending).to_ascii_lowercase();
     let stem = stem(file);
-    let record = |values: Vec<f64>, name: String, quantity, unit, role| {
-        let points = values.iter().enumerate();
-        let points = points.map(|(index, &value)| Point { line: 1, nm: nm(index), value });
-        let points = points.filter(|point| point.value.is_finite()).collect();
-        let ordered = ordered(file, points, Duplicates::Refuse)?;
-        let dropped = count - ordered.values.len();
-        let remark = format!("{dropped} wavelengths without light of the white are left out");
-        Ok(MeasuredSpectrum {
-            name,
-            quantity,
-            role,
-            unit,
-            wavelengths_nm: ordered.wavelengths_nm,
-            values: ordered.values,
-            line: 1,
-            details: Vec::new(),
-            remarks: (dropped > 0).then_some(remark).into_iter().collect(),
-        })
-    };
-    let counts =
-        |values, name, role| record(values, name, MeasuredQuantity::Counts, Unit::Unstated, role);
     let mut records: Vec<MeasuredSpectrum> = if matches!(ending.as_str(), "trm" | "abs") {
         let data = reader.f32s(3 * count)?;
         let column =
             |place: usize| -> Vec<f64> { data.chunks_exact(3).map(|pixel| pixel[place]).collect() };
         // AvaSoft calls light over that of the white transmittance, though it may be reflected.
-        let ratio = data.chunks_exact(3);
-        let ratio = ratio.map(|pixel| 100.0 * (pixel[0] - pixel[2]) / (pixel[1] - pixel[2]));
-        let (quantity, unit) = (MeasuredQuantity::Transmittance, Unit::Percent);
-        vec![
-            record(ratio.collect(), stem.clone(), quantity, unit, Role::Main)?,
-            counts(column(0), format!("{stem} (S)"), Role::Sample)?,
-            counts(column(1), format!("{stem} (R)"), Role::White)?,
-            counts(column(2), format!("{stem} (D)"), Role::Dark)?,
-        ]
+        let quantity = MeasuredQuantity::Transmittance;
+        of_counts(file, &stem, quantity, &nm, [&column(0), &column(1), &column(2)])?
     } else {
-        vec![counts(reader.f32s(count)?, stem, Role::Main)?]
+        let (counts, values) = (MeasuredQuantity::Counts, reader.f32s(count)?);
+        vec![of_pixels(file, stem, counts, Role::Main, &nm, &values)?]
     };
     let time = reader.f32()?;
     let detail = ("Integration time".to_owned(), format!("{time} ms"));
@@ -93,6 +67,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<MeasuredSpectrum>, In
 
 #[cfg(test)]
 pub(super) mod tests {
+    use super::super::measured::Unit;
     use super::*;
 
     /// A file of `version` whose pixels 2 to 4 lie at 400, 450 and 500 nm.

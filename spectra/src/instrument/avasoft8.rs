@@ -4,10 +4,10 @@
 //! Layout as Avantes told the authors of the R package lightr: `AVS82`, the number of spectra, and for each
 //! its length, number, mode, serial number and settings, a comment, four tables of 4-byte numbers.
 
+use super::avasoft::{of_counts, of_pixels};
 use super::binary_bytes::BinaryBytes;
 use super::error::InstrumentError;
-use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
-use super::points::{Duplicates, Point, ordered};
+use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, stem};
 
 const FORMAT: &str = "Avantes AvaSoft 8";
 
@@ -80,28 +80,6 @@ fn spectrum(
         ("Averages".to_owned(), averages.to_string()),
     ];
     details.extend((!comment.is_empty()).then(|| ("Comment".to_owned(), comment)));
-    let record = |values: &[f64], name: String, quantity, unit, role| {
-        let points = nm.iter().zip(values).map(|(&nm, &value)| Point { line: 1, nm, value });
-        let points = points.filter(|point| point.value.is_finite()).collect();
-        let ordered = ordered(file, points, Duplicates::Average)?;
-        let dropped = pixels - ordered.values.len();
-        let remark = format!("{dropped} wavelengths without light of the white are left out");
-        Ok(MeasuredSpectrum {
-            name,
-            quantity,
-            role,
-            unit,
-            wavelengths_nm: ordered.wavelengths_nm,
-            values: ordered.values,
-            line: 1,
-            details: details.clone(),
-            remarks: (dropped > 0).then_some(remark).into_iter().collect(),
-        })
-    };
-    let counts = |values: &[f64], letter: &str, role| {
-        let name = format!("{name} ({letter})");
-        record(values, name, MeasuredQuantity::Counts, Unit::Unstated, role)
-    };
     let quantity = match mode {
         4 => MeasuredQuantity::Reflectance,
         // An absorbance is stored as the same counts.
@@ -114,19 +92,11 @@ fn spectrum(
             2 => corrected.map(|(sample, dark)| sample - dark).collect(),
             _ => sample,
         };
-        vec![record(&values, name.to_owned(), quantity, Unit::Unstated, Role::Main)?]
+        vec![of_pixels(file, name.to_owned(), quantity, Role::Main, &nm, &values)?]
     } else {
-        let counts_of = sample.iter().zip(&dark).zip(&white);
-        let ratio =
-            counts_of.map(|((sample, dark), white)| 100.0 * (sample - dark) / (white - dark));
-        let ratio: Vec<f64> = ratio.collect();
-        vec![
-            record(&ratio, name.to_owned(), quantity, Unit::Percent, Role::Main)?,
-            counts(&sample, "S", Role::Sample)?,
-            counts(&white, "R", Role::White)?,
-            counts(&dark, "D", Role::Dark)?,
-        ]
+        of_counts(file, name, quantity, &nm, [&sample, &white, &dark])?
     };
+    records.iter_mut().for_each(|record| record.details.clone_from(&details));
     records.retain(|record| !record.values.is_empty());
     Ok(records)
 }

@@ -40,6 +40,16 @@ pub enum InstrumentError {
         /// Name of the format as which it was read.
         format: &'static str,
     },
+    /// A workbook has no sheet of the wanted name.
+    #[error("{file}: no sheet is called `{sheet}`; its sheets are {sheets}")]
+    NoSheet {
+        /// Path of the workbook.
+        file: String,
+        /// The wanted name.
+        sheet: String,
+        /// Names of the sheets that are not empty.
+        sheets: String,
+    },
     /// A line does not follow the format.
     #[error("{file}, line {line}: expected {expected}, found `{text}`")]
     Line {
@@ -156,6 +166,7 @@ impl Explain for InstrumentError {
             Self::Faulty { .. } => {
                 "the file may be cut off: copy it again, or export text from the instrument's program"
             }
+            Self::NoSheet { .. } => "name the sheet as the workbook does: FILE.xlsx#SHEET",
             Self::Duplicate { .. } => "remove one of the two",
             Self::Unlike { .. } => "remove the wrong one; nearly equal values would be averaged",
             Self::Incomplete { .. } => {

@@ -36,13 +36,19 @@ impl FileText {
             ContentKind::Workbook => {
                 let sheet = workbook::sheet(file, bytes)?;
                 let others = sheet.others.join("`, `");
-                let what = || format!("sheet `{}` is read, not `{others}`", sheet.name);
+                let what = || {
+                    format!(
+                        "sheet `{}` is read, not `{others}`; FILE.xlsx#SHEET names another",
+                        sheet.name
+                    )
+                };
+                let (path, wanted) = workbook::split_file_and_sheet(file);
                 Ok(Some(Self {
-                    file: format!("{file}, sheet `{}`", sheet.name),
+                    file: format!("{path}, sheet `{}`", sheet.name),
                     text: sheet.text.clone(),
                     encoding: "UTF-8",
                     is_sheet: true,
-                    remark: (!sheet.others.is_empty()).then(what),
+                    remark: (wanted.is_none() && !sheet.others.is_empty()).then(what),
                 }))
             }
             _ => Ok(None),

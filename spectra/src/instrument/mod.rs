@@ -36,6 +36,8 @@ mod svc;
 
 mod uprtek;
 
+mod avasoft;
+
 mod avasoft7;
 
 mod avasoft8;
@@ -86,6 +88,7 @@ pub use error::InstrumentError;
 pub use file_text::FileText;
 pub use format::Format;
 pub use measured::{MeasuredQuantity, MeasuredSpectrum, ReflectanceError, Role, Unit};
-pub use open::{OpenError, OpenedSpectrum, open, open_spectrum};
+pub use open::{OpenError, OpenedSpectrum, bytes_of, open, open_spectrum};
 pub use read::{InstrumentFile, read};
 pub use text::decode_text;
+pub use workbook::split_file_and_sheet;

@@ -8,11 +8,14 @@ use std::io::Cursor;
 use calamine::{DataRef, DataType, Reader, Xlsx};
 
 use super::error::InstrumentError;
+use crate::name_list;
 
 const FORMAT: &str = "Excel workbook";
 
 /// Most columns of a sheet that is read, more than any instrument has wavelengths.
 const MOST_COLUMNS: u32 = 8192;
+/// Most names of sheets that an error lists.
+const NAMES: usize = 12;
 /// Most bytes of a sheet as text.
 const MOST_BYTES: usize = 512 << 20;
 
@@ -38,8 +41,22 @@ struct Cell {
     content: Content,
 }
 
-/// The sheet with the most numbers; the first of several.
+/// Splits `FILE.xlsx#SHEET` into the path of the workbook and the name of the sheet, which is `None` for any
+/// other text.
+#[must_use]
+pub fn split_file_and_sheet(text: &str) -> (&str, Option<&str>) {
+    let lower = text.to_ascii_lowercase();
+    let end = [".xlsx#", ".xlsm#"].iter().find_map(|mark| Some(lower.find(mark)? + mark.len()));
+    match end {
+        Some(end) if end < text.len() => (&text[..end - 1], Some(&text[end..])),
+        _ => (text, None),
+    }
+}
+
+/// The sheet that `file` names as `FILE.xlsx#SHEET`; otherwise the sheet with the most numbers, the first of
+/// several.
 pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> {
+    let (file, wanted) = split_file_and_sheet(file);
     let faulty = |fault: String| InstrumentError::faulty(file, FORMAT, fault);
     let mut workbook: Xlsx<_> =
         Xlsx::new(Cursor::new(bytes)).map_err(|reason| faulty(reason.to_string()))?;
@@ -69,8 +86,20 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
         cells.iter().filter(|cell| matches!(cell.content, Content::Number(_))).count()
     };
     let most = sheets.iter().map(numbers).max().unwrap_or(0);
-    let Some(chosen) = sheets.iter().position(|sheet| numbers(sheet) == most) else {
-        return Err(InstrumentError::Empty { file: file.to_owned(), format: FORMAT });
+    let is_chosen = |sheet: &(String, Vec<Cell>)| match wanted {
+        Some(wanted) => sheet.0 == wanted,
+        None => numbers(sheet) == most,
+    };
+    let Some(chosen) = sheets.iter().position(is_chosen) else {
+        let names: Vec<String> = sheets.into_iter().map(|(name, _)| name).collect();
+        return Err(match wanted.filter(|_| !names.is_empty()) {
+            Some(sheet) => InstrumentError::NoSheet {
+                file: file.to_owned(),
+                sheet: sheet.to_owned(),
+                sheets: name_list(&names, NAMES, ", "),
+            },
+            None => InstrumentError::Empty { file: file.to_owned(), format: FORMAT },
+        });
     };
     let (name, cells) = sheets.remove(chosen);
     let text = text(cells);
@@ -206,6 +235,20 @@ pub(super) mod tests {
         assert!(found.text.ends_with("\tRed\t0,125\t0,25\n"), "{}", found.text);
         let found = sheet("f", &workbook(&[("Notes", note)])).unwrap();
         assert_eq!(found.text, "\"a \"\"note\"\"\"\n");
+    }
+
+    #[test]
+    fn a_sheet_is_taken_by_its_name() {
+        let few = "<row r=\"1\"><c r=\"A1\"><v>7</v></c></row>";
+        let bytes = workbook(&[("Readings", ROWS), ("Red # 2", few)]);
+        assert_eq!(sheet("a.xlsx", &bytes).unwrap().name, "Readings");
+        let found = sheet("a.XLSX#Red # 2", &bytes).unwrap();
+        assert_eq!((found.name.as_str(), found.text.as_str()), ("Red # 2", "7\n"));
+        assert_eq!(found.others, ["Readings"]);
+        let error = sheet("a.xlsx#red", &bytes).unwrap_err().to_string();
+        assert_eq!(error, "a.xlsx: no sheet is called `red`; its sheets are Readings, Red # 2");
+        assert_eq!(split_file_and_sheet("a#b.csv"), ("a#b.csv", None));
+        assert_eq!(split_file_and_sheet("a.xlsx#"), ("a.xlsx#", None));
     }
 
     #[test]

@@ -5,6 +5,7 @@
 mod artmap;
 
 mod bad_files;
+mod correction;
 mod demo;
 mod errors;
 mod matching;

@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
+mod corrections;
+
 mod exhaustive;
 
 mod films;

@@ -41,6 +41,39 @@ fn samples_of_pigments_that_the_library_lacks_are_left_out_and_named() {
 }
 
 #[test]
+fn only_the_named_columns_are_pigments() {
+    let work = Work::new();
+    let readings = crate::made::readings();
+    let waxed = readings.lines().enumerate().map(|(row, line)| {
+        let (before, after) = line.split_once(',').unwrap();
+        let wax = match row {
+            0 => "Wax",
+            _ if line.starts_with("12") => "3",
+            _ => "",
+        };
+        format!("{before},{wax},{after}\n")
+    });
+    std::fs::write(work.path("waxed.csv"), waxed.collect::<String>()).unwrap();
+    let csv = work.text("waxed.csv");
+    let with = |names: &[&str]| {
+        let options = names.iter().flat_map(|name| ["--pigments", *name]);
+        let all = [csv.as_str(), "--no-validation", "--json"].into_iter().chain(options);
+        work.report("out", &all.collect::<Vec<&str>>())
+    };
+    let headings = csv::Reader::from_reader(readings.as_bytes()).headers().unwrap().clone();
+    let others = ["sample", "film", "backing"];
+    let pigments =
+        headings.iter().filter(|name| !others.contains(name) && name.parse::<f64>().is_err());
+    let (all, named) = (with(&[]), with(&pigments.collect::<Vec<&str>>()));
+    assert_eq!((all.status, named.status), (0, 0), "{}{}", all.err, named.err);
+    let samples = |run: &suite::program::Run| run.json()["samples"].as_u64().unwrap();
+    assert!(samples(&all) < samples(&named), "the library has no wax");
+    assert!(named.err.contains("are ignored: Wax"), "{}", named.err);
+    let run = with(&["Bone Blacks"]);
+    assert!(run.status == 1 && run.err.contains("`Bone Blacks`"), "{}", run.err);
+}
+
+#[test]
 fn readings_of_other_pigments_are_refused_before_anything_is_written() {
     let work = Work::new();
     // Names are compared without regard to case. Both sets have a Prussian blue, so it is renamed.

@@ -164,7 +164,7 @@ fn totals(request: &MatchRequest, pigments: &[PigmentId]) -> (f64, f64) {
 }
 
 /// The recipe with its shares moved within the limits at its thickness; `None` if there are none.
-fn within_limits(request: &MatchRequest, recipe: &Candidate) -> Option<Candidate> {
+pub(super) fn within_limits(request: &MatchRequest, recipe: &Candidate) -> Option<Candidate> {
     let bounds: Vec<(f64, f64)> =
         recipe.pigments.iter().map(|&p| request.share_bounds_at(p, recipe.thickness)).collect();
     let sum = |of: fn(&(f64, f64)) -> f64| bounds.iter().map(of).sum::<f64>();

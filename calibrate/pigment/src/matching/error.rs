@@ -60,6 +60,9 @@ pub enum MatchError {
     /// A film that hides is requested from a library of absolute amounts, which needs a film over a ground.
     #[error("a library of absolute amounts makes films over a ground")]
     AbsoluteHiding,
+    /// A batch is corrected with a library of absolute amounts, which holds no masses.
+    #[error("a batch is corrected by shares, and this library's amounts are absolute")]
+    AbsoluteBatch,
     /// A ground is given, but the film hides it.
     #[error("a film that hides shows no ground")]
     HiddenGround,
@@ -108,6 +111,7 @@ impl Explain for MatchError {
             Self::Shares { .. } => "let fixed shares sum to less than 1",
             Self::SharesInParts => "leave out [parts], or the share of the pigment",
             Self::AbsoluteHiding => "give a [thickness]",
+            Self::AbsoluteBatch => "use a library of relative amounts, fitted to films that hide",
             Self::HiddenGround => "give [over] a [thickness], such as 1 or 0.2:3",
             Self::NoRecipe => {
                 "allow more pigments ([at_most]), more parts ([parts]), a smaller [least], or amounts that were \

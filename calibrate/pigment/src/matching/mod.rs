@@ -39,8 +39,13 @@ mod options;
 
 mod recipe_search;
 
+mod least_addition;
+
+mod correction;
+
 pub use bounded_descent::{Cost, descend_within_bounds};
 pub use bounded_step::{Bounds, MAX_PIGMENTS, UNKNOWNS};
+pub use correction::{Batch, Correction, CorrectionOptions, Corrections, USUAL_CORRECTION};
 pub use error::MatchError;
 pub use film::{FilmKind, Thickness};
 pub use options::{MatchOptions, RequiredName, ToleranceOrigin};

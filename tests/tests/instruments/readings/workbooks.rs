@@ -15,6 +15,11 @@ const PACKAGE: &str = "http://schemas.openxmlformats.org/package/2006/relationsh
 
 /// A workbook whose only sheet, `Readings`, has the cells of a CSV from its row `first` on.
 fn workbook(csv: &str, first: usize) -> Vec<u8> {
+    workbook_of(&[("Readings", csv)], first)
+}
+
+/// A workbook with sheets of these names, which have the cells of a CSV from their row `first` on.
+fn workbook_of(sheets: &[(&str, &str)], first: usize) -> Vec<u8> {
     let cell = |text: &str, row: usize, column: usize| {
         let letter = char::from(b'A' + u8::try_from(column).unwrap());
         match text {
@@ -25,36 +30,44 @@ fn workbook(csv: &str, first: usize) -> Vec<u8> {
             text => format!("<c r=\"{letter}{row}\" t=\"str\"><v>{text}</v></c>"),
         }
     };
-    let rows = csv.lines().zip(first..).map(|(line, row)| {
-        let cells = line.split(',').enumerate();
-        let cells: String = cells.map(|(column, text)| cell(text, row, column)).collect();
-        format!("<row r=\"{row}\">{cells}</row>")
-    });
-    let rows: String = rows.collect();
-    let files = [
+    let rows = |csv: &str| -> String {
+        let rows = csv.lines().zip(first..).map(|(line, row)| {
+            let cells = line.split(',').enumerate();
+            let cells: String = cells.map(|(column, text)| cell(text, row, column)).collect();
+            format!("<row r=\"{row}\">{cells}</row>")
+        });
+        rows.collect()
+    };
+    let (mut list, mut relations) = (String::new(), String::new());
+    for ((name, _), id) in sheets.iter().zip(1..) {
+        list += &format!("<sheet name=\"{name}\" sheetId=\"{id}\" r:id=\"rId{id}\"/>");
+        relations += &format!(
+            "<Relationship Id=\"rId{id}\" Type=\"{OFFICE}/worksheet\" Target=\"worksheets/sheet{id}.xml\"/>"
+        );
+    }
+    let mut files = vec![
         (
-            "_rels/.rels",
+            "_rels/.rels".to_owned(),
             format!(
                 "<Relationships xmlns=\"{PACKAGE}\"><Relationship Id=\"rId1\" Type=\"{OFFICE}/officeDocument\" Target=\"xl/workbook.xml\"/></Relationships>"
             ),
         ),
         (
-            "xl/workbook.xml",
+            "xl/workbook.xml".to_owned(),
             format!(
-                "<workbook xmlns=\"{MAIN}\" xmlns:r=\"{OFFICE}\"><sheets><sheet name=\"Readings\" sheetId=\"1\" r:id=\"rId1\"/></sheets></workbook>"
+                "<workbook xmlns=\"{MAIN}\" xmlns:r=\"{OFFICE}\"><sheets>{list}</sheets></workbook>"
             ),
         ),
         (
-            "xl/_rels/workbook.xml.rels",
-            format!(
-                "<Relationships xmlns=\"{PACKAGE}\"><Relationship Id=\"rId1\" Type=\"{OFFICE}/worksheet\" Target=\"worksheets/sheet1.xml\"/></Relationships>"
-            ),
-        ),
-        (
-            "xl/worksheets/sheet1.xml",
-            format!("<worksheet xmlns=\"{MAIN}\"><sheetData>{rows}</sheetData></worksheet>"),
+            "xl/_rels/workbook.xml.rels".to_owned(),
+            format!("<Relationships xmlns=\"{PACKAGE}\">{relations}</Relationships>"),
         ),
     ];
+    for ((_, csv), id) in sheets.iter().zip(1..) {
+        let xml =
+            format!("<worksheet xmlns=\"{MAIN}\"><sheetData>{}</sheetData></worksheet>", rows(csv));
+        files.push((format!("xl/worksheets/sheet{id}.xml"), xml));
+    }
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
     for (name, text) in files {
@@ -98,6 +111,22 @@ fn a_workbook_gives_what_its_csv_gives() {
         impasto(&["fit", &path("spectra.xlsx"), "--recipes", &path("recipes.xlsx"), "--json"]);
     assert_eq!(run.status, 0, "{}", run.err);
     assert_eq!(run.json()["delta_e"], csv["delta_e"]);
+
+    let both = [("Spectra", spectra.join("\n")), ("Recipes", recipes.join("\n"))];
+    let both = both.each_ref().map(|(name, csv)| (*name, csv.as_str()));
+    std::fs::write(path("both.xlsx"), workbook_of(&both, 1)).unwrap();
+    let sheet = |name: &str| format!("{}#{name}", path("both.xlsx"));
+    let run = impasto(&["fit", &sheet("Spectra"), "--recipes", &sheet("Recipes"), "--json"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert_eq!(run.json()["delta_e"], csv["delta_e"]);
+    assert!(!run.err.contains("is read, not"), "a sheet was named: {}", run.err);
+    let run = impasto(&["fit", &sheet("Spectra"), "--recipes", &sheet("recipes"), "--json"]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(run.err.contains("no sheet is called `recipes`; its sheets are Spectra, Recipes"));
+    let over = ["--recipes", &sheet("Recipes"), "--output", &path("both.xlsx")];
+    let run = impasto(&[&["fit", &sheet("Spectra")], &over[..]].concat());
+    assert_eq!(run.status, 2, "{}", run.err);
+    assert!(run.err.contains("is an input file"), "{}", run.err);
 }
 
 #[test]

@@ -1,0 +1,350 @@
+//! Correcting a batch of paint: additions to the pot that bring its measured colour to a target.
+//!
+//! A recipe predicts the pot's K and S, but a batch is never quite what was meant to be weighed. Its K is
+//! therefore scaled at each wavelength so that K / S is that of the measured film; S stays as predicted. The
+//! additions are mixed into that paint. So the errors of the recipe and of the model at the pot's colour
+//! are in the measurement already, and only those of the additions remain (after Allen 1974, correction by
+//! the batch's own reflectance).
+
+use spectra::color::{Lab, delta_e_ciede2000};
+use spectra::optics::absorption_over_scattering;
+use spectra::{Extrapolation, Interpolation, Reflectance, Spectrum};
+
+use super::bounded_step::MAX_PIGMENTS;
+use super::error::MatchError;
+use super::film::FilmKind;
+use super::forward::{Forward, Scratch};
+use super::least_addition::{Addition, Additions};
+use super::request::MatchRequest;
+use super::target::{ColorTarget, Target, TargetColor};
+use super::viewing_condition::ViewingCondition;
+use crate::evaluate::lab;
+use crate::library::{AmountKind, Pigment, PigmentLibrary};
+use crate::recipe::PigmentId;
+use crate::remark::Remark;
+use crate::visible_band::check_visible_band;
+
+/// Least internal reflectance that is believed; below it a reading tells nothing of K / S.
+const LEAST_INTERNAL: f64 = 1e-4;
+/// CIEDE2000 from the target that is near enough, unless options say otherwise: about what an eye can tell
+/// side by side.
+pub const USUAL_CORRECTION: f64 = 0.5;
+
+/// A pot of paint that was mixed and measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Batch {
+    /// Names of the pigments that were mixed, with their parts in any unit.
+    pub made: Vec<(String, f64)>,
+    /// Mass of the paint in the pot in grams, above 0.
+    pub grams: f64,
+    /// Measured reflectance of a film of the paint that hides.
+    pub reflectance: Spectrum<Reflectance>,
+}
+
+/// Options of [`PigmentLibrary::corrections_for`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct CorrectionOptions {
+    /// Lights under which the paint is judged. Default: D65 for the CIE 1931 observer.
+    pub conditions: Vec<ViewingCondition>,
+    /// Names of the pigments that may be added. Empty: all whose S is known.
+    pub only: Vec<String>,
+    /// Names of pigments that must not be added.
+    pub without: Vec<String>,
+    /// Most pigments to add, 1 to 7. Default: 3.
+    pub at_most: usize,
+    /// Grams of pigments in stock, by name. Pigments that are not named have no limit.
+    pub stock: Vec<(String, f64)>,
+    /// Least grams that can be weighed, above 0. Default: a thousandth of the batch.
+    pub least_grams: Option<f64>,
+    /// Most grams to add in all, above 0. Default: as much as the batch.
+    pub most_grams: Option<f64>,
+    /// CIEDE2000 from the target that is near enough, above 0. Default: 0.5.
+    pub tolerance: f64,
+    /// Number of corrections to return, 1 and up. Default: 5.
+    pub count: usize,
+}
+
+impl Default for CorrectionOptions {
+    fn default() -> Self {
+        Self {
+            conditions: vec![ViewingCondition::default()],
+            only: Vec::new(),
+            without: Vec::new(),
+            at_most: 3,
+            stock: Vec::new(),
+            least_grams: None,
+            most_grams: None,
+            tolerance: USUAL_CORRECTION,
+            count: 5,
+        }
+    }
+}
+
+/// An addition to the pot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Correction {
+    /// Pigments with the grams to add, the most first.
+    pub additions: Vec<(PigmentId, f64)>,
+    /// Sum of all additions in grams.
+    pub grams: f64,
+    /// CIEDE2000 of the corrected paint from the target under each light.
+    pub delta_e: Vec<f64>,
+    /// Weighted root mean square of `delta_e` over the lights.
+    pub distance: f64,
+    /// Colour of the corrected paint under each light.
+    pub lab: Vec<Lab>,
+    /// Measured reflectance of the corrected paint on the library's grid.
+    pub reflectance: Vec<f64>,
+    /// Pigments of which the whole stock is added.
+    pub out_of_stock: Vec<PigmentId>,
+}
+
+/// Corrections of a batch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Corrections {
+    /// Colours that the paint should have.
+    pub target: Target,
+    /// Measured colour of the batch under each light.
+    pub batch: Vec<Lab>,
+    /// CIEDE2000 of the batch from the target under each light.
+    pub batch_delta_e: Vec<f64>,
+    /// CIEDE2000 of the batch from what its recipe predicts, under each light.
+    pub recipe_delta_e: Vec<f64>,
+    /// Whether the batch is within the tolerance and needs no correction.
+    pub is_near: bool,
+    /// Whether the corrections bring it within the tolerance.
+    pub reaches: bool,
+    /// Corrections within the tolerance, the least addition first; if there are none, those that come
+    /// nearest, the nearest first. Empty if the batch needs none.
+    pub corrections: Vec<Correction>,
+    /// Warnings.
+    pub remarks: Vec<Remark>,
+}
+
+impl PigmentLibrary {
+    /// Searches what to add to `batch` so that its colour is that of `target`, the least addition first.
+    ///
+    /// ```
+    /// use pigment::matching::{Batch, CorrectionOptions};
+    /// use pigment::{ColorTarget, PigmentLibrary, Viewing};
+    ///
+    /// let oils = PigmentLibrary::van_gogh_oils();
+    /// let paint = |blue| oils.color([("Zinc White", 100.0), ("Cobalt Blue", blue)], &Viewing::default());
+    /// let standard = ColorTarget::measured("standard", paint(12.0)?.reflectance);
+    /// // Less blue was weighed than the recipe says.
+    /// let batch = Batch {
+    ///     made: vec![("Zinc White".into(), 100.0), ("Cobalt Blue".into(), 12.0)],
+    ///     grams: 500.0,
+    ///     reflectance: paint(9.0)?.reflectance,
+    /// };
+    /// let found = oils.corrections_for(&standard, &batch, &CorrectionOptions::default())?;
+    /// let least = &found.corrections[0];
+    /// assert!(found.reaches && least.distance <= 0.5 && least.grams < 25.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`MatchError`] for an unknown pigment, a number out of range, or a library of absolute amounts.
+    pub fn corrections_for(
+        &self,
+        target: &ColorTarget,
+        batch: &Batch,
+        options: &CorrectionOptions,
+    ) -> Result<Corrections, MatchError> {
+        options.check(self, batch)?;
+        let mut remarks: Vec<Remark> =
+            check_visible_band(batch.reflectance.grid())?.into_iter().collect();
+        if let TargetColor::Reflectance(reflectance) = &target.color {
+            remarks.extend(check_visible_band(reflectance.grid())?);
+        }
+        let (library, predicted) = self.with_pot(batch)?;
+        let conditions = &options.conditions;
+        let target = target.under(conditions)?;
+        let measured = Target::from_reflectance("batch", &batch.reflectance, conditions)?.lab;
+        let differences = |found: &[Lab], wanted: &[Lab]| -> Vec<f64> {
+            wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
+        };
+        let weights: Vec<_> = conditions
+            .iter()
+            .map(|condition| condition.viewing.weights(self.grid))
+            .collect::<Result<_, _>>()?;
+        let recipe: Vec<Lab> = weights.iter().map(|weights| lab(weights, &predicted)).collect();
+        let batch_delta_e = differences(&measured, &target.lab);
+        let total: f64 = conditions.iter().map(|condition| condition.weight).sum();
+        let squares = batch_delta_e.iter().zip(conditions).map(|(d, c)| d * d * c.weight / total);
+        let is_near = squares.sum::<f64>().sqrt() <= options.tolerance;
+        let mut found = Corrections {
+            recipe_delta_e: differences(&measured, &recipe),
+            target,
+            batch: measured,
+            batch_delta_e,
+            is_near,
+            reaches: is_near,
+            corrections: Vec::new(),
+            remarks,
+        };
+        if is_near {
+            return Ok(found);
+        }
+        let additions = options.additions(self, &library, batch.grams)?;
+        let request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
+        let forward = Forward::new(&library, &request)?;
+        let (best, reaches) = additions.find(&forward, &found.target);
+        found.reaches = reaches;
+        let corrected = best.into_iter().take(options.count);
+        found.corrections = corrected
+            .map(|addition| correction(&forward, &found.target, &additions, addition, batch.grams))
+            .collect();
+        if found.corrections.is_empty() {
+            return Err(MatchError::NoRecipe);
+        }
+        Ok(found)
+    }
+
+    /// The library with the paint in the pot as a further pigment, and the reflectance that the recipe
+    /// predicts of it.
+    fn with_pot(&self, batch: &Batch) -> Result<(Self, Vec<f64>), MatchError> {
+        let recipe = self.recipe(batch.made.iter().map(|(name, part)| (name, *part)))?;
+        let curves = self.mix(&recipe)?;
+        let measured = batch.reflectance.resampled(
+            self.grid,
+            Interpolation::best_for(batch.reflectance.grid()),
+            Extrapolation::Hold,
+        )?;
+        let scattering = curves.scattering.clone();
+        let absorption = measured.values().iter().zip(&scattering).map(|(&reading, s)| {
+            let internal = self.saunderson.internal_from_measured(reading).unwrap_or(0.0);
+            s * absorption_over_scattering(internal.clamp(LEAST_INTERNAL, 1.0))
+        });
+        let pot = Pigment {
+            name: "the batch".to_owned(),
+            color_index: None,
+            absorption: absorption.collect(),
+            scattering,
+            absorption_sd: Vec::new(),
+            scattering_sd: Vec::new(),
+            identified: true,
+            guessed: false,
+            measured_amounts: None,
+            notes: Vec::new(),
+        };
+        let mut library = self.clone();
+        library.pigments.push(pot);
+        Ok((library, curves.hiding(self.saunderson)))
+    }
+}
+
+impl CorrectionOptions {
+    fn check(&self, library: &PigmentLibrary, batch: &Batch) -> Result<(), MatchError> {
+        if library.amounts == AmountKind::Absolute {
+            return Err(MatchError::AbsoluteBatch);
+        }
+        if self.conditions.is_empty() {
+            return Err(MatchError::NoLight);
+        }
+        let grams = |value: f64| value > 0.0 && value < 1e9;
+        let numbers = [
+            ("the mass of a batch is above 0 g", Some(batch.grams), "try [grams=500]"),
+            ("the least addition is above 0 g", self.least_grams, "try [least=0.1]"),
+            ("the greatest addition is above 0 g", self.most_grams, "try [most=100]"),
+            ("the tolerance is above 0", Some(self.tolerance), "try [tolerance=0.5]"),
+        ];
+        for (what, value, hint) in numbers {
+            if let Some(value) = value.filter(|value| !grams(*value)) {
+                return Err(MatchError::Number { what, value, hint });
+            }
+        }
+        if !(1..MAX_PIGMENTS).contains(&self.at_most) {
+            let (what, hint) = ("a correction adds 1 to 7 pigments", "try [at_most=3]");
+            return Err(MatchError::Number { what, value: self.at_most as f64, hint });
+        }
+        if self.count == 0 {
+            let what = "the number of corrections is 1 or more";
+            let hint = "leave [count] out for 5 corrections";
+            return Err(MatchError::Number { what, value: 0.0, hint });
+        }
+        let (least, most) = self.range(batch.grams);
+        if least > most {
+            let (what, hint) = ("the least addition exceeds the greatest", "lower [least]");
+            return Err(MatchError::Number { what, value: least, hint });
+        }
+        Ok(())
+    }
+
+    /// Least grams of one pigment and most grams in all.
+    fn range(&self, grams: f64) -> (f64, f64) {
+        (self.least_grams.unwrap_or(grams / 1000.0), self.most_grams.unwrap_or(grams))
+    }
+
+    fn additions<'a>(
+        &'a self,
+        known: &PigmentLibrary,
+        library: &'a PigmentLibrary,
+        grams: f64,
+    ) -> Result<Additions<'a>, MatchError> {
+        let find = |names: &[String]| -> Result<Vec<PigmentId>, MatchError> {
+            names.iter().map(|name| Ok(known.find(name)?)).collect()
+        };
+        let mut allowed = if self.only.is_empty() {
+            known.ids().filter(|id| known[*id].identified).collect()
+        } else {
+            find(&self.only)?
+        };
+        let without = find(&self.without)?;
+        let mut stock = vec![f64::INFINITY; known.pigments.len()];
+        for (name, limit) in &self.stock {
+            if !(*limit >= 0.0 && *limit < 1e9) {
+                let (what, hint) = ("a stock is 0 g or more", "try [stock=\"Cobalt Blue=20\"]");
+                return Err(MatchError::Number { what, value: *limit, hint });
+            }
+            stock[known.find(name)?.index()] = limit / grams;
+        }
+        let (least, most) = self.range(grams);
+        let (least, most) = (least / grams, most / grams);
+        allowed.retain(|id| !without.contains(id) && stock[id.index()] >= least);
+        allowed.sort_unstable();
+        allowed.dedup();
+        if allowed.is_empty() {
+            return Err(MatchError::NoPigments);
+        }
+        Ok(Additions {
+            library,
+            conditions: &self.conditions,
+            allowed,
+            at_most: self.at_most,
+            stock,
+            least,
+            most,
+            tolerance: self.tolerance,
+        })
+    }
+}
+
+fn correction(
+    forward: &Forward<'_>,
+    target: &Target,
+    additions: &Additions<'_>,
+    addition: Addition,
+    grams: f64,
+) -> Correction {
+    /// Relative distance from the stock below which all of it is used.
+    const AT_LIMIT: f64 = 1e-6;
+    let total = addition.total() * grams;
+    let Addition { mut amounts, mixture } = addition;
+    amounts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut scratch = Scratch::default();
+    let reflectance = forward.reflectance(&mixture.pigments, &mixture.shares, 1.0, &mut scratch);
+    let labs: Vec<Lab> = forward.weights.iter().map(|w| lab(w, &reflectance)).collect();
+    let is_all = |(pigment, amount): &&(PigmentId, f64)| {
+        *amount >= additions.stock[pigment.index()] * (1.0 - AT_LIMIT)
+    };
+    Correction {
+        out_of_stock: amounts.iter().filter(is_all).map(|(pigment, _)| *pigment).collect(),
+        additions: amounts.iter().map(|(pigment, amount)| (*pigment, amount * grams)).collect(),
+        grams: total,
+        delta_e: labs.iter().zip(&target.lab).map(|(f, w)| delta_e_ciede2000(*w, *f)).collect(),
+        distance: mixture.distance,
+        lab: labs,
+        reflectance,
+    }
+}
