@@ -5,6 +5,7 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use spectra::csv_table::{CsvTableError, RowNumbers};
+use spectra::file::is_standard_input;
 
 use super::csv::is_measurement_csv;
 use super::error::MeasurementError;
@@ -48,7 +49,7 @@ impl LargeCsv {
     /// # Errors
     /// The system's error if the file cannot be read.
     pub(crate) fn open(path: &Path) -> io::Result<Option<Self>> {
-        if std::fs::metadata(path)?.len() < LARGE {
+        if is_standard_input(path) || std::fs::metadata(path)?.len() < LARGE {
             return Ok(None);
         }
         Self::in_pieces_of(path, PIECE)
