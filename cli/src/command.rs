@@ -41,7 +41,7 @@ impl Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Task {
     #[command(flatten)]
-    Verb(Verb),
+    Verb(Box<Verb>),
     Completions(Completions),
     Man(Man),
 }

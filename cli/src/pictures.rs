@@ -158,10 +158,10 @@ impl Exports {
         let options = [
             ("--supersample", self.supersample != 1),
             ("--layers", self.layers.is_some()),
-            ("--output FILE.ora", self.has(Kind::Layers)),
+            ("--output", self.has(Kind::Layers)),
             ("--spectral", self.spectral.is_some()),
             ("--pigment-maps", self.pigment_maps.is_some()),
-            ("--output FILE.exr", self.has(Kind::Painting)),
+            ("--output", self.has(Kind::Painting)),
         ];
         options.into_iter().find(|(_, present)| *present).map(|(option, _)| option)
     }

@@ -83,7 +83,7 @@ fn a_script_goes_on_with_what_another_one_painted() {
     let run = paint(&second, &["--output", &place(folder, "no.exr"), "--library", &second]);
     assert_eq!(run.status, 2, "{}", run.err);
     assert!(
-        run.err.contains("has its own library") && run.err.contains("leave --library out"),
+        run.err.contains("has its own library") && run.err.contains("leave LIBRARY out"),
         "{}",
         run.err
     );

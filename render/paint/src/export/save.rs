@@ -17,6 +17,9 @@ use graphics::export::{ExportError, OutsideGamut, PictureFormat, picture_file};
 /// Start of the names of pigment maps.
 const STEM: &str = "painting";
 
+/// Function that takes path and content of a file.
+pub type PutFile<'a> = dyn FnMut(&Path, &[u8]) -> Result<(), FileError> + 'a;
+
 /// Files to make of a painting; `None` skips a file. Each is written whole or not at all.
 ///
 /// ```no_run
@@ -74,7 +77,7 @@ impl PaintingExports {
     pub fn write_with(
         &self,
         painting: &mut Painting,
-        put: &mut dyn FnMut(&Path, &[u8]) -> Result<(), FileError>,
+        put: &mut PutFile<'_>,
     ) -> Result<Option<OutsideGamut>, PaintingExportError> {
         let cell_mm = painting.cell_mm();
         let mut outside = None;

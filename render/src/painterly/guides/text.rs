@@ -189,7 +189,7 @@ mod tests {
             (swap("20.1", "91"), "g.toml, camera: found `[30.0, 91.0, 30.0]`"),
             (swap("[30, 20.1, 30]", "[nan, 20, 30]"), "g.toml, camera: found"),
             ("size_px = [8, 6]".to_owned(), "g.toml: there are no guides"),
-            (String::new(), "g.toml, line 1: missing field `size_px`"),
+            (String::new(), "g.toml, line 1: the key `size_px` is missing"),
         ];
         for (text, message) in cases {
             let error = Guides::from_toml("g.toml", &text).unwrap_err();
