@@ -1,6 +1,7 @@
 //! The built program told to end: it leaves no half-written file, and ends by the signal.
 
 #![cfg(unix)]
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;

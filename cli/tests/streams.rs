@@ -1,5 +1,7 @@
 //! The built program among others: streams, the default library, completions and manual pages.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
