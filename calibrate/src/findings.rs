@@ -41,9 +41,9 @@ pub(crate) fn warnings(
     }
     if per_sample.len() <= condition.unknowns {
         warnings.push(format!(
-            "{} samples for {} unknowns a wavelength: they are fitted exactly, so that errors and deviations tell nothing; add mixtures, and see `validate`",
-            per_sample.len(),
-            condition.unknowns
+            "{} for {} a wavelength: they are fitted exactly, so that errors and deviations tell nothing; add mixtures, and see `validate`",
+            spectra::counted(per_sample.len(), "sample"),
+            spectra::counted(condition.unknowns, "unknown")
         ));
     }
     warnings.extend(listed(READ_AS_BLACK, counted(observations, |o| o.below_surface)));

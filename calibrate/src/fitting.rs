@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use spectra::counted;
 use spectra::optics::{Specular, Surface, UnevenFilm};
 
 use crate::absolute::{CHOICE_FITS, calibrate_absolute_watched, chosen_film, films};
@@ -115,9 +116,9 @@ impl Fit {
     #[must_use]
     pub fn report(&self) -> ErrorReport<'_> {
         let title = format!(
-            "{} pigments from {} samples, {}",
-            self.library.pigments.len(),
-            self.evidence().per_sample.len(),
+            "{} from {}, {}",
+            counted(self.library.pigments.len(), "pigment"),
+            counted(self.evidence().per_sample.len(), "sample"),
             self.library.grid
         );
         ErrorReport::of_evidence(title, self.evidence())
@@ -338,8 +339,8 @@ fn remarks(films: &[Observation], condition: Option<&Condition>) -> Vec<Remark> 
     let spreads = || films.iter().filter_map(|o| Some((o.spread?, &o.sample)));
     if let Some((largest, sample)) = spreads().max_by(|a, b| a.0.total_cmp(&b.0)) {
         remarks.push(Remark::note(format!(
-            "repeated readings of {} samples averaged; they spread by {largest:.4} at most ({sample})",
-            spreads().count()
+            "repeated readings of {} averaged; they spread by {largest:.4} at most ({sample})",
+            counted(spreads().count(), "sample")
         )));
     }
     if let Some(c) = condition {

@@ -68,7 +68,11 @@ fn nothing_to_leave_out(needed: &[String]) -> String {
 impl Explain for FittingError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
-            Self::UnknownName { what, known, .. } => format!("{what}s: {}", known.join(", ")),
+            Self::UnknownName { what, name, known } => {
+                let question = spectra::did_you_mean(name, known.iter().map(String::as_str));
+                let question = question.map_or_else(String::new, |question| question + " ");
+                return Some(Hint::verbatim(format!("{question}{what}s: {}", known.join(", "))));
+            }
             Self::NoWhite { first } => format!("name it: [reference=\"{first}\"]"),
             Self::AllExcluded => "leave out some [exclude]".into(),
             Self::AbsoluteOptions => "leave out [reference] and [method]".into(),

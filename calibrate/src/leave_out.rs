@@ -46,7 +46,7 @@ impl FitValidation {
             None => "one by one".to_owned(),
         };
         let light = [self.viewing.illuminant.name(), self.viewing.observer.name()];
-        let title = format!("{count} mixtures, left out {manner}");
+        let title = format!("{}, left out {manner}", spectra::counted(count, "mixture"));
         ErrorReport::new(title, delta_e, *rms, light, per_sample).with_lines(self.findings())
     }
 

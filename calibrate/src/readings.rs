@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::path::Path;
 
+use spectra::counted;
 use spectra::file::FileError;
 use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, bytes_of, read};
 use spectra::referencing::{OpenedReferences, ReferenceFiles, ReferenceFilesError, TileSource};
@@ -285,7 +286,7 @@ fn csv_table(
     let (file, encoding) = content.map_or((file.to_owned(), "UTF-8"), |c| (c.file, c.encoding));
     let is_utf8 = encoding == "UTF-8";
     let encoding = if is_utf8 { String::new() } else { format!(" ({encoding})") };
-    let summary = format!("{file}{encoding}: {} readings", table.readings.len());
+    let summary = format!("{file}{encoding}: {}", counted(table.readings.len(), "reading"));
     let remarks = remarks(&summary, &table);
     Ok((table, remarks))
 }
@@ -310,7 +311,7 @@ fn large_csv(
     })?;
     let content = File::open(path).map_err(unreadable)?;
     let input = Input::of_reader(large.file(), content).map_err(unreadable)?;
-    let summary = format!("{}: {} readings", large.file(), table.readings.len());
+    let summary = format!("{}: {}", large.file(), counted(table.readings.len(), "reading"));
     let remarks = remarks(&summary, &table);
     Ok(Some((table, input, remarks)))
 }

@@ -54,7 +54,7 @@ impl Explain for ReadingsError {
             Self::References(error) => error.hint(),
             Self::Referencing { reason, .. } => reason.hint(),
             Self::CsvOfCounts { .. } => Some(Hint::new(
-                "give the spectrometer's own file, or two columns `nm counts`, or leave out [white]",
+                "give the spectrometer's own file, or two columns `nm counts`, or leave out [white_reading]",
             )),
         }
     }

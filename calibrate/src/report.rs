@@ -110,7 +110,7 @@ impl fmt::Display for ErrorReport<'_> {
         }
         match self.samples.len() - cells.len() {
             0 => Ok(()),
-            rest => write!(f, "\n  and {rest} samples with less"),
+            rest => write!(f, "\n  and {} with less", spectra::counted(rest, "sample")),
         }
     }
 }

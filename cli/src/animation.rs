@@ -140,22 +140,23 @@ impl Recording {
     /// frames existed already.
     pub(crate) fn paint(
         self,
-        console: &Console<'_>,
+        console: &mut Console<'_>,
         mut picture: impl FnMut(usize) -> Result<Frame>,
     ) -> Result<usize> {
         let Self { animation, mut sequence, frames, size } = self;
         let remaining = sequence.remaining().to_vec();
-        let bar = Progress::new(remaining.len(), "painting", console.screen.progress);
+        let bar = Progress::new(remaining.len(), "painting", console.shows_progress());
         for &index in &remaining {
             sequence.write_frame(index, &picture(index)?)?;
             bar.step();
         }
         bar.done();
+        console.wrote(&animation.frames)?;
         if let Some((output, format)) = animation.file {
             let encoded = format.encode::<Failure, _>((size, frames), (animation.rate, 1), || {
                 sequence.frames().map(|frame| frame.map_err(Failure::from))
             });
-            output.write(encoded?)?;
+            output.write(encoded?, console)?;
         }
         Ok(frames - remaining.len())
     }

@@ -1,8 +1,9 @@
 //! Output of a verb: results, remarks and patches of colour.
 
 use std::io::Write;
+use std::path::Path;
 
-use calibrate::remark::Remark;
+use calibrate::remark::{Remark, RemarkKind};
 use serde_json::Value;
 use spectra::color::Rgb;
 
@@ -15,6 +16,20 @@ pub struct Screen {
     pub colors: bool,
     /// Whether remarks go to a terminal, so that a progress bar can be shown.
     pub progress: bool,
+    /// Whether standard error is this program's own, so that what graphics drivers print there may
+    /// be caught. Not so where other threads print at the same time, as in tests.
+    pub owns_errors: bool,
+}
+
+/// How much a verb tells beside its results.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Voice {
+    /// Only warnings and errors.
+    Quiet,
+    #[default]
+    Usual,
+    /// Also what was chosen, and how long it took.
+    Verbose,
 }
 
 /// Writers and terminal settings through which a verb prints.
@@ -26,24 +41,64 @@ pub(crate) struct Console<'a> {
     pub(crate) screen: Screen,
     /// Command line, quoted for a shell.
     pub(crate) command: String,
+    pub(crate) voice: Voice,
+    /// Whether a file went to the writer of the results, which then takes nothing else.
+    pub(crate) streamed: bool,
 }
 
 impl Console<'_> {
+    /// Writer of results: of remarks once a file was streamed.
+    fn results(&mut self) -> &mut dyn Write {
+        if self.streamed { &mut *self.err } else { &mut *self.out }
+    }
+
     /// Prints one line of results.
     pub(crate) fn line(&mut self, text: impl AsRef<str>) -> Result<()> {
-        writeln!(self.out, "{}", text.as_ref())?;
+        if self.streamed && self.voice == Voice::Quiet {
+            return Ok(());
+        }
+        writeln!(self.results(), "{}", text.as_ref())?;
         Ok(())
     }
 
     /// Prints a result as JSON.
     pub(crate) fn json(&mut self, value: &Value) -> Result<()> {
-        write!(self.out, "{}", calibrate::library::to_text(value))?;
+        write!(self.results(), "{}", calibrate::library::to_text(value))?;
         Ok(())
+    }
+
+    /// Prints results as they are.
+    pub(crate) fn text(&mut self, text: &str) -> Result<()> {
+        self.results().write_all(text.as_bytes())?;
+        Ok(())
+    }
+
+    /// Sends the content of a file to the writer of the results.
+    pub(crate) fn stream(&mut self, content: &[u8]) -> Result<()> {
+        self.streamed = true;
+        self.out.write_all(content)?;
+        Ok(())
+    }
+
+    /// Tells that a file or a folder was written.
+    pub(crate) fn wrote(&mut self, path: &Path) -> Result<()> {
+        self.remark(format!("Wrote {}", path.display()))
     }
 
     /// Prints one line of remarks.
     pub(crate) fn remark(&mut self, text: impl AsRef<str>) -> Result<()> {
-        writeln!(self.err, "{}", text.as_ref())?;
+        self.told(Voice::Usual, text)
+    }
+
+    /// Prints one line of what is told on request.
+    pub(crate) fn detail(&mut self, text: impl AsRef<str>) -> Result<()> {
+        self.told(Voice::Verbose, text)
+    }
+
+    fn told(&mut self, least: Voice, text: impl AsRef<str>) -> Result<()> {
+        if self.voice >= least {
+            writeln!(self.err, "{}", text.as_ref())?;
+        }
         Ok(())
     }
 
@@ -57,7 +112,9 @@ impl Console<'_> {
             if let Some(hint) = &remark.hint {
                 line += &format!("; {}", with_options(hint));
             }
-            self.remark(line)?;
+            let least =
+                if remark.kind == RemarkKind::Warning { Voice::Quiet } else { Voice::Usual };
+            self.told(least, line)?;
         }
         Ok(())
     }
@@ -65,9 +122,14 @@ impl Console<'_> {
     /// Prints warnings, one per line.
     pub(crate) fn warnings(&mut self, warnings: &[String]) -> Result<()> {
         for warning in warnings {
-            self.remark(format!("warning: {warning}"))?;
+            self.told(Voice::Quiet, format!("warning: {warning}"))?;
         }
         Ok(())
+    }
+
+    /// Whether a progress bar is shown.
+    pub(crate) fn shows_progress(&self) -> bool {
+        self.screen.progress && self.voice != Voice::Quiet
     }
 
     /// Returns the escape codes of a colour patch six columns wide and a space, or an empty string

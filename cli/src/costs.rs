@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use calibrate::matching::{PriceList, parse_price};
+use spectra::file::is_there;
 
 use crate::failure::{Failure, Result};
 
@@ -10,7 +11,7 @@ use crate::failure::{Failure, Result};
 pub(crate) fn prices(texts: &[String]) -> Result<PriceList> {
     let mut prices = PriceList::default();
     for text in texts {
-        if Path::new(text).is_file() {
+        if is_there(Path::new(text)) {
             prices.add_file(text)?;
             continue;
         }

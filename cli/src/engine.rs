@@ -3,11 +3,12 @@
 use clap::{Args, ValueEnum};
 use render::compute::Compute;
 use render::field::Field;
-use render::gpu::{BackendChoice, DeviceError};
+use render::gpu::BackendChoice;
 use render::paint::engine::PaintEngine;
 use render::paint::painting::UNDO_BYTES;
 
 use crate::console::Console;
+use crate::driver_noise::without_noise;
 use crate::failure::Result;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -30,8 +31,8 @@ pub(crate) struct BackendOption {
 
 impl BackendOption {
     /// Opens the processor or the graphics device for computing images.
-    pub(crate) fn compute(&self) -> Result<Compute, DeviceError> {
-        Compute::choose(self.choice())
+    pub(crate) fn compute(&self, console: &mut Console<'_>) -> Result<Compute> {
+        Ok(without_noise(console, || Compute::choose(self.choice()))??)
     }
 
     fn choice(&self) -> BackendChoice {
@@ -61,7 +62,7 @@ impl EngineOptions {
         floor: &Field<i32>,
         console: &mut Console<'_>,
     ) -> Result<PaintEngine> {
-        let opened = PaintEngine::open(self.backend.choice(), floor)?;
+        let opened = without_noise(console, || PaintEngine::open(self.backend.choice(), floor))??;
         if let Some(error) = opened.device_error {
             console.warnings(&[format!("{error}; painting on the processor")])?;
         }

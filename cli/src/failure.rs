@@ -38,6 +38,11 @@ impl Failure {
         Self::with_hint(message, hint, USAGE)
     }
 
+    /// The failure as one of the command, whatever its cause: for the value of an option.
+    pub(crate) fn of_option(self) -> Self {
+        Self { status: USAGE, ..self }
+    }
+
     /// Puts `message` first; the messages so far become its causes.
     pub(crate) fn within(mut self, message: impl Into<String>) -> Self {
         self.messages.insert(0, message.into());
@@ -69,12 +74,12 @@ impl Failure {
         }
         for (index, message) in self.messages.iter().enumerate() {
             let _ = match index {
-                0 => writeln!(err, "error: {message}"),
-                _ => writeln!(err, "  because: {message}"),
+                0 => writeln!(err, "error: {}", short_numbers(message)),
+                _ => writeln!(err, "  because: {}", short_numbers(message)),
             };
         }
         if let Some(hint) = &self.hint {
-            let _ = writeln!(err, "hint: {}", with_options(hint));
+            let _ = writeln!(err, "hint: {}", short_numbers(&with_options(hint)));
         }
         self.status
     }
@@ -112,7 +117,52 @@ impl<T, E: Into<Failure>> Context<T> for std::result::Result<T, E> {
 /// Writes a hint with its settings as options: `[full_scale=255]` becomes `--full-scale 255`.
 pub(crate) fn with_options(hint: &Hint) -> String {
     hint.with_settings(|name, value| {
-        let option = format!("--{}", name.replace('_', "-"));
+        let option = match (name, value) {
+            // The library of a verb is one of its words.
+            ("pigments" | "library", None) => return "LIBRARY".to_owned(),
+            ("reference", _) => "--white".to_owned(),
+            _ => format!("--{}", name.replace('_', "-")),
+        };
         value.map_or_else(|| option.clone(), |value| format!("{option} {value}"))
     })
+}
+
+/// Digits in a row from which a number is written with an exponent.
+const LONG: usize = 20;
+
+/// A message whose very long numbers have an exponent: 1e300 written out has 301 digits.
+fn short_numbers(message: &str) -> String {
+    let is_part = |c: char| c.is_ascii_digit() || c == '.';
+    let mut told = String::new();
+    let mut rest = message;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (before, from) = rest.split_at(start);
+        let end = from.find(|c| !is_part(c)).unwrap_or(from.len());
+        let number = from[..end].trim_end_matches('.');
+        told += before;
+        // Names may hold digits too, such as those of a hash.
+        let is_number = !before.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        let is_number = is_number && !from[number.len()..].starts_with(char::is_alphabetic);
+        match number.parse::<f64>() {
+            Ok(value) if is_number && number.len() >= LONG => told += &format!("{value:e}"),
+            _ => told += number,
+        }
+        rest = &from[number.len()..];
+    }
+    told + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_numbers_have_an_exponent() {
+        let huge = format!("takes 0 to 10, found `{}`", 1e300);
+        assert_eq!(short_numbers(&huge), "takes 0 to 10, found `1e300`");
+        assert_eq!(short_numbers(&format!("found -{}.", 2.5e-40)), "found -2.5e-40.");
+        for kept in ["400.5 nm, row 3.", "sha 12345678901234567890abc", "a1234567890123456789012"] {
+            assert_eq!(short_numbers(kept), kept);
+        }
+    }
 }

@@ -10,7 +10,7 @@ use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
 use spectra::{Grid, Observer, TristimulusWeights, light_from_text};
 
 use crate::console::Console;
-use crate::failure::Result;
+use crate::failure::{Failure, Result};
 
 /// Options for the light and the observer.
 #[derive(Debug, Clone, Args)]
@@ -64,7 +64,11 @@ pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
     Ok(PigmentLibrary::open(path)?)
 }
 
-/// The pigment library of Van Gogh's oils that ships with the program.
-pub(crate) fn built_in_library() -> PigmentLibrary {
-    PigmentLibrary::van_gogh_oils()
+/// Reads a file of text, or standard input.
+pub(crate) fn text(path: &Path) -> Result<String> {
+    let name = path.display();
+    String::from_utf8(spectra::file::read(path)?).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Failure::data(format!("{name}, byte {at}: text must be UTF-8"), "save the file in UTF-8")
+    })
 }

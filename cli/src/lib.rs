@@ -1,8 +1,8 @@
 //! The command line `impasto VERB ...`, callable in process.
 //!
 //! Each verb has a file of its own: its options, one or two calls of a library, and printing.
-//! Exit status: 0 success, 1 the data are faulty or a check failed, 2 the command could not run
-//! (a wrong option, an unreadable file, a missing device).
+//! Exit status: 0 done, 1 the data are faulty or a check failed, 2 the command could not run
+//! (a wrong option, an unreadable file, a missing device), 128 + n ended by signal n.
 
 mod command_line;
 
@@ -10,7 +10,15 @@ mod failure;
 
 mod console;
 
+mod csv_rows;
+
+mod driver_noise;
+
+mod signals;
+
 mod input;
+
+mod library_choice;
 
 mod referencing;
 
@@ -54,21 +62,20 @@ mod timelapse;
 
 mod verbs;
 
+mod examples;
+
+mod command;
+
 use std::ffi::OsString;
 use std::io::Write;
+use std::time::Instant;
 
-use clap::Parser;
+use clap::FromArgMatches;
 
+use command::{Arguments, Task};
 use console::Console;
 pub use console::Screen;
-
-/// Measure real paint, calibrate it, and paint with it.
-#[derive(Debug, Parser)]
-#[command(name = "impasto", version, propagate_version = true, max_term_width = 100)]
-struct Arguments {
-    #[command(subcommand)]
-    verb: verbs::Verb,
-}
+pub use signals::end_cleanly_on_signals;
 
 /// Runs the program with `arguments`, the first of which is the program's name, and returns its
 /// exit status. Results are written to `out`; remarks, warnings and errors to `err`.
@@ -82,7 +89,10 @@ pub fn run(
     let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
     let words: Vec<_> = std::iter::once("impasto".into()).chain(words).collect();
     let command = command_line::command_line(words.iter().map(AsRef::as_ref));
-    let parsed = match Arguments::try_parse_from(arguments) {
+    let parsed = command::command()
+        .try_get_matches_from(arguments)
+        .and_then(|matches| Arguments::from_arg_matches(&matches));
+    let parsed = match parsed {
         Ok(parsed) => parsed,
         Err(error) => {
             // Requested help is a result, help after an error is not.
@@ -92,8 +102,15 @@ pub fn run(
             return if requested { 0 } else { 2 };
         }
     };
-    let mut console = Console { out, err, screen, command };
-    match parsed.verb.run(&mut console) {
+    let (start, voice) = (Instant::now(), parsed.voice());
+    let mut console = Console { out, err, screen, command, voice, streamed: false };
+    let done = match parsed.task {
+        Task::Verb(verb) => verb.run(&mut console),
+        Task::Completions(completions) => completions.run(&mut console),
+        Task::Man(man) => man.run(&mut console),
+    };
+    let took = format!("took {:.2} s", start.elapsed().as_secs_f64());
+    match done.and_then(|()| console.detail(took)) {
         Ok(()) => 0,
         Err(failure) => failure.report(console.err),
     }

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use spectra::file::{FileAction, FileError, check_writable, write_whole};
+use spectra::file::{FileAction, FileError, STANDARD_INPUT, check_writable, write_whole};
 
+use crate::console::Console;
 use crate::failure::{Context, Failure, Result};
 
 /// Creates `folder` and its missing parents.
@@ -33,8 +34,16 @@ impl OutputFolder {
             let reason = format!("{words}: {} is a file", there.display());
             return Err(Failure::usage(reason, "name another folder"));
         }
-        check_writable(&there.join(".impasto")).context(|| words)?;
+        // The file that the check names is not one of the user's.
+        if let Err(error) = check_writable(&there.join(".impasto")) {
+            return Err(Failure::from(std::io::Error::from(error.reason.kind())).within(words));
+        }
         Ok(Self { folder: folder.to_owned(), inputs: inputs.to_vec() })
+    }
+
+    /// Tells that it was written.
+    pub(crate) fn told(&self, console: &mut Console<'_>) -> Result<()> {
+        console.wrote(&self.folder)
     }
 
     /// Path of a file in it.
@@ -76,8 +85,12 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Checks that `path` can be written and is not one of `inputs`.
+    /// Checks that `path` can be written and is not one of `inputs`. The path `-` is the output of the
+    /// results.
     pub(crate) fn open(path: &Path, inputs: &[PathBuf]) -> Result<Self> {
+        if is_stream(path) {
+            return Ok(Self { path: path.to_owned(), target: path.to_owned() });
+        }
         let target = path.canonicalize().or_else(|_| std::path::absolute(path));
         let target = target.map_err(|reason| FileError {
             path: path.to_owned(),
@@ -87,7 +100,7 @@ impl Output {
         if target.exists() && !target.is_file() {
             return Err(Failure::usage(
                 format!("{}: expected a regular file", path.display()),
-                "leave out --output and redirect the output of --json",
+                "name a file, or - to write to the output",
             ));
         }
         let is_target = |input: &PathBuf| {
@@ -109,6 +122,9 @@ impl Output {
 
     /// Checks that `path` has one of `endings` and can be written, like [`Output::open`].
     pub(crate) fn with_ending(path: &Path, endings: &[&str], inputs: &[PathBuf]) -> Result<Self> {
+        if is_stream(path) {
+            return Self::open(path, inputs);
+        }
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         if !endings.iter().any(|ending| extension.as_deref() == Some(ending)) {
             return Err(Failure::usage(
@@ -141,8 +157,22 @@ impl Output {
         self.target == other.target
     }
 
-    /// Replaces the file by `content`, or creates it.
-    pub(crate) fn write(self, content: impl AsRef<[u8]>) -> Result<()> {
+    /// Replaces the file by `content`, or creates it, and tells so.
+    pub(crate) fn write(self, content: impl AsRef<[u8]>, console: &mut Console<'_>) -> Result<()> {
+        if is_stream(&self.path) {
+            return console.stream(content.as_ref());
+        }
+        self.put(content)?;
+        console.wrote(&self.path)
+    }
+
+    /// Replaces the file by `content`, or creates it. For files of a folder, which is told as one.
+    pub(crate) fn put(&self, content: impl AsRef<[u8]>) -> Result<()> {
         Ok(write_whole(&self.path, content.as_ref())?)
     }
+}
+
+/// Whether `path` is the output of the results: `-`.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    path == Path::new(STANDARD_INPUT)
 }

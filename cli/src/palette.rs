@@ -59,11 +59,10 @@ pub(crate) fn name_in_recipe(part: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::built_in_library;
 
     #[test]
     fn names_with_commas_are_whole() {
-        let mut library = built_in_library();
+        let mut library = PigmentLibrary::van_gogh_oils();
         library.pigments[0].name = "Red, dark".to_owned();
         library.pigments[1].name = "Red".to_owned();
         library.pigments[2].name = "Eosin Lake (lead, wax)".to_owned();

@@ -7,11 +7,12 @@ use render::export::{self, OutsideGamut, PaintingExports, PictureFormat, Spectra
 use render::field::Field;
 use render::paint::painting::Painting;
 use render::paint::scene::PixelsPerCell;
+use spectra::file::write_whole;
 use spectra::hint::Explain;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::output::{Output, OutputFolder};
+use crate::output::{Output, OutputFolder, is_stream};
 
 /// Bits of a channel of a PNG.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -34,6 +35,10 @@ enum Bands {
 /// Options for the files that a painting is exported to.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct Exports {
+    /// Write a picture (.png, .tif), the layers (.ora), or the painting itself with all its layers, so
+    /// that it can be changed later (.exr); may be repeated. With - a PNG goes to the output
+    #[arg(short, long, value_name = "FILE", help_heading = "Exports")]
+    output: Vec<PathBuf>,
     /// Write the picture: .png (sRGB), .tif (sRGB, 16 bits) or .exr (linear sRGB, as computed)
     #[arg(long, value_name = "FILE", help_heading = "Exports")]
     picture: Option<PathBuf>,
@@ -47,7 +52,6 @@ pub(crate) struct Exports {
         value_name = "N",
         default_value_t = 1,
         value_parser = value_parser!(u8).range(1..=i64::from(PixelsPerCell::MOST)),
-        requires = "picture",
         help_heading = "Exports"
     )]
     supersample: u8,
@@ -66,9 +70,30 @@ pub(crate) struct Exports {
     /// amounts in CSV), summed over all layers
     #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
     pigment_maps: Option<PathBuf>,
-    /// Write the painting itself with all its layers, so that it can be changed later (.exr)
-    #[arg(long, value_name = "FILE", help_heading = "Exports")]
-    output: Option<PathBuf>,
+}
+
+/// Kind of a file that `--output` names, by its ending.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Picture,
+    Layers,
+    Painting,
+}
+
+impl Kind {
+    /// The kind of a file; `None` for other endings. Without a name it is a picture.
+    fn of(path: &Path) -> Option<Self> {
+        if is_stream(path) {
+            return Some(Self::Picture);
+        }
+        let ending = path.extension()?.to_string_lossy().to_lowercase();
+        match ending.as_str() {
+            "png" | "tif" | "tiff" => Some(Self::Picture),
+            "ora" => Some(Self::Layers),
+            "exr" => Some(Self::Painting),
+            _ => None,
+        }
+    }
 }
 
 /// Export files that were checked to be writable.
@@ -88,7 +113,44 @@ impl Exports {
             || self.layers.is_some()
             || self.spectral.is_some()
             || self.pigment_maps.is_some()
-            || self.output.is_some()
+            || !self.output.is_empty()
+    }
+
+    /// Whether `--output` names a file of this kind.
+    fn has(&self, kind: Kind) -> bool {
+        self.output.iter().any(|path| Kind::of(path) == Some(kind))
+    }
+
+    /// The one file of a kind: that of its own option, or of `--output`.
+    fn one(&self, kind: Kind, own: Option<&PathBuf>) -> Result<Option<PathBuf>> {
+        let named = self.output.iter().filter(|path| Kind::of(path) == Some(kind));
+        let all: Vec<&PathBuf> = own.into_iter().chain(named).collect();
+        match all[..] {
+            [] => Ok(None),
+            [one] => Ok(Some(one.clone())),
+            [first, second, ..] => Err(Failure::usage(
+                format!("{} and {} are of one kind", first.display(), second.display()),
+                "write one of them, and the other in a second run",
+            )),
+        }
+    }
+
+    /// Refuses a file of `--output` whose ending names no kind.
+    fn check_endings(&self) -> Result<()> {
+        let Some(path) = self.output.iter().find(|path| Kind::of(path).is_none()) else {
+            return Ok(());
+        };
+        Err(Failure::usage(
+            format!(
+                "{}: expected a file name that ends in .png, .tif, .ora or .exr",
+                path.display()
+            ),
+            format!(
+                "try {} for a picture, or {} for the painting",
+                path.with_extension("png").display(),
+                path.with_extension("exr").display()
+            ),
+        ))
     }
 
     /// First option present that needs layers of pigments, not only a picture.
@@ -96,9 +158,10 @@ impl Exports {
         let options = [
             ("--supersample", self.supersample != 1),
             ("--layers", self.layers.is_some()),
+            ("--output", self.has(Kind::Layers)),
             ("--spectral", self.spectral.is_some()),
             ("--pigment-maps", self.pigment_maps.is_some()),
-            ("--output", self.output.is_some()),
+            ("--output", self.has(Kind::Painting)),
         ];
         options.into_iter().find(|(_, present)| *present).map(|(option, _)| option)
     }
@@ -108,10 +171,15 @@ impl Exports {
         let open = |path: &Option<PathBuf>, endings: &[&str]| {
             path.as_ref().map(|path| Output::with_ending(path, endings, inputs)).transpose()
         };
-        let picture = open(&self.picture, &["png", "tif", "tiff", "exr"])?;
-        let layers = open(&self.layers, &["ora"])?;
+        self.check_endings()?;
+        let named = self.one(Kind::Picture, self.picture.as_ref())?;
+        if named.is_none() && self.supersample != 1 {
+            return Err(Failure::usage("--supersample is of a picture", "add --output FILE.png"));
+        }
+        let picture = open(&named, &["png", "tif", "tiff", "exr"])?;
+        let layers = open(&self.one(Kind::Layers, self.layers.as_ref())?, &["ora"])?;
         let spectral = open(&self.spectral, &["exr"])?;
-        let painting = open(&self.output, &["exr"])?;
+        let painting = open(&self.one(Kind::Painting, None)?, &["exr"])?;
         let all = [&picture, &layers, &spectral, &painting];
         let all: Vec<&Output> = all.into_iter().flatten().collect();
         for (index, output) in all.iter().enumerate() {
@@ -154,7 +222,7 @@ impl OpenExports {
         let format = self.options.bits.format(output.path());
         let file = export::picture_file(picture, cell_mm, format)?;
         remark_gamut(output.path(), file.outside_gamut(), console)?;
-        output.write(file.bytes)
+        output.write(file.bytes, console)
     }
 
     /// Computes all exports of `painting` and writes their files.
@@ -176,7 +244,21 @@ impl OpenExports {
             pigment_maps,
             painting: self.painting.as_ref().map(path),
         };
-        let outside = exports.write(painting)?;
+        let (mut streamed, mut wrote) = (Vec::new(), Vec::new());
+        let outside = exports.write_with(painting, &mut |path, bytes| {
+            if is_stream(path) {
+                streamed.push(bytes.to_vec());
+                return Ok(());
+            }
+            wrote.push(path.to_owned());
+            write_whole(path, bytes)
+        })?;
+        streamed.iter().try_for_each(|bytes| console.stream(bytes))?;
+        if let Some(folder) = &exports.pigment_maps {
+            wrote.retain(|path| path.parent() != Some(folder));
+            wrote.push(folder.clone());
+        }
+        wrote.iter().try_for_each(|path| console.wrote(path))?;
         let picture = exports.picture.as_ref().map(|(path, _)| path);
         match picture.or(exports.layers.as_ref()) {
             Some(path) => remark_gamut(path, outside, console),

@@ -52,8 +52,14 @@ impl ReadingOptions {
         self.referencing.files()
     }
 
-    fn options(&self) -> calibrate::ReadingOptions {
-        calibrate::ReadingOptions {
+    /// The options with a white reading, for verbs that also take it by another option.
+    pub(crate) fn with_white_reading(&self, white: Option<String>) -> Self {
+        Self { referencing: self.referencing.with_white_reading(white), ..self.clone() }
+    }
+
+    fn options(&self) -> Result<calibrate::ReadingOptions> {
+        self.referencing.check()?;
+        Ok(calibrate::ReadingOptions {
             format: self.format.as_deref().and_then(calibrate::ReadingFormat::named),
             scale: match (self.percent, self.fraction) {
                 (true, _) => ScaleChoice::Known(Scale::Percent),
@@ -63,7 +69,7 @@ impl ReadingOptions {
             pigments: None,
             transmittance_is_reflectance: self.as_reflectance,
             references: self.referencing.reference_files(),
-        }
+        })
     }
 }
 
@@ -76,8 +82,9 @@ pub(crate) fn measurements(
     options: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> Result<Readings> {
+    remark_repeated(paths, console)?;
     let named = (!pigments.is_empty()).then(|| pigments.to_vec());
-    let options = calibrate::ReadingOptions { pigments: named, ..options.options() };
+    let options = calibrate::ReadingOptions { pigments: named, ..options.options()? };
     let mut readings = Readings::open_all(paths, &options)?;
     if let Some(recipes) = recipes {
         readings = readings.with_recipes_of(recipes, options.pigments.as_deref())?;
@@ -93,7 +100,20 @@ pub(crate) fn spectra(
     options: &ReadingOptions,
     console: &mut Console<'_>,
 ) -> Result<MeasurementTable> {
-    let readings = Readings::open_spectra(paths, &options.options())?;
+    remark_repeated(paths, console)?;
+    let readings = Readings::open_spectra(paths, &options.options()?)?;
     console.remarks(&readings.remarks)?;
     Ok(readings.table)
+}
+
+/// Warns of files that are named twice, whose readings count twice.
+pub(crate) fn remark_repeated(paths: &[PathBuf], console: &mut Console<'_>) -> Result<()> {
+    let whole = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
+    let all: Vec<PathBuf> = paths.iter().map(whole).collect();
+    for (index, path) in paths.iter().enumerate() {
+        if all[..index].contains(&all[index]) {
+            console.warnings(&[format!("{}: this file is named twice", path.display())])?;
+        }
+    }
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use calibrate::measurement::AveragedSpectra;
+use spectra::file::is_there;
 use spectra::instrument::split_file_and_name;
 
 use crate::console::Console;
@@ -25,7 +26,7 @@ pub(crate) fn select_spectra(
     console: &mut Console<'_>,
 ) -> Result<Option<SelectedSpectra>> {
     let (file, name) = split_file_and_name(text);
-    if !Path::new(file).is_file() {
+    if !is_there(Path::new(file)) {
         return Ok(None);
     }
     let mut averaged = spectra(&[PathBuf::from(file)], reading, console)?.averaged();

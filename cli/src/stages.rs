@@ -6,6 +6,7 @@ use render::encoding::over_white;
 use render::export::{frame_of, frame_png};
 use render::field::Field;
 
+use crate::console::Console;
 use crate::failure::Result;
 use crate::output::{Output, OutputFolder};
 
@@ -29,13 +30,18 @@ impl StageFolder {
         self.0.outputs((1..).zip(names).map(|(number, name)| file_name(number, name)))
     }
 
+    /// Tells that the folder was written.
+    pub(crate) fn told(&self, console: &mut Console<'_>) -> Result<()> {
+        self.0.told(console)
+    }
+
     /// Writes the stages.
-    pub(crate) fn write(&self, stages: &[NamedStage]) -> Result<()> {
+    pub(crate) fn write(&self, stages: &[NamedStage], console: &mut Console<'_>) -> Result<()> {
         let outputs = self.outputs(stages.iter().map(|(name, _)| name.as_str()))?;
         for (output, (_, picture)) in outputs.into_iter().zip(stages) {
-            output.write(frame_png(&frame_of(&over_white(picture)))?)?;
+            output.put(frame_png(&frame_of(&over_white(picture)))?)?;
         }
-        Ok(())
+        self.told(console)
     }
 }
 

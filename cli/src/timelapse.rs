@@ -127,9 +127,9 @@ impl OpenTimelapse {
         &self,
         timelapse: &Timelapse<'_>,
         session: &mut PaintingSession,
-        console: &Console<'_>,
+        console: &mut Console<'_>,
     ) -> Result<TimelapseReport> {
-        let bar = Progress::new(STEPS, "timelapse", console.screen.progress);
+        let bar = Progress::new(STEPS, "timelapse", console.shows_progress());
         let mut shown = 0;
         let found = timelapse.write(session, &self.files, |done| {
             while shown < (done * STEPS as f64) as usize {
@@ -139,7 +139,12 @@ impl OpenTimelapse {
             ControlFlow::Continue(())
         });
         bar.done();
+        let found = found?.unwrap_or(0);
+        console.wrote(&self.files.frames)?;
+        if let Some((path, _)) = &self.files.animation {
+            console.wrote(path)?;
+        }
         let (frames, size) = (timelapse.frames(), timelapse.size(session));
-        Ok(TimelapseReport { frames, found: found?.unwrap_or(0), size })
+        Ok(TimelapseReport { frames, found, size })
     }
 }

@@ -39,6 +39,12 @@ pub mod hint;
 
 mod name_list;
 
+mod counted;
+
+mod similar;
+
+mod parser_reason;
+
 pub mod file;
 
 mod wavelength;
@@ -87,6 +93,7 @@ pub mod optics;
 
 pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};
 pub use color_temperature::ColorTemperature;
+pub use counted::{counted, counted_as};
 pub use daylight::{daylight, daylight_chromaticity};
 pub use grid::{Grid, GridError};
 pub use illuminant::{Illuminant, IlluminantError};
@@ -98,6 +105,8 @@ pub use lamp::{LampError, lamp_from_bytes};
 pub use light::{LightError, light_from_text};
 pub use name_list::name_list;
 pub use observer::{Observer, ObserverError};
+pub use parser_reason::{ParserReason, plain_parser_message};
+pub use similar::{did_you_mean, similar_names};
 pub use spectrum::{
     Absorption, Power, Quantity, Reflectance, Response, Scattering, Spectrum, SpectrumError,
 };

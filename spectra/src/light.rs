@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::black_body::black_body;
 use crate::daylight::daylight;
-use crate::file::FileError;
+use crate::file::{self, FileError};
 use crate::hint::{Explain, Fault, Hint};
 use crate::illuminant::{Illuminant, IlluminantError};
 use crate::instrument::{bytes_of, split_file_and_name, split_file_and_sheet};
@@ -39,7 +39,7 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
         }
     }
     let (file, spectrum) = split_file_and_name(text);
-    if !Path::new(split_file_and_sheet(file).0).is_file() {
+    if !file::is_there(Path::new(split_file_and_sheet(file).0)) {
         return Err(LightError::Unknown { text: text.to_owned() });
     }
     Ok(lamp_from_bytes(file, &bytes_of(file)?, spectrum)?)
@@ -65,11 +65,56 @@ pub enum LightError {
     Illuminant(#[from] IlluminantError),
 }
 
+/// Names of lights that trade and older tables use, with those of the CIE or temperatures: TL84, TL83
+/// and CWF are lamps of viewing booths.
+const OTHER_NAMES: [(&str, &str); 14] = [
+    ("TL84", "FL11"),
+    ("TL83", "FL12"),
+    ("TL85", "FL10"),
+    ("U30", "FL12"),
+    ("U35", "FL11"),
+    ("CWF", "FL2"),
+    ("WWF", "FL3"),
+    ("INCA", "A"),
+    ("INC", "A"),
+    ("TUNGSTEN", "A"),
+    ("DAYLIGHT", "D65"),
+    ("HORIZON", "2300K"),
+    ("LED", "LED-B3"),
+    ("CIE A", "A"),
+];
+
+/// A question after the light that `text` may mean, with a space behind it, or nothing.
+fn did_you_mean(text: &str) -> String {
+    let letters = text.trim().to_uppercase();
+    if let Ok(kelvin) = text.trim().parse::<f64>()
+        && (500.0..=25_000.0).contains(&kelvin)
+    {
+        let daylight = if kelvin >= 4000.0 { format!(" or D{kelvin}K") } else { String::new() };
+        let d65 = if kelvin == 6500.0 { " or D65" } else { "" };
+        return format!("did you mean {kelvin}K{daylight}{d65}? ");
+    }
+    let known = OTHER_NAMES.iter().find(|(other, _)| *other == letters);
+    // A path is no name.
+    let is_name = !text.contains(['/', '\\', '.', '#']);
+    // F1 to F12 are FL1 to FL12 since CIE 15:2018.
+    let fluorescent = letters.strip_prefix('F').map(|number| format!("FL{number}"));
+    let fluorescent = fluorescent.filter(|name| Illuminant::names().any(|known| known == name));
+    let question = match known {
+        _ if fluorescent.is_some() => fluorescent.map(|name| format!("did you mean {name}?")),
+        Some((_, name)) => Some(format!("did you mean {name}?")),
+        None if is_name => crate::did_you_mean(text, Illuminant::names()),
+        None => None,
+    };
+    question.map_or_else(String::new, |question| question + " ")
+}
+
 impl Explain for LightError {
     fn hint(&self) -> Option<Hint> {
         match self {
-            Self::Unknown { .. } => Some(Hint::new(
-                "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)",
+            Self::Unknown { text } => Some(Hint::verbatim(
+                did_you_mean(text)
+                    + "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)",
             )),
             Self::Illuminant(error) => error.hint(),
             Self::Lamp(error) => error.hint(),
@@ -82,6 +127,29 @@ impl Explain for LightError {
             Self::File(error) => error.fault(),
             Self::Lamp(error) => error.fault(),
             Self::Unknown { .. } | Self::Illuminant(_) => Fault::Setting,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_trade_and_bare_temperatures_are_understood() {
+        let question = |text: &str| light_from_text(text).unwrap_err().hint().unwrap().to_string();
+        for (text, wanted) in [
+            ("F11", "did you mean FL11? use"),
+            ("TL84", "did you mean FL11? use"),
+            ("cwf", "did you mean FL2? use"),
+            ("6500", "did you mean 6500K or D6500K or D65? use"),
+            ("3000", "did you mean 3000K? use"),
+            ("no/such/lamp.csv", "use a name"),
+        ] {
+            assert!(question(text).starts_with(wanted), "{text}: {}", question(text));
+        }
+        for (_, name) in OTHER_NAMES {
+            assert!(light_from_text(name).is_ok(), "{name}");
         }
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod adapter;
 pub mod golden;
+pub mod guides;
 pub mod near;
 pub mod program;
 

@@ -1,7 +1,7 @@
 //! Means of repeated readings, found by name.
 
 use spectra::hint::{Explain, Hint};
-use spectra::{Grid, name_list};
+use spectra::{Grid, did_you_mean, name_list};
 
 use super::table::{Film, MeasurementTable, Reading};
 
@@ -107,7 +107,7 @@ pub enum SpectrumNameError {
     /// No spectrum and no sample has this name.
     #[error("no spectrum is called `{name}`")]
     Unknown {
-        /// The name.
+        /// The name that no spectrum has.
         name: String,
         /// Names of all samples.
         samples: Vec<String>,
@@ -125,8 +125,10 @@ pub enum SpectrumNameError {
 impl Explain for SpectrumNameError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::verbatim(match self {
-            Self::Unknown { samples, .. } => {
-                format!("samples: {}", name_list(samples, LISTED, ", "))
+            Self::Unknown { name, samples } => {
+                let question = did_you_mean(name, samples.iter().map(String::as_str));
+                let question = question.map_or_else(String::new, |question| question + " ");
+                format!("{question}samples: {}", name_list(samples, LISTED, ", "))
             }
             Self::Several { spectra, .. } => format!("select one of them: {}", spectra.join(", ")),
         }))

@@ -51,7 +51,7 @@ impl Explain for MeasurementError {
                 "set [percent] or [fraction] if the unit was recognised wrongly; a dark reading below 0 means that the instrument's zero is off".into()
             }
             Self::Noise { .. } => {
-                "the file may hold a detector's counts ([white=FILE] [dark=FILE]), or another unit ([percent], [fraction])".into()
+                "the file may hold a detector's counts ([white_reading=FILE] [dark_reading=FILE]), or another unit ([percent], [fraction])".into()
             }
             Self::BelowSurface { least, k2, .. } => format!(
                 "give a k1 below every reading, such as [saunderson={:.3},{k2}], or read such samples as black: [below_surface=floor]",
@@ -84,7 +84,7 @@ impl Explain for MeasurementError {
             }
             Self::NoReflectance { quantity, .. } => match quantity {
                 MeasuredQuantity::Counts => {
-                    "counts need a white and a dark reading: [white=FILE] [dark=FILE]"
+                    "counts need a white and a dark reading: [white_reading=FILE] [dark_reading=FILE]"
                 }
                 MeasuredQuantity::Power => "the light of a lamp is read by [illuminant=FILE]",
                 MeasuredQuantity::Transmittance => {

@@ -5,6 +5,7 @@ use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use spectra::csv_table::{CsvTableError, RowNumbers};
+use spectra::file::is_standard_input;
 
 use super::csv::is_measurement_csv;
 use super::error::MeasurementError;
@@ -49,7 +50,8 @@ impl LargeCsv {
     /// The system's error if the file cannot be read.
     pub(crate) fn open(path: &Path) -> io::Result<Option<Self>> {
         // Whoever reads the file next reports that it is missing.
-        if std::fs::metadata(path).map_or(0, |found| found.len()) < LARGE {
+        let length = || std::fs::metadata(path).map_or(0, |found| found.len());
+        if is_standard_input(path) || length() < LARGE {
             return Ok(None);
         }
         Self::in_pieces_of(path, PIECE)

@@ -1,6 +1,6 @@
 //! Options that `fit` and `validate` share: measurement files and settings of the fit.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{FitStage, Method, Smoothness, Watch};
@@ -8,6 +8,7 @@ use calibrate::library::AmountKind;
 use calibrate::observation::BelowSurface;
 use calibrate::{Fit, FitOptions, PreparedFit, Readings};
 use clap::{Args, ValueEnum};
+use spectra::instrument::split_file_and_name;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -67,8 +68,9 @@ pub(super) struct CalibrationOptions {
     #[arg(long, value_enum, default_value = "relative")]
     amounts: Amounts,
     /// The white whose S is 1 [default: the pigment called white that occurs in most samples]
-    #[arg(long, value_name = "PIGMENT")]
-    reference: Option<String>,
+    // It was the option of a white reading once: a file is still taken for one.
+    #[arg(long, alias = "reference", value_name = "PIGMENT")]
+    white: Vec<String>,
     #[command(flatten)]
     surface: SurfaceOptions,
     /// Treatment of a reading below k1 [default: refuse]; without --saunderson, k1 stays 0.03
@@ -91,12 +93,36 @@ pub(super) struct CalibrationOptions {
 impl CalibrationOptions {
     /// Paths of all files that are read.
     pub(super) fn files(&self) -> Vec<PathBuf> {
-        self.files.iter().chain(&self.recipes).cloned().chain(self.reading.files()).collect()
+        let reading = self.reading.with_white_reading(self.old_white_reading());
+        self.files.iter().chain(&self.recipes).cloned().chain(reading.files()).collect()
+    }
+
+    /// The file of a white reading by the option that named it before.
+    fn old_white_reading(&self) -> Option<String> {
+        self.white.iter().find(|text| is_reading(text)).cloned()
+    }
+
+    /// The pigment whose S is 1, if one is named.
+    fn reference(&self) -> Result<Option<String>> {
+        let mut named = self.white.iter().filter(|text| !is_reading(text));
+        match (named.next(), named.next()) {
+            (Some(first), Some(second)) => Err(Failure::usage(
+                format!("--white takes one pigment, found `{first}` and `{second}`"),
+                "leave one of them out",
+            )),
+            (first, _) => Ok(first.cloned()),
+        }
     }
 
     /// Reads the measurement files and prints remarks on them.
     pub(super) fn readings(&self, console: &mut Console<'_>) -> Result<Readings> {
-        measurements(&self.files, self.recipes.as_deref(), &self.pigments, &self.reading, console)
+        let white = self.old_white_reading();
+        if let Some(file) = &white {
+            console
+                .remark(format!("{file} is read as --white-reading; --white names a pigment"))?;
+        }
+        let reading = self.reading.with_white_reading(white);
+        measurements(&self.files, self.recipes.as_deref(), &self.pigments, &reading, console)
     }
 
     /// Options of the fit; colour errors are computed under `viewing`.
@@ -111,7 +137,7 @@ impl CalibrationOptions {
                 MethodName::Weighted => Method::Weighted,
                 MethodName::Refined => Method::Refined,
             },
-            reference: self.reference.clone(),
+            reference: self.reference()?,
             surface: self.surface.surface()?,
             specular: self.surface.specular(),
             below_surface: self.below_surface.map(|below| match below {
@@ -153,7 +179,7 @@ pub(super) fn prepare_fit(
         && options.unevenness.is_none();
     let steps = if chooses_model { PreparedFit::MODEL_FITS } else { 0 };
     let progress =
-        Progress::new(steps, "choosing the film model", console.screen.progress && chooses_model);
+        Progress::new(steps, "choosing the film model", console.shows_progress() && chooses_model);
     let prepared = PreparedFit::new(readings, options, &|| progress.step())?;
     progress.done();
     console.remarks(&prepared.remarks)?;
@@ -162,7 +188,7 @@ pub(super) fn prepare_fit(
 
 /// Fits all samples, and shows the stages of the fit.
 pub(super) fn watched_fit(prepared: &PreparedFit, console: &Console<'_>) -> Result<Fit> {
-    let waiting = Waiting::new("fitting", console.screen.progress);
+    let waiting = Waiting::new("fitting", console.shows_progress());
     let told = |stage: FitStage| waiting.say(format!("fitting: {stage}"));
     Ok(prepared.fit_watched(Watch::new(&told))?)
 }
@@ -175,4 +201,9 @@ fn at_least_zero(option: &str, text: &str) -> Result<f64> {
             format!("try {option} auto"),
         )
     })
+}
+
+/// Whether the value of `--white` is the file of a reading, FILE or FILE#NAME, and no pigment.
+fn is_reading(text: &str) -> bool {
+    Path::new(split_file_and_name(text).0).is_file()
 }

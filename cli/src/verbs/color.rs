@@ -34,6 +34,7 @@ enum AdaptationName {
 /// may be given; with --compare the metamerism index (change of illuminant from the first light) is
 /// printed for each later one.
 #[derive(Debug, Args)]
+#[command(mut_arg("white_reading", |option| option.alias("white")))]
 pub(crate) struct Color {
     /// Spectra: a CSV (column `sample`, then wavelengths), or an instrument's file
     #[arg(required = true, value_name = "FILE")]
@@ -62,6 +63,9 @@ pub(crate) struct Color {
     /// Print JSON: a list of sample, xyz, lab, srgb, hex
     #[arg(long)]
     json: bool,
+    /// Print the table as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 /// Name and colours of one spectrum, one colour per light.
@@ -125,14 +129,17 @@ impl Color {
             selected.extend(averaged.spectra.iter().map(row));
         }
         let whites: Vec<Xyz> = weights.iter().map(TristimulusWeights::white).collect();
-        if self.json {
+        if self.json || self.csv {
             let mut list = Vec::new();
             for row in selected {
                 for light in 0..lights.len() {
                     list.push(entry(&row, light, standard, &lights, &whites));
                 }
             }
-            return console.json(&Value::from(list));
+            return match self.csv {
+                true => console.csv_rows(&list),
+                false => console.json(&Value::from(list)),
+            };
         }
         for (light, viewing) in lights.iter().enumerate() {
             console.line(format!(

@@ -1,7 +1,6 @@
 //! `impasto correct`: what to add to a pot of paint that came out beside its target.
 
-use std::path::PathBuf;
-
+use calibrate::PigmentId;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
     Batch, ColorTarget, Correction, CorrectionOptions, Corrections, TargetColor, USUAL_CORRECTION,
@@ -14,7 +13,8 @@ use spectra::{Reflectance, Spectrum, name_list};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{library, srgb, viewing};
+use crate::input::{srgb, viewing};
+use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::readings::ReadingOptions;
 use crate::targets::targets;
 
@@ -28,13 +28,15 @@ const NAMES: usize = 8;
 /// paint first. The measured batch, not its recipe, is what they are mixed into, so that weighing
 /// errors and errors of the library at that colour do not matter.
 #[derive(Debug, Args)]
+#[command(
+    override_usage = "impasto correct [OPTIONS] [LIBRARY] <TARGET> <BATCH> --made <PIGMENT=GRAMS>..."
+)]
 pub(crate) struct Correct {
-    /// The pigment library (JSON)
-    library: PathBuf,
-    /// Target: #rrggbb, L,a,b, or a measured standard, FILE or FILE#SAMPLE
-    target: String,
-    /// Spectrum of the batch, FILE or FILE#SAMPLE
-    batch: String,
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else the Van Gogh oils that ship],
+    /// then the target (#rrggbb, L,a,b, or a measured standard, FILE or FILE#SAMPLE), then the spectrum
+    /// of the batch, FILE or FILE#SAMPLE
+    #[arg(required = true, value_name = "[LIBRARY] TARGET BATCH")]
+    words: Vec<String>,
     /// Grams (or parts) of a pigment that are in the pot (may be repeated)
     #[arg(long, value_name = "PIGMENT=GRAMS", required = true, num_args = 1..)]
     made: Vec<String>,
@@ -76,15 +78,25 @@ pub(crate) struct Correct {
     /// Print JSON: target, batch, differences, and a list of corrections
     #[arg(long)]
     json: bool,
+    /// Print the corrections, a row for each pigment of one, as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Correct {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let library = library(&self.library)?;
-        let target = one(&self.target, "a target", targets(&self.target, &self.reading, console)?)?;
+        let (path, words) = split(&self.words, true);
+        let ChosenLibrary { library, .. } = chosen(path.as_deref(), console)?;
+        let [target, pot] = words else {
+            return Err(Failure::usage(
+                format!("a target and a batch are wanted, found {} words", words.len()),
+                "try impasto correct standard.csv batch.csv --made \"Zinc White=440\"",
+            ));
+        };
+        let target = one(target, "a target", targets(target, &self.reading, console)?)?;
         let made = amounts("--made", &self.made)?;
         let grams = self.grams.unwrap_or_else(|| made.iter().map(|(_, grams)| grams).sum());
-        let batch = Batch { made, grams, reflectance: self.batch_spectrum(console)? };
+        let batch = Batch { made, grams, reflectance: self.batch_spectrum(pot, console)? };
         let conditions = self.illuminant.iter().map(|text| self.condition(text));
         let options = CorrectionOptions {
             conditions: conditions.collect::<Result<_>>()?,
@@ -100,16 +112,23 @@ impl Correct {
         let found = library.corrections_for(&target, &batch, &options)?;
         console.remarks(&found.remarks)?;
         let report = Report { library: &library, options: &options, grams };
+        if self.csv {
+            return console.csv_rows(&report.rows(&found));
+        }
         if self.json { console.json(&report.json(&found)) } else { report.print(&found, console) }
     }
 
     /// Reads the one spectrum of the batch.
-    fn batch_spectrum(&self, console: &mut Console<'_>) -> Result<Spectrum<Reflectance>> {
-        let measured = one(&self.batch, "a batch", targets(&self.batch, &self.reading, console)?)?;
+    fn batch_spectrum(
+        &self,
+        pot: &str,
+        console: &mut Console<'_>,
+    ) -> Result<Spectrum<Reflectance>> {
+        let measured = one(pot, "a batch", targets(pot, &self.reading, console)?)?;
         match measured.color {
             TargetColor::Reflectance(reflectance) => Ok(reflectance),
             TargetColor::Lab(_) => Err(Failure::usage(
-                format!("a batch is a measured spectrum, found the colour `{}`", self.batch),
+                format!("a batch is a measured spectrum, found the colour `{pot}`"),
                 "give the file of its reading: FILE or FILE#SAMPLE",
             )),
         }
@@ -248,6 +267,22 @@ impl Report<'_> {
             "reaches": found.reaches,
             "corrections": found.corrections.iter().map(correction).collect::<Vec<Value>>(),
         })
+    }
+
+    /// One row for each pigment of each correction.
+    fn rows(&self, found: &Corrections) -> Vec<Value> {
+        let of = |(rank, correction): (usize, &Correction)| -> Vec<Value> {
+            let row = |(id, grams): &(PigmentId, f64)| {
+                json!({
+                    "correction": rank + 1,
+                    "pigment": self.library[*id].name,
+                    "grams": grams,
+                    "distance": correction.distance,
+                })
+            };
+            correction.additions.iter().map(row).collect()
+        };
+        found.corrections.iter().enumerate().flat_map(of).collect()
     }
 
     /// JSON object with one value per light, keyed by its name.

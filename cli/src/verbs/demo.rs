@@ -30,24 +30,30 @@ const MIXTURES: [(&str, &[(&str, f64)]); 6] = [
 #[derive(Debug, Args)]
 pub(crate) struct Demo {
     /// Folder that the library is written to
-    #[arg(long, value_name = "FOLDER", default_value = "out")]
-    out: PathBuf,
+    #[arg(short, long, alias = "out", value_name = "FOLDER", default_value = "out")]
+    output: PathBuf,
     /// Print JSON, as `fit` does
     #[arg(long)]
     json: bool,
+    /// Print the error of every sample as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Demo {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
-        create_folder(&self.out)?;
-        let path = self.out.join("van-gogh-oils.pigments.json");
+        create_folder(&self.output)?;
+        let path = self.output.join("van-gogh-oils.pigments.json");
         let output = Output::open(&path, &[])?;
         let viewing = Viewing::default();
         let fit = fit_oils()?;
         let library = &fit.library;
-        output.write(library.to_json())?;
+        output.write(library.to_json(), console)?;
         let seconds = start.elapsed().as_secs_f64();
+        if self.csv {
+            return console.csv_rows(&fit_report::rows(&fit.evidence().per_sample));
+        }
         if self.json {
             return console.json(&fit_report::fit_json(&fit, seconds));
         }
@@ -66,7 +72,7 @@ impl Demo {
         console.line("Predicted mixtures, not measured:")?;
         print_mixtures(library, &viewing, console)?;
         console.line("")?;
-        console.remark(format!("Wrote {} ({seconds:.2} s)", path.display()))?;
+        console.detail(format!("fitted in {seconds:.2} s"))?;
         console.line("Next:")?;
         console
             .line(format!("  impasto mix {} \"Zinc White=9\" \"Cobalt Blue=1\"", path.display()))?;

@@ -39,6 +39,9 @@ pub(crate) struct Fit {
     /// seconds
     #[arg(long)]
     json: bool,
+    /// Print the error of every sample as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Fit {
@@ -54,17 +57,22 @@ impl Fit {
         let prepared = prepare_fit(&readings, &options, console)?;
         let fit = watched_fit(&prepared, console)?;
         console.remarks(&fit.remarks)?;
+        let wrote = output.is_some();
         if let Some(output) = output {
-            output.write(fit.library.to_json())?;
+            output.write(fit.library.to_json(), console)?;
+        }
+        if self.csv {
+            console.warnings(fit.warnings())?;
+            return console.csv_rows(&fit_report::rows(&fit.evidence().per_sample));
         }
         if self.json {
             return console.json(&fit_report::fit_json(&fit, start.elapsed().as_secs_f64()));
         }
         console.warnings(fit.warnings())?;
         console.line(fit.report().to_string())?;
-        match &self.output {
-            Some(path) => console.remark(format!("Wrote {}", path.display())),
-            None => console.remark("Wrote nothing; give --output LIBRARY.json to keep the library"),
+        if !wrote {
+            console.remark("Wrote nothing; give --output LIBRARY.json to keep the library")?;
         }
+        Ok(())
     }
 }

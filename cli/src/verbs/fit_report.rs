@@ -29,6 +29,12 @@ pub(super) fn to_json(
     })
 }
 
+/// Samples with their colour errors, one row each.
+pub(super) fn rows(per_sample: &[SampleEvidence]) -> Vec<Value> {
+    let row = |s: &SampleEvidence| json!({"sample": s.sample, "ciede2000": s.delta_e});
+    per_sample.iter().map(row).collect()
+}
+
 /// Returns the JSON of the errors of a fit that took `seconds`.
 pub(super) fn fit_json(fit: &Fit, seconds: f64) -> Value {
     let Evidence { rms, delta_e, per_sample, warnings, .. } = fit.evidence();

@@ -6,6 +6,7 @@ use render::paint::engine::max_canvas_cells;
 use serde_json::{Value, json};
 
 use crate::console::Console;
+use crate::driver_noise::without_noise;
 use crate::failure::Result;
 
 /// Show which graphics adapter painting would use, and why
@@ -24,7 +25,7 @@ pub(crate) struct Gpu {
 
 impl Gpu {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let found = adapters();
+        let found = without_noise(console, adapters)?;
         let used = best(&found, BackendChoice::Auto);
         let forced = best(&found, BackendChoice::Gpu);
         let why = why(&found, used);

@@ -1,7 +1,5 @@
 //! `impasto mix`: predicts the reflectance and the colour of a recipe.
 
-use std::path::PathBuf;
-
 use calibrate::library::AmountKind;
 use calibrate::{FilmOver, MixtureColor};
 use clap::Args;
@@ -11,19 +9,21 @@ use spectra::color::RgbSpace;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::ground::ground;
-use crate::input::{ViewingOptions, library};
+use crate::input::ViewingOptions;
+use crate::library_choice::{ChosenLibrary, chosen, split};
 
 /// Predict a mixture: reflectance, XYZ, Lab and sRGB
 ///
 /// A recipe is pigments with their parts: `impasto mix oils.json "Zinc White=9" "Cobalt Blue=1"`.
 /// The film hides its ground unless --thickness is given.
 #[derive(Debug, Args)]
+#[command(override_usage = "impasto mix [OPTIONS] [LIBRARY] <NAME=PARTS>...")]
 pub(crate) struct Mix {
-    /// The pigment library (JSON)
-    library: PathBuf,
-    /// Pigments and parts, NAME=PARTS; a name may be abbreviated
-    #[arg(required = true, value_name = "NAME=PARTS")]
-    recipe: Vec<String>,
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship], then pigments and parts, NAME=PARTS; a name may be
+    /// abbreviated
+    #[arg(required = true, value_name = "[LIBRARY] NAME=PARTS")]
+    words: Vec<String>,
     /// Thickness of the film; 1 is where the reference white has S d = 1 (for absolute amounts,
     /// the amounts as given) [default: hiding]
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
@@ -37,13 +37,17 @@ pub(crate) struct Mix {
     /// Print JSON: wavelengths_nm, reflectance, xyz, lab, srgb, hex
     #[arg(long)]
     json: bool,
+    /// Print the reflectance as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Mix {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
-        let library = library(&self.library)?;
-        let parts = parsed_recipe(&self.recipe)?;
+        let (path, recipe) = split(&self.words, false);
+        let ChosenLibrary { library, .. } = chosen(path.as_deref(), console)?;
+        let parts = parsed_recipe(recipe)?;
         let absolute = library.amounts == AmountKind::Absolute;
         let hides = self.thickness.is_none() && !absolute;
         if hides && self.over.is_some() {
@@ -62,6 +66,11 @@ impl Mix {
         };
         console.remarks(&color.remarks)?;
         let MixtureColor { recipe, reflectance, xyz, lab, srgb: rgb, .. } = color;
+        if self.csv {
+            let row = |(nm, value): (f64, &f64)| json!({"nm": nm, "reflectance": value});
+            let rows = library.grid.wavelengths_nm().zip(reflectance.values()).map(row);
+            return console.csv_rows(&rows.collect::<Vec<_>>());
+        }
         if self.json {
             let wavelengths: Vec<f64> = library.grid.wavelengths_nm().collect();
             return console.json(&json!({

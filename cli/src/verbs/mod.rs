@@ -51,7 +51,7 @@ use clap::Subcommand;
 use crate::console::Console;
 use crate::failure::Result;
 
-/// Verbs of the command line.
+/// A verb with its options.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Verb {
     Fit(fit::Fit),

@@ -13,12 +13,14 @@ use render::paint::painting::Painting;
 use render::paint::session::{PaintingSession, ReplayError, ReplayReport};
 use render::paint::strokes::{Action, ScriptLibrary, SideTable, StrokeScript};
 use serde_json::{Map, Value, json};
+use spectra::{counted, counted_as};
 
 use super::paint_photograph::PhotographOptions;
 use crate::console::Console;
 use crate::engine::EngineOptions;
 use crate::failure::{Context, Failure, Result};
-use crate::input::{built_in_library, library};
+use crate::input::library;
+use crate::library_choice::{ChosenLibrary, quietly_chosen};
 use crate::output::{Output, create_folder};
 use crate::pictures::{Exports, gamut_remark};
 use crate::progress::Progress;
@@ -34,13 +36,17 @@ use crate::timelapse::{TimelapseOptions, TimelapseReport};
 /// With --from, a photograph is separated into pigments and painted stroke by stroke, coarse to
 /// fine; --separate writes the amount of each pigment at every pixel, and paints nothing.
 #[derive(Debug, Args)]
+#[command(
+    override_usage = "impasto paint [OPTIONS] <SCRIPT> [LIBRARY]\n       impasto paint [OPTIONS] --from <PHOTO> [LIBRARY]"
+)]
 pub(crate) struct Paint {
-    /// The script (.json)
-    #[arg(required_unless_present = "from", conflicts_with = "from")]
-    script: Option<PathBuf>,
-    /// The pigment library (JSON) [default: the one that the script names, if it is found beside
-    /// the script; else the Van Gogh oils]
-    #[arg(long, value_name = "LIBRARY")]
+    /// The script (.json), then the pigment library (JSON) [default: the one that the script names, if
+    /// it is found beside the script; else that of IMPASTO_LIBRARY, else the Van Gogh oils that ship].
+    /// With --from only the library
+    #[arg(required_unless_present = "from", num_args = 1..=2, value_names = ["SCRIPT", "LIBRARY"])]
+    words: Vec<PathBuf>,
+    /// The library, as it was named before
+    #[arg(long, value_name = "LIBRARY", hide = true)]
     library: Option<PathBuf>,
     #[command(flatten)]
     engine: EngineOptions,
@@ -58,18 +64,22 @@ pub(crate) struct Paint {
 }
 
 impl Paint {
-    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        match &self.script {
-            Some(script) => {
-                let script = script.clone();
-                self.script(&script, console)
+    pub(super) fn run(mut self, console: &mut Console<'_>) -> Result<()> {
+        let mut words = std::mem::take(&mut self.words).into_iter();
+        let script = if self.photograph.is_present() { None } else { words.next() };
+        if let Some(second) = words.next() {
+            if let Some(first) = self.library.replace(second.clone()) {
+                return Err(two_libraries(&first, &second));
             }
+            if let Some(third) = words.next() {
+                return Err(two_libraries(&second, &third));
+            }
+        }
+        match script {
+            Some(script) => self.script(&script, console),
             None => {
                 let Self { library: path, photograph, engine, exports, json, .. } = self;
-                let library = match &path {
-                    Some(path) => library(path)?,
-                    None => built_in_library(),
-                };
+                let ChosenLibrary { library, path } = quietly_chosen(path.as_deref(), console)?;
                 photograph.run(library, path, &engine, exports, json, console)
             }
         }
@@ -121,6 +131,13 @@ impl Paint {
                 console
                     .remark(format!("the brush `{brush}` has another head now and begins clean"))?;
             }
+            let kept = brushes.iter().filter(|brush| brush.paint.is_some());
+            let kept = kept.map(|brush| brush.name.as_str()).collect();
+            for (index, brush) in script.unloaded_brushes(&kept) {
+                console.remark(format!(
+                    "{name}, action {index}: the brush `{brush}` paints before it was loaded, so it only moves paint that lies there"
+                ))?;
+            }
             let report = play(&script, &mut session, (&folder, &inputs), console);
             let report = report.map_err(|failure| failure.within(&name))?;
             exports.write(session.canvas_mut(), console)?;
@@ -136,7 +153,7 @@ impl Paint {
         if self.library.is_some() {
             return Err(Failure::usage(
                 format!("the script continues {start}, which has its own library"),
-                "leave --library out",
+                "leave LIBRARY out",
             ));
         }
         let path = folder.join(start);
@@ -146,7 +163,7 @@ impl Paint {
         Ok(Some((path, document, table)))
     }
 
-    /// The library of `--library`, else the one that the script names, else the shipped oils.
+    /// The library that was named, else the one that the script names, else the default one.
     fn script_library(
         &self,
         script: &StrokeScript,
@@ -156,14 +173,23 @@ impl Paint {
         if let Some(path) = &self.library {
             return library(path);
         }
+        if script.library.is_none() {
+            return Ok(quietly_chosen(None, console)?.library);
+        }
         let ScriptLibrary { library, missing } = script.open_library(folder)?;
         if let Some(missing) = missing {
             console.warnings(&[format!(
-                "the script names the library `{missing}`, which was not found; using the built-in oils (choose another with --library)"
+                "the script names the library `{missing}`, which was not found; using the built-in oils (name another after the script)"
             )])?;
         }
         Ok(library)
     }
+}
+
+fn two_libraries(first: &Path, second: &Path) -> Failure {
+    let both =
+        format!("{} and {} are both named as the library", first.display(), second.display());
+    Failure::usage(both, "leave one of them out")
 }
 
 /// Plays the script on `session`. Its files are saved below `folder`, and none of `inputs` is
@@ -174,7 +200,7 @@ fn play(
     (folder, inputs): (&Path, &[PathBuf]),
     console: &mut Console<'_>,
 ) -> Result<ReplayReport> {
-    let bar = Progress::new(script.actions.len(), "painting", console.screen.progress);
+    let bar = Progress::new(script.actions.len(), "painting", console.shows_progress());
     let mut remarks = Vec::new();
     let report = script.replay(
         session,
@@ -270,7 +296,13 @@ fn save(
     } else {
         file::write(&painting.document()?)?
     };
-    output.write(bytes)
+    output.put(bytes)?;
+    let wrote = format!("Wrote {}", output.path().display());
+    // A script may save one file many times.
+    if !remarks.contains(&wrote) {
+        remarks.push(wrote);
+    }
+    Ok(())
 }
 
 /// Prints the summary of a replay, or adds it to `summary`.
@@ -284,11 +316,15 @@ fn print(
     let bounds = painting.bounds();
     let ReplayReport { actions, strokes, substeps, cells, idle, not_undoable } = *report;
     if idle > 0 {
-        console.warnings(&[format!("{idle} undo or redo actions had nothing to undo or redo")])?;
+        console.warnings(&[format!(
+            "{} had nothing to undo or redo",
+            counted(idle, "undo or redo action")
+        )])?;
     }
     if not_undoable > 0 {
         console.warnings(&[format!(
-            "{not_undoable} strokes were too large to undo (raise --undo-memory)"
+            "{} too large to undo (raise --undo-memory)",
+            counted_as(not_undoable, "stroke was", "strokes were")
         )])?;
     }
     if as_json {
@@ -300,10 +336,13 @@ fn print(
         return Ok(());
     }
     console.line(format!(
-        "{} x {} cells, {actions} actions, {strokes} strokes of {substeps} sub-steps, {} dry layers, on {}",
+        "{} x {} cells, {}, {} of {}, {}, on {}",
         bounds.width,
         bounds.height,
-        painting.state().dry.len(),
+        counted(actions, "action"),
+        counted(strokes, "stroke"),
+        counted(substeps, "sub-step"),
+        counted(painting.state().dry.len(), "dry layer"),
         painting.backend(),
     ))
 }
@@ -325,7 +364,8 @@ fn print_timelapse(
         return Ok(());
     }
     let found = if found > 0 { format!(", {found} found") } else { String::new() };
-    console.line(format!("{frames} frames of {width} x {height} pixels{found}"))
+    let frames = counted(frames, "frame");
+    console.line(format!("{frames} of {width} x {height} pixels{found}"))
 }
 
 fn add_canvas(summary: &mut Map<String, Value>, painting: &Painting) {

@@ -31,33 +31,33 @@ pub(crate) struct PhotographOptions {
     from: Option<PathBuf>,
     /// Up to eight pigments of the library, separated by commas [default: those that come nearest
     /// to the photograph's colours]
-    #[arg(long, value_name = "PIGMENTS", conflicts_with = "script")]
+    #[arg(long, value_name = "PIGMENTS", requires = "from")]
     palette: Vec<String>,
     /// Width of the painting; its height follows the photograph's shape
-    #[arg(long, value_name = "MM", default_value_t = 200.0, conflicts_with = "script")]
+    #[arg(long, value_name = "MM", default_value_t = 200.0, requires = "from")]
     width_mm: f64,
     /// Width of a cell; smaller cells show finer relief, half the width takes four times as long
-    #[arg(long, value_name = "MM", default_value_t = 0.25, conflicts_with = "script")]
+    #[arg(long, value_name = "MM", default_value_t = 0.25, requires = "from")]
     cell_mm: f64,
     /// Ground to paint on
-    #[arg(long, value_parser = grounds(), default_value = "linen", conflicts_with = "script")]
+    #[arg(long, value_parser = grounds(), default_value = "linen", requires = "from")]
     ground: GroundKind,
     /// Widths of the brushes in mm, separated by commas; used from the broadest to the finest
     /// [default: 16,8,4,2,1 on 200 mm, and in proportion]
-    #[arg(long, value_name = "MM", value_delimiter = ',', conflicts_with = "script")]
+    #[arg(long, value_name = "MM", value_delimiter = ',', requires = "from")]
     brushes: Vec<f64>,
     /// Difference in CIELAB above which an area is painted over; less takes more strokes
-    #[arg(long, value_name = "DELTA_E", default_value_t = 6.0, conflicts_with = "script")]
+    #[arg(long, value_name = "DELTA_E", default_value_t = 6.0, requires = "from")]
     tolerance: f64,
     /// Seed of all random choices
-    #[arg(long, value_name = "N", default_value_t = 1, conflicts_with = "script")]
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "from")]
     seed: u64,
     /// Write the strokes as a script (.json) that paints the same, bit for bit
-    #[arg(long, value_name = "FILE", conflicts_with = "script")]
+    #[arg(long, value_name = "FILE", requires = "from")]
     strokes_out: Option<PathBuf>,
     /// Write a map of each pigment, the picture they make and its colour error into this folder;
     /// paints nothing unless another file is asked for
-    #[arg(long, value_name = "FOLDER", conflicts_with = "script")]
+    #[arg(long, value_name = "FOLDER", requires = "from")]
     separate: Option<PathBuf>,
     /// Let the ground show through in --separate, which reaches lighter and purer colours
     #[arg(long, requires = "separate")]
@@ -65,6 +65,11 @@ pub(crate) struct PhotographOptions {
 }
 
 impl PhotographOptions {
+    /// Whether a photograph is painted.
+    pub(super) fn is_present(&self) -> bool {
+        self.from.is_some()
+    }
+
     pub(super) fn run(
         self,
         library: PigmentLibrary,
@@ -96,19 +101,20 @@ impl PhotographOptions {
         let exports = exports.open(&inputs)?;
         let strokes_out = self.strokes_out.as_ref().map(|path| Output::open(path, &inputs));
         let strokes_out = strokes_out.transpose()?;
-        let waiting = Waiting::new("mixing colours", console.screen.progress);
+        let waiting = Waiting::new("mixing colours", console.shows_progress());
         let painter =
             StrokePainter::new(&photograph, &library, &settings).map_err(painter_failure)?;
         drop(waiting);
         if let Some(folder) = &self.separate {
             let separated = painter.separate()?;
             save_files(folder, &separated.files)?;
+            console.wrote(folder)?;
             if !paints {
                 return report_separation(&separated, painter.pigments(), as_json, console);
             }
         }
         let engine = engine.engine(&painter.ground().height, console)?;
-        let bar = Progress::new(0, "painting", console.screen.progress);
+        let bar = Progress::new(0, "painting", console.shows_progress());
         let painted = painter.paint_with(engine, |progress| match progress {
             PaintProgress::Planned(strokes) => bar.expect(strokes),
             PaintProgress::Stroke => bar.step(),
@@ -119,7 +125,7 @@ impl PhotographOptions {
             painted.script.library = Some(path.display().to_string());
         }
         if let Some(output) = strokes_out {
-            output.write(painted.script.to_json()?)?;
+            output.write(painted.script.to_json()?, console)?;
         }
         exports.write(painted.painting_mut(), console)?;
         report(&painted, painter.pigments(), as_json, console)

@@ -12,6 +12,7 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::grid_option::{grid, numbers};
 use crate::input::library;
+use crate::library_choice::split;
 use crate::output::Output;
 
 /// Maximum number of wavelengths of a measurement file.
@@ -19,24 +20,26 @@ const MAX_WAVELENGTHS: usize = 5001;
 
 /// Plan the swatches to prepare, so that K and S of every pigment can be determined
 ///
-/// Prints the recipe of each swatch in parts and grams, and the total of each paint. With --prior, a
+/// Prints the recipe of each swatch in parts and grams, and the total of each paint. With a
 /// library of similar paint, the swatches are chosen to determine K and S best (D-optimal), and the
 /// expected deviations are predicted. --output writes the measurement file to fill in: bare cards
 /// and every swatch over a white and a black card, amounts in grams. Replace its amounts by what
 /// the balance showed.
 #[derive(Debug, Args)]
+#[command(override_usage = "impasto plan [OPTIONS] --white <NAME> [LIBRARY] <PIGMENT>...")]
 pub(crate) struct Plan {
-    /// The pigments; with --prior a name may be abbreviated
-    #[arg(required = true, value_name = "PIGMENT")]
-    pigments: Vec<String>,
+    /// A pigment library (JSON) of the same or similar paint, to choose the swatches by [default:
+    /// none], then the pigments, whose names may be abbreviated with a library
+    #[arg(required = true, value_name = "[LIBRARY] PIGMENT")]
+    words: Vec<String>,
     /// The white for tints, whose S is the unit
     #[arg(long, value_name = "NAME")]
     white: String,
     /// A black, for shades
     #[arg(long, value_name = "NAME")]
     black: Option<String>,
-    /// A pigment library of the same or similar paint, to choose the swatches by
-    #[arg(long, value_name = "LIBRARY")]
+    /// The library, as it was named before
+    #[arg(long, value_name = "LIBRARY", hide = true)]
     prior: Option<PathBuf>,
     /// Number of swatches [default: masstones, two tints each, a shade each with a black, and one
     /// cross each]
@@ -52,7 +55,7 @@ pub(crate) struct Plan {
     /// Expected noise of a swatch's reflectance, as standard deviations CONSTANT,EVEN: that of the
     /// instrument, and that of weighing, mixing and film, which is perceptually uniform [default:
     /// 0.002 and the residual of the prior's own fit, else 0.01]
-    #[arg(long, value_name = "CONSTANT,EVEN", requires = "prior", allow_hyphen_values = true)]
+    #[arg(long, value_name = "CONSTANT,EVEN", allow_hyphen_values = true)]
     noise: Option<String>,
     /// Readings of each film and card in the file
     #[arg(long, value_name = "N", default_value_t = 2)]
@@ -66,13 +69,34 @@ pub(crate) struct Plan {
     /// Print JSON: swatches, totals_g, unknowns, identified, prior (null without)
     #[arg(long)]
     json: bool,
+    /// Print the swatches as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Plan {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let form = MeasurementForm { grid: self.grid()?, replicates: self.replicates()? };
         let noise = self.noise()?;
-        let inputs: Vec<PathBuf> = self.prior.iter().cloned().collect();
+        let (first, pigments) = split(&self.words, true);
+        let path = match (first, &self.prior) {
+            (Some(first), Some(prior)) => {
+                let both =
+                    format!("{} and {} are both libraries", first.display(), prior.display());
+                return Err(Failure::usage(both, "leave --prior out"));
+            }
+            (first, prior) => first.or_else(|| prior.clone()),
+        };
+        if pigments.is_empty() {
+            return Err(Failure::usage("no pigment is named", "name those to plan for"));
+        }
+        if self.noise.is_some() && path.is_none() {
+            return Err(Failure::usage(
+                "--noise is for swatches that a library chooses",
+                "name a library of similar paint first, or leave --noise out",
+            ));
+        }
+        let inputs: Vec<PathBuf> = path.iter().cloned().collect();
         let open = |path: &PathBuf| {
             let output = Output::open(path, &inputs)?;
             // The file may hold readings by now.
@@ -85,7 +109,7 @@ impl Plan {
             Ok(output)
         };
         let output = self.output.as_ref().map(open).transpose()?;
-        let prior = self.prior.as_deref().map(library).transpose()?;
+        let prior = path.as_deref().map(library).transpose()?;
         let options = PlanOptions {
             black: self.black.clone(),
             prior,
@@ -94,10 +118,14 @@ impl Plan {
             balance: self.balance,
             noise,
         };
-        let plan = calibrate::plan(&self.pigments, &self.white, &options)?;
+        let plan = calibrate::plan(pigments, &self.white, &options)?;
         console.remarks(&plan.remarks)?;
         if let Some(output) = output {
-            output.write(plan.form(&form))?;
+            output.write(plan.form(&form), console)?;
+        }
+        if self.csv {
+            let whole = plan_report::as_json(&plan);
+            return console.csv_rows(whole["swatches"].as_array().map_or(&[], Vec::as_slice));
         }
         if self.json {
             return console.json(&plan_report::as_json(&plan));
@@ -106,16 +134,16 @@ impl Plan {
         plan_report::print_totals(&plan, console)?;
         console.line("")?;
         console.line(format!(
-            "{} swatches for {} unknowns per wavelength; every pigment is identified",
-            plan.swatches.len(),
-            plan.paints.unknowns()
+            "{} for {} per wavelength; every pigment is identified",
+            spectra::counted_as(plan.swatches.len(), "swatch", "swatches"),
+            spectra::counted(plan.paints.unknowns(), "unknown")
         ))?;
         if let Some(forecast) = &plan.forecast {
             plan_report::print_forecast(&plan.paints, forecast, console)?;
         }
         match &self.output {
             Some(path) => console.remark(format!(
-                "Wrote {}; fill it in, then run impasto fit {} --reference \"{}\"",
+                "next: fill in {}, then run impasto fit {} --white \"{}\"",
                 path.display(),
                 path.display(),
                 plan.paints.name(PaintSet::WHITE)

@@ -14,6 +14,7 @@ use spectra::TristimulusWeights;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::{ViewingOptions, color_weights, library};
+use crate::library_choice::default_path;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {
@@ -36,7 +37,7 @@ enum MethodName {
 /// coloured grounds.
 #[derive(Debug, Args)]
 pub(crate) struct Quadrature {
-    /// The pigment library (JSON)
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else none]
     library: Option<PathBuf>,
     /// Method of choosing them [default: library where one is given, else moments]
     #[arg(long, value_enum)]
@@ -56,12 +57,16 @@ pub(crate) struct Quadrature {
     /// absorption, scattering at the nodes) and error_over_grounds
     #[arg(long)]
     json: bool,
+    /// Print the wavelengths and weights as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Quadrature {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
-        let library = self.library.as_deref().map(library).transpose()?;
+        let path = self.library.clone().or_else(default_path);
+        let library = path.as_deref().map(library).transpose()?;
         let method = self.method.unwrap_or(match library {
             Some(_) => MethodName::Library,
             None => MethodName::Moments,
@@ -90,6 +95,9 @@ impl Quadrature {
             }
             _ => None,
         };
+        if self.csv {
+            return console.csv_rows(&csv_rows(&rule));
+        }
         if self.json {
             return console.json(&json!({
                 "nodes_nm": rule.nodes_nm,
@@ -119,6 +127,9 @@ impl Quadrature {
                 .then(|| effective.error(library, &films(library, &weights, count, self.seed)))
         };
         let (hiding, over) = (draw(FilmSet::hiding), draw(FilmSet::over_grounds));
+        if self.csv {
+            return console.csv_rows(&csv_rows(&effective.rule));
+        }
         if self.json {
             let curves = effective.absorption.iter().zip(&effective.scattering);
             let pigments: Vec<Value> = library
@@ -153,10 +164,20 @@ impl Quadrature {
     }
 }
 
+/// The wavelengths with their weights, one row each.
+fn csv_rows(rule: &Rule) -> Vec<Value> {
+    let pairs = rule.nodes_nm.iter().zip(&rule.weights);
+    pairs.map(|(nm, weights)| json!({"nm": nm, "weights": weights})).collect()
+}
+
 /// Prints the wavelengths with their weights.
 fn rows(rule: &Rule, viewing: &Viewing, console: &mut Console<'_>) -> Result<()> {
     let (count, light) = (rule.nodes_nm.len(), viewing.illuminant.name());
-    console.line(format!("{count} wavelengths for {light}, observer {}", viewing.observer))?;
+    console.line(format!(
+        "{} for {light}, observer {}",
+        spectra::counted(count, "wavelength"),
+        viewing.observer
+    ))?;
     console.line("     nm          X          Y          Z")?;
     for (nm, [x, y, z]) in rule.nodes_nm.iter().zip(&rule.weights) {
         console.line(format!("{nm:7.2} {x:10.4} {y:10.4} {z:10.4}"))?;

@@ -174,6 +174,28 @@ impl RecipeReport<'_> {
         })
     }
 
+    /// One row for each pigment of each recipe.
+    pub(super) fn rows(&self, matched: &RecipeMatches) -> Vec<Value> {
+        let mut rows = Vec::new();
+        for (rank, recipe) in (1..).zip(&matched.recipes) {
+            let whole = self.recipe_json(recipe);
+            for pigment in whole["pigments"].as_array().into_iter().flatten() {
+                let mut row = Map::new();
+                row.insert("target".to_owned(), json!(matched.target.name));
+                row.insert("recipe".to_owned(), json!(rank));
+                row.extend(pigment.as_object().into_iter().flatten().map(|(key, value)| {
+                    let key = if key == "name" { "pigment" } else { key };
+                    (key.to_owned(), value.clone())
+                }));
+                for key in ["delta_e", "thickness", "cost", "hex"] {
+                    row.extend(whole.get(key).map(|value| (key.to_owned(), value.clone())));
+                }
+                rows.push(Value::Object(row));
+            }
+        }
+        rows
+    }
+
     fn recipe_json(&self, recipe: &RecipeMatch) -> Value {
         let pigments = recipe.shares.iter().enumerate().map(|(place, (id, share))| {
             let mut entry = json!({ "name": self.library[*id].name, "share": share });

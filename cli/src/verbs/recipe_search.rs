@@ -1,7 +1,5 @@
 //! `impasto match`: finds recipes for a target colour or spectrum.
 
-use std::path::PathBuf;
-
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{MatchOptions, RequiredName, Thickness, ViewingCondition};
 use clap::Args;
@@ -12,7 +10,8 @@ use crate::console::Console;
 use crate::costs::prices;
 use crate::failure::{Failure, Result};
 use crate::ground::ground;
-use crate::input::{library, viewing};
+use crate::input::viewing;
+use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::progress::Progress;
 use crate::readings::ReadingOptions;
 use crate::targets::targets;
@@ -25,12 +24,15 @@ use crate::targets::targets;
 /// nearest, within --tolerance, are sorted by cost if costs are given, else by the number of
 /// pigments; the others follow by distance.
 #[derive(Debug, Args)]
+#[command(
+    override_usage = "impasto match [OPTIONS] [LIBRARY] <TARGET>...",
+    mut_arg("white_reading", |option| option.alias("white"))
+)]
 pub(crate) struct Match {
-    /// The pigment library (JSON)
-    library: PathBuf,
-    /// Target colours, one or more
-    #[arg(required = true, value_name = "TARGET")]
-    targets: Vec<String>,
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship], then target colours, one or more
+    #[arg(required = true, value_name = "[LIBRARY] TARGET")]
+    words: Vec<String>,
     /// Use only these pigments (may be repeated) [default: all whose S is known]
     #[arg(long, value_name = "PIGMENT")]
     only: Vec<String>,
@@ -86,26 +88,40 @@ pub(crate) struct Match {
     /// Print JSON: a list of targets, each with its recipes
     #[arg(long)]
     json: bool,
+    /// Print the recipes, a row for each pigment of one, as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Match {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let library = library(&self.library)?;
+        let (path, texts) = split(&self.words, true);
+        let ChosenLibrary { library, .. } = chosen(path.as_deref(), console)?;
+        if texts.is_empty() {
+            return Err(Failure::usage(
+                "no target colour is given",
+                "add one, such as \"#4a7d8c\", 52,-10.5,8 or swatches.csv#NAME",
+            ));
+        }
         let options = self.options(&library, console)?;
         let search = library.recipe_search(&options)?;
         console.remarks(&search.remarks)?;
         let mut all_targets = Vec::new();
-        for text in &self.targets {
+        for text in texts {
             all_targets.extend(targets(text, &self.reading, console)?);
         }
         let report = RecipeReport { library: &library, search: &search, grams: self.grams };
-        let progress = Progress::new(all_targets.len(), "matching", console.screen.progress);
+        let progress = Progress::new(all_targets.len(), "matching", console.shows_progress());
         let mut found = Vec::new();
         for target in &all_targets {
             found.push(search.recipes_for(target)?);
             progress.step();
         }
         progress.done();
+        if self.csv {
+            let rows: Vec<Value> = found.iter().flat_map(|matches| report.rows(matches)).collect();
+            return console.csv_rows(&rows);
+        }
         if self.json {
             let list: Vec<Value> = found.iter().map(|matches| report.json(matches)).collect();
             return console.json(&Value::from(list));

@@ -14,7 +14,8 @@ use serde_json::{Value, json};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{ViewingOptions, color_weights, library};
+use crate::input::{ViewingOptions, color_weights};
+use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::output::{Output, create_folder};
 use crate::progress::Progress;
 use crate::readings::{ReadingOptions, measurements};
@@ -25,15 +26,19 @@ use crate::readings::{ReadingOptions, measurements};
 /// library's prediction, and each mixture is left out in turn and predicted by a fit to the others,
 /// as `validate` does. The page is FOLDER/report.html; the figures are in FOLDER/figures.
 #[derive(Debug, Args)]
+#[command(
+    override_usage = "impasto report [OPTIONS] --output <FOLDER> [LIBRARY] [READINGS]...",
+    mut_arg("white_reading", |option| option.alias("white"))
+)]
 pub(crate) struct Report {
-    /// The pigment library (JSON)
-    library: PathBuf,
-    /// Measurement files, as for `fit`; without them only the library is drawn
-    #[arg(value_name = "READINGS")]
-    files: Vec<PathBuf>,
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship], then measurement files, as for `fit`; without them only
+    /// the library is drawn
+    #[arg(value_name = "[LIBRARY] [READINGS]")]
+    words: Vec<String>,
     /// Folder for the page and its figures; created if missing
-    #[arg(long, value_name = "FOLDER")]
-    out: PathBuf,
+    #[arg(short, long, alias = "out", value_name = "FOLDER")]
+    output: PathBuf,
     /// Two pigments whose graded mixture is drawn [default: chosen from the library]
     #[arg(long, num_args = 2, value_names = ["A", "B"])]
     pair: Vec<String>,
@@ -41,10 +46,10 @@ pub(crate) struct Report {
     #[arg(long)]
     no_validation: bool,
     /// Recipes of the samples in a separate CSV, as for `fit`
-    #[arg(long, value_name = "FILE", requires = "files")]
+    #[arg(long, value_name = "FILE", requires = "words")]
     recipes: Option<PathBuf>,
     /// Heading of a column that is a pigment, as for `fit` (may be repeated): the others are ignored
-    #[arg(long, value_name = "NAME", requires = "files")]
+    #[arg(long, value_name = "NAME", requires = "words")]
     pigments: Vec<String>,
     #[command(flatten)]
     reading: ReadingOptions,
@@ -58,7 +63,8 @@ pub(crate) struct Report {
 impl Report {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
-        let library = library(&self.library)?;
+        let (path, _) = split(&self.words, true);
+        let ChosenLibrary { library, path } = chosen(path.as_deref(), console)?;
         let weights = color_weights(&viewing, library.grid, console)?;
         let pair = match self.pair.as_slice() {
             [first, second] => Some((library.find(first)?, library.find(second)?)),
@@ -82,11 +88,12 @@ impl Report {
         }
         let cards = measured.as_ref().map(|measured| measured.set.cards(&weights));
         let cards = cards.unwrap_or_else(|| Cards::standard(library.grid));
-        let page = self.page()?;
+        let inputs = self.inputs(path);
+        let page = self.page(&inputs)?;
 
         let measured = measured.filter(|_| !self.no_validation);
         let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
-        let progress = Progress::new(mixtures + STEPS, "drawing", console.screen.progress);
+        let progress = Progress::new(mixtures + STEPS, "drawing", console.shows_progress());
         let step = || progress.step();
         // In parallel, so that cores that finish one task help with the other.
         let (validation, quadratures) = std::thread::scope(|scope| {
@@ -108,7 +115,7 @@ impl Report {
         };
         let report = reports::Report::draw(&subject, &step)?;
         progress.done();
-        self.write(&report, page)?;
+        self.write(&report, page, &inputs, console)?;
         self.print(&report, &subject, console)
     }
 
@@ -118,41 +125,54 @@ impl Report {
         library: &PigmentLibrary,
         console: &mut Console<'_>,
     ) -> Result<Option<Comparable>> {
-        if self.files.is_empty() {
+        let files = self.files();
+        if files.is_empty() {
             return Ok(None);
         }
         let recipes = self.recipes.as_deref();
-        let readings = measurements(&self.files, recipes, &self.pigments, &self.reading, console)?;
+        let readings = measurements(&files, recipes, &self.pigments, &self.reading, console)?;
         Ok(Some(Comparable::of(&readings.swatches()?, library)?))
     }
 
+    /// Measurement files.
+    fn files(&self) -> Vec<PathBuf> {
+        split(&self.words, true).1.iter().map(PathBuf::from).collect()
+    }
+
     /// Paths of all files that are read.
-    fn inputs(&self) -> Vec<PathBuf> {
-        let files = self.files.iter().chain(&self.recipes).chain([&self.library]).cloned();
+    fn inputs(&self, library: Option<PathBuf>) -> Vec<PathBuf> {
+        let files = self.files().into_iter().chain(self.recipes.clone()).chain(library);
         files.chain(self.reading.files()).collect()
     }
 
     /// Creates the folders and checks that the page can be written, before the slow part.
-    fn page(&self) -> Result<Output> {
-        let figures = self.out.join("figures");
+    fn page(&self, inputs: &[PathBuf]) -> Result<Output> {
+        let figures = self.output.join("figures");
         create_folder(&figures)?;
-        Output::open(&self.out.join(PAGE), &self.inputs())
+        Output::open(&self.output.join(PAGE), inputs)
     }
 
     /// Writes the figures, then the page that shows them.
-    fn write(&self, report: &reports::Report, page: Output) -> Result<()> {
-        let inputs = self.inputs();
+    fn write(
+        &self,
+        report: &reports::Report,
+        page: Output,
+        inputs: &[PathBuf],
+        console: &mut Console<'_>,
+    ) -> Result<()> {
         let mut outputs = Vec::new();
         let mut page = Some(page);
         for (path, content) in report.files() {
             let output = match page.take_if(|_| path == PAGE) {
                 Some(page) => page,
-                None => Output::open(&self.out.join(&path), &inputs)?,
+                None => Output::open(&self.output.join(&path), inputs)?,
             };
             outputs.push((output, content));
         }
         // All files are opened first, so that nothing is written if one cannot be.
-        outputs.into_iter().try_for_each(|(output, content)| output.write(content))
+        outputs.into_iter().try_for_each(|(output, content)| output.put(content))?;
+        console.wrote(&self.output.join(PAGE))?;
+        console.wrote(&self.output.join("figures"))
     }
 
     /// Prints the errors and the paths of the report.
@@ -162,7 +182,7 @@ impl Report {
         subject: &Subject<'_>,
         console: &mut Console<'_>,
     ) -> Result<()> {
-        let path = |inside: &str| self.out.join(inside).display().to_string();
+        let path = |inside: &str| self.output.join(inside).display().to_string();
         let Subject { comparison, validation, .. } = subject;
         if self.json {
             let figures = report.figures().map(|figure| {
@@ -188,17 +208,29 @@ impl Report {
                 "absent": comparison.as_ref().map_or_else(Vec::new, absent),
             }));
         }
-        let summary = |subject: &str, count: usize, errors: &calibrate::evaluate::Summary| {
-            format!("{count} {subject}: mean {:.2}, largest {:.2}", errors.mean, errors.max)
-        };
+        let summary =
+            |subject: (&str, &str), count: usize, errors: &calibrate::evaluate::Summary| {
+                let (noun, what) = subject;
+                let count = spectra::counted(count, noun);
+                format!("{count}{what}: mean {:.2}, largest {:.2}", errors.mean, errors.max)
+            };
         if let Some(comparison) = comparison {
             let samples = comparison.sure().count();
-            console.line(summary("samples, CIEDE2000 of the fit", samples, &comparison.delta_e))?;
+            console.line(summary(
+                ("sample", ", CIEDE2000 of the fit"),
+                samples,
+                &comparison.delta_e,
+            ))?;
         }
         if let Some(Validation { per_sample, delta_e, .. }) = validation {
-            console.line(summary("mixtures left out, CIEDE2000", per_sample.len(), delta_e))?;
+            console.line(summary(
+                ("mixture", " left out, CIEDE2000"),
+                per_sample.len(),
+                delta_e,
+            ))?;
         }
-        console.line(format!("{} figures: {}", report.figures().count(), path("figures")))?;
+        let figures = spectra::counted(report.figures().count(), "figure");
+        console.line(format!("{figures}: {}", path("figures")))?;
         console.line(format!("page: {}", path(PAGE)))
     }
 }

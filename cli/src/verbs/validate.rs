@@ -36,6 +36,9 @@ pub(crate) struct Validate {
     /// seconds, strength_free, by_pigment
     #[arg(long)]
     json: bool,
+    /// Print the error of every mixture as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Validate {
@@ -58,10 +61,14 @@ impl Validate {
         if let Some(advice) = folds_advice(mixtures, fit_start.elapsed(), by_groups) {
             console.remarks(&[advice])?;
         }
-        let progress = Progress::new(mixtures, "leaving out", console.screen.progress);
+        let progress = Progress::new(mixtures, "leaving out", console.shows_progress());
         let validation = prepared.validate_fit(fit, &options, &|| progress.step())?;
         progress.done();
         let warnings = validation.warnings();
+        if self.csv {
+            console.warnings(&warnings)?;
+            return console.csv_rows(&fit_report::rows(&validation.errors.per_sample));
+        }
         if self.json {
             let Validation { rms, delta_e, per_sample, .. } = &validation.errors;
             let pigments = validation.fit.library.pigments.len();

@@ -6,6 +6,7 @@ use std::path::Path;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageReader, Limits};
 use rayon::prelude::*;
 use spectra::color::Rgb;
+use spectra::file::read;
 use spectra::hint::{Explain, Fault, Hint};
 
 use crate::field::Field;
@@ -34,8 +35,10 @@ impl Photograph {
     /// [`PhotographError`] with the path.
     pub fn open(path: &Path) -> Result<Self, PhotographError> {
         let name = path.display().to_string();
-        let bytes = std::fs::read(path)
-            .map_err(|error| PhotographError::Unreadable { name: name.clone(), error })?;
+        let bytes = read(path).map_err(|error| {
+            let error = std::io::Error::new(error.reason.kind(), error.reason.to_string());
+            PhotographError::Unreadable { name: name.clone(), error }
+        })?;
         Self::from_bytes(&name, &bytes)
     }
 

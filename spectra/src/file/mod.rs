@@ -1,6 +1,9 @@
 //! Reading a whole file, and replacing a file atomically.
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+mod temporary;
+
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 mod replace;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
@@ -9,7 +12,14 @@ mod unsupported;
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 use unsupported as replace;
 
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+use unsupported as temporary;
+
+mod input;
+
 mod whole;
 
+pub use input::{STANDARD_INPUT, is_standard_input, is_there};
 pub use replace::sync_folder;
+pub use temporary::abandon_writes;
 pub use whole::{FileAction, FileError, check_writable, read, write_whole};

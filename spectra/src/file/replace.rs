@@ -4,10 +4,7 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
-/// Beginning of the names of temporary files.
-const PREFIX: &str = ".impasto-";
+use super::temporary::{PREFIX, Temporary, clean};
 
 /// Flushes the directory entries of `folder` to the disk, so that a renamed file keeps
 /// its new name after a power failure. Does nothing on systems without this operation.
@@ -21,7 +18,7 @@ pub fn sync_folder(folder: &Path) {
 pub(super) fn check(path: &Path) -> io::Result<()> {
     let (target, folder) = target(path)?;
     regular_file(&target)?;
-    temporary(&folder).map(drop).map_err(unnamed)
+    Temporary::new(&folder).map(drop).map_err(unnamed)
 }
 
 /// Writes `bytes` to a temporary file beside `path` and renames it to `path`.
@@ -32,13 +29,15 @@ pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 fn replace_named(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let (target, folder) = target(path)?;
     let before = regular_file(&target)?;
-    let mut file = temporary(&folder)?;
+    clean(&folder);
+    let mut temporary = Temporary::new(&folder)?;
+    let file = temporary.file()?;
     file.write_all(bytes)?;
-    file.as_file().sync_all()?;
+    file.sync_all()?;
     if let Some(before) = before {
-        file.as_file().set_permissions(before.permissions())?;
+        file.set_permissions(before.permissions())?;
     }
-    file.persist(&target)?;
+    temporary.persist(&target)?;
     sync_folder(&folder);
     Ok(())
 }
@@ -58,19 +57,6 @@ fn regular_file(target: &Path) -> io::Result<Option<std::fs::Metadata>> {
         Ok(_) => Err(io::Error::other("not a regular file")),
         Err(_) => Ok(None),
     }
-}
-
-/// Creates a temporary file in `folder` that is removed when dropped.
-fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // The permissions of a newly created file; the user's umask applies.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
 }
 
 /// An error without the name of a temporary file, which the crate `tempfile` adds: nobody chose

@@ -6,6 +6,9 @@ use std::path::Path;
 /// Does nothing: there are no folders.
 pub fn sync_folder(_: &Path) {}
 
+/// Does nothing: there are no writes.
+pub fn abandon_writes() {}
+
 pub(super) fn check(_: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }

@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::input::{is_standard_input, standard_input};
 use super::replace::{check, replace};
 use crate::hint::{Explain, Fault, Hint};
 
@@ -76,18 +77,24 @@ impl Explain for FileError {
     }
 }
 
-/// Reads all bytes of a file.
+/// Reads all bytes of a file. The path `-` is standard input, which is read to its end once and
+/// kept, so that every reader of it gets the same bytes; a file of that name is `./-`.
 ///
 /// # Errors
 /// [`FileError`] with the path.
 pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
-    std::fs::read(path).map_err(|reason| error(path, FileAction::Read, reason))
+    let bytes = match is_standard_input(path) {
+        true => standard_input(),
+        false => std::fs::read(path),
+    };
+    bytes.map_err(|reason| error(path, FileAction::Read, reason))
 }
 
 /// Replaces the file at `path` by `bytes`, or creates it. The bytes are written to a
 /// temporary file in the same folder, flushed to the disk and renamed, so that `path`
 /// always holds either the old content or the new one. A symbolic link is kept and its
-/// target replaced; an existing file keeps its permissions.
+/// target replaced; an existing file keeps its permissions. Temporary files that ended runs
+/// left in the folder are removed.
 ///
 /// # Errors
 /// [`FileError`] with the path; also if `path` is a folder or a device, and always in a

@@ -130,14 +130,14 @@ impl Explain for ReferencingError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
             Self::Quantity { .. } => {
-                "export the raw counts, or leave [white] and [dark] out: reflectance needs neither"
+                "export the raw counts, or leave [white_reading] and [dark_reading] out: reflectance needs neither"
             }
             Self::Mixed { .. } => "export sample, white and dark the same way",
             Self::NoDark { .. } => {
-                "add [dark=FILE] (the same integration time, light shut off), or [dark=0] if the dark is subtracted already"
+                "add [dark_reading=FILE] (the same integration time, light shut off), or [dark_reading=0] if the dark is subtracted already"
             }
             Self::DarkTime { .. } | Self::UnknownTime { .. } => {
-                "a dark does not scale with time: take one at each integration time and give [dark] for each"
+                "a dark does not scale with time: take one at each integration time and give [dark_reading] for each"
             }
             Self::Saturated { .. } => {
                 "measure again with a shorter integration time; if the detector was not saturated, give its largest count with [full_scale]"

@@ -36,7 +36,7 @@ fn percent_is_told_from_the_whole_file_and_can_be_forced() {
     assert_eq!(table("sample,W,400\na,1,50\nb,1,1.5\n").scale, Scale::Percent);
     let forced = ScaleChoice::Known(Scale::Percent);
     let dark = MeasurementTable::from_csv("t", b"sample,W,400\na,1,0.5\n", forced).unwrap();
-    assert_eq!(dark.readings[0].reflectance, [0.005]);
+    assert_eq!(*dark.readings[0].reflectance, [0.005]);
 }
 
 #[test]
@@ -105,8 +105,8 @@ fn several_files_join_by_pigment_and_sample() {
     let second = table("sample,Red,Blue,400,410\nb2,2,,0.3,0.4\nc,1,1,0.1,0.1\n");
     let all = MeasurementTable::joined(vec![first, second]).unwrap();
     assert_eq!(all.pigments, ["White", "Red", "Blue"]);
-    assert_eq!(all.readings[2].amounts, [0.0, 2.0, 0.0]);
-    assert_eq!(all.readings[0].amounts, [1.0, 0.0, 0.0]);
+    assert_eq!(*all.readings[2].amounts, [0.0, 2.0, 0.0]);
+    assert_eq!(*all.readings[0].amounts, [1.0, 0.0, 0.0]);
     let other = table("sample,White,400,420\na,1,0.9,0.9\n");
     let again = table("sample,White,400,410\na,1,0.9,0.9\n");
     let error = MeasurementTable::joined(vec![again, other]).unwrap_err();

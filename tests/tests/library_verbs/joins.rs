@@ -234,7 +234,7 @@ fn a_subset_keeps_figures_and_says_whose_errors_it_tells() {
     refused(
         &["subset", &oils(), "Viridian", "Cobalt", "--output", &few],
         1,
-        &["`Zinc White` would be left out", "--reference"],
+        &["`Zinc White` would be left out", "--white"],
     );
     done(&["subset", &oils(), "--without", "Viridian", "--without", "Minium", "--output", &few]);
     let (all, left) = (read(&oils()), read(&few));

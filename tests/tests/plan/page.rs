@@ -1,21 +1,9 @@
 //! The commands of docs/guide/measuring.md, run in order.
 
+use suite::guides::commands;
 use suite::program::{impasto, repository};
 
 use crate::painted::{filled, oils};
-
-/// Splits a command into words as a shell does, with double quotes.
-fn words(line: &str) -> Vec<String> {
-    let mut words = Vec::new();
-    for (index, part) in line.split('"').enumerate() {
-        if index % 2 == 1 {
-            words.push(part.to_owned());
-        } else {
-            words.extend(part.split_whitespace().map(str::to_owned));
-        }
-    }
-    words
-}
 
 /// Splits a filled measurement file into a file of spectra and a file of recipes.
 fn parted(full: &str) -> (String, String) {
@@ -81,32 +69,29 @@ fn every_command_of_the_page_on_measuring_runs() {
     }
     std::fs::write(folder.path().join("washes.csv"), washes()).unwrap();
     let mut ran = 0;
-    for block in page.split("```sh\n").skip(1) {
-        let block = block.split("```").next().unwrap().replace("\\\n", " ");
-        for line in block.lines().filter_map(|line| line.trim().strip_prefix("impasto ")) {
-            let in_folder = |word: String| {
-                // A spectrum of a file stands behind its name.
-                let file = word.split('#').next().unwrap_or_default();
-                let is_file = [".csv", ".json", ".txt"].iter().any(|end| file.ends_with(end));
-                if is_file { folder.path().join(word).display().to_string() } else { word }
-            };
-            let words: Vec<String> = words(line).into_iter().map(in_folder).collect();
-            let words: Vec<&str> = words.iter().map(String::as_str).collect();
-            let run = impasto(&words);
-            assert_eq!(run.status, 0, "impasto {line}\n{}", run.err);
-            assert!(!run.err.contains("left out: card"), "the cards are lost\n{}", run.err);
-            ran += 1;
-            // The file of a plan is filled in before the next command reads it.
-            if let Some(at) = words.iter().position(|word| *word == "--output")
-                && words[0] == "plan"
-            {
-                let empty = std::fs::read_to_string(words[at + 1]).unwrap();
-                let full = filled(&empty, &oils, 0.002, 3);
-                std::fs::write(words[at + 1], &full).unwrap();
-                let (spectra, amounts) = parted(&full);
-                std::fs::write(folder.path().join("spectra.csv"), spectra).unwrap();
-                std::fs::write(folder.path().join("amounts.csv"), amounts).unwrap();
-            }
+    for command in commands(&page) {
+        let in_folder = |word: &String| {
+            // A spectrum of a file stands behind its name.
+            let file = word.split('#').next().unwrap_or_default();
+            let is_file = [".csv", ".json", ".txt"].iter().any(|end| file.ends_with(end));
+            if is_file { folder.path().join(word).display().to_string() } else { word.clone() }
+        };
+        let words: Vec<String> = command.words.iter().skip(1).map(in_folder).collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let run = impasto(&words);
+        assert_eq!(run.status, 0, "{}\n{}", command.line, run.err);
+        assert!(!run.err.contains("left out: card"), "the cards are lost\n{}", run.err);
+        ran += 1;
+        // The file of a plan is filled in before the next command reads it.
+        if let Some(at) = words.iter().position(|word| *word == "-o")
+            && words[0] == "plan"
+        {
+            let empty = std::fs::read_to_string(words[at + 1]).unwrap();
+            let full = filled(&empty, &oils, 0.002, 3);
+            std::fs::write(words[at + 1], &full).unwrap();
+            let (spectra, amounts) = parted(&full);
+            std::fs::write(folder.path().join("spectra.csv"), spectra).unwrap();
+            std::fs::write(folder.path().join("amounts.csv"), amounts).unwrap();
         }
     }
     assert!(ran >= 11, "{ran} commands");

@@ -102,7 +102,7 @@ fn the_file_asks_for_bare_cards_and_for_every_swatch_over_both() {
     let header = std::fs::read_to_string(&path).unwrap();
     let header = header.lines().next().unwrap();
     assert!(header.ends_with(",725,730") && header.contains(",380,385,"), "{header}");
-    assert!(fine.err.contains("--reference \"Zinc White\""), "{}", fine.err);
+    assert!(fine.err.contains("--white \"Zinc White\""), "{}", fine.err);
 }
 
 #[test]

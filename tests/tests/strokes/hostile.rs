@@ -126,7 +126,7 @@ fn json_that_does_not_fit_is_told_with_line_and_column() {
         ("[0, 10, 10, 0.2]", "[0, 1, 1, 0, 0, 0, 0, 0]", "invalid length 8, expected 4 to 7"),
         ("[0, 10, 10, 0.2]", "[NaN, 1, 1, 0]", "line 12, column 46: expected value"),
         ("[0, 10, 10, 0.2]", "[1e999, 1, 1, 0]", "number out of range"),
-        ("[0, 10, 10, 0.2]", "[null, 1, 1, 0]", "invalid type: null, expected f64"),
+        ("[0, 10, 10, 0.2]", "[null, 1, 1, 0]", "invalid type: null, expected a number"),
         ("\"keep\": 0.2", "\"kept\": 0.2", "line 13, column 36: unknown field `kept`"),
         ("\"keep\": 0.2", "\"keep\": 0.2, \"keep\": 0.2", "duplicate field `keep`"),
         ("\"W\": 3,", "\"W\": 3, \"W\": 4,", "duplicate key `W`"),

@@ -79,15 +79,15 @@ fn bad_paths_are_refused_with_their_place() {
     for (from, to, wanted) in [
         ("frames = 9", "frames = 0", "`frames`: 0"),
         ("frames = 9", "frames = 9000000", "`frames`: 9000000"),
-        ("frames = 9", "", "line 1: missing field `frames`"),
-        ("frames = 9", "frames = 9\nfps = 3", "line 3: unknown field `fps`"),
+        ("frames = 9", "", "line 1: the key `frames` is missing"),
+        ("frames = 9", "frames = 9\nfps = 3", "line 3: unknown key `fps`"),
         ("target = [0, 0, 0]", "target = [0, 0, 10]", "`keyframe 1: target`"),
         ("target = [0, 0, 0]", "target = [0, 0]", "line 5"),
         ("target = [0, 0, 0]", "target = [0, nan, 0]", "`keyframe 1: target`"),
         ("= 40", "= 180", "`keyframe 1: field_of_view_deg`: `180`"),
-        ("= 20", "= 20\nup = [1, 0, 0]\nroll = 3", "line 12: unknown field `roll`"),
+        ("= 20", "= 20\nup = [1, 0, 0]\nroll = 3", "line 12: unknown key `roll`"),
         ("target = [0, 0, 0]", "target = [0, 0, 0]\nup = [0, 0, 2]", "`keyframe 1: up`"),
-        ("eye = [0, 0, 10]\n", "", "missing field `eye`"),
+        ("eye = [0, 0, 10]\n", "", "the key `eye` is missing"),
         ("[[keyframe]]", "[keyframe]", "duplicate key"),
     ] {
         let text = PATH.replacen(from, to, 1);

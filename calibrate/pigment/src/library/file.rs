@@ -62,7 +62,7 @@ impl PigmentLibrary {
         }
         let syntax = |error: serde_json::Error| LibraryError::Syntax {
             file: file.to_owned(),
-            reason: error.to_string(),
+            reason: spectra::plain_parser_message(&error.to_string()),
         };
         let mut value: Value = serde_json::from_str(text).map_err(syntax)?;
         let object = value.as_object_mut().ok_or_else(|| LibraryError::Format {

@@ -1,5 +1,6 @@
 //! Reasons why a recipe cannot be mixed.
 
+use spectra::did_you_mean;
 use spectra::hint::{Explain, Hint};
 
 /// A recipe that cannot be mixed.
@@ -34,8 +35,10 @@ pub enum RecipeError {
 impl Explain for RecipeError {
     fn hint(&self) -> Option<Hint> {
         match self {
-            Self::UnknownPigment { known, .. } => {
-                Some(Hint::new(format!("pigments: {}", known.join(", "))))
+            Self::UnknownPigment { name, known } => {
+                let question = did_you_mean(name, known.iter().map(String::as_str));
+                let question = question.map_or_else(String::new, |question| question + " ");
+                Some(Hint::verbatim(format!("{question}pigments: {}", known.join(", "))))
             }
             Self::Ambiguous { .. } => Some(Hint::new("write more of the name")),
             Self::Parts { .. } => None,

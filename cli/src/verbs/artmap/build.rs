@@ -8,11 +8,12 @@ use render::artmap::sample::SampleSet;
 use render::artmap::synthesis::{Features, Stage, SynthesisSettings};
 
 use super::files::FileAndSheet;
-use super::map_table::{map_json, print_tiles, summary};
+use super::map_table::{csv_tiles, map_json, print_tiles, summary};
 use crate::console::Console;
 use crate::failure::Result;
 use crate::plain_picture::picture_bytes;
 use crate::progress::Waiting;
+use crate::readings::remark_repeated;
 use crate::stages::StageFolder;
 
 /// Properties by which patches are compared.
@@ -58,7 +59,7 @@ pub(super) struct Build {
     #[arg(long, value_name = "N", default_value_t = SynthesisSettings::default().seed)]
     seed: u64,
     /// Write the map (.exr)
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Write a picture of all tiles, dark to light: tiles, tones in between, tiles repeated, relief
     /// (.png, .exr)
@@ -72,16 +73,20 @@ pub(super) struct Build {
     /// contrast, stroke_length, coherence, neighbour_coherence, border; faults
     #[arg(long)]
     json: bool,
+    /// Print the tiles as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Build {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        remark_repeated(&self.samples, console)?;
         let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &self.samples)?;
         let folder = self.stages.as_ref();
         let folder = folder.map(|folder| StageFolder::open(folder, &self.samples)).transpose()?;
         let sets = self.samples.iter().map(|path| SampleSet::open(path));
         let set = SampleSet::joined(sets.collect::<std::result::Result<Vec<_>, _>>()?)?;
-        let waiting = Waiting::new("building the map", console.screen.progress);
+        let waiting = Waiting::new("building the map", console.shows_progress());
         let (map, stages) = match folder {
             Some(_) => ArtMap::with_stages(&set, &self.settings())?,
             None => (ArtMap::of(&set, &self.settings())?, Vec::new()),
@@ -92,6 +97,9 @@ impl Build {
             write_stages(&folder, &stages, console)?;
         }
         files.write(file::write(&map)?, || map.sheet(Between::default()), console)?;
+        if self.csv {
+            return csv_tiles(&map_json(&map, &figures), console);
+        }
         if self.json {
             return console.json(&map_json(&map, &figures));
         }
@@ -124,7 +132,7 @@ fn write_stages(folder: &StageFolder, stages: &[Stage], console: &mut Console<'_
     let outputs = folder.outputs(stages.iter().map(|stage| stage.name.as_str()))?;
     for (output, stage) in outputs.into_iter().zip(stages) {
         let bytes = picture_bytes(&stage.picture, &output, console)?;
-        output.write(bytes)?;
+        output.put(bytes)?;
     }
-    Ok(())
+    folder.told(console)
 }

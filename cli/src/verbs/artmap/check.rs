@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use render::artmap::map::ArtMap;
 
-use super::map_table::{map_json, print_tiles, summary};
+use super::map_table::{csv_tiles, map_json, print_tiles, summary};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 
@@ -23,6 +23,9 @@ pub(super) struct Check {
     /// contrast, stroke_length, coherence, neighbour_coherence, border; faults
     #[arg(long)]
     json: bool,
+    /// Print the tiles as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Check {
@@ -30,7 +33,9 @@ impl Check {
         let map = ArtMap::open(&self.map)?;
         let figures = map.figures();
         let faults = figures.faults();
-        if self.json {
+        if self.csv {
+            csv_tiles(&map_json(&map, &figures), console)?;
+        } else if self.json {
             console.json(&map_json(&map, &figures))?;
         } else {
             console.line(summary(&map))?;

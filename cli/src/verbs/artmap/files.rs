@@ -35,9 +35,9 @@ impl FileAndSheet {
             Some(output) => Some((picture_bytes(&sheet(), &output, console)?, output)),
             None => None,
         };
-        self.file.write(bytes)?;
+        self.file.write(bytes, console)?;
         match sheet {
-            Some((bytes, output)) => output.write(bytes),
+            Some((bytes, output)) => output.write(bytes, console),
             None => Ok(()),
         }
     }

@@ -15,8 +15,8 @@ pub(super) fn summary(map: &ArtMap) -> String {
     let pigments = if names.is_empty() { "colours only".to_owned() } else { names.join(", ") };
     let guessed = if map.guessed_relief { "; relief guessed" } else { "" };
     format!(
-        "{} tiles of {size} x {size} texels, strokes {:.1} texels{} apart; {pigments}{guessed}",
-        map.keys.len(),
+        "{} of {size} x {size} texels, strokes {:.1} texels{} apart; {pigments}{guessed}",
+        spectra::counted(map.keys.len(), "tile"),
         map.spacing,
         mm.unwrap_or_default(),
         size = map.size(),
@@ -69,6 +69,11 @@ pub(super) fn map_json(map: &ArtMap, figures: &MapFigures) -> Value {
         "tiles": figures.keys.iter().map(tile).collect::<Vec<_>>(),
         "faults": figures.faults().iter().map(ToString::to_string).collect::<Vec<_>>(),
     })
+}
+
+/// Prints the tiles of a map in its JSON as CSV.
+pub(super) fn csv_tiles(map: &Value, console: &mut Console<'_>) -> Result<()> {
+    console.csv_rows(map["tiles"].as_array().map_or(&[], Vec::as_slice))
 }
 
 fn pigment_names(map: &ArtMap) -> Vec<String> {

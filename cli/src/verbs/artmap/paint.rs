@@ -13,7 +13,7 @@ use super::files::FileAndSheet;
 use super::table::{pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
-use crate::input::{built_in_library, library};
+use crate::library_choice::quietly_chosen;
 use crate::progress::Waiting;
 
 /// Paint samples with the engine: tones of one hue, from dark to light, in the strokes of a style
@@ -32,8 +32,10 @@ pub(super) struct Paint {
     #[arg(long, value_name = "NAME", conflicts_with_all = ["style", "output"],
           value_parser = PossibleValuesParser::new(Style::ALL))]
     show_style: Option<String>,
-    /// The pigment library (JSON) [default: the Van Gogh oils]
-    #[arg(long, value_name = "LIBRARY")]
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
+    library: Option<PathBuf>,
+    /// The library, as it was named before
+    #[arg(long, value_name = "LIBRARY", hide = true, conflicts_with = "library")]
     pigments: Option<PathBuf>,
     /// Hue of the tones, as `#c9a227` or `L,a,b`; its lightness does not matter
     #[arg(long, value_name = "COLOUR", default_value = "#c9a227", allow_hyphen_values = true)]
@@ -45,7 +47,7 @@ pub(super) struct Paint {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Write the samples (.exr)
-    #[arg(long, value_name = "FILE", required_unless_present = "show_style")]
+    #[arg(short, long, value_name = "FILE", required_unless_present = "show_style")]
     output: Option<PathBuf>,
     /// Write a picture of all samples side by side, dark to light, the relief of the paint under a
     /// raking light below (.png, .exr)
@@ -55,6 +57,9 @@ pub(super) struct Paint {
     /// colour, mm_per_texel, height_mm, guessed_relief
     #[arg(long)]
     json: bool,
+    /// Print the samples as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Paint {
@@ -64,23 +69,24 @@ impl Paint {
         }
         let named = self.style.clone().unwrap_or_default();
         let (style, file) = style(&named)?;
-        let inputs: Vec<PathBuf> = self.pigments.iter().cloned().chain(file).collect();
+        let path = self.library.as_deref().or(self.pigments.as_deref());
+        let chosen = quietly_chosen(path, console)?;
+        let inputs: Vec<PathBuf> = chosen.inputs().into_iter().chain(file).collect();
         let output = self.output.clone().unwrap_or_default();
         let files = FileAndSheet::open(&output, self.sheet.as_deref(), &inputs)?;
-        let library = match &self.pigments {
-            Some(path) => library(path)?,
-            None => built_in_library(),
-        };
         let settings = PaintedSettings {
-            library: Arc::new(library),
+            library: Arc::new(chosen.library),
             hue: self.hue.clone(),
             tones: self.tones,
             seed: self.seed,
         };
-        let waiting = Waiting::new("painting samples", console.screen.progress);
+        let waiting = Waiting::new("painting samples", console.shows_progress());
         let set = painted_samples(&style, &settings)?;
         drop(waiting);
         files.write(file::write(&set)?, || sheet(&set), console)?;
+        if self.csv {
+            return console.csv_rows(&set.samples.iter().map(sample_json).collect::<Vec<_>>());
+        }
         if self.json {
             return console.json(&set_json(&set, set.samples.iter().map(sample_json).collect()));
         }

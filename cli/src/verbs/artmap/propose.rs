@@ -7,6 +7,7 @@ use render::artmap::passages::{
     marked_picture, propose_marks, samples_of_picture,
 };
 use serde_json::{Value, json};
+use spectra::{counted, counted_as};
 
 use super::source::file_name;
 use super::table::Table;
@@ -56,10 +57,10 @@ impl Proposal<'_> {
         &self,
         source: &SourcePicture,
         files: ProposalFiles,
-        as_json: bool,
+        (as_json, as_csv): (bool, bool),
         console: &mut Console<'_>,
     ) -> Result<()> {
-        let waiting = Waiting::new("looking for passages", console.screen.progress);
+        let waiting = Waiting::new("looking for passages", console.shows_progress());
         let mut marks = propose_marks(&source.color, self.count, &self.settings)?;
         let without = without_spacing(source, &marks, &self.settings);
         drop(waiting);
@@ -73,23 +74,28 @@ impl Proposal<'_> {
             None => None,
         };
         let drawn = marked.is_some();
-        files.marks.write(HEAD.to_owned() + &marks.to_toml())?;
+        files.marks.write(HEAD.to_owned() + &marks.to_toml(), console)?;
         if let Some((bytes, output)) = marked {
-            output.write(bytes)?;
+            output.write(bytes, console)?;
         }
         let found = marks.samples.len();
         if found < self.count {
-            console.remark(format!("only {found} passages have strokes and are large enough"))?;
+            let passages =
+                counted_as(found, "passage has strokes and is", "passages have strokes and are");
+            console.remark(format!("only {passages} large enough"))?;
+        }
+        let samples: Vec<Value> = marks.samples.iter().map(mark_json).collect();
+        if as_csv {
+            return console.csv_rows(&samples);
         }
         if as_json {
-            let samples: Vec<Value> = marks.samples.iter().map(mark_json).collect();
             return console.json(&json!({
                 "painting": marks.painting,
                 "samples": samples,
                 "without_spacing": without,
             }));
         }
-        console.line(format!("{path}: {found} proposed samples"))?;
+        console.line(format!("{path}: {}", counted(found, "proposed sample")))?;
         print(&marks, drawn, console)?;
         if !without.is_empty() {
             console.remark(format!(

@@ -64,7 +64,7 @@ pub(super) struct Sample {
           conflicts_with_all = ["density", "spacing", "sheet"])]
     propose: Option<u64>,
     /// Write the samples (.exr); with --propose the marks (.toml)
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Write a picture of all samples side by side, dark to light, the relief of the paint under a
     /// raking light below (.png, .exr)
@@ -97,6 +97,9 @@ pub(super) struct Sample {
     /// height_mm, regions_under, direction, spacing_px and its source, scale, bounds in the picture ..
     #[arg(long)]
     json: bool,
+    /// Print the samples as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Sample {
@@ -108,7 +111,7 @@ impl Sample {
             let files = ProposalFiles::open(&self.output, self.marked.as_deref(), &inputs)?;
             let source = source(&self.painting, self.merge_minor, console)?;
             let proposal = Proposal { painting: &self.painting, count: count as usize, settings };
-            return proposal.write(&source, files, self.json, console);
+            return proposal.write(&source, files, (self.json, self.csv), console);
         }
         let files = FileAndSheet::open(&self.output, self.sheet.as_deref(), &inputs)?;
         let marked = picture_output(self.marked.as_deref(), &inputs)?;
@@ -116,7 +119,7 @@ impl Sample {
         refuse_same(&[samples, sheet_file, marked.as_ref()])?;
         let source = source(&self.painting, self.merge_minor, console)?;
         let marks = self.marks(source.size(), console)?;
-        let waiting = Waiting::new("finding passages", console.screen.progress);
+        let waiting = Waiting::new("finding passages", console.shows_progress());
         let (set, reports) = samples_of_picture(&source, &marks, &settings)?;
         let set = match self.guess_relief {
             Some(relief_mm) => set.with_guessed_relief(relief_mm)?,
@@ -133,12 +136,16 @@ impl Sample {
         };
         files.write(file::write(&set)?, || sheet(&set), console)?;
         if let Some((bytes, output)) = marked {
-            output.write(bytes)?;
+            output.write(bytes, console)?;
         }
-        if self.json {
+        if self.json || self.csv {
             let samples = set.samples.iter().zip(&reports);
             let samples = samples.map(|(sample, report)| report_json(sample_json(sample), report));
-            return console.json(&set_json(&set, samples.collect()));
+            let samples: Vec<Value> = samples.collect();
+            return match self.csv {
+                true => console.csv_rows(&samples),
+                false => console.json(&set_json(&set, samples)),
+            };
         }
         console.line(format!(
             "{}: {} of {}, strokes {} apart",

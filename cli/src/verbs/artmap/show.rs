@@ -8,7 +8,7 @@ use render::artmap::sample::SampleSet;
 use render::artmap::sheet::sheet;
 use render::artmap::texel_file::TexelFileError;
 
-use super::map_table::{map_json, print_tiles, summary};
+use super::map_table::{csv_tiles, map_json, print_tiles, summary};
 use super::table::{pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
@@ -29,6 +29,9 @@ pub(super) struct Show {
     /// lightness, colour, mm_per_texel, height_mm, guessed_relief. A map: as `artmap check`
     #[arg(long)]
     json: bool,
+    /// Print the samples or tiles as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -58,7 +61,7 @@ impl Show {
                 }),
             };
             let bytes = picture_bytes(&picture, &output, console)?;
-            output.write(bytes)?;
+            output.write(bytes, console)?;
         }
         match content {
             Content::Samples(set) => self.show_samples(&set, console),
@@ -80,6 +83,9 @@ impl Show {
 
     fn show_map(&self, map: &ArtMap, console: &mut Console<'_>) -> Result<()> {
         let figures = map.figures();
+        if self.csv {
+            return csv_tiles(&map_json(map, &figures), console);
+        }
         if self.json {
             return console.json(&map_json(map, &figures));
         }
@@ -88,6 +94,9 @@ impl Show {
     }
 
     fn show_samples(&self, set: &SampleSet, console: &mut Console<'_>) -> Result<()> {
+        if self.csv {
+            return console.csv_rows(&set.samples.iter().map(sample_json).collect::<Vec<_>>());
+        }
         if self.json {
             return console.json(&set_json(set, set.samples.iter().map(sample_json).collect()));
         }

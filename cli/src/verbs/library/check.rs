@@ -9,7 +9,8 @@ use serde_json::{Value, json};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{ViewingOptions, library};
+use crate::input::ViewingOptions;
+use crate::library_choice::chosen;
 
 /// Number of worst samples that are printed; chosen by eye.
 const WORST: usize = 3;
@@ -22,28 +23,41 @@ const WORST: usize = 3;
 /// not a library, and a library with faults, end with exit status 1.
 #[derive(Debug, Args)]
 pub(super) struct Check {
-    /// The pigment library (JSON)
-    library: PathBuf,
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship]
+    library: Option<PathBuf>,
     #[command(flatten)]
     viewing: ViewingOptions,
     /// Print JSON: pigments, faults, warnings, evidence
     #[arg(long)]
     json: bool,
+    /// Print the pigments as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Check {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
-        let library = library(&self.library)?;
-        let health = health(&library, &viewing);
-        if self.json {
-            console.json(&as_json(&library, &health))?;
+        let chosen = chosen(self.library.as_deref(), console)?;
+        let library = &chosen.library;
+        let health = health(library, &viewing);
+        if self.csv {
+            let whole = as_json(library, &health);
+            console.csv_rows(whole["pigments"].as_array().map_or(&[], Vec::as_slice))?;
+            for finding in &health.findings {
+                let name =
+                    finding.pigment.as_ref().map_or_else(String::new, |name| name.clone() + ": ");
+                console.remark(format!("{name}{}", finding.what))?;
+            }
+        } else if self.json {
+            console.json(&as_json(library, &health))?;
         } else {
-            print(&library, &health, console)?;
+            print(library, &health, console)?;
         }
         if health.faulty() {
             return Err(Failure::data(
-                format!("{}: the library is faulty", self.library.display()),
+                format!("{}: the library is faulty", chosen.name()),
                 "see its faults above; fit again, or correct the file",
             ));
         }
@@ -92,7 +106,11 @@ fn as_json(library: &PigmentLibrary, health: &Health) -> Value {
 }
 
 fn print(library: &PigmentLibrary, health: &Health, console: &mut Console<'_>) -> Result<()> {
-    console.line(format!("{} pigments, {}", library.pigments.len(), library.grid))?;
+    console.line(format!(
+        "{}, {}",
+        spectra::counted(library.pigments.len(), "pigment"),
+        library.grid
+    ))?;
     if let Some(evidence) = &library.evidence {
         console.line(format!(
             "colour error of the fit: mean {:.2}, 90 % below {:.2}, largest {:.2}; rms {:.4}",

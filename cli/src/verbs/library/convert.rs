@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use calibrate::curation::{LibraryFrame, from_csv, on_grid, with_reference};
 use calibrate::library::{AmountKind, Input, PigmentLibrary};
 use clap::{Args, ValueEnum};
-use spectra::Interpolation;
+use spectra::{Interpolation, counted};
 
 use super::resampling::ResamplingOptions;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::grid_option::grid;
-use crate::input::library;
+use crate::input::text;
+use crate::library_choice::{chosen, default_path};
 use crate::output::Output;
 use crate::surface::SurfaceOptions;
 
@@ -29,22 +30,24 @@ enum Amounts {
 /// The title, the licence, the source and the surface of a table (CSV: pigment, quantity,
 /// wavelengths) come from the options; a pigment for which it has only K/S gets an unknown S.
 ///
-/// With --reference, a library of absolute amounts becomes one of shares; the colours of its films
+/// With --white, a library of absolute amounts becomes one of shares; the colours of its films
 /// that do not hide are then lost. Shares cannot become amounts, since the amount spread is not
 /// known.
 #[derive(Debug, Args)]
 pub(super) struct Convert {
     /// The pigment library (JSON), or a table of K and S (CSV) as `export --to csv` writes it
-    library: PathBuf,
+    /// [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship]
+    library: Option<PathBuf>,
     /// The library file to write (JSON)
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The new wavelengths in nm, such as 400,700,5
     #[arg(long, value_name = "FIRST,LAST,STEP")]
     grid: Option<String>,
     /// The pigment whose S becomes 1
-    #[arg(long, value_name = "PIGMENT")]
-    reference: Option<String>,
+    #[arg(long, alias = "reference", value_name = "PIGMENT")]
+    white: Option<String>,
     #[command(flatten)]
     resampling: ResamplingOptions,
     /// Unit of the K and S of a table [default: relative]
@@ -65,23 +68,27 @@ pub(super) struct Convert {
 
 impl Convert {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
+        let path = self.library.clone().or_else(default_path);
+        let output = Output::open(&self.output, path.as_slice())?;
         let grid = self.grid.as_deref().map(grid).transpose()?;
-        let file = self.library.display().to_string();
-        let before = if is_table(&self.library) {
-            self.table(&file)?
+        let table = path.as_ref().filter(|path| is_table(path));
+        let (before, file) = if let Some(path) = table {
+            let file = path.display().to_string();
+            (self.table(path, &file)?, file)
         } else {
             self.refuse_table_options()?;
-            if grid.is_none() && self.reference.is_none() {
+            if grid.is_none() && self.white.is_none() {
                 return Err(Failure::usage(
                     "nothing to convert to",
-                    "give --grid FIRST,LAST,STEP or --reference PIGMENT",
+                    "give --grid FIRST,LAST,STEP or --white PIGMENT",
                 ));
             }
-            library(&self.library)?
+            let chosen = chosen(path.as_deref(), console)?;
+            let file = chosen.name();
+            (chosen.library, file)
         };
         let mut after = before.clone();
-        if let Some(reference) = &self.reference {
+        if let Some(reference) = &self.white {
             after = with_reference(&file, &after, reference)?;
             remark_reference(&before, &after, console)?;
         }
@@ -95,26 +102,19 @@ impl Convert {
                 method.name()
             ))?;
         }
-        output.write(after.to_json())?;
+        output.write(after.to_json(), console)?;
         console.line(format!(
-            "{}: {} pigments, {}{}",
+            "{}: {}, {}{}",
             self.output.display(),
-            after.pigments.len(),
+            counted(after.pigments.len(), "pigment"),
             after.grid,
             after.reference.map_or_else(String::new, |name| format!(", S = 1 for {name}"))
         ))
     }
 
     /// Reads a library from a table of K and S.
-    fn table(&self, file: &str) -> Result<PigmentLibrary> {
-        let bytes = spectra::file::read(&self.library)?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            Failure::data(
-                format!("{file}, byte {at}: text must be UTF-8"),
-                "save the file as CSV in UTF-8",
-            )
-        })?;
+    fn table(&self, path: &Path, file: &str) -> Result<PigmentLibrary> {
+        let text = text(path)?;
         let frame = LibraryFrame {
             title: self.title.clone().unwrap_or_default(),
             licence: self.licence.clone().unwrap_or_default(),
@@ -123,7 +123,7 @@ impl Convert {
                 Some(Amounts::Absolute) => AmountKind::Absolute,
                 Some(Amounts::Relative) | None => AmountKind::Relative,
             },
-            reference: self.reference.clone(),
+            reference: self.white.clone(),
             saunderson: self.surface.surface_or_usual()?,
         };
         let mut library = from_csv(file, &text, frame)?;

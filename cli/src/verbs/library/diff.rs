@@ -41,6 +41,9 @@ pub(super) struct Diff {
     /// Print JSON: lights, each with pigments, pairs, largest; and pigments that only one has
     #[arg(long)]
     json: bool,
+    /// Print the pigments as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Diff {
@@ -71,7 +74,19 @@ impl Diff {
             ));
         }
         let largest = found.iter().map(Difference::largest).fold(0.0, f64::max);
-        if self.json {
+        if self.csv {
+            let rows = lights.iter().zip(&found).flat_map(|(viewing, found)| {
+                found.pigments.iter().map(|pigment| {
+                    json!({
+                        "illuminant": viewing.illuminant.name(),
+                        "pigment": pigment.name,
+                        "masstone": pigment.masstone,
+                        "tint": pigment.tint,
+                    })
+                })
+            });
+            console.csv_rows(&rows.collect::<Vec<_>>())?;
+        } else if self.json {
             console.json(&self.as_json(&lights, &found, largest))?;
         } else {
             for (viewing, found) in lights.iter().zip(&found) {
@@ -142,8 +157,8 @@ fn print(viewing: &Viewing, found: &Difference, console: &mut Console<'_>) -> Re
         let [a, b] = &worst.names;
         let white = found.white.as_ref().map_or_else(String::new, |w| format!(" with {w}"));
         console.line(format!(
-            "{} mixtures of two{white}: mean {mean:.2}, largest {:.2} ({a} and {b})",
-            pairs.len(),
+            "{} of two{white}: mean {mean:.2}, largest {:.2} ({a} and {b})",
+            spectra::counted(pairs.len(), "mixture"),
             worst.delta_e
         ))?;
     }

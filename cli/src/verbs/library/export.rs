@@ -7,11 +7,12 @@ use calibrate::library::PigmentLibrary;
 use clap::{Args, ValueEnum};
 use spectra::instrument::{CxfHead, write_cxf};
 use spectra::swatch_file::{write_aco, write_ase, write_gpl};
-use spectra::{Reflectance, Spectrum};
+use spectra::{Reflectance, Spectrum, counted, counted_as};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{ViewingOptions, library, remark_coverage};
+use crate::input::{ViewingOptions, remark_coverage};
+use crate::library_choice::chosen;
 use crate::output::Output;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -42,13 +43,14 @@ enum Space {
 /// Lab under D50, to which colours under another light are adapted (Bradford).
 #[derive(Debug, Args)]
 pub(super) struct Export {
-    /// The pigment library (JSON)
-    library: PathBuf,
-    /// Format of the output file
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship]
+    library: Option<PathBuf>,
+    /// Format of the output file [default: by its ending]
     #[arg(long, value_enum)]
-    to: Format,
+    to: Option<Format>,
     /// The file to write
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Add tints in the reference white, as parts of white to one of the pigment, such as 1,4,9
     #[arg(long, value_name = "PARTS", value_delimiter = ',', num_args = 0..=1,
@@ -62,29 +64,54 @@ pub(super) struct Export {
 }
 
 impl Export {
+    /// The format: that of `--to`, else that of the output's ending.
+    fn format(&self, console: &mut Console<'_>) -> Result<Format> {
+        let ending = self.output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let named = ending.as_deref().and_then(|ending| Format::from_str(ending, true).ok());
+        let output = self.output.display();
+        match (self.to, named) {
+            (Some(to), Some(named)) if to != named => {
+                let [to, named] = [to, named].map(|format| format!("{format:?}").to_lowercase());
+                console.warnings(&[format!(
+                    "{output} is written as {to}, although its name ends in .{named}"
+                )])?;
+            }
+            _ => {}
+        }
+        self.to.or(named).ok_or_else(|| {
+            Failure::usage(
+                format!("{output}: the ending names no format"),
+                "add --to gpl, ase, aco, csv or cxf",
+            )
+        })
+    }
+
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        if self.space == Space::Lab && !matches!(self.to, Format::Ase | Format::Aco) {
+        let to = self.format(console)?;
+        if self.space == Space::Lab && !matches!(to, Format::Ase | Format::Aco) {
             return Err(Failure::usage("only .ase and .aco hold Lab", "leave out --space"));
         }
-        if self.to == Format::Csv && !self.tints.is_empty() {
+        if to == Format::Csv && !self.tints.is_empty() {
             return Err(Failure::usage("a table of K and S has no tints", "leave out --tints"));
         }
         let tints = tints(&self.tints)?;
         let viewing = self.viewing.viewing()?;
-        let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
-        let library = library(&self.library)?;
-        if self.to == Format::Csv {
+        let chosen = chosen(self.library.as_deref(), console)?;
+        let output = Output::open(&self.output, &chosen.inputs())?;
+        let library = chosen.library;
+        if to == Format::Csv {
             remark_csv_omissions(&library, console)?;
-            output.write(to_csv(&library))?;
-            let count = library.pigments.len();
-            return console.line(format!("{}: {count} pigments", self.output.display()));
+            output.write(to_csv(&library), console)?;
+            let pigments = counted(library.pigments.len(), "pigment");
+            return console.line(format!("{}: {pigments}", self.output.display()));
         }
         remark_coverage(library.grid, console)?;
         let swatches = Swatches::new(&library, &viewing, &tints)?;
-        let count = swatches.swatches.len();
-        if self.to == Format::Cxf {
-            output.write(cxf(&library, &swatches)?)?;
-            return console.line(format!("{}: {count} spectra", self.output.display()));
+        let number = swatches.swatches.len();
+        if to == Format::Cxf {
+            output.write(cxf(&library, &swatches)?, console)?;
+            let spectra = if number == 1 { "spectrum" } else { "spectra" };
+            return console.line(format!("{}: {number} {spectra}", self.output.display()));
         }
         let clipped = swatches.outside_srgb();
         if self.space == Space::Rgb && !clipped.is_empty() {
@@ -95,12 +122,17 @@ impl Export {
             Space::Rgb => SwatchSpace::Srgb,
             Space::Lab => SwatchSpace::LabD50,
         });
-        output.write(match self.to {
+        let bytes = match to {
             Format::Ase => write_ase(&palette)?,
             Format::Aco => write_aco(&palette)?,
             Format::Gpl | Format::Csv | Format::Cxf => write_gpl(&palette)?.into_bytes(),
-        })?;
-        console.line(format!("{}: {count} swatches", self.output.display()))
+        };
+        output.write(bytes, console)?;
+        console.line(format!(
+            "{}: {}",
+            self.output.display(),
+            counted_as(number, "swatch", "swatches")
+        ))
     }
 }
 

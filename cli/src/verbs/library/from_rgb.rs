@@ -45,7 +45,7 @@ pub(super) struct FromRgb {
     #[arg(long)]
     nearest: bool,
     /// The library file to write (JSON)
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]
     surface: SurfaceOptions,
@@ -69,7 +69,7 @@ impl FromRgb {
         let name = self.name.trim();
         let body = if self.glaze { Body::Glaze } else { Body::Hiding };
         let guess = add_guessed(&mut library, name, color, body, self.nearest)?;
-        output.write(library.to_json())?;
+        output.write(library.to_json(), console)?;
         if guess.delta_e >= 0.05 {
             let (hex, off) = (&guess.hex, guess.delta_e);
             let warning = format!("{color} is out of reach; {hex} is {off:.2} CIEDE2000 off");

@@ -10,25 +10,30 @@ use spectra::color::Lab;
 
 use crate::console::Console;
 use crate::failure::Result;
-use crate::input::{ViewingOptions, library, srgb};
+use crate::input::{ViewingOptions, srgb};
+use crate::library_choice::{ChosenLibrary, chosen};
 
 /// List the pigments, each with its masstone and a tint in the reference white
 #[derive(Debug, Args)]
 pub(super) struct List {
-    /// The pigment library (JSON)
-    library: PathBuf,
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship]
+    library: Option<PathBuf>,
     #[command(flatten)]
     viewing: ViewingOptions,
     /// Print JSON: a list of name, colour_index, identified, guessed, lab, hex, notes
     #[arg(long)]
     json: bool,
+    /// Print the table as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl List {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
-        let library = library(&self.library)?;
-        if !self.json {
+        let ChosenLibrary { library, .. } = chosen(self.library.as_deref(), console)?;
+        if !self.json && !self.csv {
             let evidence = library.evidence.as_ref();
             let stated = |text: &str| if text.is_empty() { "not stated" } else { text }.to_owned();
             let (title, source, licence) =
@@ -66,7 +71,10 @@ impl List {
                 }))
             })
             .collect::<Result<Vec<Value>>>()?;
-        console.json(&Value::from(rows))
+        match self.csv {
+            true => console.csv_rows(&rows),
+            false => console.json(&Value::from(rows)),
+        }
     }
 }
 

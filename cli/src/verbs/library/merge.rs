@@ -11,6 +11,7 @@ use crate::console::Console;
 use crate::failure::Result;
 use crate::input::{ViewingOptions, library};
 use crate::output::Output;
+use crate::readings::remark_repeated;
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum PreferName {
@@ -30,11 +31,11 @@ pub(super) struct Merge {
     #[arg(required = true, num_args = 2.., value_name = "LIBRARY")]
     libraries: Vec<PathBuf>,
     /// The library file to write (JSON)
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The white that all libraries share, by its name in the first [default: its reference]
-    #[arg(long, value_name = "PIGMENT")]
-    reference: Option<String>,
+    #[arg(long, alias = "reference", value_name = "PIGMENT")]
+    white: Option<String>,
     /// Name of that white in another library (may be repeated)
     #[arg(long = "as", value_name = "PIGMENT")]
     aliases: Vec<String>,
@@ -58,10 +59,14 @@ pub(super) struct Merge {
     /// Print JSON: pigments, common, warnings
     #[arg(long)]
     json: bool,
+    /// Print the pigments that several libraries have as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Merge {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        remark_repeated(&self.libraries, console)?;
         let output = Output::open(&self.output, &self.libraries)?;
         let sources = self
             .libraries
@@ -69,7 +74,7 @@ impl Merge {
             .map(|path| Ok(Source { file: path.display().to_string(), library: library(path)? }))
             .collect::<Result<Vec<Source>>>()?;
         let settings = MergeSettings {
-            reference: self.reference,
+            reference: self.white,
             aliases: self.aliases,
             prefer: self.prefer.map(|prefer| match prefer {
                 PreferName::First => Prefer::First,
@@ -92,11 +97,14 @@ impl Merge {
             );
         }
         console.warnings(&found.warnings)?;
-        output.write(found.library.to_json())?;
+        output.write(found.library.to_json(), console)?;
+        let common = found.common.iter().map(|(name, file, delta_e)| {
+            json!({ "name": name, "file": file, "masstone_ciede2000": delta_e })
+        });
+        if self.csv {
+            return console.csv_rows(&common.collect::<Vec<_>>());
+        }
         if self.json {
-            let common = found.common.iter().map(|(name, file, delta_e)| {
-                json!({ "name": name, "file": file, "masstone_ciede2000": delta_e })
-            });
             return console.json(&json!({
                 "pigments": found.library.pigments.len(),
                 "reference": found.library.reference,
@@ -108,9 +116,9 @@ impl Merge {
             console.line(format!("{name}: that of {file} differs by {delta_e:.2} CIEDE2000"))?;
         }
         console.line(format!(
-            "{}: {} pigments of {} libraries",
+            "{}: {} of {} libraries",
             self.output.display(),
-            found.library.pigments.len(),
+            spectra::counted(found.library.pigments.len(), "pigment"),
             sources.len()
         ))
     }

@@ -7,36 +7,40 @@ use clap::Args;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::library;
+use crate::library_choice::{chosen, split};
 use crate::output::Output;
 
 /// Rename pigments; everything else stays the same, byte for byte
 #[derive(Debug, Args)]
+#[command(
+    override_usage = "impasto library rename [OPTIONS] --output <FILE> [LIBRARY] [OLD=NEW]..."
+)]
 pub(super) struct Rename {
-    /// The pigment library (JSON)
-    library: PathBuf,
-    /// Names to change, all at once; the old name may be abbreviated
-    #[arg(value_name = "OLD=NEW")]
-    names: Vec<String>,
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship], then names to change, all at once; the old name may be
+    /// abbreviated
+    #[arg(value_name = "[LIBRARY] OLD=NEW")]
+    words: Vec<String>,
     /// Set a Colour Index name, such as "Ultramarine=PB29" (may be repeated); `NAME=` removes it
     #[arg(long = "colour-index", value_name = "NAME=INDEX")]
     color_index: Vec<String>,
     /// The library file to write (JSON)
-    #[arg(long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 }
 
 impl Rename {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
-        if self.names.is_empty() && self.color_index.is_empty() {
+        let (path, names) = split(&self.words, true);
+        if names.is_empty() && self.color_index.is_empty() {
             return Err(Failure::usage("nothing to rename", "give OLD=NEW, or --colour-index"));
         }
-        let output = Output::open(&self.output, std::slice::from_ref(&self.library))?;
-        let before = library(&self.library)?;
-        let file = self.library.display().to_string();
+        let chosen = chosen(path.as_deref(), console)?;
+        let output = Output::open(&self.output, &chosen.inputs())?;
+        let (file, before) = (chosen.name(), chosen.library);
         let indexed = with_color_indices(&file, &before, &pairs(&self.color_index)?)?;
-        let after = renamed(&file, &indexed, &pairs(&self.names)?)?;
-        output.write(after.to_json())?;
+        let after = renamed(&file, &indexed, &pairs(names)?)?;
+        output.write(after.to_json(), console)?;
         for (old, new) in before.pigments.iter().zip(&after.pigments) {
             if old.name != new.name {
                 console.line(format!("{} is now {}", old.name, new.name))?;

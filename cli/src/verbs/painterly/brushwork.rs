@@ -124,7 +124,7 @@ fn styled(style: &str, console: &Console<'_>) -> Result<ArtMap> {
         true => Style::open(Path::new(style))?,
         false => Style::named(style)?,
     };
-    let _waiting = Waiting::new("painting samples", console.screen.progress);
+    let _waiting = Waiting::new("painting samples", console.shows_progress());
     let samples = painted_samples(&style, &PaintedSettings::default())?;
     Ok(ArtMap::of(&samples, &SynthesisSettings::default())?)
 }

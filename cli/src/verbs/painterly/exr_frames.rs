@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::output::{Output, create_folder};
 
 /// A folder that a number of frames can be written to.
 pub(super) struct ExrFrames {
+    folder: PathBuf,
     outputs: Vec<Output>,
 }
 
@@ -24,14 +26,18 @@ impl ExrFrames {
             ));
         }
         let outputs = (0..frames).map(|index| Output::open(&path(index), inputs));
-        Ok(Self { outputs: outputs.collect::<Result<_>>()? })
+        Ok(Self { folder: folder.to_owned(), outputs: outputs.collect::<Result<_>>()? })
     }
 
     /// Writes the frames in order, each whole.
-    pub(super) fn write(self, mut frame: impl FnMut(usize) -> Result<Vec<u8>>) -> Result<()> {
+    pub(super) fn write(
+        self,
+        console: &mut Console<'_>,
+        mut frame: impl FnMut(usize) -> Result<Vec<u8>>,
+    ) -> Result<()> {
         for (index, output) in self.outputs.into_iter().enumerate() {
-            output.write(frame(index)?)?;
+            output.put(frame(index)?)?;
         }
-        Ok(())
+        console.wrote(&self.folder)
     }
 }

@@ -88,7 +88,7 @@ impl Job {
         if let Some(folder) = stages {
             let stages = painter.stages(&cameras[0], size, 0.0)?.into_iter();
             let stages: Vec<_> = stages.map(|stage| (stage.name, stage.picture)).collect();
-            folder.write(&stages)?;
+            folder.write(&stages, console)?;
         }
         match painting {
             _ if !exports.any() => {}
@@ -112,7 +112,9 @@ impl Job {
         let time =
             |index: usize| f64::from(settings.flow.loop_seconds) * index as f64 / count as f64;
         if let Some(folder) = exr_frames {
-            folder.write(|index| Ok(painter.exr_frame(&cameras[index], size, time(index))?))?;
+            folder.write(console, |index| {
+                Ok(painter.exr_frame(&cameras[index], size, time(index))?)
+            })?;
         }
         let mut frames = None;
         if let Some(recording) = recording {
@@ -161,12 +163,13 @@ impl Summary {
                 "frames_found": frames.map(|(_, found)| found),
             }));
         }
+        let strokes = spectra::counted(strokes, "stroke");
         let mut line = format!(
-            "{width} x {height} pixels, {strokes} strokes, {:.0} % continue a neighbour",
+            "{width} x {height} pixels, {strokes}, {:.0} % continue a neighbour",
             100.0 * matched
         );
         if let Some((frames, found)) = frames {
-            line += &format!(", {frames} frames");
+            line += &format!(", {}", spectra::counted(*frames, "frame"));
             if *found > 0 {
                 line += &format!(" ({found} of them existed already)");
             }

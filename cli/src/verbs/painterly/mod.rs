@@ -109,7 +109,7 @@ impl Painterly {
         let scene = self.scene(subject, &settings)?;
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let layers = self.exports.layer_option().is_some();
-        let painting = self.pigments.materials(&title.unwrap_or_default(), layers)?;
+        let painting = self.pigments.materials(&title.unwrap_or_default(), layers, console)?;
         let animation = self.animation.open(&inputs)?;
         let exports = self.exports.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
@@ -129,7 +129,7 @@ impl Painterly {
             .map(|folder| ExrFrames::open(folder, scene.cameras.len(), &inputs))
             .transpose()?;
         let maps = self.brushwork.maps(self.settings.style(), console)?;
-        let compute = self.backend.compute()?;
+        let compute = self.backend.compute(console)?;
         let job =
             Job { compute, settings, scene, painting, exports, stages, exr_frames, animation };
         let summary = job.paint(&maps, console)?;

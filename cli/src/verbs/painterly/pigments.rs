@@ -9,8 +9,9 @@ use render::paint::document::Slots;
 use render::paint::ground::{GroundKind, GroundSpec};
 
 use crate::canvas::grounds;
+use crate::console::Console;
 use crate::failure::Result;
-use crate::input::{built_in_library, library};
+use crate::library_choice::quietly_chosen;
 use crate::palette::palette;
 
 #[derive(Debug, Args)]
@@ -20,10 +21,13 @@ pub(super) struct PigmentOptions {
     /// other than --picture imply it
     #[arg(long)]
     with_pigments: bool,
-    /// Library of the pigments for the colours of a model or photograph [default: that of the map, or
-    /// the Van Gogh oils]
-    #[arg(long, value_name = "LIBRARY")]
+    /// Library of the pigments for the colours of a model or photograph [default: that of the map, else
+    /// that of IMPASTO_LIBRARY, else the Van Gogh oils that ship]
+    #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
+    /// The library, as it was named before
+    #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
+    pigments_before: Option<PathBuf>,
     /// Up to eight pigments for those colours, separated by commas [default: those that come nearest]
     #[arg(long, value_name = "PIGMENTS")]
     palette: Vec<String>,
@@ -41,22 +45,31 @@ pub(super) struct Materials {
 }
 
 impl PigmentOptions {
+    fn path(&self) -> Option<&PathBuf> {
+        self.pigments.as_ref().or(self.pigments_before.as_ref())
+    }
+
     /// File of the library, if one is given.
     pub(super) fn input(&self) -> Option<PathBuf> {
-        self.pigments.clone()
+        self.path().cloned()
     }
 
     /// Title, ground and pigments, if the picture is a painting: if `wanted` or asked for here.
-    pub(super) fn materials(&self, title: &str, wanted: bool) -> Result<Option<Materials>> {
-        let chosen = self.pigments.is_some() || !self.palette.is_empty();
+    pub(super) fn materials(
+        &self,
+        title: &str,
+        wanted: bool,
+        console: &mut Console<'_>,
+    ) -> Result<Option<Materials>> {
+        let chosen = self.path().is_some() || !self.palette.is_empty();
         if !(wanted || self.with_pigments || chosen) {
             return Ok(None);
         }
         let pigments = match chosen {
             false => None,
             true => {
-                let library =
-                    self.pigments.as_deref().map_or_else(|| Ok(built_in_library()), library)?;
+                let path = self.path().map(PathBuf::as_path);
+                let library = quietly_chosen(path, console)?.library;
                 let slots = match self.palette.is_empty() {
                     true => None,
                     false => Some(palette(&self.palette, &library)?),

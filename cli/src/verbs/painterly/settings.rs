@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use render::painterly::{Preset, Settings, SettingsError};
+use render::painterly::{Preset, Settings};
 
-use crate::failure::Result;
+use crate::failure::{Failure, Result};
+use crate::input::text;
 use crate::setting_changes::changes;
 
 #[derive(Debug, Args)]
@@ -39,13 +40,12 @@ impl SettingsOptions {
         let mut settings = self.preset.map_or_else(Settings::default, Preset::settings);
         if let Some(path) = &self.settings {
             let name = path.display().to_string();
-            let text = std::fs::read_to_string(path).map_err(|error| {
-                SettingsError::Unreadable { name: name.clone(), reason: error.to_string() }
-            })?;
+            let text = text(path)?;
             settings = settings.changed(&name, &text)?;
         }
         for change in changes(&self.set, "overlap.sharpness=8")? {
-            settings = settings.changed(&change.name, &change.toml)?;
+            let changed = settings.changed(&change.name, &change.toml);
+            settings = changed.map_err(|error| Failure::from(error).of_option())?;
         }
         Ok(settings)
     }

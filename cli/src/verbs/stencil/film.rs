@@ -26,13 +26,17 @@ pub(super) struct Film<'a> {
 
 impl Film<'_> {
     /// Writes the volumes of each frame.
-    pub(super) fn write_volumes(&mut self, folder: &MeshFolder) -> Result<()> {
+    pub(super) fn write_volumes(
+        &mut self,
+        folder: &MeshFolder,
+        console: &mut Console<'_>,
+    ) -> Result<()> {
         let mut play = self.beginning.clone();
         for (&step, output) in self.steps.iter().zip(folder.outputs()?) {
             self.advance(&mut play, step)?;
-            output.write(ply_of(play.world().volumes())?)?;
+            output.put(ply_of(play.world().volumes())?)?;
         }
-        Ok(())
+        folder.told(console)
     }
 
     /// Paints the missing frames and returns how many existed already.
@@ -41,7 +45,7 @@ impl Film<'_> {
         recording: Recording,
         painter: &mut VolumePainter,
         show: Show,
-        console: &Console<'_>,
+        console: &mut Console<'_>,
     ) -> Result<usize> {
         let mut play = self.beginning.clone();
         let (cameras, size) = (&self.scene.cameras, self.scene.size);

@@ -76,7 +76,7 @@ impl Job {
             }
         };
         let beginning = script.beginning(&scene, &settings)?;
-        let compute = verb.backend.compute()?;
+        let compute = verb.backend.compute(console)?;
         let animation = verb.animation.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
         let outputs = verb.outputs.open(&inputs, frames, file)?;
@@ -138,7 +138,7 @@ impl Job {
         };
         stills.write(pictures, console)?;
         if let Some(output) = script {
-            output.write(&self.script_text)?;
+            output.write(&self.script_text, console)?;
         }
         let mut summary = Summary::of(still.world(), size, &backend);
         let mut film = Film {
@@ -149,7 +149,7 @@ impl Job {
             snapshots: &mut snapshots,
         };
         if let Some(folder) = volumes {
-            film.write_volumes(&folder)?;
+            film.write_volumes(&folder, console)?;
         }
         if let Some(recording) = recording {
             let found = film.record(recording, &mut painter, self.show, console)?;
@@ -213,7 +213,7 @@ fn check_layers(verb: &Stencil, has_pigments: bool) -> Result<()> {
     if !has_pigments {
         return Err(Failure::usage(
             format!("{option} needs pigments, but no library is given"),
-            "add --pigments LIBRARY and --palette",
+            "name a LIBRARY after the subject, and give --palette",
         ));
     }
     match verb.show {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::output::{Output, OutputFolder};
 use crate::pictures::{Exports, OpenExports};
@@ -116,6 +117,11 @@ impl MeshFolder {
         }
         folder.check((0..frames).map(file_name))?;
         Ok(Self { folder, frames })
+    }
+
+    /// Tells that the folder was written.
+    pub(super) fn told(&self, console: &mut Console<'_>) -> Result<()> {
+        self.folder.told(console)
     }
 
     /// One file for each frame.

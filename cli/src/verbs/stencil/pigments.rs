@@ -25,10 +25,13 @@ pub(super) struct PigmentOptions {
     /// Paint with this library: volumes become films of measured pigments, and the picture a painting.
     /// The setting drawing.inside is then glaze or both, as in the preset grisaille [default: the
     /// library that a script names, if its volumes show glazes]
-    #[arg(long, value_name = "LIBRARY")]
+    #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
+    /// The library, as it was named before
+    #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
+    pigments_before: Option<PathBuf>,
     /// Up to eight pigments of the volumes, separated by commas
-    #[arg(long, value_name = "PIGMENTS", requires = "pigments")]
+    #[arg(long, value_name = "PIGMENTS", requires = "library_of_paint")]
     palette: Vec<String>,
     /// Ground: linen, paper or panel [default: that of the script, or panel]
     #[arg(long, value_name = "KIND", value_parser = grounds())]
@@ -45,12 +48,12 @@ pub(super) struct PigmentOptions {
 impl PigmentOptions {
     /// Path of the library, if given.
     pub(super) fn input(&self) -> Option<&PathBuf> {
-        self.pigments.as_ref()
+        self.pigments.as_ref().or(self.pigments_before.as_ref())
     }
 
     /// Whether a library is given.
     pub(super) fn any(&self) -> bool {
-        self.pigments.is_some()
+        self.input().is_some()
     }
 
     /// The light of `--illuminant`, or of a script, which lies in `folder`.
@@ -84,7 +87,7 @@ impl PigmentOptions {
 
     /// The library, if one is given.
     pub(super) fn library(&self) -> Result<Option<PigmentLibrary>> {
-        self.pigments.as_deref().map(library).transpose()
+        self.input().map(|path| library(path)).transpose()
     }
 
     /// Pigments, ground and light of a script's palette, if a `library` is given, or named by the
@@ -105,7 +108,7 @@ impl PigmentOptions {
         };
         let Some(library) = library else { return self.without_library() };
         if script.palette.is_empty() {
-            let path = self.pigments.as_deref().unwrap_or(folder);
+            let path = self.input().map_or(folder, PathBuf::as_path);
             return Err(Failure::usage(
                 format!("{}: no pigment of this library is chosen", path.display()),
                 "add --palette with up to eight of its pigments, or --paint for each pour",
@@ -134,7 +137,7 @@ impl PigmentOptions {
             None => Ok(None),
             Some((option, _)) => Err(Failure::usage(
                 format!("{option} needs pigments, but no library is given"),
-                "add --pigments LIBRARY and --palette",
+                "name a LIBRARY after the subject, and give --palette",
             )),
         }
     }

@@ -15,7 +15,8 @@ use spectra::instrument::split_file_and_name;
 
 use super::cameras::{camera_table, model_cameras, picture_cameras};
 use super::pours::PourOptions;
-use crate::failure::{Context, Failure, Result};
+use crate::failure::{Failure, Result};
+use crate::input::text;
 use crate::subject::{PictureViews, Subject, SubjectOptions};
 
 /// A script with the file that it was read from, if any.
@@ -61,8 +62,7 @@ impl OpenScript {
             });
         }
         let name = subject.display().to_string();
-        let text = std::fs::read_to_string(subject)
-            .context(|| format!("{name}: this file cannot be read"))?;
+        let text = text(subject)?;
         let script = Script::open_own(subject)?;
         let own_pours = script.pours.len();
         Ok(Self { script, file: Some((name, text)), own_pours, seconds_given, camera_given: false })

@@ -7,14 +7,15 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use render::volumes::script::Script;
 use render::volumes::settings::{Preset, SettingsError};
 
-use crate::failure::{Context, Result};
+use crate::failure::{Failure, Result};
+use crate::input::text;
 use crate::setting_changes::changes;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Style")]
 pub(super) struct SettingsOptions {
     /// Preset of settings that ships with impasto [default: that of the script, or sketch; with
-    /// --pigments and no script, grisaille]
+    /// a LIBRARY and no script, grisaille]
     #[arg(long, value_name = "NAME", value_parser = preset_names())]
     preset: Option<Preset>,
     /// Settings from a file (TOML); others keep the values of the preset
@@ -36,12 +37,12 @@ impl SettingsOptions {
         script.preset = self.preset.or(script.preset).or(usual);
         if let Some(path) = &self.settings {
             let name = path.display().to_string();
-            let text = std::fs::read_to_string(path)
-                .context(|| format!("{name}: this file cannot be read"))?;
+            let text = text(path)?;
             script.change_settings(&name, &text)?;
         }
         for change in changes(&self.set, "motion.microstructure=0.3")? {
-            script.change_settings(&change.name, &change.toml)?;
+            let changed = script.change_settings(&change.name, &change.toml);
+            changed.map_err(|error| Failure::from(error).of_option())?;
         }
         Ok(())
     }

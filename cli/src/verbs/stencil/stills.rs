@@ -39,13 +39,13 @@ impl Stills<'_> {
             self.exports(exports, console)?;
         }
         if let Some(output) = mask {
-            self.mask(output)?;
+            self.mask(output, console)?;
         }
         if let Some(output) = passes {
-            self.passes(output)?;
+            self.passes(output, console)?;
         }
         if let Some(folder) = stages {
-            self.stages(&folder)?;
+            self.stages(&folder, console)?;
         }
         Ok(())
     }
@@ -74,18 +74,18 @@ impl Stills<'_> {
         Ok(Painting::open_under(document, light, engine, 0)?)
     }
 
-    fn mask(&mut self, output: Output) -> Result<()> {
+    fn mask(&mut self, output: Output, console: &mut Console<'_>) -> Result<()> {
         let mask = self.painter.shown(self.world, self.camera, self.size, Show::Mask)?;
         let format = PictureFormat::from_path(output.path()).unwrap_or_default();
-        output.write(picture_file(&linear_from_encoded(&mask), PX_MM, format)?.bytes)
+        output.write(picture_file(&linear_from_encoded(&mask), PX_MM, format)?.bytes, console)
     }
 
-    fn passes(&mut self, output: Output) -> Result<()> {
-        output.write(self.painter.passes(self.world, self.camera, self.size, PX_MM)?)
+    fn passes(&mut self, output: Output, console: &mut Console<'_>) -> Result<()> {
+        output.write(self.painter.passes(self.world, self.camera, self.size, PX_MM)?, console)
     }
 
-    fn stages(&mut self, folder: &StageFolder) -> Result<()> {
+    fn stages(&mut self, folder: &StageFolder, console: &mut Console<'_>) -> Result<()> {
         let stages = self.painter.stages(self.world, self.camera, self.size)?.into_iter();
-        folder.write(&stages.map(|stage| (stage.name, stage.picture)).collect::<Vec<_>>())
+        folder.write(&stages.map(|stage| (stage.name, stage.picture)).collect::<Vec<_>>(), console)
     }
 }

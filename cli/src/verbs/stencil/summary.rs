@@ -72,8 +72,9 @@ impl Summary {
     fn line(&self) -> String {
         let Self { size: (width, height), backend, seconds, volumes, .. } = self;
         let [on_scene, lifted, in_tube] = self.paint_mm3;
+        let volumes = spectra::counted(*volumes, "volume");
         let mut line = format!(
-            "{width} x {height} pixels on {backend}: {volumes} volumes after {seconds:.2} s, {on_scene:.1} mm3 of paint"
+            "{width} x {height} pixels on {backend}: {volumes} after {seconds:.2} s, {on_scene:.1} mm3 of paint"
         );
         if lifted > 0.0 {
             line += &format!(", {lifted:.1} mm3 taken up");
@@ -82,7 +83,7 @@ impl Summary {
             line += &format!(", {in_tube:.1} mm3 had no room and stayed in the tube");
         }
         if let Some((frames, found)) = self.frames {
-            line += &format!(", {frames} frames");
+            line += &format!(", {}", spectra::counted(frames, "frame"));
             if found > 0 {
                 let from = self.from_s.map_or("the beginning".to_owned(), |s| format!("{s:.2} s"));
                 line += &format!(" ({found} of them existed already; played from {from})");

@@ -49,7 +49,7 @@ pub(super) fn paint(
         let mut stages = vec![("surface".to_owned(), painter.unlit(first)?)];
         let mut keep = |stage: Stage, color| stages.push((stage.name().to_owned(), color));
         painter.paint_stages(first, Some(&mut keep))?;
-        outputs.write_stages(&stages)?;
+        outputs.write_stages(&stages, console)?;
     }
     if outputs.exports.any() {
         match &mut glazes {

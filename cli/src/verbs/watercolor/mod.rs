@@ -96,7 +96,7 @@ impl Watercolor {
         let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let title = title.unwrap_or_default();
         let job = Job { title, settings, glazes, outputs, animation };
-        let compute = self.backend.compute()?;
+        let compute = self.backend.compute(console)?;
         let summary = match subject {
             Subject::Photograph(photograph, width) => {
                 photograph::paint(compute, job, &photograph, width, console)?
@@ -124,10 +124,10 @@ fn print(summary: &Summary, as_json: bool, console: &mut Console<'_>) -> Result<
     }
     let mut line = format!("{width} x {height} pixels on {backend}");
     if let Some(regions) = regions {
-        line += &format!(", {regions} regions");
+        line += &format!(", {}", spectra::counted(*regions, "region"));
     }
     if let Some((frames, found)) = frames {
-        line += &format!(", {frames} frames");
+        line += &format!(", {}", spectra::counted(*frames, "frame"));
         if *found > 0 {
             line += &format!(" ({found} of them existed already)");
         }

@@ -6,6 +6,7 @@ use clap::Args;
 use render::picture::Photograph;
 use render::watercolor::Masks;
 
+use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::output::Output;
 use crate::pictures::{Exports, OpenExports};
@@ -51,7 +52,7 @@ impl OutputOptions {
             None => Ok(()),
             Some(option) => Err(Failure::usage(
                 format!("{option} needs pigments, but no library is given"),
-                "add --pigments LIBRARY",
+                "name a LIBRARY after the subject, such as oils.json; for a linear picture --picture FILE.exr",
             )),
         }
     }
@@ -91,7 +92,11 @@ impl OpenOutputs {
     }
 
     /// Writes the stages, numbered from 1 in their order.
-    pub(super) fn write_stages(&self, stages: &[NamedStage]) -> Result<()> {
-        self.stages.as_ref().map_or(Ok(()), |folder| folder.write(stages))
+    pub(super) fn write_stages(
+        &self,
+        stages: &[NamedStage],
+        console: &mut Console<'_>,
+    ) -> Result<()> {
+        self.stages.as_ref().map_or(Ok(()), |folder| folder.write(stages, console))
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn paint(
         .with_compute(compute)
         .with_width_px(width)
         .with_masks(outputs.masks()?);
-    let waiting = Waiting::new("finding regions", console.screen.progress);
+    let waiting = Waiting::new("finding regions", console.shows_progress());
     let prepared = painter.prepare(photograph)?;
     drop(waiting);
     let mut stages: Vec<NamedStage> = Vec::new();
@@ -37,7 +37,7 @@ pub(super) fn paint(
             stages.push((stage.name().to_owned(), color));
         };
         picture = Some(painter.paint_prepared(&prepared, Some(&mut keep))?);
-        outputs.write_stages(&stages)?;
+        outputs.write_stages(&stages, console)?;
     }
     if outputs.exports.any() {
         match &mut glazes {
@@ -50,7 +50,7 @@ pub(super) fn paint(
                 outputs.exports.write_picture(&linear_from_encoded(&picture), px_mm, console)?;
             }
             Some(glazes) => {
-                let waiting = Waiting::new("mixing glazes", console.screen.progress);
+                let waiting = Waiting::new("mixing glazes", console.shows_progress());
                 let (wash, textures) = (&prepared.wash, &prepared.textures);
                 let document = glazes.paint(&title, wash, textures, &prepared.settings)?;
                 let mut painting = open_painting(document, glazes)?;

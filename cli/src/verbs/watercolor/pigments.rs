@@ -21,25 +21,28 @@ use crate::palette::palette;
 pub(super) struct PigmentOptions {
     /// Paint with this library: every colour is matched by a glaze over the paper, and density
     /// becomes its thickness
-    #[arg(long, value_name = "LIBRARY")]
+    #[arg(value_name = "LIBRARY", group = "library_of_paint")]
     pigments: Option<PathBuf>,
+    /// The library, as it was named before
+    #[arg(long = "pigments", value_name = "LIBRARY", hide = true, group = "library_of_paint")]
+    pigments_before: Option<PathBuf>,
     /// Up to eight pigments of the library, separated by commas [default: those that come nearest
     /// to the picture's colours]
-    #[arg(long, value_name = "PIGMENTS", requires = "pigments")]
+    #[arg(long, value_name = "PIGMENTS", requires = "library_of_paint")]
     palette: Vec<String>,
     /// Reflectance of the paper as measured: 0 to 1, or a file of spectra (FILE#SAMPLE)
     /// [default: computed from the setting paper.colour]
-    #[arg(long, value_name = "PAPER", requires = "pigments")]
+    #[arg(long, value_name = "PAPER", requires = "library_of_paint")]
     over: Option<String>,
     /// Light: D65, A, FL11, 5600K, or the file of a lamp
-    #[arg(long, value_name = "LIGHT", default_value = "D65", requires = "pigments")]
+    #[arg(long, value_name = "LIGHT", default_value = "D65", requires = "library_of_paint")]
     illuminant: String,
 }
 
 impl PigmentOptions {
     /// Path of the library, if given.
     pub(super) fn input(&self) -> Option<&PathBuf> {
-        self.pigments.as_ref()
+        self.pigments.as_ref().or(self.pigments_before.as_ref())
     }
 
     /// Creates the painter of glazes, if a library is given.
@@ -48,7 +51,7 @@ impl PigmentOptions {
         settings: &Settings,
         console: &mut Console<'_>,
     ) -> Result<Option<GlazePainter>> {
-        let Some(path) = &self.pigments else { return Ok(None) };
+        let Some(path) = self.input() else { return Ok(None) };
         let library = library(path)?;
         let palette = match self.palette.is_empty() {
             true => None,

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use render::watercolor::{Preset, Settings, SettingsError};
+use render::watercolor::{Preset, Settings};
 
-use crate::failure::Result;
+use crate::failure::{Failure, Result};
+use crate::input::text;
 use crate::setting_changes::changes;
 
 #[derive(Debug, Args)]
@@ -30,9 +31,7 @@ impl StyleOptions {
         let mut inputs = Vec::new();
         if let Some(path) = &self.settings {
             let name = path.display().to_string();
-            let text = std::fs::read_to_string(path).map_err(|error| {
-                SettingsError::Unreadable { name: name.clone(), reason: error.to_string() }
-            })?;
+            let text = text(path)?;
             let before = settings.clone();
             (settings.paper.scan, settings.toon.greys) = (None, None);
             settings = settings.changed(&name, &text)?;
@@ -46,7 +45,8 @@ impl StyleOptions {
             inputs.push(path.clone());
         }
         for change in changes(&self.set, "edges.strength=2")? {
-            settings = settings.changed(&change.name, &change.toml)?;
+            let changed = settings.changed(&change.name, &change.toml);
+            settings = changed.map_err(|error| Failure::from(error).of_option())?;
         }
         let pictures = settings.paper.scan.iter().chain(&settings.toon.greys);
         inputs.extend(pictures.map(PathBuf::from));

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use paint::BrushSpec;
 use paint::ground::GroundSpec;
 use serde::{Deserialize, Serialize};
+use spectra::ParserReason;
 
 use super::shipped::{NAMES, SHIPPED};
 use super::style_error::StyleError;
@@ -166,7 +167,8 @@ impl Style {
         let style: Self = toml::from_str(text).map_err(|error| {
             let start = error.span().map_or(0, |span| span.start.min(text.len()));
             let line = 1 + text.as_bytes()[..start].iter().filter(|byte| **byte == b'\n').count();
-            StyleError::Line { file: file.to_owned(), line, reason: error.message().to_owned() }
+            let reason = ParserReason::of(error.message()).to_string();
+            StyleError::Line { file: file.to_owned(), line, reason }
         })?;
         style.check()?;
         Ok(style)

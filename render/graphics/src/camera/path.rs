@@ -4,6 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use serde::Deserialize;
+use spectra::ParserReason;
 use spectra::hint::{Explain, Fault, Hint};
 
 use super::perspective::Camera;
@@ -170,7 +171,7 @@ impl CameraPath {
             line: error.span().map_or(1, |span| {
                 text.as_bytes()[..span.start].iter().filter(|byte| **byte == b'\n').count() + 1
             }),
-            reason: error.message().split_whitespace().collect::<Vec<_>>().join(" "),
+            reason: ParserReason::of(error.message()).to_string(),
         })?;
         match path.fault() {
             None => Ok(path),

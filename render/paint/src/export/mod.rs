@@ -18,5 +18,5 @@ mod save;
 pub use layers::layers_file;
 pub use painting::{SpectralBands, painting_maps, spectral_file};
 pub use pigment_maps::{NamedFile, PigmentMap, pigment_maps};
-pub use save::{PaintingExportError, PaintingExports, save_files};
+pub use save::{PaintingExportError, PaintingExports, PutFile, save_files};
 pub use spectral_exr::spectral_exr;

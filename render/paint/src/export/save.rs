@@ -17,6 +17,9 @@ use graphics::export::{ExportError, OutsideGamut, PictureFormat, picture_file};
 /// Start of the names of pigment maps.
 const STEM: &str = "painting";
 
+/// Function that takes path and content of a file.
+pub type PutFile<'a> = dyn FnMut(&Path, &[u8]) -> Result<(), FileError> + 'a;
+
 /// Files to make of a painting; `None` skips a file. Each is written whole or not at all.
 ///
 /// ```no_run
@@ -63,6 +66,19 @@ impl PaintingExports {
         &self,
         painting: &mut Painting,
     ) -> Result<Option<OutsideGamut>, PaintingExportError> {
+        self.write_with(painting, &mut |path, bytes| write_whole(path, bytes))
+    }
+
+    /// Makes the files and hands path and content of each to `put`, as [`Self::write`] hands them to
+    /// [`write_whole`]. For programs that send some of them elsewhere.
+    ///
+    /// # Errors
+    /// Those of [`Self::write`], and of `put`.
+    pub fn write_with(
+        &self,
+        painting: &mut Painting,
+        put: &mut PutFile<'_>,
+    ) -> Result<Option<OutsideGamut>, PaintingExportError> {
         let cell_mm = painting.cell_mm();
         let mut outside = None;
         if let Some((path, format)) = &self.picture {
@@ -71,7 +87,7 @@ impl PaintingExports {
                 cell_mm / self.pixels_per_cell.count() as f64,
                 *format,
             )?;
-            write_whole(path, &file.bytes)?;
+            put(path, &file.bytes)?;
             outside = file.outside_gamut();
         }
         let rest = [&self.layers, &self.pigment_maps, &self.painting];
@@ -82,19 +98,22 @@ impl PaintingExports {
         if let Some(path) = &self.layers
             && let Some(file) = layers_file(&document, painting.light(), |_| true)?
         {
-            write_whole(path, &file.bytes)?;
+            put(path, &file.bytes)?;
             outside = outside.or(file.outside_gamut());
         }
         if let Some((path, bands)) = &self.spectral {
             let picture = painting.picture()?;
             let file = spectral_file(&document, painting.light(), &picture, *bands, |_| true)?;
-            write_whole(path, &file.unwrap_or_default())?;
+            put(path, &file.unwrap_or_default())?;
         }
         if let Some(folder) = &self.pigment_maps {
-            save_files(folder, &pigment_maps(STEM, &painting_maps(&document), cell_mm)?)?;
+            make_folder(folder)?;
+            for file in pigment_maps(STEM, &painting_maps(&document), cell_mm)? {
+                put(&folder.join(&file.name), &file.bytes)?;
+            }
         }
         if let Some(path) = &self.painting {
-            write_whole(path, &write(&document)?)?;
+            put(path, &write(&document)?)?;
         }
         Ok(outside)
     }
@@ -106,12 +125,16 @@ impl PaintingExports {
 /// # Errors
 /// [`FileError`] with the path of the file, or of the folder if it cannot be created.
 pub fn save_files(folder: &Path, files: &[NamedFile]) -> Result<(), FileError> {
+    make_folder(folder)?;
+    files.iter().try_for_each(|file| write_whole(&folder.join(&file.name), &file.bytes))
+}
+
+fn make_folder(folder: &Path) -> Result<(), FileError> {
     std::fs::create_dir_all(folder).map_err(|reason| FileError {
         path: folder.to_owned(),
         action: FileAction::Write,
         reason: Arc::new(reason),
-    })?;
-    files.iter().try_for_each(|file| write_whole(&folder.join(&file.name), &file.bytes))
+    })
 }
 
 /// A painting cannot be exported.

@@ -3,7 +3,6 @@
 use spectra::hint::Hint;
 
 use super::error::{InvalidValue, ValueLocation};
-use super::names::similar_names;
 
 /// Result of a check.
 pub(crate) type Checked = Result<(), Box<InvalidValue>>;
@@ -67,6 +66,5 @@ pub(crate) fn did_you_mean<'a>(
     name: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<Hint> {
-    let found = similar_names(name, known);
-    (!found.is_empty()).then(|| Hint::new(format!("did you mean {}?", found.join(" or "))))
+    spectra::did_you_mean(name, known).map(Hint::new)
 }

@@ -106,7 +106,8 @@ fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
     // The parser's message ends with line and column, which this error states separately.
     let reason = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
-    let reason = reason.strip_suffix(&place).unwrap_or(&reason).to_owned();
+    let reason = reason.strip_suffix(&place).unwrap_or(&reason);
+    let reason = spectra::plain_parser_message(reason);
     ScriptError::Syntax { file, line: error.line(), column: error.column(), reason }
 }
 

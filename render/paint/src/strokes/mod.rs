@@ -69,6 +69,8 @@ mod script;
 
 mod side_table;
 
+mod unloaded;
+
 mod save_path;
 
 mod action_limits;
@@ -94,7 +96,6 @@ pub use action::{Action, Load, Recipe, Squeeze};
 pub use error::{InvalidValue, ScriptError, ValueLocation};
 pub use limits::{MAX_ACTIONS, MAX_CELLS, MAX_FILE_BYTES, MAX_MASK_POINTS, MAX_NAMES, MAX_SAMPLES};
 pub use named_files::ScriptLibrary;
-pub use names::similar_names;
 pub use palette::PaletteSpec;
 pub use resolve::{ActionPigments, Resolved};
 pub use script::{BrushSpec, StrokeScript};

@@ -4,6 +4,7 @@ use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use spectra::ParserReason;
 use spectra::file::{FileAction, FileError, read, write_whole};
 use toml::Spanned;
 
@@ -84,7 +85,7 @@ impl Guides {
                 file: file.to_owned(),
                 line: line_of(text, place),
                 guide: guide_at(text, place),
-                reason: error.message().to_owned(),
+                reason: ParserReason::of(error.message()).to_string(),
             }
         })?;
         let FileOfGuides { picture, size_px, camera, guide: entries } = whole;
@@ -180,7 +181,7 @@ mod tests {
             (swap("[799.9, 599]", "[1, 2, 3]"), "g.toml, line 10, guide 2: expected 2 numbers"),
             (swap("800, 600", "800, 600, 3"), "g.toml, line 2: expected 2 numbers, found 3"),
             (swap("[0, 0]", "\"x\""), "g.toml, line 10, guide 2: invalid type"),
-            (swap("picture", "pictures"), "g.toml, line 1: unknown field `pictures`"),
+            (swap("picture", "pictures"), "g.toml, line 1: unknown key `pictures`"),
             (swap("points = [[0", "points = []\npoint = [[0"), "g.toml, line 11, guide 2: unknown"),
             (swap("800, 600", "800, 0"), "g.toml, size_px: a picture of 800 x 0"),
             (swap("800, 600", "16384, 16384"), "g.toml, size_px: a picture of 16384 x"),
@@ -188,7 +189,7 @@ mod tests {
             (swap("20.1", "91"), "g.toml, camera: found `[30.0, 91.0, 30.0]`"),
             (swap("[30, 20.1, 30]", "[nan, 20, 30]"), "g.toml, camera: found"),
             ("size_px = [8, 6]".to_owned(), "g.toml: there are no guides"),
-            (String::new(), "g.toml, line 1: missing field `size_px`"),
+            (String::new(), "g.toml, line 1: the key `size_px` is missing"),
         ];
         for (text, message) in cases {
             let error = Guides::from_toml("g.toml", &text).unwrap_err();

@@ -6,6 +6,7 @@ use artmap::text_file::read_text;
 use graphics::field::Field;
 use graphics::picture::Photograph;
 use serde::Deserialize;
+use spectra::ParserReason;
 use spectra::color::Rgb;
 
 use super::error::RegionsError;
@@ -113,7 +114,8 @@ fn parsed(name: &str, text: &str) -> Result<(Regions, Option<String>), RegionsEr
     let whole: FileOfRegions = toml::from_str(text).map_err(|error| {
         let place = error.span().map_or(0, |span| span.start).min(text.len());
         let line = 1 + text.as_bytes()[..place].iter().filter(|byte| **byte == b'\n').count();
-        RegionsError::Syntax { file: name.to_owned(), line, reason: error.message().to_owned() }
+        let reason = ParserReason::of(error.message()).to_string();
+        RegionsError::Syntax { file: name.to_owned(), line, reason }
     })?;
     let list: Result<Vec<Region>, RegionsError> =
         whole.region.into_iter().map(|entry| entry.region(name)).collect();
@@ -215,7 +217,7 @@ mod tests {
         let region = |text: &str| format!("[[region]]\nname = \"a\"\n{text}");
         let polygon = "polygon = [[0, 0], [9, 0], [9, 9]]\n";
         for (text, wanted) in [
-            (region("colour = 1"), "r.toml, line 3: unknown field `colour`"),
+            (region("colour = 1"), "r.toml, line 3: unknown key `colour`"),
             (region(""), "r.toml, region `a`: it needs exactly one of"),
             (region(&format!("{polygon}material = \"b\"")), "r.toml, region `a`: it needs"),
             (region("polygon = [[0, 0], [9, 0]]"), "r.toml, region `a`: polygon has 2 points"),

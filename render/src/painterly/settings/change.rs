@@ -1,5 +1,6 @@
 //! Changes of single settings.
 
+use spectra::ParserReason;
 use toml::{Table, Value};
 
 use super::file::SettingsError;
@@ -22,8 +23,10 @@ impl Settings {
     pub fn changed(&self, name: &str, text: &str) -> Result<Self, SettingsError> {
         // The text is parsed alone first, so that errors give its line numbers.
         Self::from_toml(name, text)?;
-        let broken =
-            |reason: String| SettingsError::Line { name: name.to_owned(), line: 1, reason };
+        let broken = |message: String| {
+            let ParserReason { reason, hint } = ParserReason::of(&message);
+            SettingsError::Line { name: name.to_owned(), line: 1, reason, hint }
+        };
         let mut all = Table::try_from(self).map_err(|error| broken(error.to_string()))?;
         let changes: Table =
             text.parse().map_err(|error: toml::de::Error| broken(error.to_string()))?;
@@ -82,7 +85,7 @@ mod tests {
         for (text, wanted) in [
             ("\nlight.wrap = 2", "mine, line 2: light.wrap takes 0 to 1, found `2`"),
             ("[overlap]\nsharpness = 3", "mine, line 2: overlap.sharpness is 1, 2, 4, 8 or 16"),
-            ("strokes.wide = 1", "mine, line 1: unknown field `wide`"),
+            ("strokes.wide = 1", "mine, line 1: unknown key `wide`"),
             ("strokes = ", "mine, line 1"),
             ("[flow]\nperiods = 1\nperiods = 2", "mine, line 3: duplicate key"),
         ] {

@@ -1,5 +1,6 @@
 //! Changes of single settings.
 
+use spectra::ParserReason;
 use toml::{Table, Value};
 
 use super::file::SettingsError;
@@ -22,8 +23,10 @@ impl Settings {
     pub fn changed(&self, name: &str, text: &str) -> Result<Self, SettingsError> {
         // The text is parsed alone first, so that errors give its line numbers.
         Self::from_toml(name, text)?;
-        let broken =
-            |reason: String| SettingsError::Line { name: name.to_owned(), line: 1, reason };
+        let broken = |message: String| {
+            let ParserReason { reason, hint } = ParserReason::of(&message);
+            SettingsError::Line { name: name.to_owned(), line: 1, reason, hint }
+        };
         let mut all = Table::try_from(self).map_err(|error| broken(error.to_string()))?;
         let changes: Table =
             text.parse().map_err(|error: toml::de::Error| broken(error.to_string()))?;
@@ -61,7 +64,7 @@ mod tests {
         let sketch = Preset::Sketch.settings();
         for (text, wanted) in [
             ("\nedges.strength = 99", "mine, line 2: edges.strength takes 0 to 10, found `99`"),
-            ("edges.stronger = 1", "mine, line 1: unknown field `stronger`"),
+            ("edges.stronger = 1", "mine, line 1: unknown key `stronger`"),
             ("edges = ", "mine, line 1"),
         ] {
             let error = sketch.changed("mine", text).unwrap_err().to_string();

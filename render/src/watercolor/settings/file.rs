@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::str::FromStr;
 
+use spectra::ParserReason;
 use spectra::color::Rgb;
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 use toml::de::{DeTable, DeValue};
 
 use super::preset::Preset;
@@ -48,10 +49,10 @@ impl Settings {
     /// # Errors
     /// [`SettingsError`] with line and key.
     pub fn from_toml(name: &str, text: &str) -> Result<Self, SettingsError> {
-        let settings: Self = toml::from_str(text).map_err(|error| SettingsError::Line {
-            name: name.to_owned(),
-            line: line_of(text, error.span().map_or(0, |span| span.start)),
-            reason: error.message().to_owned(),
+        let settings: Self = toml::from_str(text).map_err(|error| {
+            let line = line_of(text, error.span().map_or(0, |span| span.start));
+            let ParserReason { reason, hint } = ParserReason::of(error.message());
+            SettingsError::Line { name: name.to_owned(), line, reason, hint }
         })?;
         settings.check(name, text)?;
         Ok(settings)
@@ -121,8 +122,10 @@ pub enum SettingsError {
         name: String,
         /// Line, counted from 1.
         line: usize,
-        /// Message of the parser.
+        /// Reason of the parser.
         reason: String,
+        /// The way out, where the reason gives one.
+        hint: Option<String>,
     },
     /// A number is out of its range.
     #[error("{name}, line {line}: {key} takes {least} to {most}, found `{value}`")]
@@ -162,11 +165,18 @@ pub enum SettingsError {
 
 impl Explain for SettingsError {
     fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Unreadable { .. } | Self::Preset { .. } => {
+        Some(Hint::verbatim(match self {
+            Self::Preset { name } => {
+                let names = Preset::ALL.map(Preset::name);
+                spectra::did_you_mean(name, names).unwrap_or_else(|| {
+                    format!("presets are {}; a file of your own ends in .toml", names.join(", "))
+                })
+            }
+            Self::Unreadable { .. } => {
                 let names = Preset::ALL.map(Preset::name).join(", ");
                 format!("presets are {names}; a file of your own ends in .toml")
             }
+            Self::Line { hint: Some(hint), .. } => hint.clone(),
             Self::Line { .. } => {
                 "start from a preset's file: there each key stands with its meaning".to_owned()
             }
@@ -177,5 +187,13 @@ impl Explain for SettingsError {
             }
             Self::Color { .. } => "a warm white is \"#fbf9f4\"".to_owned(),
         }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Unreadable { .. } => Fault::Environment,
+            Self::Preset { .. } => Fault::Setting,
+            _ => Fault::Input,
+        }
     }
 }

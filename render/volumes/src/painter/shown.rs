@@ -4,8 +4,8 @@ use std::str::FromStr;
 
 use graphics::camera::Camera;
 use graphics::field::Field;
-use paint::strokes::similar_names;
 use spectra::hint::{Explain, Fault, Hint};
+use spectra::similar_names;
 
 use super::error::PaintingError;
 use super::volume_painter::VolumePainter;

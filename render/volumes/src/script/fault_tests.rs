@@ -128,7 +128,7 @@ fn faults_of_the_header() {
         (
             "seconds = 1",
             "seconds = \"one\"",
-            "s.toml, line 4: seconds: invalid type: string \"one\", expected a number",
+            "s.toml, line 4: seconds: invalid type: text \"one\", expected a number",
             "write a value",
         ),
         (

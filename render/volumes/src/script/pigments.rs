@@ -2,9 +2,9 @@
 
 use paint::document::Slots;
 use paint::layer::SLOTS;
-use paint::strokes::similar_names;
 use pigment::PigmentLibrary;
 use spectra::hint::Explain;
+use spectra::similar_names;
 
 use super::action::Recipe;
 use super::file::Script;

@@ -1,7 +1,7 @@
 //! Regions of a script: names, and how their volumes show what they hold.
 
-use paint::strokes::similar_names;
 use spectra::color::Rgb;
+use spectra::similar_names;
 
 use super::file::Script;
 use super::ranges::check_name;

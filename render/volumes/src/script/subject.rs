@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use graphics::mesh::SampleModel;
-use paint::strokes::similar_names;
+use spectra::similar_names;
 
 use super::file::Script;
 use crate::toml_text::{Checked, Fault, KeyPath};

@@ -1,7 +1,7 @@
 //! Errors of settings.
 
-use paint::strokes::similar_names;
 use spectra::hint::{Explain, Fault, Hint};
+use spectra::similar_names;
 
 use super::preset::Preset;
 use crate::toml_text::TextError;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use paint::strokes::similar_names;
 use serde::de::DeserializeOwned;
+use spectra::ParserReason;
 use spectra::file::read;
 use toml::Spanned;
 use toml::de::DeTable;
@@ -15,9 +15,6 @@ use super::places::{line_of, offset_of, path_at};
 
 /// Longest text that is read, in bytes.
 const MOST_BYTES: usize = 16 << 20;
-
-/// Most known keys that a hint lists.
-const MOST_KEYS: usize = 30;
 
 /// A text of TOML with its name for errors.
 pub(crate) struct Source<'t> {
@@ -70,13 +67,13 @@ impl<'t> Source<'t> {
 
     fn explained(&self, error: &toml::de::Error) -> TextError {
         let bytes = error.span().unwrap_or(0..self.text.len());
-        let (reason, hint) = explained(error.message());
+        let ParserReason { reason, hint } = ParserReason::of(error.message());
         TextError::Syntax {
             file: self.file.to_owned(),
             line: line_of(self.text, bytes.start),
             key: path_at(&self.table, &bytes),
             reason,
-            hint,
+            hint: hint.unwrap_or_else(|| "write a value of the kind that the key takes".to_owned()),
         }
     }
 }
@@ -97,39 +94,4 @@ pub(crate) fn read_text(path: &Path) -> Result<String, TextError> {
 /// A message of the parser on one line.
 fn first_lines(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// Reason and way out for a message of serde.
-fn explained(message: &str) -> (String, String) {
-    let message = first_lines(message);
-    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    let unknown = ["unknown field", "unknown variant"];
-    if let (true, [name, known @ ..]) =
-        (unknown.iter().any(|start| message.starts_with(start)), &quoted[..])
-    {
-        let kind = if message.starts_with("unknown field") { "key" } else { "word" };
-        let similar = similar_names(name, known.iter().copied());
-        let hint = match similar.is_empty() {
-            false => format!("did you mean {}?", similar.join(" or ")),
-            true => {
-                let known = spectra::name_list(known, MOST_KEYS, ", ");
-                format!("it takes the {kind}s {known}")
-            }
-        };
-        return (format!("unknown {kind} `{name}`"), hint);
-    }
-    if let Some(key) = message.strip_prefix("missing field ") {
-        return (format!("the key {key} is missing"), format!("add a line {key} = ..."));
-    }
-    // Types of Rust in words of the file.
-    let mut plain = message;
-    for (rust, word) in
-        [("f64", "a number"), ("f32", "a number"), ("a sequence", "a list"), ("a map", "a table")]
-    {
-        plain = plain.replace(&format!("expected {rust}"), &format!("expected {word}"));
-    }
-    for whole in ["u8", "u16", "u32", "u64", "usize"] {
-        plain = plain.replace(&format!("expected {whole}"), "expected a whole number, 0 or more");
-    }
-    (plain, "write a value of the kind that the key takes".to_owned())
 }

@@ -8,7 +8,7 @@ use suite::program::{Run, impasto};
 use tempfile::TempDir;
 
 /// A folder with the map `m.exr` of three tones painted in small dabs.
-fn folder() -> TempDir {
+pub(super) fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| path(&folder, name);
     let run = |arguments: &[&str]| {

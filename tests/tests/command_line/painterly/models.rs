@@ -92,7 +92,7 @@ fn wrong_options_are_refused_before_anything_is_written() {
             &[&sphere[..], &written, &["--style", "dabs"]].concat(),
             &["two maps are for the same parts"],
         ),
-        (1, &[&sphere[..], &written, &["--set", "gloss=1"]].concat(), &["unknown field `gloss`"]),
+        (2, &[&sphere[..], &written, &["--set", "gloss=1"]].concat(), &["unknown key `gloss`"]),
         (2, &[&sphere[..], &written, &["--set", "gloss"]].concat(), &["KEY=VALUE"]),
         (2, &[&sphere[..], &["--animation", &gif]].concat(), &["--turntable 60", "--loop 48"]),
         (

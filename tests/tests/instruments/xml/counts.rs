@@ -56,7 +56,7 @@ fn faults_name_both_files_and_the_way_out() {
         assert!(run.err.contains(word), "{word}: {}", run.err);
     }
     let run = impasto(&["color", &half, "--white", &white]);
-    assert!(run.err.contains("hint: add --dark FILE"), "{}", run.err);
+    assert!(run.err.contains("hint: add --dark-reading FILE"), "{}", run.err);
     let run = impasto(&["color", &half]);
     assert!(run.status == 1 && run.err.contains("counts"), "{}", run.err);
     let run = impasto(&["color", &half, "--dark", &dark]);

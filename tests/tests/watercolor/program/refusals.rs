@@ -111,8 +111,8 @@ fn looks_that_are_none() {
         (folder.file("none.toml"), file("scan.toml", "[paper]\nscan = \"none.png\"\n"));
     let preset = "start from a preset's file";
     for (option, value, status, what, hint) in [
-        ("--settings", none.as_str(), 1, "none.toml: ", "presets are portrait, landscape, sketch"),
-        ("--settings", &key, 1, "key.toml, line 3: unknown field `stronger`", preset),
+        ("--settings", none.as_str(), 2, "none.toml: cannot be read", "check that the file"),
+        ("--settings", &key, 1, "key.toml, line 3: unknown key `stronger`", "it takes the keys"),
         (
             "--settings",
             &range,
@@ -139,37 +139,37 @@ fn looks_that_are_none() {
         (
             "--set",
             "edges.strength=99",
-            1,
+            2,
             "--set edges.strength=99, line 1: edges.strength takes 0 to 10",
             "3 is usual",
         ),
         (
             "--set",
             "edges.strength=NaN",
-            1,
+            2,
             "edges.strength takes 0 to 10, found `NaN`",
             "3 is usual",
         ),
         (
             "--set",
             "edges.stronger=1",
-            1,
-            "--set edges.stronger=1, line 1: unknown field `stronger`",
-            preset,
+            2,
+            "--set edges.stronger=1, line 1: unknown key `stronger`",
+            "it takes the keys",
         ),
-        ("--set", "edge.strength=1", 1, "unknown field `edge`", preset),
-        ("--set", "edges.strength=much", 1, "invalid type: string \"much\"", preset),
-        ("--set", "edges.strength=", 1, "invalid type: string \"\"", preset),
-        ("--set", "flow.seed=-1", 1, "--set flow.seed=-1, line 1: ", preset),
-        ("--set", "paper.kind=velvet", 1, "unknown variant `velvet`", preset),
+        ("--set", "edge.strength=1", 2, "unknown key `edge`", "did you mean edges?"),
+        ("--set", "edges.strength=much", 2, "invalid type: text \"much\"", preset),
+        ("--set", "edges.strength=", 2, "invalid type: text \"\"", preset),
+        ("--set", "flow.seed=-1", 2, "--set flow.seed=-1, line 1: ", preset),
+        ("--set", "paper.kind=velvet", 2, "unknown word `velvet`", "it takes the words"),
         (
             "--set",
             "dry_brush.colour=blue",
-            1,
+            2,
             "dry_brush.colour is written #rrggbb, found `blue`",
             "a warm white",
         ),
-        ("--set", "coherence.method=none", 1, "unknown variant `none`", preset),
+        ("--set", "coherence.method=none", 2, "unknown word `none`", ""),
     ] {
         refused(&watercolor(&photo, &["--picture", &out, option, value]), status, what, hint);
         assert!(!Path::new(&out).exists(), "{what}: something was written");
@@ -309,10 +309,10 @@ fn masks_and_pigments_where_they_do_not_belong() {
         [("--output", &exr), ("--spectral", &exr), ("--pigment-maps", &folder_of_maps)]
     {
         let run = watercolor(&photo, &["--stages", &stages, option, value]);
-        refused(&run, 2, &format!("{option} needs pigments"), "add --pigments LIBRARY");
+        refused(&run, 2, &format!("{option} needs pigments"), "name a LIBRARY after the subject");
     }
     for (option, value) in [("--palette", "Vermilion"), ("--over", "0.9"), ("--illuminant", "A")] {
-        misused(&watercolor(&photo, &["--picture", &out, option, value]), "--pigments <LIBRARY>");
+        misused(&watercolor(&photo, &["--picture", &out, option, value]), "<LIBRARY>");
     }
     let library = repository("measurements/van-gogh-oils.pigments.json");
     let with = |options: &[&str]| {

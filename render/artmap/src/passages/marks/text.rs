@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use spectra::ParserReason;
 use spectra::file::write_whole;
 
 use super::error::{MarkFault, MarksError};
@@ -54,7 +55,7 @@ impl Marks {
                 file: file.to_owned(),
                 line: lines_before(text, place).count().max(1),
                 sample: sample_at(text, place),
-                reason: error.message().to_owned(),
+                reason: ParserReason::of(error.message()).to_string(),
             }
         })?;
         if whole.sample.is_empty() {
@@ -214,7 +215,7 @@ mod tests {
         let cases = [
             (
                 TEXT.replace("spacing", "spaceing"),
-                "m.toml, line 6, sample `sky`: unknown field `spaceing`",
+                "m.toml, line 6, sample `sky`: unknown key `spaceing`",
             ),
             (TEXT.replace("rectangle", "name"), "m.toml, line 10, sample `grass`: duplicate key"),
             (

@@ -1,0 +1,168 @@
+//! The command line as a whole: options of every verb, verbs in groups, and what is made of it for
+//! shells and readers: completions and manual pages.
+
+use std::path::PathBuf;
+
+use clap::{Args, Command, CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+
+use crate::console::{Console, Voice};
+use crate::examples::with_examples;
+use crate::failure::{Failure, Result};
+use crate::output::OutputFolder;
+use crate::verbs::Verb;
+
+/// Measure real paint, calibrate it, and paint with it.
+#[derive(Debug, Parser)]
+#[command(name = "impasto", version, propagate_version = true, max_term_width = 100)]
+pub(crate) struct Arguments {
+    /// Print results, warnings and errors only
+    #[arg(short, long, global = true, conflicts_with = "verbose", help_heading = "Messages")]
+    quiet: bool,
+    /// Tell also what was chosen, and how long it took
+    #[arg(short, long, global = true, help_heading = "Messages")]
+    verbose: bool,
+    #[command(subcommand)]
+    pub(crate) task: Task,
+}
+
+impl Arguments {
+    /// How much is told beside results.
+    pub(crate) fn voice(&self) -> Voice {
+        match (self.quiet, self.verbose) {
+            (true, _) => Voice::Quiet,
+            (_, true) => Voice::Verbose,
+            _ => Voice::Usual,
+        }
+    }
+}
+
+/// A verb, or a file made of the command line.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Task {
+    #[command(flatten)]
+    Verb(Box<Verb>),
+    Completions(Completions),
+    Man(Man),
+}
+
+/// Print the completions of a shell
+#[derive(Debug, Args)]
+#[command(hide = true)]
+pub(crate) struct Completions {
+    /// The shell that completes
+    shell: Shell,
+}
+
+/// Write a manual page of every verb
+#[derive(Debug, Args)]
+#[command(hide = true)]
+pub(crate) struct Man {
+    /// The folder, such as man/man1; created if missing
+    folder: PathBuf,
+}
+
+impl Completions {
+    pub(crate) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut command(), "impasto", &mut script);
+        console.line(String::from_utf8_lossy(&script).trim_end())
+    }
+}
+
+impl Man {
+    pub(crate) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let folder = OutputFolder::open(&self.folder, &[])?;
+        let mut pages = Vec::new();
+        let mut whole = command();
+        whole.build();
+        collect(&whole, &mut pages)?;
+        let names = pages.iter().map(|(name, _)| name.clone());
+        for (output, (_, page)) in folder.outputs(names)?.into_iter().zip(&pages) {
+            output.put(page)?;
+        }
+        folder.told(console)
+    }
+}
+
+/// Adds the manual pages of a built command and of those below it, with their file names.
+fn collect(command: &Command, pages: &mut Vec<(String, Vec<u8>)>) -> Result<()> {
+    let name = command.get_display_name().unwrap_or(command.get_name());
+    let mut page = Vec::new();
+    clap_mangen::Man::new(command.clone())
+        .render(&mut page)
+        .map_err(|error| Failure::from(error).within(format!("the page of {name}")))?;
+    pages.push((format!("{name}.1"), page));
+    let inner = command.get_subcommands();
+    let mut shown = inner.filter(|inner| !inner.is_hide_set() && inner.get_name() != "help");
+    shown.try_for_each(|inner| collect(inner, pages))
+}
+
+/// Verbs by what they are for, in the order of the work.
+const GROUPS: [(&str, &[&str]); 4] = [
+    ("Measure and calibrate", &["plan", "color", "fit", "validate", "report"]),
+    ("Mix and match", &["mix", "match", "correct", "library", "quadrature"]),
+    ("Paint", &["paint", "relight", "watercolor", "artmap", "painterly", "stencil"]),
+    ("The program", &["demo", "gpu", "help"]),
+];
+
+/// The whole command line, with verbs in groups and examples.
+pub(crate) fn command() -> Command {
+    let plain = with_examples(Arguments::command());
+    let verbs = grouped(&plain);
+    let more =
+        "`impasto VERB --help` tells all about a verb; docs/guide/index.md lists the guides.";
+    plain.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{verbs}Options:\n{{options}}\n\n{more}\n"
+    ))
+}
+
+/// The verbs in their groups, each with the first line of its help.
+fn grouped(command: &Command) -> String {
+    let about = |name: &str| {
+        let help = (name == "help").then(|| "Print this message or the help of a verb".to_owned());
+        let found = command.find_subcommand(name).filter(|verb| !verb.is_hide_set());
+        found.map(|verb| verb.get_about().map(ToString::to_string).unwrap_or_default()).or(help)
+    };
+    let named: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
+    let others = command.get_subcommands().filter(|verb| !verb.is_hide_set());
+    let others: Vec<&str> =
+        others.map(Command::get_name).filter(|name| !named.contains(name)).collect();
+    let groups = GROUPS.iter().map(|(title, names)| (*title, names.to_vec()));
+    let mut text = String::new();
+    for (title, names) in groups.chain([("More", others)]).filter(|(_, names)| !names.is_empty()) {
+        text += &format!("{title}:\n");
+        for name in names {
+            text += &about(name).map_or_else(String::new, |about| format!("  {name:11} {about}\n"));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_sound() {
+        command().debug_assert();
+    }
+
+    #[test]
+    fn every_verb_is_in_one_group() {
+        let whole = command();
+        let shown: Vec<&str> = whole
+            .get_subcommands()
+            .filter(|verb| !verb.is_hide_set())
+            .map(Command::get_name)
+            .collect();
+        for verb in &shown {
+            let groups = GROUPS.iter().filter(|(_, names)| names.contains(verb)).count();
+            assert_eq!(groups, 1, "{verb}");
+        }
+        for name in GROUPS.iter().flat_map(|(_, names)| names.iter()) {
+            assert!(*name == "help" || shown.contains(name), "there is no verb {name}");
+        }
+    }
+}

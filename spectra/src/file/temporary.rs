@@ -1,0 +1,232 @@
+//! Temporary files beside the files that they become: known while they live, so that a program
+//! that is told to end can remove them, and recognisable afterwards, so that the next one can.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+use std::time::{Duration, SystemTime};
+
+use tempfile::{Builder, NamedTempFile};
+
+/// Beginning of the names of temporary files.
+pub(super) const PREFIX: &str = ".impasto-";
+/// End of the names of temporary files.
+const SUFFIX: &str = ".tmp";
+/// Age from which a temporary file is left over, whoever wrote it.
+const OLD: Duration = Duration::from_secs(3600);
+
+/// Temporary files of writes under way, and folders that were cleaned.
+#[derive(Debug, Default)]
+struct Known {
+    files: BTreeSet<PathBuf>,
+    cleaned: BTreeSet<PathBuf>,
+}
+
+static KNOWN: Mutex<Known> = Mutex::new(Known { files: BTreeSet::new(), cleaned: BTreeSet::new() });
+
+fn known() -> MutexGuard<'static, Known> {
+    KNOWN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A temporary file that is removed when dropped.
+#[derive(Debug)]
+pub(super) struct Temporary {
+    /// The file; `None` once it was renamed or removed.
+    file: Option<NamedTempFile>,
+    path: PathBuf,
+}
+
+impl Temporary {
+    /// Creates a temporary file in `folder`.
+    pub(super) fn new(folder: &Path) -> io::Result<Self> {
+        let beginning = format!("{PREFIX}{}-{}-", machine(), std::process::id());
+        let mut builder = Builder::new();
+        builder.prefix(&beginning).suffix(SUFFIX);
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // The permissions of a newly created file; the user's umask applies.
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        // Created while the list is locked, so that no file exists that is not in it.
+        let mut known = known();
+        let file = builder.tempfile_in(folder)?;
+        let path = file.path().to_owned();
+        known.files.insert(path.clone());
+        Ok(Self { file: Some(file), path })
+    }
+
+    /// The open file.
+    pub(super) fn file(&mut self) -> io::Result<&mut std::fs::File> {
+        self.file
+            .as_mut()
+            .map(NamedTempFile::as_file_mut)
+            .ok_or_else(|| io::ErrorKind::NotFound.into())
+    }
+
+    /// Renames the file to `target`.
+    pub(super) fn persist(mut self, target: &Path) -> io::Result<()> {
+        let Some(file) = self.file.take() else { return Err(io::ErrorKind::NotFound.into()) };
+        let mut known = known();
+        let renamed = file.persist(target).map(drop).map_err(|error| error.error);
+        known.files.remove(&self.path);
+        renamed
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let Some(file) = self.file.take() else { return };
+        let mut known = known();
+        drop(file);
+        known.files.remove(&self.path);
+    }
+}
+
+/// Removes the temporary files of all writes under way, and lets no further write begin or end:
+/// threads that write wait for ever. For a program that was told to end, and ends then.
+///
+/// Nothing that was written whole is lost: a file is renamed before or after this call.
+pub fn abandon_writes() {
+    let known = known();
+    for file in &known.files {
+        let _ = std::fs::remove_file(file);
+    }
+    // Never unlocked again.
+    std::mem::forget(known);
+}
+
+/// Removes temporary files that earlier runs left in `folder`, once for each folder. A file is left
+/// over if its process has ended, or after an hour.
+pub(super) fn clean(folder: &Path) {
+    if !known().cleaned.insert(folder.to_owned()) {
+        return;
+    }
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    let now = SystemTime::now();
+    for entry in entries.filter_map(Result::ok) {
+        let name = entry.file_name();
+        let Some(writer) = name.to_str().and_then(Writer::of) else { continue };
+        let Ok(about) = entry.metadata() else { continue };
+        let age = about.modified().ok().and_then(|time| now.duration_since(time).ok());
+        if about.is_file() && writer.has_left(age.unwrap_or_default()) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// The process that wrote a temporary file.
+#[derive(Debug, PartialEq, Eq)]
+struct Writer<'n> {
+    machine: &'n str,
+    process: u32,
+}
+
+impl<'n> Writer<'n> {
+    /// The writer of a file of this name; `None` for any other file.
+    fn of(name: &'n str) -> Option<Self> {
+        let inside = name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?;
+        let mut parts = inside.split('-');
+        let writer = Self { machine: parts.next()?, process: parts.next()?.parse().ok()? };
+        let is_ours = writer.machine.len() == 8
+            && writer.machine.bytes().all(|byte| byte.is_ascii_hexdigit());
+        (is_ours && parts.next()?.len() == 6 && parts.next().is_none()).then_some(writer)
+    }
+
+    /// Whether a file of this age is left over.
+    fn has_left(&self, age: Duration) -> bool {
+        let ended = || self.machine == machine() && is_running(self.process) == Some(false);
+        age > OLD || ended()
+    }
+}
+
+/// Eight digits that differ between machines, starts of one machine, and its containers, in which
+/// numbers of processes mean other processes.
+fn machine() -> &'static str {
+    static MACHINE: OnceLock<String> = OnceLock::new();
+    MACHINE.get_or_init(|| {
+        let start = std::fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+        let container = std::fs::read_link("/proc/self/ns/pid").unwrap_or_default();
+        let text = format!("{start}{}", container.display());
+        // FNV-1a (Fowler, Noll, Vo 1991), the same in every version of the program.
+        let digest = text.bytes().fold(0x811c_9dc5_u32, |digest, byte| {
+            (digest ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+        });
+        format!("{digest:08x}")
+    })
+}
+
+/// Whether a process of this machine runs; `None` where that cannot be told.
+fn is_running(process: u32) -> Option<bool> {
+    let processes = Path::new("/proc");
+    // Without the folder of this process there is no list of processes.
+    if !processes.join("self").exists() {
+        return None;
+    }
+    Some(processes.join(process.to_string()).exists())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs::{File, FileTimes};
+
+    use super::*;
+
+    fn place(folder: &Path, machine: &str, process: u32) -> PathBuf {
+        let path = folder.join(format!("{PREFIX}{machine}-{process}-aBc123{SUFFIX}"));
+        std::fs::write(&path, "half").unwrap();
+        path
+    }
+
+    /// A process number that no Linux system gives.
+    const NOBODY: u32 = 1 << 30;
+
+    #[test]
+    fn files_of_ended_processes_and_old_ones_are_cleaned_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let own = place(folder, machine(), std::process::id());
+        let elsewhere = place(folder, "0123abcd", NOBODY);
+        let ended = place(folder, machine(), NOBODY);
+        let old = place(folder, "fedc9876", 7);
+        let before = SystemTime::now() - 2 * OLD;
+        let times = FileTimes::new().set_modified(before);
+        File::options().write(true).open(&old).unwrap().set_times(times).unwrap();
+        let mine = folder.join(".impasto-notes.tmp");
+        std::fs::write(&mine, "mine").unwrap();
+        clean(folder);
+        assert!(own.exists() && elsewhere.exists() && mine.exists(), "these are not left over");
+        assert!(!old.exists(), "an hour is over");
+        assert_eq!(ended.exists(), !Path::new("/proc/self").exists(), "its process has ended");
+        let again = place(folder, "fedc9876", 7);
+        clean(folder);
+        assert!(again.exists(), "a folder is cleaned once");
+    }
+
+    #[test]
+    fn only_names_of_temporary_files_are_taken_for_them() {
+        let own = format!("{PREFIX}{}-17-aBc123{SUFFIX}", machine());
+        assert_eq!(Writer::of(&own), Some(Writer { machine: machine(), process: 17 }));
+        for other in
+            [".impasto-backup", ".impasto-x.tmp", ".impasto-0123abcd-17-.tmp", "a.tmp", ".impasto-"]
+        {
+            assert_eq!(Writer::of(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn a_temporary_file_is_known_while_it_lives() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = Temporary::new(folder.path()).unwrap();
+        let path = file.path.clone();
+        assert!(known().files.contains(&path) && path.exists());
+        drop(file);
+        assert!(!known().files.contains(&path) && !path.exists());
+        let target = folder.path().join("a.txt");
+        let file = Temporary::new(folder.path()).unwrap();
+        let path = file.path.clone();
+        file.persist(&target).unwrap();
+        assert!(!known().files.contains(&path) && target.exists());
+    }
+}

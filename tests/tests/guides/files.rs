@@ -1,0 +1,112 @@
+//! Files that the commands of the guides read: small copies of those that ship, and those that a
+//! reader brings.
+
+use std::path::Path;
+
+use image::imageops::FilterType;
+use suite::program::{impasto, repository};
+
+/// Longer side of a picture in pixels.
+const LONGEST: u32 = 96;
+
+/// A small style of brushwork, and a small map of it.
+pub(crate) const STYLE: &str = "small.toml";
+pub(crate) const MAP: &str = "small.artmap.exr";
+
+/// Puts the files that the commands of `page` need into `folder`, where they run.
+pub(crate) fn prepare(folder: &Path, page: &str) {
+    for inside in ["measurements", "paintings", "docs/images"] {
+        std::fs::create_dir_all(folder.join(inside)).unwrap();
+    }
+    let oils = "measurements/van-gogh-oils.pigments.json";
+    for file in ["measurements/van-gogh-oils.csv", oils] {
+        std::fs::copy(repository(file), folder.join(file)).unwrap();
+    }
+    for name in ["coffee.jpg", "photograph.png", "still-life.png"] {
+        let file = format!("docs/images/{name}");
+        let picture = image::open(repository(&file)).unwrap();
+        picture.resize(LONGEST, LONGEST, FilterType::Triangle).save(folder.join(file)).unwrap();
+    }
+    // Passages of this one must hold several strokes.
+    let painted = "docs/images/coffee-painted.jpg";
+    std::fs::copy(repository(painted), folder.join(painted)).unwrap();
+    if page.contains("impasto painterly") {
+        brushwork(folder);
+    }
+    landscape(folder);
+    std::fs::copy(folder.join(oils), folder.join("batch2.json")).unwrap();
+    std::fs::write(folder.join("path.toml"), CAMERA).unwrap();
+    std::fs::write(folder.join("spectra.csv"), SPECTRA).unwrap();
+    std::fs::write(folder.join("swatches.csv"), SPECTRA).unwrap();
+    std::fs::write(folder.join("swatches.ti3"), TI3).unwrap();
+    std::fs::write(folder.join("recipes.csv"), RECIPES).unwrap();
+}
+
+/// A style of small dabs, and a map of three tones.
+fn brushwork(folder: &Path) {
+    let run = |arguments: &[&str]| {
+        let run = impasto(arguments);
+        assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
+        run.out
+    };
+    let style = run(&["artmap", "paint", "--show-style", "dabs"])
+        .replace("side_cells = 300", "side_cells = 64")
+        .replace("cell_mm = 0.18", "cell_mm = 0.36");
+    std::fs::write(folder.join(STYLE), style).unwrap();
+    run(&["artmap", "paint", "--style", STYLE, "--tones", "3", "-o", "small.exr"]);
+    run(&["artmap", "build", "small.exr", "--size", "64", "-o", MAP]);
+}
+
+/// The script of the landscape on a coarse canvas.
+fn landscape(folder: &Path) {
+    let file = "paintings/landscape.json";
+    let text = std::fs::read_to_string(repository(file)).unwrap();
+    let mut script: serde_json::Value = serde_json::from_str(&text).unwrap();
+    script["canvas"]["cell_mm"] = 1.0.into();
+    std::fs::write(folder.join(file), script.to_string()).unwrap();
+}
+
+const CAMERA: &str = "\
+frames = 2
+[[keyframe]]
+eye = [4.0, 2.0, 6.0]
+target = [0.0, 0.5, 0.0]
+[[keyframe]]
+eye = [6.0, 3.0, 2.0]
+target = [0.0, 0.5, 0.0]
+";
+
+const SPECTRA: &str = "\
+sample,400,450,500,550,600,650,700
+STANDARD,0.1,0.2,0.4,0.5,0.4,0.3,0.3
+trial,0.1,0.22,0.38,0.5,0.42,0.3,0.3
+";
+
+const TI3: &str = "\
+CTI3
+
+DESCRIPTOR \"Swatches\"
+SPECTRAL_BANDS \"7\"
+SPECTRAL_START_NM \"400\"
+SPECTRAL_END_NM \"700\"
+SPECTRAL_NORM \"100\"
+NUMBER_OF_FIELDS 8
+BEGIN_DATA_FORMAT
+SAMPLE_ID SPEC_400 SPEC_450 SPEC_500 SPEC_550 SPEC_600 SPEC_650 SPEC_700
+END_DATA_FORMAT
+NUMBER_OF_SETS 4
+BEGIN_DATA
+w 70 85 88 89 90 90 90
+b 8 20 15 9 8 9 14
+t1 20 45 38 25 21 24 36
+t2 35 62 58 45 40 44 55
+END_DATA
+";
+
+const RECIPES: &str = "\
+sample,Zinc White,Cobalt Blue
+w,1,0
+b,0,1
+t1,4,1
+t2,9,1
+";
