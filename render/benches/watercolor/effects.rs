@@ -76,7 +76,7 @@ fn finding_edges(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn four_densities(bencher: Bencher<'_, '_>) {
     effect(bencher, |cpu, color, textures| {
-        let TextureImages { flow, dispersion, paper } = textures;
+        let TextureImages { flow, dispersion, paper, .. } = textures;
         let layers = [flow, dispersion, &paper.heights, flow].map(|texture| DensityLayer {
             texture,
             strength: 1.0,
@@ -88,9 +88,10 @@ fn four_densities(bencher: Bencher<'_, '_>) {
 
 #[divan::bench]
 fn dry_brush(bencher: Bencher<'_, '_>) {
-    let reach = DryBrushReach { threshold: 0.4, softness: 0.1, patches: 1.0 };
+    let reach =
+        DryBrushReach { threshold: 0.4, softness: 0.1, patches: 1.0, outline: 0.0, darkest: 0.2 };
     effect(bencher, |cpu, color, textures| {
-        apply_dry_brush(cpu, color, &textures.paper.heights, &textures.flow, reach, None)
+        apply_dry_brush(cpu, color, &textures.paper.heights, &textures.flow, reach, None, None)
     });
 }
 

@@ -49,7 +49,7 @@ fn seen_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
 fn toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let toon = Toon::default();
     frames(bencher, Compute::cpu(), triangles, 1, |compute, model, visible, camera| {
-        drop(divan::black_box(shade_toon(compute, model, &visible, camera, &toon).unwrap()));
+        drop(divan::black_box(shade_toon(compute, model, &visible, camera, &toon, None).unwrap()));
     });
 }
 
@@ -58,7 +58,7 @@ fn toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
 fn smooth_toon_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let toon = Toon { samples: 2, ..Toon::default() };
     frames(bencher, Compute::cpu(), triangles, 2, |compute, model, visible, camera| {
-        drop(divan::black_box(shade_toon(compute, model, &visible, camera, &toon).unwrap()));
+        drop(divan::black_box(shade_toon(compute, model, &visible, camera, &toon, None).unwrap()));
     });
 }
 
@@ -68,7 +68,7 @@ fn toon_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
     let Ok(compute) = Compute::choose(BackendChoice::Gpu) else { return };
     let toon = Toon::default();
     frames(bencher, compute, triangles, 1, |compute, model, visible, camera| {
-        let color = shade_toon(compute, model, &visible, camera, &toon).unwrap();
+        let color = shade_toon(compute, model, &visible, camera, &toon, None).unwrap();
         drop(divan::black_box(compute.download(&color).unwrap()));
     });
 }

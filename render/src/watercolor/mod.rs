@@ -16,11 +16,15 @@ mod wash;
 
 mod abstraction;
 
+mod shadow_map;
+
 mod toon;
 
 mod textures;
 
 mod effects;
+
+mod photograph;
 
 mod pipeline;
 
@@ -39,19 +43,20 @@ pub use effects::{
     ColorRange, DensityLayer, DryBrushReach, PaperShading, apply_density, apply_dry_brush,
     color_mask, edges, shade_paper, wobble,
 };
-pub use glaze::{GlazeError, GlazePainter, Glazes, thickness};
+pub use glaze::{GlazeError, GlazePainter, Glazes};
 pub use kernels::kernels;
 pub use model_painter::{ModelPainter, ModelPainterError};
 pub use photograph_painter::{PhotographPainter, PhotographPainterError, PreparedPhotograph};
 pub use pipeline::{FrameTextures, Stage, StageObserver, paint};
 pub use settings::{
-    AbstractionSettings, CoherenceMethod, CoherenceSettings, DispersionSettings, DryBrushSettings,
-    EdgeSettings, FlowSettings, PaperSettings, Preset, Settings, SettingsError, ToonSettings,
-    WashSettings, WobbleSettings,
+    AbstractionSettings, BackRunSettings, CoherenceMethod, CoherenceSettings, DispersionSettings,
+    DryBrushSettings, EdgeSettings, FlowSettings, MarginSettings, PaperSettings, Preset, Settings,
+    SettingsError, ToneSettings, ToonSettings, WashSettings, WetSettings, WobbleSettings,
 };
+pub use shadow_map::ShadowMap;
 pub use textures::{
-    PaperImage, PaperTexture, PaperTextureError, TextureImages, Textures, dispersion,
-    turbulent_flow,
+    BrushTouch, FineHeights, PaperImage, PaperTexture, PaperTextureError, Quantiles, TextureImages,
+    Textures, back_runs, dispersion, turbulent_flow,
 };
 pub use toon::{Toon, shade_toon};
 pub use wash::{Controls, Masks, Wash, WashImages};

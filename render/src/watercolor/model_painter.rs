@@ -5,9 +5,11 @@ use std::sync::Arc;
 
 use super::pipeline::{FrameTextures, StageObserver, paint};
 use super::settings::{CoherenceMethod, CoherenceSettings, Settings};
-use super::textures::{PaperTexture, PaperTextureError, TextureImages, Textures};
+use super::shadow_map::ShadowMap;
+use super::textures::{BrushTouch, PaperTexture, PaperTextureError, TextureImages, Textures};
 use super::toon::{Toon, shade_toon};
 use super::wash::{Controls, Wash, WashImages};
+use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{
     AnchoredNoise, FeatureNoise, Features, Hierarchy, Particles, Projection, depths, draw_anchored,
@@ -20,6 +22,7 @@ use graphics::gpu::DeviceError;
 use graphics::mesh::Mesh;
 use graphics::surface::{Model, PackedMesh};
 use graphics::tones::{ToneRamp, ToneRampError};
+use spectra::color::Rgb;
 use spectra::hint::{Explain, Fault, Hint};
 
 /// Length of the waves in the textures that follow particles, in texels.
@@ -30,6 +33,11 @@ const GRAIN_OCTAVES: usize = 2;
 
 /// Samples along each side of a pixel unless told otherwise: enough for smooth silhouettes.
 const USUAL_SAMPLES: usize = 2;
+
+/// Least and greatest width and height of the map of cast shadows, in pixels; between them it
+/// is as large as the picture.
+const LEAST_SHADOW_PX: usize = 512;
+const MOST_SHADOW_PX: usize = 2048;
 
 /// Paints one mesh from any camera, in pictures of one size.
 ///
@@ -51,6 +59,8 @@ pub struct ModelPainter {
     compute: Compute,
     model: Model,
     toon: Toon,
+    /// Centre and radius of a sphere that the mesh lies in.
+    sphere: (Vec3, f32),
     settings: Settings,
     textures: TextureImages,
     noise: Noise,
@@ -101,13 +111,29 @@ impl ModelPainter {
                 None => ToneRamp::steps(toon.levels as usize, toon.softness),
             },
             strength: toon.strength,
+            shadow: toon.shadow,
+            shadow_color: Rgb::from_hex(&toon.shadow_color)
+                .map_or([1.0; 3], |color| color.0.map(|value| value as f32)),
             samples: USUAL_SAMPLES,
         };
         let textures = Textures::new(width, height, &settings)?.upload(&mut compute)?;
         let noise = Noise::new(&mut compute, &mesh, &settings)?;
+        let [low, high] = mesh.bounds();
+        let sphere = ((low + high) / 2.0, low.distance(high) / 2.0);
         let model = Model::new(&mut compute, PackedMesh::new(&mesh))?;
         let controls = Controls::default();
-        Ok(Self { compute, model, toon, settings, textures, noise, controls, width, height })
+        Ok(Self {
+            compute,
+            model,
+            toon,
+            sphere,
+            settings,
+            textures,
+            noise,
+            controls,
+            width,
+            height,
+        })
     }
 
     /// Averages `samples` x `samples` samples for each pixel; at least 1, by default 2.
@@ -183,12 +209,20 @@ impl ModelPainter {
     /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
     pub fn wash(&mut self, camera: &Camera) -> Result<(Wash, Textures), DeviceError> {
         let ShadedFrame { color, noise } = self.shaded(camera)?;
-        let TextureImages { flow, dispersion, paper } = &self.textures;
+        let TextureImages { flow, dispersion, paper, touch, .. } = &self.textures;
         let [flow, dispersion] = noise.as_ref().map_or([flow, dispersion], |[f, d]| [f, d]);
         let textures = Textures {
             flow: self.compute.download(flow)?,
             dispersion: self.compute.download(dispersion)?,
             paper: paper.texture.clone(),
+            touch: match touch {
+                Some((touch, quantiles)) => Some(BrushTouch {
+                    touch: self.compute.download(touch)?,
+                    quantiles: quantiles.clone(),
+                }),
+                None => None,
+            },
+            back_runs: None,
         };
         let color = self.compute.download(&color)?;
         Ok((Wash { color, controls: self.controls.clone() }, textures))
@@ -203,15 +237,23 @@ impl ModelPainter {
         let samples = toon.samples;
         let visible = model.visible(compute, camera, *width * samples, *height * samples)?;
         let unlit = Toon { strength: 0.0, ..toon.clone() };
-        let color = shade_toon(compute, model, &visible, camera, &unlit)?;
+        let color = shade_toon(compute, model, &visible, camera, &unlit, None)?;
         compute.download(&color)
     }
 
     fn shaded(&mut self, camera: &Camera) -> Result<ShadedFrame, DeviceError> {
-        let Self { compute, model, toon, noise, width, height, .. } = self;
+        let Self { compute, model, toon, sphere, noise, width, height, .. } = self;
         let samples = toon.samples;
+        let shadows = match toon.shadow {
+            shadow if shadow > 0.0 && toon.strength > 0.0 => {
+                let side = (*width).max(*height).clamp(LEAST_SHADOW_PX, MOST_SHADOW_PX);
+                let light = toon.light.direction(camera);
+                Some(ShadowMap::new(compute, model, light, *sphere, side)?)
+            }
+            _ => None,
+        };
         let visible = model.visible(compute, camera, *width * samples, *height * samples)?;
-        let color = shade_toon(compute, model, &visible, camera, toon)?;
+        let color = shade_toon(compute, model, &visible, camera, toon, shadows.as_ref())?;
         if let Noise::Static = noise {
             return Ok(ShadedFrame { color, noise: None });
         }

@@ -3,10 +3,11 @@
 use super::abstraction::{
     AbstractedPhotograph, AbstractionError, RegionSettings, abstract_photograph, height_for_width,
 };
+use super::photograph::{enlarged, photograph_wash};
 use super::pipeline::{FrameTextures, StageObserver, paint};
 use super::settings::Settings;
 use super::textures::{PaperTextureError, Textures};
-use super::wash::{Masks, Wash};
+use super::wash::{Masks, Wash, WashImages};
 use graphics::compute::Compute;
 use graphics::field::Field;
 use graphics::gpu::DeviceError;
@@ -16,6 +17,10 @@ use spectra::hint::{Explain, Fault, Hint};
 /// Longer side of a painting whose width was not set, in pixels; smaller photographs keep
 /// their size.
 const USUAL_LONGER_SIDE_PX: usize = 1600;
+
+/// Longer side in pixels of the largest picture in which regions are looked for; those of larger
+/// ones are enlarged.
+const REGIONS_LONGER_SIDE_PX: usize = 1600;
 
 /// Paints photographs as watercolors, on the processor unless told otherwise.
 ///
@@ -41,9 +46,10 @@ pub struct PhotographPainter {
 /// A photograph made ready for painting: its wash and the textures of the picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedPhotograph {
-    /// The photograph in the size of the painting, encoded sRGB with coverage.
+    /// The photograph in the size in which regions are looked for, encoded sRGB with coverage:
+    /// that of the painting, with its longer side at most 1600 px.
     pub original: Field<[f32; 4]>,
-    /// Each region of the photograph in its mean colour.
+    /// Each region of the photograph in its mean colour, in the size of `original`.
     pub segmented: Field<[f32; 4]>,
     /// Number of regions.
     pub regions: usize,
@@ -53,6 +59,14 @@ pub struct PreparedPhotograph {
     pub textures: Textures,
     /// The settings for the size of the picture.
     pub settings: Settings,
+}
+
+impl PreparedPhotograph {
+    /// Each region of the photograph in its mean colour, in the size of the painting.
+    #[must_use]
+    pub fn flat_regions(&self) -> Field<[f32; 4]> {
+        enlarged(&self.segmented, self.wash.color.width(), self.wash.color.height())
+    }
 }
 
 impl PhotographPainter {
@@ -114,7 +128,7 @@ impl PhotographPainter {
         photograph: &Photograph,
     ) -> Result<Field<[f32; 4]>, PhotographPainterError> {
         let prepared = self.prepare(photograph)?;
-        Ok(self.paint_prepared(&prepared, None)?)
+        Ok(self.finish(prepared)?)
     }
 
     /// Abstracts a photograph and makes the textures of its picture: all that comes before
@@ -130,11 +144,15 @@ impl PhotographPainter {
     ) -> Result<PreparedPhotograph, PhotographPainterError> {
         let (width, height) = self.picture_size(photograph);
         let settings = self.settings.for_size(width, height);
-        let regions = RegionSettings::from(&settings.abstraction);
+        let most = REGIONS_LONGER_SIDE_PX as f64 / width.max(height).max(1) as f64;
+        let own_width = (most.min(1.0) * width as f64).round() as usize;
+        let own = self.settings.for_size(own_width, height_for_width(photograph, own_width.max(1)));
+        let regions = RegionSettings::from(&own.abstraction);
         let AbstractedPhotograph { original, segmented, smoothed, regions } =
-            abstract_photograph(&mut self.compute, photograph, width, &regions)?;
-        let wash = Wash { color: smoothed, controls: self.masks.controls(width, height) };
-        let textures = Textures::new(width, height, &settings)?;
+            abstract_photograph(&mut self.compute, photograph, own_width, &regions)?;
+        let textures = Textures::of_photograph(width, height, &settings)?;
+        let color = photograph_wash((&original, &smoothed), (width, height), &own, &settings);
+        let wash = Wash { color, controls: self.masks.controls(width, height) };
         Ok(PreparedPhotograph { original, segmented, regions, wash, textures, settings })
     }
 
@@ -148,12 +166,34 @@ impl PhotographPainter {
         prepared: &PreparedPhotograph,
         observer: Option<StageObserver<'_>>,
     ) -> Result<Field<[f32; 4]>, DeviceError> {
+        let (wash, textures) = (prepared.wash.clone(), prepared.textures.clone());
+        self.paint_wash(wash, textures, &prepared.settings, observer)
+    }
+
+    /// Applies all effects as [`Self::paint_prepared`] does, in the memory of `prepared`.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn finish(&mut self, prepared: PreparedPhotograph) -> Result<Field<[f32; 4]>, DeviceError> {
+        let PreparedPhotograph { original, segmented, wash, textures, settings, .. } = prepared;
+        drop((original, segmented));
+        self.paint_wash(wash, textures, &settings, None)
+    }
+
+    /// Applies all effects to a wash whose memory is used for the picture.
+    fn paint_wash(
+        &mut self,
+        Wash { color, controls }: Wash,
+        textures: Textures,
+        settings: &Settings,
+        observer: Option<StageObserver<'_>>,
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
         let compute = &mut self.compute;
-        let wash = prepared.wash.upload(compute)?;
-        let textures = prepared.textures.clone().upload(compute)?;
-        let textures = FrameTextures::from(&textures);
-        let color = paint(compute, wash, textures, &prepared.settings, observer)?;
-        compute.download(&color)
+        let color = compute.give(color)?;
+        let wash = WashImages::new(compute, color, &controls)?;
+        let textures = textures.upload(compute)?;
+        let color = paint(compute, wash, FrameTextures::from(&textures), settings, observer)?;
+        compute.take(color)
     }
 }
 

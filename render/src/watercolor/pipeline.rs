@@ -10,7 +10,7 @@ use super::effects::{
     color_mask, edges, shade_paper, wobble,
 };
 use super::settings::{DryBrushSettings, Settings};
-use super::textures::{PaperImage, PaperTexture, TextureImages};
+use super::textures::{PaperImage, PaperTexture, Quantiles, TextureImages};
 use super::wash::WashImages;
 use graphics::compute::{ColorImage, Compute, GreyImage};
 use graphics::field::Field;
@@ -27,6 +27,8 @@ pub enum Stage {
     Edges,
     /// After clouds of pigment.
     Flow,
+    /// After back-runs of water into drying washes.
+    BackRuns,
     /// After grains of pigment.
     Dispersion,
     /// After pigment gathered in the hollows of the paper.
@@ -39,11 +41,12 @@ pub enum Stage {
 
 impl Stage {
     /// All stages in their order.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Wash,
         Self::Wobble,
         Self::Edges,
         Self::Flow,
+        Self::BackRuns,
         Self::Dispersion,
         Self::Paper,
         Self::DryBrush,
@@ -58,6 +61,7 @@ impl Stage {
             Self::Wobble => "wobble",
             Self::Edges => "edges",
             Self::Flow => "flow",
+            Self::BackRuns => "back-runs",
             Self::Dispersion => "dispersion",
             Self::Paper => "paper",
             Self::DryBrush => "dry-brush",
@@ -78,12 +82,18 @@ pub struct FrameTextures<'a> {
     pub dispersion: &'a GreyImage,
     /// Heights of the paper, 0 to 1.
     pub paper: &'a PaperImage,
+    /// Touch of the dry brush; without it the heights of the paper decide.
+    pub touch: Option<(&'a GreyImage, &'a Quantiles)>,
+    /// Change of density by back-runs, 0 to 1, with 0.5 for none.
+    pub back_runs: Option<&'a GreyImage>,
 }
 
 impl<'a> From<&'a TextureImages> for FrameTextures<'a> {
     /// The textures of a still picture.
-    fn from(TextureImages { flow, dispersion, paper }: &'a TextureImages) -> Self {
-        Self { flow, dispersion, paper }
+    fn from(textures: &'a TextureImages) -> Self {
+        let TextureImages { flow, dispersion, paper, touch, back_runs } = textures;
+        let touch = touch.as_ref().map(|(image, own)| (image, own));
+        Self { flow, dispersion, paper, touch, back_runs: back_runs.as_ref() }
     }
 }
 
@@ -106,13 +116,32 @@ pub fn paint(
     settings: &Settings,
     mut observer: Option<StageObserver<'_>>,
 ) -> Result<ColorImage, DeviceError> {
+    let paper = textures.paper;
+    let color = paint_layer(compute, wash, textures, settings, &mut observer)?;
+    let shading = paper_shading(&paper.texture, settings);
+    let color = shade_paper(compute, color, &paper.heights, shading)?;
+    report(&mut observer, compute, Stage::OnPaper, &color)?;
+    Ok(color)
+}
+
+/// The layer of paint of [`paint`] with its coverage, before it is composited on the paper.
+pub(super) fn paint_layer(
+    compute: &mut Compute,
+    wash: WashImages,
+    textures: FrameTextures<'_>,
+    settings: &Settings,
+    observer: &mut Option<StageObserver<'_>>,
+) -> Result<ColorImage, DeviceError> {
     let WashImages { color, dry_brush, density } = wash;
-    let FrameTextures { flow, dispersion, paper } = textures;
-    report(&mut observer, compute, Stage::Wash, &color)?;
+    let FrameTextures { flow, dispersion, paper, touch, back_runs } = textures;
+    report(observer, compute, Stage::Wash, &color)?;
     let heights = &paper.heights;
-    let px_per_slope = paper.texture.per_slope(settings.wobble.amount_px);
-    let mut color = wobble(compute, color, heights, px_per_slope)?;
-    report(&mut observer, compute, Stage::Wobble, &color)?;
+    let (grain, px_per_slope) = match (&paper.fine, paper.texture.fine()) {
+        (Some(image), Some(fine)) => (image, fine.per_slope(settings.wobble.amount_px)),
+        _ => (heights, paper.texture.per_slope(settings.wobble.amount_px)),
+    };
+    let mut color = wobble(compute, color, grain, px_per_slope)?;
+    report(observer, compute, Stage::Wobble, &color)?;
     let dry = settings.dry_brush.amount > 0.0;
     let dry_brush = match settings.dry_brush.color.as_deref().and_then(Rgb::from_hex) {
         Some(center) if dry => {
@@ -121,6 +150,10 @@ pub fn paint(
         }
         _ => dry_brush,
     };
+    let outlines = match settings.dry_brush.outline_px {
+        px if dry && px > 0.0 => Some(edges(compute, &color, px / OUTLINE_SIGMAS)?),
+        _ => None,
+    };
     let edges = match settings.edges.strength {
         0.0 => None,
         _ => Some(edges(compute, &color, settings.edges.width_px)?),
@@ -128,6 +161,7 @@ pub fn paint(
     let layers = [
         (Stage::Edges, edges.as_ref(), settings.edges.strength, 0.0),
         (Stage::Flow, Some(flow), settings.flow.strength, 0.5),
+        (Stage::BackRuns, back_runs, settings.back_runs.strength, 0.5),
         (Stage::Dispersion, Some(dispersion), settings.dispersion.strength, 0.5),
         // Pigment settles in the hollows.
         (Stage::Paper, Some(heights), -settings.paper.strength, 0.5),
@@ -140,19 +174,25 @@ pub fn paint(
         for (stage, layer) in layers {
             let overall = if stage == Stage::Edges { overall } else { 1.0 };
             color = apply_density(compute, color, overall, layer.as_slice(), density.as_ref())?;
-            report(&mut observer, compute, stage, &color)?;
+            report(observer, compute, stage, &color)?;
         }
     } else {
         let layers: Vec<_> = layers.into_iter().filter_map(|(_, layer)| layer).collect();
         color = apply_density(compute, color, overall, &layers, density.as_ref())?;
     }
-    let reach = dry_brush_reach(&paper.texture, settings);
-    color = apply_dry_brush(compute, color, heights, flow, reach, dry_brush.as_ref())?;
-    report(&mut observer, compute, Stage::DryBrush, &color)?;
-    color = shade_paper(compute, color, heights, paper_shading(&paper.texture, settings))?;
-    report(&mut observer, compute, Stage::OnPaper, &color)?;
+    let reach = dry_brush_reach(&paper.texture, touch.map(|(_, own)| own), settings);
+    let touched = touch.map_or(heights, |(image, _)| image);
+    let (outlines, dry_brush) = (outlines.as_ref(), dry_brush.as_ref());
+    color = apply_dry_brush(compute, color, touched, flow, reach, outlines, dry_brush)?;
+    report(observer, compute, Stage::DryBrush, &color)?;
     Ok(color)
 }
+
+/// Standard deviations of the blur of outlines in the distance that the dry brush keeps.
+const OUTLINE_SIGMAS: f32 = 2.0;
+
+/// Contrast of an outline, seen at its blurred middle, at which the brush is fully wet.
+const OUTLINE_CONTRAST: f32 = 0.02;
 
 fn report(
     observer: &mut Option<StageObserver<'_>>,
@@ -168,13 +208,20 @@ fn report(
 
 /// The reach of the dry brush of `settings` on this paper. The band in which paint fades is
 /// centred on the height that leaves the wanted share of the paper bare.
-pub(super) fn dry_brush_reach(paper: &PaperTexture, settings: &Settings) -> DryBrushReach {
-    let DryBrushSettings { softness, patches, .. } = settings.dry_brush;
+fn dry_brush_reach(
+    paper: &PaperTexture,
+    touch: Option<&Quantiles>,
+    settings: &Settings,
+) -> DryBrushReach {
+    let DryBrushSettings { softness, patches, darkest, outline_px, .. } = settings.dry_brush;
+    let above = |amount| touch.map_or_else(|| paper.height_above(amount), |touch| touch.at(amount));
     let threshold = match settings.dry_brush.amount {
-        amount if amount > 0.0 => paper.height_above(amount) + 0.5 * softness,
+        amount if amount > 0.0 => above(amount) + 0.5 * softness,
         _ => 0.0,
     };
-    DryBrushReach { threshold, softness, patches }
+    // A step of contrast c, blurred by sigma, has a gradient of 0.8 c / sigma in its middle.
+    let outline = outline_px / OUTLINE_SIGMAS / 0.8 / OUTLINE_CONTRAST;
+    DryBrushReach { threshold, softness, patches, outline, darkest }
 }
 
 fn paper_shading(paper: &PaperTexture, settings: &Settings) -> PaperShading {

@@ -4,11 +4,13 @@
 //! grey from a one-dimensional texture, and the grey sets the density d at which the colour
 //! C of the surface is painted, as all of their watercolor does:
 //! `C (1 - (1 - C) (d - 1))` with `d = 1 + strength (0.5 - grey)`, at least 0. So shade is
-//! thick paint, light is thin paint, and white stays white.
+//! thick paint, light is thin paint, and white stays white. Where another surface stands
+//! between the light and a point, the diffuse term is that of the shade.
 
-use glam::Vec3;
+use glam::{Mat4, Vec3};
 use rayon::prelude::*;
 
+use super::shadow_map::{ShadowMap, ShadowView};
 use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, GpuCompute, Image, Plane};
 use graphics::distant_light::DistantLight;
@@ -29,6 +31,10 @@ pub struct Toon {
     pub tones: ToneRamp,
     /// Density gained from grey 1 to grey 0; 0 shows colours without light.
     pub strength: f32,
+    /// Darkness of cast shadows: 1 is that of the shade, 0 casts none.
+    pub shadow: f32,
+    /// Encoded sRGB of the glaze that cast shadows lay over the surface.
+    pub shadow_color: [f32; 3],
     /// Samples along each side of a pixel, 1 and up. The visibility buffer is this many
     /// times as wide and high as the picture.
     pub samples: usize,
@@ -41,6 +47,8 @@ impl Default for Toon {
             light: DistantLight::with_camera(315.0, 40.0),
             tones: ToneRamp::steps(4, 0.15),
             strength: 1.6,
+            shadow: 1.0,
+            shadow_color: [1.0; 3],
             samples: 1,
         }
     }
@@ -48,7 +56,8 @@ impl Default for Toon {
 
 /// Shades what `camera` sees of `model`, which was drawn into `visible`: encoded sRGB in
 /// 0..1, with the share of the pixel that surfaces cover, and (1, 1, 1, 0) where there are
-/// none. The picture is `toon.samples` times smaller than `visible`.
+/// none. The picture is `toon.samples` times smaller than `visible`. Shadows are cast by what
+/// `shadows`, a map of the light of `toon`, shows; without it there are none.
 ///
 /// # Errors
 /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
@@ -62,6 +71,7 @@ pub fn shade_toon(
     visible: &Image<Fragment>,
     camera: &Camera,
     toon: &Toon,
+    shadows: Option<&ShadowMap>,
 ) -> Result<ColorImage, DeviceError> {
     let ((width, height), samples) = (visible.size(), toon.samples);
     let whole = samples > 0 && width.is_multiple_of(samples) && height.is_multiple_of(samples);
@@ -70,10 +80,11 @@ pub fn shade_toon(
     match compute {
         Compute::Cpu => {
             let mesh = model.host().mesh();
-            Ok(shade_toon_on_cpu(mesh, visible.host(), size, camera, toon).into())
+            Ok(shade_toon_on_cpu(mesh, visible.host(), size, camera, toon, shadows).into())
         }
         Compute::Gpu(gpu) => {
-            shade_toon_on_gpu(gpu, model.device(), visible.plane(), size, camera, toon)
+            let visible = visible.plane();
+            shade_toon_on_gpu(gpu, model.device(), visible, size, camera, toon, shadows)
                 .map(Image::from)
         }
     }
@@ -88,10 +99,12 @@ fn shade_toon_on_cpu(
     (width, height): (usize, usize),
     camera: &Camera,
     toon: &Toon,
+    shadows: Option<&ShadowMap>,
 ) -> Field<[f32; 4]> {
     let mut color = Field::filled(width, height, PAPER);
     let light = toon.light.direction(camera);
-    let shader = Shader { mesh, eye: camera.eye, light, toon };
+    let shadows = shadows.map(|map| (map.view(), map.fragments.host()));
+    let shader = Shader { mesh, eye: camera.eye, light, toon, shadows };
     color.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
         if toon.samples == 1 {
             for (pixel, fragment) in row.iter_mut().zip(visible.row(y, 0, width)) {
@@ -127,17 +140,55 @@ struct Shader<'a> {
     /// Direction towards the light in model coordinates, of length 1.
     light: Vec3,
     toon: &'a Toon,
+    shadows: Option<(ShadowView, &'a VisibilityBuffer)>,
 }
+
+/// Offset along the normal, and tolerance of distance, of a point in a shadow map, in its
+/// pixels: a surface must not cast shadows on itself.
+const OFFSET_PX: f32 = 1.5;
 
 impl Shader<'_> {
     #[inline]
     fn color(&self, fragment: Fragment) -> Vec3 {
         let point = SurfacePoint::new(self.mesh, fragment);
-        let grey = self.toon.tones.grey(point.normal(self.eye).dot(self.light));
+        let normal = point.normal(self.eye);
+        let mut cosine = normal.dot(self.light);
+        let mut albedo = point.albedo();
+        if cosine > 0.0
+            && let Some((view, map)) = &self.shadows
+        {
+            let lit = lit(view, map, point.position() + normal * (OFFSET_PX * view.pixel));
+            let shadow = self.toon.shadow * (1.0 - lit);
+            cosine *= 1.0 - shadow;
+            albedo *= Vec3::ONE + (Vec3::from(self.toon.shadow_color) - Vec3::ONE) * shadow;
+        }
+        let grey = self.toon.tones.grey(cosine);
         let excess = (self.toon.strength * (0.5 - grey)).max(-1.0);
-        let albedo = point.albedo();
         (albedo * (Vec3::ONE - (Vec3::ONE - albedo) * excess)).clamp(Vec3::ZERO, Vec3::ONE)
     }
+}
+
+/// The share of light, 0 to 1, that reaches a place: four pixels of the map, interpolated.
+fn lit(view: &ShadowView, map: &VisibilityBuffer, place: Vec3) -> f32 {
+    let clip = view.clip_from_model * place.extend(1.0);
+    let side = map.width() as f32;
+    let x = (clip.x / clip.w + 1.0) / 2.0 * side - 0.5;
+    let y = (1.0 - clip.y / clip.w) / 2.0 * side - 0.5;
+    if !(x >= 0.0 && y >= 0.0 && x < side - 1.0 && y < side - 1.0) {
+        return 1.0;
+    }
+    let [near, far] = view.planes;
+    let distance = clip.w - OFFSET_PX * view.pixel;
+    let (left, top) = (x as usize, y as usize);
+    let free = |column: usize, row: usize| {
+        let depth = map[(left + column, top + row)].depth;
+        let first = near * far / (far - depth * (far - near));
+        if depth < 1.0 && first < distance { 0.0 } else { 1.0 }
+    };
+    let (a, b) = (x - x.floor(), y - y.floor());
+    let above = free(0, 0) + (free(1, 0) - free(0, 0)) * a;
+    let below = free(0, 1) + (free(1, 1) - free(0, 1)) * a;
+    above + (below - above) * b
 }
 
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -148,16 +199,38 @@ struct ToonParams {
     light: [f32; 3],
     samples: u32,
     size: [u32; 2],
-    spare: [u32; 2],
+    /// Width and height of the shadow map; 0 without shadows.
+    side: u32,
+    /// Darkness of cast shadows.
+    shadow: f32,
+    /// Columns of the matrix from model coordinates to the light's picture.
+    light_clip: [[f32; 4]; 4],
+    /// Near and far plane of the light, offset and tolerance in the unit of the model.
+    light_view: [f32; 4],
+    /// Colour of cast shadows.
+    shadow_color: [f32; 4],
     greys: [[f32; 4]; TONES / 4],
 }
 
 pub(super) static TOON: Kernel = Kernel {
     name: "watercolor_toon",
     source: include_str!("toon.wgsl"),
-    parameters: layout!(ToonParams { eye, strength, light, samples, size, spare, greys }),
+    parameters: layout!(ToonParams {
+        eye,
+        strength,
+        light,
+        samples,
+        size,
+        side,
+        shadow,
+        light_clip,
+        light_view,
+        shadow_color,
+        greys
+    }),
     structs: &[Vertex::LAYOUT, PackedMaterial::LAYOUT, Fragment::LAYOUT],
     storage: &[
+        Storage::Read,
         Storage::Read,
         Storage::Read,
         Storage::Read,
@@ -174,19 +247,31 @@ fn shade_toon_on_gpu(
     (width, height): (usize, usize),
     camera: &Camera,
     toon: &Toon,
+    shadows: Option<&ShadowMap>,
 ) -> Result<Plane<[f32; 4]>, DeviceError> {
+    let view = shadows.map(ShadowMap::view);
+    let [near, far] = view.map_or([0.0; 2], |view| view.planes);
+    let offset = view.map_or(0.0, |view| OFFSET_PX * view.pixel);
+    let [red, green, blue] = toon.shadow_color;
+    let clip = view.map_or(Mat4::ZERO, |view| view.clip_from_model);
     let params = ToonParams {
         eye: camera.eye.into(),
         strength: toon.strength,
         light: toon.light.direction(camera).into(),
         samples: toon.samples as u32,
         size: [width as u32, height as u32],
-        spare: [0; 2],
+        side: shadows.map_or(0, |map| map.fragments.size().0 as u32),
+        shadow: toon.shadow,
+        light_clip: clip.to_cols_array_2d(),
+        light_view: [near, far, offset, offset],
+        shadow_color: [red, green, blue, 0.0],
         greys: bytemuck::cast(*toon.tones.greys()),
     };
     let color = gpu.plane(width, height)?;
     let DeviceModel { vertices, triangles, materials, texels, .. } = model;
-    let buffers = [vertices, triangles, materials, texels, visible.buffer(), color.buffer()];
+    // The binding needs a buffer even if the kernel does not read it.
+    let map = shadows.map_or(visible, |map| map.fragments.plane()).buffer();
+    let buffers = [vertices, triangles, materials, texels, visible.buffer(), map, color.buffer()];
     gpu.dispatch(&TOON, &params, &buffers, (width, height));
     Ok(color)
 }

@@ -9,7 +9,14 @@ struct ToonParams {
     samples: u32,
     // Size of the picture in pixels.
     size: vec2<u32>,
-    spare: vec2<u32>,
+    // Width and height of the shadow map; 0 without shadows.
+    side: u32,
+    // Darkness of cast shadows.
+    shadow: f32,
+    light_clip: array<vec4<f32>, 4>,
+    // Near and far plane of the light, offset and tolerance.
+    light_view: vec4<f32>,
+    shadow_color: vec4<f32>,
     greys: array<vec4<f32>, 64>,
 }
 
@@ -43,7 +50,8 @@ struct Fragment {
 @group(0) @binding(3) var<storage, read> materials: array<PackedMaterial>;
 @group(0) @binding(4) var<storage, read> texels: array<u32>;
 @group(0) @binding(5) var<storage, read> fragments: array<Fragment>;
-@group(0) @binding(6) var<storage, read_write> painted: array<vec4<f32>>;
+@group(0) @binding(6) var<storage, read> shadows: array<Fragment>;
+@group(0) @binding(7) var<storage, read_write> painted: array<vec4<f32>>;
 
 fn between(at: Fragment, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> vec3<f32> {
     return a + (b - a) * at.second + (c - a) * at.third;
@@ -84,6 +92,33 @@ fn grey(cosine: f32) -> f32 {
     return low + (high - low) * (at - f32(below));
 }
 
+// 0 if the map shows a surface before `distance` in a pixel, otherwise 1.
+fn free(column: u32, row: u32, distance: f32) -> f32 {
+    let depth = shadows[row * params.side + column].depth;
+    let near = params.light_view.x;
+    let far = params.light_view.y;
+    let first = near * far / (far - depth * (far - near));
+    return select(1.0, 0.0, depth < 1.0 && first < distance);
+}
+
+fn lit(place: vec3<f32>) -> f32 {
+    let clip = params.light_clip[0] * place.x + params.light_clip[1] * place.y
+        + params.light_clip[2] * place.z + params.light_clip[3];
+    let side = f32(params.side);
+    let x = (clip.x / clip.w + 1.0) / 2.0 * side - 0.5;
+    let y = (1.0 - clip.y / clip.w) / 2.0 * side - 0.5;
+    if !(x >= 0.0 && y >= 0.0 && x < side - 1.0 && y < side - 1.0) {
+        return 1.0;
+    }
+    let distance = clip.w - params.light_view.w;
+    let left = u32(x);
+    let top = u32(y);
+    let above = mix(free(left, top, distance), free(left + 1u, top, distance), x - floor(x));
+    let below = mix(free(left, top + 1u, distance), free(left + 1u, top + 1u, distance),
+        x - floor(x));
+    return mix(above, below, y - floor(y));
+}
+
 fn toon(at: Fragment) -> vec3<f32> {
     let triangle = triangles[at.triangle];
     let a = vertices[triangle.x];
@@ -103,7 +138,15 @@ fn toon(at: Fragment) -> vec3<f32> {
             + (vec2(c.u, c.v) - vec2(a.u, a.v)) * at.third;
         albedo *= textured(material, uv);
     }
-    let excess = max(params.strength * (0.5 - grey(dot(normal, params.light))), -1.0);
+    var cosine = dot(normal, params.light);
+    if cosine > 0.0 && params.side > 0u {
+        let place = between(at, a.position, b.position, c.position);
+        let share = lit(place + normal * params.light_view.z);
+        let shadow = params.shadow * (1.0 - share);
+        cosine *= 1.0 - shadow;
+        albedo *= mix(vec3(1.0), params.shadow_color.xyz, shadow);
+    }
+    let excess = max(params.strength * (0.5 - grey(cosine)), -1.0);
     return clamp(albedo * (1.0 - (1.0 - albedo) * excess), vec3(0.0), vec3(1.0));
 }
 

@@ -39,6 +39,9 @@ pub(crate) fn prepare(folder: &Path, page: &str) {
     std::fs::write(folder.join("spectra.csv"), SPECTRA).unwrap();
     std::fs::write(folder.join("swatches.csv"), SPECTRA).unwrap();
     std::fs::write(folder.join("swatches.ti3"), TI3).unwrap();
+    std::fs::write(folder.join("pot.csv"), format!("{WAVELENGTHS}{STANDARD}{BATCH}")).unwrap();
+    std::fs::write(folder.join("standard.csv"), format!("{WAVELENGTHS}{STANDARD}")).unwrap();
+    std::fs::write(folder.join("batch.csv"), format!("{WAVELENGTHS}{BATCH}")).unwrap();
     std::fs::write(folder.join("recipes.csv"), RECIPES).unwrap();
 }
 
@@ -81,6 +84,12 @@ sample,400,450,500,550,600,650,700
 STANDARD,0.1,0.2,0.4,0.5,0.4,0.3,0.3
 trial,0.1,0.22,0.38,0.5,0.42,0.3,0.3
 ";
+
+const WAVELENGTHS: &str = "sample,400,450,500,550,600,650,700\n";
+
+/// Zinc white with cobalt blue, and with less of it.
+const STANDARD: &str = "standard,0.5,0.74,0.63,0.31,0.2,0.21,0.45\n";
+const BATCH: &str = "batch,0.52,0.78,0.69,0.39,0.27,0.28,0.53\n";
 
 const TI3: &str = "\
 CTI3

@@ -10,7 +10,7 @@ use render::gpu::DeviceError;
 use render::mesh::{Material, Mesh, Texture};
 use render::surface::{Model, NO_TRIANGLE, PackedMesh, RASTER, VisibilityBuffer, position_at};
 use render::tones::ToneRamp;
-use render::watercolor::{ModelPainter, Settings, Toon, shade_toon};
+use render::watercolor::{ModelPainter, Settings, ShadowMap, Toon, shade_toon};
 use suite::adapter::device;
 
 use super::seen::{inside_them, random_triangles};
@@ -67,8 +67,100 @@ fn shaded(
     let mut model = Model::new(compute, PackedMesh::new(mesh)).unwrap();
     let samples = toon.samples;
     let visible = model.visible(compute, camera, width * samples, height * samples).unwrap();
-    let color = shade_toon(compute, &model, &visible, camera, toon).unwrap();
+    let color = shade_toon(compute, &model, &visible, camera, toon, None).unwrap();
     compute.download(&color).unwrap()
+}
+
+/// As [`shaded`], with the shadows that the mesh casts.
+fn shadowed(
+    compute: &mut Compute,
+    mesh: &Mesh,
+    camera: &Camera,
+    (width, height): (usize, usize),
+    toon: &Toon,
+) -> Field<[f32; 4]> {
+    let mut model = Model::new(compute, PackedMesh::new(mesh)).unwrap();
+    let [low, high] = mesh.bounds();
+    let sphere = ((low + high) / 2.0, low.distance(high) / 2.0);
+    let light = toon.light.direction(camera);
+    let map = ShadowMap::new(compute, &mut model, light, sphere, 256).unwrap();
+    let samples = toon.samples;
+    let visible = model.visible(compute, camera, width * samples, height * samples).unwrap();
+    let color = shade_toon(compute, &model, &visible, camera, toon, Some(&map)).unwrap();
+    compute.download(&color).unwrap()
+}
+
+/// A ball of radius 1 that floats over a floor at -1.5.
+fn ball_over_floor() -> Mesh {
+    let mut mesh = Mesh::sphere(2000);
+    mesh.colors.fill([1.0; 3]);
+    let first = mesh.positions.len();
+    let cells = render::mesh::GridSize { columns: 9, rows: 9 };
+    mesh.add_grid(cells, 0, |Vec2 { x, y }| Vec3::new(12.0 * x - 6.0, -1.5, 12.0 * y - 6.0));
+    mesh.normals[first..].fill([0.0, 1.0, 0.0]);
+    mesh
+}
+
+#[test]
+fn a_ball_casts_its_shadow_on_the_floor_and_none_on_itself() {
+    let mesh = ball_over_floor();
+    let camera = Camera::framing(mesh.bounds(), 0.0, 60.0, 30.0);
+    let light = DistantLight::WithModel(Vec3::new(1.0, 1.0, 0.0));
+    let steps = ToneRamp::steps(2, 0.0);
+    let toon = Toon { light, tones: steps, samples: 1, ..Toon::default() };
+    let size = (200, 200);
+    let lit = shaded(&mut Compute::cpu(), &mesh, &camera, size, &toon);
+    let cast = shadowed(&mut Compute::cpu(), &mesh, &camera, size, &toon);
+    let seen = seen(&mut Compute::cpu(), &mesh, &camera, size);
+    let [mut inside, mut outside, mut on_ball] = [0; 3];
+    for y in 0..200 {
+        for x in 0..200 {
+            if seen[(x, y)].triangle == NO_TRIANGLE {
+                continue;
+            }
+            let place = position_at(&mesh, seen[(x, y)]);
+            let darker = cast[(x, y)][1] < lit[(x, y)][1] - 0.02;
+            if place.y > -1.4 {
+                on_ball += usize::from(darker);
+                continue;
+            }
+            // A ray towards the light passes the middle of the ball at this distance.
+            let ray = Vec3::new(1.0, 1.0, 0.0).normalize();
+            let away = (place - ray * place.dot(ray)).length();
+            match away {
+                away if away < 0.8 => {
+                    assert!(darker, "light in the shadow at {place}");
+                    inside += 1;
+                }
+                away if away > 1.2 => {
+                    assert!(!darker, "a shadow without a ball at {place}");
+                    outside += 1;
+                }
+                _ => {}
+            }
+        }
+    }
+    assert!(inside > 60 && outside > 2000, "{inside} {outside}");
+    assert!(on_ball < 15, "{on_ball} pixels of the ball are in its own shadow");
+    let none = Toon { shadow: 0.0, ..toon };
+    assert_eq!(shadowed(&mut Compute::cpu(), &mesh, &camera, size, &none), lit);
+}
+
+#[test]
+fn the_device_casts_the_shadows_of_the_processor() {
+    let Some(mut on_gpu) = device().map(Compute::gpu) else { return };
+    let mesh = ball_over_floor();
+    let camera = Camera::framing(mesh.bounds(), 20.0, 40.0, 35.0);
+    let toon = Toon { samples: 2, shadow_color: [0.7, 0.7, 0.8], ..Toon::default() };
+    let a = shadowed(&mut Compute::cpu(), &mesh, &camera, (131, 99), &toon);
+    let b = shadowed(&mut on_gpu, &mesh, &camera, (131, 99), &toon);
+    let without = shaded(&mut Compute::cpu(), &mesh, &camera, (131, 99), &toon);
+    let apart = |a: &Field<[f32; 4]>, b: &Field<[f32; 4]>| {
+        let pairs = a.values().iter().zip(b.values());
+        pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.02)).count()
+    };
+    assert!(apart(&a, &without) > 40, "{} pixels in shadow", apart(&a, &without));
+    assert!(apart(&a, &b) * 200 < a.values().len(), "{} pixels differ", apart(&a, &b));
 }
 
 #[test]
@@ -177,6 +269,8 @@ fn shade_is_dense_paint_and_light_is_thin() {
             light: DistantLight::WithModel(Vec3::Z),
             tones: ToneRamp::from_greys(&[0.0, 1.0]).unwrap(),
             strength,
+            shadow: 0.0,
+            shadow_color: [1.0; 3],
             samples: 1,
         };
         shaded(&mut Compute::cpu(), &mesh, &camera, (20, 20), &toon)[(10, 10)]
@@ -245,6 +339,7 @@ fn greys_of_a_picture_take_the_place_of_steps() {
     greys.save(&path).unwrap();
     let mut settings = Settings::default().for_size(64, 64);
     settings.toon.levels = 1;
+    settings.toon.shadow = 0.0;
     let framing = Framing::default();
     let shaded = |settings: &Settings| {
         let mesh = Mesh::sphere(500);

@@ -27,12 +27,14 @@ pub(super) fn paint(
         .with_masks(outputs.masks()?);
     let waiting = Waiting::new("finding regions", console.shows_progress());
     let prepared = painter.prepare(photograph)?;
+    let regions = Some(prepared.regions);
     drop(waiting);
     let mut stages: Vec<NamedStage> = Vec::new();
     let mut picture = None;
     if outputs.wants_stages() {
-        stages.push(("photograph".to_owned(), prepared.original.clone()));
-        stages.push(("regions".to_owned(), prepared.segmented.clone()));
+        let (width, height) = painter.picture_size(photograph);
+        stages.push(("photograph".to_owned(), photograph.with_opacity(width, height)));
+        stages.push(("regions".to_owned(), prepared.flat_regions()));
         let mut keep = |stage: render::watercolor::Stage, color| {
             stages.push((stage.name().to_owned(), color));
         };
@@ -42,11 +44,11 @@ pub(super) fn paint(
     if outputs.exports.any() {
         match &mut glazes {
             None => {
+                let px_mm = prepared.textures.paper.px_mm;
                 let picture = match picture {
                     Some(picture) => picture,
-                    None => painter.paint_prepared(&prepared, None)?,
+                    None => painter.finish(prepared)?,
                 };
-                let px_mm = prepared.textures.paper.px_mm;
                 outputs.exports.write_picture(&linear_from_encoded(&picture), px_mm, console)?;
             }
             Some(glazes) => {
@@ -62,7 +64,7 @@ pub(super) fn paint(
     Ok(Summary {
         size: painter.picture_size(photograph),
         backend: painter.compute_name().to_owned(),
-        regions: Some(prepared.regions),
+        regions,
         frames: None,
         pigments: pigment_names(glazes.as_ref()),
     })

@@ -27,8 +27,9 @@ pub enum Density {
 
 /// Selects features.
 pub(super) trait Select: Sync {
-    /// The highest priority that is needed within a sphere; `None` if nothing in it is.
-    fn needed(&self, center: Vec3, radius: f32) -> Option<f32>;
+    /// The highest priority that is needed within a sphere; `None` if nothing in it is. With a
+    /// `normal`, all of it lies on the plane through the centre with this normal.
+    fn needed(&self, center: Vec3, radius: f32, normal: Option<Vec3>) -> Option<f32>;
 }
 
 /// Selects the features that one projection needs.
@@ -73,10 +74,16 @@ impl<'a> InSight<'a> {
 }
 
 impl Select for InSight<'_> {
-    fn needed(&self, center: Vec3, radius: f32) -> Option<f32> {
+    fn needed(&self, center: Vec3, radius: f32, normal: Option<Vec3>) -> Option<f32> {
         let projection = self.projection;
         let to = center - projection.camera.eye;
-        let (along, towards) = (to.dot(self.forward), to.length() + radius);
+        let along = to.dot(self.forward);
+        // On a plane seen at a grazing angle few pixels show much of the surface. The distance
+        // of the eye from the plane is the same everywhere on it, except for rounding.
+        let towards = match normal {
+            Some(normal) => normal.dot(to).abs() + 1e-4 * (to.length() + radius),
+            None => to.length() + radius,
+        };
         if along + radius < projection.camera.near || along - radius > projection.camera.far {
             return None;
         }
@@ -95,7 +102,7 @@ impl Select for InSight<'_> {
 }
 
 impl Select for Below {
-    fn needed(&self, _: Vec3, _: f32) -> Option<f32> {
+    fn needed(&self, _: Vec3, _: f32, _: Option<Vec3>) -> Option<f32> {
         Some(self.0)
     }
 }
@@ -138,7 +145,8 @@ impl Features {
         let mut index = subtree;
         while index < end {
             let patch = &self.hierarchy.patches[index];
-            let needed = select.needed(patch.center, patch.radius);
+            // The centre of a patch is that of its box, which lies on no plane of its faces.
+            let needed = select.needed(patch.center, patch.radius, None);
             if needed.is_none_or(|needed| f64::from(needed) * patch.area <= 1.0) {
                 index = patch.end;
                 continue;
@@ -166,7 +174,7 @@ fn halve(
     let center = (a + b + c) / 3.0;
     let radius = [a, b, c].map(|at| at.distance_squared(center)).into_iter();
     let radius = radius.fold(0.0, f32::max).sqrt();
-    let needed = select.needed(center, radius);
+    let needed = select.needed(center, radius, Some(face.normal));
     if half.depth > MAX_HALVINGS || needed.is_none_or(|needed| f64::from(needed) * area <= 1.0) {
         return;
     }

@@ -100,6 +100,17 @@ impl Compute {
         }
     }
 
+    /// Moves `field` into the memory of the processor, or copies it to that of the device.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn give<T: bytemuck::Pod>(&mut self, field: Field<T>) -> Result<Image<T>, DeviceError> {
+        match self {
+            Self::Cpu => Ok(field.into()),
+            Self::Gpu(gpu) => gpu.upload(&field).map(Image::from),
+        }
+    }
+
     /// Copies an image back to a field.
     ///
     /// # Errors

@@ -78,7 +78,7 @@ pub fn color_mask(
 }
 
 /// [`color_mask`] on the processor.
-pub(in crate::watercolor) fn color_mask_on_cpu(
+fn color_mask_on_cpu(
     color: &Field<[f32; 4]>,
     range: ColorRange,
     mask: Option<&Field<f32>>,

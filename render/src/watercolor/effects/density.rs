@@ -63,12 +63,7 @@ pub fn apply_density(
 
 /// The change of density d - 1 at a pixel, at least -1.
 #[inline(always)]
-pub(in crate::watercolor) fn density_excess(
-    strength: f32,
-    pivot: f32,
-    texture: f32,
-    mask: f32,
-) -> f32 {
+fn density_excess(strength: f32, pivot: f32, texture: f32, mask: f32) -> f32 {
     greater(strength * (texture - pivot) * mask, -1.0)
 }
 

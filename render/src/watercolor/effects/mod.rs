@@ -22,9 +22,9 @@ pub use edges::edges;
 pub use paper_shading::{PaperShading, shade_paper};
 pub use wobble::wobble;
 
-pub(super) use color_mask::{COLOR_MASK, color_mask_on_cpu};
-pub(super) use density::{DENSITY, density_excess};
+pub(super) use color_mask::COLOR_MASK;
+pub(super) use density::DENSITY;
 pub(super) use dry_brush::DRY_BRUSH;
 pub(super) use edges::{EDGE_BLUR, EDGES, edges_on_cpu};
 pub(super) use paper_shading::PAPER_SHADING;
-pub(super) use wobble::{WOBBLE, wobble_on_cpu};
+pub(super) use wobble::WOBBLE;

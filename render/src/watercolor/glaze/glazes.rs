@@ -5,12 +5,13 @@ use rayon::prelude::*;
 use spectra::color::Rgb;
 use spectra::hint::{Explain, Hint};
 
-use super::thickness::thickness;
-use crate::watercolor::effects::wobble_on_cpu;
+use crate::watercolor::pipeline::{FrameTextures, paint_layer};
 use crate::watercolor::settings::Settings;
 use crate::watercolor::textures::{PaperTexture, Textures};
 use crate::watercolor::wash::Wash;
+use graphics::compute::Compute;
 use graphics::field::Field;
+use graphics::gpu::DeviceError;
 use graphics::picture::Picture;
 use paint::amount::quanta_from_mm;
 use paint::document::{Document, Lighting, Medium, Slots};
@@ -121,7 +122,10 @@ impl Glazes {
     }
 
     /// Paints `wash` as [`crate::watercolor::paint`] does, but with glazes: a painting of one
-    /// dry layer over the paper. `textures` and `settings` are those for its size.
+    /// dry layer over the paper. The glaze of each pixel is the recipe for its colour after all
+    /// effects, over white where the brush left the paper bare. The relief of `lighting` is
+    /// multiplied so that it shades the paper as the settings do. `textures` and `settings` are
+    /// those for its size.
     ///
     /// # Panics
     /// If sizes differ.
@@ -134,10 +138,20 @@ impl Glazes {
         settings: &Settings,
         lighting: Lighting,
     ) -> Document {
-        let px_per_slope = textures.paper.per_slope(settings.wobble.amount_px);
-        let color = wobble_on_cpu(&wash.color, &textures.paper.heights, px_per_slope);
-        let thickness = thickness(&color, &wash.controls, textures, settings);
-        self.document(title, &color, &thickness, &textures.paper, lighting)
+        let layer = layer_on_cpu(wash, textures, settings);
+        let mut color = layer.expect("the processor has no device that fails");
+        color.values_mut().par_iter_mut().for_each(|color| {
+            let covered = color[3];
+            *color = color.map(|value| 1.0 - covered * (1.0 - value));
+            color[3] = if covered > 0.0 { 1.0 } else { 0.0 };
+        });
+        let covered = color.values().iter().map(|color| color[3]).collect();
+        let thickness = Field::from_values(color.width(), color.height(), covered);
+        let Lighting { elevation_deg, ambient, relief, .. } = lighting;
+        let paper = &textures.paper;
+        let shaded = paper.lit_relief(settings.paper.relief, elevation_deg, ambient);
+        let lighting = Lighting { relief: (relief * shaded).min(10.0), ..lighting };
+        self.document(title, &color, &thickness, paper, lighting)
     }
 
     /// The painting of `color` in which each pixel's glaze is `thickness` times as high as in
@@ -184,6 +198,20 @@ impl Glazes {
         document.push_dry(slots, layer);
         document
     }
+}
+
+/// The layer of paint of `wash` with its coverage, computed on the processor.
+fn layer_on_cpu(
+    wash: &Wash,
+    textures: &Textures,
+    settings: &Settings,
+) -> Result<Field<[f32; 4]>, DeviceError> {
+    let mut cpu = Compute::cpu();
+    let images = wash.upload(&mut cpu)?;
+    let textures = textures.clone().upload(&mut cpu)?;
+    let textures = FrameTextures::from(&textures);
+    let color = paint_layer(&mut cpu, images, textures, settings, &mut None)?;
+    cpu.take(color)
 }
 
 fn film(library: &PigmentLibrary, slots: &Slots, paper: &[f64], light: &Light) -> PaintFilm {

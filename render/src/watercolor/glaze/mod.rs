@@ -1,10 +1,8 @@
 //! Watercolor of calibrated pigments: each colour a glaze over measured paper.
 //!
-//! Here density changes the thickness of a glaze instead of its colour, so that
-//! granulation, dark edges and overlaid washes follow Kubelka and Munk. The result is a
-//! painting that can be relit.
-
-mod thickness;
+//! Each pixel has the glaze whose colour comes nearest to that of the effects (Kubelka and
+//! Munk), so that granulation, dark edges and the dry brush stay. The result is a painting
+//! that can be relit.
 
 mod glazes;
 
@@ -12,4 +10,3 @@ mod glaze_painter;
 
 pub use glaze_painter::GlazePainter;
 pub use glazes::{GlazeError, Glazes};
-pub use thickness::thickness;

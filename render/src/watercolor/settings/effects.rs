@@ -97,6 +97,19 @@ pub struct DryBrushSettings {
     /// Restriction to patches, 0..=1: at 0 the brush is dry everywhere, at 1 only where the
     /// flow is thin.
     pub patches: f32,
+    /// Share of the strokes in what the brush touches, 0..=1: at 0 only the grain of the paper
+    /// decides, at 1 only streaks along the strokes.
+    pub streaks: f32,
+    /// Direction of the strokes in degrees counterclockwise from the right, -360..=360.
+    pub direction_deg: f32,
+    /// Length of the streaks in px, 1..=4096.
+    pub length_px: f32,
+    /// Distance in px from outlines at which the brush becomes dry, 0..=50; 0 lets it pass over
+    /// them.
+    pub outline_px: f32,
+    /// Mean of red, green and blue (encoded, 0..=1) up to which washes are laid wet; from twice
+    /// of it on the brush is as dry as elsewhere. 0 is no limit.
+    pub darkest: f32,
     /// Colour of the wash to which the dry brush is limited, `#rrggbb`. `None` is no limit.
     #[serde(rename = "colour", skip_serializing_if = "Option::is_none")]
     pub color: Option<String>,
@@ -151,7 +164,18 @@ impl Default for PaperSettings {
 
 impl Default for DryBrushSettings {
     fn default() -> Self {
-        Self { amount: 0.0, softness: 0.1, patches: 1.0, color: None, tolerance: 25.0 }
+        Self {
+            amount: 0.0,
+            softness: 0.1,
+            patches: 1.0,
+            streaks: 0.7,
+            direction_deg: 15.0,
+            length_px: 90.0,
+            outline_px: 6.0,
+            darkest: 0.2,
+            color: None,
+            tolerance: 25.0,
+        }
     }
 }
 
@@ -234,7 +258,17 @@ impl DryBrushSettings {
             Figure::new("dry_brush.amount", self.amount, [0.0, 1.0]),
             Figure::new("dry_brush.softness", self.softness, [0.001, 0.5]),
             Figure::new("dry_brush.patches", self.patches, [0.0, 1.0]),
+            Figure::new("dry_brush.streaks", self.streaks, [0.0, 1.0]),
+            Figure::new("dry_brush.direction_deg", self.direction_deg, [-360.0, 360.0]),
+            Figure::new("dry_brush.length_px", self.length_px, [1.0, 4096.0]),
+            Figure::new("dry_brush.outline_px", self.outline_px, [0.0, 50.0]),
+            Figure::new("dry_brush.darkest", self.darkest, [0.0, 1.0]),
             Figure::new("dry_brush.tolerance", self.tolerance, [1.0, 200.0]),
         ]
+    }
+
+    pub(super) fn scale(&mut self, by: f32) {
+        self.length_px *= by;
+        self.outline_px *= by;
     }
 }

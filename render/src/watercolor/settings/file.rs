@@ -73,6 +73,8 @@ impl Settings {
             });
         }
         let colors = [
+            ("tones.dark", Some(&self.tones.dark)),
+            ("toon.shadow_colour", Some(&self.toon.shadow_color)),
             ("paper.colour", Some(&self.paper.color)),
             ("dry_brush.colour", self.dry_brush.color.as_ref()),
         ];

@@ -4,6 +4,8 @@ mod figures;
 
 mod effects;
 
+mod photograph;
+
 mod subject;
 
 mod whole;
@@ -19,6 +21,7 @@ pub use effects::{
     WobbleSettings,
 };
 pub use file::SettingsError;
+pub use photograph::{BackRunSettings, MarginSettings, ToneSettings, WetSettings};
 pub use preset::Preset;
 pub use subject::{AbstractionSettings, CoherenceMethod, CoherenceSettings, ToonSettings};
 pub use whole::Settings;

@@ -33,6 +33,13 @@ pub struct ToonSettings {
     pub levels: u32,
     /// Change of density from shade to light, 0..=5.
     pub strength: f32,
+    /// Darkness of the shadows that parts of a mesh cast on others, 0..=1: 1 is that of the
+    /// shade, 0 casts none.
+    pub shadow: f32,
+    /// Colour of cast shadows, `#rrggbb`: a glaze over the paint, so that white surfaces have
+    /// shadows too.
+    #[serde(rename = "shadow_colour")]
+    pub shadow_color: String,
     /// Share of a step over which it blends into the next, 0..=1.
     pub softness: f32,
     /// Number of times that normals are averaged with their neighbours, 0..=1000.
@@ -90,6 +97,8 @@ impl Default for ToonSettings {
             greys: None,
             levels: 4,
             strength: 1.6,
+            shadow: 0.9,
+            shadow_color: "#b3aecb".to_owned(),
             softness: 0.15,
             smoothing_rounds: 4,
             light_azimuth_deg: 315.0,
@@ -134,6 +143,7 @@ impl ToonSettings {
         vec![
             Figure::new("toon.levels", self.levels, [1.0, 16.0]),
             Figure::new("toon.strength", self.strength, [0.0, 5.0]),
+            Figure::new("toon.shadow", self.shadow, [0.0, 1.0]),
             Figure::new("toon.softness", self.softness, [0.0, 1.0]),
             Figure::new("toon.smoothing_rounds", self.smoothing_rounds, [0.0, 1000.0]),
             Figure::new("toon.light_azimuth_deg", self.light_azimuth_deg, [-360.0, 360.0]),

@@ -7,6 +7,7 @@ use super::effects::{
     WobbleSettings,
 };
 use super::figures::Figure;
+use super::photograph::{BackRunSettings, MarginSettings, ToneSettings, WetSettings};
 use super::subject::{AbstractionSettings, CoherenceSettings, ToonSettings};
 
 /// The style of a watercolor. Keys that a file leaves out have the defaults.
@@ -18,6 +19,14 @@ pub struct Settings {
     pub reference_px: f32,
     /// Flat regions of photographs.
     pub abstraction: AbstractionSettings,
+    /// Tones of photographs: darks and reserved whites.
+    pub tones: ToneSettings,
+    /// Washes of photographs that run into their neighbours.
+    pub wet: WetSettings,
+    /// Bare margin of photographs.
+    pub margin: MarginSettings,
+    /// Back-runs of photographs.
+    pub back_runs: BackRunSettings,
     /// Toon shading of meshes.
     pub toon: ToonSettings,
     /// Overall density of the paint.
@@ -43,6 +52,10 @@ impl Default for Settings {
         Self {
             reference_px: 1000.0,
             abstraction: AbstractionSettings::default(),
+            tones: ToneSettings::default(),
+            wet: WetSettings::default(),
+            margin: MarginSettings::default(),
+            back_runs: BackRunSettings::default(),
             toon: ToonSettings::default(),
             wash: WashSettings::default(),
             wobble: WobbleSettings::default(),
@@ -67,6 +80,10 @@ impl Settings {
         let mut own = self.clone();
         own.reference_px = longer;
         own.abstraction.scale(by);
+        own.wet.scale(by);
+        own.margin.scale(by);
+        own.back_runs.scale(by);
+        own.dry_brush.scale(by);
         own.wobble.scale(by);
         own.edges.scale(by);
         own.flow.scale(by);
@@ -81,6 +98,10 @@ impl Settings {
         [
             own,
             self.abstraction.figures(),
+            self.tones.figures(),
+            self.wet.figures(),
+            self.margin.figures(),
+            self.back_runs.figures(),
             self.toon.figures(),
             self.wash.figures(),
             self.wobble.figures(),

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use spectra::color::{Rgb, RgbSpace};
 use spectra::hint::{Explain, Hint};
 
+use super::quantiles::Quantiles;
 use crate::watercolor::settings::PaperSettings;
 use graphics::field::Field;
 use graphics::picture::{Photograph, PhotographError};
@@ -25,9 +26,6 @@ const SCAN_MM: f64 = 0.1;
 /// Largest width or height of a scaled scan in pixels.
 const LARGEST: usize = 16384;
 
-/// Number of intervals of the table of quantiles.
-const QUANTILES: usize = 1024;
-
 /// Heights of a paper, with the measures that effects need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperTexture {
@@ -43,8 +41,29 @@ pub struct PaperTexture {
     depth: f32,
     /// Root mean square length of the gradient (right minus left, below minus above).
     slope: f32,
-    /// Heights below which 0, 1/1024, 2/1024 .. 1 of the paper lies.
-    quantiles: Vec<f32>,
+    quantiles: Quantiles,
+    /// Heights on a finer grid for outlines, in pictures too small for the grain.
+    fine: Option<FineHeights>,
+}
+
+/// Heights of a paper on a finer grid than that of its picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FineHeights {
+    /// Heights in 0..1 of [`FineHeights::factor`] times as many columns and rows.
+    pub heights: Field<f32>,
+    /// Cells along each side of a pixel, at least 2.
+    pub factor: usize,
+    /// Root mean square length of the gradient.
+    slope: f32,
+}
+
+impl FineHeights {
+    /// The factor that scales gradients of the fine heights to a root mean square length of
+    /// `amount`; 0 if the paper is flat.
+    #[must_use]
+    pub fn per_slope(&self, amount: f32) -> f32 {
+        if self.slope > 0.0 { amount / self.slope } else { 0.0 }
+    }
 }
 
 impl PaperTexture {
@@ -71,21 +90,42 @@ impl PaperTexture {
         let unit_mm =
             if settings.scan.is_some() || per_raw == 0.0 { SCAN_MM } else { 1.0 / per_raw };
         let slope = slope(&heights);
-        let mut sorted = heights.values().to_vec();
-        sorted.par_sort_unstable_by(f32::total_cmp);
-        let at = |i: usize| sorted.get(i * sorted.len().saturating_sub(1) / QUANTILES);
-        let quantiles = (0..=QUANTILES).map(|i| at(i).copied().unwrap_or(0.5)).collect();
-        Ok(Self { heights, px_mm, unit_mm, depth: depth as f32, slope, quantiles })
+        let quantiles = Quantiles::of(&heights);
+        Ok(Self { heights, px_mm, unit_mm, depth: depth as f32, slope, quantiles, fine: None })
+    }
+
+    /// Adds heights on a grid `factor` times as fine, by which outlines are displaced
+    /// ([`super::super::wobble`]). A factor of 1 adds none. `settings` are those of this paper.
+    ///
+    /// # Errors
+    /// [`PaperTextureError`] if the scan cannot be read or a setting is out of its range.
+    pub fn with_fine_heights(
+        self,
+        factor: usize,
+        settings: &PaperSettings,
+    ) -> Result<Self, PaperTextureError> {
+        if factor < 2 {
+            return Ok(Self { fine: None, ..self });
+        }
+        let mut settings = settings.clone();
+        settings.grain_px *= factor as f32;
+        settings.scan_scale *= factor as f32;
+        let (width, height) = (self.heights.width(), self.heights.height());
+        let Self { heights, slope, .. } = Self::new(width * factor, height * factor, &settings)?;
+        Ok(Self { fine: Some(FineHeights { heights, factor, slope }), ..self })
+    }
+
+    /// Heights on a finer grid, if the paper has them.
+    #[must_use]
+    pub fn fine(&self) -> Option<&FineHeights> {
+        self.fine.as_ref()
     }
 
     /// The height below which this `share` (0..1) of the paper lies, accurate to about 0.001 of
     /// the paper.
     #[must_use]
     pub fn height_above(&self, share: f32) -> f32 {
-        let place = share.clamp(0.0, 1.0) * QUANTILES as f32;
-        let first = (place as usize).min(QUANTILES - 1);
-        let (low, high) = (self.quantiles[first], self.quantiles[first + 1]);
-        low + (high - low) * (place - first as f32)
+        self.quantiles.at(share)
     }
 
     /// The factor that scales gradients of the paper to a root mean square length of `amount`;
@@ -100,6 +140,20 @@ impl PaperTexture {
     #[must_use]
     pub fn relief_per_slope(&self, amount: f32) -> f32 {
         self.per_slope(amount * self.depth)
+    }
+
+    /// The factor on the heights in mm at which Lambert's law shades this paper, in encoded
+    /// values, as much as the setting `relief` does, 0 to 10; 0 if the paper is flat. The light
+    /// stands `elevation_deg` above the paper and is diffuse to the share `ambient`, 0 to 1.
+    #[must_use]
+    pub fn lit_relief(&self, relief: f32, elevation_deg: f64, ambient: f64) -> f64 {
+        let slant = elevation_deg.to_radians().tan();
+        // A slope is that over two pixels, in both directions at an angle of 45 degrees to the
+        // light; encoded values change by 1/2.2 of linear ones.
+        let per_slope = 2.2 * 2.0 * std::f64::consts::SQRT_2 * slant;
+        let shaded = f64::from(self.relief_per_slope(relief));
+        let direct = (1.0 - ambient).max(0.05);
+        (per_slope * shaded * self.px_mm / self.unit_mm / direct).clamp(0.0, 10.0)
     }
 
     /// The heights in the integer quanta of a painting, whose cells are

@@ -1,6 +1,8 @@
 //! All textures of a picture together.
 
-use super::{PaperTexture, PaperTextureError, dispersion, turbulent_flow};
+use super::{
+    BrushTouch, PaperTexture, PaperTextureError, Quantiles, back_runs, dispersion, turbulent_flow,
+};
 use crate::watercolor::settings::Settings;
 use graphics::compute::{Compute, GreyImage};
 use graphics::field::Field;
@@ -15,7 +17,17 @@ pub struct Textures {
     pub dispersion: Field<f32>,
     /// Heights and measures of the paper.
     pub paper: PaperTexture,
+    /// Touch of the dry brush; without it the heights of the paper decide.
+    pub touch: Option<BrushTouch>,
+    /// Change of density by back-runs, 0 to 1, with 0.5 for none.
+    pub back_runs: Option<Field<f32>>,
 }
+
+/// Longer side in pixels of the smallest picture whose own pixels carry the grain of paper.
+const PAPER_SCALE_PX: usize = 1000;
+
+/// Most cells of finer heights along each side of a pixel.
+const MOST_CELLS: usize = 8;
 
 impl Textures {
     /// Computes the textures of a picture of `width` x `height` pixels. `settings` are those
@@ -28,11 +40,33 @@ impl Textures {
         height: usize,
         settings: &Settings,
     ) -> Result<Self, PaperTextureError> {
+        let paper = PaperTexture::new(width, height, &settings.paper)?;
         Ok(Self {
             flow: turbulent_flow(width, height, &settings.flow),
             dispersion: dispersion(width, height, &settings.dispersion),
-            paper: PaperTexture::new(width, height, &settings.paper)?,
+            touch: BrushTouch::new(&paper, &settings.dry_brush, &settings.paper),
+            paper,
+            back_runs: None,
         })
+    }
+
+    /// Textures of a picture of a photograph: [`Self::new`] with back-runs, and with finer
+    /// heights of the paper in pictures too small for its grain (below 1000 pixels).
+    ///
+    /// # Errors
+    /// [`PaperTextureError`] if the paper's scan cannot be read or the paper cannot be made.
+    pub fn of_photograph(
+        width: usize,
+        height: usize,
+        settings: &Settings,
+    ) -> Result<Self, PaperTextureError> {
+        let mut textures = Self::new(width, height, settings)?;
+        if settings.back_runs.strength > 0.0 {
+            textures.back_runs = Some(back_runs(width, height, &settings.back_runs));
+        }
+        let factor = PAPER_SCALE_PX.div_ceil(width.max(height).max(1)).min(MOST_CELLS);
+        textures.paper = textures.paper.with_fine_heights(factor, &settings.paper)?;
+        Ok(textures)
     }
 
     /// Copies the textures into the memory of `compute`.
@@ -40,13 +74,22 @@ impl Textures {
     /// # Errors
     /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
     pub fn upload(self, compute: &mut Compute) -> Result<TextureImages, DeviceError> {
+        let fine = self.paper.fine().map(|fine| compute.upload(&fine.heights)).transpose()?;
+        let touch = match self.touch {
+            Some(BrushTouch { touch, quantiles }) => Some((compute.give(touch)?, quantiles)),
+            None => None,
+        };
+        let back_runs = self.back_runs.map(|field| compute.give(field)).transpose()?;
         Ok(TextureImages {
-            flow: compute.upload(&self.flow)?,
-            dispersion: compute.upload(&self.dispersion)?,
+            flow: compute.give(self.flow)?,
+            dispersion: compute.give(self.dispersion)?,
             paper: PaperImage {
                 heights: compute.upload(&self.paper.heights)?,
+                fine,
                 texture: self.paper,
             },
+            touch,
+            back_runs,
         })
     }
 }
@@ -60,6 +103,10 @@ pub struct TextureImages {
     pub dispersion: GreyImage,
     /// Heights and measures of the paper.
     pub paper: PaperImage,
+    /// Touch of the dry brush; without it the heights of the paper decide.
+    pub touch: Option<(GreyImage, Quantiles)>,
+    /// Change of density by back-runs, 0 to 1, with 0.5 for none.
+    pub back_runs: Option<GreyImage>,
 }
 
 /// A paper whose heights are in the memory of a [`Compute`].
@@ -67,6 +114,8 @@ pub struct TextureImages {
 pub struct PaperImage {
     /// Heights of the paper, 0 to 1.
     pub heights: GreyImage,
+    /// Heights on a finer grid, if the paper has them.
+    pub fine: Option<GreyImage>,
     /// Heights and measures of the paper in the processor's memory.
     pub texture: PaperTexture,
 }

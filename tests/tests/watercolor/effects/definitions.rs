@@ -183,14 +183,20 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
     let heights = any_grey(200, 100, 7);
     let flow = Field::filled(200, 100, 0.5);
     let paint = Field::filled(200, 100, [0.2, 0.3, 0.4, 1.0]);
-    let reach = |threshold| DryBrushReach { threshold, softness: 1e-3, patches: 0.0 };
+    let reach = |threshold| DryBrushReach {
+        threshold,
+        softness: 1e-3,
+        patches: 0.0,
+        outline: 0.0,
+        darkest: 0.0,
+    };
     for threshold in [0.1, 0.37, 0.8] {
         let found = on_fields::apply_dry_brush(
             &mut Compute::Cpu,
             &paint,
             (&heights, &flow),
             reach(threshold),
-            None,
+            (None, None),
         );
         let covered: f32 = found.values().iter().map(|color| color[3]).sum();
         let below = heights.values().iter().filter(|height| **height < threshold).count();
@@ -204,23 +210,95 @@ fn a_dry_brush_leaves_the_share_of_paper_below_its_threshold() {
         &paint,
         (&heights, &flow),
         reach(0.6),
-        Some(&none),
+        (None, Some(&none)),
     );
     assert_eq!(masked, paint, "a mask of 0");
     assert_eq!(
-        on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &flow), reach(0.0), None),
+        on_fields::apply_dry_brush(
+            &mut Compute::Cpu,
+            &paint,
+            (&heights, &flow),
+            reach(0.0),
+            (None, None)
+        ),
         paint
     );
     let patches = DryBrushReach { patches: 1.0, ..reach(0.6) };
-    let thick =
-        on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &flow), patches, None);
+    let thick = on_fields::apply_dry_brush(
+        &mut Compute::Cpu,
+        &paint,
+        (&heights, &flow),
+        patches,
+        (None, None),
+    );
     assert_eq!(thick, paint, "a thick wash");
     let thin = Field::filled(200, 100, 0.1);
-    let all =
-        on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &thin), patches, None);
-    let whole =
-        on_fields::apply_dry_brush(&mut Compute::Cpu, &paint, (&heights, &flow), reach(0.6), None);
+    let all = on_fields::apply_dry_brush(
+        &mut Compute::Cpu,
+        &paint,
+        (&heights, &thin),
+        patches,
+        (None, None),
+    );
+    let whole = on_fields::apply_dry_brush(
+        &mut Compute::Cpu,
+        &paint,
+        (&heights, &flow),
+        reach(0.6),
+        (None, None),
+    );
     assert_eq!(all, whole, "a thin wash");
+}
+
+#[test]
+fn a_dry_brush_keeps_from_outlines_and_from_dark_washes() {
+    let heights = any_grey(60, 40, 17);
+    let flow = Field::filled(60, 40, 0.5);
+    let reach = DryBrushReach {
+        threshold: 0.6,
+        softness: 1e-3,
+        patches: 0.0,
+        outline: 20.0,
+        darkest: 0.25,
+    };
+    let light = Field::filled(60, 40, [0.6, 0.7, 0.5, 1.0]);
+    let on = |color: &Field<_>, edges: Option<&Field<f32>>| {
+        let paper = (&heights, &flow);
+        on_fields::apply_dry_brush(&mut Compute::Cpu, color, paper, reach, (edges, None))
+    };
+    let bare = |found: &Field<[f32; 4]>, columns: std::ops::Range<usize>| {
+        let rows = (0..40).flat_map(|y| columns.clone().map(move |x| (x, y)));
+        rows.filter(|&at| found[at][3] < 0.5).count()
+    };
+    // An outline along the middle.
+    let strength = |i: usize| if (25..35).contains(&(i % 60)) { 0.1 } else { 0.0 };
+    let edges = Field::from_values(60, 40, (0..2400).map(strength).collect());
+    let found = on(&light, Some(&edges));
+    assert_eq!(bare(&found, 25..35), 0, "bare paper on the outline");
+    assert!(bare(&found, 0..25) > 400, "{} bare away from it", bare(&found, 0..25));
+    let dark = Field::filled(60, 40, [0.2, 0.25, 0.3, 1.0]);
+    assert_eq!(on(&dark, None), dark, "a dark wash");
+    let between = Field::filled(60, 40, [0.3, 0.35, 0.4, 1.0]);
+    let [some, all] = [&between, &light].map(|color| bare(&on(color, None), 0..60));
+    assert!(some > 100 && some < all, "{some} bare in a wash between, {all} in a light one");
+}
+
+#[test]
+fn wobble_on_finer_paper_is_the_mean_of_its_cells() {
+    let fine = any_grey(72, 54, 19);
+    // Even paint stays even; its coverage is a mean.
+    let even = Field::filled(24, 18, [0.3, 0.5, 0.7, 1.0]);
+    for color in on_fields::wobble(&mut Compute::Cpu, &even, &fine, 2.0).values() {
+        for (found, wanted) in color.iter().zip([0.3, 0.5, 0.7, 1.0]) {
+            assert!((found - wanted).abs() < 1e-5, "{color:?}");
+        }
+    }
+    // A slope of one cell's height displaces all samples alike.
+    let ramp = Field::from_values(72, 54, (0..72 * 54).map(|i| 0.01 * (i % 72) as f32).collect());
+    let colors = (0..24 * 18).map(|i| [(i % 24) as f32 / 100.0, 0.5, 0.5, 1.0]).collect();
+    let found =
+        on_fields::wobble(&mut Compute::Cpu, &Field::from_values(24, 18, colors), &ramp, 100.0);
+    assert!((found[(10, 9)][0] - 0.12).abs() < 1e-5, "{:?}", found[(10, 9)]);
 }
 
 #[test]

@@ -7,13 +7,12 @@ use render::light::Light;
 use render::paint::document::{Document, Lighting, Slots};
 use render::paint::scene::{picture, scene};
 use render::watercolor::{
-    Controls, GlazeError, Glazes, PaperTexture, Settings, Textures, Wash, thickness,
+    Controls, FrameTextures, GlazeError, Glazes, PaperTexture, Settings, Textures, Wash, paint,
 };
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::hint::Explain;
 
-use super::on_fields::wobble;
-use super::{any_picture, without_effects};
+use super::any_picture;
 
 /// Tolerance in linear RGB for thin glazes rounded to whole quanta.
 const NEAR: f32 = 2e-3;
@@ -99,45 +98,48 @@ fn a_density_of_2_is_two_glazes() {
 }
 
 #[test]
-fn thickness_is_the_product_of_all_densities() {
-    let color = Field::filled(32, 24, [0.4, 0.5, 0.6, 1.0]);
-    let mut settings = without_effects(Settings::default().for_size(32, 24));
-    let textures = Textures::new(32, 24, &settings).unwrap();
-    let none = Controls::default();
-    let flat = thickness(&color, &none, &textures, &settings);
-    assert!(flat.values().iter().all(|value| (value - 1.0).abs() < 1e-7));
-    settings.wash.density = 0.5;
-    settings.flow.strength = 1.5;
-    settings.paper.strength = 0.7;
-    let found = thickness(&color, &none, &textures, &settings);
-    for (i, found) in found.values().iter().enumerate() {
-        let of = |field: &Field<f32>, strength: f32| 1.0 + strength * (field.values()[i] - 0.5);
-        let wanted = 0.5 * of(&textures.flow, 1.5) * of(&textures.paper.heights, -0.7);
-        assert!((found - wanted).abs() < 1e-6, "{found} {wanted}");
-    }
-    settings.dry_brush.amount = 0.5;
+fn a_painting_of_glazes_keeps_grain_edges_and_bare_paper_of_its_effects() {
+    let Made { glazes, light, .. } = made();
+    let mut settings = Settings::default().for_size(120, 90);
+    settings.dry_brush.amount = 0.3;
     settings.dry_brush.patches = 0.0;
-    let dry = thickness(&color, &none, &textures, &settings);
-    let bare = dry.values().iter().filter(|value| **value == 0.0).count();
-    assert!((200..500).contains(&bare), "{bare} of 768 pixels are bare");
-    let bare_color = Field::filled(32, 24, [0.4, 0.5, 0.6, 0.0]);
-    let nothing = thickness(&bare_color, &none, &textures, &settings);
-    assert!(nothing.values().iter().all(|value| *value == 0.0));
-}
-
-#[test]
-fn a_painting_of_glazes_is_that_of_its_effects() {
-    let Made { glazes, .. } = made();
-    let settings = Settings::default().for_size(40, 30);
-    let textures = Textures::new(40, 30, &settings).unwrap();
-    let wash = Wash { color: any_picture(40, 30, 53), controls: Controls::default() };
+    settings.dry_brush.outline_px = 0.0;
+    settings.paper.relief = 0.0;
+    "#ffffff".clone_into(&mut settings.paper.color);
+    let textures = Textures::of_photograph(120, 90, &settings).unwrap();
+    let half = |i: usize| match i % 120 < 60 {
+        true => [0.75, 0.62, 0.4, 1.0],
+        false => [0.6, 0.7, 0.8, 1.0],
+    };
+    let color = Field::from_values(120, 90, (0..120 * 90).map(half).collect());
+    let wash = Wash { color, controls: Controls::default() };
     let found = glazes.paint("made", &wash, &textures, &settings, level());
-    let px = textures.paper.per_slope(settings.wobble.amount_px);
-    let color = wobble(&mut Compute::cpu(), &wash.color, &textures.paper.heights, px);
-    let thickness = thickness(&color, &wash.controls, &textures, &settings);
-    let wanted = glazes.document("made", &color, &thickness, &textures.paper, level());
-    assert_eq!(found, wanted);
     assert_eq!(found.dry.len(), 1);
+    let found = seen(&found, light);
+    let mut cpu = Compute::cpu();
+    let images = wash.upload(&mut cpu).unwrap();
+    let uploaded = textures.upload(&mut cpu).unwrap();
+    let plain = paint(&mut cpu, images, FrameTextures::from(&uploaded), &settings, None).unwrap();
+    let plain = cpu.download(&plain).unwrap();
+    // Green of both, encoded; their differences from the mean of each half must agree.
+    let encoded = |linear: f32| f64::from(linear.max(0.0)).powf(1.0 / 2.2);
+    for columns in [4..56, 64..116] {
+        let places: Vec<(usize, usize)> =
+            (4..86).flat_map(|y| columns.clone().map(move |x| (x, y))).collect();
+        let of = |value: &dyn Fn((usize, usize)) -> f64| -> Vec<f64> {
+            let values: Vec<f64> = places.iter().map(|&at| value(at)).collect();
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            values.into_iter().map(|value| value - mean).collect()
+        };
+        let glazed = of(&|at| encoded(found[at][1]));
+        let painted = of(&|at| f64::from(plain[at][1]));
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let (own, other) = (product(&glazed, &glazed), product(&painted, &painted));
+        let alike = product(&glazed, &painted) / (own * other).sqrt();
+        let contrast = (own / other).sqrt();
+        assert!(alike > 0.95, "the grain agrees by {alike} only");
+        assert!((0.75..1.25).contains(&contrast), "the contrast is {contrast} times that");
+    }
 }
 
 #[test]

@@ -23,6 +23,8 @@ mod whole;
 
 mod glazes;
 
+mod photographs;
+
 /// A random picture of small patches whose coverage is 0, 1 or between.
 fn any_picture(width: usize, height: usize, seed: u64) -> Field<[f32; 4]> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -43,6 +45,7 @@ fn without_effects(mut settings: Settings) -> Settings {
     settings.wobble.amount_px = 0.0;
     settings.edges.strength = 0.0;
     settings.flow.strength = 0.0;
+    settings.back_runs.strength = 0.0;
     settings.dispersion.strength = 0.0;
     settings.paper.strength = 0.0;
     settings.paper.relief = 0.0;

@@ -60,13 +60,14 @@ pub(super) fn apply_dry_brush(
     color: &Colors,
     (heights, flow): (&Greys, &Greys),
     reach: DryBrushReach,
-    mask: Option<&Greys>,
+    (edges, mask): (Option<&Greys>, Option<&Greys>),
 ) -> Colors {
     let image = compute.upload(color).unwrap();
     let (heights, flow) = (compute.upload(heights).unwrap(), compute.upload(flow).unwrap());
-    let mask = uploaded(compute, mask);
+    let [edges, mask] = [edges, mask].map(|greys| uploaded(compute, greys));
+    let (edges, mask) = (edges.as_ref(), mask.as_ref());
     let found =
-        effects::apply_dry_brush(compute, image, &heights, &flow, reach, mask.as_ref()).unwrap();
+        effects::apply_dry_brush(compute, image, &heights, &flow, reach, edges, mask).unwrap();
     downloaded(compute, &found)
 }
 

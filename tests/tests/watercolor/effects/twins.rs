@@ -115,19 +115,40 @@ fn wobble_agrees() {
 }
 
 #[test]
+fn wobble_on_finer_paper_agrees() {
+    Both::for_each(|both| {
+        let (width, height) = both.size;
+        for factor in [2, 5] {
+            let heights = any_grey(width * factor, height * factor, 22);
+            for px in [0.3_f32, -4.0] {
+                let near = NEAR * (10.0 + 10.0 * f64::from(px.abs()));
+                both.compare(&format!("{factor} cells, {px} px"), near, |compute, picture| {
+                    wobble(compute, picture, &heights, px)
+                });
+            }
+        }
+    });
+}
+
+#[test]
 fn dry_brush_agrees() {
     Both::for_each(|both| {
         let (heights, flow, mask) = (both.grey(12), both.grey(13), both.grey(14));
+        let edges = both.grey(21);
         for threshold in [0.0, 0.2, 0.9] {
-            for (softness, patches, masked) in
-                [(0.1, 0.0, false), (0.5, 0.6, true), (0.02, 1.0, true)]
-            {
-                let reach = DryBrushReach { threshold, softness, patches };
+            for (softness, patches, masked, outline, darkest) in [
+                (0.1, 0.0, false, 0.0, 0.0),
+                (0.5, 0.6, true, 2.0, 0.0),
+                (0.02, 1.0, true, 0.0, 0.3),
+                (0.2, 0.0, false, 1.5, 0.4),
+            ] {
+                let reach = DryBrushReach { threshold, softness, patches, outline, darkest };
                 let mask = masked.then_some(&mask);
+                let edges = (outline > 0.0).then_some(&edges);
                 // Rounding errors grow with the inverse of the softness.
-                let near = NEAR / f64::from(softness);
+                let near = 4.0 * NEAR / f64::from(softness);
                 both.compare(&format!("{reach:?}"), near, |compute, picture| {
-                    apply_dry_brush(compute, picture, (&heights, &flow), reach, mask)
+                    apply_dry_brush(compute, picture, (&heights, &flow), reach, (edges, mask))
                 });
             }
         }

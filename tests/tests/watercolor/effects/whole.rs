@@ -19,7 +19,8 @@ fn painted(
     settings: &Settings,
     observed: bool,
 ) -> (Field<[f32; 4]>, Stages) {
-    let textures = Textures::new(wash.color.width(), wash.color.height(), settings).unwrap();
+    let textures =
+        Textures::of_photograph(wash.color.width(), wash.color.height(), settings).unwrap();
     let textures = textures.upload(compute).unwrap();
     let wash = wash.upload(compute).unwrap();
     let mut stages = Vec::new();
@@ -67,6 +68,9 @@ fn an_observer_changes_nothing_and_every_stage_does_something() {
         settings.wobble.amount_px = 1.0;
         settings.dry_brush.amount = 0.3;
         settings.dry_brush.patches = 0.0;
+        settings.dry_brush.outline_px = 0.0;
+        settings.back_runs.strength = 1.0;
+        settings.back_runs.share = 1.0;
         let (alone, none) = painted(&mut Compute::cpu(), &wash, &settings, false);
         let (observed, stages) = painted(&mut Compute::cpu(), &wash, &settings, true);
         assert!(none.is_empty());

@@ -140,15 +140,16 @@ fn stages_of_a_mesh_begin_with_its_surface() {
         "03-wobble.png",
         "04-edges.png",
         "05-flow.png",
-        "06-dispersion.png",
-        "07-paper.png",
-        "08-dry-brush.png",
-        "09-sheet.png",
+        "06-back-runs.png",
+        "07-dispersion.png",
+        "08-paper.png",
+        "09-dry-brush.png",
+        "10-sheet.png",
     ];
     assert_eq!(folder.names("stages"), names);
     let [surface, wash] = [0, 1].map(|i| opened(format!("{stages}/{}", names[i])));
     assert!(difference(&surface, &wash).0 > 1.0, "no shading");
-    let (_, most) = difference(&opened(format!("{stages}/09-sheet.png")), &opened(&out));
+    let (_, most) = difference(&opened(format!("{stages}/10-sheet.png")), &opened(&out));
     assert!(most <= 1, "{most}");
 }
 

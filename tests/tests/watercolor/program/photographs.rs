@@ -68,10 +68,11 @@ fn stages_are_written_in_their_order_and_the_last_is_the_picture() {
         "04-wobble.png",
         "05-edges.png",
         "06-flow.png",
-        "07-dispersion.png",
-        "08-paper.png",
-        "09-dry-brush.png",
-        "10-sheet.png",
+        "07-back-runs.png",
+        "08-dispersion.png",
+        "09-paper.png",
+        "10-dry-brush.png",
+        "11-sheet.png",
     ];
     assert_eq!(folder.names("stages"), names);
     let all = names.map(|name| opened(format!("{stages}/{name}")));
@@ -79,13 +80,13 @@ fn stages_are_written_in_their_order_and_the_last_is_the_picture() {
     for (pair, names) in all.windows(2).zip(names.windows(2)) {
         assert!(difference(&pair[0], &pair[1]).1 > 0, "{names:?} are alike");
     }
-    let (_, most) = difference(&all[9], &opened(&out));
+    let (_, most) = difference(&all[10], &opened(&out));
     assert!(most <= 1, "{most}");
     // `--stages` alone is enough output.
     let alone = folder.file("alone");
     painted(&photo, &["--stages", &alone, "--preset", "sketch"]);
     assert_eq!(folder.names("alone"), names);
-    let file = |folder: &str| std::fs::read(format!("{folder}/10-sheet.png")).unwrap();
+    let file = |folder: &str| std::fs::read(format!("{folder}/11-sheet.png")).unwrap();
     assert!(file(&alone) == file(&stages), "the picture changed the stages");
 }
 
@@ -96,7 +97,14 @@ fn masks_say_where_density_changes_and_where_the_brush_is_dry() {
     let black = image::RgbImage::new(20, 10);
     let none = folder.file("none.png");
     black.save(&none).unwrap();
-    let dry: &[&str] = &["--set", "dry_brush.amount=0.6", "--set", "dry_brush.patches=0"];
+    let dry: &[&str] = &[
+        "--set",
+        "dry_brush.amount=0.6",
+        "--set",
+        "dry_brush.patches=0",
+        "--set",
+        "dry_brush.outline_px=0",
+    ];
     let size: &[&str] = &["--width", "160", "--height", "120"];
     for (subject, size) in [(&photo, &[][..]), (&mesh, size)] {
         for (option, look) in [("--density-mask", &[][..]), ("--dry-brush-mask", dry)] {
