@@ -78,7 +78,7 @@ fn bloom(settings: &BackRunSettings, size: f32, column: i64, row: i64) -> Option
     let cell = (((column + 0x8000) as u64) << 20) | (row + 0x8000) as u64;
     let mut random = random(settings.seed, (1 << 40) | cell);
     let [share, x, y, radius]: [f32; 4] = std::array::from_fn(|_| random.random());
-    (share < settings.share).then(|| Bloom {
+    (share < settings.share).then_some(Bloom {
         x: (column as f32 + 0.2 + 0.6 * x) * size,
         y: (row as f32 + 0.2 + 0.6 * y) * size,
         radius: size * (0.22 + 0.26 * radius),
