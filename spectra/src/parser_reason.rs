@@ -156,8 +156,8 @@ mod tests {
     fn unknown_and_missing_keys_have_a_way_out() {
         let told = ParserReason::of("unknown field `wide`, expected `a` or `b`");
         assert_eq!(told.hint.as_deref(), Some("it takes the keys a, b"));
-        let told = ParserReason::of("unknown variant `ruff`, expected one of `rough`, `smooth`");
-        assert_eq!(told.reason, "unknown word `ruff`");
+        let told = ParserReason::of("unknown variant `rogh`, expected one of `rough`, `smooth`");
+        assert_eq!(told.reason, "unknown word `rogh`");
         assert_eq!(told.hint.as_deref(), Some("did you mean rough?"));
         assert_eq!(ParserReason::of("missing field `k`").reason, "the key `k` is missing");
     }

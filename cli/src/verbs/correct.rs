@@ -158,7 +158,7 @@ fn one(text: &str, what: &str, colors: Vec<ColorTarget>) -> Result<ColorTarget> 
     }
 }
 
-/// Parses `PIGMENT=GRAMS`.
+/// Parses amounts of the form `PIGMENT=GRAMS`.
 fn amounts(option: &str, texts: &[String]) -> Result<Vec<(String, f64)>> {
     let amount = |text: &String| {
         let found = text.rsplit_once('=').and_then(|(name, grams)| {

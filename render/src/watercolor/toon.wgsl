@@ -44,6 +44,9 @@ struct Fragment {
     depth: f32,
 }
 
+// Cosine of the light below which shadows fade.
+const GRAZING: f32 = 0.25;
+
 @group(0) @binding(0) var<uniform> params: ToonParams;
 @group(0) @binding(1) var<storage, read> vertices: array<Vertex>;
 @group(0) @binding(2) var<storage, read> triangles: array<vec4<u32>>;
@@ -142,7 +145,7 @@ fn toon(at: Fragment) -> vec3<f32> {
     if cosine > 0.0 && params.side > 0u {
         let place = between(at, a.position, b.position, c.position);
         let share = lit(place + normal * params.light_view.z);
-        let shadow = params.shadow * (1.0 - share);
+        let shadow = params.shadow * (1.0 - share) * min(cosine / GRAZING, 1.0);
         cosine *= 1.0 - shadow;
         albedo *= mix(vec3(1.0), params.shadow_color.xyz, shadow);
     }

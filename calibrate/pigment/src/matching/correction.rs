@@ -117,7 +117,7 @@ pub struct Corrections {
     /// Corrections within the tolerance, the least addition first; if there are none, those that come
     /// nearest, the nearest first. Empty if the batch needs none.
     pub corrections: Vec<Correction>,
-    /// Warnings.
+    /// Warnings about the spectra.
     pub remarks: Vec<Remark>,
 }
 

@@ -36,8 +36,8 @@ impl Margin {
         // Strokes run from side to side: they end at different places to the left and right,
         // and their sides wander a little at the top and bottom.
         let side = if x < width - x { 0.0 } else { 511.5 };
-        let end = strokes.at(side + x / (12.0 * ragged), y / (3.2 * ragged))
-            + 0.22 * bristles.at(side + x / (4.0 * ragged), y / (0.7 * ragged));
+        let end = 0.7 * strokes.at(side + x / (12.0 * ragged), y / (5.0 * ragged))
+            + 0.12 * bristles.at(side + x / (4.0 * ragged), y / (1.2 * ragged));
         let row = if y < height - y { 0.0 } else { 511.5 };
         let edge = 0.5 * wander.at(x / (7.0 * ragged), row + y / (7.0 * ragged))
             + 0.12 * strokes.at(x / ragged, row + y / ragged);
