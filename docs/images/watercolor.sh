@@ -9,10 +9,10 @@ scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
 watercolor() { "$impasto" watercolor --backend cpu "$@"; }
 
-watercolor shape:still-life --preset portrait --camera 25,12 --picture "$scratch/still-life.png"
-watercolor shape:village --preset landscape --camera 40,16 --picture "$scratch/village.png"
+watercolor shape:still-life --preset portrait --camera 25,12 -o "$scratch/still-life.png"
+watercolor shape:village --preset landscape --camera 40,16 -o "$scratch/village.png"
 for preset in portrait landscape sketch; do
-    watercolor docs/images/coffee.jpg --preset "$preset" --picture "$scratch/coffee-$preset.png"
+    watercolor docs/images/coffee.jpg --preset "$preset" -o "$scratch/coffee-$preset.png"
 done
 
 # Every stage, with settings that make wobble and dry brush visible.
@@ -20,12 +20,12 @@ watercolor shape:still-life --camera 25,12 --set dry_brush.amount=0.15 --set wob
     --stages "$scratch/stages"
 
 # Calibrated pigments, and the same painting with Prussian blue in place of ultramarine.
-"$impasto" demo --out "$scratch/demo" > "$scratch/demo.txt"
+"$impasto" demo -o "$scratch/demo" > "$scratch/demo.txt"
 watercolor shape:still-life --preset portrait --camera 25,12 --width 750 \
-    --pigments "$scratch/demo/van-gogh-oils.pigments.json" \
-    --picture "$scratch/day.png" --output "$scratch/glazes.exr"
+    "$scratch/demo/van-gogh-oils.pigments.json" \
+    -o "$scratch/day.png" -o "$scratch/glazes.exr"
 "$impasto" relight "$scratch/glazes.exr" --backend cpu --azimuth 90 --elevation 25 \
-    --swap "all:Ultramarine=Prussian Blue" --picture "$scratch/swapped.png"
+    --swap "all:Ultramarine=Prussian Blue" -o "$scratch/swapped.png"
 
 watercolor shape:village --preset portrait --camera 0,22 --width 320 --turntable 30 --rate 12 \
     --animation docs/images/turning.gif --frames "$scratch/turning"
