@@ -4,6 +4,7 @@ use std::path::Path;
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
+use calibrate::matching::ViewingCondition;
 use calibrate::visible_band::check_visible_band;
 use clap::Args;
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
@@ -35,6 +36,16 @@ impl ViewingOptions {
 /// Reads the light and looks up the observer that the texts of two options name.
 pub(crate) fn viewing(illuminant: &str, observer: &str) -> Result<Viewing> {
     Ok(Viewing { illuminant: light_from_text(illuminant)?, observer: Observer::named(observer)? })
+}
+
+/// Reads a light with its weight among several, `LIGHT` or `LIGHT=WEIGHT`.
+pub(crate) fn condition(text: &str, observer: &str) -> Result<ViewingCondition> {
+    let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
+        let weight: f64 = weight.parse().ok()?;
+        Some((light, weight))
+    });
+    let (light, weight) = weighted.unwrap_or((text, 1.0));
+    Ok(ViewingCondition { viewing: viewing(light, observer)?, weight })
 }
 
 /// Converts a colour to encoded sRGB, adapted from `white` by Bradford's transform.

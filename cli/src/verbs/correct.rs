@@ -4,7 +4,6 @@ use calibrate::PigmentId;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
     Batch, ColorTarget, Correction, CorrectionOptions, Corrections, TargetColor, USUAL_CORRECTION,
-    ViewingCondition,
 };
 use clap::Args;
 use serde_json::{Map, Value, json};
@@ -13,7 +12,7 @@ use spectra::{Reflectance, Spectrum, name_list};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{srgb, viewing};
+use crate::input::{condition, srgb};
 use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::readings::ReadingOptions;
 use crate::targets::targets;
@@ -97,7 +96,7 @@ impl Correct {
         let made = amounts("--made", &self.made)?;
         let grams = self.grams.unwrap_or_else(|| made.iter().map(|(_, grams)| grams).sum());
         let batch = Batch { made, grams, reflectance: self.batch_spectrum(pot, console)? };
-        let conditions = self.illuminant.iter().map(|text| self.condition(text));
+        let conditions = self.illuminant.iter().map(|text| condition(text, &self.observer));
         let options = CorrectionOptions {
             conditions: conditions.collect::<Result<_>>()?,
             only: self.only.clone(),
@@ -132,16 +131,6 @@ impl Correct {
                 "give the file of its reading: FILE or FILE#SAMPLE",
             )),
         }
-    }
-
-    /// Parses a viewing condition `LIGHT` or `LIGHT=WEIGHT`.
-    fn condition(&self, text: &str) -> Result<ViewingCondition> {
-        let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
-            let weight: f64 = weight.parse().ok()?;
-            Some((light, weight))
-        });
-        let (light, weight) = weighted.unwrap_or((text, 1.0));
-        Ok(ViewingCondition { viewing: viewing(light, &self.observer)?, weight })
     }
 }
 

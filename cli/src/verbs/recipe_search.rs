@@ -1,7 +1,7 @@
 //! `impasto match`: finds recipes for a target colour or spectrum.
 
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{MatchOptions, RequiredName, Thickness, ViewingCondition};
+use calibrate::matching::{MatchOptions, RequiredName, Thickness};
 use clap::Args;
 use serde_json::Value;
 
@@ -10,7 +10,7 @@ use crate::console::Console;
 use crate::costs::prices;
 use crate::failure::{Failure, Result};
 use crate::ground::ground;
-use crate::input::viewing;
+use crate::input::condition;
 use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::progress::Progress;
 use crate::readings::ReadingOptions;
@@ -149,7 +149,7 @@ impl Match {
                 "leave it out: the recipe gives each amount on the library's area",
             ));
         }
-        let conditions = self.illuminant.iter().map(|text| self.condition(text));
+        let conditions = self.illuminant.iter().map(|text| condition(text, &self.observer));
         let with = self.with.iter().map(|text| required(text, library));
         Ok(MatchOptions {
             conditions: conditions.collect::<Result<_>>()?,
@@ -166,16 +166,6 @@ impl Match {
             beyond_measured: self.beyond_measured,
             count: self.count,
         })
-    }
-
-    /// Parses a viewing condition `LIGHT` or `LIGHT=WEIGHT`.
-    fn condition(&self, text: &str) -> Result<ViewingCondition> {
-        let weighted = text.rsplit_once('=').and_then(|(light, weight)| {
-            let weight: f64 = weight.parse().ok()?;
-            Some((light, weight))
-        });
-        let (light, weight) = weighted.unwrap_or((text, 1.0));
-        Ok(ViewingCondition { viewing: viewing(light, &self.observer)?, weight })
     }
 }
 

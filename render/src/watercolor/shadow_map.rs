@@ -14,7 +14,7 @@ const VIEW_DEG: f32 = 4.0;
 /// The surfaces that a distant light reaches first.
 #[derive(Debug, Clone)]
 pub struct ShadowMap {
-    /// What the light sees, square.
+    /// The surfaces that the light reaches first, on a square grid.
     pub fragments: Image<Fragment>,
     /// The camera in the place of the light.
     pub camera: Camera,

@@ -71,7 +71,7 @@ fn shaded(
     compute.download(&color).unwrap()
 }
 
-/// As [`shaded`], with the shadows that the mesh casts.
+/// The picture of [`shaded`] with the shadows that the mesh casts.
 fn shadowed(
     compute: &mut Compute,
     mesh: &Mesh,

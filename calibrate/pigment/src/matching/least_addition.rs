@@ -21,7 +21,7 @@ const AMOUNTS: usize = 24;
 /// Halvings of the last ratio of amounts, down to about 0.1 % of the amount.
 const HALVINGS: usize = 9;
 
-/// What may be added to a pot, as multiples of what is in it.
+/// Limits of an addition to a pot. Amounts are fractions of the paint that is in the pot.
 pub(super) struct Additions<'a> {
     /// The library, with the paint in the pot as its last pigment.
     pub(super) library: &'a PigmentLibrary,
@@ -43,7 +43,7 @@ pub(super) struct Additions<'a> {
 /// An addition that was found.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Addition {
-    /// Pigments with their amounts as multiples of what is in the pot, in rising order of pigments.
+    /// Pigments in rising order, each with its amount as a fraction of the paint in the pot.
     pub(super) amounts: Vec<(PigmentId, f64)>,
     /// The mixture of pot and addition.
     pub(super) mixture: Candidate,

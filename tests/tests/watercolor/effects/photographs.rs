@@ -1,4 +1,4 @@
-//! What only photographs have: soft steps, lifted darks, reserved whites, a margin, back-runs.
+//! Effects of photographs alone: soft steps, lifted darks, reserved whites, a margin, back-runs.
 
 use std::io::Cursor;
 
