@@ -29,8 +29,9 @@ pub struct ExpectedNoise {
 }
 
 /// Distribution of the noise over samples and wavelengths.
-pub(super) struct Noise<'a> {
-    target: &'a [Vec<f64>],
+pub(super) struct Noise {
+    /// Cube roots of the measured reflectance.
+    roots: Vec<Vec<f64>>,
     /// By sample and wavelength: weight of a cube-root residual that makes it perceptually uniform.
     even: Vec<Vec<f64>>,
     /// By sample and wavelength: that weight for a residual in reflectance itself.
@@ -41,8 +42,8 @@ pub(super) struct Noise<'a> {
     least_sd: f64,
 }
 
-impl<'a> Noise<'a> {
-    pub(super) fn new(term: &ColorTerm<'_>, target: &'a [Vec<f64>], reading_sd: f64) -> Self {
+impl Noise {
+    pub(super) fn new(term: &ColorTerm<'_>, target: &[Vec<f64>], reading_sd: f64) -> Self {
         let root_slope = |reflectance: f64| reflectance.cbrt().powi(-2) / 3.0;
         let mut even = term.sensitivity(target);
         for (row, reflectances) in even.iter_mut().zip(target) {
@@ -66,7 +67,8 @@ impl<'a> Noise<'a> {
         let all: Vec<f64> = slope.iter().flatten().copied().collect();
         let median_slope = percentile(&all, 50.0);
         let least_sd = (reading_sd * median_slope).max(LEAST_SD);
-        Self { target, even, slope, median_slope, least_sd }
+        let roots = target.iter().map(|row| row.iter().map(|r| r.cbrt()).collect()).collect();
+        Self { roots, even, slope, median_slope, least_sd }
     }
 
     /// One over the standard deviation of each residual, and the deviation at a typical sample, which
@@ -78,24 +80,22 @@ impl<'a> Noise<'a> {
         least: f64,
     ) -> (Vec<Vec<f64>>, f64) {
         let at_median = 1.0 + (ratio * self.median_slope).powi(2);
-        let mut weights: Vec<Vec<f64>> = self
-            .even
-            .iter()
-            .zip(&self.slope)
-            .map(|(even, slope)| {
+        let rows = self.even.par_iter().zip(&self.slope).zip(values.par_iter().zip(&self.roots));
+        let (mut weights, sizes): (Vec<Vec<f64>>, Vec<Vec<f64>>) = rows
+            .map(|((even, slope), (values, roots))| {
                 let pairs = even.iter().zip(slope);
-                pairs.map(|(e, g)| e * (at_median / (1.0 + (ratio * g).powi(2))).sqrt()).collect()
+                let weights: Vec<f64> = pairs
+                    .map(|(e, g)| e * (at_median / (1.0 + (ratio * g).powi(2))).sqrt())
+                    .collect();
+                let residuals = weights.iter().zip(values.iter().zip(roots));
+                let sizes = residuals.map(|(w, (v, root))| (w * (v.cbrt() - root)).abs()).collect();
+                (weights, sizes)
             })
-            .collect();
-        let mut sizes = Vec::new();
-        for ((row, values), target) in weights.iter().zip(values).zip(self.target) {
-            for ((w, v), t) in row.iter().zip(values).zip(target) {
-                sizes.push((w * (v.cbrt() - t.cbrt())).abs());
-            }
-        }
+            .unzip();
+        let sizes: Vec<f64> = sizes.into_iter().flatten().collect();
         let least = if least.is_finite() { least.max(self.least_sd) } else { self.least_sd };
         let sd = (SD_OVER_MEDIAN * percentile(&sizes, 50.0)).max(least);
-        weights.iter_mut().flatten().for_each(|w| *w /= sd);
+        weights.par_iter_mut().flatten().for_each(|w| *w /= sd);
         (weights, sd)
     }
 
@@ -109,18 +109,16 @@ impl<'a> Noise<'a> {
     /// Ratio of the two kinds of noise (constant over uniform) under which the residuals of `values` are
     /// most likely by Laplace's law.
     pub(super) fn likeliest_ratio(&self, values: &[Vec<f64>]) -> f64 {
-        let residuals: Vec<f64> = values
-            .iter()
-            .zip(self.target)
-            .zip(&self.even)
-            .flat_map(|((row, target), even)| {
-                let pairs = row.iter().zip(target).zip(even);
-                pairs.map(|((v, t), even)| even * (v.cbrt() - t.cbrt()))
+        let rows = values.par_iter().zip(&self.roots).zip(&self.even);
+        let residuals: Vec<Vec<f64>> = rows
+            .map(|((row, roots), even)| {
+                let pairs = row.iter().zip(roots).zip(even);
+                pairs.map(|((v, root), even)| even * (v.cbrt() - root)).collect()
             })
             .collect();
         let score = |ratio: f64| {
             let (mut sum, mut logs, mut count) = (0.0, 0.0, 0.0);
-            for (residual, slope) in residuals.iter().zip(self.slope.iter().flatten()) {
+            for (residual, slope) in residuals.iter().flatten().zip(self.slope.iter().flatten()) {
                 let sd = (1.0 + (ratio * slope).powi(2)).sqrt();
                 sum += (residual / sd).abs();
                 logs += sd.ln();

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::banded::{Banded, BandedCholesky, ColumnsMut};
+use super::banded::{Banded, BandedCholesky, ColumnsMut, Spare};
 use super::color_term::{ColorResidual, ColorTerm};
 use super::curves::{LOWER, UPPER};
 use super::forward::{Data, Forward, Linear};
@@ -47,6 +47,7 @@ pub(super) struct Objective<'a, F> {
     /// Strength of the pull of log S towards its start; that of log K is [`RIDGE`].
     pub(super) scattering_ridge: f64,
     pub(super) color: Option<ColorPart<'a>>,
+    pub(super) spare: Spare,
 }
 
 /// Colour term of the cost.
@@ -103,7 +104,7 @@ impl<F: Forward> Objective<'_, F> {
         let mut local = Local {
             cost: self.prior_cost(unknowns),
             gradient: vec![0.0; layout.len()],
-            matrix: Banded::zeros(layout.len(), reach),
+            matrix: self.spare.zeros(layout.len(), reach),
             diagonal: Vec::new(),
             color: Vec::new(),
             slopes: Vec::new(),
@@ -187,14 +188,16 @@ impl<F: Forward> Objective<'_, F> {
         let mut damping: f64 = FIRST_DAMPING;
         let mut local = self.local(unknowns);
         for _ in 0..iterations {
-            let Some((trial, cost)) = self.improved(unknowns, &local, &mut damping) else { return };
+            let Some((trial, cost)) = self.improved(unknowns, &local, &mut damping) else { break };
             let decrease = local.cost - cost;
             *unknowns = trial;
             if decrease < relative * local.cost {
-                return;
+                break;
             }
+            self.spare.keep(local.matrix);
             local = self.local(unknowns);
         }
+        self.spare.keep(local.matrix);
     }
 
     fn improved(
@@ -231,7 +234,7 @@ impl<F: Forward> Objective<'_, F> {
     /// Damped Gauss-Newton step: directly from the banded factor or, with the colour term, which couples
     /// all wavelengths, by conjugate gradients with that factor as preconditioner.
     fn step(&self, local: &Local, held: &[bool], damping: f64) -> Option<Vec<f64>> {
-        let mut matrix = local.matrix.clone();
+        let mut matrix = self.spare.copy(&local.matrix);
         let mut right: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
         for (i, diagonal) in local.diagonal.iter().enumerate() {
             matrix.add(i, i, damping * diagonal + DIAGONAL_FLOOR);
@@ -241,9 +244,12 @@ impl<F: Forward> Objective<'_, F> {
             right[i] = 0.0;
         }
         if self.color.is_none() {
-            return Some(matrix.cholesky()?.solve(&right));
+            let factor = matrix.cholesky()?;
+            let step = factor.solve(&right);
+            self.spare.keep(factor.into_matrix());
+            return Some(step);
         }
-        let factor = matrix.clone().cholesky()?;
+        let factor = self.spare.copy(&matrix).cholesky()?;
         let product = |v: &[f64]| {
             let mut product = matrix.times(v);
             self.add_color_product(local, v, &mut product);
@@ -252,7 +258,10 @@ impl<F: Forward> Objective<'_, F> {
             }
             product
         };
-        Some(conjugate_gradients(&right, &factor, product))
+        let step = conjugate_gradients(&right, &factor, product);
+        self.spare.keep(matrix);
+        self.spare.keep(factor.into_matrix());
+        Some(step)
     }
 
     /// Strength of the pull of the unknown `place` towards its start.

@@ -2,11 +2,16 @@
 
 use clarabel::algebra::{CscMatrix, MatrixMathMut};
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::curves::CurveTable;
 use super::problem::{FitError, Problem};
 use pigment::Curves;
+
+/// Pivot, on columns of length 1, below which mixtures leave a sum of pigments undetermined. The solver then
+/// gives a value in the middle of all that serve alike.
+const LEAST_PIVOT: f64 = 1e-4;
 
 /// Fits K and S by the method `qp`: per wavelength, minimises the sum over mixtures of (C K - Q C S)^2
 /// with K and S 0 and up and S = 1 for the reference (Baxter, Wendt and Lin 2004, section 5.2). Rows
@@ -29,7 +34,10 @@ pub(super) fn solve_all(
     let count = problem.grid.count();
     let solved: Vec<Vec<f64>> = (0..count)
         .into_par_iter()
-        .map(|at| solve(problem, at, &weights(at)))
+        .map(|at| {
+            let program = Program::new(problem, at, &weights(at));
+            program.solve_freely().map_or_else(|| program.solve(problem.grid.nm(at)), Ok)
+        })
         .collect::<Result<_, _>>()?;
     let n = problem.pigments;
     let curve = |place: usize| -> Vec<f64> { solved.iter().map(|v| v[place]).collect() };
@@ -39,70 +47,132 @@ pub(super) fn solve_all(
     })
 }
 
-/// K of every pigment at one wavelength, followed by S.
-fn solve(problem: &Problem, at: usize, weights: &[f64]) -> Result<Vec<f64>, FitError> {
-    let n = problem.pigments;
-    let reference = n + problem.reference.index();
-    // Half the quadratic form over K and all of S; the S of the reference is eliminated below. A row
-    // has twice as many entries as its mixture has pigments.
-    let mut form = vec![0.0; 4 * n * n];
-    let mut row: Vec<(usize, f64)> = Vec::new();
-    for ((recipe, ratio), weight) in problem.recipes.iter().zip(&problem.ratio).zip(weights) {
-        row.clear();
-        row.extend(recipe.iter().map(|&(p, c)| (p, weight * c)));
-        row.extend(recipe.iter().map(|&(p, c)| (n + p, -weight * ratio[at] * c)));
-        for &(i, a) in &row {
-            for &(j, b) in &row {
-                form[i * 2 * n + j] += a * b;
+/// The program at one wavelength. Its unknowns are K of every pigment, followed by S of all but the
+/// reference, each times the length of its column, since Q spans four decades.
+struct Program {
+    /// Places of the unknowns among K and S of all pigments.
+    free: Vec<usize>,
+    reference: usize,
+    /// One over the length of each column of K and S.
+    scale: Vec<f64>,
+    quadratic: DMatrix<f64>,
+    linear: DVector<f64>,
+}
+
+impl Program {
+    fn new(problem: &Problem, at: usize, weights: &[f64]) -> Self {
+        let n = problem.pigments;
+        let reference = n + problem.reference.index();
+        // Half the quadratic form over K and all of S; the S of the reference is eliminated below. A row
+        // has twice as many entries as its mixture has pigments.
+        let mut form = vec![0.0; 4 * n * n];
+        let mut row: Vec<(usize, f64)> = Vec::new();
+        for ((recipe, ratio), weight) in problem.recipes.iter().zip(&problem.ratio).zip(weights) {
+            row.clear();
+            row.extend(recipe.iter().map(|&(p, c)| (p, weight * c)));
+            row.extend(recipe.iter().map(|&(p, c)| (n + p, -weight * ratio[at] * c)));
+            for &(i, a) in &row {
+                for &(j, b) in &row {
+                    form[i * 2 * n + j] += a * b;
+                }
             }
         }
+        let scale: Vec<f64> = (0..2 * n)
+            .map(|i| {
+                let length = form[i * 2 * n + i].sqrt();
+                if length > 0.0 { length.recip() } else { 1.0 }
+            })
+            .collect();
+        let free: Vec<usize> = (0..2 * n).filter(|&i| i != reference).collect();
+        let entry = |row: usize, column: usize| {
+            let (i, j) = (free[row], free[column]);
+            form[i * 2 * n + j] * scale[i] * scale[j]
+        };
+        let quadratic = DMatrix::from_fn(free.len(), free.len(), entry);
+        let linear = free.iter().map(|&i| form[i * 2 * n + reference] * scale[i]);
+        let linear = DVector::from_iterator(free.len(), linear);
+        Self { free, reference, scale, quadratic, linear }
     }
-    // Columns are scaled to length 1, since Q spans four decades.
-    let scale: Vec<f64> = (0..2 * n)
-        .map(|i| {
-            let length = form[i * 2 * n + i].sqrt();
-            if length > 0.0 { length.recip() } else { 1.0 }
-        })
-        .collect();
-    let free: Vec<usize> = (0..2 * n).filter(|&i| i != reference).collect();
-    let mut column_starts = vec![0];
-    let mut row_indices = Vec::new();
-    let mut values = Vec::new();
-    for (column, &j) in free.iter().enumerate() {
-        for (row, &i) in free[..=column].iter().enumerate() {
-            let value = form[i * 2 * n + j] * scale[i] * scale[j];
-            if value != 0.0 {
-                row_indices.push(row);
-                values.push(value);
+
+    /// K and S of all pigments by the solver, at the wavelength `nm` in messages.
+    fn solve(&self, nm: f64) -> Result<Vec<f64>, FitError> {
+        let unknowns = self.free.len();
+        let mut column_starts = vec![0];
+        let mut row_indices = Vec::new();
+        let mut values = Vec::new();
+        for column in 0..unknowns {
+            for row in 0..=column {
+                let value = self.quadratic[(row, column)];
+                if value != 0.0 {
+                    row_indices.push(row);
+                    values.push(value);
+                }
             }
+            column_starts.push(row_indices.len());
         }
-        column_starts.push(row_indices.len());
+        let quadratic = CscMatrix::new(unknowns, unknowns, column_starts, row_indices, values);
+        let mut not_below_zero = CscMatrix::identity(unknowns);
+        not_below_zero.negate();
+        let settings = DefaultSettings { verbose: false, ..DefaultSettings::default() };
+        let failed = |status: String| FitError::Solver { nm, status };
+        let mut solver = DefaultSolver::new(
+            &quadratic,
+            self.linear.as_slice(),
+            &not_below_zero,
+            &vec![0.0; unknowns],
+            &[NonnegativeConeT(unknowns)],
+            settings,
+        )
+        .map_err(|error| failed(error.to_string()))?;
+        solver.solve();
+        // Almost solved means 1e-4 of the objective, far below the noise of any reading.
+        if !matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
+            return Err(failed(format!("{:?}", solver.solution.status)));
+        }
+        Ok(self.unscaled(&solver.solution.x))
     }
-    let unknowns = free.len();
-    let quadratic = CscMatrix::new(unknowns, unknowns, column_starts, row_indices, values);
-    let linear: Vec<f64> = free.iter().map(|&i| form[i * 2 * n + reference] * scale[i]).collect();
-    let mut not_below_zero = CscMatrix::identity(unknowns);
-    not_below_zero.negate();
-    let settings = DefaultSettings { verbose: false, ..DefaultSettings::default() };
-    let failed = |status: String| FitError::Solver { nm: problem.grid.nm(at), status };
-    let mut solver = DefaultSolver::new(
-        &quadratic,
-        &linear,
-        &not_below_zero,
-        &vec![0.0; unknowns],
-        &[NonnegativeConeT(unknowns)],
-        settings,
-    )
-    .map_err(|error| failed(error.to_string()))?;
-    solver.solve();
-    // Almost solved means 1e-4 of the objective, far below the noise of any reading.
-    if !matches!(solver.solution.status, SolverStatus::Solved | SolverStatus::AlmostSolved) {
-        return Err(failed(format!("{:?}", solver.solution.status)));
+
+    /// K and S of all pigments at the minimum without bounds, if all are above 0: it is then the solution.
+    /// `None` also if mixtures leave an unknown open.
+    fn solve_freely(&self) -> Option<Vec<f64>> {
+        let factor = self.quadratic.clone().cholesky()?;
+        let open = factor.l_dirty().diagonal().iter().any(|&pivot| pivot < LEAST_PIVOT);
+        let solution = self.unscaled(factor.solve(&-&self.linear).as_slice());
+        (!open && solution.iter().all(|&value| value > 0.0)).then_some(solution)
     }
-    let mut solution = vec![0.0; 2 * n];
-    solution[reference] = 1.0;
-    for (&i, &value) in free.iter().zip(&solver.solution.x) {
-        solution[i] = (value * scale[i]).max(0.0);
+
+    fn unscaled(&self, x: &[f64]) -> Vec<f64> {
+        let mut solution = vec![0.0; self.free.len() + 1];
+        solution[self.reference] = 1.0;
+        for (&i, &value) in self.free.iter().zip(x) {
+            solution[i] = (value * self.scale[i]).max(0.0);
+        }
+        solution
     }
-    Ok(solution)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::SyntheticMixtures;
+    use pigment::PigmentId;
+
+    #[test]
+    fn a_minimum_above_zero_is_the_solvers_solution() {
+        let made = SyntheticMixtures::paper_size(1, 0.0001);
+        let problem = Problem::new(made.grid, made.surface, &made.observations, PigmentId(0));
+        let problem = problem.unwrap();
+        let weights = vec![1.0; problem.recipes.len()];
+        let mut compared = 0;
+        for at in 0..problem.grid.count() {
+            let program = Program::new(&problem, at, &weights);
+            let Some(free) = program.solve_freely() else { continue };
+            let solved = program.solve(problem.grid.nm(at)).unwrap();
+            for (a, b) in free.iter().zip(&solved) {
+                assert!((a - b).abs() < 1e-3 * b.abs().max(1e-2), "wavelength {at}: {a} {b}");
+            }
+            compared += 1;
+        }
+        assert!(compared > 10, "{compared} wavelengths have all K and S above 0");
+    }
 }

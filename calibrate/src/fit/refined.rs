@@ -2,6 +2,7 @@
 
 use spectra::{Grid, TristimulusWeights};
 
+use super::banded::Spare;
 use super::color_term::ColorTerm;
 use super::curves::{CurveTable, OFF_ZERO};
 use super::deviations::{share_of_scattering_known, standard_deviations};
@@ -161,6 +162,7 @@ pub(super) fn refine<F: Forward>(
         // Films over a single backing contain little information on S, so S is kept near its start.
         scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
         color: None,
+        spare: Spare::default(),
     };
     let watched =
         |estimate: usize| move |round: usize| how.watch.tell(FitStage::Spectra { estimate, round });
@@ -213,7 +215,7 @@ pub(super) fn refine<F: Forward>(
 /// Descends while the residuals' scale is set anew from their median in each round, until it settles.
 fn settle<F: Forward>(
     objective: &mut Objective<'_, F>,
-    noise: &Noise<'_>,
+    noise: &Noise,
     ratio: f64,
     unknowns: &mut Vec<f64>,
     watch: impl Fn(usize),
