@@ -43,6 +43,7 @@ const EXAMPLES: [(&str, &[&str]); 31] = [
         &[
             "impasto match oils.json \"#4a7d8c\" --grams 40",
             "impasto match oils.json swatches.csv --illuminant D65 --illuminant A=0.5 --parts 12",
+            "impasto match oils.json \"swatches.csv#sky\" --by spectrum",
             "impasto match 52,-10.5,8 --with \"Lead White\" --csv",
         ],
     ),

@@ -13,7 +13,7 @@ import pathlib
 import sys
 
 import tables
-from colours import adaptation, difference, lab, luv, rgb, sharma
+from colours import adaptation, difference, lab, luv, rgb, sharma, whiteness
 from common import rounded
 from films import km
 from segmentation import segmentation
@@ -29,6 +29,7 @@ GOLDEN = {
     "sprague.json": (resampling, 12),
     "lab.json": (lab, 10),
     "luv.json": (luv, 10),
+    "whiteness.json": (whiteness, 9),
     "difference.json": (difference, 10),
     "sharma.json": (sharma, 10),
     "daylight.json": (daylight, 10),

@@ -188,8 +188,8 @@ impl Report<'_> {
             srgb(lab.to_xyz(white), white)
         };
         let line = |name: &str, lab: Lab, console: &Console<'_>| {
-            let (rgb, [l, a, b]) = (color(lab), lab.to_array());
-            format!("{name:8} {}{}  Lab {l:.2} {a:.2} {b:.2}", console.patch(rgb), rgb.to_hex())
+            let (shown, [l, a, b]) = (console.srgb(color(lab)), lab.to_array());
+            format!("{name:8} {shown}  Lab {l:.2} {a:.2} {b:.2}")
         };
         console.line(line("target", found.target.lab[0], console))?;
         let batch = line("batch", found.batch[0], console);

@@ -10,9 +10,15 @@ mod validate;
 
 mod mix;
 
+mod illuminant_change;
+
+mod color_table;
+
 mod color;
 
 mod quadrature;
+
+mod recipe_columns;
 
 mod recipe_report;
 

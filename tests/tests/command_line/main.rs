@@ -12,6 +12,7 @@ mod exit_status;
 mod matching;
 mod misread;
 mod painterly;
+mod spectral_match;
 mod stencil;
 mod verbs;
 mod vocabulary;

@@ -8,6 +8,7 @@ mod lights;
 mod metamerism;
 mod rgb;
 mod spectrum;
+mod whiteness;
 
 use serde::Deserialize;
 use spectra::{Grid, Interpolation, Observer};
