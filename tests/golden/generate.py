@@ -16,6 +16,7 @@ import tables
 from colours import adaptation, difference, lab, luv, rgb, sharma, whiteness
 from common import rounded
 from films import km
+from rendering import rendering
 from segmentation import segmentation
 from spectral import blackbody, daylight, metamerism, resampling, xyz
 
@@ -37,6 +38,7 @@ GOLDEN = {
     "adaptation.json": (adaptation, 10),
     "rgb.json": (rgb, 11),
     "metamerism.json": (metamerism, 9),
+    "rendering.json": (rendering, 4),
     "km.json": (km, None),
     "segmentation.json": (segmentation, 6),
 }

@@ -16,6 +16,8 @@ mod color_table;
 
 mod color;
 
+mod light;
+
 mod quadrature;
 
 mod recipe_columns;
@@ -64,6 +66,7 @@ pub(crate) enum Verb {
     Validate(validate::Validate),
     Mix(mix::Mix),
     Color(color::Color),
+    Light(light::Light),
     Quadrature(quadrature::Quadrature),
     Match(recipe_search::Match),
     Correct(Box<correct::Correct>),
@@ -87,6 +90,7 @@ impl Verb {
             Self::Validate(verb) => verb.run(console),
             Self::Mix(verb) => verb.run(console),
             Self::Color(verb) => verb.run(console),
+            Self::Light(verb) => verb.run(console),
             Self::Quadrature(verb) => verb.run(console),
             Self::Match(verb) => verb.run(console),
             Self::Correct(verb) => verb.run(console),

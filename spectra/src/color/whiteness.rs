@@ -82,7 +82,7 @@ pub enum WhitenessError {
     /// The formula is made for the observers of 1931 and 1964.
     #[error("whiteness is defined for the observers 1931-2 and 1964-10, not for {observer}")]
     Observer {
-        /// The observer.
+        /// Observer that was asked for.
         observer: Observer,
     },
     /// The colour is too dark, too yellow or too blue.

@@ -9,6 +9,7 @@ mod correction;
 mod demo;
 mod errors;
 mod exit_status;
+mod light;
 mod matching;
 mod misread;
 mod painterly;

@@ -6,6 +6,7 @@ mod films;
 mod lab;
 mod lights;
 mod metamerism;
+mod rendering;
 mod rgb;
 mod spectrum;
 mod whiteness;
