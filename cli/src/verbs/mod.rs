@@ -20,6 +20,8 @@ mod light;
 
 mod quadrature;
 
+mod match_by;
+
 mod recipe_columns;
 
 mod recipe_report;

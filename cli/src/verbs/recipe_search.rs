@@ -1,10 +1,11 @@
 //! `impasto match`: finds recipes for a target colour or spectrum.
 
 use calibrate::library::{AmountKind, PigmentLibrary};
-use calibrate::matching::{MatchOptions, Metric, RequiredName, SpectrumWeights, Thickness};
-use clap::{Args, ValueEnum};
+use calibrate::matching::{MatchOptions, RequiredName, Thickness};
+use clap::Args;
 use serde_json::Value;
 
+use super::match_by::MatchBy;
 use super::recipe_report::RecipeReport;
 use crate::console::Console;
 use crate::costs::prices;
@@ -15,27 +16,6 @@ use crate::library_choice::{ChosenLibrary, chosen, split};
 use crate::progress::Progress;
 use crate::readings::ReadingOptions;
 use crate::targets::targets;
-
-/// What recipes are matched by.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum MatchBy {
-    /// CIEDE2000 under the lights
-    Color,
-    /// Root mean square of the differences of reflectance, each wavelength equally
-    Spectrum,
-    /// Root mean square too, each wavelength as much as the observer sees of it under the lights
-    WeightedSpectrum,
-}
-
-impl MatchBy {
-    fn metric(self) -> Metric {
-        match self {
-            Self::Color => Metric::Ciede2000,
-            Self::Spectrum => Metric::Spectrum(SpectrumWeights::Even),
-            Self::WeightedSpectrum => Metric::Spectrum(SpectrumWeights::Observer),
-        }
-    }
-}
 
 /// Find recipes for a colour or a measured spectrum
 ///

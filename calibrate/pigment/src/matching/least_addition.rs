@@ -10,7 +10,7 @@ use super::request::{MatchRequest, RequiredPigment};
 use super::search::search;
 use super::search_control::SearchControl;
 use super::target::Target;
-use super::viewing_condition::ViewingCondition;
+use super::viewing_condition::{Metric, ViewingCondition};
 use crate::library::PigmentLibrary;
 use crate::recipe::PigmentId;
 
@@ -26,6 +26,8 @@ pub(super) struct Additions<'a> {
     /// The library, with the paint in the pot as its last pigment.
     pub(super) library: &'a PigmentLibrary,
     pub(super) conditions: &'a [ViewingCondition],
+    /// Measure of the difference from the target.
+    pub(super) metric: Metric,
     /// Pigments that may be added.
     pub(super) allowed: Vec<PigmentId>,
     /// Most pigments to add, 1 to 7.
@@ -36,7 +38,7 @@ pub(super) struct Additions<'a> {
     pub(super) least: f64,
     /// Greatest sum of all additions.
     pub(super) most: f64,
-    /// CIEDE2000 from the target that is near enough.
+    /// Difference from the target that is near enough.
     pub(super) tolerance: f64,
 }
 
@@ -77,6 +79,7 @@ impl Additions<'_> {
             self.stock.iter().map(|stock| Some([0.0, limit(stock).min(1.0)])).collect();
         amounts.push(None);
         MatchRequest {
+            metric: self.metric,
             allowed,
             required: vec![RequiredPigment { pigment: pot, share }],
             at_most: self.at_most + 1,

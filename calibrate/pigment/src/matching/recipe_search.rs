@@ -1,5 +1,6 @@
 //! The search for recipes by name: options in, recipes out, with a fallback for distant targets.
 
+use spectra::Grid;
 use spectra::hint::Hint;
 
 use super::error::MatchError;
@@ -8,7 +9,7 @@ use super::ranking::{RecipeMatch, recipes, recipes_and_nearest};
 use super::request::{MatchRequest, USUAL_TOLERANCE};
 use super::spectral_target::SpectralTarget;
 use super::target::{ColorTarget, Target, TargetColor};
-use super::viewing_condition::Metric;
+use super::viewing_condition::{Metric, ViewingCondition};
 use crate::library::PigmentLibrary;
 use crate::remark::Remark;
 use crate::visible_band::check_visible_band;
@@ -120,7 +121,8 @@ impl RecipeSearch<'_> {
         if let TargetColor::Reflectance(reflectance) = &target.color {
             remarks.extend(check_visible_band(reflectance.grid())?);
         }
-        let spectrum = self.spectrum_of(target, &mut remarks)?;
+        let MatchRequest { metric, conditions, .. } = &self.request;
+        let spectrum = spectrum_of(target, self.library.grid, (*metric, conditions), &mut remarks)?;
         let target = Target { spectrum, ..target.under(&self.request.conditions)? };
         let (found, nearest) = recipes_and_nearest(self.library, &target, &self.request)?;
         if found.is_empty() {
@@ -142,36 +144,6 @@ impl RecipeSearch<'_> {
         Ok(matches)
     }
 
-    /// The spectrum of a measured target on the library's grid.
-    fn spectrum_of(
-        &self,
-        target: &ColorTarget,
-        remarks: &mut Vec<Remark>,
-    ) -> Result<Option<SpectralTarget>, MatchError> {
-        let TargetColor::Reflectance(measured) = &target.color else { return Ok(None) };
-        let MatchRequest { metric, conditions, .. } = &self.request;
-        let (grid, own) = (self.library.grid, measured.grid());
-        let asked = metric.spectrum_weights();
-        let spectrum = SpectralTarget::new(measured, grid, asked.unwrap_or_default(), conditions)?;
-        if asked.is_none() {
-            return Ok(spectrum);
-        }
-        let name = || target.name.clone();
-        let spectrum = spectrum.ok_or_else(|| MatchError::NoSharedBand {
-            name: name(),
-            target_nm: [own.start_nm(), own.end_nm()],
-            library_nm: [grid.start_nm(), grid.end_nm()],
-        })?;
-        let [first, last] = spectrum.band_nm();
-        if first > VISIBLE_NM[0] || last < VISIBLE_NM[1] {
-            remarks.push(Remark::warning(format!(
-                "{}: matched from {first} to {last} nm only, the band that target and library share",
-                name()
-            )));
-        }
-        Ok(Some(spectrum))
-    }
-
     /// Distance of the nearest recipe of any amounts, if limits of amounts keep it from being found.
     fn nearest_beyond_measured(
         &self,
@@ -185,6 +157,42 @@ impl RecipeSearch<'_> {
         let (_, free) = recipes_and_nearest(self.library, target, &request)?;
         Ok((free < nearest - USUAL_TOLERANCE).then_some(free))
     }
+}
+
+/// The spectrum of a measured target on the grid of a library. By spectrum it is an error if there is none.
+pub(super) fn spectrum_of(
+    target: &ColorTarget,
+    grid: Grid,
+    (metric, conditions): (Metric, &[ViewingCondition]),
+    remarks: &mut Vec<Remark>,
+) -> Result<Option<SpectralTarget>, MatchError> {
+    let asked = metric.spectrum_weights();
+    let name = || target.name.clone();
+    let TargetColor::Reflectance(measured) = &target.color else {
+        return if asked.is_some() {
+            Err(MatchError::NoSpectrum { name: name() })
+        } else {
+            Ok(None)
+        };
+    };
+    let own = measured.grid();
+    let spectrum = SpectralTarget::new(measured, grid, asked.unwrap_or_default(), conditions)?;
+    if asked.is_none() {
+        return Ok(spectrum);
+    }
+    let spectrum = spectrum.ok_or_else(|| MatchError::NoSharedBand {
+        name: name(),
+        target_nm: [own.start_nm(), own.end_nm()],
+        library_nm: [grid.start_nm(), grid.end_nm()],
+    })?;
+    let [first, last] = spectrum.band_nm();
+    if first > VISIBLE_NM[0] || last < VISIBLE_NM[1] {
+        remarks.push(Remark::warning(format!(
+            "{}: matched from {first} to {last} nm only, the band that target and library share",
+            name()
+        )));
+    }
+    Ok(Some(spectrum))
 }
 
 #[cfg(test)]
