@@ -332,7 +332,6 @@ impl CorrectionOptions {
         Ok(Additions {
             library,
             conditions: &self.conditions,
-            metric: self.metric,
             allowed,
             at_most: self.at_most,
             stock,

@@ -10,7 +10,7 @@ use super::request::{MatchRequest, RequiredPigment};
 use super::search::search;
 use super::search_control::SearchControl;
 use super::target::Target;
-use super::viewing_condition::{Metric, ViewingCondition};
+use super::viewing_condition::ViewingCondition;
 use crate::library::PigmentLibrary;
 use crate::recipe::PigmentId;
 
@@ -26,8 +26,6 @@ pub(super) struct Additions<'a> {
     /// The library, with the paint in the pot as its last pigment.
     pub(super) library: &'a PigmentLibrary,
     pub(super) conditions: &'a [ViewingCondition],
-    /// Measure of the difference from the target.
-    pub(super) metric: Metric,
     /// Pigments that may be added.
     pub(super) allowed: Vec<PigmentId>,
     /// Most pigments to add, 1 to 7.
@@ -79,7 +77,6 @@ impl Additions<'_> {
             self.stock.iter().map(|stock| Some([0.0, limit(stock).min(1.0)])).collect();
         amounts.push(None);
         MatchRequest {
-            metric: self.metric,
             allowed,
             required: vec![RequiredPigment { pigment: pot, share }],
             at_most: self.at_most + 1,
