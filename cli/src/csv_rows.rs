@@ -6,16 +6,17 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 
 /// Names of the columns of lists that are colours.
-const COLORS: [(&str, [&str; 3]); 4] = [
-    ("xyz", ["X", "Y", "Z"]),
-    ("lab", ["L", "a", "b"]),
-    ("srgb", ["R", "G", "B"]),
-    ("weights", ["X", "Y", "Z"]),
+const COLORS: [(&str, &[&str]); 5] = [
+    ("xyz", &["X", "Y", "Z"]),
+    ("xy", &["x", "y"]),
+    ("lab", &["L", "a", "b"]),
+    ("srgb", &["R", "G", "B"]),
+    ("weights", &["X", "Y", "Z"]),
 ];
 
 impl Console<'_> {
     /// Prints objects as CSV, one row each, with the columns of all of them in the order in which they
-    /// come. Objects within become columns of their own, `outer_inner`; colours become three.
+    /// come. Objects within become columns of their own, `outer_inner`; colours become a column for each value.
     pub(crate) fn csv_rows(&mut self, rows: &[Value]) -> Result<()> {
         let rows: Vec<Vec<(String, String)>> = rows.iter().map(cells).collect();
         let mut headings: Vec<&str> = Vec::new();
@@ -56,9 +57,9 @@ fn cells(row: &Value) -> Vec<(String, String)> {
                 let inner = cells(value).into_iter();
                 found.extend(inner.map(|(inner, cell)| (format!("{name}_{inner}"), cell)));
             }
-            (Value::Array(three), Some((_, names))) if three.len() == 3 => {
+            (Value::Array(parts), Some((_, names))) if parts.len() == names.len() => {
                 let names = names.iter().map(|&name| name.to_owned());
-                found.extend(names.zip(three.iter().map(cell)));
+                found.extend(names.zip(parts.iter().map(cell)));
             }
             _ => found.push((name.clone(), cell(value))),
         }

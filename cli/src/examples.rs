@@ -3,7 +3,7 @@
 use clap::Command;
 
 /// Verbs, by their words, and commands that show them.
-const EXAMPLES: [(&str, &[&str]); 31] = [
+const EXAMPLES: [(&str, &[&str]); 32] = [
     (
         "fit",
         &[
@@ -34,6 +34,7 @@ const EXAMPLES: [(&str, &[&str]); 31] = [
             "cat spectra.csv | impasto color - --csv",
         ],
     ),
+    ("light", &["impasto light A FL11 LED-B3", "impasto light lamp.spdx --samples"]),
     (
         "quadrature",
         &["impasto quadrature oils.json --illuminant D65", "impasto quadrature -n 4 --csv"],
@@ -43,6 +44,7 @@ const EXAMPLES: [(&str, &[&str]); 31] = [
         &[
             "impasto match oils.json \"#4a7d8c\" --grams 40",
             "impasto match oils.json swatches.csv --illuminant D65 --illuminant A=0.5 --parts 12",
+            "impasto match oils.json \"swatches.csv#sky\" --by spectrum",
             "impasto match 52,-10.5,8 --with \"Lead White\" --csv",
         ],
     ),

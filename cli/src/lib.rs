@@ -10,6 +10,8 @@ mod failure;
 
 mod console;
 
+mod shown_color;
+
 mod csv_rows;
 
 mod driver_noise;

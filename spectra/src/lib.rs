@@ -22,6 +22,7 @@
 //! | read any instrument's file, or one spectrum of it | [`read_spectra`], [`read_spectrum`] |
 //! | reflectance from counts | [`referencing::Referencing`] |
 //! | a light by name, temperature or file | [`light_from_text`] |
+//! | colour temperature and colour rendering of a light | [`ColorRendering::of`] |
 //! | colour of a reflectance | [`Viewing::color`] |
 //! | colour differences | [`color::delta_e_ciede2000`] and its neighbours |
 //! | reflectance of a paint film | [`optics`] |
@@ -87,11 +88,14 @@ mod viewing;
 
 mod color_temperature;
 
+mod color_rendering;
+
 pub mod swatch_file;
 
 pub mod optics;
 
 pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};
+pub use color_rendering::{ColorFidelity, ColorRendering, ColorRenderingError, RenderingIndex};
 pub use color_temperature::ColorTemperature;
 pub use counted::{counted, counted_as};
 pub use daylight::{daylight, daylight_chromaticity};

@@ -205,6 +205,51 @@ def opposite(one, two):
     return chroma > 0 and one[1:] == [-v for v in two[1:]]
 
 
+WHITENESS_XYZ = [
+    [86.0, 90.0, 102.0],
+    [84.0, 88.0, 95.0],
+    [92.0, 97.0, 105.0],
+    [80.0, 84.5, 99.0],
+    [70.0, 73.5, 84.0],
+]
+
+
+def whiteness():
+    cases = []
+    for light in ("D65", "C"):
+        for key, method_xy in (("cie-1931-2", "2"), ("cie-1964-10", "10")):
+            white = white_of(light, key)
+            for value in WHITENESS_XYZ:
+                xy = colour.XYZ_to_xy(np.array(value) / 100)
+                xy_n = colour.XYZ_to_xy(np.array(white) / 100)
+                observer = f"CIE {'1931' if method_xy == '2' else '1964'} {method_xy} Degree Standard Observer"
+                w, t = colour.colorimetry.whiteness_CIE2004(
+                    xy, value[1], xy_n, observer=observer
+                )
+                x, y = xy_n - xy
+                near(w, value[1] + 800 * x + 1700 * y)
+                near(t, (1000 if method_xy == "2" else 900) * x - 650 * y)
+                white_enough = 40 < w < 5 * value[1] - 280 and -4 < t < 2
+                cases.append(
+                    {
+                        "illuminant": light,
+                        "observer": key,
+                        "white": white,
+                        "XYZ": value,
+                        "WT": plain([w, t]),
+                        "white_enough": bool(white_enough),
+                    }
+                )
+    return {
+        "method": "CIE whiteness W and tint T, CIE 15, by"
+        " colour.colorimetry.whiteness_CIE2004 and the formulas written out: W = Y + 800"
+        " (xn - x) + 1700 (yn - y), T = k (xn - x) - 650 (yn - y), k 1000 for 2 degrees"
+        " and 900 for 10. white_enough: 40 < W < 5 Y - 280 and -4 < T < 2.",
+        "tolerance": 1e-8,
+        "cases": cases,
+    }
+
+
 def difference():
     cases = []
     for one, two in PAIRS:

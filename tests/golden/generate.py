@@ -13,9 +13,10 @@ import pathlib
 import sys
 
 import tables
-from colours import adaptation, difference, lab, luv, rgb, sharma
+from colours import adaptation, difference, lab, luv, rgb, sharma, whiteness
 from common import rounded
 from films import km
+from rendering import rendering
 from segmentation import segmentation
 from spectral import blackbody, daylight, metamerism, resampling, xyz
 
@@ -29,6 +30,7 @@ GOLDEN = {
     "sprague.json": (resampling, 12),
     "lab.json": (lab, 10),
     "luv.json": (luv, 10),
+    "whiteness.json": (whiteness, 9),
     "difference.json": (difference, 10),
     "sharma.json": (sharma, 10),
     "daylight.json": (daylight, 10),
@@ -36,6 +38,7 @@ GOLDEN = {
     "adaptation.json": (adaptation, 10),
     "rgb.json": (rgb, 11),
     "metamerism.json": (metamerism, 9),
+    "rendering.json": (rendering, 4),
     "km.json": (km, None),
     "segmentation.json": (segmentation, 6),
 }

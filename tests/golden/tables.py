@@ -11,6 +11,7 @@ import pathlib
 import sys
 
 import colour
+from colour.quality.cfi2017 import load_TCS_CIE2017
 
 VERSION = "0.4.7"
 COMMAND = "python tests/golden/tables.py"
@@ -98,6 +99,26 @@ def daylight():
     )
 
 
+def rendering_samples():
+    """The 14 test colour samples of CIE 13.3."""
+    sds = list(colour.quality.datasets.SDS_TCS["CIE 1995"].values())
+    nm = whole_nm(sds[0])
+    if len(sds) != 14 or any(whole_nm(sd) != nm for sd in sds):
+        raise ValueError("CIE 13.3 has 14 samples on the same rows")
+    names = [f"TCS{i:02}" for i in range(1, 15)]
+    return csv(["nm", *names], zip(nm, zip(*(sd.values for sd in sds))))
+
+
+def fidelity_samples():
+    """The 99 colour evaluation samples of CIE 224 and TM-30."""
+    sds = load_TCS_CIE2017(colour.SpectralShape(380, 780, 5))
+    nm = whole_nm(sds)
+    if sds.values.shape != (81, 99):
+        raise ValueError("CIE 224 has 99 samples at 81 wavelengths")
+    names = [f"CES{i:02}" for i in range(1, 100)]
+    return csv(["nm", *names], zip(nm, sds.values))
+
+
 def spans():
     """Span of wavelengths of the illuminants, grouped by span."""
     groups = {}
@@ -164,6 +185,16 @@ The functions S0, S1, S2 of which the phases of daylight are composed, {day_firs
 tabulates them in steps of 10 nm; the rows between are interpolated linearly, and
 some of them show rounding to two decimals.
 
+## rendering
+
+Reflectances of the samples by which the colour rendering of lamps is judged, one column per
+sample, in steps of 5 nm.
+
+- `rendering/cie-13.3-samples.csv`: the 14 test colour samples TCS01 to TCS14, 360 to 830 nm. CIE
+  13.3-1995, from the NIST CQS simulation 7.4 (Ohno and Davis 2008).
+- `rendering/cie-224-samples.csv`: the 99 colour evaluation samples CES01 to CES99, 380 to 780 nm.
+  CIE 224:2017 and ANSI/IES TM-30-18, from the 5 nm data set of CIE TC 1-90.
+
 ## SHA-256
 
 {hashes}
@@ -215,6 +246,8 @@ def files():
     out = {f"{base}/observers/{key}.csv": observer(n) for key, n in OBSERVERS.items()}
     out[f"{base}/illuminants.csv"] = illuminants()
     out[f"{base}/daylight-components.csv"] = daylight()
+    out[f"{base}/rendering/cie-13.3-samples.csv"] = rendering_samples()
+    out[f"{base}/rendering/cie-224-samples.csv"] = fidelity_samples()
     hashes = "\n".join(
         f"- `{path.removeprefix(base + '/')}`:\n"
         f"  `{hashlib.sha256(text.encode('ascii')).hexdigest()}`"

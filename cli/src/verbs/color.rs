@@ -1,15 +1,15 @@
-//! `impasto color`: XYZ, Lab and sRGB of measured spectra, and colour differences.
+//! `impasto color`: colours of measured spectra in several systems, and colour differences.
 
 use std::path::PathBuf;
 
 use calibrate::evaluate::Viewing;
 use calibrate::measurement::AveragedSpectrum;
 use clap::{Args, ValueEnum};
-use serde_json::{Value, json};
+use serde_json::Value;
 use spectra::TristimulusWeights;
-use spectra::color::{Adaptation, ColorDifferences, Lab, Rgb, RgbSpace, Xyz, metamerism_index};
+use spectra::color::{Adaptation, Lab, RgbSpace};
 
-use super::mix::gamut_note;
+use super::color_table::{ColorTable, ColumnName, Row, SpectrumColor};
 use crate::console::Console;
 use crate::failure::Result;
 use crate::input::{remark_coverage, viewing};
@@ -60,25 +60,24 @@ pub(crate) struct Color {
     adaptation: AdaptationName,
     #[command(flatten)]
     reading: ReadingOptions,
-    /// Print JSON: a list of sample, xyz, lab, srgb, hex
+    /// Columns of the table; JSON and CSV hold all
+    ///
+    /// `whiteness` is W and T of CIE 15:2018, for whites under D65 or C only.
+    #[arg(
+        long,
+        value_enum,
+        value_name = "COLUMNS",
+        value_delimiter = ',',
+        default_value = "xyz,lab"
+    )]
+    show: Vec<ColumnName>,
+    /// Print JSON: a list of sample, xyz, xy, lab, chroma, hue_deg, whiteness, tint,
+    /// whiteness_note, srgb, hex, in_gamut
     #[arg(long)]
     json: bool,
     /// Print the table as CSV
     #[arg(long, conflicts_with = "json")]
     csv: bool,
-}
-
-/// Name and colours of one spectrum, one colour per light.
-struct Row {
-    name: String,
-    colors: Vec<SpectrumColor>,
-}
-
-/// Colour of one spectrum under one light.
-struct SpectrumColor {
-    xyz: Xyz,
-    lab: Lab,
-    rgb: Rgb,
 }
 
 impl Color {
@@ -120,7 +119,6 @@ impl Color {
         };
         let standard = self.compare.as_ref().map(|name| averaged.find_one(name)).transpose()?;
         let standard = standard.map(row);
-        let standard = standard.as_ref();
         let mut selected: Vec<Row> = Vec::new();
         for name in &self.sample {
             selected.extend(averaged.find(name)?.into_iter().map(row));
@@ -128,107 +126,25 @@ impl Color {
         if self.sample.is_empty() {
             selected.extend(averaged.spectra.iter().map(row));
         }
-        let whites: Vec<Xyz> = weights.iter().map(TristimulusWeights::white).collect();
+        let table = ColorTable {
+            whites: weights.iter().map(TristimulusWeights::white).collect(),
+            lights,
+            standard,
+            space,
+            columns: self.show,
+        };
         if self.json || self.csv {
-            let mut list = Vec::new();
-            for row in selected {
-                for light in 0..lights.len() {
-                    list.push(entry(&row, light, standard, &lights, &whites));
-                }
-            }
+            let lights = || 0..table.lights.len();
+            let rows = selected.iter().flat_map(|row| lights().map(move |light| (row, light)));
+            let list: Vec<Value> = rows.map(|(row, light)| table.entry(row, light)).collect();
             return match self.csv {
                 true => console.csv_rows(&list),
                 false => console.json(&Value::from(list)),
             };
         }
-        for (light, viewing) in lights.iter().enumerate() {
-            console.line(format!(
-                "{}, observer {}",
-                viewing.illuminant.name(),
-                viewing.observer
-            ))?;
-            print(&selected, light, standard, &whites, console)?;
+        for light in 0..table.lights.len() {
+            table.print(&selected, light, console)?;
         }
         Ok(())
     }
-}
-
-fn entry(
-    row: &Row,
-    light: usize,
-    standard: Option<&Row>,
-    lights: &[Viewing],
-    whites: &[Xyz],
-) -> Value {
-    let SpectrumColor { xyz, lab, rgb } = &row.colors[light];
-    let mut entry = json!({
-        "sample": row.name,
-        "xyz": xyz.to_array(),
-        "lab": lab.to_array(),
-        "srgb": rgb.0,
-        "hex": rgb.to_hex(),
-    });
-    if lights.len() > 1 {
-        entry["illuminant"] = json!(lights[light].illuminant.name());
-    }
-    if let Some(standard) = standard {
-        let difference = ColorDifferences::between(standard.colors[light].lab, *lab);
-        entry["difference"] = json!({
-            "from": standard.name,
-            "ciede2000": difference.ciede2000,
-            "cie1976": difference.cie1976,
-            "cie94": difference.cie94,
-            "cmc_2_1": difference.cmc_2_1,
-        });
-        if light > 0 {
-            entry["metamerism"] = json!(metamerism(standard, row, light, whites));
-        }
-    }
-    entry
-}
-
-/// Metamerism index of `row` against `standard` for the change from the first light to `light`.
-fn metamerism(standard: &Row, row: &Row, light: usize, whites: &[Xyz]) -> Option<f64> {
-    let pair = |row: &Row| [row.colors[0].xyz, row.colors[light].xyz];
-    metamerism_index(pair(standard), pair(row), whites[light]).ok()
-}
-
-fn print(
-    rows: &[Row],
-    light: usize,
-    standard: Option<&Row>,
-    whites: &[Xyz],
-    console: &mut Console<'_>,
-) -> Result<()> {
-    let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max(6);
-    let mut heading =
-        format!("{:width$}        X       Y       Z      L*      a*      b*", "sample");
-    if standard.is_some() {
-        heading += "  CIEDE2000  CIE76  CIE94  CMC2:1";
-        if light > 0 {
-            heading += "  metamerism";
-        }
-    }
-    console.line(heading + "  display")?;
-    for row in rows {
-        let SpectrumColor { xyz, lab, rgb } = &row.colors[light];
-        let mut line = format!("{:width$} ", row.name);
-        for value in xyz.to_array().into_iter().chain(lab.to_array()) {
-            line += &format!(" {value:7.2}");
-        }
-        if let Some(standard) = standard {
-            let difference = ColorDifferences::between(standard.colors[light].lab, *lab);
-            line += &format!(
-                "  {:9.2} {:6.2} {:6.2}  {:6.2}",
-                difference.ciede2000, difference.cie1976, difference.cie94, difference.cmc_2_1,
-            );
-            if light > 0 {
-                let index = metamerism(standard, row, light, whites);
-                line += &index.map_or_else(|| format!("  {:>10}", "-"), |v| format!("  {v:10.2}"));
-            }
-        }
-        let patch = console.patch(*rgb);
-        console.line(format!("{line}  {patch}{}{}", rgb.to_hex(), gamut_note(rgb.in_gamut())))?;
-    }
-    Ok(())
 }

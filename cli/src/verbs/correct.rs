@@ -10,6 +10,7 @@ use serde_json::{Map, Value, json};
 use spectra::color::Lab;
 use spectra::{Reflectance, Spectrum, name_list};
 
+use super::match_by::MatchBy;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::{condition, srgb};
@@ -36,6 +37,9 @@ pub(crate) struct Correct {
     /// of the batch, FILE or FILE#SAMPLE
     #[arg(required = true, value_name = "[LIBRARY] TARGET BATCH")]
     words: Vec<String>,
+    /// What is matched: the color under the lights, or the spectrum of a measured standard
+    #[arg(long, value_enum, default_value = "color")]
+    by: MatchBy,
     /// Grams (or parts) of a pigment that are in the pot (may be repeated)
     #[arg(long, value_name = "PIGMENT=GRAMS", required = true, num_args = 1..)]
     made: Vec<String>,
@@ -60,7 +64,7 @@ pub(crate) struct Correct {
     /// Most grams to add in all [default: as much as the batch]
     #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
     most: Option<f64>,
-    /// Difference from the target in CIEDE2000 that is near enough
+    /// Difference from the target that is near enough, in CIEDE2000 or, by spectrum, % of reflectance
     #[arg(long, value_name = "DELTA_E", allow_hyphen_values = true, default_value_t = USUAL_CORRECTION)]
     tolerance: f64,
     /// Number of corrections to show
@@ -98,6 +102,7 @@ impl Correct {
         let batch = Batch { made, grams, reflectance: self.batch_spectrum(pot, console)? };
         let conditions = self.illuminant.iter().map(|text| condition(text, &self.observer));
         let options = CorrectionOptions {
+            metric: self.by.metric(),
             conditions: conditions.collect::<Result<_>>()?,
             only: self.only.clone(),
             without: self.without.clone(),
@@ -188,8 +193,8 @@ impl Report<'_> {
             srgb(lab.to_xyz(white), white)
         };
         let line = |name: &str, lab: Lab, console: &Console<'_>| {
-            let (rgb, [l, a, b]) = (color(lab), lab.to_array());
-            format!("{name:8} {}{}  Lab {l:.2} {a:.2} {b:.2}", console.patch(rgb), rgb.to_hex())
+            let (shown, [l, a, b]) = (console.srgb(color(lab)), lab.to_array());
+            format!("{name:8} {shown}  Lab {l:.2} {a:.2} {b:.2}")
         };
         console.line(line("target", found.target.lab[0], console))?;
         let batch = line("batch", found.batch[0], console);
@@ -198,20 +203,27 @@ impl Report<'_> {
         console.line(format!("CIEDE2000 of the batch from the target: {off}"))?;
         let off = self.under(&found.recipe_delta_e);
         console.line(format!("CIEDE2000 of the batch from what its recipe predicts: {off}"))?;
-        let tolerance = self.options.tolerance;
+        if let Some(rms) = found.batch_rms_percent {
+            console.line(format!(
+                "reflectance of the batch from the target: {rms:.2} % (root mean square)"
+            ))?;
+        }
+        let (tolerance, unit) = (self.options.tolerance, self.options.metric.unit());
         if found.is_near {
             return console
-                .line(format!("within {tolerance} CIEDE2000 of the target: nothing to add"));
+                .line(format!("within {tolerance} {unit} of the target: nothing to add"));
         }
         console.line(if found.reaches {
-            format!("within {tolerance} CIEDE2000 of the target, the least addition first:")
+            format!("within {tolerance} {unit} of the target, the least addition first:")
         } else {
-            format!("no addition comes within {tolerance} CIEDE2000 of the target; the nearest:")
+            format!("no addition comes within {tolerance} {unit} of the target; the nearest:")
         })?;
         for (rank, correction) in found.corrections.iter().enumerate() {
             let patch = console.patch(color(correction.lab[0]));
+            let rms = correction.rms_percent.map(|rms| format!("; reflectance {rms:.2} %"));
+            let rms = rms.unwrap_or_default();
             console.line(format!(
-                "{:>3}  {patch}add {} g, then {} from the target",
+                "{:>3}  {patch}add {} g, then {} from the target{rms}",
                 rank + 1,
                 shown(correction.grams),
                 self.under(&correction.delta_e)
@@ -237,6 +249,7 @@ impl Report<'_> {
                 "additions": additions.collect::<Vec<Value>>(),
                 "delta_e": self.by_light(correction.delta_e.iter().map(|d| json!(d))),
                 "distance": correction.distance,
+                "rms_percent": correction.rms_percent,
                 "lab": self.by_light(correction.lab.iter().map(|lab| json!(lab.to_array()))),
                 "wavelengths_nm": self.library.grid.wavelengths_nm().collect::<Vec<f64>>(),
                 "reflectance": correction.reflectance,
@@ -251,6 +264,9 @@ impl Report<'_> {
             "batch_grams": self.grams,
             "batch_delta_e": differences(&found.batch_delta_e),
             "recipe_delta_e": differences(&found.recipe_delta_e),
+            "by": self.options.metric.name(),
+            "unit": self.options.metric.unit(),
+            "batch_rms_percent": found.batch_rms_percent,
             "tolerance": self.options.tolerance,
             "is_near": found.is_near,
             "reaches": found.reaches,

@@ -112,9 +112,8 @@ fn print_mixtures(
         let parts: Vec<String> =
             recipe.iter().map(|(name, part)| format!("{part} {name}")).collect();
         console.line(format!(
-            "  {}{} {title:width$}  Lab {l:5.1} {a:6.1} {b:6.1}  {}",
-            console.patch(rgb),
-            rgb.to_hex(),
+            "  {} {title:width$}  Lab {l:5.1} {a:6.1} {b:6.1}  {}",
+            console.srgb(rgb),
             parts.join(" + ")
         ))?;
     }

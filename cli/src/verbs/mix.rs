@@ -4,7 +4,6 @@ use calibrate::library::AmountKind;
 use calibrate::{FilmOver, MixtureColor};
 use clap::Args;
 use serde_json::json;
-use spectra::color::RgbSpace;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -34,7 +33,7 @@ pub(crate) struct Mix {
     over: Option<String>,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON: wavelengths_nm, reflectance, xyz, lab, srgb, hex
+    /// Print JSON: wavelengths_nm, reflectance, xyz, lab, srgb, hex, in_gamut
     #[arg(long)]
     json: bool,
     /// Print the reflectance as CSV
@@ -80,6 +79,7 @@ impl Mix {
                 "lab": lab.to_array(),
                 "srgb": rgb.0,
                 "hex": rgb.to_hex(),
+                "in_gamut": rgb.in_gamut(),
             }));
         }
         let total = recipe.total();
@@ -91,8 +91,7 @@ impl Mix {
                 console.line(format!("{:7.2} % {name}", 100.0 * part / total))?;
             }
         }
-        let patch = console.patch(rgb);
-        console.line(format!("{patch}{}{}", rgb.to_hex(), gamut_note(rgb.in_gamut())))?;
+        console.line(console.srgb(rgb))?;
         let [x, y, z] = xyz.to_array();
         console.line(format!("XYZ {x:.3} {y:.3} {z:.3}"))?;
         let [l, a, b] = lab.to_array();
@@ -106,11 +105,6 @@ impl Mix {
         }
         Ok(())
     }
-}
-
-/// Note for a colour outside sRGB, which is shown by the nearest one; empty for a colour inside.
-pub(super) fn gamut_note(inside: bool) -> String {
-    if inside { String::new() } else { format!(" (nearest; outside {:?})", RgbSpace::Srgb) }
 }
 
 /// Parses a recipe of texts `NAME=PARTS`.

@@ -10,9 +10,19 @@ mod validate;
 
 mod mix;
 
+mod illuminant_change;
+
+mod color_table;
+
 mod color;
 
+mod light;
+
 mod quadrature;
+
+mod match_by;
+
+mod recipe_columns;
 
 mod recipe_report;
 
@@ -58,6 +68,7 @@ pub(crate) enum Verb {
     Validate(validate::Validate),
     Mix(mix::Mix),
     Color(color::Color),
+    Light(light::Light),
     Quadrature(quadrature::Quadrature),
     Match(recipe_search::Match),
     Correct(Box<correct::Correct>),
@@ -81,6 +92,7 @@ impl Verb {
             Self::Validate(verb) => verb.run(console),
             Self::Mix(verb) => verb.run(console),
             Self::Color(verb) => verb.run(console),
+            Self::Light(verb) => verb.run(console),
             Self::Quadrature(verb) => verb.run(console),
             Self::Match(verb) => verb.run(console),
             Self::Correct(verb) => verb.run(console),

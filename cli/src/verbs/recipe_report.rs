@@ -2,17 +2,21 @@
 
 use calibrate::library::{AmountKind, PigmentLibrary};
 use calibrate::matching::{
-    AmountLimit, FilmKind, RecipeMatch, RecipeMatches, RecipeSearch, ToleranceOrigin,
+    AmountLimit, FilmKind, RecipeMatch, RecipeMatches, RecipeSearch, SpectralTarget,
+    SpectrumWeights, ToleranceOrigin,
 };
 use serde_json::{Map, Value, json};
-use spectra::color::{Lab, Rgb};
+use spectra::color::{Lab, Rgb, RgbSpace};
 
+use super::illuminant_change::IlluminantChange;
+use super::recipe_columns::RecipeColumns;
 use crate::console::Console;
 use crate::failure::Result;
 use crate::input::srgb;
+use crate::shown_color::TableColors;
 
-/// Largest CIEDE2000 difference at which a target counts as reached. Larger differences are clearly
-/// visible side by side. Chosen by eye.
+/// Largest difference at which a target counts as reached, in CIEDE2000 or, by spectrum, in percent of
+/// reflectance. Larger differences are clearly visible side by side. Chosen by eye.
 const REACHED: f64 = 1.0;
 
 /// Library and settings that all recipes of a run share.
@@ -32,7 +36,7 @@ impl RecipeReport<'_> {
     /// Encoded sRGB of `lab`, seen adapted to its light.
     fn display_color(&self, lab: Lab) -> Rgb {
         // Lab is relative to its white, so any white serves for the round trip.
-        let white = spectra::color::RgbSpace::Srgb.white();
+        let white = RgbSpace::Srgb.white();
         srgb(lab.to_xyz(white), white)
     }
 
@@ -54,14 +58,22 @@ impl RecipeReport<'_> {
         let lab = target.lab[0];
         let rgb = self.display_color(lab);
         let patch = console.patch(rgb);
+        let outside = match rgb.in_gamut() {
+            true => String::new(),
+            false => format!("  {}", RgbSpace::Srgb.outside_note()),
+        };
         let [l, a, b] = lab.to_array();
         let light = self.lights().next().unwrap_or_default();
-        console.line(format!("{patch}{}  Lab {l:.2} {a:.2} {b:.2} ({light})", target.name))?;
-        let nearest = matched.nearest();
+        console
+            .line(format!("{patch}{}  Lab {l:.2} {a:.2} {b:.2} ({light}){outside}", target.name))?;
+        let (nearest, unit) = (matched.nearest(), self.search.request.metric.unit());
         if nearest > REACHED {
             console.line(format!(
-                "out of reach of these pigments: the nearest is {nearest:.2} CIEDE2000 away"
+                "out of reach of these pigments: the nearest is {nearest:.2} {unit} away"
             ))?;
+        }
+        if let Some(measure) = self.spectrum_measure(matched) {
+            console.line(format!("     {measure}"))?;
         }
         console.line(format!("     {}", self.equally_near()))?;
         if let Some(free) = matched.beyond_measured() {
@@ -70,18 +82,21 @@ impl RecipeReport<'_> {
                  the nearest is {free:.2} away instead of {nearest:.2}"
             ))?;
         }
-        let lights: Vec<String> = self.lights().map(|light| format!("{light:>8}")).collect();
-        console.line(format!("     {}  (CIEDE2000)", lights.join(" ")))?;
+        let columns = RecipeColumns::of(self.lights(), target.spectrum.is_some());
+        let mut colors = TableColors::of(RgbSpace::Srgb);
+        for line in columns.headings() {
+            console.line(line)?;
+        }
         for (rank, recipe) in matched.recipes.iter().enumerate() {
-            self.print_recipe(&(rank + 1).to_string(), recipe, console)?;
+            self.print_recipe(&(rank + 1).to_string(), recipe, (&columns, &mut colors), console)?;
         }
         if !matched.by_cie1976.is_empty() {
             console.line("     CIEDE2000 misleads at this distance; the nearest by CIE 1976 is")?;
         }
         for recipe in &matched.by_cie1976 {
-            self.print_recipe("", recipe, console)?;
+            self.print_recipe("", recipe, (&columns, &mut colors), console)?;
         }
-        Ok(())
+        colors.note("     ", console)
     }
 
     /// The tolerance of the search and its reason.
@@ -93,26 +108,32 @@ impl RecipeReport<'_> {
             ToleranceOrigin::Usual => "the usual tolerance",
         };
         format!(
-            "equally near within {} CIEDE2000, {reason}: the plainest first",
-            format!("{tolerance:.3}").trim_end_matches('0').trim_end_matches('.')
+            "equally near within {} {}, {reason}: the plainest first",
+            format!("{tolerance:.3}").trim_end_matches('0').trim_end_matches('.'),
+            self.search.request.metric.unit()
         )
+    }
+
+    /// How differences of spectra are measured, for a search by spectrum.
+    fn spectrum_measure(&self, matched: &RecipeMatches) -> Option<String> {
+        let weights = match self.search.request.metric.spectrum_weights()? {
+            SpectrumWeights::Even => "each wavelength equally",
+            SpectrumWeights::Observer => "each wavelength as the observer sees it",
+        };
+        let [first, last] = matched.target.spectrum.as_ref()?.band_nm();
+        Some(format!("by spectrum: rms of reflectance from {first} to {last} nm, {weights}"))
     }
 
     fn print_recipe(
         &self,
         rank: &str,
         recipe: &RecipeMatch,
+        (columns, colors): (&RecipeColumns, &mut TableColors),
         console: &mut Console<'_>,
     ) -> Result<()> {
-        // As wide as the light's name, which may be the path of a lamp's file.
-        let under = |(difference, light): (&f64, &str)| {
-            format!("{difference:width$.2}", width = light.chars().count().max(8))
-        };
-        let differences: Vec<String> =
-            recipe.delta_e.iter().zip(self.lights()).map(under).collect();
-        let rgb = self.display_color(recipe.lab[0]);
-        let mut line =
-            format!("{rank:>3}  {}  {}{}", differences.join(" "), console.patch(rgb), rgb.to_hex());
+        let figures = columns.row(recipe);
+        let shown = colors.cell(self.display_color(recipe.lab[0]), console);
+        let mut line = format!("{rank:>3}  {figures}  {shown}");
         if let Some(thickness) = recipe.thickness {
             let label = if self.is_absolute() { "total" } else { "thickness" };
             line += &format!("  {label} {thickness:.4}");
@@ -120,7 +141,7 @@ impl RecipeReport<'_> {
         if let Some(cost) = recipe.cost {
             line += &format!("  costs {:.2}", cost * self.grams.unwrap_or(1.0));
         }
-        console.line(line)?;
+        console.line(line.trim_end())?;
         for part in self.parts(recipe) {
             console.line(format!("       {part}"))?;
         }
@@ -164,9 +185,13 @@ impl RecipeReport<'_> {
             "target": matched.target.name,
             "lab": lab(&matched.target.lab),
             "hex": self.display_color(matched.target.lab[0]).to_hex(),
+            "in_gamut": self.display_color(matched.target.lab[0]).in_gamut(),
             "reached": matched.nearest() <= REACHED,
             "nearest": matched.nearest(),
             "beyond_measured": matched.beyond_measured(),
+            "by": self.search.request.metric.name(),
+            "unit": self.search.request.metric.unit(),
+            "band_nm": matched.target.spectrum.as_ref().map(SpectralTarget::band_nm),
             "tolerance": self.search.request.tolerance,
             "tolerance_origin": self.search.tolerance_origin.name(),
             "recipes": list(&matched.recipes),
@@ -187,8 +212,12 @@ impl RecipeReport<'_> {
                     let key = if key == "name" { "pigment" } else { key };
                     (key.to_owned(), value.clone())
                 }));
-                for key in ["delta_e", "thickness", "cost", "hex"] {
+                for key in ["delta_e", "thickness", "cost", "hex", "distance", "rms_percent"] {
                     row.extend(whole.get(key).map(|value| (key.to_owned(), value.clone())));
+                }
+                for index in whole["metamerism"].as_array().into_iter().flatten() {
+                    let heading = format!("metamerism_{}", index["change"].as_str().unwrap_or(""));
+                    row.insert(heading, index["index"].clone());
                 }
                 rows.push(Value::Object(row));
             }
@@ -223,9 +252,16 @@ impl RecipeReport<'_> {
             "delta_e": self.by_light(recipe.delta_e.iter().map(|d| json!(d))),
             "lab": self.by_light(recipe.lab.iter().map(|lab| json!(lab.to_array()))),
             "hex": self.display_color(recipe.lab[0]).to_hex(),
+            "in_gamut": self.display_color(recipe.lab[0]).in_gamut(),
             "wavelengths_nm": wavelengths,
             "reflectance": recipe.reflectance,
         });
+        if let Some(rms) = recipe.rms_percent {
+            entry["rms_percent"] = json!(rms);
+        }
+        if !recipe.metamerism.is_empty() {
+            entry["metamerism"] = self.metamerism(recipe);
+        }
         if self.search.request.film != FilmKind::Hiding {
             entry["thickness"] = json!(recipe.thickness);
         }
@@ -233,6 +269,17 @@ impl RecipeReport<'_> {
             entry["cost"] = json!(cost * self.grams.unwrap_or(1.0));
         }
         entry
+    }
+
+    /// Metamerism indices of a recipe, each with what it is.
+    fn metamerism(&self, recipe: &RecipeMatch) -> Value {
+        let mut lights = self.lights();
+        let reference = lights.next().unwrap_or_default();
+        let each = lights.zip(&recipe.metamerism).map(|(test, index)| {
+            let change = IlluminantChange { reference, test };
+            change.json(*index)
+        });
+        Value::from(each.collect::<Vec<Value>>())
     }
 
     /// JSON object with one value per light, keyed by its name.

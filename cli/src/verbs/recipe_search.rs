@@ -5,6 +5,7 @@ use calibrate::matching::{MatchOptions, RequiredName, Thickness};
 use clap::Args;
 use serde_json::Value;
 
+use super::match_by::MatchBy;
 use super::recipe_report::RecipeReport;
 use crate::console::Console;
 use crate::costs::prices;
@@ -19,7 +20,7 @@ use crate::targets::targets;
 /// Find recipes for a colour or a measured spectrum
 ///
 /// Every set of up to --at-most pigments is tried, and its shares are found by least squares in
-/// CIEDE2000. A target is `#rrggbb`, a CIELAB colour `L,a,b` (under the first light), or a file of
+/// CIEDE2000, or in the difference of reflectance with --by spectrum. A target is `#rrggbb`, a CIELAB colour `L,a,b` (under the first light), or a file of
 /// spectra: FILE for all of them but bare cards, FILE#SAMPLE for one. Recipes that are as near as the
 /// nearest, within --tolerance, are sorted by cost if costs are given, else by the number of
 /// pigments; the others follow by distance.
@@ -33,6 +34,9 @@ pub(crate) struct Match {
     /// the Van Gogh oils that ship], then target colours, one or more
     #[arg(required = true, value_name = "[LIBRARY] TARGET")]
     words: Vec<String>,
+    /// What is matched: the color under the lights, or the spectrum of a measured target
+    #[arg(long, value_enum, default_value = "color")]
+    by: MatchBy,
     /// Use only these pigments (may be repeated) [default: all whose S is known]
     #[arg(long, value_name = "PIGMENT")]
     only: Vec<String>,
@@ -59,9 +63,9 @@ pub(crate) struct Match {
     /// repeated), or a CSV with the columns pigment and price
     #[arg(long, value_name = "PRICE")]
     cost: Vec<String>,
-    /// Difference in CIEDE2000 within which recipes count as equally near [default: the mean error of
-    /// the library's fit, or 0.05 if it records none]
-    #[arg(long, value_name = "DELTA_E", allow_hyphen_values = true)]
+    /// Difference within which recipes count as equally near, in CIEDE2000 [default: the mean error of
+    /// the library's fit, or 0.05 if it records none]; by spectrum in % of reflectance [default: 0.2]
+    #[arg(long, value_name = "DIFFERENCE", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Allow absolute amounts outside the range that was measured of each pigment
     #[arg(long)]
@@ -77,8 +81,9 @@ pub(crate) struct Match {
     /// Measured reflectance of the ground, as in `mix` [default: white]
     #[arg(long, value_name = "GROUND", allow_hyphen_values = true)]
     over: Option<String>,
-    /// Light, as in `color`, with its weight where there are several (may be repeated)
-    #[arg(long, value_name = "LIGHT[=WEIGHT]", default_value = "D65")]
+    /// Light, as in `color`, with its weight where there are several (may be repeated) [default: D65;
+    /// by spectrum, where lights only tell the differences, D65, A and FL11]
+    #[arg(long, value_name = "LIGHT[=WEIGHT]")]
     illuminant: Vec<String>,
     /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
     #[arg(long, value_name = "NAME", default_value = "1931-2")]
@@ -149,9 +154,16 @@ impl Match {
                 "leave it out: the recipe gives each amount on the library's area",
             ));
         }
-        let conditions = self.illuminant.iter().map(|text| condition(text, &self.observer));
+        let usual: &[&str] = match (self.illuminant.is_empty(), self.by) {
+            (false, _) => &[],
+            (true, MatchBy::Color) => &["D65"],
+            (true, MatchBy::Spectrum | MatchBy::WeightedSpectrum) => &["D65", "A", "FL11"],
+        };
+        let lights = self.illuminant.iter().map(String::as_str).chain(usual.iter().copied());
+        let conditions = lights.map(|text| condition(text, &self.observer));
         let with = self.with.iter().map(|text| required(text, library));
         Ok(MatchOptions {
+            metric: self.by.metric(),
             conditions: conditions.collect::<Result<_>>()?,
             thickness: self.thickness.as_deref().map(thickness).transpose()?,
             over: self.over.as_deref().map(|text| ground(text, console)).transpose()?,

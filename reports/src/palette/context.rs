@@ -6,7 +6,7 @@ use calibrate::palette::{MeasuredSample, Palette};
 use crate::subject::Subject;
 
 /// Explanation of the notch in a patch.
-pub(super) const NOTCH: &str = "A notched corner: outside sRGB, the nearest is shown.";
+pub(super) const NOTCH: &str = "A notched corner: outside sRGB, shown clipped.";
 
 /// The paints that can be mixed; `None` if there are none.
 pub(super) fn palette<'a>(subject: &'a Subject<'_>) -> Option<Palette<'a>> {

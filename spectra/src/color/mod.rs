@@ -26,6 +26,8 @@ mod difference;
 
 mod metamerism;
 
+mod whiteness;
+
 pub use adaptation::{Adaptation, adapt};
 pub use code::{ColorCode, ColorCodeError};
 pub use difference::{
@@ -38,4 +40,5 @@ pub use matrix::Matrix3;
 pub use metamerism::{MetamerismError, corrected_to_match, metamerism_index};
 pub use rgb::{Rgb, RgbSpace};
 pub use values::ColorValues;
+pub use whiteness::{Whiteness, WhitenessError};
 pub use xyz::{Xyy, Xyz};

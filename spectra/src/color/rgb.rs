@@ -29,6 +29,15 @@ impl RgbSpace {
         }
     }
 
+    /// Note on a colour that a display of this space cannot show, for people.
+    #[must_use]
+    pub fn outside_note(self) -> &'static str {
+        match self {
+            Self::Srgb => "outside sRGB, shown clipped",
+            Self::DisplayP3 => "outside Display P3, shown clipped",
+        }
+    }
+
     /// White point of the display, from the chromaticity that both standards define.
     #[must_use]
     pub fn white(self) -> Xyz {
@@ -123,6 +132,14 @@ impl Rgb {
         let [r, g, b] = self.to_bytes();
         format!("#{r:02x}{g:02x}{b:02x}")
     }
+
+    /// The code of [`Rgb::to_hex`] for people: a colour outside of `space` is marked, since its code is that of
+    /// another colour.
+    #[must_use]
+    pub fn to_hex_with_note(self, space: RgbSpace) -> String {
+        let hex = self.to_hex();
+        if self.in_gamut() { hex } else { format!("{hex} ({})", space.outside_note()) }
+    }
 }
 
 #[cfg(test)]
@@ -138,6 +155,15 @@ mod tests {
         for text in ["", "#", "#12345", "#12345g", "red", "#+1+1+1", "\u{e9}\u{e9}\u{e9}"] {
             assert_eq!(Rgb::from_hex(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn a_color_that_a_display_cannot_show_is_marked() {
+        let [inside, outside] = [[0.2, 1.0, 0.0], [-0.1, 1.0, 0.0]].map(Rgb);
+        assert_eq!(inside.to_hex_with_note(RgbSpace::Srgb), "#33ff00");
+        let note = "#00ff00 (outside sRGB, shown clipped)";
+        assert_eq!(outside.to_hex_with_note(RgbSpace::Srgb), note);
+        assert!(outside.to_hex_with_note(RgbSpace::DisplayP3).contains("outside Display P3,"));
     }
 
     #[test]

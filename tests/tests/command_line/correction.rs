@@ -45,6 +45,9 @@ fn a_batch_that_lacks_blue_is_told_how_much() {
     let grams = first["grams"].as_f64().unwrap();
     assert!((10.0..23.0).contains(&grams), "{grams}");
     assert!(first["delta_e"]["D65"].as_f64().unwrap() <= 0.5, "{first}");
+    let spectral = impasto(&[&all[..], &["--by", "spectrum"]].concat()).out;
+    assert!(spectral.contains("within 0.5 % of reflectance of the target"), "{spectral}");
+    assert!(spectral.contains("; reflectance 0."), "{spectral}");
     let short = ["--stock", "cobalt=5", "--only", "Cobalt Blue"];
     let run = impasto(&[&all[..], &short].concat());
     assert_eq!(run.status, 0, "{}", run.err);

@@ -109,7 +109,21 @@ fn color_prints_its_keys_with_white_at_100() {
     std::fs::write(&file, "sample,400,500,600,700\nwhite,1,1,1,1\ngrey,0.2,0.2,0.2,0.2\n").unwrap();
     let file = file.to_str().unwrap();
     let list = json(&["color", file, "--illuminant", "A", "--observer", "10", "--json"]);
-    assert_eq!(keys(&list[0]), ["sample", "xyz", "lab", "srgb", "hex"]);
+    let known = [
+        "sample",
+        "xyz",
+        "xy",
+        "lab",
+        "chroma",
+        "hue_deg",
+        "whiteness",
+        "tint",
+        "whiteness_note",
+        "srgb",
+        "hex",
+        "in_gamut",
+    ];
+    assert_eq!(keys(&list[0]), known);
     assert_eq!(list[0]["sample"], "white");
     assert!((list[0]["xyz"][1].as_f64().unwrap() - 100.0).abs() < 1e-9, "{}", list[0]);
     // White of illuminant A for the 10 degree observer in CIE 15: 111.14, 100, 35.20.
@@ -156,15 +170,62 @@ fn color_tells_differences_and_metamerism() {
     assert!(difference["ciede2000"].as_f64().unwrap() > 10.0, "{difference}");
     assert_eq!(list[2]["difference"]["ciede2000"], 0.0);
     // Computed from the four XYZ with CIEDE2000 of colour-science.
-    let index = list[1]["metamerism"].as_f64().unwrap();
+    let index = list[1]["metamerism"]["index"].as_f64().unwrap();
     assert!((index - 4.6387).abs() < 5e-4, "{index}");
+    assert_eq!(list[1]["metamerism"]["kind"], "special metamerism index, change of illuminant");
+    assert_eq!(list[1]["metamerism"]["change"], "D65 to A");
     assert!(list[0].get("metamerism").is_none(), "the first light is the reference");
+}
+
+#[test]
+fn color_shows_the_columns_that_are_asked_for_within_100() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("papers.csv");
+    let paper = "paper,0.85,0.97,0.91,0.89,0.89,0.89,0.89";
+    let text = format!("sample,400,450,500,550,600,650,700\n{paper}\nochre,.1,.1,.2,.4,.5,.5,.5\n");
+    std::fs::write(&path, text).unwrap();
+    let file = path.to_str().unwrap();
+    let table = |more: &[&str]| {
+        let run = impasto(&[&["color", file], more].concat());
+        assert_eq!(run.status, 0, "{}", run.err);
+        assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{}", run.out);
+        run.out
+    };
+    let usual = table(&[]);
+    assert!(usual.contains("X       Y       Z") && !usual.contains("C*"), "{usual}");
+    let chosen = table(&["--show", "xyy,lch,whiteness"]);
+    for words in ["x       y       Y", "L*      C*       h", "W       T", "-4 < T < 2"] {
+        assert!(chosen.contains(words), "{words}: {chosen}");
+    }
+    let line = |name: &str| chosen.lines().find(|line| line.starts_with(name)).unwrap().to_owned();
+    assert!(
+        line("ochre").contains("not white") && !line("paper").contains("not white"),
+        "{chosen}"
+    );
+    let lamp = table(&["--show", "whiteness", "--illuminant", "A"]);
+    assert!(lamp.contains("not under A") && !lamp.contains("not white"), "{lamp}");
+    let list = json(&["color", file, "--json"]);
+    let (paper, ochre) = (&list[0], &list[1]);
+    assert!(paper["whiteness"].as_f64().unwrap() > 80.0 && paper["tint"].is_f64(), "{paper}");
+    assert!(ochre["whiteness"].is_null() && ochre["tint"].is_null(), "{ochre}");
+    let note = ochre["whiteness_note"].as_str().unwrap();
+    assert!(note.starts_with("not white: W "), "{note}");
+    let csv = impasto(&["color", file, "--csv"]).out;
+    assert!(
+        csv.starts_with(
+            "sample,X,Y,Z,x,y,L,a,b,chroma,hue_deg,whiteness,tint,whiteness_note,R,G,B,"
+        ),
+        "{csv}"
+    );
 }
 
 #[test]
 fn mix_prints_its_keys_and_a_masstone_is_its_sample() {
     let mix = json(&["mix", &library(), "viridian=2", "--json"]);
-    assert_eq!(keys(&mix), ["wavelengths_nm", "reflectance", "xyz", "lab", "srgb", "hex"]);
+    assert_eq!(
+        keys(&mix),
+        ["wavelengths_nm", "reflectance", "xyz", "lab", "srgb", "hex", "in_gamut"]
+    );
     assert_eq!(mix["wavelengths_nm"].as_array().unwrap().len(), 31);
     // Sample 09A, a film that hides, reads 6.1 % at 410 nm.
     let at_410 = mix["reflectance"][1].as_f64().unwrap();

@@ -159,13 +159,17 @@ fn every_table_is_csv_too() {
     let cases: [(&[&str], &str, usize); 9] = [
         (&["fit", &oils, "--method", "weighted"], "sample,ciede2000", 83),
         (&["mix", &library, "Viridian=1"], "nm,reflectance", 32),
-        (&["color", &oils, "--sample", "09A on white"], "sample,X,Y,Z,L,a,b,R,G,B,hex", 2),
+        (
+            &["color", &oils, "--sample", "09A on white"],
+            "sample,X,Y,Z,x,y,L,a,b,chroma,hue_deg,",
+            2,
+        ),
         (&["quadrature", "-n", "4"], "nm,X,Y,Z", 5),
         (&["library", "show", &library, "Viridian"], "nm,K,K_sd,S,S_sd", 32),
         (&["library", "diff", &library, &library], "illuminant,pigment,masstone,tint", 21),
         (
             &["library", "list", &library],
-            "name,colour_index,identified,guessed,L,a,b,hex,notes",
+            "name,colour_index,identified,guessed,L,a,b,hex,in_gamut,notes",
             21,
         ),
         (

@@ -2,7 +2,9 @@
 
 use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
-use calibrate::matching::{Batch, ColorTarget, CorrectionOptions, MatchError};
+use calibrate::matching::{
+    Batch, ColorTarget, CorrectionOptions, MatchError, Metric, SpectrumWeights,
+};
 use spectra::color::delta_e_ciede2000;
 use spectra::{Reflectance, Spectrum};
 
@@ -137,4 +139,30 @@ fn batches_that_cannot_be_corrected_are_refused() {
         PigmentLibrary { amounts: calibrate::library::AmountKind::Absolute, ..library.clone() };
     let error = absolute.corrections_for(&target, &batch, &usual).unwrap_err();
     assert_eq!(error, MatchError::AbsoluteBatch);
+}
+
+#[test]
+fn a_batch_is_corrected_by_its_spectrum() {
+    let library = &oils();
+    let standard = measured(library, &RECIPE);
+    let weighed = [("Zinc White", 80.0), ("Cobalt Blue", 12.0), ("Chrome Yellow", 5.0)];
+    let batch = batch(library, &weighed);
+    let target = ColorTarget::measured("standard", standard.clone());
+    let options = CorrectionOptions {
+        metric: Metric::Spectrum(SpectrumWeights::Even),
+        only: vec!["Cobalt Blue".into()],
+        tolerance: 0.01,
+        ..Default::default()
+    };
+    let found = library.corrections_for(&target, &batch, &options).unwrap();
+    assert!(found.reaches && found.batch_rms_percent.unwrap() > 1.0, "{found:?}");
+    let least = &found.corrections[0];
+    assert!(least.rms_percent.unwrap() <= 0.01 + 1e-9, "{least:?}");
+    // The pot of 500 g is 97 parts and lacks 3; its S is taken from what was to be weighed.
+    assert!((least.grams - 500.0 * 3.0 / 97.0).abs() < 0.3, "{}", least.grams);
+    let same = Batch { reflectance: standard, ..batch.clone() };
+    assert!(library.corrections_for(&target, &same, &options).unwrap().is_near);
+    let color = "#4a7d8c".parse().unwrap();
+    let refused = library.corrections_for(&color, &batch, &options).unwrap_err();
+    assert!(matches!(refused, MatchError::NoSpectrum { .. }), "{refused}");
 }

@@ -12,6 +12,8 @@ mod limits;
 
 mod order;
 
+mod spectrum;
+
 mod watched;
 
 use calibrate::evaluate::{Viewing, lab};
@@ -42,5 +44,6 @@ fn target_of(
     let color = |condition: &ViewingCondition| -> Lab {
         lab(&condition.viewing.weights(library.grid).unwrap(), reflectance)
     };
-    Target { name: "a mixture".to_owned(), lab: conditions.iter().map(color).collect() }
+    let lab = conditions.iter().map(color).collect();
+    Target { name: "a mixture".to_owned(), lab, spectrum: None }
 }

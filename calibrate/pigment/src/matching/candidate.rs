@@ -11,7 +11,7 @@ pub(super) struct Candidate {
     pub(super) shares: Vec<f64>,
     /// Thickness of the film in the library's unit.
     pub(super) thickness: f64,
-    /// Weighted root mean square of the colour differences over all viewing conditions.
+    /// Weighted root mean square of the differences in the request's metric.
     pub(super) distance: f64,
 }
 

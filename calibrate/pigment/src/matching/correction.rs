@@ -8,16 +8,17 @@
 
 use spectra::color::{Lab, delta_e_ciede2000};
 use spectra::optics::absorption_over_scattering;
-use spectra::{Extrapolation, Interpolation, Reflectance, Spectrum};
+use spectra::{Extrapolation, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use super::bounded_step::MAX_PIGMENTS;
 use super::error::MatchError;
 use super::film::FilmKind;
 use super::forward::{Forward, Scratch};
 use super::least_addition::{Addition, Additions};
+use super::recipe_search::spectrum_of;
 use super::request::MatchRequest;
 use super::target::{ColorTarget, Target, TargetColor};
-use super::viewing_condition::ViewingCondition;
+use super::viewing_condition::{Metric, ViewingCondition};
 use crate::evaluate::lab;
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::recipe::PigmentId;
@@ -26,8 +27,8 @@ use crate::visible_band::check_visible_band;
 
 /// Least internal reflectance that is believed; below it a reading tells nothing of K / S.
 const LEAST_INTERNAL: f64 = 1e-4;
-/// CIEDE2000 from the target that is near enough, unless options say otherwise: about what an eye can tell
-/// side by side.
+/// CIEDE2000 (by spectrum percent of reflectance) from the target that is near enough, unless options say
+/// otherwise: about what an eye can tell side by side.
 pub const USUAL_CORRECTION: f64 = 0.5;
 
 /// A pot of paint that was mixed and measured.
@@ -44,6 +45,8 @@ pub struct Batch {
 /// Options of [`PigmentLibrary::corrections_for`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct CorrectionOptions {
+    /// Measure of the difference from the target. Default: CIEDE2000.
+    pub metric: Metric,
     /// Lights under which the paint is judged. Default: D65 for the CIE 1931 observer.
     pub conditions: Vec<ViewingCondition>,
     /// Names of the pigments that may be added. Empty: all whose S is known.
@@ -58,7 +61,7 @@ pub struct CorrectionOptions {
     pub least_grams: Option<f64>,
     /// Most grams to add in all, above 0. Default: as much as the batch.
     pub most_grams: Option<f64>,
-    /// CIEDE2000 from the target that is near enough, above 0. Default: 0.5.
+    /// Difference from the target that is near enough, above 0, in the unit of the metric. Default: 0.5.
     pub tolerance: f64,
     /// Number of corrections to return, 1 and up. Default: 5.
     pub count: usize,
@@ -67,6 +70,7 @@ pub struct CorrectionOptions {
 impl Default for CorrectionOptions {
     fn default() -> Self {
         Self {
+            metric: Metric::default(),
             conditions: vec![ViewingCondition::default()],
             only: Vec::new(),
             without: Vec::new(),
@@ -89,8 +93,11 @@ pub struct Correction {
     pub grams: f64,
     /// CIEDE2000 of the corrected paint from the target under each light.
     pub delta_e: Vec<f64>,
-    /// Weighted root mean square of `delta_e` over the lights.
+    /// Weighted root mean square of `delta_e` over the lights; by spectrum that of the differences of
+    /// reflectance, in percent.
     pub distance: f64,
+    /// Root mean square of the differences of reflectance from a measured target, in percent.
+    pub rms_percent: Option<f64>,
     /// Colour of the corrected paint under each light.
     pub lab: Vec<Lab>,
     /// Measured reflectance of the corrected paint on the library's grid.
@@ -108,6 +115,8 @@ pub struct Corrections {
     pub batch: Vec<Lab>,
     /// CIEDE2000 of the batch from the target under each light.
     pub batch_delta_e: Vec<f64>,
+    /// Root mean square of the differences of reflectance of the batch from a measured target, in percent.
+    pub batch_rms_percent: Option<f64>,
     /// CIEDE2000 of the batch from what its recipe predicts, under each light.
     pub recipe_delta_e: Vec<f64>,
     /// Whether the batch is within the tolerance and needs no correction.
@@ -159,7 +168,8 @@ impl PigmentLibrary {
         }
         let (library, predicted) = self.with_pot(batch)?;
         let conditions = &options.conditions;
-        let target = target.under(conditions)?;
+        let spectrum = spectrum_of(target, self.grid, (options.metric, conditions), &mut remarks)?;
+        let target = Target { spectrum, ..target.under(conditions)? };
         let measured = Target::from_reflectance("batch", &batch.reflectance, conditions)?.lab;
         let differences = |found: &[Lab], wanted: &[Lab]| -> Vec<f64> {
             wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
@@ -172,12 +182,19 @@ impl PigmentLibrary {
         let batch_delta_e = differences(&measured, &target.lab);
         let total: f64 = conditions.iter().map(|condition| condition.weight).sum();
         let squares = batch_delta_e.iter().zip(conditions).map(|(d, c)| d * d * c.weight / total);
-        let is_near = squares.sum::<f64>().sqrt() <= options.tolerance;
+        let batch_rms_percent = match &target.spectrum {
+            Some(spectrum) => Some(spectrum.rms_percent(self.on_grid(batch)?.values())),
+            None => None,
+        };
+        let by_spectrum = options.metric.spectrum_weights().and(batch_rms_percent);
+        let off = by_spectrum.unwrap_or_else(|| squares.sum::<f64>().sqrt());
+        let is_near = off <= options.tolerance;
         let mut found = Corrections {
             recipe_delta_e: differences(&measured, &recipe),
             target,
             batch: measured,
             batch_delta_e,
+            batch_rms_percent,
             is_near,
             reaches: is_near,
             corrections: Vec::new(),
@@ -187,7 +204,10 @@ impl PigmentLibrary {
             return Ok(found);
         }
         let additions = options.additions(self, &library, batch.grams)?;
-        let request = MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding);
+        let request = MatchRequest {
+            metric: options.metric,
+            ..MatchRequest::new(&library, conditions.clone(), FilmKind::Hiding)
+        };
         let forward = Forward::new(&library, &request)?;
         let (best, reaches) = additions.find(&forward, &found.target);
         found.reaches = reaches;
@@ -201,16 +221,18 @@ impl PigmentLibrary {
         Ok(found)
     }
 
+    /// The measured batch on the library's wavelengths.
+    fn on_grid(&self, batch: &Batch) -> Result<Spectrum<Reflectance>, InterpolateError> {
+        let method = Interpolation::best_for(batch.reflectance.grid());
+        batch.reflectance.resampled(self.grid, method, Extrapolation::Hold)
+    }
+
     /// The library with the paint in the pot as a further pigment, and the reflectance that the recipe
     /// predicts of it.
     fn with_pot(&self, batch: &Batch) -> Result<(Self, Vec<f64>), MatchError> {
         let recipe = self.recipe(batch.made.iter().map(|(name, part)| (name, *part)))?;
         let curves = self.mix(&recipe)?;
-        let measured = batch.reflectance.resampled(
-            self.grid,
-            Interpolation::best_for(batch.reflectance.grid()),
-            Extrapolation::Hold,
-        )?;
+        let measured = self.on_grid(batch)?;
         let scattering = curves.scattering.clone();
         let absorption = measured.values().iter().zip(&scattering).map(|(&reading, s)| {
             let internal = self.saunderson.internal_from_measured(reading).unwrap_or(0.0);
@@ -344,6 +366,7 @@ fn correction(
         grams: total,
         delta_e: labs.iter().zip(&target.lab).map(|(f, w)| delta_e_ciede2000(*w, *f)).collect(),
         distance: mixture.distance,
+        rms_percent: target.spectrum.as_ref().map(|wanted| wanted.rms_percent(&reflectance)),
         lab: labs,
         reflectance,
     }

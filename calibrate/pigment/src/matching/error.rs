@@ -66,6 +66,25 @@ pub enum MatchError {
     /// A ground is given, but the film hides it.
     #[error("a film that hides shows no ground")]
     HiddenGround,
+    /// A search by spectrum was asked for a target that is only a colour.
+    #[error("a match by spectrum needs a measured spectrum, and `{name}` is only a colour")]
+    NoSpectrum {
+        /// Name of the target.
+        name: String,
+    },
+    /// A target was not measured where the library was.
+    #[error(
+        "`{name}` was measured from {} to {} nm, the library from {} to {} nm: they share no band",
+        target_nm[0], target_nm[1], library_nm[0], library_nm[1]
+    )]
+    NoSharedBand {
+        /// Name of the target.
+        name: String,
+        /// First and last wavelength of the target in nm.
+        target_nm: [f64; 2],
+        /// First and last wavelength of the library in nm.
+        library_nm: [f64; 2],
+    },
     /// No recipe lies within the limits of the request.
     #[error("no recipe fits inside these limits")]
     NoRecipe,
@@ -113,6 +132,10 @@ impl Explain for MatchError {
             Self::AbsoluteHiding => "give a [thickness]",
             Self::AbsoluteBatch => "use a library of relative amounts, fitted to films that hide",
             Self::HiddenGround => "give [over] a [thickness], such as 1 or 0.2:3",
+            Self::NoSpectrum { .. } => {
+                "give the file of its reading, FILE or FILE#SAMPLE, or match by colour: [by=color]"
+            }
+            Self::NoSharedBand { .. } => "measure the target over the band of the library",
             Self::NoRecipe => {
                 "allow more pigments ([at_most]), more parts ([parts]), a smaller [least], or amounts that were \
                  not measured ([beyond_measured])"
@@ -131,6 +154,7 @@ impl Explain for MatchError {
         match self {
             Self::Backing(error) => error.fault(),
             Self::NoRecipe
+            | Self::NoSharedBand { .. }
             | Self::Recipe(_)
             | Self::PricedPigment { .. }
             | Self::NoPrice { .. }

@@ -1,6 +1,6 @@
 //! From shares of pigments to colour differences, with their derivatives.
 
-use spectra::color::{Lab, Xyz};
+use spectra::color::{Lab, Xyz, ciede2000_residuals};
 use spectra::optics::UnevenFilm;
 use spectra::{InterpolateError, TristimulusWeights};
 
@@ -8,6 +8,7 @@ use super::bounded_descent::Cost;
 use super::bounded_step::UNKNOWNS;
 use super::film::FilmKind;
 use super::request::MatchRequest;
+use super::spectral_target::SpectralTarget;
 use super::target::Target;
 use super::viewing_condition::Metric;
 use crate::library::PigmentLibrary;
@@ -114,7 +115,8 @@ impl<'a> Forward<'a> {
         scratch.reflectance.clone()
     }
 
-    /// Weighted root mean square of the colour differences over all viewing conditions.
+    /// Weighted root mean square of the colour differences over all viewing conditions, or of the
+    /// differences of reflectance.
     pub(super) fn distance(
         &self,
         target: &Target,
@@ -124,10 +126,13 @@ impl<'a> Forward<'a> {
         scratch: &mut Scratch,
     ) -> f64 {
         self.reflect(pigments, shares, thickness, scratch);
+        if self.metric.spectrum_weights().is_some() {
+            return spectrum_of(target).rms_percent(&scratch.reflectance);
+        }
         let lights = self.weights.iter().zip(&self.roots).zip(&target.lab);
         let squares = lights.map(|((weights, root), &wanted)| {
             let lab = Lab::from_xyz(weights.xyz(&scratch.reflectance), weights.white());
-            let residuals = self.metric.residuals(wanted, lab);
+            let residuals = residuals(self.metric, wanted, lab);
             residuals.iter().map(|r| (root * r).powi(2)).sum::<f64>()
         });
         squares.sum::<f64>().sqrt()
@@ -168,6 +173,9 @@ impl<'a> Forward<'a> {
                 }
             }
         }
+        if self.metric.spectrum_weights().is_some() {
+            return spectrum_of(target).cost(reflectance, by_unknown);
+        }
         let mut cost =
             Cost { value: 0.0, gradient: [0.0; UNKNOWNS], matrix: [[0.0; UNKNOWNS]; UNKNOWNS] };
         for ((weights, root), &wanted) in self.weights.iter().zip(&self.roots).zip(&target.lab) {
@@ -196,6 +204,21 @@ impl<'a> Forward<'a> {
     }
 }
 
+/// The spectrum of a target that is matched by it.
+fn spectrum_of(target: &Target) -> &SpectralTarget {
+    target.spectrum.as_ref().expect("a search by spectrum was checked for one")
+}
+
+/// Three numbers whose squares sum to the square of a colour difference.
+fn residuals(metric: Metric, wanted: Lab, found: Lab) -> [f64; 3] {
+    match metric {
+        Metric::Ciede2000 | Metric::Spectrum(_) => ciede2000_residuals(wanted, found),
+        Metric::Cie1976 => {
+            [found.lightness - wanted.lightness, found.a - wanted.a, found.b - wanted.b]
+        }
+    }
+}
+
 /// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). The
 /// slopes of CIELAB are exact, those of the difference formula are difference quotients.
 fn residuals_with_slopes(
@@ -208,20 +231,20 @@ fn residuals_with_slopes(
     /// large against rounding.
     const STEP: f64 = 1e-3;
     let lab = Lab::from_xyz(xyz, white);
-    let residuals = metric.residuals(wanted, lab);
+    let here = residuals(metric, wanted, lab);
     let moved = [
         Lab { lightness: lab.lightness + STEP, ..lab },
         Lab { a: lab.a + STEP, ..lab },
         Lab { b: lab.b + STEP, ..lab },
     ];
-    let moved = moved.map(|near| metric.residuals(wanted, near));
+    let moved = moved.map(|near| residuals(metric, wanted, near));
     let over_lab: [[f64; 3]; 3] =
-        std::array::from_fn(|i| std::array::from_fn(|j| (moved[j][i] - residuals[i]) / STEP));
+        std::array::from_fn(|i| std::array::from_fn(|j| (moved[j][i] - here[i]) / STEP));
     let lab_over_xyz = Lab::slopes_over_xyz(xyz, white).0;
     let over_xyz = std::array::from_fn(|i| {
         std::array::from_fn(|c| (0..3).map(|j| over_lab[i][j] * lab_over_xyz[j][c]).sum())
     });
-    (residuals, over_xyz)
+    (here, over_xyz)
 }
 
 /// Reflectance of a film that hides, with its slopes over K and S.
@@ -239,8 +262,8 @@ mod tests {
     use crate::evaluate::Viewing;
     use crate::library::Pigment;
     use crate::matching::film::Thickness;
-    use crate::matching::viewing_condition::ViewingCondition;
-    use spectra::{Grid, Illuminant, Observer};
+    use crate::matching::viewing_condition::{SpectrumWeights, ViewingCondition};
+    use spectra::{Grid, Illuminant, Observer, Reflectance, Spectrum};
 
     fn library() -> PigmentLibrary {
         let grid = Grid::from_nm(400.0, 20.0, 16).unwrap();
@@ -293,16 +316,23 @@ mod tests {
         };
         let conditions = vec![under("D65", 1.0), under("A", 0.5)];
         let wanted = Lab { lightness: 48.0, a: 22.0, b: -9.0 };
-        let target = Target::from_lab("", wanted, &conditions);
+        let curve = library.grid.wavelengths_nm().map(|nm| 0.2 + 0.3 * ((nm - 400.0) / 300.0));
+        let measured = Spectrum::<Reflectance>::new(library.grid, curve.collect()).unwrap();
         let thickness = Thickness::Between(0.1, 9.0);
         let over = FilmKind::Over { ground: vec![0.7; 16], thickness };
         for (film, count) in [(FilmKind::Hiding, 3), (over, 4)] {
-            for metric in [Metric::Ciede2000, Metric::Cie1976] {
+            let [even, seen] =
+                [SpectrumWeights::Even, SpectrumWeights::Observer].map(Metric::Spectrum);
+            for metric in [Metric::Ciede2000, Metric::Cie1976, even, seen] {
                 let request = MatchRequest {
                     metric,
                     ..MatchRequest::new(&library, conditions.clone(), film.clone())
                 };
                 let forward = Forward::new(&library, &request).unwrap();
+                let weights = metric.spectrum_weights().unwrap_or_default();
+                let spectrum =
+                    SpectralTarget::new(&measured, library.grid, weights, &conditions).unwrap();
+                let target = Target { spectrum, ..Target::from_lab("", wanted, &conditions) };
                 let mut scratch = Scratch::default();
                 let pigments = [0, 1, 2].map(PigmentId);
                 let point = [0.5, 0.2, 0.3, 0.4];

@@ -36,7 +36,7 @@ pub(super) struct Additions<'a> {
     pub(super) least: f64,
     /// Greatest sum of all additions.
     pub(super) most: f64,
-    /// CIEDE2000 from the target that is near enough.
+    /// Difference from the target that is near enough.
     pub(super) tolerance: f64,
 }
 

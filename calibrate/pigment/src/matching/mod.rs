@@ -1,19 +1,21 @@
 //! Recipes for a colour.
 //!
 //! Finds which pigments of a library, and how much of each, come nearest to a target under one light or
-//! several. Every set of pigments is tried, from one pigment up to the requested number. The shares of each
-//! set are found by least squares in the colour difference itself, starting from the best recipe of a set
-//! with one pigment fewer.
+//! several, or to its spectrum. Every set of pigments is tried, from one pigment up to the requested number.
+//! The shares of each set are found by least squares in the difference itself, starting from the best recipe
+//! of a set with one pigment fewer.
 
 mod viewing_condition;
-
-mod target;
-
-mod film;
 
 mod bounded_step;
 
 mod bounded_descent;
+
+mod spectral_target;
+
+mod target;
+
+mod film;
 
 mod error;
 
@@ -52,8 +54,9 @@ pub use options::{MatchOptions, RequiredName, ToleranceOrigin};
 pub use prices::{PriceError, PriceList, parse_price};
 pub use ranking::{AmountLimit, RecipeMatch, recipes, recipes_with_control};
 pub use recipe_search::{RecipeMatches, RecipeSearch};
-pub use request::{MatchRequest, RequiredPigment, USUAL_TOLERANCE};
+pub use request::{MatchRequest, RequiredPigment, USUAL_SPECTRUM_TOLERANCE, USUAL_TOLERANCE};
 pub use search_control::SearchControl;
+pub use spectral_target::SpectralTarget;
 pub use target::{ColorTarget, Target, TargetColor};
-pub use viewing_condition::{Metric, ViewingCondition};
+pub use viewing_condition::{Metric, SpectrumWeights, ViewingCondition};
 pub use whole_parts::few_parts;

@@ -3,8 +3,8 @@
 use super::error::MatchError;
 use super::film::{FilmKind, Thickness};
 use super::prices::PriceList;
-use super::request::{MatchRequest, RequiredPigment, USUAL_TOLERANCE};
-use super::viewing_condition::ViewingCondition;
+use super::request::{MatchRequest, RequiredPigment, USUAL_SPECTRUM_TOLERANCE, USUAL_TOLERANCE};
+use super::viewing_condition::{Metric, ViewingCondition};
 use crate::backing::Backing;
 use crate::library::{AmountKind, PigmentLibrary};
 use crate::recipe::PigmentId;
@@ -27,7 +27,7 @@ pub enum ToleranceOrigin {
     Given,
     /// It is the mean error of the library's fit: recipes that differ by less cannot be told apart.
     Library,
-    /// It is [`USUAL_TOLERANCE`]: the library records no error, or a smaller one.
+    /// It is the usual one of the metric: the library records no error, or a smaller one.
     Usual,
 }
 
@@ -53,7 +53,10 @@ impl ToleranceOrigin {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct MatchOptions {
-    /// Lights under which recipes are judged, each once. Default: D65 for the CIE 1931 observer.
+    /// Measure of the difference from the target. Default: CIEDE2000.
+    pub metric: Metric,
+    /// Lights under which recipes are judged, each once; by spectrum, lights under which the differences are
+    /// told. Default: D65 for the CIE 1931 observer.
     pub conditions: Vec<ViewingCondition>,
     /// Thickness of the film. By default it hides; for absolute amounts the search chooses a thickness
     /// from nearly clear to nearly hiding.
@@ -74,8 +77,9 @@ pub struct MatchOptions {
     pub whole_parts: Option<u32>,
     /// Prices of pigments; if there are any, each pigment that may take part needs one.
     pub prices: PriceList,
-    /// CIEDE2000 within which recipes count as equally near, 0 to 1000. Default: the mean error of the
-    /// library's fit ([`PigmentLibrary::mean_error`]), or 0.05 if it records none.
+    /// Difference within which recipes count as equally near, 0 to 1000, in the unit of the metric. Default:
+    /// the mean error of the library's fit ([`PigmentLibrary::mean_error`]) in CIEDE2000, or 0.05 if it
+    /// records none; by spectrum 0.2 % of reflectance.
     pub tolerance: Option<f64>,
     /// Whether absolute amounts may lie outside the range that was measured of each pigment. Default: no.
     pub beyond_measured: bool,
@@ -86,6 +90,7 @@ pub struct MatchOptions {
 impl Default for MatchOptions {
     fn default() -> Self {
         Self {
+            metric: Metric::default(),
             conditions: vec![ViewingCondition::default()],
             thickness: None,
             over: None,
@@ -116,6 +121,7 @@ impl MatchOptions {
         let mut remarks = Vec::new();
         let film = self.film(library, &mut remarks)?;
         let mut request = MatchRequest {
+            metric: self.metric,
             at_most: self.at_most,
             least_share: self.least_share,
             whole_parts: self.whole_parts,
@@ -139,11 +145,13 @@ impl MatchOptions {
         Ok((request, remarks))
     }
 
-    /// CIEDE2000 within which recipes of `library` count as equally near, and its origin.
+    /// Difference within which recipes of `library` count as equally near, and its origin.
     #[must_use]
     pub fn tolerance_for(&self, library: &PigmentLibrary) -> (f64, ToleranceOrigin) {
+        let by_spectrum = self.metric.spectrum_weights().is_some();
         match (self.tolerance, library.mean_error()) {
             (Some(given), _) => (given, ToleranceOrigin::Given),
+            (None, _) if by_spectrum => (USUAL_SPECTRUM_TOLERANCE, ToleranceOrigin::Usual),
             (None, Some(error)) if error > USUAL_TOLERANCE => (error, ToleranceOrigin::Library),
             (None, _) => (USUAL_TOLERANCE, ToleranceOrigin::Usual),
         }

@@ -1,6 +1,7 @@
 //! Selection and order of the recipes that are returned.
 
-use spectra::color::{Lab, delta_e_ciede2000};
+use spectra::TristimulusWeights;
+use spectra::color::{Lab, Xyz, delta_e_ciede2000, metamerism_index};
 
 use super::candidate::Candidate;
 use super::error::MatchError;
@@ -26,8 +27,17 @@ pub struct RecipeMatch {
     pub thickness: Option<f64>,
     /// CIEDE2000 from the target under each viewing condition.
     pub delta_e: Vec<f64>,
-    /// Weighted root mean square over all viewing conditions of the differences in the request's metric.
+    /// Weighted root mean square over all viewing conditions of the differences in the request's metric, or
+    /// over the shared wavelengths, in percent of reflectance, for a search by spectrum.
     pub distance: f64,
+    /// Root mean square of the differences of reflectance from a measured target, in percent: with the
+    /// weights of a search by spectrum, else evenly over the shared wavelengths. `None` for a target that
+    /// was not measured.
+    pub rms_percent: Option<f64>,
+    /// Special metamerism index (CIE 15:2018, section 9.2, in CIEDE2000) for the change from the first light
+    /// to each later one. Empty for a target that was not measured; `None` for a recipe that is black under
+    /// the first light.
+    pub metamerism: Vec<Option<f64>>,
     /// Colour of the recipe under each viewing condition.
     pub lab: Vec<Lab>,
     /// Measured reflectance of the recipe on the library's grid.
@@ -108,6 +118,9 @@ fn searched(
     control: &SearchControl,
 ) -> Result<Option<(Vec<RecipeMatch>, f64)>, MatchError> {
     request.check(library)?;
+    if request.metric.spectrum_weights().is_some() && target.spectrum.is_none() {
+        return Err(MatchError::NoSpectrum { name: target.name.clone() });
+    }
     let forward = Forward::new(library, request).expect("the method fits the grid");
     let candidates = search(&forward, request, target, control);
     let found: Vec<Found> = match request.whole_parts {
@@ -201,7 +214,10 @@ fn recipe(
     let labs: Vec<Lab> = forward.weights.iter().map(|w| lab(w, &reflectance)).collect();
     let mut order: Vec<usize> = (0..pigments.len()).collect();
     order.sort_by(|&a, &b| shares[b].total_cmp(&shares[a]));
+    let spectrum = target.spectrum.as_ref();
     RecipeMatch {
+        rms_percent: spectrum.map(|spectrum| spectrum.rms_percent(&reflectance)),
+        metamerism: spectrum.map_or_else(Vec::new, |_| metamerism(forward, target, &labs)),
         shares: order.iter().map(|&at| (pigments[at], shares[at])).collect(),
         parts: parts.map(|parts| order.iter().map(|&at| parts[at]).collect()),
         thickness: (request.film != FilmKind::Hiding).then_some(*thickness),
@@ -212,6 +228,15 @@ fn recipe(
         at_limit: order.iter().filter_map(|&at| at_limit(request, &candidate, at)).collect(),
         cost: (!request.costs.is_empty()).then(|| cost(&candidate)),
     }
+}
+
+/// Metamerism index for the change from the first light to each later one.
+fn metamerism(forward: &Forward<'_>, target: &Target, found: &[Lab]) -> Vec<Option<f64>> {
+    let whites: Vec<Xyz> = forward.weights.iter().map(TristimulusWeights::white).collect();
+    let pair = |labs: &[Lab], at: usize| [0, at].map(|at| labs[at].to_xyz(whites[at]));
+    let index =
+        |at: usize| metamerism_index(pair(&target.lab, at), pair(found, at), whites[at]).ok();
+    (1..whites.len()).map(index).collect()
 }
 
 /// The limit of amounts at which the pigment at one place of a recipe lies.

@@ -1,16 +1,21 @@
 //! The search for recipes by name: options in, recipes out, with a fallback for distant targets.
 
+use spectra::Grid;
 use spectra::hint::Hint;
 
 use super::error::MatchError;
 use super::options::{MatchOptions, ToleranceOrigin};
 use super::ranking::{RecipeMatch, recipes, recipes_and_nearest};
 use super::request::{MatchRequest, USUAL_TOLERANCE};
+use super::spectral_target::SpectralTarget;
 use super::target::{ColorTarget, Target, TargetColor};
-use super::viewing_condition::Metric;
+use super::viewing_condition::{Metric, ViewingCondition};
 use crate::library::PigmentLibrary;
 use crate::remark::Remark;
 use crate::visible_band::check_visible_band;
+
+/// Band in nm that a match by spectrum should cover: it holds nearly all of the luminance and chroma.
+const VISIBLE_NM: [f64; 2] = [420.0, 680.0];
 
 /// CIEDE2000 of the nearest recipe above which recipes are also searched by CIE 1976: CIEDE2000 was made for
 /// differences up to about 5 units (CIE 142:2001).
@@ -36,7 +41,7 @@ pub struct RecipeMatches {
     /// Recipes in the order of [`recipes`].
     pub recipes: Vec<RecipeMatch>,
     /// Nearest recipe by CIE 1976, for a target from which all recipes differ by more than 5 CIEDE2000;
-    /// empty otherwise.
+    /// empty otherwise, and by spectrum.
     pub by_cie1976: Vec<RecipeMatch>,
     /// Choices made in the search, and warnings.
     pub remarks: Vec<Remark>,
@@ -45,14 +50,14 @@ pub struct RecipeMatches {
 }
 
 impl RecipeMatches {
-    /// Least distance of any recipe that was found, in CIEDE2000. The list may leave that recipe out for
+    /// Least distance of any recipe that was found, in the unit of the metric. The list may leave that recipe out for
     /// another one that is as near within the tolerance.
     #[must_use]
     pub fn nearest(&self) -> f64 {
         self.nearest
     }
 
-    /// Least distance of any recipe, in CIEDE2000, if amounts could lie outside the range that was measured
+    /// Least distance of any recipe, in the unit of the metric, if amounts could lie outside the range that was measured
     /// of each pigment; `None` if that would bring no recipe visibly nearer.
     #[must_use]
     pub fn beyond_measured(&self) -> Option<f64> {
@@ -60,7 +65,7 @@ impl RecipeMatches {
     }
 
     /// Advice for a target from which all recipes differ visibly; `None` if one is nearer than 1
-    /// CIEDE2000.
+    /// CIEDE2000, or 1 % of reflectance.
     #[must_use]
     pub fn hint(&self) -> Option<Hint> {
         let advice = "allow more pigments with [at_most], or add paints to the library";
@@ -116,7 +121,9 @@ impl RecipeSearch<'_> {
         if let TargetColor::Reflectance(reflectance) = &target.color {
             remarks.extend(check_visible_band(reflectance.grid())?);
         }
-        let target = target.under(&self.request.conditions)?;
+        let MatchRequest { metric, conditions, .. } = &self.request;
+        let spectrum = spectrum_of(target, self.library.grid, (*metric, conditions), &mut remarks)?;
+        let target = Target { spectrum, ..target.under(&self.request.conditions)? };
         let (found, nearest) = recipes_and_nearest(self.library, &target, &self.request)?;
         if found.is_empty() {
             return Err(MatchError::NoRecipe);
@@ -129,7 +136,7 @@ impl RecipeSearch<'_> {
             remarks,
             nearest,
         };
-        if matches.nearest() > FAR {
+        if matches.nearest() > FAR && self.request.metric == Metric::Ciede2000 {
             let metric = Metric::Cie1976;
             let request = MatchRequest { metric, count: 1, ..self.request.clone() };
             matches.by_cie1976 = recipes(self.library, &matches.target, &request)?;
@@ -150,6 +157,42 @@ impl RecipeSearch<'_> {
         let (_, free) = recipes_and_nearest(self.library, target, &request)?;
         Ok((free < nearest - USUAL_TOLERANCE).then_some(free))
     }
+}
+
+/// The spectrum of a measured target on the grid of a library. By spectrum it is an error if there is none.
+pub(super) fn spectrum_of(
+    target: &ColorTarget,
+    grid: Grid,
+    (metric, conditions): (Metric, &[ViewingCondition]),
+    remarks: &mut Vec<Remark>,
+) -> Result<Option<SpectralTarget>, MatchError> {
+    let asked = metric.spectrum_weights();
+    let name = || target.name.clone();
+    let TargetColor::Reflectance(measured) = &target.color else {
+        return if asked.is_some() {
+            Err(MatchError::NoSpectrum { name: name() })
+        } else {
+            Ok(None)
+        };
+    };
+    let own = measured.grid();
+    let spectrum = SpectralTarget::new(measured, grid, asked.unwrap_or_default(), conditions)?;
+    if asked.is_none() {
+        return Ok(spectrum);
+    }
+    let spectrum = spectrum.ok_or_else(|| MatchError::NoSharedBand {
+        name: name(),
+        target_nm: [own.start_nm(), own.end_nm()],
+        library_nm: [grid.start_nm(), grid.end_nm()],
+    })?;
+    let [first, last] = spectrum.band_nm();
+    if first > VISIBLE_NM[0] || last < VISIBLE_NM[1] {
+        remarks.push(Remark::warning(format!(
+            "{}: matched from {first} to {last} nm only, the band that target and library share",
+            name()
+        )));
+    }
+    Ok(Some(spectrum))
 }
 
 #[cfg(test)]

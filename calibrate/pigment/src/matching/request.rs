@@ -20,6 +20,10 @@ const USUAL_WASH: [f64; 2] = [0.01, 10.0];
 /// CIEDE2000 within which recipes are equally near, where nothing is known about the library's own error.
 pub const USUAL_TOLERANCE: f64 = 0.05;
 
+/// Root mean square in percent of reflectance within which recipes are equally near by spectrum: about how far
+/// two readings of one sample by two instruments of one make are apart.
+pub const USUAL_SPECTRUM_TOLERANCE: f64 = 0.2;
+
 /// A pigment that every recipe must contain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RequiredPigment {
@@ -36,7 +40,7 @@ pub struct RequiredPigment {
 pub struct MatchRequest {
     /// Lights under which recipes are judged; at least one.
     pub conditions: Vec<ViewingCondition>,
-    /// Measure of colour difference.
+    /// Measure of the difference from the target.
     pub metric: Metric,
     /// Film that the recipe will make.
     pub film: FilmKind,
@@ -57,7 +61,7 @@ pub struct MatchRequest {
     /// Price of one unit of amount by pigment of the library, 0 and up; empty if unknown.
     pub costs: Vec<f64>,
     /// Recipes whose distance exceeds the nearest one's by no more than this count as equally near; 0
-    /// to 1000.
+    /// to 1000, in the unit of the metric.
     pub tolerance: f64,
     /// Number of recipes to return.
     pub count: usize,

@@ -5,6 +5,7 @@ use std::str::FromStr;
 use spectra::color::{ColorCode, ColorCodeError, Lab, Rgb};
 use spectra::{InterpolateError, Reflectance, Spectrum};
 
+use super::spectral_target::SpectralTarget;
 use super::viewing_condition::ViewingCondition;
 use crate::evaluate::lab;
 
@@ -85,16 +86,19 @@ pub struct Target {
     pub name: String,
     /// CIELAB under each viewing condition of the request, in their order.
     pub lab: Vec<Lab>,
+    /// Reflectance on the grid of the library, if the target was measured and the library shares its band.
+    pub spectrum: Option<SpectralTarget>,
 }
 
 impl Target {
     /// Target with one colour under all of `conditions`.
     #[must_use]
     pub fn from_lab(name: &str, lab: Lab, conditions: &[ViewingCondition]) -> Self {
-        Self { name: name.to_owned(), lab: vec![lab; conditions.len()] }
+        Self { name: name.to_owned(), lab: vec![lab; conditions.len()], spectrum: None }
     }
 
-    /// Target with the colours of a measured reflectance.
+    /// Target with the colours of a measured reflectance; its spectrum is left out, since that needs the grid
+    /// of a library ([`SpectralTarget::new`]).
     ///
     /// # Errors
     /// None in practice: the method is chosen to fit the grid of the spectrum.
@@ -107,6 +111,6 @@ impl Target {
             let weights = condition.viewing.weights(reflectance.grid())?;
             Ok(lab(&weights, reflectance.values()))
         });
-        Ok(Self { name: name.to_owned(), lab: lab.collect::<Result<_, _>>()? })
+        Ok(Self { name: name.to_owned(), lab: lab.collect::<Result<_, _>>()?, spectrum: None })
     }
 }

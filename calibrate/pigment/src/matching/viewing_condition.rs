@@ -1,6 +1,4 @@
-//! Lights under which recipes are judged, and the measure of colour difference.
-
-use spectra::color::{Lab, ciede2000_residuals};
+//! Lights under which recipes are judged, and the measure of difference.
 
 use crate::evaluate::Viewing;
 
@@ -21,7 +19,7 @@ impl Default for ViewingCondition {
     }
 }
 
-/// Measure of the difference of two colours.
+/// Measure of the difference between a recipe and its target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Metric {
     /// CIEDE2000, which is valid for differences up to about 5.
@@ -30,16 +28,49 @@ pub enum Metric {
     /// CIE 1976, which orders large differences better: by CIEDE2000 a grey may be nearer to a brilliant
     /// magenta than a dull magenta is.
     Cie1976,
+    /// Root mean square of the differences of reflectance in percent, over the wavelengths that target and
+    /// library share. The lights only tell colours. The target must be a measured spectrum.
+    Spectrum(SpectrumWeights),
+}
+
+/// How much each wavelength counts in a difference of spectra.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SpectrumWeights {
+    /// All wavelengths equally.
+    #[default]
+    Even,
+    /// As much as the observer sees of it under the lights: the sum of its weights for X, Y and Z.
+    Observer,
 }
 
 impl Metric {
-    /// Three numbers whose squares sum to the square of the difference.
-    pub(super) fn residuals(self, wanted: Lab, found: Lab) -> [f64; 3] {
+    /// Weights of the wavelengths, for a difference of spectra.
+    #[must_use]
+    pub fn spectrum_weights(self) -> Option<SpectrumWeights> {
         match self {
-            Self::Ciede2000 => ciede2000_residuals(wanted, found),
-            Self::Cie1976 => {
-                [found.lightness - wanted.lightness, found.a - wanted.a, found.b - wanted.b]
-            }
+            Self::Spectrum(weights) => Some(weights),
+            Self::Ciede2000 | Self::Cie1976 => None,
+        }
+    }
+
+    /// Name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ciede2000 => "color",
+            Self::Cie1976 => "cie1976",
+            Self::Spectrum(SpectrumWeights::Even) => "spectrum",
+            Self::Spectrum(SpectrumWeights::Observer) => "weighted-spectrum",
+        }
+    }
+
+    /// Unit in which differences are told.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Ciede2000 => "CIEDE2000",
+            Self::Cie1976 => "CIE 1976",
+            Self::Spectrum(_) => "% of reflectance",
         }
     }
 }

@@ -6,12 +6,13 @@ use calibrate::PigmentId;
 use calibrate::library::{AmountKind, PigmentLibrary};
 use clap::Args;
 use serde_json::{Value, json};
-use spectra::color::Lab;
+use spectra::color::{Lab, RgbSpace};
 
 use crate::console::Console;
 use crate::failure::Result;
 use crate::input::{ViewingOptions, srgb};
 use crate::library_choice::{ChosenLibrary, chosen};
+use crate::shown_color::TableColors;
 
 /// List the pigments, each with its masstone and a tint in the reference white
 #[derive(Debug, Args)]
@@ -21,7 +22,7 @@ pub(super) struct List {
     library: Option<PathBuf>,
     #[command(flatten)]
     viewing: ViewingOptions,
-    /// Print JSON: a list of name, colour_index, identified, guessed, lab, hex, notes
+    /// Print JSON: a list of name, colour_index, identified, guessed, lab, hex, in_gamut, notes
     #[arg(long)]
     json: bool,
     /// Print the table as CSV
@@ -60,13 +61,15 @@ impl List {
             .map(|id| {
                 let pigment = &library[id];
                 let xyz = weights.xyz(&library.mix([(id, 1.0)])?.hiding(library.saunderson));
+                let rgb = srgb(xyz, weights.white());
                 Ok(json!({
                     "name": pigment.name,
                     "colour_index": pigment.color_index,
                     "identified": pigment.identified,
                     "guessed": pigment.guessed,
                     "lab": Lab::from_xyz(xyz, weights.white()).to_array(),
-                    "hex": srgb(xyz, weights.white()).to_hex(),
+                    "hex": rgb.to_hex(),
+                    "in_gamut": rgb.in_gamut(),
                     "notes": pigment.notes,
                 }))
             })
@@ -92,24 +95,25 @@ pub(crate) fn print_pigments(
     let column = if console.screen.colors { 21 } else { 14 };
     let heading = format!("{:column$}{}", "masstone", if tints { "tint 1:9" } else { "" });
     console.line(format!("{:width$}  {}", "pigment", heading.trim_end()))?;
+    let mut colors = TableColors::of(RgbSpace::Srgb);
     for (index, pigment) in library.ids().zip(&library.pigments) {
-        let color = |recipe: &[(PigmentId, f64)]| -> Result<String> {
+        let mut color = |recipe: &[(PigmentId, f64)]| -> Result<String> {
             let xyz = weights.xyz(&library.mix(recipe)?.hiding(library.saunderson));
             let rgb = srgb(xyz, weights.white());
-            Ok(format!("{}{}", console.patch(rgb), rgb.to_hex()))
+            Ok(colors.cell(rgb, console))
         };
         let mut line = format!("{:width$}  {}", pigment.name, color(&[(index, 1.0)])?);
         match white {
             Some(white) if tints && pigment.identified => {
-                line += &format!("       {}", color(&[(index, 1.0), (white, 9.0)])?);
+                line += &format!("      {}", color(&[(index, 1.0), (white, 9.0)])?);
             }
-            _ if tints => line += "       S unknown",
+            _ if tints => line += "      S unknown",
             _ => {}
         }
         if pigment.guessed {
             line += "  guessed";
         }
-        console.line(line)?;
+        console.line(line.trim_end())?;
     }
-    Ok(())
+    colors.note("", console)
 }

@@ -87,7 +87,8 @@ fn numbers(ui: &mut Ui, appearance: &Appearance, picked: &Picked) {
         ui.monospace(three(appearance.xyz.to_array()));
         ui.end_row();
         ui.weak("sRGB").on_hover_text(tr("As shown on the screen"));
-        let note = if appearance.srgb.in_gamut() { "" } else { tr("  out of gamut") };
+        let note =
+            if appearance.srgb.in_gamut() { "" } else { tr("  outside sRGB, shown clipped") };
         ui.monospace(format!("{}{note}", appearance.srgb.to_hex()));
         ui.end_row();
         let surface = match picked.surface {

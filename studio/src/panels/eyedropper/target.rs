@@ -72,7 +72,7 @@ impl TargetColor {
     #[must_use]
     pub fn match_target(&self, grid: Grid, conditions: &[ViewingCondition]) -> Target {
         let lab = conditions.iter().map(|condition| self.lab(grid, &condition.viewing)).collect();
-        Target { name: self.name.clone(), lab }
+        Target { name: self.name.clone(), lab, spectrum: None }
     }
 }
 

@@ -6,8 +6,10 @@ mod films;
 mod lab;
 mod lights;
 mod metamerism;
+mod rendering;
 mod rgb;
 mod spectrum;
+mod whiteness;
 
 use serde::Deserialize;
 use spectra::{Grid, Interpolation, Observer};

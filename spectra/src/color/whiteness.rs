@@ -1,0 +1,152 @@
+//! CIE whiteness and tint.
+
+use super::xyz::Xyz;
+use crate::hint::{Explain, Fault, Hint};
+use crate::illuminant::Illuminant;
+use crate::observer::Observer;
+
+/// Least whiteness to which the formula applies; the greatest is 5 Y - 280.
+const LEAST_WHITENESS: f64 = 40.0;
+/// Range of tints to which the formula applies.
+const TINTS: [f64; 2] = [-4.0, 2.0];
+
+/// Whiteness W and tint T of the CIE (CIE 15:2018, section 9.4).
+///
+/// ```
+/// use spectra::color::{Whiteness, Xyz};
+/// use spectra::{Illuminant, Observer};
+///
+/// let white = Xyz { x: 95.047, y: 100.0, z: 108.883 };
+/// let (light, observer) = (Illuminant::d65(), Observer::Cie1931Deg2);
+/// let paper = Xyz { x: 86.0, y: 90.0, z: 102.0 };
+/// let found = Whiteness::of(paper, white, &light, observer).unwrap();
+/// assert!(found.whiteness > 100.0 && found.tint.abs() < 2.0);
+/// let ochre = Xyz { x: 30.0, y: 28.0, z: 12.0 };
+/// assert!(Whiteness::of(ochre, white, &light, observer).is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Whiteness {
+    /// Whiteness W: 100 for the perfect diffuser, more for bluish whites.
+    pub whiteness: f64,
+    /// Tint T: above 0 greenish, below 0 reddish.
+    pub tint: f64,
+}
+
+impl Whiteness {
+    /// Whiteness of `xyz` under the white point `white` of `light` for `observer`.
+    ///
+    /// # Errors
+    /// [`WhitenessError`] for another light than D65 or C, an observer for which there is no formula, or a
+    /// colour that is not white in the sense of the CIE.
+    pub fn of(
+        xyz: Xyz,
+        white: Xyz,
+        light: &Illuminant,
+        observer: Observer,
+    ) -> Result<Self, WhitenessError> {
+        if !["D65", "C"].contains(&light.name()) {
+            return Err(WhitenessError::Light { name: light.name().to_owned() });
+        }
+        // The tint of the 10 degree observer has a smaller coefficient of x.
+        let of_x = match observer {
+            Observer::Cie1931Deg2 => 1000.0,
+            Observer::Cie1964Deg10 => 900.0,
+            Observer::Cie2015Deg2 | Observer::Cie2015Deg10 => {
+                return Err(WhitenessError::Observer { observer });
+            }
+        };
+        let (own, perfect) = (xyz.to_xyy(white), white.to_xyy(white));
+        let (x, y) = (perfect.x - own.x, perfect.y - own.y);
+        let whiteness = xyz.y + 800.0 * x + 1700.0 * y;
+        let tint = of_x * x - 650.0 * y;
+        let most = 5.0 * xyz.y - 280.0;
+        if !(whiteness > LEAST_WHITENESS && whiteness < most) {
+            return Err(WhitenessError::NotWhite { whiteness, most });
+        }
+        if !(tint > TINTS[0] && tint < TINTS[1]) {
+            return Err(WhitenessError::Tinted { tint });
+        }
+        Ok(Self { whiteness, tint })
+    }
+}
+
+/// A colour that has no CIE whiteness.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum WhitenessError {
+    /// The formula is made for daylight.
+    #[error("whiteness is defined under D65 and C, not under {name}")]
+    Light {
+        /// Name of the light.
+        name: String,
+    },
+    /// The formula is made for the observers of 1931 and 1964.
+    #[error("whiteness is defined for the observers 1931-2 and 1964-10, not for {observer}")]
+    Observer {
+        /// Observer that was asked for.
+        observer: Observer,
+    },
+    /// The colour is too dark, too yellow or too blue.
+    #[error(
+        "not white: W {whiteness:.1} is not between {LEAST_WHITENESS} and 5 Y - 280 = {most:.1}"
+    )]
+    NotWhite {
+        /// Result of the formula, which means nothing.
+        whiteness: f64,
+        /// Greatest whiteness at this luminance factor.
+        most: f64,
+    },
+    /// The colour is greenish or reddish.
+    #[error("not white: T {tint:.1} is not between {} and {}", TINTS[0], TINTS[1])]
+    Tinted {
+        /// Result of the formula.
+        tint: f64,
+    },
+}
+
+impl Explain for WhitenessError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Light { .. } => "choose [illuminant=D65]",
+            Self::Observer { .. } => "choose [observer=10]",
+            Self::NotWhite { .. } | Self::Tinted { .. } => return None,
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Light { .. } | Self::Observer { .. } => Fault::Setting,
+            Self::NotWhite { .. } | Self::Tinted { .. } => Fault::Input,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(xyz: [f64; 3], light: &str, observer: Observer) -> Result<Whiteness, WhitenessError> {
+        let white = Xyz { x: 95.047, y: 100.0, z: 108.883 };
+        Whiteness::of(xyz.into(), white, &Illuminant::named(light).unwrap(), observer)
+    }
+
+    #[test]
+    fn the_perfect_diffuser_has_whiteness_100_and_no_tint() {
+        for observer in [Observer::Cie1931Deg2, Observer::Cie1964Deg10] {
+            let found = of([95.047, 100.0, 108.883], "D65", observer).unwrap();
+            assert!((found.whiteness - 100.0).abs() < 1e-9 && found.tint.abs() < 1e-9, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_white_is_told_with_its_reason() {
+        let deg2 = Observer::Cie1931Deg2;
+        let says = |xyz, light, observer| of(xyz, light, observer).unwrap_err().to_string();
+        let dark = says([30.0, 31.0, 33.0], "D65", deg2);
+        assert!(dark.contains("not white: W ") && dark.contains("5 Y - 280 = -125.0"), "{dark}");
+        let green = says([80.0, 88.0, 94.0], "D65", deg2);
+        assert!(green.contains("not white: T "), "{green}");
+        assert!(says([90.0, 95.0, 100.0], "A", deg2).contains("not under A"));
+        let deg2015 = says([90.0, 95.0, 100.0], "D65", Observer::Cie2015Deg2);
+        assert!(deg2015.contains("2015-2"), "{deg2015}");
+    }
+}

@@ -1,0 +1,175 @@
+//! Recipes by spectrum: mixtures found again from their own reflectance, limits, and what is refused.
+
+use calibrate::PigmentId;
+use calibrate::library::PigmentLibrary;
+use calibrate::matching::{
+    ColorTarget, MatchError, MatchOptions, Metric, RecipeMatch, RequiredName, SpectrumWeights,
+    Thickness, ToleranceOrigin,
+};
+use spectra::hint::Explain;
+use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum, Viewing};
+
+use super::{conditions, oils};
+
+/// Options of a search by spectrum.
+fn by_spectrum(weights: SpectrumWeights) -> MatchOptions {
+    MatchOptions {
+        metric: Metric::Spectrum(weights),
+        conditions: conditions(&["D65", "A", "FL11"]),
+        count: 1,
+        ..MatchOptions::default()
+    }
+}
+
+/// The colour of a mixture as a measured target.
+fn measured(library: &PigmentLibrary, recipe: &[(&str, f64)]) -> ColorTarget {
+    let color = library.color(recipe.iter().copied(), &Viewing::default()).unwrap();
+    ColorTarget::measured("mixture", color.reflectance)
+}
+
+fn shares(library: &PigmentLibrary, found: &RecipeMatch) -> Vec<(String, f64)> {
+    let named = |(id, share): &(PigmentId, f64)| (library[*id].name.clone(), *share);
+    found.shares.iter().map(named).collect()
+}
+
+#[test]
+fn a_mixture_is_found_again_from_its_own_spectrum() {
+    let library = oils();
+    let recipes: [&[(&str, f64)]; 4] = [
+        &[("Cobalt Blue", 1.0)],
+        &[("Zinc White", 0.9), ("Viridian", 0.1)],
+        &[("Zinc White", 0.7), ("Cobalt Blue", 0.2), ("Viridian", 0.1)],
+        &[("Lead White", 0.6), ("Vermilion", 0.2), ("Chrome Yellow", 0.15), ("Bone Black", 0.05)],
+    ];
+    for recipe in recipes {
+        for weights in [SpectrumWeights::Even, SpectrumWeights::Observer] {
+            let target = measured(&library, recipe);
+            let options = MatchOptions { tolerance: Some(0.0), ..by_spectrum(weights) };
+            let found = library.recipes_for(&target, &options).unwrap();
+            let best = &found.recipes[0];
+            let rms = best.rms_percent.unwrap();
+            assert!(rms < 1e-3 && (rms - best.distance).abs() < 1e-9, "{recipe:?}: {best:?}");
+            assert!(best.delta_e.iter().all(|d| *d < 0.01), "{recipe:?}: {best:?}");
+            assert!(best.metamerism.iter().all(|m| m.unwrap() < 0.01), "{recipe:?}: {best:?}");
+            let told = shares(&library, best);
+            assert_eq!(told.len(), recipe.len(), "{told:?}");
+            for (name, share) in recipe {
+                let near = told.iter().find(|(known, _)| known == name);
+                assert!(near.is_some_and(|(_, s)| (s - share).abs() < 1e-3), "{told:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_film_is_found_again_with_its_thickness() {
+    let library = oils();
+    let film = calibrate::FilmOver { thickness: 0.7, ground: calibrate::Backing::Even(0.85) };
+    let recipe = [("Viridian", 0.6), ("Ultramarine", 0.4)];
+    let color = library.film_color(recipe, &film, &Viewing::default()).unwrap();
+    let target = ColorTarget::measured("glaze", color.reflectance);
+    let options = MatchOptions {
+        thickness: Some(Thickness::Between(0.1, 5.0)),
+        over: Some(calibrate::Backing::Even(0.85)),
+        tolerance: Some(0.0),
+        ..by_spectrum(SpectrumWeights::Even)
+    };
+    let found = library.recipes_for(&target, &options).unwrap();
+    let best = &found.recipes[0];
+    assert!(best.distance < 1e-3, "{best:?}");
+    assert!((best.thickness.unwrap() - 0.7).abs() < 1e-3, "{best:?}");
+    let told = shares(&library, best);
+    assert!(told[0].0 == "Viridian" && (told[0].1 - 0.6).abs() < 1e-3, "{told:?}");
+}
+
+#[test]
+fn limits_of_recipes_hold_by_spectrum_too() {
+    let library = oils();
+    let target = measured(&library, &[("Zinc White", 0.7), ("Cobalt Blue", 0.2), ("Minium", 0.1)]);
+    let of = |change: &dyn Fn(&mut MatchOptions)| {
+        let mut options = by_spectrum(SpectrumWeights::Even);
+        change(&mut options);
+        library.recipes_for(&target, &options).unwrap()
+    };
+    let free = of(&|_| {});
+    assert!(free.nearest() < 1e-3);
+    let two = of(&|options| options.at_most = 2);
+    assert!(two.recipes[0].shares.len() <= 2 && two.nearest() > free.nearest());
+    let without = of(&|options| options.without = vec!["Cobalt Blue".to_owned()]);
+    let names = shares(&library, &without.recipes[0]);
+    assert!(names.iter().all(|(name, _)| name != "Cobalt Blue") && without.nearest() > 1.0);
+    assert!(without.hint().is_some() && free.hint().is_none());
+    assert!(without.by_cie1976.is_empty(), "CIE 1976 is no measure of spectra");
+    let fixed = of(&|options| {
+        options.with = vec![RequiredName { name: "Viridian".to_owned(), share: Some(0.3) }];
+    });
+    let names = shares(&library, &fixed.recipes[0]);
+    let viridian = names.iter().find(|(name, _)| name == "Viridian").unwrap();
+    assert!((viridian.1 - 0.3).abs() < 1e-9, "{names:?}");
+    let whole = of(&|options| options.whole_parts = Some(10));
+    assert_eq!(whole.recipes[0].parts, Some(vec![7, 2, 1]), "{:?}", whole.recipes[0]);
+}
+
+#[test]
+fn the_difference_is_the_root_mean_square_over_the_shared_band() {
+    let library = oils();
+    let recipe = [("Zinc White", 0.9), ("Ultramarine", 0.1)];
+    let color = library.color(recipe, &Viewing::default()).unwrap();
+    // Measured from 450 to 620 nm only, and 2 % brighter at every wavelength.
+    let band = Grid::from_nm(450.0, 10.0, 18).unwrap();
+    let cut = color.reflectance.resampled(band, Interpolation::Linear, Extrapolation::Hold);
+    let values = cut.unwrap().values().iter().map(|value| value + 0.02).collect();
+    let target = Spectrum::<Reflectance>::new(band, values).unwrap();
+    let options = MatchOptions {
+        with: recipe
+            .map(|(name, share)| RequiredName { name: name.into(), share: Some(share) })
+            .into(),
+        at_most: 2,
+        ..by_spectrum(SpectrumWeights::Even)
+    };
+    let target = ColorTarget::measured("part", target);
+    let found = library.recipes_for(&target, &options).unwrap();
+    assert!((found.nearest() - 2.0).abs() < 1e-9, "{}", found.nearest());
+    assert_eq!(found.target.spectrum.as_ref().unwrap().band_nm(), [450.0, 620.0]);
+    assert!(found.remarks.iter().any(|r| r.text.contains("450 to 620 nm only")), "{found:?}");
+}
+
+#[test]
+fn a_colour_and_a_foreign_band_are_refused_with_a_way_out() {
+    let library = oils();
+    let options = by_spectrum(SpectrumWeights::Even);
+    for text in ["#4a7d8c", "52,-10.5,8"] {
+        let refused = library.recipes_for(&text.parse().unwrap(), &options).unwrap_err();
+        assert!(matches!(refused, MatchError::NoSpectrum { .. }), "{refused}");
+        assert!(refused.hint().unwrap().to_string().contains("match by colour"), "{refused}");
+    }
+    // Blue light only, where this copy of the library does not reach.
+    let blue = Grid::from_nm(400.0, 10.0, 5).unwrap();
+    let blue = Spectrum::<Reflectance>::new(blue, vec![0.3; 5]).unwrap();
+    let mut red = library;
+    for pigment in &mut red.pigments {
+        for curve in [&mut pigment.absorption, &mut pigment.scattering] {
+            curve.drain(..10);
+        }
+        pigment.absorption_sd.clear();
+        pigment.scattering_sd.clear();
+    }
+    red.grid = Grid::from_nm(500.0, 10.0, 21).unwrap();
+    let refused = red.recipes_for(&ColorTarget::measured("blue", blue), &options).unwrap_err();
+    let message = refused.to_string();
+    assert!(message.contains("400 to 440 nm") && message.contains("500 to 700 nm"), "{message}");
+}
+
+#[test]
+fn the_tolerance_is_in_percent_of_reflectance() {
+    let library = oils();
+    let options = by_spectrum(SpectrumWeights::Even);
+    let search = library.recipe_search(&options).unwrap();
+    assert_eq!((search.request.tolerance, search.tolerance_origin), (0.2, ToleranceOrigin::Usual));
+    let target = measured(&library, &[("Zinc White", 0.5), ("Minium", 0.3), ("Viridian", 0.2)]);
+    let plain = |tolerance: f64| {
+        let options = MatchOptions { tolerance: Some(tolerance), ..options.clone() };
+        library.recipes_for(&target, &options).unwrap().recipes[0].shares.len()
+    };
+    assert!(plain(0.0) == 3 && plain(20.0) == 1, "{} {}", plain(0.0), plain(20.0));
+}
