@@ -16,8 +16,6 @@ mod csv_rows;
 
 mod driver_noise;
 
-mod signals;
-
 mod input;
 
 mod library_choice;
@@ -77,7 +75,6 @@ use clap::FromArgMatches;
 use command::{Arguments, Task};
 use console::Console;
 pub use console::Screen;
-pub use signals::end_cleanly_on_signals;
 
 /// Runs the program with `arguments`, the first of which is the program's name, and returns its
 /// exit status. Results are written to `out`; remarks, warnings and errors to `err`.

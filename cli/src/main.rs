@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use impasto::Screen;
 
 fn main() -> ExitCode {
-    impasto::end_cleanly_on_signals();
+    spectra::file::end_cleanly_on_signals();
     let colors =
         stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     let mut out = std::io::BufWriter::new(stdout().lock());

@@ -7,6 +7,7 @@ use studio::arguments::{Start, Stop};
 use studio::window;
 
 fn main() -> ExitCode {
+    spectra::file::end_cleanly_on_signals();
     let started = Start::from_arguments(std::env::args_os());
     match started.and_then(|start| window::run(start).map_err(Stop::from)) {
         Ok(()) => ExitCode::SUCCESS,

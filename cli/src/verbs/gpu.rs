@@ -3,7 +3,7 @@
 use clap::Args;
 use render::gpu::{Adapter, BackendChoice, adapters, best};
 use render::paint::engine::max_canvas_cells;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::console::Console;
 use crate::driver_noise::without_noise;
@@ -21,6 +21,9 @@ pub(crate) struct Gpu {
     /// Print JSON: used, with_backend_gpu (null where there is none), why, adapters
     #[arg(long)]
     json: bool,
+    /// Print the adapters as CSV; `use` tells which one paints, and which one would by --backend gpu
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Gpu {
@@ -35,8 +38,21 @@ impl Gpu {
                 "used": name(used),
                 "with_backend_gpu": name(forced),
                 "why": why,
-                "adapters": found.iter().map(as_json).collect::<Vec<_>>(),
+                "adapters": found.iter().map(as_json).map(Value::Object).collect::<Vec<_>>(),
             }));
+        }
+        if self.csv {
+            let same = |a: Option<&Adapter>, b: &Adapter| a.is_some_and(|a| std::ptr::eq(a, b));
+            let rows = found.iter().map(|adapter| {
+                let mut row = json!({"use": match () {
+                    () if same(used, adapter) => "yes",
+                    () if same(forced, adapter) => "by --backend gpu",
+                    () => "no",
+                }});
+                row.as_object_mut().expect("an object").extend(as_json(adapter));
+                row
+            });
+            return console.csv_rows(&rows.collect::<Vec<_>>());
         }
         let name = used.map_or("the processor", |adapter| &adapter.name);
         console.line(format!("painting uses {name}: {why}"))?;
@@ -80,14 +96,15 @@ fn why(found: &[Adapter], used: Option<&Adapter>) -> String {
     }
 }
 
-fn as_json(adapter: &Adapter) -> Value {
-    json!({
-        "name": adapter.name,
-        "kind": adapter.kind.name(),
-        "backend": adapter.backend,
-        "driver": adapter.driver,
-        "buffer_bytes": adapter.limits.binding_bytes,
-        "largest_canvas_cells": max_canvas_cells(adapter),
-        "unfit": adapter.unfit,
-    })
+fn as_json(adapter: &Adapter) -> Map<String, Value> {
+    let fields = [
+        ("name", json!(adapter.name)),
+        ("kind", json!(adapter.kind.name())),
+        ("backend", json!(adapter.backend)),
+        ("driver", json!(adapter.driver)),
+        ("buffer_bytes", json!(adapter.limits.binding_bytes)),
+        ("largest_canvas_cells", json!(max_canvas_cells(adapter))),
+        ("unfit", json!(adapter.unfit)),
+    ];
+    fields.map(|(name, value)| (name.to_owned(), value)).into_iter().collect()
 }

@@ -59,10 +59,18 @@ pub(crate) struct Relight {
     /// Print JSON: canvas, cell_mm, layers with their pigments, lighting, wavelengths_nm
     #[arg(long)]
     json: bool,
+    /// Print the layers as CSV, the lowest first
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Relight {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let form = match (self.json, self.csv) {
+            (true, _) => Form::Json,
+            (_, true) => Form::Csv,
+            _ => Form::Text,
+        };
         let mut document = Document::open(&self.painting)?;
         document.lighting = self.lighting(&document.lighting)?;
         let Lighting { illuminant, observer, .. } = &document.lighting;
@@ -78,7 +86,7 @@ impl Relight {
             opacity(&mut painting, text)?;
         }
         exports.write(&mut painting, console)?;
-        print(&painting, self.json, console)
+        print(&painting, form, console)
     }
 
     /// Lighting of the painting with the given options in place of the `saved` values.
@@ -166,8 +174,16 @@ fn about(dry: &DryLayerState) -> String {
     about
 }
 
+/// Form of what is printed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Text,
+    Json,
+    Csv,
+}
+
 /// Prints size, layers and lighting of a painting.
-fn print(painting: &Painting, as_json: bool, console: &mut Console<'_>) -> Result<()> {
+fn print(painting: &Painting, form: Form, console: &mut Console<'_>) -> Result<()> {
     let bounds = painting.bounds();
     let names = |layer| -> Result<Vec<String>> {
         let slots = painting.slots(layer)?;
@@ -182,27 +198,27 @@ fn print(painting: &Painting, as_json: bool, console: &mut Console<'_>) -> Resul
     layers.push(("wet".to_owned(), None, names(LayerRef::Wet)?));
     let lighting = &painting.state().lighting;
     let nodes = &painting.light().quadrature.rule.nodes_nm;
-    if as_json {
-        let layers: Vec<_> = layers
-            .iter()
-            .map(|(layer, dry, pigments)| match dry {
-                None => json!({"layer": layer, "opacity": 1.0, "pigments": pigments}),
-                Some(dry) => json!({
-                    "layer": layer, "opacity": dry.opacity, "pigments": pigments,
-                    "id": dry.id.0, "name": dry.name, "visible": dry.visible,
-                }),
-            })
-            .collect();
+    let rows = layers.iter().map(|(layer, dry, pigments)| match dry {
+        None => json!({"layer": layer, "opacity": 1.0, "pigments": pigments}),
+        Some(dry) => json!({
+            "layer": layer, "opacity": dry.opacity, "pigments": pigments,
+            "id": dry.id.0, "name": dry.name, "visible": dry.visible,
+        }),
+    });
+    if form == Form::Csv {
+        return console.csv_rows(&rows.collect::<Vec<_>>());
+    }
+    if form == Form::Json {
         return console.json(&json!({
             "canvas": [bounds.width, bounds.height],
             "cell_mm": painting.cell_mm(),
-            "layers": layers,
+            "layers": rows.collect::<Vec<_>>(),
             "lighting": serde_json::to_value(lighting).expect("a lighting serializes to JSON"),
             "wavelengths_nm": nodes,
         }));
     }
     let (width, height) = (bounds.width, bounds.height);
-    console.line(format!("{width} x {height} cells of {} mm", painting.cell_mm()))?;
+    console.line(format!("{width} x {height} cells of {:.3} mm", painting.cell_mm()))?;
     for (layer, dry, pigments) in &layers {
         let about = dry.map_or_else(String::new, about);
         console.line(format!("{layer:>7}: {}{about}", pigments.join(", ")))?;

@@ -58,6 +58,9 @@ pub(crate) struct Report {
     /// Print JSON: page, figures (name, title, svg, png, csv), samples, delta_e, left_out, absent
     #[arg(long)]
     json: bool,
+    /// Print the figures with their files as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Report {
@@ -184,17 +187,20 @@ impl Report {
     ) -> Result<()> {
         let path = |inside: &str| self.output.join(inside).display().to_string();
         let Subject { comparison, validation, .. } = subject;
+        let figures = report.figures().map(|figure| {
+            let file = |ending: &str| path(&format!("figures/{}.{ending}", figure.name));
+            json!({
+                "name": figure.name,
+                "title": figure.title,
+                "svg": file("svg"),
+                "png": file("png"),
+                "csv": file("csv"),
+            })
+        });
+        if self.csv {
+            return console.csv_rows(&figures.collect::<Vec<Value>>());
+        }
         if self.json {
-            let figures = report.figures().map(|figure| {
-                let file = |ending: &str| path(&format!("figures/{}.{ending}", figure.name));
-                json!({
-                    "name": figure.name,
-                    "title": figure.title,
-                    "svg": file("svg"),
-                    "png": file("png"),
-                    "csv": file("csv"),
-                })
-            });
             let absent = |c: &Comparison| -> Vec<Value> {
                 let samples = c.absent.iter();
                 samples.map(|(s, lacks)| json!({"sample": s, "pigments": lacks})).collect()

@@ -15,11 +15,14 @@ use unsupported as replace;
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 use unsupported as temporary;
 
+mod signals;
+
 mod input;
 
 mod whole;
 
 pub use input::{STANDARD_INPUT, is_standard_input, is_there};
 pub use replace::sync_folder;
+pub use signals::end_cleanly_on_signals;
 pub use temporary::abandon_writes;
 pub use whole::{FileAction, FileError, check_writable, read, write_whole};

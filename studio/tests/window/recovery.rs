@@ -101,3 +101,21 @@ fn a_kill_within_a_stroke_loses_only_the_time_since_the_last_autosave() {
     // Quitting would ask about the unsaved painting.
     program.kill();
 }
+
+#[test]
+fn signals_that_end_the_program_are_handled() {
+    use std::os::unix::process::ExitStatusExt;
+
+    let Some(screen) = crate::screen(1280, 800) else { return };
+    let folder = tempfile::Builder::new().prefix("window").tempdir().unwrap();
+    let mut program = Program::start(&screen, &folder.path().join("home"), "1280x800", &[]);
+    let status = std::fs::read_to_string(format!("/proc/{}/status", program.child.id())).unwrap();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+    let caught = u64::from_str_radix(caught.trim(), 16).unwrap();
+    for signal in [1, 2, 15] {
+        assert!(caught & (1 << (signal - 1)) != 0, "signal {signal} ends writes half done");
+    }
+    let sent = std::process::Command::new("kill").arg(program.child.id().to_string()).status();
+    assert!(sent.unwrap().success());
+    assert_eq!(program.child.wait().unwrap().signal(), Some(15), "shells see the signal");
+}

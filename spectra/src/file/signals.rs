@@ -12,7 +12,7 @@ pub fn end_cleanly_on_signals() {
     let Ok(mut signals) = signal_hook::iterator::Signals::new(wanted) else { return };
     std::thread::spawn(move || {
         let Some(signal) = signals.forever().next() else { return };
-        spectra::file::abandon_writes();
+        super::abandon_writes();
         let _ = signal_hook::low_level::emulate_default_handler(signal);
         std::process::exit(128 + signal);
     });
