@@ -58,11 +58,18 @@ pub fn html(head: &Head, sections: &[Section]) -> String {
     out += &contents(sections);
     let mut number = 0;
     for (index, section) in sections.iter().enumerate() {
-        out += &format!("<section id=\"s{}\">\n<h2>{}</h2>\n", index + 1, escaped(&section.title));
+        // Heading and first figure are on one printed page.
+        let title = escaped(&section.title);
+        out +=
+            &format!("<section id=\"s{}\">\n<div class=\"head\">\n<h2>{title}</h2>\n", index + 1);
         for paragraph in &section.paragraphs {
             out += &format!("<p>{}</p>\n", escaped(paragraph));
         }
-        for part in &section.parts {
+        for (place, part) in section.parts.iter().enumerate() {
+            let figure = matches!(part, Part::Figure(_));
+            if place == 0 && !figure {
+                out += "</div>\n";
+            }
             match part {
                 Part::Figure(figure) => {
                     number += 1;
@@ -70,8 +77,11 @@ pub fn html(head: &Head, sections: &[Section]) -> String {
                 }
                 Part::Table(title, table) => out += &table_html(title, table),
             }
+            if place == 0 && figure {
+                out += "</div>\n";
+            }
         }
-        out += "</section>\n";
+        out += if section.parts.is_empty() { "</div>\n</section>\n" } else { "</section>\n" };
     }
     out += "</main>\n</body>\n</html>\n";
     out
@@ -242,12 +252,12 @@ td:first-child,th:first-child{position:sticky;left:0;background:var(--paper)}
 @page{margin:14mm}
 nav{display:none}
 main{margin:0;padding:0;max-width:none}
-figure,tr,li{break-inside:avoid}
+.head,figure,tr,li{break-inside:avoid}
 h2,h2~p,caption,thead,summary{break-after:avoid}
 p{orphans:3;widows:3}
 .made{display:none}
 .drawing{overflow:visible}
-.drawing svg{max-height:205mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+.drawing svg{max-height:180mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 body{font-size:10pt}
 table{font-size:8pt}
 th,td{padding:1px 9px 1px 0}
