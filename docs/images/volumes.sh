@@ -56,7 +56,7 @@ pour seed-volumes shape:still-life --pour 0.42,0.55,110 --pour 0.66,0.66,60 --sh
 pour seed-result shape:still-life --pour 0.42,0.55,110 --pour 0.66,0.66,60
 
 # The five presets.
-oils="measurements/van-gogh-oils.pigments.json"
+oils=measurements/van-gogh-oils.pigments.json
 for preset in sketch washed tinted bleed; do
     pour "preset-$preset" shape:still-life --preset "$preset" --pour 0.42,0.6,160
 done

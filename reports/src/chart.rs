@@ -15,13 +15,16 @@ use plotters::prelude::{
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, FontFamily, IntoFont};
 
+use crate::lettering::{estimated_width, fitted};
 use crate::names::{Placed, place_labels};
-use crate::panel::{AxisLabels, Chart, Frame, KeySymbol, Mark, Panel, Point};
-use crate::style::{CURVE, Color, FAINT, FONTS, GRID, HAIR, INK, PAPER, SMALL_TEXT, TEXT};
-use crate::svg::{Anchor, estimated_width, opening, shortened};
+use crate::panel::{AxisLabels, Chart, Frame, KeySymbol, Mark, Panel, Point, SUBTITLE};
+use crate::style::{BAND, CURVE, Color, FAINT, FONTS, GRID, HAIR, INK, PAPER, SMALL_TEXT, TEXT};
+use crate::svg::{Anchor, opening};
 
 /// Units of plotters in one px of the figure.
 const FINE: f64 = 10.0;
+/// Height for the title of a panel, in px.
+const TITLE: f64 = 18.0;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Axes<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
@@ -182,8 +185,9 @@ impl Drawing<'_, '_> {
 
     /// Draws title and key on the left, note and patches on the right, above the frame.
     fn heading(&self) {
-        let Panel { frame, title, note, patches, key, .. } = self.panel;
-        let middle = frame.y - 9.0;
+        let Panel { frame, title, subtitle, note, patches, key, .. } = self.panel;
+        let subtitle = if subtitle.is_empty() { 0.0 } else { self.subtitle() };
+        let middle = frame.y - 9.0 - subtitle;
         let (side, mut right) = (11.0, frame.x + frame.width);
         for patch in patches.iter().rev() {
             let corners = [(right - side, middle - side / 2.0), (right, middle + side / 2.0)];
@@ -198,15 +202,32 @@ impl Drawing<'_, '_> {
         }
         let mut x = frame.x;
         if !title.is_empty() {
-            let title = shortened(title, SMALL_TEXT, right - x - 2.0);
-            write(self.area, (x, middle), SMALL_TEXT, Anchor::Start, INK, &title);
-            x += estimated_width(&title, SMALL_TEXT) + 18.0;
+            let space = (right - x - 2.0, TITLE);
+            x += 18.0 + self.lines((x, middle), space, SMALL_TEXT, INK, title);
         }
         for (symbol, color, name) in key {
             self.key_symbol(*symbol, *color, (x, middle));
             write(self.area, (x + 24.0, middle), SMALL_TEXT, Anchor::Start, INK, name);
             x += 24.0 + estimated_width(name, SMALL_TEXT) + 18.0;
         }
+    }
+
+    /// Writes the subtitle and returns the height that it takes, in px.
+    fn subtitle(&self) -> f64 {
+        let Panel { frame, subtitle, .. } = self.panel;
+        let at = (frame.x, frame.y - 4.0 - SUBTITLE / 2.0);
+        self.lines(at, (frame.width, SUBTITLE), SMALL_TEXT - 1.0, FAINT, subtitle);
+        SUBTITLE
+    }
+
+    /// Writes a text in the lines that `space` allows, around the height of `at`. Returns their width
+    /// in px.
+    fn lines(&self, at: Point, space: (f64, f64), size: f64, color: Color, text: &str) -> f64 {
+        let text = fitted(text, size, space);
+        for (line, below) in text.lines.iter().zip(text.offsets()) {
+            write(self.area, (at.0, at.1 + below), text.size, Anchor::Start, color, line);
+        }
+        text.width()
     }
 
     fn key_symbol(&self, symbol: KeySymbol, color: Color, at: Point) {
@@ -226,6 +247,15 @@ impl Drawing<'_, '_> {
                 for dx in [2.0, 9.0, 16.0] {
                     let dot = Circle::new(point(dx, 0.0), fine(1.8), rgb(color).filled());
                     infallible(self.area.draw(&dot));
+                }
+            }
+            KeySymbol::Bands(count) => {
+                // No rectangle, so that a dark page exchanges its colour with that of the bands.
+                let style = rgb(color).mix(BAND).filled();
+                let corners = [(4.0, -5.0), (16.0, -5.0), (16.0, 5.0), (4.0, 5.0)];
+                let corners = corners.map(|(dx, dy)| point(dx, dy));
+                for _ in 0..count {
+                    infallible(self.area.draw(&Polygon::new(corners, style)));
                 }
             }
             KeySymbol::Patch => {

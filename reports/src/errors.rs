@@ -90,12 +90,12 @@ fn histogram(subject: &Subject<'_>) -> Figure {
 fn table(subject: &Subject<'_>) -> Table {
     let mut table = Table::new([
         Column::text("Sample"),
+        Column::text("Recipe"),
         Column::text("Measured"),
         Column::text("Fitted"),
         Column::quantity("Fitted", "CIEDE2000", 2),
         Column::quantity("Left out", "CIEDE2000", 2),
         Column::quantity("Residual", "rms of reflectance", 4),
-        Column::text("Recipe"),
         Column::text("Remarks"),
     ]);
     let left_out = |sample: &str| -> Option<f64> {
@@ -114,12 +114,12 @@ fn table(subject: &Subject<'_>) -> Table {
         remarks.extend(needed(&film.sample).then_some("cannot be left out"));
         table.push([
             Cell::from(subject.sample(film)),
+            subject.recipe(&film.recipe).into(),
             subject.color(&film.measured).into(),
             subject.color(&film.predicted).into(),
             film.delta_e.into(),
             left_out(&film.sample).into(),
             rms.into(),
-            subject.recipe(&film.recipe).into(),
             remarks.join("; ").into(),
         ]);
     }

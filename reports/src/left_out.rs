@@ -32,7 +32,13 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let section = if validation.needed.is_empty() {
         section
     } else {
-        let needed = validation.needed.join(", ");
+        let films = &comparison.films;
+        let needed = validation.needed.iter().map(|sample| {
+            let film = films.iter().find(|film| film.sample == *sample);
+            let recipe = film.map(|film| format!(" ({})", subject.recipe(&film.recipe)));
+            format!("{sample}{}", recipe.unwrap_or_default())
+        });
+        let needed = needed.collect::<Vec<_>>().join(", ");
         section.with_paragraph(format!(
             "Not left out, since a pigment would not be identified without them: {needed}."
         ))

@@ -57,6 +57,8 @@
 
 pub mod style;
 
+pub mod lettering;
+
 pub mod svg;
 
 pub mod axis;

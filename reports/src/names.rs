@@ -1,7 +1,8 @@
 //! Placement of labels next to points without overlap.
 
+use crate::lettering::estimated_width;
 use crate::panel::Frame;
-use crate::svg::{Anchor, estimated_width};
+use crate::svg::Anchor;
 
 /// A label with its position in px.
 #[derive(Debug, Clone, Copy, PartialEq)]

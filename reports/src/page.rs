@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::figure::Figure;
-use crate::style::{Color, RESERVED};
+use crate::style::{Color, RESERVED, SERIES};
 use crate::subject::{Part, Section};
 use crate::svg::escaped;
 use crate::table::{Cell, Column, Table};
@@ -16,7 +16,18 @@ pub struct Head {
     /// Name and value of each fact.
     pub facts: Vec<(String, String)>,
     /// Warnings that a reader should know before trusting the figures.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
+    /// The command line that made the report.
+    pub command: String,
+}
+
+/// A warning above the sections.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// One line of text.
+    pub text: String,
+    /// Name and recipe of each sample that the text names.
+    pub recipes: Vec<(String, String)>,
 }
 
 /// Renders the page. Its links to `figures/NAME.svg`, `.png` and `.csv` are relative.
@@ -30,7 +41,6 @@ pub fn html(head: &Head, sections: &[Section]) -> String {
          <link rel=\"icon\" href=\"data:,\">\n\
          <title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n"
     );
-    out += &contents(sections);
     out += &format!("<main>\n<header>\n<h1>{title}</h1>\n<dl>\n");
     for (name, fact) in &head.facts {
         out += &format!("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(fact));
@@ -39,18 +49,27 @@ pub fn html(head: &Head, sections: &[Section]) -> String {
     if !head.warnings.is_empty() {
         out += "<details open class=\"warnings\"><summary>Not identified by the data, or inconsistent with it</summary>\n<ul>\n";
         for warning in &head.warnings {
-            out += &format!("<li>{}</li>\n", escaped(warning));
+            out += &format!("<li>{}{}</li>\n", escaped(&warning.text), recipes(&warning.recipes));
         }
         out += "</ul>\n</details>\n";
     }
+    out += &command_html(&head.command);
     out += "</header>\n";
+    out += &contents(sections);
     let mut number = 0;
     for (index, section) in sections.iter().enumerate() {
-        out += &format!("<section id=\"s{}\">\n<h2>{}</h2>\n", index + 1, escaped(&section.title));
+        // Heading and first figure are on one printed page.
+        let title = escaped(&section.title);
+        out +=
+            &format!("<section id=\"s{}\">\n<div class=\"head\">\n<h2>{title}</h2>\n", index + 1);
         for paragraph in &section.paragraphs {
             out += &format!("<p>{}</p>\n", escaped(paragraph));
         }
-        for part in &section.parts {
+        for (place, part) in section.parts.iter().enumerate() {
+            let figure = matches!(part, Part::Figure(_));
+            if place == 0 && !figure {
+                out += "</div>\n";
+            }
             match part {
                 Part::Figure(figure) => {
                     number += 1;
@@ -58,11 +77,29 @@ pub fn html(head: &Head, sections: &[Section]) -> String {
                 }
                 Part::Table(title, table) => out += &table_html(title, table),
             }
+            if place == 0 && figure {
+                out += "</div>\n";
+            }
         }
-        out += "</section>\n";
+        out += if section.parts.is_empty() { "</div>\n</section>\n" } else { "</section>\n" };
     }
     out += "</main>\n</body>\n</html>\n";
     out
+}
+
+/// The recipes of samples, on a line of their own.
+fn recipes(samples: &[(String, String)]) -> String {
+    if samples.is_empty() {
+        return String::new();
+    }
+    let all = samples.iter().map(|(name, recipe)| format!("{name}: {recipe}"));
+    format!(" <small>{}</small>", escaped(&all.collect::<Vec<_>>().join("; ")))
+}
+
+/// A command line, folded away.
+fn command_html(command: &str) -> String {
+    let command = escaped(command);
+    format!("<details class=\"made\"><summary>Command</summary><code>{command}</code></details>\n")
 }
 
 fn contents(sections: &[Section]) -> String {
@@ -82,19 +119,23 @@ fn contents(sections: &[Section]) -> String {
 
 fn figure_html(figure: &Figure, number: usize) -> String {
     let Figure { name, title, caption, command, svg, .. } = figure;
-    let [title, caption, command] = [title, caption, command].map(|text| escaped(text));
+    let [title, caption] = [title, caption].map(|text| escaped(text));
     let files = ["svg", "png", "csv"]
         .map(|ending| format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase()));
     format!(
-        "<figure id=\"{name}\">\n{svg}<figcaption><b>Figure {number}. {title}.</b> {caption}\n\
-         <span class=\"made\">{} &middot; <code>{command}</code></span></figcaption>\n</figure>\n",
-        files.join(" ")
+        "<figure id=\"{name}\">\n<div class=\"drawing\" tabindex=\"0\">\n{svg}</div>\n\
+         <figcaption><b>Figure {number}. {title}.</b> {caption}\n\
+         <div class=\"made\">{}</div>\n{}</figcaption>\n</figure>\n",
+        files.join(" "),
+        command_html(command)
     )
 }
 
 fn table_html(title: &str, table: &Table) -> String {
-    let mut out =
-        format!("<div class=\"table\"><table>\n<caption>{}</caption>\n<thead><tr>", escaped(title));
+    let mut out = format!(
+        "<div class=\"table\" tabindex=\"0\"><table>\n<caption>{}</caption>\n<thead><tr>",
+        escaped(title)
+    );
     let class = |column: &Column| if column.unit.is_some() { " class=\"n\"" } else { "" };
     for column in &table.columns {
         // The unit `1` of a ratio is not written.
@@ -136,7 +177,12 @@ fn style(sections: &[Section]) -> String {
         dark +=
             &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
     }
-    for color in colors.into_iter().filter(|c| RESERVED.iter().all(|(r, _)| r != c)) {
+    for color in SERIES {
+        let (from, to) = (color.hex(), color.for_dark_screen().hex());
+        dark +=
+            &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
+    }
+    for color in colors.into_iter().filter(|color| !color.is_reserved()) {
         let (from, to) = (color.hex(), color.for_dark_screen().hex());
         dark += &format!(
             "svg :not(rect)[fill=\"{from}\"]{{fill:{to}}}svg :not(rect)[stroke=\"{from}\"]{{stroke:{to}}}\n"
@@ -146,7 +192,8 @@ fn style(sections: &[Section]) -> String {
     format!(
         ":root{{--ink:{};--faint:{};--grid:{};--paper:{};--link:#0057A0}}\n{STYLE}\
          @media screen and (prefers-color-scheme:dark){{\n\
-         :root{{--ink:{};--faint:{};--grid:{};--paper:{};--link:#7FB8F0}}\n{dark}}}\n",
+         :root{{--ink:{};--faint:{};--grid:{};--paper:{};--link:#7FB8F0}}\n\
+         svg text{{stroke:var(--paper)}}\n{dark}}}\n",
         ink.0, faint.0, grid.0, paper.0, ink.1, faint.1, grid.1, paper.1
     )
 }
@@ -162,7 +209,7 @@ nav>ol>li{margin:0 0 12px;font-weight:600}
 nav ol ol{font-weight:400;padding:4px 0 0 8px}
 nav li li{margin:4px 0}
 nav a{text-decoration:none}
-main{max-width:1040px;margin-left:250px;padding:20px 28px 60px}
+main{max-width:1040px;margin-left:250px;padding:20px 28px 60px;overflow-wrap:break-word}
 h1{font-size:26px;line-height:1.2;margin:0 0 12px}
 h2{font-size:20px;margin:36px 0 8px;padding-top:12px;border-top:1px solid var(--grid)}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 16px;margin:0 0 16px}
@@ -171,10 +218,13 @@ dd{margin:0;overflow-wrap:anywhere}
 .warnings{border-left:3px solid var(--faint);padding:2px 14px}
 summary{font-weight:600}
 .warnings ul{margin:6px 0;padding-left:18px}
+.warnings small{display:block;color:var(--faint)}
 figure{margin:18px 0 28px}
-figure svg{display:block;max-width:100%;height:auto}
+.drawing{overflow-x:auto}
+.drawing svg{display:block;max-width:100%;height:auto}
 figcaption{max-width:960px;font-size:14px}
-.made{display:block;color:var(--faint);font-size:12px}
+.made{color:var(--faint);font-size:12px}
+.made summary{font-weight:400}
 .made a{margin-right:4px}
 code{font:12px/1.4 ui-monospace,Hack,monospace;overflow-wrap:anywhere}
 .table{overflow-x:auto;margin:18px 0}
@@ -186,14 +236,28 @@ th small{display:block;font-weight:400;color:var(--faint)}
 .c{white-space:nowrap}
 .n{text-align:right;font-variant-numeric:tabular-nums}
 .patch{display:inline-block;width:28px;height:13px;vertical-align:-2px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
-@media (max-width:1100px){nav{position:static;width:auto;border:0}main{margin:0}}
+@media (max-width:1100px){nav{position:static;width:auto;border:0;padding:0;margin:18px 0}main{margin:0}}
+@media screen and (max-width:900px){
+main{padding:14px 16px 40px}
+nav ol ol{display:none}
+nav>ol{columns:2;column-gap:14px}
+nav>ol>li{margin:0 0 8px;break-inside:avoid}
+.drawing svg{max-width:none;width:820px}
+dl{display:block}
+dd{margin:0 0 6px}
+td,th{white-space:nowrap}
+td:first-child,th:first-child{position:sticky;left:0;background:var(--paper)}
+}
 @media print{
 @page{margin:14mm}
 nav{display:none}
 main{margin:0;padding:0;max-width:none}
-figure,tr{break-inside:avoid}
-h2{break-after:avoid}
-figure svg{max-height:195mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+.head,figure,tr,li{break-inside:avoid}
+h2,h2~p,caption,thead,summary{break-after:avoid}
+p{orphans:3;widows:3}
+.made{display:none}
+.drawing{overflow:visible}
+.drawing svg{max-height:180mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 body{font-size:10pt}
 table{font-size:8pt}
 th,td{padding:1px 9px 1px 0}

@@ -83,8 +83,10 @@ pub enum KeySymbol {
     Dashes,
     /// Three dots in a row.
     Dots,
-    /// A filled square.
+    /// A filled square, as a bar is.
     Patch,
+    /// A square of as many translucent bands ([`Mark::band`]) over each other.
+    Bands(u8),
 }
 
 /// Labels that are written along an axis.
@@ -118,6 +120,8 @@ pub struct Panel {
     pub frame: Frame,
     /// Title above the frame, on the left; empty for none.
     pub title: String,
+    /// Small text between title and frame; empty for none.
+    pub subtitle: String,
     /// Note above the frame, left of the patches; empty for none.
     pub note: String,
     /// Patches of colour above the frame, on its right.
@@ -141,6 +145,7 @@ impl Panel {
         Self {
             frame: Frame::default(),
             title: String::new(),
+            subtitle: String::new(),
             note: String::new(),
             patches: Vec::new(),
             x,
@@ -155,6 +160,13 @@ impl Panel {
     #[must_use]
     pub fn with_title(mut self, title: impl Into<String>) -> Self {
         self.title = title.into();
+        self
+    }
+
+    /// Sets the small text between title and frame.
+    #[must_use]
+    pub fn with_subtitle(mut self, subtitle: impl Into<String>) -> Self {
+        self.subtitle = subtitle.into();
         self
     }
 
@@ -198,6 +210,8 @@ const LEFT: f64 = 62.0;
 const RIGHT: f64 = 18.0;
 const TOP: f64 = 26.0;
 const BOTTOM: f64 = 44.0;
+/// Height for the subtitle of a panel in px: two lines.
+pub(crate) const SUBTITLE: f64 = 23.0;
 
 impl Chart {
     /// A chart with one panel, whose frame is `height` px high.
@@ -240,7 +254,9 @@ impl Chart {
     #[must_use]
     pub fn small_multiples(panels: Vec<Panel>, columns: usize, height: f64) -> Self {
         let names = panels.first().map(|panel| (panel.x.name.clone(), panel.y.name.clone()));
-        let (gap, title) = (10.0, 18.0);
+        let subtitled = panels.iter().any(|panel| !panel.subtitle.is_empty());
+        let subtitle = if subtitled { SUBTITLE } else { 0.0 };
+        let (gap, title, top) = (10.0, 18.0 + subtitle, TOP + subtitle);
         let columns = columns.clamp(1, panels.len().max(1));
         let free_width = f64::from(WIDTH) - LEFT - RIGHT - gap * (columns - 1) as f64;
         let width = free_width / columns as f64;
@@ -249,7 +265,7 @@ impl Chart {
             let (row, column) = (index / columns, index % columns);
             panel.frame = Frame {
                 x: LEFT + column as f64 * (width + gap),
-                y: TOP + row as f64 * (height + gap + title),
+                y: top + row as f64 * (height + gap + title),
                 width,
                 height,
             };
@@ -259,7 +275,7 @@ impl Chart {
         });
         let panels = placed.collect();
         let rows = count.div_ceil(columns) as f64;
-        let total = TOP + rows * (height + gap + title) - gap - title + BOTTOM;
+        let total = top + rows * (height + gap + title) - gap - title + BOTTOM;
         Self { width: WIDTH, height: total.ceil() as u32, panels, names }
     }
 }

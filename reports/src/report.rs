@@ -9,7 +9,7 @@ use calibrate::validation::Validation;
 use spectra::name_list;
 
 use crate::figure::Figure;
-use crate::page::{self, Head};
+use crate::page::{self, Head, Warning};
 use crate::picture::{PictureError, png};
 use crate::subject::{Section, Subject};
 
@@ -70,7 +70,6 @@ fn head(subject: &Subject<'_>) -> Head {
     for input in &library.inputs {
         facts.push(fact("Fitted to", format!("{} (SHA-256 {})", input.path, input.sha256)));
     }
-    facts.push(fact("Made by", subject.command.clone()));
     let mut warnings = Vec::new();
     for pigment in &library.pigments {
         // A fit repeats these notes among its warnings.
@@ -84,7 +83,12 @@ fn head(subject: &Subject<'_>) -> Head {
     warnings.extend(subject.comparison.iter().flat_map(absences));
     warnings.extend(library.evidence.iter().flat_map(|evidence| evidence.warnings.clone()));
     let title = if library.title.is_empty() { "A pigment library" } else { &library.title };
-    Head { title: title.to_owned(), facts, warnings }
+    let warnings = warnings.into_iter().map(|text: String| {
+        let recipes = subject.named_recipes(&text);
+        Warning { text, recipes }
+    });
+    let (title, command) = (title.to_owned(), subject.command.clone());
+    Head { title, facts, warnings: warnings.collect(), command }
 }
 
 fn errors(count: usize, items: &str, errors: &Summary) -> String {

@@ -70,8 +70,8 @@ fn figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
     let y = bounds(&mut percentiles.iter().flatten().copied());
     let spread = Panel::new(x, y, marks)
         .with_key(KeySymbol::Line, INK, "median")
-        .with_key(KeySymbol::Patch, SERIES[0].over_paper(0.44), "half of the samples")
-        .with_key(KeySymbol::Patch, SERIES[0].over_paper(0.25), "nine tenths of the samples");
+        .with_key(KeySymbol::Bands(2), SERIES[0], "half of the samples")
+        .with_key(KeySymbol::Bands(1), SERIES[0], "nine tenths of the samples");
 
     let words = Words {
         name: "residuals",

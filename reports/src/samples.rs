@@ -10,9 +10,9 @@ use crate::style::{CURVE, DOT};
 use crate::subject::{Section, Subject};
 use crate::table::{Column, Table};
 
-const COLUMNS: usize = 7;
+const COLUMNS: usize = 6;
 /// Rows of panels that fit on a printed page.
-const ROWS: usize = 12;
+const ROWS: usize = 10;
 
 pub(crate) fn section(subject: &Subject<'_>) -> Section {
     let section = Section::new("Measured and fitted reflectance");
@@ -63,11 +63,13 @@ fn figure(
         ];
         let panel = Panel::new(x.clone(), y.clone(), marks)
             .with_title(subject.sample(film))
+            .with_subtitle(subject.recipe(&film.recipe))
             .with_note(format!("{:.2}", film.delta_e))
             .with_patches(patches);
         panels.push(panel);
     }
     let (name, part) = match number {
+        Some((1, of)) => ("samples".to_owned(), format!(", part 1 of {of}")),
         Some((index, of)) => (format!("samples-{index}"), format!(", part {index} of {of}")),
         None => ("samples".to_owned(), String::new()),
     };
@@ -75,7 +77,7 @@ fn figure(
         name: &name,
         title: &format!("Measured and fitted reflectance of every sample{part}"),
         caption: &format!(
-            "Dots are measured, lines fitted; worst sample first. The number is the colour error in CIEDE2000 ({}); the patches show the measured and the fitted colour. A star marks a recipe with a pigment whose K and S are no measurement.",
+            "Dots are measured, lines fitted; worst sample first, its recipe below its name. The number is the colour error in CIEDE2000 ({}); the patches show the measured and the fitted colour. A star marks a recipe with a pigment whose K and S are no measurement.",
             subject.light()
         ),
         alt: &format!(

@@ -38,7 +38,7 @@ pub const RESERVED: [(Color, Color); 4] = [
 ];
 
 /// Colours for series that are not pigments: distinguishable with red-green colour blindness
-/// (after Okabe and Ito 2008) and dark enough for thin lines.
+/// (after Okabe and Ito 2008) and dark enough for thin lines. Reserved like [`INK`].
 pub const SERIES: [Color; 4] = [
     Color([0x00, 0x64, 0xA8]),
     Color([0xC4, 0x4E, 0x00]),
@@ -91,16 +91,6 @@ impl Color {
         .unreserved()
     }
 
-    /// The opaque colour that equals this one on [`PAPER`] with `opacity` (0 to 1).
-    #[must_use]
-    pub fn over_paper(self, opacity: f64) -> Self {
-        let mixed = |index: usize| {
-            let (own, paper) = (f64::from(self.0[index]), f64::from(PAPER.0[index]));
-            (opacity * own + (1.0 - opacity) * paper).round() as u8
-        };
-        Self([mixed(0), mixed(1), mixed(2)])
-    }
-
     fn lab(self) -> Lab {
         let white = RgbSpace::Srgb.white();
         let linear = Rgb(self.0.map(|v| f64::from(v) / 255.0)).linear();
@@ -119,11 +109,16 @@ impl Color {
         Self(RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).to_bytes())
     }
 
-    /// The colour itself, or its neighbour (blue less 1) if it is reserved.
+    /// The colour itself, or its neighbour in blue if it is reserved.
     fn unreserved(self) -> Self {
         let [r, g, b] = self.0;
-        let reserved = RESERVED.iter().any(|(color, _)| *color == self);
-        if reserved { Self([r, g, b - 1]) } else { self }
+        if self.is_reserved() { Self([r, g, b.checked_sub(1).unwrap_or(1)]) } else { self }
+    }
+
+    /// Whether no data has this colour, so that a page can replace it on a dark screen wherever it is.
+    #[must_use]
+    pub fn is_reserved(self) -> bool {
+        RESERVED.iter().any(|(color, _)| *color == self) || SERIES.contains(&self)
     }
 }
 
@@ -134,10 +129,11 @@ mod tests {
     #[test]
     fn no_data_has_a_reserved_color() {
         let white = RgbSpace::Srgb.white();
-        for (reserved, _) in RESERVED {
+        for reserved in RESERVED.map(|(color, _)| color).into_iter().chain(SERIES) {
             let linear = Rgb(reserved.0.map(|v| f64::from(v) / 255.0)).linear();
             let xyz: Xyz = RgbSpace::Srgb.xyz_from_linear().apply(linear.0).into();
-            assert_ne!(Color::from_xyz(xyz, white), reserved);
+            let data = Color::from_xyz(xyz, white);
+            assert!(!data.is_reserved() && reserved.is_reserved(), "{reserved:?}, {data:?}");
         }
         let own = SERIES.iter().all(|c| RESERVED.iter().all(|(reserved, _)| reserved != c));
         assert!(own, "no series has a reserved colour");
@@ -150,6 +146,6 @@ mod tests {
             let dark = color.for_line().for_dark_screen();
             assert!(dark.lab().lightness > 50.0, "{color:?} is {dark:?}");
         }
-        assert_eq!(SERIES[0].for_line(), SERIES[0]);
+        assert_eq!(Color([0, 100, 160]).for_line(), Color([0, 100, 160]));
     }
 }

@@ -190,6 +190,20 @@ impl Subject<'_> {
         recipe.iter().map(part).collect::<Vec<_>>().join(" + ")
     }
 
+    /// Name and recipe of each compared sample that `text` names, in the order of the text. A name
+    /// that is a number is passed over: texts have numbers of other things.
+    pub(crate) fn named_recipes(&self, text: &str) -> Vec<(String, String)> {
+        let mut named: Vec<(usize, String, String)> = Vec::new();
+        for film in self.comparison.iter().flat_map(|comparison| &comparison.films) {
+            let name = film.sample.as_str();
+            if let Some(at) = word_at(text, name).filter(|_| name.parse::<f64>().is_err()) {
+                named.push((at, name.to_owned(), self.recipe(&film.recipe)));
+            }
+        }
+        named.sort();
+        named.into_iter().map(|(_, name, recipe)| (name, recipe)).collect()
+    }
+
     /// The unit of K and S, as text.
     #[must_use]
     pub fn unit(&self) -> String {
@@ -205,6 +219,15 @@ impl Subject<'_> {
     pub fn light(&self) -> String {
         format!("{}, observer {}", self.viewing.illuminant.name(), self.viewing.observer)
     }
+}
+
+/// Where `text` has `word` as a whole word.
+fn word_at(text: &str, word: &str) -> Option<usize> {
+    let ends = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    let mut places = text.match_indices(word).map(|(at, _)| at);
+    places.find(|at| {
+        ends(text[..*at].chars().next_back()) && ends(text[at + word.len()..].chars().next())
+    })
 }
 
 /// `value` rounded to three significant digits.

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::style::{Color, FONTS};
+use crate::lettering::fitted;
+use crate::style::{Color, FONTS, PAPER};
 
 /// Escapes `text` for the content or an attribute of an XML element.
 #[must_use]
@@ -46,7 +47,7 @@ impl Canvas {
     pub fn new(width: u32, height: u32) -> Self {
         let mut canvas = Self { text: opening(width, height, 1) };
         let size = (f64::from(width), f64::from(height));
-        canvas.rectangle((0.0, 0.0), size, crate::style::PAPER);
+        canvas.rectangle((0.0, 0.0), size, PAPER);
         canvas
     }
 
@@ -82,8 +83,41 @@ impl Canvas {
         ));
     }
 
+    /// Draws a name vertically centred at `at`, in as many lines as `space` (width and height in px)
+    /// needs, of font size `size` at most.
+    pub fn name(
+        &mut self,
+        at: (f64, f64),
+        space: (f64, f64),
+        size: f64,
+        anchor: Anchor,
+        color: Color,
+        text: &str,
+    ) {
+        let text = fitted(text, size, space);
+        for (line, below) in text.lines.iter().zip(text.offsets()) {
+            self.text((at.0, at.1 + below), text.size, anchor, color, line);
+        }
+    }
+
+    /// Draws a name that reads upwards and starts at `at`, in the middle of its lines; `space` is its
+    /// length and its width in px.
+    pub fn name_upwards(
+        &mut self,
+        at: (f64, f64),
+        space: (f64, f64),
+        size: f64,
+        color: Color,
+        text: &str,
+    ) {
+        let text = fitted(text, size, space);
+        for (line, right) in text.lines.iter().zip(text.offsets()) {
+            self.text_upwards((at.0 + right, at.1), text.size, color, line);
+        }
+    }
+
     /// Draws a line of text that reads upwards and starts at `at`.
-    pub fn text_upwards(&mut self, at: (f64, f64), size: f64, color: Color, text: &str) {
+    fn text_upwards(&mut self, at: (f64, f64), size: f64, color: Color, text: &str) {
         let (x, y) = (at.0 + 0.35 * size, at.1);
         let (color, text) = (color.hex(), escaped(text));
         self.element(format_args!(
@@ -105,40 +139,16 @@ impl Canvas {
 }
 
 /// The opening tag of a document of `width` x `height` px, whose view box has `fine` units per
-/// px.
+/// px. A rim of paper around letters keeps them readable over colours.
 #[must_use]
 pub fn opening(width: u32, height: u32, fine: u32) -> String {
     let (w, h) = (width * fine, height * fine);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {w} {h}\" font-family=\"{FONTS}\">\n"
+         viewBox=\"0 0 {w} {h}\" font-family=\"{FONTS}\">\n\
+         <style>text{{paint-order:stroke;stroke:{};stroke-width:.2em;stroke-linejoin:round}}</style>\n",
+        PAPER.hex()
     )
-}
-
-/// Approximate width of `text` in px at font size `size`, in px, for a wide sans-serif font. It is
-/// an estimate, because the reader's font is not known.
-#[must_use]
-pub fn estimated_width(text: &str, size: f64) -> f64 {
-    let em = |c: char| match c {
-        'i' | 'j' | 'l' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 0.32,
-        'f' | 't' | 'r' | '(' | ')' | ' ' | '-' => 0.4,
-        'm' | 'w' | 'M' | 'W' | '%' => 0.9,
-        c if c.is_uppercase() => 0.7,
-        c if (c as u32) > 0x2e80 => 1.0,
-        _ => 0.62,
-    };
-    size * text.chars().map(em).sum::<f64>()
-}
-
-/// `text` cut to `width` px, with an ellipsis where something is missing.
-#[must_use]
-pub fn shortened(text: &str, size: f64, width: f64) -> String {
-    if estimated_width(text, size) <= width {
-        return text.to_owned();
-    }
-    let mut kept: String = text.to_owned();
-    while kept.pop().is_some() && estimated_width(&kept, size) > width - size {}
-    kept.trim_end().to_owned() + "\u{2026}"
 }
 
 #[cfg(test)]
@@ -152,13 +162,5 @@ mod tests {
         canvas.text((1.0, 1.0), 10.0, Anchor::Start, crate::style::INK, "</text><b>");
         let svg = canvas.into_svg();
         assert!(svg.contains("&lt;/text&gt;&lt;b&gt;</text>"), "{svg}");
-    }
-
-    #[test]
-    fn long_names_are_cut_to_their_width() {
-        assert_eq!(shortened("short", 10.0, 100.0), "short");
-        let cut = shortened("a very long name of a pigment", 10.0, 60.0);
-        assert!(cut.ends_with('\u{2026}') && cut.starts_with("a very"), "{cut}");
-        assert!(estimated_width(&cut, 10.0) <= 60.0, "{cut}");
     }
 }

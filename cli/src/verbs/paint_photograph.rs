@@ -26,7 +26,7 @@ use crate::progress::{Progress, Waiting};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Photographs")]
 pub(crate) struct PhotographOptions {
-    /// Paint this photograph (PNG or JPEG, read as sRGB)
+    /// Paint this photograph (PNG, JPEG, TIFF or WebP; without a colour profile read as sRGB)
     #[arg(long, value_name = "PHOTO")]
     from: Option<PathBuf>,
     /// Up to eight pigments of the library, separated by commas [default: those that come nearest

@@ -32,6 +32,24 @@ pub fn is_cut_off_jpeg(bytes: &[u8]) -> bool {
     true
 }
 
+/// Whether `bytes` are a JPEG file of four components: inks (CMYK or YCCK). Its frame header
+/// (ISO/IEC 10918-1, B.2.2) tells their number.
+#[must_use]
+pub fn is_of_inks(bytes: &[u8]) -> bool {
+    let mut at = START.len();
+    while bytes.starts_with(&START) {
+        let Some(head) = bytes.get(at..at + 10) else { return false };
+        let frame = matches!(head[1], 0xc0..=0xcf) && !matches!(head[1], 0xc4 | 0xc8 | 0xcc);
+        match head {
+            [0xff, 0xff, ..] => at += 1,
+            [0xff, _, _, _, .., components] if frame => return *components == 4,
+            [0xff, _, high, low, ..] => at += 2 + usize::from(u16::from_be_bytes([*high, *low])),
+            _ => return false,
+        }
+    }
+    false
+}
+
 /// Whether two bytes are a marker other than padding, stuffed data, a restart or the start.
 fn is_marker(first: u8, second: u8) -> bool {
     first == 0xff && !matches!(second, 0x00 | 0x01 | 0xd0..=0xd8 | 0xff)

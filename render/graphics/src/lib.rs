@@ -1,7 +1,7 @@
 //! Pictures, meshes and cameras, on the processor and on graphics devices.
 //!
 //! ```text
-//! photograph (PNG, JPEG) -> picture::Photograph -> Field of colours --+
+//! photograph (PNG, JPEG, TIFF, WebP) -> picture::Photograph -> Field of colours --+
 //! mesh (OBJ, PLY, glTF) + camera -> surface: what each pixel shows ---+-> image operations
 //!                                                                     |   (Rust and WGSL)
 //! export: PNG, OpenEXR, GIF, APNG, folders of frames <----------------+
@@ -43,6 +43,8 @@ pub mod blur;
 pub mod encoding;
 
 pub mod jpeg_end;
+
+pub mod color_profile;
 
 pub mod picture;
 

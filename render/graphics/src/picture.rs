@@ -1,16 +1,17 @@
-//! Photographs: PNG and JPEG files, resampled to a canvas in linear light.
+//! Photographs: PNG, JPEG, TIFF and WebP files, resampled to a canvas in linear light.
 
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{ColorType, DynamicImage, ImageDecoder, ImageReader, Limits};
+use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageReader, Limits};
 use rayon::prelude::*;
 use spectra::color::Rgb;
 use spectra::file::read;
 use spectra::hint::{Explain, Fault, Hint};
 
+use crate::color_profile::{ProfileError, to_srgb};
 use crate::field::Field;
-use crate::jpeg_end::is_cut_off_jpeg;
+use crate::jpeg_end::{is_cut_off_jpeg, is_of_inks};
 
 /// A picture in linear sRGB, white at 1, one colour per cell.
 pub type Picture = Field<[f32; 3]>;
@@ -28,8 +29,9 @@ pub struct Photograph {
 }
 
 impl Photograph {
-    /// Reads a PNG or JPEG file, grey or colour, with 8 or 16 bits per channel, taken as
-    /// sRGB. The orientation in its EXIF data is applied.
+    /// Reads a PNG, JPEG, TIFF or WebP file, grey or colour, with 8 or 16 bits per channel. Its
+    /// colours are converted by the ICC profile that it holds, without one taken as sRGB. The
+    /// orientation in its EXIF data is applied.
     ///
     /// # Errors
     /// [`PhotographError`] with the path.
@@ -42,7 +44,7 @@ impl Photograph {
         Self::from_bytes(&name, &bytes)
     }
 
-    /// Decodes the content of a PNG or JPEG file; `name` stands for the path in errors.
+    /// Decodes the content of a PNG, JPEG, TIFF or WebP file; `name` stands for the path in errors.
     ///
     /// # Errors
     /// [`PhotographError`].
@@ -65,11 +67,20 @@ impl Photograph {
         if u64::from(width) * u64::from(height) > MOST_PIXELS {
             return Err(PhotographError::TooLarge { name: name.to_owned(), width, height });
         }
+        let refused = |reason| PhotographError::Profile { name: name.to_owned(), reason };
+        let inks = [ExtendedColorType::Cmyk8, ExtendedColorType::Cmyk16];
+        if inks.contains(&decoder.original_color_type()) || is_of_inks(bytes) {
+            return Err(refused(ProfileError::Inks("CMYK".to_owned())));
+        }
         let orientation = decoder.orientation().map_err(rejected)?;
+        let profile = decoder.icc_profile().map_err(rejected)?;
         let mut image = DynamicImage::from_decoder(decoder).map_err(rejected)?;
         image.apply_orientation(orientation);
         if !matches!(sample_bytes(image.color()), 1 | 2) {
             image = image.into_rgba16().into();
+        }
+        if let Some(profile) = profile {
+            image = to_srgb(image, &profile).map_err(refused)?;
         }
         Ok(Self { image })
     }
@@ -234,8 +245,8 @@ pub enum PhotographError {
         /// Reason given by the system.
         error: std::io::Error,
     },
-    /// The file is not a PNG or JPEG picture, or is damaged.
-    #[error("{name}: not a PNG or JPEG picture that can be read: {reason}")]
+    /// The file is not a PNG, JPEG, TIFF or WebP picture, or is damaged.
+    #[error("{name}: not a PNG, JPEG, TIFF or WebP picture that can be read: {reason}")]
     NoPicture {
         /// Path of the file.
         name: String,
@@ -249,6 +260,14 @@ pub enum PhotographError {
         name: String,
         /// Length of the file.
         bytes: usize,
+    },
+    /// The colours of the picture cannot be converted to sRGB.
+    #[error("{name}: {reason}")]
+    Profile {
+        /// Path of the file.
+        name: String,
+        /// Which part cannot be converted.
+        reason: ProfileError,
     },
     /// The picture has more than [`MOST_PIXELS`] pixels.
     #[error("{name}: a photograph has {MOST_PIXELS} pixels at most, found `{width} x {height}`")]
@@ -266,10 +285,11 @@ impl Explain for PhotographError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
             Self::Unreadable { .. } => "check the path",
-            Self::NoPicture { .. } => "save it as PNG or JPEG",
+            Self::NoPicture { .. } => "save it as PNG, JPEG, TIFF or WebP",
             Self::CutOff { .. } => {
                 "copy or download the file again; the decoder would fill the missing part with grey"
             }
+            Self::Profile { .. } => "convert it to sRGB in an image editor",
             Self::TooLarge { .. } => "make it smaller; a canvas has fewer cells",
         }))
     }
@@ -289,7 +309,8 @@ mod tests {
     #[test]
     fn a_picture_that_is_cut_off_is_refused() {
         let picture = image::RgbImage::from_fn(90, 60, |x, y| image::Rgb([x as u8, y as u8, 200]));
-        for format in [image::ImageFormat::Jpeg, image::ImageFormat::Png] {
+        use image::ImageFormat::{Jpeg, Png, Tiff, WebP};
+        for format in [Jpeg, Png, Tiff, WebP] {
             let mut whole = Cursor::new(Vec::new());
             picture.write_to(&mut whole, format).unwrap();
             let whole = whole.into_inner();

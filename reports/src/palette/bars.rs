@@ -5,7 +5,7 @@ use calibrate::palette::Appearance;
 use super::patch::rimmed;
 use crate::axis::Axis;
 use crate::style::{FAINT, GRID, HAIR, INK, SMALL_TEXT, TEXT, WIDTH};
-use crate::svg::{Anchor, Canvas, shortened};
+use crate::svg::{Anchor, Canvas};
 
 /// Width for the names, in px.
 const NAME: f64 = 190.0;
@@ -44,8 +44,8 @@ pub(super) fn bars(axis: &Axis, bars: &[Bar]) -> Canvas {
     for (index, bar) in bars.iter().enumerate() {
         let y = HEAD + ROW * index as f64;
         let middle = y + ROW / 2.0;
-        let name = shortened(&bar.name, TEXT, NAME - 12.0);
-        canvas.text((NAME - 8.0, middle), TEXT, Anchor::End, INK, &name);
+        let space = (NAME - 12.0, ROW);
+        canvas.name((NAME - 8.0, middle), space, TEXT, Anchor::End, INK, &bar.name);
         let length = bar.value.map(|value| length_px * axis.place(value));
         if let Some(length) = length.filter(|length| *length > 0.0) {
             rimmed(&mut canvas, (NAME, y + 4.0), (length, ROW - 8.0), &bar.appearance);

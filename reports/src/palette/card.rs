@@ -8,7 +8,7 @@ use super::patch::{notched_below, patch, rim};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::Subject;
-use crate::svg::{Anchor, Canvas, shortened};
+use crate::svg::{Anchor, Canvas};
 use crate::table::{Column, Table};
 
 /// Thicknesses of the stripes, in the unit of [`thickness_unit`]; chosen by eye.
@@ -21,8 +21,10 @@ const CARD: (f64, f64) = (140.0, 84.0);
 const STRIPE: f64 = 20.0;
 /// Space between cards, in px.
 const GAP: f64 = 18.0;
-/// Height for the name above a card, in px.
-const HEAD: f64 = 22.0;
+/// Height of the name above a card, in px: two lines.
+const NAME: f64 = 28.0;
+/// Height above a card, in px.
+const HEAD: f64 = NAME + 6.0;
 /// Height for the thicknesses below a card, in px.
 const FOOT: f64 = 20.0;
 
@@ -66,8 +68,9 @@ fn cards(subject: &Subject<'_>, palette: &Palette<'_>, drawn: &[Drawdown]) -> Ca
     for (index, drawdown) in drawn.iter().enumerate() {
         let x = margin + (index % COLUMNS) as f64 * (CARD.0 + GAP);
         let y = (index / COLUMNS) as f64 * height + HEAD;
-        let name = shortened(&subject.label(drawdown.paint), TEXT, CARD.0);
-        canvas.text((x, y - 9.0), TEXT, Anchor::Start, INK, &name);
+        let (middle, space) = ((x, y - 2.0 - NAME / 2.0), (CARD.0, NAME));
+        let name = subject.label(drawdown.paint);
+        canvas.name(middle, space, TEXT, Anchor::Start, INK, &name);
         let half = CARD.1 / 2.0;
         rim(&mut canvas, (x, y), CARD);
         patch(&mut canvas, (x, y), (CARD.0, half), &white);

@@ -12,7 +12,7 @@ use super::patch::rimmed;
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
-use crate::svg::{Anchor, Canvas, shortened};
+use crate::svg::{Anchor, Canvas};
 use crate::table::{Cell, Column, Table};
 
 /// Width for the names, in px.
@@ -126,16 +126,16 @@ fn rows(mixture: &GradedMixture, ends: [&str; 2]) -> Canvas {
     let step_width = (f64::from(WIDTH) - NAME - MEAN) / mixture.steps.len() as f64;
     let mut canvas = Canvas::new(WIDTH, (HEAD + ROW * ways.len() as f64).ceil() as u32);
     let right = f64::from(WIDTH) - MEAN;
-    let name = shortened(ends[1], SMALL_TEXT, NAME - 10.0);
-    canvas.text((NAME - 8.0, 12.0), SMALL_TEXT, Anchor::End, INK, &name);
+    let space = (NAME - 10.0, HEAD - 4.0);
+    canvas.name((NAME - 8.0, HEAD / 2.0 - 2.0), space, SMALL_TEXT, Anchor::End, INK, ends[1]);
     canvas.text((right + 8.0, 12.0), SMALL_TEXT, Anchor::Start, INK, "mean");
     for (at, step) in mixture.steps.iter().enumerate() {
         let middle = NAME + (at as f64 + 0.5) * step_width;
         let share = format!("{} %", (1000.0 * step.share).round() / 10.0);
         canvas.text((middle, 12.0), SMALL_TEXT, Anchor::Middle, INK, &share);
         if let Some(sample) = &step.sample {
-            let sample = shortened(sample, SMALL_TEXT, step_width);
-            canvas.text((middle, 27.0), SMALL_TEXT, Anchor::Middle, FAINT, &sample);
+            let space = (step_width - 2.0, 16.0);
+            canvas.name((middle, 27.0), space, SMALL_TEXT, Anchor::Middle, FAINT, sample);
         }
     }
     for (line, way) in ways.into_iter().enumerate() {

@@ -10,7 +10,7 @@ use super::patch::{patch, rim};
 use crate::figure::{Drawing, Figure, Words};
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
-use crate::svg::{Anchor, Canvas, shortened};
+use crate::svg::{Anchor, Canvas};
 use crate::table::{Cell, Column, Table};
 
 /// Parts of white to one part of pigment in the tint next to the masstone.
@@ -90,16 +90,16 @@ fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColorShift]) -> 
             canvas.text((middle, 10.0), SMALL_TEXT, Anchor::Middle, INK, name);
             for (place, light) in lights.iter().enumerate() {
                 let x = x + (place as f64 + 0.5) * side;
-                let name = shortened(&light.name, SMALL_TEXT, side);
-                canvas.text((x, 28.0), SMALL_TEXT, Anchor::Middle, FAINT, &name);
+                let (space, name) = ((side, 24.0), &light.name);
+                canvas.name((x, 27.0), space, SMALL_TEXT, Anchor::Middle, FAINT, name);
             }
         }
     }
     for (index, (name, pair)) in names.iter().zip(shifts.chunks(2)).enumerate() {
         let x = (index / rows) as f64 * block + NAME;
         let y = HEAD + (index % rows) as f64 * ROW;
-        let name = shortened(name, TEXT, NAME - 12.0);
-        canvas.text((x - 8.0, y + 11.0), TEXT, Anchor::End, INK, &name);
+        let space = (NAME - 12.0, ROW - 8.0);
+        canvas.name((x - 8.0, y + 11.0), space, TEXT, Anchor::End, INK, name);
         for (which, shift) in pair.iter().enumerate() {
             let x = x + which as f64 * group;
             rim(&mut canvas, (x, y), (side * lights.len() as f64, 22.0));
@@ -172,9 +172,8 @@ fn pair_rows(lights: &[TestLight], pairs: &[Metamers]) -> Canvas {
     for (index, pair) in pairs.iter().enumerate() {
         let y = HEAD + index as f64 * ROW;
         for (line, name) in pair.names.iter().enumerate() {
-            let name = shortened(name, SMALL_TEXT, NAME - 14.0);
-            let at = (NAME - 10.0, y + 10.0 + 18.0 * line as f64);
-            canvas.text(at, SMALL_TEXT, Anchor::End, INK, &name);
+            let at = (NAME - 10.0, y + 7.0 + 25.0 * line as f64);
+            canvas.name(at, (NAME - 14.0, 25.0), SMALL_TEXT, Anchor::End, INK, name);
         }
         for (place, looks) in pair.colors.iter().enumerate() {
             let x = NAME + place as f64 * each;

@@ -7,9 +7,10 @@ use super::cells::{columns, row};
 use super::context::{NOTCH, films, palette, thinner};
 use super::patch::{patch, rim, rimmed};
 use crate::figure::{Drawing, Figure, Words};
+use crate::lettering::estimated_width;
 use crate::style::{FAINT, INK, SMALL_TEXT, TEXT, WIDTH};
 use crate::subject::{Section, Subject};
-use crate::svg::{Anchor, Canvas, estimated_width, shortened};
+use crate::svg::{Anchor, Canvas};
 use crate::table::{Column, Table};
 
 /// Width for the names, in px.
@@ -58,10 +59,10 @@ fn chart(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     let mut canvas = Canvas::new(WIDTH, (head + side + 8.0).ceil() as u32);
     rim(&mut canvas, (NAME, head), (side, side));
     for (i, name) in names.iter().enumerate() {
-        let name = shortened(name, TEXT, NAME - 12.0);
         let middle = (i as f64 + 0.5) * cell;
-        canvas.text((NAME - 8.0, head + middle), TEXT, Anchor::End, INK, &name);
-        canvas.text_upwards((NAME + middle, head - 6.0), TEXT, INK, &name);
+        let (beside, above) = ((NAME - 8.0, head + middle), (NAME + middle, head - 6.0));
+        canvas.name(beside, (NAME - 12.0, cell), TEXT, Anchor::End, INK, name);
+        canvas.name_upwards(above, (head - 8.0, cell), TEXT, INK, name);
         for j in 0..count {
             let at = (NAME + j as f64 * cell, head + i as f64 * cell);
             if i == j {
@@ -108,8 +109,8 @@ fn tints(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     for (index, ladder) in ladders.iter().enumerate() {
         let (x, y) = ((index / rows) as f64 * block + NAME, HEAD + (index % rows) as f64 * ROW);
         let name = subject.label(ladder.paint);
-        let shown = shortened(&name, TEXT, NAME - 12.0);
-        canvas.text((x - 8.0, y + ROW / 2.0), TEXT, Anchor::End, INK, &shown);
+        let space = (NAME - 12.0, ROW);
+        canvas.name((x - 8.0, y + ROW / 2.0), space, TEXT, Anchor::End, INK, &name);
         for (place, (parts, look)) in TINTS.iter().zip(&ladder.colors).enumerate() {
             let at = (x + place as f64 * step, y + 2.0);
             rimmed(&mut canvas, at, (step, ROW - 5.0), look);

@@ -6,6 +6,7 @@ mod choosing;
 mod made;
 mod painter;
 mod pictures;
+mod profiles;
 mod program;
 mod separation;
 mod strokes;

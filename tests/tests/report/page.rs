@@ -49,10 +49,40 @@ fn every_caption_has_the_command_that_made_it() {
     );
     let captions = page.matches("<figcaption>").count();
     assert!(captions >= 8, "{captions} captions");
-    assert_eq!(
-        page.matches(&format!("<code>{command}</code></span></figcaption>")).count(),
-        captions
+    let folded = format!(
+        "<details class=\"made\"><summary>Command</summary><code>{command}</code></details>\n"
     );
+    assert_eq!(page.matches(&format!("{folded}</figcaption>")).count(), captions);
+    assert_eq!(page.matches(&folded).count(), captions + 1, "the head has it too");
+}
+
+#[test]
+fn recipes_stand_beside_the_codes_of_samples() {
+    let page = page();
+    let warning = page.split("<li>").find(|item| item.contains("07B")).unwrap();
+    assert!(warning.contains("<small>07B: Zinc White (linseed) (S unknown)</small>"), "{warning}");
+    // In the small charts, a recipe has two lines under its sample.
+    let svg = std::fs::read_to_string(whole().path("out/figures/samples.svg")).unwrap();
+    let texts: Vec<&str> =
+        svg.split("<text ").skip(1).filter_map(|text| text.split(">\n").nth(1)).collect();
+    let at = texts.iter().position(|text| text.starts_with("07B*")).unwrap();
+    let before: Vec<&str> =
+        texts[at - 3..at].iter().filter_map(|text| text.lines().next()).collect();
+    assert_eq!(before, ["Zinc White (linseed) (S", "unknown)", "0.00"]);
+}
+
+#[test]
+fn legends_of_bands_change_with_the_bands_in_the_dark() {
+    let svg = std::fs::read_to_string(whole().path("out/figures/residuals.svg")).unwrap();
+    let color = reports::style::SERIES[0].hex();
+    let translucent = |line: &&str| line.starts_with("<polygon") && line.contains("\"0.25\"");
+    let areas: Vec<&str> = svg.lines().filter(translucent).collect();
+    // Two bands in the chart, and in the key one square for each and a second for the inner one.
+    assert_eq!(areas.len(), 5, "{areas:?}");
+    assert!(areas.iter().all(|area| area.contains(&color)), "{areas:?}");
+    let page = page();
+    let dark = page.split("prefers-color-scheme:dark").nth(1).unwrap();
+    assert!(dark.contains(&format!("svg [fill=\"{color}\"]{{fill:")), "also of bars and patches");
 }
 
 #[test]

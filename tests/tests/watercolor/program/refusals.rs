@@ -46,8 +46,8 @@ fn subjects_that_cannot_be_read() {
     for (subject, options, status, what, hint) in [
         (&none("none.png"), &[][..], 2, "none.png", "check the path"),
         (&none("none.obj"), &[], 2, "none.obj", "check the path"),
-        (&text, &[], 1, "text.png: not a PNG or JPEG picture", "save it as PNG or JPEG"),
-        (&stl, &[], 1, "model.stl: not a PNG or JPEG picture", "save it as PNG or JPEG"),
+        (&text, &[], 1, "text.png: not a PNG, JPEG, TIFF or WebP picture", "save it as PNG"),
+        (&stl, &[], 1, "model.stl: not a PNG, JPEG, TIFF or WebP picture", "save it as PNG"),
         (&stl, &["--turntable", "4"], 2, "model.stl is not a mesh", "names of meshes end in .obj"),
         (&broken, &[], 1, "broken.obj: line 4: no position `4`, there are 3", "correct that place"),
         (
