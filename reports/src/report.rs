@@ -60,10 +60,10 @@ fn head(subject: &Subject<'_>) -> Head {
     facts.push(fact("Light", subject.light()));
     if let Some(comparison) = &subject.comparison {
         let samples = comparison.sure().count();
-        facts.push(fact("Fitted", errors(samples, "samples", &comparison.delta_e)));
+        facts.push(fact("Fitted", errors(samples, "sample", &comparison.delta_e)));
     }
     if let Some(Validation { per_sample, delta_e, .. }) = &subject.validation {
-        facts.push(fact("Left out", errors(per_sample.len(), "mixtures", delta_e)));
+        facts.push(fact("Left out", errors(per_sample.len(), "mixture", delta_e)));
     }
     facts.push(fact("Source", library.source.clone()));
     facts.push(fact("Licence", library.licence.clone()));
@@ -91,9 +91,10 @@ fn head(subject: &Subject<'_>) -> Head {
     Head { title, facts, warnings: warnings.collect(), command }
 }
 
-fn errors(count: usize, items: &str, errors: &Summary) -> String {
+fn errors(count: usize, item: &str, errors: &Summary) -> String {
+    let items = spectra::counted(count, item);
     format!(
-        "{count} {items}, CIEDE2000 mean {:.2}, median {:.2}, 90 % below {:.2}, largest {:.2}",
+        "{items}, CIEDE2000 mean {:.2}, median {:.2}, 90 % below {:.2}, largest {:.2}",
         errors.mean, errors.median, errors.p90, errors.max
     )
 }

@@ -63,11 +63,24 @@ impl NormalEquations {
         }
     }
 
+    /// Removes all residuals.
+    pub(crate) fn clear(&mut self) {
+        self.cost = 0.0;
+        self.gradient.fill(0.0);
+        self.matrix.fill(0.0);
+    }
+
     /// Adds the residuals of `other`.
     pub(crate) fn join(&mut self, other: &Self) {
         self.cost += other.cost;
         self.gradient += &other.gradient;
-        self.matrix += &other.matrix;
+        let count = self.gradient.len();
+        let columns = self.matrix.as_mut_slice().chunks_exact_mut(count.max(1));
+        let others = other.matrix.as_slice().chunks_exact(count.max(1));
+        // The lower triangle only, as in `add`.
+        for (j, (column, other)) in columns.zip(others).enumerate() {
+            column[j..].iter_mut().zip(&other[j..]).for_each(|(a, b)| *a += b);
+        }
     }
 }
 
@@ -117,8 +130,8 @@ pub(crate) fn minimise(
         let taken = &trial - &point;
         let trial_cost = cost(&trial);
         let decrease = equations.cost - trial_cost;
-        let full = equations.matrix.clone();
-        let promised = -(equations.gradient.dot(&taken) + 0.5 * lower_product(&full, &taken));
+        let quadratic = lower_product(&equations.matrix, &taken);
+        let promised = -(equations.gradient.dot(&taken) + 0.5 * quadratic);
         if trial_cost.is_finite() && decrease > 0.0 {
             let ratio = if promised > 0.0 { decrease / promised } else { 1.0 };
             damping *= (1.0 - (2.0 * ratio - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);

@@ -267,7 +267,8 @@ impl Spectrum<'_> {
         let below = self.values.iter().filter(|value| **value < 0.0).count();
         if below > 0 {
             let name = name(&self.record.name);
-            remarks.push(format!("{name}: {below} readings just below zero count as 0"));
+            let (one, many) = ("reading just below zero counts", "readings just below zero count");
+            remarks.push(format!("{name}: {} as 0", spectra::counted_as(below, one, many)));
         }
         self.values.iter_mut().for_each(|value| *value = (*value * factor).max(0.0));
         Ok(())

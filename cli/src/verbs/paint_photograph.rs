@@ -207,7 +207,8 @@ fn report(
     ))?;
     for LevelReport { shape, size_mm, strokes, mean_error, .. } in levels {
         console.line(format!(
-            "{shape} of {size_mm} mm: {strokes} strokes, then a mean colour error of {mean_error:.2} at its scale"
+            "{shape} of {size_mm} mm: {}, then a mean colour error of {mean_error:.2} at its scale",
+            spectra::counted(*strokes, "stroke")
         ))?;
     }
     let finest_mm = levels.last().map_or(0.0, |level| level.size_mm);

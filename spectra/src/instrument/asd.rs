@@ -90,7 +90,9 @@ pub(super) fn read_binary(
     let ordered = ordered(file, points, Duplicates::Refuse)?;
     let mut details = vec![("Integration time".to_owned(), format!("{milliseconds} ms"))];
     details.extend((!comment.is_empty()).then(|| ("Comment".to_owned(), comment)));
-    let remark = format!("{dropped} wavelengths without light of the white are left out");
+    let (one, many) =
+        ("wavelength without light of the white is", "wavelengths without light of the white are");
+    let remark = format!("{} left out", crate::counted_as(dropped, one, many));
     Ok(vec![MeasuredSpectrum {
         name: stem(file),
         quantity,

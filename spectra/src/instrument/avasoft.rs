@@ -18,7 +18,9 @@ pub(super) fn of_pixels(
     let points: Vec<Point> = points.filter(|point| point.value.is_finite()).collect();
     let dropped = values.len() - points.len();
     let ordered = ordered(file, points, Duplicates::Average)?;
-    let remark = format!("{dropped} wavelengths without light of the white are left out");
+    let (one, many) =
+        ("wavelength without light of the white is", "wavelengths without light of the white are");
+    let remark = format!("{} left out", crate::counted_as(dropped, one, many));
     Ok(MeasuredSpectrum {
         name,
         quantity,

@@ -83,8 +83,8 @@ pub(super) fn ordered(
         ordered.values.push(values().map(|value| value * share).sum());
     }
     if repeated > 0 {
-        let what =
-            format!("{repeated} wavelengths occur more than once; their values were averaged");
+        let repeated = crate::counted_as(repeated, "wavelength occurs", "wavelengths occur");
+        let what = format!("{repeated} more than once; the values were averaged");
         ordered.remarks.push(what);
     }
     Ok(ordered)

@@ -204,19 +204,19 @@ impl<'a> Problem<'a> {
     fn equations(&self, point: &DVector<f64>) -> NormalEquations {
         let found = self.at(point);
         let indices: Vec<usize> = (0..self.films.len()).collect();
-        let sums: Vec<NormalEquations> = indices
-            .par_chunks(CHUNK)
-            .map(|chunk| {
-                let mut equations = NormalEquations::zeros(point.len());
-                for &index in chunk {
-                    self.add_film(index, &found, &mut equations);
-                }
-                equations
-            })
-            .collect();
+        let chunks: Vec<&[usize]> = indices.chunks(CHUNK).collect();
         let mut total = NormalEquations::zeros(point.len());
-        for equations in &sums {
-            total.join(equations);
+        // The equations of many pigments are large, so only one set a thread is kept. Chunks are joined in
+        // their order, on any number of threads.
+        let mut sums = vec![total.clone(); rayon::current_num_threads().min(chunks.len())];
+        for several in chunks.chunks(sums.len().max(1)) {
+            sums.par_iter_mut().zip(several).for_each(|(equations, chunk)| {
+                equations.clear();
+                for &index in *chunk {
+                    self.add_film(index, &found, equations);
+                }
+            });
+            sums.iter().take(several.len()).for_each(|equations| total.join(equations));
         }
         for place in 3 * (self.nodes() - 1)..point.len() {
             total.add_at(PRIOR.sqrt() * point[place], &[place], &[PRIOR.sqrt()]);
