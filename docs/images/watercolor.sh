@@ -19,13 +19,14 @@ done
 watercolor shape:still-life --camera 25,12 --set dry_brush.amount=0.15 --set wobble.amount_px=2 \
     --stages "$scratch/stages"
 
-# Calibrated pigments, and the same painting with Prussian blue in place of ultramarine.
+# Five calibrated pigments, and the same painting with viridian in place of ultramarine.
 "$impasto" demo -o "$scratch/demo" > "$scratch/demo.txt"
 watercolor shape:still-life --preset portrait --camera 25,12 --width 750 \
     "$scratch/demo/van-gogh-oils.pigments.json" \
+    --palette "Ultramarine,Eosin Lake,Chrome Yellow,Vermilion,Bone Black" \
     -o "$scratch/day.png" -o "$scratch/glazes.exr"
-"$impasto" relight "$scratch/glazes.exr" --backend cpu --azimuth 90 --elevation 25 \
-    --swap "all:Ultramarine=Prussian Blue" -o "$scratch/swapped.png"
+"$impasto" relight "$scratch/glazes.exr" --backend cpu \
+    --swap "all:Ultramarine=Viridian" -o "$scratch/swapped.png"
 
 watercolor shape:village --preset portrait --camera 0,22 --width 320 --turntable 30 --rate 12 \
     --animation docs/images/turning.gif --frames "$scratch/turning"

@@ -150,8 +150,9 @@ impl PhotographPainter {
         let regions = RegionSettings::from(&own.abstraction);
         let AbstractedPhotograph { original, segmented, smoothed, regions } =
             abstract_photograph(&mut self.compute, photograph, own_width, &regions)?;
-        let textures = Textures::of_photograph(width, height, &settings)?;
         let color = photograph_wash((&original, &smoothed), (width, height), &own, &settings);
+        drop(smoothed);
+        let textures = Textures::of_photograph(&color, &settings)?;
         let wash = Wash { color, controls: self.masks.controls(width, height) };
         Ok(PreparedPhotograph { original, segmented, regions, wash, textures, settings })
     }
@@ -191,7 +192,7 @@ impl PhotographPainter {
         let compute = &mut self.compute;
         let color = compute.give(color)?;
         let wash = WashImages::new(compute, color, &controls)?;
-        let textures = textures.upload(compute)?;
+        let textures = textures.give(compute)?;
         let color = paint(compute, wash, FrameTextures::from(&textures), settings, observer)?;
         compute.take(color)
     }

@@ -51,18 +51,19 @@ impl Textures {
     }
 
     /// Textures of a picture of a photograph: [`Self::new`] with back-runs, and with finer
-    /// heights of the paper in pictures too small for its grain (below 1000 pixels).
+    /// heights of the paper in pictures too small for its grain (below 1000 pixels). `wash` has
+    /// the colours that back-runs flow into ([`back_runs`]).
     ///
     /// # Errors
     /// [`PaperTextureError`] if the paper's scan cannot be read or the paper cannot be made.
     pub fn of_photograph(
-        width: usize,
-        height: usize,
+        wash: &Field<[f32; 4]>,
         settings: &Settings,
     ) -> Result<Self, PaperTextureError> {
+        let (width, height) = (wash.width(), wash.height());
         let mut textures = Self::new(width, height, settings)?;
         if settings.back_runs.strength > 0.0 {
-            textures.back_runs = Some(back_runs(width, height, &settings.back_runs));
+            textures.back_runs = Some(back_runs(wash, &settings.back_runs));
         }
         let factor = PAPER_SCALE_PX.div_ceil(width.max(height).max(1)).min(MOST_CELLS);
         textures.paper = textures.paper.with_fine_heights(factor, &settings.paper)?;
@@ -74,6 +75,29 @@ impl Textures {
     /// # Errors
     /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
     pub fn upload(self, compute: &mut Compute) -> Result<TextureImages, DeviceError> {
+        let heights = compute.upload(&self.paper.heights)?;
+        self.with_heights(heights, compute)
+    }
+
+    /// Moves the textures into the memory of `compute`: [`Self::upload`] without a second copy
+    /// of the heights, which [`PaperImage::texture`] then lacks.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub(in crate::watercolor) fn give(
+        mut self,
+        compute: &mut Compute,
+    ) -> Result<TextureImages, DeviceError> {
+        let heights = std::mem::replace(&mut self.paper.heights, Field::filled(0, 0, 0.0));
+        let heights = compute.give(heights)?;
+        self.with_heights(heights, compute)
+    }
+
+    fn with_heights(
+        self,
+        heights: GreyImage,
+        compute: &mut Compute,
+    ) -> Result<TextureImages, DeviceError> {
         let fine = self.paper.fine().map(|fine| compute.upload(&fine.heights)).transpose()?;
         let touch = match self.touch {
             Some(BrushTouch { touch, quantiles }) => Some((compute.give(touch)?, quantiles)),
@@ -83,11 +107,7 @@ impl Textures {
         Ok(TextureImages {
             flow: compute.give(self.flow)?,
             dispersion: compute.give(self.dispersion)?,
-            paper: PaperImage {
-                heights: compute.upload(&self.paper.heights)?,
-                fine,
-                texture: self.paper,
-            },
+            paper: PaperImage { heights, fine, texture: self.paper },
             touch,
             back_runs,
         })

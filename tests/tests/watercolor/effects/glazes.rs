@@ -106,12 +106,12 @@ fn a_painting_of_glazes_keeps_grain_edges_and_bare_paper_of_its_effects() {
     settings.dry_brush.outline_px = 0.0;
     settings.paper.relief = 0.0;
     "#ffffff".clone_into(&mut settings.paper.color);
-    let textures = Textures::of_photograph(120, 90, &settings).unwrap();
     let half = |i: usize| match i % 120 < 60 {
         true => [0.75, 0.62, 0.4, 1.0],
         false => [0.6, 0.7, 0.8, 1.0],
     };
     let color = Field::from_values(120, 90, (0..120 * 90).map(half).collect());
+    let textures = Textures::of_photograph(&color, &settings).unwrap();
     let wash = Wash { color, controls: Controls::default() };
     let found = glazes.paint("made", &wash, &textures, &settings, level());
     assert_eq!(found.dry.len(), 1);

@@ -85,6 +85,15 @@ fn wet_outlines_run_over_their_share_of_the_picture() {
     let mut of = moved;
     let [none, some, all] = [0.0, 0.4, 1.0].map(&mut of);
     assert!(none == 0 && some > 20 && some < 280 && all > 285, "{none} {some} {all} rows");
+    // An outline of black against white stays on the wettest paper.
+    let strong = photograph(400, 300, |x, _| [if x < 200 { 20 } else { 235 }; 3]);
+    let [dry, wet] = [0.0, 1.0].map(|amount| {
+        settings.wet.amount = amount;
+        prepared(&strong, settings.clone()).wash.color
+    });
+    let off = |x: usize| (0..300).map(|y| (wet[(x, y)][0] - dry[(x, y)][0]).abs()).sum::<f32>();
+    let most = (180..220).map(off).fold(0.0, f32::max) / 300.0;
+    assert!(most < 0.03, "a strong outline ran by {most}");
 }
 
 #[test]
@@ -123,9 +132,10 @@ fn a_margin_stays_bare_and_its_rim_is_ragged() {
 
 #[test]
 fn back_runs_are_pale_with_a_dark_rim_and_follow_their_share() {
+    let wash = Field::filled(300, 300, [0.4, 0.5, 0.7, 1.0]);
     let of = |share| {
         let settings = BackRunSettings { size_px: 80.0, share, ..BackRunSettings::default() };
-        back_runs(300, 300, &settings)
+        back_runs(&wash, &settings)
     };
     assert!(of(0.0).values().iter().all(|value| *value == 0.5));
     let count = |field: &Field<f32>, inside: fn(&&f32) -> bool| {
@@ -136,6 +146,31 @@ fn back_runs_are_pale_with_a_dark_rim_and_follow_their_share() {
     assert!(pale > 9000 && dark > 2000 && dark < pale, "{pale} pale, {dark} dark pixels");
     assert!(count(&some, |v| **v < 0.4) < pale * 3 / 4);
     assert_eq!(some, of(0.4));
+}
+
+#[test]
+fn back_runs_stay_in_the_wash_that_their_water_falls_into() {
+    let settings = BackRunSettings { size_px: 80.0, share: 1.0, ..BackRunSettings::default() };
+    let [blue, sand] = [[0.3, 0.4, 0.7, 1.0], [0.9, 0.8, 0.6, 1.0]];
+    let even = back_runs(&Field::filled(300, 300, blue), &settings);
+    let columns = |left, right| {
+        let row = (0..300).map(move |x| if x < 150 { left } else { right });
+        Field::from_values(300, 300, (0..300).flat_map(|_| row.clone()).collect())
+    };
+    let changed = |field: &Field<f32>, columns: std::ops::Range<usize>| {
+        let places = (0..300).flat_map(|y| columns.clone().map(move |x| (x, y)));
+        places.filter(|&at| field[at] != 0.5).count()
+    };
+    // A tone of the same wash changes nothing; the other wash and bare paper end blooms.
+    assert_eq!(back_runs(&columns(blue, [0.4, 0.5, 0.8, 1.0]), &settings), even);
+    for other in [sand, [0.3, 0.4, 0.7, 0.0]] {
+        let found = back_runs(&columns(blue, other), &settings);
+        let crossing = changed(&even, 150..160) - changed(&found, 150..160);
+        assert!(crossing > 100, "{other:?}: {crossing} pixels");
+        assert!((0..300).all(|y| (0..100).all(|x| found[(x, y)] == even[(x, y)])));
+    }
+    let bare = back_runs(&Field::filled(300, 300, [0.3, 0.4, 0.7, 0.0]), &settings);
+    assert!(bare.values().iter().all(|value| *value == 0.5), "on bare paper");
 }
 
 #[test]
@@ -160,6 +195,17 @@ fn streaks_run_along_their_direction() {
         let bare = field.values().iter().filter(|v| **v < touch.quantiles.at(0.3)).count();
         assert!((bare as f32 / 57600.0 - 0.3).abs() < 0.01, "{bare} of 57600 pixels are bare");
     }
+    // Counterclockwise in a picture whose rows go down: up to the right.
+    settings.dry_brush.direction_deg = 45.0;
+    let touch = BrushTouch::new(&paper, &settings.dry_brush, &settings.paper).unwrap().touch;
+    let [mut rising, mut falling] = [0.0_f32; 2];
+    for y in 1..239 {
+        for x in 1..240 {
+            rising += (touch[(x, y)] - touch[(x - 1, y + 1)]).abs();
+            falling += (touch[(x, y)] - touch[(x - 1, y - 1)]).abs();
+        }
+    }
+    assert!(falling > 3.0 * rising, "{rising} up to the right, {falling} down");
     settings.dry_brush.streaks = 0.0;
     assert!(BrushTouch::new(&paper, &settings.dry_brush, &settings.paper).is_none());
 }
@@ -201,10 +247,18 @@ fn outlines_of_small_pictures_have_no_saw_teeth() {
         coarse.textures.paper.with_fine_heights(1, &coarse.settings.paper).unwrap();
     let teeth = painter.paint_prepared(&coarse, None).unwrap();
     // Differences of second order along the outline show pixels that jump to and fro.
+    let at =
+        |color: &Field<[f32; 4]>, x: usize| -> f32 { (90..110).map(|y| color[(x, y)][0]).sum() };
     let jump = |color: &Field<[f32; 4]>| -> f32 {
-        let at = |x: usize| (90..110).map(|y| color[(x, y)][0]).sum::<f32>();
-        (1..299).map(|x| (at(x - 1) - 2.0 * at(x) + at(x + 1)).abs()).sum()
+        (1..299).map(|x| (at(color, x - 1) - 2.0 * at(color, x) + at(color, x + 1)).abs()).sum()
     };
+    let wander = |color: &Field<[f32; 4]>| -> f32 {
+        let places: Vec<f32> = (0..300).map(|x| at(color, x)).collect();
+        let [low, high] = [f32::min, f32::max].map(|of| places.iter().copied().reduce(of).unwrap());
+        high - low
+    };
+    let [own, coarse] = [&found, &teeth].map(wander);
+    assert!(own > 0.3 * coarse && own > 0.3, "the outline wanders by {own} and {coarse}");
     let (found, teeth) = (jump(&found), jump(&teeth));
     assert!(found < 0.6 * teeth, "{found}, on the paper of the picture {teeth}");
 }

@@ -19,8 +19,7 @@ fn painted(
     settings: &Settings,
     observed: bool,
 ) -> (Field<[f32; 4]>, Stages) {
-    let textures =
-        Textures::of_photograph(wash.color.width(), wash.color.height(), settings).unwrap();
+    let textures = Textures::of_photograph(&wash.color, settings).unwrap();
     let textures = textures.upload(compute).unwrap();
     let wash = wash.upload(compute).unwrap();
     let mut stages = Vec::new();
