@@ -9,6 +9,8 @@ use super::curves::CurveTable;
 use super::problem::{FitError, Problem};
 use pigment::Curves;
 
+/// Unknowns from which the minimum without bounds is tried first: fewer take the solver no time.
+const MANY: usize = 64;
 /// Pivot, on columns of length 1, below which mixtures leave a sum of pigments undetermined. The solver then
 /// gives a value in the middle of all that serve alike.
 const LEAST_PIVOT: f64 = 1e-4;
@@ -36,7 +38,9 @@ pub(super) fn solve_all(
         .into_par_iter()
         .map(|at| {
             let program = Program::new(problem, at, &weights(at));
-            program.solve_freely().map_or_else(|| program.solve(problem.grid.nm(at)), Ok)
+            let many = program.free.len() >= MANY;
+            let free = many.then(|| program.solve_freely()).flatten();
+            free.map_or_else(|| program.solve(problem.grid.nm(at)), Ok)
         })
         .collect::<Result<_, _>>()?;
     let n = problem.pigments;

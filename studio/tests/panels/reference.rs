@@ -205,5 +205,5 @@ fn an_unreadable_picture_shows_an_error_with_its_name() {
     }
     let text = stage.harness.get_by_label_contains("picture that can be read");
     let text = text.accesskit_node().value().or(text.accesskit_node().label()).unwrap();
-    assert!(text.contains("broken.png") && text.contains("PNG or JPEG"), "{text}");
+    assert!(text.contains("broken.png") && text.contains("PNG, JPEG, TIFF or WebP"), "{text}");
 }

@@ -108,7 +108,9 @@ fn signals_that_end_the_program_are_handled() {
 
     let Some(screen) = crate::screen(1280, 800) else { return };
     let folder = tempfile::Builder::new().prefix("window").tempdir().unwrap();
-    let mut program = Program::start(&screen, &folder.path().join("home"), "1280x800", &[]);
+    let home = folder.path().join("home");
+    keep_preferences(&home, &Preferences::default());
+    let mut program = Program::start(&screen, &home, "1280x800", &[]);
     let status = std::fs::read_to_string(format!("/proc/{}/status", program.child.id())).unwrap();
     let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
     let caught = u64::from_str_radix(caught.trim(), 16).unwrap();
