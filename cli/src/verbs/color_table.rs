@@ -44,7 +44,7 @@ pub(super) struct SpectrumColor {
     pub(super) rgb: Rgb,
 }
 
-/// What all rows share.
+/// Lights, standard and columns of the printed table.
 pub(super) struct ColorTable {
     pub(super) lights: Vec<Viewing>,
     /// White point of each light.

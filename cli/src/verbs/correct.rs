@@ -37,7 +37,7 @@ pub(crate) struct Correct {
     /// of the batch, FILE or FILE#SAMPLE
     #[arg(required = true, value_name = "[LIBRARY] TARGET BATCH")]
     words: Vec<String>,
-    /// What is matched: the color under the lights, or the spectrum of a measured standard
+    /// Match the color under the lights, or the spectrum of a measured standard
     #[arg(long, value_enum, default_value = "color")]
     by: MatchBy,
     /// Grams (or parts) of a pigment that are in the pot (may be repeated)

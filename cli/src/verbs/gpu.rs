@@ -38,17 +38,20 @@ impl Gpu {
                 "used": name(used),
                 "with_backend_gpu": name(forced),
                 "why": why,
-                "adapters": found.iter().map(as_json).map(Value::Object).collect::<Vec<_>>(),
+                "adapters": found.iter().map(as_json).collect::<Vec<_>>(),
             }));
         }
         if self.csv {
             let same = |a: Option<&Adapter>, b: &Adapter| a.is_some_and(|a| std::ptr::eq(a, b));
             let rows = found.iter().map(|adapter| {
-                let mut row = json!({"use": match () {
-                    () if same(used, adapter) => "yes",
-                    () if same(forced, adapter) => "by --backend gpu",
-                    () => "no",
-                }});
+                let of_use = if same(used, adapter) {
+                    "yes"
+                } else if same(forced, adapter) {
+                    "by --backend gpu"
+                } else {
+                    "no"
+                };
+                let mut row = json!({"use": of_use});
                 row.as_object_mut().expect("an object").extend(as_json(adapter));
                 row
             });

@@ -34,7 +34,7 @@ pub(crate) struct Match {
     /// the Van Gogh oils that ship], then target colours, one or more
     #[arg(required = true, value_name = "[LIBRARY] TARGET")]
     words: Vec<String>,
-    /// What is matched: the color under the lights, or the spectrum of a measured target
+    /// Match the color under the lights, or the spectrum of a measured target
     #[arg(long, value_enum, default_value = "color")]
     by: MatchBy,
     /// Use only these pigments (may be repeated) [default: all whose S is known]

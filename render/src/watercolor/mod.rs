@@ -12,6 +12,8 @@
 
 mod settings;
 
+mod smoothstep;
+
 mod wash;
 
 mod abstraction;

@@ -85,16 +85,15 @@ fn wide_gamut_is_converted_by_its_primaries() {
     let values = [150_u8, 120, 100];
     let srgb_curve = |v: f64| Rgb([v; 3]).linear().0[0];
     let gamma = |v: f64| v.powf(563.0 / 256.0);
-    let cases: [(ColorProfile, [[f64; 3]; 3], &dyn Fn(f64) -> f64); 2] = [
-        (ColorProfile::new_display_p3(), p3, &srgb_curve),
-        (ColorProfile::new_adobe_rgb(), adobe, &gamma),
-    ];
+    let curves: [&dyn Fn(f64) -> f64; 2] = [&srgb_curve, &gamma];
+    let profiles = [ColorProfile::new_display_p3(), ColorProfile::new_adobe_rgb()];
+    let cases = profiles.into_iter().zip([p3, adobe]).zip(curves);
     // Bytes as the file has them: a JPEG rounds colours before it stores them.
     let stored = |file: &[u8]| {
         let bytes = image::load_from_memory(file).unwrap().to_rgb8()[(4, 4)].0;
         bytes.map(|byte| f64::from(byte) / 255.0)
     };
-    for (profile, matrix, curve) in cases {
+    for ((profile, matrix), curve) in cases {
         for file in with_profile(values, &profile) {
             let light = stored(&file).map(curve);
             let wanted = matrix.map(|row| row.iter().zip(light).map(|(m, l)| m * l).sum::<f64>());

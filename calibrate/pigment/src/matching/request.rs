@@ -20,8 +20,7 @@ const USUAL_WASH: [f64; 2] = [0.01, 10.0];
 /// CIEDE2000 within which recipes are equally near, where nothing is known about the library's own error.
 pub const USUAL_TOLERANCE: f64 = 0.05;
 
-/// Root mean square in percent of reflectance within which recipes are equally near by spectrum: about how far
-/// two readings of one sample by two instruments of one make are apart.
+/// Root mean square in percent of reflectance within which recipes are equally near by spectrum. Chosen by eye.
 pub const USUAL_SPECTRUM_TOLERANCE: f64 = 0.2;
 
 /// A pigment that every recipe must contain.

@@ -35,7 +35,7 @@ impl SpectralTarget {
         let reflectance = measured.resampled(grid, method, Extrapolation::Hold)?;
         let mut share = match weights {
             SpectrumWeights::Even => vec![1.0; grid.count()],
-            SpectrumWeights::Observer => seen(grid, conditions)?,
+            SpectrumWeights::Observer => visual_weights(grid, conditions)?,
         };
         let mut shared = Vec::new();
         for (nm, share) in grid.wavelengths_nm().zip(&mut share) {
@@ -97,8 +97,12 @@ impl SpectralTarget {
     }
 }
 
-/// What the observer sees of each wavelength under the lights: the sum of the weights of X, Y and Z.
-fn seen(grid: Grid, conditions: &[ViewingCondition]) -> Result<Vec<f64>, InterpolateError> {
+/// Visual weight of each wavelength: the sum of its weights for X, Y and Z over all lights, each times
+/// the light's own weight.
+fn visual_weights(
+    grid: Grid,
+    conditions: &[ViewingCondition],
+) -> Result<Vec<f64>, InterpolateError> {
     let mut sums = vec![0.0; grid.count()];
     for condition in conditions {
         let weights = condition.viewing.weights(grid)?;

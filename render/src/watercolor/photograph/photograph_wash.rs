@@ -5,8 +5,9 @@ use spectra::color::Rgb;
 
 use super::enlarge::Enlarged;
 use super::margin::Margin;
-use super::wet::{mixed, running, smoothstep};
+use super::wet::{mixed, running};
 use crate::watercolor::settings::Settings;
+use crate::watercolor::smoothstep::smoothstep;
 use graphics::field::Field;
 
 /// The wash in `width` x `height` pixels. `original` and `flat` are the photograph and its flat

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use crate::watercolor::effects::edges_on_cpu;
 use crate::watercolor::settings::WetSettings;
+use crate::watercolor::smoothstep::smoothstep;
 use crate::watercolor::textures::Quantiles;
 use graphics::blur::blurred;
 use graphics::field::Field;
@@ -159,12 +160,6 @@ pub(super) fn mixed(from: [f32; 4], to: [f32; 4], share: f32) -> [f32; 4] {
     let by = if covered > 0.0 { other / covered } else { 0.0 };
     let color: [f32; 3] = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * by);
     [color[0], color[1], color[2], covered]
-}
-
-/// Rises from 0 at the first limit to 1 at the second with slope 0 at both.
-pub(super) fn smoothstep([low, high]: [f32; 2], value: f32) -> f32 {
-    let t = ((value - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 fn mapped<const N: usize, const M: usize>(

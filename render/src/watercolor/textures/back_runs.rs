@@ -4,6 +4,7 @@ use rand::RngExt;
 use rayon::prelude::*;
 
 use crate::watercolor::settings::BackRunSettings;
+use crate::watercolor::smoothstep::smoothstep;
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
 
@@ -122,10 +123,4 @@ fn bloom(
     let [r, g, b, covered] = wash[(x as usize, y as usize)];
     let radius = size * (0.22 + 0.26 * radius);
     (covered > 0.5).then_some(Bloom { x, y, radius, color: [r, g, b] })
-}
-
-/// 0 up to `low`, 1 from `high` on.
-fn smoothstep([low, high]: [f32; 2], value: f32) -> f32 {
-    let t = ((value - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
