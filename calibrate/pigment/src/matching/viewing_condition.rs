@@ -39,7 +39,7 @@ pub enum SpectrumWeights {
     /// All wavelengths equally.
     #[default]
     Even,
-    /// As much as the observer sees of it under the lights: the sum of its weights for X, Y and Z.
+    /// By the sum of its weights for X, Y and Z under the lights.
     Observer,
 }
 
