@@ -44,7 +44,8 @@ fn crates_depend_downwards_only() {
         ("render/artmap", &["spectra", "pigment", "graphics", "paint"]),
         ("render/volumes", &["spectra", "pigment", "graphics", "paint"]),
         ("render", &["spectra", "pigment", "graphics", "paint", "artmap", "volumes"]),
-        ("cli", &["spectra", "calibrate", "reports", "render"]),
+        ("maps", &["spectra", "pigment", "calibrate"]),
+        ("cli", &["spectra", "calibrate", "reports", "render", "maps"]),
         ("studio/session", &["spectra", "pigment", "render"]),
         ("studio", &["spectra", "pigment", "render", "session"]),
     ] {

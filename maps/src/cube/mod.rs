@@ -1,0 +1,1 @@
+//! Spectral scans, read in blocks of rows.

@@ -1,0 +1,3 @@
+//! Pigment maps of spectral scans: which measured pigments are where, how much, and how sure.
+
+pub mod cube;
