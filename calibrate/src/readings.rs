@@ -118,7 +118,20 @@ impl Readings {
     /// # Errors
     /// [`ReadingsError::Measurement`] with row and column.
     pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, ReadingsError> {
-        let (table, remarks) = csv_table(file, bytes, &ReadingOptions::default(), false)?;
+        Self::from_csv_with(file, bytes, &ReadingOptions::default())
+    }
+
+    /// Reads the measurement CSV in `bytes`, the content of `file`. Of the options, `scale` and `pigments`
+    /// have a meaning for a CSV.
+    ///
+    /// # Errors
+    /// [`ReadingsError::Measurement`] with row and column.
+    pub fn from_csv_with(
+        file: &str,
+        bytes: &[u8],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        let (table, remarks) = csv_table(file, bytes, options, false)?;
         Ok(Self { table, inputs: vec![Input::new(file, bytes)], remarks })
     }
 

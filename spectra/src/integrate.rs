@@ -92,6 +92,35 @@ impl TristimulusWeights {
         xyz.into()
     }
 
+    /// XYZ of many reflectances, one after the other in `rows`, into `xyz`. Differs from
+    /// [`Self::xyz`] by rounding alone.
+    ///
+    /// # Panics
+    /// If `rows` does not hold one value for each wavelength and element of `xyz`.
+    pub fn xyz_of_rows(&self, rows: &[f64], xyz: &mut [[f64; 3]]) {
+        let bands = self.weights.len();
+        assert_eq!(rows.len(), bands * xyz.len(), "one value for each wavelength and spectrum");
+        for (xyz, row) in xyz.iter_mut().zip(rows.chunks_exact(bands)) {
+            // Four sums at a time keep the processor's vectors full.
+            let mut sums = [[0.0; 4]; 3];
+            let (values, rest) = row.as_chunks::<4>();
+            let (weights, last) = self.weights.as_chunks::<4>();
+            for (values, weights) in values.iter().zip(weights) {
+                for (channel, sums) in sums.iter_mut().enumerate() {
+                    for lane in 0..4 {
+                        sums[lane] += values[lane] * weights[lane][channel];
+                    }
+                }
+            }
+            for (value, weights) in rest.iter().zip(last) {
+                for (sums, weight) in sums.iter_mut().zip(weights) {
+                    sums[0] += value * weight;
+                }
+            }
+            *xyz = sums.map(|[a, b, c, d]| (a + b) + (c + d));
+        }
+    }
+
     /// The colour of one reflectance in XYZ, CIELAB and sRGB.
     ///
     /// # Panics
@@ -115,4 +144,26 @@ pub(crate) fn responses(
     Grid::cie().wavelengths_nm().enumerate().map(move |(index, nm)| {
         (nm, std::array::from_fn(|channel| k * power[index] * functions[channel].values()[index]))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Viewing;
+
+    #[test]
+    fn rows_have_the_xyz_of_each_spectrum() {
+        for bands in [2, 7, 31, 36] {
+            let grid = Grid::from_nm(400.0, 10.0, bands).unwrap();
+            let weights = Viewing::default().weights(grid).unwrap();
+            let rows: Vec<f64> = (0..5 * bands).map(|i| (i * 37 % 101) as f64 / 101.0).collect();
+            let mut xyz = [[0.0; 3]; 5];
+            weights.xyz_of_rows(&rows, &mut xyz);
+            for (found, row) in xyz.iter().zip(rows.chunks(bands)) {
+                let wanted = weights.xyz(row).to_array();
+                let apart = found.iter().zip(wanted).map(|(a, b)| (a - b).abs());
+                assert!(apart.fold(0.0, f64::max) < 1e-10, "{bands} bands: {found:?}, {wanted:?}");
+            }
+        }
+    }
 }

@@ -1,0 +1,17 @@
+//! Remarks of the libraries as tuples, and values as JSON text.
+
+use calibrate::{Remark, RemarkKind};
+
+use crate::failure::hint_text;
+
+/// Whether a remark is a warning, its sentence, and its hint.
+pub(crate) type RemarkTuple = (bool, String, Option<String>);
+
+/// Remarks as Python takes them.
+pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Vec<RemarkTuple> {
+    let tuple = |remark: &Remark| {
+        let hint = remark.hint.as_ref().map(hint_text);
+        (remark.kind == RemarkKind::Warning, remark.text.clone(), hint)
+    };
+    remarks.into_iter().map(tuple).collect()
+}

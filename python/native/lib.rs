@@ -1,0 +1,58 @@
+//! The native part of the Python package `impasto`: the front doors of the libraries, over arrays,
+//! names and JSON. The typed public face is Python, in `impasto/`.
+
+use pyo3::prelude::*;
+
+mod failure;
+
+mod running;
+
+mod arrays;
+
+mod json;
+
+mod light;
+
+mod color;
+
+mod library;
+
+mod readings;
+
+mod fitting;
+
+mod matching;
+
+mod planning;
+
+mod quadrature;
+
+mod report;
+
+/// The native part of the package `impasto`.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::color::{delta_e, rgb, xyz};
+    #[pymodule_export]
+    use crate::fitting::{Fit, Validation, fit, validate};
+    #[pymodule_export]
+    use crate::library::Library;
+    #[pymodule_export]
+    use crate::light::Light;
+    #[pymodule_export]
+    use crate::matching::recipes_for;
+    #[pymodule_export]
+    use crate::planning::plan;
+    #[pymodule_export]
+    use crate::quadrature::quadrature;
+    #[pymodule_export]
+    use crate::readings::Readings;
+    #[pymodule_export]
+    use crate::report::report;
+
+    /// Version of the libraries, which is that of the package.
+    #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,98 @@
+//! A few wavelengths instead of many.
+
+use std::sync::Arc;
+
+use calibrate::quadrature::{EffectiveQuadrature, FilmSet, MixtureSet, Quadrature};
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+use spectra::hint::Fault;
+
+use crate::failure::Exception;
+use crate::library::Library;
+use crate::light::{Light, viewing};
+use crate::running::run;
+
+/// Chooses wavelengths and weights. Returns JSON with the keys of `impasto quadrature --json`.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "the public face has them by name")]
+pub(crate) fn quadrature(
+    py: Python<'_>,
+    library: Option<&Library>,
+    method: &str,
+    nodes: usize,
+    light: &Light,
+    observer: &str,
+    mixtures: usize,
+    seed: u64,
+) -> PyResult<String> {
+    let viewing = viewing(py, light, observer)?;
+    let library = library.map(|library| library.0.clone());
+    let method = method.to_owned();
+    let (known, has_library) = (["gauss", "moments", "library", "effective"], library.is_some());
+    if !known.contains(&method.as_str()) || (!has_library && ["library", "effective"].contains(&&*method)) {
+        let message = if known.contains(&method.as_str()) {
+            format!("the method `{method}` needs a pigment library")
+        } else {
+            format!("unknown method `{method}`")
+        };
+        let hint = "methods are gauss, moments, library and effective; the last two take a library";
+        return Err(Exception::Other.with(py, Fault::Setting, &message, Some(hint)));
+    }
+    let done = run(py, None, move |_| {
+        let Some(library) = library else {
+            let rule = match method.as_str() {
+                "gauss" => Quadrature::gauss(&viewing, nodes)?,
+                _ => Quadrature::moments(&viewing, nodes)?,
+            };
+            return Ok(json!({ "nodes_nm": rule.nodes_nm, "weights": rule.weights, "error": null }));
+        };
+        let library = Arc::clone(&library);
+        let weights = viewing.weights(library.grid)?;
+        if method == "effective" {
+            let found = EffectiveQuadrature::of(&viewing, &library, nodes)?;
+            let hiding = FilmSet::hiding(&library, &weights, mixtures, seed);
+            let over = FilmSet::over_grounds(&library, &weights, mixtures, seed);
+            let curves = found.absorption.iter().zip(&found.scattering);
+            let pigments = library.pigments.iter().zip(curves).map(
+                |(p, (k, s))| json!({ "name": p.name, "absorption": k, "scattering": s }),
+            );
+            return Ok(json!({
+                "nodes_nm": found.rule.nodes_nm, "weights": found.rule.weights,
+                "error": found.error(&library, &hiding),
+                "error_over_grounds": found.error(&library, &over),
+                "pigments": pigments.collect::<Vec<Value>>(),
+            }));
+        }
+        let rule = match method.as_str() {
+            "gauss" => Quadrature::gauss(&viewing, nodes)?,
+            "moments" => Quadrature::moments(&viewing, nodes)?,
+            _ => Quadrature::library(&viewing, &library, nodes)?,
+        };
+        let mixtures = MixtureSet::random(&library, &weights, mixtures, seed);
+        let error = rule.error(&mixtures);
+        Ok(json!({ "nodes_nm": rule.nodes_nm, "weights": rule.weights, "error": error }))
+    })?;
+    let done: Result<Value, QuadratureOrGrid> = done;
+    done.map(|value| value.to_string()).map_err(|error| match error {
+        QuadratureOrGrid::Quadrature(error) => Exception::Other.of(py, &error),
+        QuadratureOrGrid::Grid(error) => Exception::Other.of(py, &error),
+    })
+}
+
+/// Errors of a quadrature.
+enum QuadratureOrGrid {
+    Quadrature(calibrate::quadrature::QuadratureFailure),
+    Grid(spectra::InterpolateError),
+}
+
+impl From<calibrate::quadrature::QuadratureFailure> for QuadratureOrGrid {
+    fn from(error: calibrate::quadrature::QuadratureFailure) -> Self {
+        Self::Quadrature(error)
+    }
+}
+
+impl From<spectra::InterpolateError> for QuadratureOrGrid {
+    fn from(error: spectra::InterpolateError) -> Self {
+        Self::Grid(error)
+    }
+}

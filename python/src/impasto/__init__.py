@@ -1,0 +1,47 @@
+"""Measure real paint, calibrate it, and mix it: pigments of two-constant Kubelka-Munk theory.
+
+Units: wavelengths in nm, reflectance as fractions from 0 to 1, XYZ with Y = 100 for the white. Amounts of
+pigments are parts, of which only the ratios count, unless a library holds absolute amounts.
+"""
+
+from impasto import color
+from impasto._native import __version__
+from impasto.errors import Error, FileError, FindingWarning, FitError, ReadingError, RecipeError
+from impasto.fitting import Fit, Surface, Validation, fit, validate
+from impasto.library import Library, Pigment
+from impasto.light import Light
+from impasto.matching import Match, Recipe
+from impasto.planning import Plan, plan
+from impasto.quadrature import Quadrature
+from impasto.readings import Readings, read
+from impasto.reporting import Report, report
+from impasto.spectrum import Spectrum
+
+__all__ = [
+    "Error",
+    "FileError",
+    "FindingWarning",
+    "Fit",
+    "FitError",
+    "Library",
+    "Light",
+    "Match",
+    "Pigment",
+    "Plan",
+    "Quadrature",
+    "ReadingError",
+    "Readings",
+    "Recipe",
+    "RecipeError",
+    "Report",
+    "Spectrum",
+    "Surface",
+    "Validation",
+    "__version__",
+    "color",
+    "fit",
+    "plan",
+    "read",
+    "report",
+    "validate",
+]

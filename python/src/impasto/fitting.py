@@ -1,0 +1,207 @@
+"""Fits of K and S, and their validation."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from impasto import _native
+from impasto.display import Html, findings, table
+from impasto.errors import notes_of, warn, warnings_of
+from impasto.library import Library
+from impasto.light import Light, light_of
+from impasto.readings import Readings
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Reflection of a film's surface (Saunderson 1942): k1 of the light outside, k2 of that inside."""
+
+    k1: float = 0.03
+    k2: float = 0.6
+
+
+class _Errors:
+    """Errors by sample."""
+
+    _errors: dict[str, Any]
+
+    @property
+    def delta_e(self) -> dict[str, float]:
+        """Mean, median, 95th percentile and largest error in CIEDE2000."""
+        result: dict[str, float] = self._errors["delta_e"]
+        return result
+
+    @property
+    def rms(self) -> float:
+        """Root mean square error of reflectance."""
+        return float(self._errors["rms"])
+
+    @property
+    def samples(self) -> list[tuple[str, float]]:
+        """Each sample with its CIEDE2000 error."""
+        return [(entry["sample"], entry["delta_e"]) for entry in self._errors["per_sample"]]
+
+    @property
+    def per_sample(self) -> pd.DataFrame:
+        """The errors as a table with the columns `sample` and `delta_e`; needs pandas."""
+        import pandas as pd
+
+        return pd.DataFrame(self.samples, columns=["sample", "delta_e"])
+
+    def _table(self, title: str) -> str:
+        worst = sorted(self.samples, key=lambda entry: -entry[1])[:12]
+        rows = [[name, f"{error:.2f}"] for name, error in worst]
+        figures = ", ".join(f"{key} {value:.2f}" for key, value in self.delta_e.items())
+        return table(["worst samples", "CIEDE2000"], rows, f"{title}: CIEDE2000 {figures}")
+
+
+class Fit(_Errors):
+    """A fitted library, with what a user should know about the fit."""
+
+    def __init__(self, native: _native.Fit) -> None:
+        self._native = native
+        self._errors = json.loads(native.errors())
+        self.library = Library(native.library)
+        """The library, with the evidence of its fit."""
+
+    @property
+    def warnings(self) -> list[str]:
+        """Pigments that the data do not identify, and contradictions."""
+        return warnings_of(self._native.remarks) + self._native.warnings
+
+    @property
+    def notes(self) -> list[str]:
+        """Choices that were made, and what the films and equations show."""
+        return notes_of(self._native.remarks)
+
+    def __str__(self) -> str:
+        return self._native.text()
+
+    def __repr__(self) -> str:
+        return f"<impasto.Fit: {self._native.text().splitlines()[0]}>"
+
+    def _repr_html_(self) -> str:
+        notes = Html("".join(f"<p>{note}</p>" for note in self.notes))
+        return self.library._repr_html_() + self._table("fit") + notes + findings(self.warnings)
+
+
+class Validation(_Errors):
+    """Errors of mixtures that were predicted without their own measurement."""
+
+    def __init__(self, native: _native.Validation) -> None:
+        self._native = native
+        self._errors = json.loads(native.errors())
+
+    @property
+    def fit(self) -> Fit:
+        """The fit of all samples."""
+        return Fit(self._native.fit)
+
+    @property
+    def by_pigment(self) -> list[dict[str, Any]]:
+        """Pigments by their part of the error, the greatest first: pigment, mixtures, share."""
+        result: list[dict[str, Any]] = self._errors["by_pigment"]
+        return result
+
+    @property
+    def warnings(self) -> list[str]:
+        """Mixtures that could not be left out."""
+        return self._native.warnings
+
+    def __str__(self) -> str:
+        return self._native.text()
+
+    def __repr__(self) -> str:
+        return f"<impasto.Validation: {self._native.text().splitlines()[0]}>"
+
+    def _repr_html_(self) -> str:
+        return self._table("left out") + findings(self.warnings)
+
+
+def fit(
+    readings: Readings,
+    *,
+    reference: str | None = None,
+    surface: Surface | None = None,
+    specular: bool = True,
+    amounts: str = "relative",
+    method: str = "refined",
+    smoothness: float | None = None,
+    unevenness: float | None = None,
+    below_surface: str | None = None,
+    exclude: Sequence[str] = (),
+    illuminant: str | Light = "D65",
+    observer: str = "1931-2",
+    title: str | None = None,
+    licence: str | None = None,
+    source: str | None = None,
+    progress: Callable[[str], object] | None = None,
+) -> Fit:
+    """Fits K and S of every pigment, as `impasto fit` does.
+
+    `reference` is the white whose S is 1 (default: the commonest white). `surface` is chosen if none is
+    given. `amounts` is `relative` or `absolute`, `method` `refined`, `weighted` or `qp`. Light and
+    observer set the colour errors only. `progress` is called with each stage as text. Ctrl-C is obeyed.
+
+    Raises `FitError`; findings about the data are told as `FindingWarning`.
+    """
+    options = _options(locals())
+    result = Fit(_native.fit(readings._native, options, progress))
+    warn(result.warnings)
+    return result
+
+
+def validate(
+    readings: Readings,
+    *,
+    folds: int | None = None,
+    using: Sequence[str] = (),
+    reference: str | None = None,
+    surface: Surface | None = None,
+    specular: bool = True,
+    amounts: str = "relative",
+    method: str = "refined",
+    smoothness: float | None = None,
+    unevenness: float | None = None,
+    below_surface: str | None = None,
+    exclude: Sequence[str] = (),
+    illuminant: str | Light = "D65",
+    observer: str = "1931-2",
+    progress: Callable[[str], object] | None = None,
+) -> Validation:
+    """Leaves each mixture out in turn, fits the rest, and predicts it, as `impasto validate` does.
+
+    `folds` leaves out seeded groups instead; `using` names pigments, only mixtures with one of them are
+    left out. `progress` is called after each mixture.
+    """
+    options = _options(locals())
+    native = _native.validate(readings._native, options, folds, list(using), progress)
+    result = Validation(native)
+    warn(result.warnings)
+    return result
+
+
+def _options(given: dict[str, Any]) -> dict[str, Any]:
+    surface = given["surface"]
+    return {
+        "amounts": given["amounts"],
+        "method": given["method"],
+        "reference": given["reference"],
+        "surface": None if surface is None else (surface.k1, surface.k2),
+        "specular": given["specular"],
+        "below_surface": given["below_surface"],
+        "smoothness": given["smoothness"],
+        "unevenness": given["unevenness"],
+        "exclude": list(given["exclude"]),
+        "light": light_of(given["illuminant"]),
+        "observer": given["observer"],
+        "title": given.get("title"),
+        "licence": given.get("licence"),
+        "source": given.get("source"),
+    }

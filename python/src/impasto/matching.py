@@ -1,0 +1,158 @@
+"""Recipes for target colours."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from impasto import _native
+from impasto.display import Html, swatch, table
+from impasto.errors import Error, warn, warnings_of
+from impasto.light import light_of
+from impasto.spectrum import Spectrum, frozen, spectrum
+
+if TYPE_CHECKING:
+    from impasto.library import Library
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A recipe that was found for a target."""
+
+    shares: Mapping[str, float]
+    """Share of each pigment, sum 1, the greatest first."""
+    parts: Mapping[str, int] | None
+    """The shares as whole parts, where these were asked for."""
+    delta_e: Mapping[str, float]
+    """CIEDE2000 from the target under each light."""
+    distance: float
+    """Difference from the target in the measure of the search."""
+    hex: str
+    """Nearest displayable colour."""
+    in_gamut: bool
+    """Whether sRGB can show the colour."""
+    reflectance: Spectrum
+    """Predicted reflectance."""
+    thickness: float | None
+    """Thickness of a film that does not hide."""
+    about: Mapping[str, Any]
+    """All figures of the recipe, with the keys of `impasto match --json`."""
+
+    def __str__(self) -> str:
+        return ", ".join(f"{100 * share:.2f} % {name}" for name, share in self.shares.items())
+
+
+class Match(Sequence[Recipe]):
+    """Recipes for one target, the best first."""
+
+    def __init__(self, about: dict[str, Any], library: Library) -> None:
+        self.about = about
+        """Everything that was found, with the keys of `impasto match --json`."""
+        self._recipes = [_recipe(entry, library) for entry in about["recipes"]]
+
+    @property
+    def target(self) -> str:
+        """Name of the target."""
+        return str(self.about["target"])
+
+    @property
+    def nearest(self) -> float:
+        """Least difference of any recipe, in `unit`."""
+        return float(self.about["nearest"])
+
+    @property
+    def unit(self) -> str:
+        """Unit of the differences."""
+        return str(self.about["unit"])
+
+    def __len__(self) -> int:
+        return len(self._recipes)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self._recipes[index]
+
+    def __repr__(self) -> str:
+        return f"<impasto.Match: {self.target}, {len(self)} recipes, nearest {self.nearest:.2f} {self.unit}>"
+
+    def _repr_html_(self) -> str:
+        rows: list[list[object]] = [[swatch(self.about["hex"]), "target", self.target, ""]]
+        for recipe in self._recipes:
+            errors = ", ".join(f"{light} {error:.2f}" for light, error in recipe.delta_e.items())
+            rows.append([swatch(recipe.hex), Html(""), str(recipe), errors])
+        return table(["", "", "recipe", "CIEDE2000"], rows)
+
+
+def _recipe(entry: dict[str, Any], library: Library) -> Recipe:
+    pigments = entry["pigments"]
+    has_parts = all("parts" in pigment for pigment in pigments)
+    return Recipe(
+        shares={pigment["name"]: pigment["share"] for pigment in pigments},
+        parts={p["name"]: p["parts"] for p in pigments} if has_parts else None,
+        delta_e=entry["delta_e"],
+        distance=entry["distance"],
+        hex=entry["hex"],
+        in_gamut=entry["in_gamut"],
+        reflectance=Spectrum(library.wavelengths, entry["reflectance"]),
+        thickness=entry["thickness"],
+        about=entry,
+    )
+
+
+def match(library: Library, target: Any, **options: Any) -> Match | list[Match]:
+    """Searches recipes; `Library.match` says how."""
+    from impasto.library import ground_of
+
+    lights = options["lights"]
+    if not isinstance(lights, Mapping):
+        lights = dict.fromkeys(lights if isinstance(lights, (list, tuple)) else [lights], 1.0)
+    using = options["using"]
+    if not isinstance(using, Mapping):
+        using = dict.fromkeys(using)
+    thickness = options["thickness"]
+    if isinstance(thickness, (int, float)):
+        thickness = (thickness, thickness)
+    targets, single = _targets(target, options["wavelengths"])
+    native = {
+        "by": options["by"],
+        "lights": [(light_of(light), float(weight)) for light, weight in lights.items()],
+        "observer": options["observer"],
+        "thickness": thickness,
+        "over": ground_of(options["over"]),
+        "only": _names("only", options["only"]),
+        "with": list(using.items()),
+        "without": _names("without", options["without"]),
+        "at_most": options["at_most"],
+        "least_share": options["least_share"],
+        "whole_parts": options["whole_parts"],
+        "prices": list((options["prices"] or {}).items()),
+        "tolerance": options["tolerance"],
+        "beyond_measured": options["beyond_measured"],
+        "count": options["count"],
+    }
+    found = _native.recipes_for(library._native, targets, native, options["progress"])
+    matches = []
+    for text, remarks in found:
+        warn(warnings_of(remarks))
+        matches.append(Match(json.loads(text), library))
+    return matches[0] if single else matches
+
+
+def _names(setting: str, names: Sequence[str]) -> list[str]:
+    if isinstance(names, str):
+        raise Error(f"{setting} is a list of names, found `{names}`", f"try [{names!r}]")
+    return list(names)
+
+
+def _targets(target: Any, wavelengths: Any) -> tuple[list[Any], bool]:
+    if isinstance(target, str):
+        return [target], True
+    if wavelengths is None and isinstance(target, (tuple, list, np.ndarray)) and np.shape(target) == (3,):
+        return [",".join(repr(float(value)) for value in target)], True
+    found = spectrum(target, wavelengths)
+    names = found.names or tuple(f"spectrum {n}" for n in range(len(found)))
+    single = found.values.ndim == 1
+    return [(name, found.grid, frozen(row)) for name, row in zip(names, found.rows)], single

@@ -1,0 +1,52 @@
+"""A few wavelengths that reproduce colour under a light."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from impasto import _native
+from impasto.library import Library
+from impasto.light import Light, light_of
+from impasto.spectrum import Floats
+
+
+@dataclass(frozen=True)
+class Quadrature:
+    """Wavelengths, and weights that turn reflectance there into XYZ."""
+
+    nodes: Floats
+    """Wavelengths in nm, (n,)."""
+    weights: Floats
+    """Weights of X, Y and Z at each, (n, 3)."""
+    about: dict[str, Any]
+    """Everything, with the keys of `impasto quadrature --json`: also the colour error over mixtures."""
+
+    @classmethod
+    def of(
+        cls,
+        library: Library | None = None,
+        illuminant: str | Light = "D65",
+        observer: str = "1931-2",
+        *,
+        nodes: int = 8,
+        method: str | None = None,
+        mixtures: int = 1000,
+        seed: int = 1,
+    ) -> Quadrature:
+        """Chooses wavelengths by `gauss`, `moments`, `library` (the default with a library) or
+        `effective`, and tests them on random mixtures of the library."""
+        method = method or ("moments" if library is None else "library")
+        native = None if library is None else library._native
+        light = light_of(illuminant)
+        text = _native.quadrature(native, method, nodes, light, observer, mixtures, seed)
+        about = json.loads(text)
+        return cls(np.array(about["nodes_nm"]), np.array(about["weights"]), about)
+
+    def xyz(self, reflectance: Floats) -> Floats:
+        """XYZ of reflectance at the nodes, (n,) or (M, n)."""
+        result: Floats = np.asarray(reflectance, dtype=np.float64) @ self.weights
+        return result

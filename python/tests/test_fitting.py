@@ -1,0 +1,136 @@
+"""Fits, validations, plans and reports are those of the program."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from pathlib import Path
+
+import pytest
+from conftest import OILS_CSV, OILS_JSON, ROOT
+
+import impasto as im
+
+SOURCE = (
+    "Geldof, Proano Gaibor, Ligterink, Hendriks, Kirchner, Heritage Science 6:17 (2018), "
+    "doi 10.1186/s40494-018-0181-6"
+)
+
+
+def shipped_fit(**more: object) -> im.Fit:
+    readings = im.Readings(im._native.Readings.from_csv("measurements/van-gogh-oils.csv", OILS_CSV.read_bytes(), None, None))
+    return im.fit(
+        readings,
+        reference="Zinc White",
+        surface=im.Surface(k1=0.03, k2=0.6),
+        below_surface="floor",
+        title="Van Gogh's oils",
+        licence="CC0 1.0",
+        source=SOURCE,
+        **more,
+    )
+
+
+def test_a_fit_is_the_shipped_library_byte_for_byte() -> None:
+    with pytest.warns(im.FindingWarning):
+        fit = shipped_fit()
+    assert fit.library.to_json() == OILS_JSON.read_text()
+    assert len(fit.samples) == fit._errors["samples"]
+
+
+def test_a_fit_tells_its_stages_and_findings() -> None:
+    stages: list[str] = []
+    with pytest.warns(im.FindingWarning) as told:
+        fit = shipped_fit(progress=stages.append)
+    assert any("refinement" in stage for stage in stages), stages
+    assert {str(warning.message) for warning in told} == set(fit.warnings)
+    assert "worst samples" in fit._repr_html_() and "Warnings" in fit._repr_html_()
+    assert round(fit.delta_e["mean"], 2) == 1.38, "as docs/guide/figures.md says"
+
+
+def test_an_unknown_white_is_a_fit_error_with_a_hint(readings: im.Readings) -> None:
+    with pytest.raises(im.FitError, match="Zink White") as error:
+        im.fit(readings, reference="Zink White")
+    assert error.value.hint and "Zinc White" in str(error.value)
+
+
+def test_a_fault_in_a_file_has_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "bad.csv"
+    path.write_text("sample,White,400,410,420\na,1,0.5,0.5,0.5\nb,1,0.5,wrong,0.5\n")
+    with pytest.raises(im.ReadingError) as error:
+        im.read(path)
+    place = error.value.place
+    assert place is not None and (place.file, place.row, place.column) == (str(path), 3, "410")
+
+
+def test_a_missing_file_is_an_os_error(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="missing.csv") as error:
+        im.read(tmp_path / "missing.csv")
+    assert isinstance(error.value, im.FileError) and error.value.hint
+
+
+def test_a_dataframe_reads_as_its_file(readings: im.Readings) -> None:
+    pd = pytest.importorskip("pandas")
+    frame = pd.read_csv(OILS_CSV)
+    same = im.Readings.from_dataframe(frame)
+    assert same.pigments == readings.pigments and same.samples == readings.samples
+    assert (same.reflectance.values == readings.reflectance.values).all()
+    assert readings.to_dataframe().shape == (len(readings), 2 + len(readings.pigments) + 31)
+
+
+def test_a_dataframe_with_a_bad_cell_names_it() -> None:
+    pd = pytest.importorskip("pandas")
+    frame = pd.DataFrame({"sample": ["a"], "White": [1.0], 400: [0.5], 410: [-3.0], 420: [0.4]})
+    with pytest.raises(im.ReadingError, match="DataFrame, row 2, column `410"):
+        im.Readings.from_dataframe(frame)
+
+
+def test_left_out_mixtures_are_those_of_the_program(readings: im.Readings) -> None:
+    done: list[str] = []
+    with pytest.warns(im.FindingWarning):
+        validation = im.validate(
+            readings,
+            surface=im.Surface(),
+            below_surface="floor",
+            folds=3,
+            progress=done.append,
+        )
+    assert len(done) == len(validation.samples) + len(validation.warnings) > 50
+    assert validation.by_pigment[0]["share"] >= validation.by_pigment[1]["share"]
+    assert str(validation).startswith(f"{len(validation.samples)} mixtures, left out in 3 groups")
+
+
+def test_ctrl_c_ends_a_validation_at_once(readings: im.Readings) -> None:
+    def press() -> None:
+        time.sleep(0.3)
+        signal.raise_signal(signal.SIGINT)
+
+    start = time.monotonic()
+    threading.Thread(target=press).start()
+    with pytest.raises(KeyboardInterrupt):
+        im.validate(readings, surface=im.Surface(), below_surface="floor")
+    assert time.monotonic() - start < 3.0, "one by one takes longer"
+
+
+def test_a_plan_has_the_form_of_the_program(oils: im.Library, tmp_path: Path) -> None:
+    plan = im.plan(["Cobalt Blue", "Viridian"], white="Zinc White", prior=oils, swatches=16)
+    assert len(plan.swatches) == 16
+    assert plan.form.startswith(b"sample,film,backing,replicate,Zinc White,Cobalt Blue,Viridian,400")
+    plan.save(tmp_path / "form.csv")
+    with pytest.raises(im.Error, match="exists already"):
+        plan.save(tmp_path / "form.csv")
+    assert abs(sum(plan.totals.values()) - 160.0) < 0.5, "ten grams a swatch"
+
+
+def test_a_report_is_one_page_with_figures(oils: im.Library, tmp_path: Path) -> None:
+    report = im.report(oils)
+    page = report.save(tmp_path / "out")
+    assert page.read_text().startswith("<!DOCTYPE html>")
+    assert len(list((tmp_path / "out/figures").glob("*.png"))) > 3
+    assert "iframe" in report._repr_html_()
+
+
+def test_the_version_is_that_of_the_workspace() -> None:
+    manifest = (ROOT / "Cargo.toml").read_text()
+    assert f'version = "{im.__version__}"' in manifest
