@@ -45,7 +45,7 @@ def test_a_fit_tells_its_stages_and_findings() -> None:
         fit = shipped_fit(progress=stages.append)
     assert any("refinement" in stage for stage in stages), stages
     assert {str(warning.message) for warning in told} == set(fit.warnings)
-    assert "worst samples" in fit._repr_html_() and "Warnings" in fit._repr_html_()
+    assert "Worst samples" in fit._repr_html_() and fit._repr_html_().count("Warnings") == 1
     assert round(fit.delta_e["mean"], 2) == 1.38, "as docs/guide/figures.md says"
 
 

@@ -20,19 +20,21 @@ def swatch(code: str) -> Html:
 
 def table(headings: Sequence[str], rows: Iterable[Sequence[object]], title: str = "") -> str:
     """An HTML table; cells of class `Html` stay as they are."""
-    head = "".join(f"<th>{escape(text)}</th>" for text in headings)
+    left = ' style="text-align:left"'
+    head = "".join(f"<th{left}>{escape(text)}</th>" for text in headings)
     body = "".join(
         "<tr>"
-        + "".join(f"<td>{cell if isinstance(cell, Html) else escape(str(cell))}</td>" for cell in row)
+        + "".join(
+            f"<td{left}>{cell if isinstance(cell, Html) else escape(str(cell))}</td>" for cell in row
+        )
         + "</tr>"
         for row in rows
     )
-    caption = f"<caption>{escape(title)}</caption>" if title else ""
-    return f"<table>{caption}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    caption = f"<p><b>{escape(title)}</b></p>" if title else ""
+    return caption + f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
-def findings(warnings: Sequence[str]) -> str:
-    """Warnings as a list, or nothing."""
-    if not warnings:
-        return ""
-    return "<p><b>Warnings</b></p><ul>" + "".join(f"<li>{escape(w)}</li>" for w in warnings) + "</ul>"
+def listed(title: str, sentences: Sequence[str]) -> str:
+    """Sentences as a list below a title, or nothing."""
+    items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences)
+    return f"<p><b>{escape(title)}</b></p><ul>{items}</ul>" if sentences else ""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from impasto import _native
-from impasto.display import Html, findings, table
+from impasto.display import listed, table
 from impasto.errors import notes_of, warn, warnings_of
 from impasto.library import Library
 from impasto.light import Light, light_of
@@ -58,7 +58,7 @@ class _Errors:
         worst = sorted(self.samples, key=lambda entry: -entry[1])[:12]
         rows = [[name, f"{error:.2f}"] for name, error in worst]
         figures = ", ".join(f"{key} {value:.2f}" for key, value in self.delta_e.items())
-        return table(["worst samples", "CIEDE2000"], rows, f"{title}: CIEDE2000 {figures}")
+        return table(["sample", "CIEDE2000"], rows, f"{title}; CIEDE2000 of all: {figures}")
 
 
 class Fit(_Errors):
@@ -87,8 +87,8 @@ class Fit(_Errors):
         return f"<impasto.Fit: {self._native.text().splitlines()[0]}>"
 
     def _repr_html_(self) -> str:
-        notes = Html("".join(f"<p>{note}</p>" for note in self.notes))
-        return self.library._repr_html_() + self._table("fit") + notes + findings(self.warnings)
+        tables = self.library._table() + self._table("Worst samples")
+        return tables + listed("Notes", self.notes) + listed("Warnings", self.warnings)
 
 
 class Validation(_Errors):
@@ -121,7 +121,7 @@ class Validation(_Errors):
         return f"<impasto.Validation: {self._native.text().splitlines()[0]}>"
 
     def _repr_html_(self) -> str:
-        return self._table("left out") + findings(self.warnings)
+        return self._table("Worst mixtures, left out") + listed("Warnings", self.warnings)
 
 
 def fit(

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from impasto import _native, matching
-from impasto.display import Html, findings, swatch, table
+from impasto.display import Html, listed, swatch, table
 from impasto.errors import Error, warn, warnings_of
 from impasto.light import Light, light_of
 from impasto.spectrum import Floats, Spectrum, floats, frozen, spectrum
@@ -239,6 +239,11 @@ class Library:
         return f"<impasto.Library: {self.about['title']}, {len(self)} pigments, {nm[0]:g} to {nm[-1]:g} nm>"
 
     def _repr_html_(self) -> str:
+        evidence = self.about["evidence"]
+        return self._table() + listed("Warnings", evidence["warnings"] if evidence else [])
+
+    def _table(self) -> str:
+        """Swatches of all pigments."""
         rows = []
         reference = self.about["reference"]
         for pigment in self.about["pigments"]:
@@ -250,9 +255,7 @@ class Library:
         evidence = self.about["evidence"]
         errors = f", CIEDE2000 mean {evidence['delta_e']['mean']:.2f}" if evidence else ""
         headings = ["masstone, 1:9 tint", "pigment", "sRGB", "notes"]
-        return table(headings, rows, self.about["title"] + errors) + findings(
-            evidence["warnings"] if evidence else []
-        )
+        return table(headings, rows, self.about["title"] + errors)
 
 
 def ground_of(over: float | str | Any | None) -> Any:

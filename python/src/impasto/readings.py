@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from impasto import _native
-from impasto.display import findings, swatch, table
+from impasto.display import listed, swatch, table
 from impasto.errors import Error, notes_of, warn, warnings_of
 from impasto.spectrum import Floats, Spectrum, wavelengths_of
 
@@ -150,7 +150,7 @@ class Readings:
         spectra = self.spectra
         codes = color.display(spectra)
         rows = [[swatch(code), name, code] for code, name in zip(codes, spectra.names)]
-        return table(["", "sample", "sRGB"], rows[:200], repr(self)) + findings(self.warnings)
+        return table(["", "sample", "sRGB"], rows[:200], repr(self)) + listed("Warnings", self.warnings)
 
 
 def read(

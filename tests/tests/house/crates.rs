@@ -75,6 +75,7 @@ fn the_graphics_device_is_named_in_one_folder_and_where_the_window_draws() {
     for (path, text) in texts(&[".rs"]) {
         let named = text.contains(&needle);
         let draws = [
+            "studio/benches/offscreen.rs",
             "studio/src/window.rs",
             "studio/src/view/meshes.rs",
             "studio/src/view/pipeline.rs",
