@@ -1,5 +1,13 @@
 //! Pigment maps of spectral scans: which measured pigments are where, how much, and how sure.
 
+mod numbers;
+
+mod zarr;
+
 pub mod pixel_maps;
 
 pub mod cube;
+
+pub mod store;
+
+pub mod blocks;

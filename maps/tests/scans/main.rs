@@ -1,0 +1,14 @@
+//! Scans written by the tests are read as cubes, and maps are written and resumed.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+mod written;
+
+mod envi;
+
+mod envi_faults;
+
+mod headers;
+
+mod specim;
+
