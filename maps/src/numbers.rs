@@ -66,22 +66,16 @@ impl NumberType {
 
     /// Converts the numbers in `bytes` and writes them to `values[0]`, `values[stride]` and so on.
     /// Numbers that f32 does not hold are rounded. Stops at the end of the shorter side.
-    pub(crate) fn convert(
-        self,
-        order: ByteOrder,
-        bytes: &[u8],
-        values: &mut [f32],
-        stride: usize,
-    ) {
+    pub(crate) fn convert(self, order: ByteOrder, bytes: &[u8], values: &mut [f32], stride: usize) {
         macro_rules! convert {
             ($type:ty) => {
                 match order {
-                    ByteOrder::Little => each(bytes, values, stride, |b| {
-                        <$type>::from_le_bytes(b) as f32
-                    }),
-                    ByteOrder::Big => each(bytes, values, stride, |b| {
-                        <$type>::from_be_bytes(b) as f32
-                    }),
+                    ByteOrder::Little => {
+                        each(bytes, values, stride, |b| <$type>::from_le_bytes(b) as f32)
+                    }
+                    ByteOrder::Big => {
+                        each(bytes, values, stride, |b| <$type>::from_be_bytes(b) as f32)
+                    }
                 }
             };
         }
@@ -97,12 +91,12 @@ impl NumberType {
             Self::F32 => convert!(f32),
             Self::F64 => convert!(f64),
             Self::F16 => match order {
-                ByteOrder::Little => each(bytes, values, stride, |b| {
-                    half::f16::from_le_bytes(b).to_f32()
-                }),
-                ByteOrder::Big => each(bytes, values, stride, |b| {
-                    half::f16::from_be_bytes(b).to_f32()
-                }),
+                ByteOrder::Little => {
+                    each(bytes, values, stride, |b| half::f16::from_le_bytes(b).to_f32())
+                }
+                ByteOrder::Big => {
+                    each(bytes, values, stride, |b| half::f16::from_be_bytes(b).to_f32())
+                }
             },
         }
     }

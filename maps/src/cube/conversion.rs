@@ -124,16 +124,16 @@ mod tests {
     #[test]
     fn each_column_has_its_dark_and_gain() {
         let dark = vec![10.0, 20.0, 30.0, 40.0];
-        let gain = vec![0.01, 0.02, 0.005, 0.001];
+        let gain = vec![1.0 / 64.0, 1.0 / 32.0, 1.0 / 128.0, 1.0 / 1024.0];
         let conversion = conversion(Terms::Columns { dark, gain });
-        let mut values = [60.0, 30.0];
+        let mut values = [42.0, 28.0];
         assert_eq!(conversion.pixel(0, &mut values), Mask::Mapped);
-        assert_eq!(values, [0.5, 0.2]);
-        let mut values = [130.0, 540.0];
+        assert_eq!(values, [0.5, 0.25]);
+        let mut values = [94.0, 552.0];
         assert_eq!(conversion.pixel(1, &mut values), Mask::Mapped);
         assert_eq!(values, [0.5, 0.5]);
         let second = conversion.of_bands(&[1], 2);
-        let mut values = [540.0];
+        let mut values = [552.0];
         second.pixel(1, &mut values);
         assert_eq!(values, [0.5], "the second band of the second column");
     }

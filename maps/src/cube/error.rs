@@ -118,6 +118,16 @@ impl CubeError {
         Self::File(FileError::reading(path, reason))
     }
 
+    /// The error of unpacking the file `path`.
+    pub(crate) fn unpacking(path: &Path, reason: io::Error) -> Self {
+        match reason.kind() {
+            io::ErrorKind::UnexpectedEof => {
+                Self::data(path, "ends before its data end", "copy or export the file again")
+            }
+            _ => Self::reading(path, reason),
+        }
+    }
+
     /// A file of a kind that is not read.
     pub(crate) fn format(
         path: &Path,

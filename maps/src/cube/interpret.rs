@@ -60,9 +60,8 @@ impl Sample {
     /// Largest values of pixels with data, in rising order.
     fn largest(&self, ignore: Option<f32>) -> Vec<f32> {
         let pixels = self.values.chunks_exact(self.bands);
-        let has_data = |pixel: &&[f32]| {
-            pixel.iter().all(|value| value.is_finite() && Some(*value) != ignore)
-        };
+        let has_data =
+            |pixel: &&[f32]| pixel.iter().all(|value| value.is_finite() && Some(*value) != ignore);
         let largest = |pixel: &[f32]| pixel.iter().copied().fold(f32::NEG_INFINITY, f32::max);
         let mut found: Vec<f32> = pixels.filter(has_data).map(largest).collect();
         found.sort_by(f32::total_cmp);
@@ -120,7 +119,13 @@ pub(crate) fn interpret(
     let conversion = conversion.of_bands(&bands, scan.bands);
     check_usable(scan, &sample, &conversion)?;
     let sorted = |of: Option<Vec<f64>>| of.map(|all| bands.iter().map(|&band| all[band]).collect());
-    Ok(Interpreted { white_sd: sorted(white_sd), black_sd: sorted(black_sd), conversion, bands, remarks })
+    Ok(Interpreted {
+        white_sd: sorted(white_sd),
+        black_sd: sorted(black_sd),
+        conversion,
+        bands,
+        remarks,
+    })
 }
 
 fn check_has_light(scan: &Opened, largest: &[f32]) -> Result<(), CubeError> {
@@ -151,8 +156,7 @@ fn terms_of_values(
     }
     // A few glints or dead pixels do not decide.
     let most = largest[(largest.len() - 1) * 98 / 100];
-    let refused =
-        || CubeError::NoReflectance { path: scan.path.clone(), largest: f64::from(most) };
+    let refused = || CubeError::NoReflectance { path: scan.path.clone(), largest: f64::from(most) };
     match &scan.values {
         Values::Divided(factor) => Ok(Terms::One((1.0 / factor) as f32)),
         Values::Gains(pairs) => {

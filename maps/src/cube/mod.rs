@@ -44,10 +44,10 @@ mod scan;
 
 mod open;
 
+pub use crate::numbers::{ByteOrder, NumberType};
 pub use block::Block;
 pub use conversion::{GREATEST_REFLECTANCE, LEAST_REFLECTANCE};
 pub use error::CubeError;
-pub use crate::numbers::{ByteOrder, NumberType};
 pub use options::{CubeOptions, CubeScale, DarkReading};
 pub use raw_file::Interleave;
 pub use scan::{Cube, CubeValues};

@@ -18,11 +18,27 @@ use super::zarr_cube;
 
 /// Kinds that other programs read, by their first bytes.
 const OTHERS: [(&[u8], &str, &str); 5] = [
-    (b"\x89HDF\r\n", "an HDF5 file (or MATLAB 7.3, NeXus)", "open it in Python with h5py and save it as Zarr with xarray, or export ENVI"),
+    (
+        b"\x89HDF\r\n",
+        "an HDF5 file (or MATLAB 7.3, NeXus)",
+        "open it in Python with h5py and save it as Zarr with xarray, or export ENVI",
+    ),
     (b"CDF", "a NetCDF file", "open it in Python with xarray and save it as Zarr"),
-    (b"MATLAB 5.0", "a MATLAB file", "open it in Python with scipy.io and save it as Zarr with xarray, or export ENVI"),
-    (b"\x89PNG", "one picture, which is no cube", "name the folder that holds a picture for each wavelength"),
-    (b"\xff\xd8\xff", "a JPEG picture, which is no cube", "name the folder that holds a picture for each wavelength"),
+    (
+        b"MATLAB 5.0",
+        "a MATLAB file",
+        "open it in Python with scipy.io and save it as Zarr with xarray, or export ENVI",
+    ),
+    (
+        b"\x89PNG",
+        "one picture, which is no cube",
+        "name the folder that holds a picture for each wavelength",
+    ),
+    (
+        b"\xff\xd8\xff",
+        "a JPEG picture, which is no cube",
+        "name the folder that holds a picture for each wavelength",
+    ),
 ];
 
 impl Cube {
@@ -43,16 +59,16 @@ impl Cube {
     pub fn open_with(path: impl AsRef<Path>, options: &CubeOptions) -> Result<Self, CubeError> {
         let path = path.as_ref();
         check(path, options)?;
-        let (scan, own) = match path.is_dir() && !zarr_cube::is_zarr(path) && specim::is_specim(path)
-        {
-            true => {
-                let found = specim::find(path)?;
-                let mut scan = open_scan(&found.scan, options)?;
-                scan.remarks.insert(0, found.remark.clone());
-                (scan, Some(found))
-            }
-            false => (open_scan(path, options)?, None),
-        };
+        let (scan, own) =
+            match path.is_dir() && !zarr_cube::is_zarr(path) && specim::is_specim(path) {
+                true => {
+                    let found = specim::find(path)?;
+                    let mut scan = open_scan(&found.scan, options)?;
+                    scan.remarks.insert(0, found.remark.clone());
+                    (scan, Some(found))
+                }
+                false => (open_scan(path, options)?, None),
+            };
         let readings = readings(&scan, own.as_ref(), options)?;
         Self::of(scan, readings.as_ref(), options)
     }
@@ -64,7 +80,10 @@ fn check(path: &Path, options: &CubeOptions) -> Result<(), CubeError> {
         CubeError::format(path, problem, format!("give a number with [{name}]"))
     };
     if !(options.tile > 0.0 && options.tile <= 1.2) {
-        let problem = format!("the white's reflectance must be above 0 and at most 1.2, found `{}`", options.tile);
+        let problem = format!(
+            "the white's reflectance must be above 0 and at most 1.2, found `{}`",
+            options.tile
+        );
         return Err(CubeError::format(path, problem, "give a fraction, such as [tile=0.99]"));
     }
     if let super::options::CubeScale::White(white) = options.scale
@@ -122,7 +141,10 @@ fn open_kind(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     Err(CubeError::format(
         path,
         "is no cube that can be read, and no header is beside it",
-        format!("for plain numbers put an ENVI header beside it, as {}", path.with_extension("hdr").display()),
+        format!(
+            "for plain numbers put an ENVI header beside it, as {}",
+            path.with_extension("hdr").display()
+        ),
     ))
 }
 

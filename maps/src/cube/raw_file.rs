@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::error::CubeError;
-use crate::numbers::{ByteOrder, NumberType};
 use super::positional::PositionalFile;
 use super::window::{Source, Window};
+use crate::numbers::{ByteOrder, NumberType};
 
 /// Order of lines, samples and bands in the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -170,12 +170,7 @@ impl RawFile {
 }
 
 impl Source for RawFile {
-    fn read(
-        &self,
-        window: &Window,
-        bands: &[usize],
-        values: &mut [f32],
-    ) -> Result<(), CubeError> {
+    fn read(&self, window: &Window, bands: &[usize], values: &mut [f32]) -> Result<(), CubeError> {
         if values.is_empty() {
             return Ok(());
         }
@@ -183,11 +178,9 @@ impl Source for RawFile {
             return self.bsq_rows(window, bands, values);
         }
         let rows = values.par_chunks_mut(window.width() * bands.len());
-        rows.zip(window.rows.clone()).try_for_each(|(values, line)| {
-            match self.layout.interleave {
-                Interleave::Bip => self.bip_row(line, window, bands, values),
-                _ => self.bil_row(line, window, bands, values),
-            }
+        rows.zip(window.rows.clone()).try_for_each(|(values, line)| match self.layout.interleave {
+            Interleave::Bip => self.bip_row(line, window, bands, values),
+            _ => self.bil_row(line, window, bands, values),
         })
     }
 

@@ -138,8 +138,7 @@ impl Readings {
         };
         let white_dark = self.white_dark.as_ref().or(self.dark.as_ref());
         let dark = |of: Option<&Reading>, column, band| of.map_or(0.0, |it| it.at(column, band));
-        let light =
-            |column, band| self.white.at(column, band) - dark(white_dark, column, band);
+        let light = |column, band| self.white.at(column, band) - dark(white_dark, column, band);
         let columns = scan.samples;
         let means: Vec<f64> = (0..scan.bands)
             .map(|band| (0..columns).map(|at| light(at, band)).sum::<f64>() / columns as f64)
@@ -152,18 +151,23 @@ impl Readings {
         }
         let least = LEAST_LIGHT * peak;
         let good: Vec<bool> = means.iter().map(|mean| *mean >= least).collect();
-        let dim = (0..nm.len()).find(|&at| scan.good[at] && !good[at] && VISIBLE_NM.contains(&nm[at]));
+        let dim =
+            (0..nm.len()).find(|&at| scan.good[at] && !good[at] && VISIBLE_NM.contains(&nm[at]));
         if let Some(at) = dim {
             let (nm, mean) = (nm[at], means[at]);
             return Err(fault(
-                format!("of this scan has too little light at {nm} nm: `{mean}` above its dark, expected {least}"),
+                format!(
+                    "of this scan has too little light at {nm} nm: `{mean}` above its dark, expected {least}"
+                ),
                 "take the white with more light, or mark the band as bad (bbl)",
             ));
         }
         let mut remarks = Vec::new();
         let bad = good.iter().zip(&scan.good).filter(|(light, good)| !**light && **good).count();
         if bad > 0 {
-            remarks.push(format!("{bad} bands outside 380 to 730 nm have too little light and are left out"));
+            remarks.push(format!(
+                "{bad} bands outside 380 to 730 nm have too little light and are left out"
+            ));
         }
         let mut dead = 0;
         let mut terms = (Vec::new(), Vec::new());
@@ -186,13 +190,16 @@ impl Readings {
             return Err(fault(problem, "take a white that fills the whole line"));
         }
         if dead > 0 {
-            remarks.push(format!("{dead} of {columns} columns have no light in the white reading and are not mapped"));
+            remarks.push(format!(
+                "{dead} of {columns} columns have no light in the white reading and are not mapped"
+            ));
         }
         let scatter = |of: &[f64]| -> Vec<f64> {
             let pairs = of.iter().zip(&means);
             pairs.map(|(sd, mean)| self.tile * sd / (mean * self.time_ratio)).collect()
         };
-        let black_sd = self.dark.as_ref().map_or_else(|| vec![0.0; scan.bands], |it| scatter(&it.sd));
+        let black_sd =
+            self.dark.as_ref().map_or_else(|| vec![0.0; scan.bands], |it| scatter(&it.sd));
         Ok(Referenced {
             terms: Terms::Columns { dark: terms.0, gain: terms.1 },
             good,

@@ -213,10 +213,7 @@ impl Cube {
     fn outside(&self, asked: String) -> CubeError {
         let ends = [self.wavelengths_nm.first(), self.wavelengths_nm.last()];
         let [first, last] = ends.map(|end| end.copied().unwrap_or(0.0));
-        let has = format!(
-            "{} rows, {} columns and {first} to {last} nm",
-            self.lines, self.samples
-        );
+        let has = format!("{} rows, {} columns and {first} to {last} nm", self.lines, self.samples);
         CubeError::Outside { path: self.path.clone(), asked, has }
     }
 }

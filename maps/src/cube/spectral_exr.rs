@@ -10,19 +10,19 @@ use std::path::Path;
 
 use exr::block::chunk::TileCoordinates;
 use exr::block::lines::LineRef;
-use exr::block::{BlockIndex, UncompressedBlock};
 use exr::block::reader::ChunksReader;
+use exr::block::{BlockIndex, UncompressedBlock};
 use exr::meta::MetaData;
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
 use half::f16;
 
 use super::error::CubeError;
-use crate::numbers::NumberType;
 use super::opened::{Opened, Values};
 use super::options::CubeOptions;
 use super::raw_file::Interleave;
 use super::spool::Spool;
+use crate::numbers::NumberType;
 
 /// Whether a file begins as OpenEXR.
 pub(crate) fn is_exr(start: &[u8]) -> bool {
@@ -56,7 +56,7 @@ fn channels(meta: &MetaData) -> Option<(usize, Vec<(usize, f64)>)> {
 /// Opens the file: unpacks its channels of reflectance.
 pub(crate) fn open(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     let fault = |error: exr::error::Error| match error {
-        exr::error::Error::Io(reason) => CubeError::reading(path, reason),
+        exr::error::Error::Io(reason) => CubeError::unpacking(path, reason),
         other => CubeError::data(path, format!("cannot be unpacked: {other}"), "export it again"),
     };
     let file = File::open(path).map_err(|reason| CubeError::reading(path, reason))?;
@@ -90,7 +90,8 @@ pub(crate) fn open(path: &Path, options: &CubeOptions) -> Result<Opened, CubeErr
     let chunks = reader.filter_chunks(false, wanted).map_err(fault)?;
     let meta = chunks.meta_data().clone();
     for chunk in chunks {
-        let block = chunk.and_then(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false));
+        let block =
+            chunk.and_then(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false));
         let block = block.map_err(fault)?;
         for line in block.lines(&header.channels) {
             let Some(&band) = places.get(&line.location.channel) else { continue };

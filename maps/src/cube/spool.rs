@@ -8,9 +8,9 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::CubeError;
-use crate::numbers::{ByteOrder, NumberType};
 use super::positional::PositionalFile;
 use super::raw_file::{Interleave, Layout, RawFile};
+use crate::numbers::{ByteOrder, NumberType};
 
 /// Order of the bytes of unpacked numbers.
 const ORDER: ByteOrder =

@@ -33,9 +33,9 @@ pub(crate) fn wavelengths_of(path: &Path) -> Result<Vec<f64>, CubeError> {
                 });
             }
             // Words beside the numbers, such as names of pictures, keep their columns.
-            (false, false) => rows.push(
-                words.iter().map(|word| number_of(word).unwrap_or(f64::NAN)).collect(),
-            ),
+            (false, false) => {
+                rows.push(words.iter().map(|word| number_of(word).unwrap_or(f64::NAN)).collect())
+            }
         }
     }
     let (column, unit) = heading.unwrap_or((None, None));

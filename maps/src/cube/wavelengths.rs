@@ -41,7 +41,11 @@ impl Wavelengths {
     pub(crate) fn of(values: &[f64], unit: Option<&str>) -> Result<Self, String> {
         let told = unit.map(factor).transpose()?.flatten();
         if let Some(at) = values.iter().position(|value| !(value.is_finite() && *value > 0.0)) {
-            return Err(format!("has `{}` as number {}, which is no wavelength", values[at], at + 1));
+            return Err(format!(
+                "has `{}` as number {}, which is no wavelength",
+                values[at],
+                at + 1
+            ));
         }
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let most = values.iter().copied().fold(0.0, f64::max);
@@ -56,9 +60,8 @@ impl Wavelengths {
                 ));
             }
             (None, Some((factor, name))) => {
-                let remark = format!(
-                    "wavelengths have no unit: {least} to {most} are taken for {name}"
-                );
+                let remark =
+                    format!("wavelengths have no unit: {least} to {most} are taken for {name}");
                 (factor, Some(remark))
             }
             (_, None) => {

@@ -28,12 +28,7 @@ impl Window {
 pub(crate) trait Source: Debug + Send + Sync {
     /// Fills `values` with the values of `bands` (indices in the file) of the pixels of `window`,
     /// pixel after pixel. The window and the bands lie inside the cube.
-    fn read(
-        &self,
-        window: &Window,
-        bands: &[usize],
-        values: &mut [f32],
-    ) -> Result<(), CubeError>;
+    fn read(&self, window: &Window, bands: &[usize], values: &mut [f32]) -> Result<(), CubeError>;
 
     /// Bytes of memory that reading needs beside the values, for a window of `rows` x `columns`.
     fn scratch_bytes(&self, rows: usize, columns: usize) -> usize;

@@ -194,7 +194,9 @@ pub(crate) fn open(folder: &Path, options: &CubeOptions) -> Result<Opened, CubeE
     let offset = attribute(&array, "add_offset");
     let values = match (scale, offset) {
         (None, None) => Values::Unknown { are_whole: number_type.is_whole() },
-        (scale, offset) => Values::Gains(vec![(scale.unwrap_or(1.0), offset.unwrap_or(0.0)); bands]),
+        (scale, offset) => {
+            Values::Gains(vec![(scale.unwrap_or(1.0), offset.unwrap_or(0.0)); bands])
+        }
     };
     Ok(Opened {
         path: place,
@@ -259,9 +261,8 @@ impl ZarrSource {
             let pixels = values.chunks_exact_mut(bands.len()).zip(window.columns.clone());
             for (pixel, column) in pixels {
                 for (value, &band) in pixel.iter_mut().zip(bands) {
-                    let place = line % down * by_row
-                        + column % across * by_column
-                        + band % deep * by_band;
+                    let place =
+                        line % down * by_row + column % across * by_column + band % deep * by_band;
                     let chunk = chunks.get(&(column / across, band / deep));
                     *value = match chunk {
                         Some(Some(numbers)) => numbers[place],
@@ -275,12 +276,7 @@ impl ZarrSource {
 }
 
 impl Source for ZarrSource {
-    fn read(
-        &self,
-        window: &Window,
-        bands: &[usize],
-        values: &mut [f32],
-    ) -> Result<(), CubeError> {
+    fn read(&self, window: &Window, bands: &[usize], values: &mut [f32]) -> Result<(), CubeError> {
         if values.is_empty() {
             return Ok(());
         }

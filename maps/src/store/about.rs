@@ -32,6 +32,7 @@ impl MapsAbout {
             "library_sha256": self.library_sha256,
             "book_sha256": self.book_sha256,
             "scan": self.scan,
+            "pigments": self.pigments,
             "rows": [self.rows.start, self.rows.end],
             "columns": [self.columns.start, self.columns.end],
             "settings": self.settings,

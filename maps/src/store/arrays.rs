@@ -130,12 +130,7 @@ impl MapArray {
     }
 
     /// Writes the numbers of the pixels `pixels` of `maps` to `stored`.
-    pub(crate) fn store(
-        self,
-        maps: &BlockMaps,
-        pixels: std::ops::Range<usize>,
-        stored: &mut [u8],
-    ) {
+    pub(crate) fn store(self, maps: &BlockMaps, pixels: std::ops::Range<usize>, stored: &mut [u8]) {
         let of_pigments = pixels.start * maps.pigments..pixels.end * maps.pigments;
         match self {
             Self::Share => halves(&maps.share[of_pigments], stored),

@@ -95,11 +95,9 @@ impl MapStore {
             (false, _) => Err(exists("holds other files", false)),
             (true, _) => {
                 let bytes = spectra::file::read(&place)?;
-                let found: Value =
-                    serde_json::from_slice(&bytes).map_err(|error| StoreError::Damaged {
-                        path: place,
-                        problem: format!("is no JSON: {error}"),
-                    })?;
+                let found: Value = serde_json::from_slice(&bytes).map_err(|error| {
+                    StoreError::Damaged { path: place, problem: format!("is no JSON: {error}") }
+                })?;
                 if found["attributes"]["title"] != group["attributes"]["title"] {
                     return Err(exists("holds other data", false));
                 }
@@ -125,7 +123,8 @@ impl MapStore {
             for key in keys {
                 if found.get(key) != expected.get(key) {
                     let words = |of: &Map<String, Value>| {
-                        let text = of.get(key).map_or_else(|| "missing".to_owned(), Value::to_string);
+                        let text =
+                            of.get(key).map_or_else(|| "missing".to_owned(), Value::to_string);
                         text.chars().take(200).collect()
                     };
                     return Some(StoreError::OtherRun {
@@ -188,7 +187,9 @@ fn check(path: &Path, about: &MapsAbout) -> Result<(), StoreError> {
     let count = about.pigments.len();
     if count == 0 || count > BlockMaps::MOST_PIGMENTS || names.len() < count {
         let most = BlockMaps::MOST_PIGMENTS;
-        return Err(fault(format!("maps need 1 to {most} pigments of different names, found {count}")));
+        return Err(fault(format!(
+            "maps need 1 to {most} pigments of different names, found {count}"
+        )));
     }
     if about.rows.is_empty() || about.columns.is_empty() {
         return Err(fault("maps need at least one row and one column".to_owned()));

@@ -67,9 +67,9 @@ impl Explain for StoreError {
     fn hint(&self) -> Option<Hint> {
         match self {
             Self::File(error) => error.hint(),
-            Self::Shard { source, .. } => source.hint().or_else(|| {
-                Some(Hint::new("free space on the disk, then go on with [resume]"))
-            }),
+            Self::Shard { source, .. } => source
+                .hint()
+                .or_else(|| Some(Hint::new("free space on the disk, then go on with [resume]"))),
             Self::Exists { is_maps: true, .. } => {
                 Some(Hint::new("go on with [resume], or name another folder with [out]"))
             }

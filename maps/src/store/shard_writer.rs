@@ -131,7 +131,9 @@ impl ShardWriter<'_> {
     /// [`StoreError::Shard`] if a file cannot be written, [`StoreError::Maps`] if rows are missing.
     pub fn finish(self) -> Result<(), StoreError> {
         if self.next != self.shard.rows.end {
-            return Err(self.fault(format!("the maps of {} end before row {}", self.shard, self.next)));
+            return Err(
+                self.fault(format!("the maps of {} end before row {}", self.shard, self.next))
+            );
         }
         for row in self.rows {
             let file = self.store.file(row.array, &self.shard);

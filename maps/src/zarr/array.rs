@@ -53,7 +53,11 @@ impl ZarrArray {
         let numbers: Vec<String> = at.iter().map(usize::to_string).collect();
         let mut key = numbers.join(&self.about.separator.to_string());
         if self.about.has_prefix {
-            key = if at.is_empty() { "c".to_owned() } else { format!("c{}{key}", self.about.separator) };
+            key = if at.is_empty() {
+                "c".to_owned()
+            } else {
+                format!("c{}{key}", self.about.separator)
+            };
         }
         self.folder.join(key)
     }

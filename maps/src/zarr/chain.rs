@@ -38,8 +38,7 @@ pub(crate) fn named(codec: &Value) -> (&str, &Value) {
 impl Chain {
     /// Reads a list of codecs for numbers of `axes` axes.
     pub(crate) fn of(codecs: &[Value], axes: usize) -> Result<Self, ZarrFault> {
-        let mut chain =
-            Self { transpose: None, byte_order: ByteOrder::Little, steps: Vec::new() };
+        let mut chain = Self { transpose: None, byte_order: ByteOrder::Little, steps: Vec::new() };
         let mut are_bytes = false;
         for codec in codecs {
             let (name, settings) = named(codec);
@@ -117,9 +116,10 @@ fn axes_of(order: &Value, axes: usize) -> Result<Vec<usize>, ZarrFault> {
 /// Reads at most one byte more than `most`, so that damage takes no memory.
 fn read_all(reader: impl Read, most: usize) -> Result<Vec<u8>, ZarrFault> {
     let mut bytes = Vec::new();
-    reader.take(most as u64 + 1).read_to_end(&mut bytes).map_err(|error| {
-        ZarrFault::damaged(format!("a chunk cannot be unpacked: {error}"))
-    })?;
+    reader
+        .take(most as u64 + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| ZarrFault::damaged(format!("a chunk cannot be unpacked: {error}")))?;
     Ok(bytes)
 }
 

@@ -81,7 +81,8 @@ impl ArrayMetadata {
                 let chain = Chain::of(codecs, axes)?;
                 let at_end = check_index(settings)?;
                 let fits = |(outer, inner): (&usize, &usize)| *inner > 0 && outer % inner == 0;
-                if inner.len() != axes || outer.len() != axes || !outer.iter().zip(&inner).all(fits) {
+                if inner.len() != axes || outer.len() != axes || !outer.iter().zip(&inner).all(fits)
+                {
                     let problem = format!("has shards of {outer:?} and chunks of {inner:?}");
                     return Err(ZarrFault::unread(problem));
                 }
@@ -94,8 +95,10 @@ impl ArrayMetadata {
             let problem = format!("has the shape {shape:?} and chunks of {chunk:?}");
             return Err(ZarrFault::unread(problem));
         }
-        let bytes = |sizes: &[usize]| sizes.iter().try_fold(number_type.bytes(), |a, b| a.checked_mul(*b));
-        if !bytes(&chunk).is_some_and(|bytes| bytes <= MOST_CHUNK_BYTES) || bytes(&shape).is_none() {
+        let bytes =
+            |sizes: &[usize]| sizes.iter().try_fold(number_type.bytes(), |a, b| a.checked_mul(*b));
+        if !bytes(&chunk).is_some_and(|bytes| bytes <= MOST_CHUNK_BYTES) || bytes(&shape).is_none()
+        {
             return Err(ZarrFault {
                 problem: format!("has chunks of {chunk:?} numbers, more than 512 MB"),
                 way_out: "save it with smaller chunks: xarray's chunk({\"y\": 128, \"x\": 128})",
@@ -118,7 +121,10 @@ impl ArrayMetadata {
             separator,
             has_prefix: !is_v2,
             fill: fill_value(&document["fill_value"]),
-            dimensions: names.iter().map(|name| name.as_str().unwrap_or_default().to_owned()).collect(),
+            dimensions: names
+                .iter()
+                .map(|name| name.as_str().unwrap_or_default().to_owned())
+                .collect(),
             attributes: document["attributes"].as_object().cloned().unwrap_or_default(),
         })
     }

@@ -24,18 +24,42 @@ fn faults_of_the_header_name_line_and_key() {
         ("bands = 4", "bands = 99999999999", "`bands` must be at most 65536, found `99999999999`"),
         ("data type = 1", "data type = 6", "`data type` is `6`, complex numbers"),
         ("data type = 1", "data type = 7", "must be 1, 2, 3, 4, 5, 12, 13, 14 or 15, found `7`"),
-        ("interleave = bil", "interleave = bilinear", "`interleave` must be bsq, bil or bip, found `bilinear`"),
+        (
+            "interleave = bil",
+            "interleave = bilinear",
+            "`interleave` must be bsq, bil or bip, found `bilinear`",
+        ),
         ("byte order = 0", "byte order = 2", "line 7: `byte order` must be 0 or 1, found `2`"),
         ("600.5", "60O.5", "line 10: `wavelength` has `60O.5` as number 3"),
         ("Nanometers", "Index", "`wavelength` has the unit `Index`, which is no length"),
         ("Nanometers", "Micrometers", "which are no Micrometers: these look like nm"),
         (" 700}", " 700", "line 10: `wavelength` opens a brace that is never closed"),
-        ("header offset", "file type = ENVI Spectral Library\nheader offset", "`file type` is `envi spectral library`, no cube"),
-        ("header offset", "file compression = 1\nheader offset", "`file compression` says that the data are packed"),
-        ("header offset", "major frame offsets = {0, 8}\nheader offset", "data with gaps are not read"),
-        ("header offset", "data units = Transmittance\nheader offset", "`data units` is `transmittance`, no reflectance"),
+        (
+            "header offset",
+            "file type = ENVI Spectral Library\nheader offset",
+            "`file type` is `envi spectral library`, no cube",
+        ),
+        (
+            "header offset",
+            "file compression = 1\nheader offset",
+            "`file compression` says that the data are packed",
+        ),
+        (
+            "header offset",
+            "major frame offsets = {0, 8}\nheader offset",
+            "data with gaps are not read",
+        ),
+        (
+            "header offset",
+            "data units = Transmittance\nheader offset",
+            "`data units` is `transmittance`, no reflectance",
+        ),
         ("header offset", "bbl = {0,0,0,0}\nheader offset", "`bbl` marks every band as bad"),
-        ("header offset", "reflectance scale factor = 0\nheader offset", "must be above 0, found `0`"),
+        (
+            "header offset",
+            "reflectance scale factor = 0\nheader offset",
+            "must be above 0, found `0`",
+        ),
         ("wavelength = ", "waves = ", "names no wavelengths of its 4 bands"),
     ] {
         let (found, _) = refused_header(from, to);
@@ -103,7 +127,8 @@ fn counts_without_readings_are_refused_with_the_way_out() {
 fn scans_without_light_and_saturated_scans_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let with = |value: u16| {
-        let data: Vec<u8> = vec![value; LINES * SAMPLES * BANDS].into_iter().flat_map(u16::to_le_bytes).collect();
+        let data: Vec<u8> =
+            vec![value; LINES * SAMPLES * BANDS].into_iter().flat_map(u16::to_le_bytes).collect();
         let more = "reflectance scale factor = 65535\n";
         write_envi(folder.path(), &format!("of{value}"), &header("bil", 12, more), &data)
     };

@@ -12,15 +12,31 @@ fn cases() -> u32 {
 }
 
 fn key() -> impl Strategy<Value = String> {
-    let known = [
-        "samples", "lines", "bands", "header offset", "data type", "interleave", "byte order",
-        "wavelength", "wavelength units", "bbl", "fwhm", "data ignore value",
-        "reflectance scale factor", "data reflectance gain values",
-        "data reflectance offset values", "file type", "file compression",
-        "major frame offsets", "z plot titles", "tint", "description",
+    const KNOWN: [&str; 21] = [
+        "samples",
+        "lines",
+        "bands",
+        "header offset",
+        "data type",
+        "interleave",
+        "byte order",
+        "wavelength",
+        "wavelength units",
+        "bbl",
+        "fwhm",
+        "data ignore value",
+        "reflectance scale factor",
+        "data reflectance gain values",
+        "data reflectance offset values",
+        "file type",
+        "file compression",
+        "major frame offsets",
+        "z plot titles",
+        "tint",
+        "description",
     ];
     prop_oneof![
-        12 => prop::sample::select(&known[..]).prop_map(str::to_owned),
+        12 => prop::sample::select(&KNOWN[..]).prop_map(str::to_owned),
         1 => "[ -~]{0,12}",
         1 => "\\PC{0,6}",
     ]
@@ -39,17 +55,21 @@ fn number() -> impl Strategy<Value = String> {
 }
 
 fn list() -> impl Strategy<Value = String> {
-    (prop::collection::vec(number(), 0..12), prop::sample::select(&[", ", ",\n", " ", "\n;x\n,"][..]))
+    (
+        prop::collection::vec(number(), 0..12),
+        prop::sample::select(&[", ", ",\n", " ", "\n;x\n,"][..]),
+    )
         .prop_map(|(numbers, between)| numbers.join(between))
 }
 
 fn written_value() -> impl Strategy<Value = String> {
-    let words = ["bil", "BSQ", "Bip", "nm", "Micrometers", "Index", "ENVI Standard", "{", "}", "{}"];
+    const WORDS: [&str; 10] =
+        ["bil", "BSQ", "Bip", "nm", "Micrometers", "Index", "ENVI Standard", "{", "}", "{}"];
     prop_oneof![
         5 => number(),
         5 => list().prop_map(|list| format!("{{{list}}}")),
         1 => list().prop_map(|list| format!("{{{list}")),
-        3 => prop::sample::select(&words[..]).prop_map(str::to_owned),
+        3 => prop::sample::select(&WORDS[..]).prop_map(str::to_owned),
         1 => "\\PC{0,20}",
     ]
 }
@@ -79,23 +99,25 @@ fn damaged() -> impl Strategy<Value = Vec<u8>> {
 
 #[test]
 fn any_header_gives_an_error_or_a_result() {
-    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases()) };
+    let config =
+        ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(cases()) };
     let bytes = prop_oneof![
         3 => free(),
         3 => damaged(),
         1 => prop::collection::vec(any::<u8>(), 0..200),
     ];
-    let mut read = 0_u32;
     let mut runner = proptest::test_runner::TestRunner::new_with_rng(
         config,
-        proptest::test_runner::TestRng::deterministic_rng(proptest::test_runner::RngAlgorithm::ChaCha),
+        proptest::test_runner::TestRng::deterministic_rng(
+            proptest::test_runner::RngAlgorithm::ChaCha,
+        ),
     );
-    let read_one = std::cell::Cell::new(0_u32);
+    let read = std::cell::Cell::new(0_u32);
     runner
         .run(&bytes, |bytes| {
             match EnviHeader::parse(&bytes, Path::new("scan.hdr")) {
                 Ok(header) => {
-                    read_one.set(read_one.get() + 1);
+                    read.set(read.get() + 1);
                     let bands = header.good.len();
                     prop_assert!(bands > 0 && header.good.contains(&true));
                     if let Some(nm) = &header.wavelengths_nm {
@@ -107,6 +129,6 @@ fn any_header_gives_an_error_or_a_result() {
             Ok(())
         })
         .unwrap();
-    read += read_one.get();
+    let read = read.get();
     assert!(read > cases() / 20, "only {read} of {} headers were read", cases());
 }

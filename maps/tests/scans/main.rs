@@ -12,3 +12,10 @@ mod headers;
 
 mod specim;
 
+mod pictures;
+
+mod zarr;
+
+mod store;
+
+mod blocks;

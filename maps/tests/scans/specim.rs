@@ -239,7 +239,8 @@ fn columns_without_light_are_not_mapped_and_told() {
     write_envi(&capture, "DARKREF_a", &text(1), &counts(1, &|_| 100));
     write_envi(&capture, "a", &text(2), &counts(2, &|_| 600));
     let cube = Cube::open(folder.path()).unwrap();
-    let told = cube.remarks().iter().any(|remark| remark.starts_with("1 of 40 columns have no light"));
+    let told =
+        cube.remarks().iter().any(|remark| remark.starts_with("1 of 40 columns have no light"));
     assert!(told, "{:?}", cube.remarks());
     let block = cube.read_rows(0..2).unwrap();
     for (at, (values, mask)) in block.iter().enumerate() {

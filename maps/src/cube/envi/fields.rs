@@ -95,12 +95,13 @@ impl Fields {
         let Some(first) = found.next() else { return Ok(None) };
         match found.find(|other| other.value != first.value) {
             None => Ok(Some(first)),
-            Some(other) => Err(self.fault(
-                key,
-                format!("has another value than in line {}", first.line),
-                "remove one of the two lines",
-            )
-            .at(other.line)),
+            Some(other) => Err(self
+                .fault(
+                    key,
+                    format!("has another value than in line {}", first.line),
+                    "remove one of the two lines",
+                )
+                .at(other.line)),
         }
     }
 

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::fields::{Fields, shortened};
 use crate::cube::error::CubeError;
-use crate::numbers::{ByteOrder, NumberType};
 use crate::cube::raw_file::{Interleave, Layout};
 use crate::cube::wavelengths::Wavelengths;
+use crate::numbers::{ByteOrder, NumberType};
 
 /// Keys that name the quantity of the values.
 const QUANTITY_KEYS: [&str; 2] = ["data units", "z plot titles"];
@@ -107,7 +107,11 @@ fn refuse_other_kinds(fields: &Fields) -> Result<(), CubeError> {
         let frames = fields.text(key)?.unwrap_or_default();
         if frames.chars().any(|c| c.is_ascii_digit() && c != '0') {
             let problem = format!("is `{}`: data with gaps are not read", shortened(frames));
-            return Err(fields.fault(key, problem, "save the scan as ENVI Standard without frames"));
+            return Err(fields.fault(
+                key,
+                problem,
+                "save the scan as ENVI Standard without frames",
+            ));
         }
     }
     for key in QUANTITY_KEYS {

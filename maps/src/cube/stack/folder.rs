@@ -80,7 +80,8 @@ pub(crate) fn open_folder(folder: &Path, options: &CubeOptions) -> Result<Opened
     };
     let nm = wavelengths_of(&list)?;
     if nm.len() != pictures.len() {
-        let problem = format!("has {} wavelengths, the folder {} pictures", nm.len(), pictures.len());
+        let problem =
+            format!("has {} wavelengths, the folder {} pictures", nm.len(), pictures.len());
         return Err(CubeError::format(&list, problem, "give one wavelength a picture"));
     }
     let plane = plane_of(first)?;

@@ -15,23 +15,15 @@ pub(crate) struct Plane {
 
 impl Plane {
     /// Checks that this picture is like the first of its stack. `place` names the picture.
-    pub(crate) fn check_like(
-        self,
-        first: Self,
-        path: &Path,
-        place: &str,
-    ) -> Result<(), CubeError> {
+    pub(crate) fn check_like(self, first: Self, path: &Path, place: &str) -> Result<(), CubeError> {
         if self == first {
             return Ok(());
         }
         let words = |plane: Self| {
             format!("{} x {} pixels of {:?}", plane.samples, plane.lines, plane.number_type)
         };
-        let problem = format!(
-            "{place} has {}, the first picture of the stack {}",
-            words(self),
-            words(first)
-        );
+        let problem =
+            format!("{place} has {}, the first picture of the stack {}", words(self), words(first));
         Err(CubeError::format(path, problem, "export all pictures at one size and one depth"))
     }
 }

@@ -8,12 +8,12 @@ use png::{BitDepth, ColorType, Decoder, DecodingError, Reader};
 
 use super::plane::{Plane, not_gray};
 use crate::cube::error::CubeError;
-use crate::numbers::NumberType;
 use crate::cube::spool::Spool;
+use crate::numbers::NumberType;
 
 fn fault(path: &Path, error: DecodingError) -> CubeError {
     match error {
-        DecodingError::IoError(reason) => CubeError::reading(path, reason),
+        DecodingError::IoError(reason) => CubeError::unpacking(path, reason),
         other => CubeError::data(path, format!("cannot be unpacked: {other}"), "export it again"),
     }
 }

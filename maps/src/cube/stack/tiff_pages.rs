@@ -10,12 +10,12 @@ use tiff::decoder::{Decoder, DecodingResult};
 
 use super::plane::{Plane, not_gray};
 use crate::cube::error::CubeError;
-use crate::numbers::NumberType;
 use crate::cube::opened::{Opened, Values};
 use crate::cube::options::CubeOptions;
 use crate::cube::raw_file::Interleave;
 use crate::cube::spool::Spool;
 use crate::cube::wavelength_file::wavelengths_of;
+use crate::numbers::NumberType;
 
 /// Most pages of a file, so that a file whose pages form a circle ends.
 const MOST_PAGES: usize = 65_536;
@@ -29,7 +29,7 @@ type Pages = Decoder<BufReader<File>>;
 
 fn fault(path: &Path, error: TiffError) -> CubeError {
     match error {
-        TiffError::IoError(reason) => CubeError::reading(path, reason),
+        TiffError::IoError(reason) => CubeError::unpacking(path, reason),
         other => CubeError::data(
             path,
             format!("cannot be unpacked: {other}"),
