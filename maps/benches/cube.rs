@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use divan::Bencher;
 use divan::counter::BytesCount;
-use maps::cube::Cube;
+use maps::cube::{Block, Cube};
 
 const SAMPLES: usize = 1024;
 const BANDS: usize = 204;
@@ -47,8 +47,10 @@ fn read_u16(bencher: Bencher, interleave: &str) {
     let cube = Cube::open(&path).expect("the scan is a cube");
     bencher.counter(BytesCount::new(2 * SAMPLES * BANDS * LINES)).bench_local(|| {
         let mut sum = 0.0;
+        let mut block = Block::default();
         for start in (0..LINES).step_by(ROWS) {
-            let block = cube.read_rows(start..start + ROWS).expect("the rows are there");
+            let rows = start..start + ROWS;
+            cube.read_into(rows, 0..SAMPLES, &mut block).expect("the rows are there");
             sum += block.values[start];
         }
         sum

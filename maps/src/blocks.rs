@@ -161,12 +161,12 @@ pub fn map_shard(
     let rows = cube.rows_within(BLOCK_BYTES, width).min((MOST_PIXELS / width).max(1));
     let mut writer = store.writer(shard);
     let mut counts = PixelCounts::default();
+    let mut block = Block::default();
     let mut start = shard.rows.start;
     while start < shard.rows.end {
         let end = (start + rows).min(shard.rows.end);
-        let block = cube.read(start..end, shard.columns.clone())?;
+        cube.read_into(start..end, shard.columns.clone(), &mut block)?;
         let maps = map(&block);
-        drop(block);
         writer.add(start..end, &maps)?;
         counts.add(&maps.mask);
         start = end;

@@ -92,10 +92,10 @@ impl NumberType {
             Self::F64 => convert!(f64),
             Self::F16 => match order {
                 ByteOrder::Little => {
-                    each(bytes, values, stride, |b| half::f16::from_le_bytes(b).to_f32())
+                    each(bytes, values, stride, |b| half::f16::from_le_bytes(b).to_f32());
                 }
                 ByteOrder::Big => {
-                    each(bytes, values, stride, |b| half::f16::from_be_bytes(b).to_f32())
+                    each(bytes, values, stride, |b| half::f16::from_be_bytes(b).to_f32());
                 }
             },
         }

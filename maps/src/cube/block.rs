@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::pixel_maps::Mask;
 
 /// Reflectances of a rectangle of pixels.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Block {
     /// Rows of the cube that the block holds.
     pub rows: Range<usize>,

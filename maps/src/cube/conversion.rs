@@ -36,6 +36,19 @@ struct Signs {
 }
 
 impl Conversion {
+    /// Leaves values as the file stores them.
+    pub(crate) fn none() -> Self {
+        Self { ignore: None, saturated: None, terms: Terms::One(1.0) }
+    }
+
+    /// Converts a row of raw values, whose first pixel lies in `column`.
+    pub(crate) fn row(&self, column: usize, values: &mut [f32], mask: &mut [Mask]) {
+        let bands = (values.len() / mask.len().max(1)).max(1);
+        for (at, (pixel, mask)) in values.chunks_exact_mut(bands).zip(mask).enumerate() {
+            *mask = self.pixel(column + at, pixel);
+        }
+    }
+
     /// Converts the raw values of the pixel in `column` and tells whether it can be mapped.
     pub(crate) fn pixel(&self, column: usize, values: &mut [f32]) -> Mask {
         let signs = match &self.terms {

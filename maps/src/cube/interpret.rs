@@ -6,7 +6,7 @@ use super::error::CubeError;
 use super::opened::{Opened, Values};
 use super::options::{CubeOptions, CubeScale};
 use super::readings::Readings;
-use super::window::Window;
+use super::window::{Pixels, Window};
 use crate::pixel_maps::Mask;
 
 /// Rows that are sampled.
@@ -50,7 +50,9 @@ impl Sample {
             let start = start.min(scan.samples - width);
             let window = Window { rows: row..row + 1, columns: start..start + width };
             let mut values = vec![0.0; width * bands.len()];
-            scan.source.read(&window, bands, &mut values)?;
+            let mut mask = vec![Mask::Mapped; width];
+            let pixels = Pixels { values: &mut values, mask: &mut mask };
+            scan.source.read(&window, bands, &Conversion::none(), pixels)?;
             sample.values.extend(values);
             sample.columns.extend(window.columns);
         }

@@ -10,13 +10,13 @@ mod positional;
 
 mod wavelengths;
 
+mod conversion;
+
 mod window;
 
 mod block;
 
 mod options;
-
-mod conversion;
 
 mod opened;
 

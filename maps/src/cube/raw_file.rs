@@ -1,10 +1,13 @@
 //! Numbers in a plain file, in any order of lines, samples and bands.
 
+use std::sync::{Mutex, PoisonError};
+
 use rayon::prelude::*;
 
+use super::conversion::Conversion;
 use super::error::CubeError;
 use super::positional::PositionalFile;
-use super::window::{Source, Window};
+use super::window::{Pixels, Source, Window};
 use crate::numbers::{ByteOrder, NumberType};
 
 /// Order of lines, samples and bands in the data.
@@ -59,6 +62,8 @@ impl Layout {
 pub(crate) struct RawFile {
     file: PositionalFile,
     layout: Layout,
+    /// Memory for the bands of a block that is stored band after band.
+    planes: Mutex<Vec<u8>>,
 }
 
 /// Pixels that are transposed together, so that their values stay in the fastest cache.
@@ -67,7 +72,7 @@ const TILE: usize = 32;
 impl RawFile {
     /// Takes a file of the size that `layout` describes.
     pub(crate) fn new(file: PositionalFile, layout: Layout) -> Self {
-        Self { file, layout }
+        Self { file, layout, planes: Mutex::new(Vec::new()) }
     }
 
     /// Converts numbers that lie band after band: `raw(band)` holds a row of the window.
@@ -89,6 +94,7 @@ impl RawFile {
         line: usize,
         window: &Window,
         bands: &[usize],
+        raw: &mut Vec<u8>,
         values: &mut [f32],
     ) -> Result<(), CubeError> {
         let first = bands.iter().copied().min().unwrap_or(0);
@@ -97,9 +103,9 @@ impl RawFile {
         let is_whole = window.width() == self.layout.samples && count <= 2 * bands.len();
         let row_bytes = window.width() * bytes;
         // All bands of the row at once where few are left out, else one by one.
-        let mut raw = vec![0; row_bytes * if is_whole { count } else { bands.len() }];
+        raw.resize(row_bytes * if is_whole { count } else { bands.len() }, 0);
         if is_whole {
-            self.file.read_at(&mut raw, self.layout.position(line, 0, first))?;
+            self.file.read_at(raw, self.layout.position(line, 0, first))?;
             let row = |band: usize| &raw[(bands[band] - first) * row_bytes..][..row_bytes];
             self.transpose(row, bands.len(), values);
         } else {
@@ -118,14 +124,15 @@ impl RawFile {
         line: usize,
         window: &Window,
         bands: &[usize],
+        raw: &mut Vec<u8>,
         values: &mut [f32],
     ) -> Result<(), CubeError> {
         let Layout { number_type, byte_order, .. } = self.layout;
         let pixel_bytes = self.layout.bands * number_type.bytes();
-        let mut raw = vec![0; window.width() * pixel_bytes];
-        self.file.read_at(&mut raw, self.layout.position(line, window.columns.start, 0))?;
+        raw.resize(window.width() * pixel_bytes, 0);
+        self.file.read_at(raw, self.layout.position(line, window.columns.start, 0))?;
         if bands.iter().copied().eq(0..self.layout.bands) {
-            number_type.convert(byte_order, &raw, values, 1);
+            number_type.convert(byte_order, raw, values, 1);
             return Ok(());
         }
         let mut all = vec![0.0; self.layout.bands];
@@ -143,11 +150,15 @@ impl RawFile {
         &self,
         window: &Window,
         bands: &[usize],
-        values: &mut [f32],
+        conversion: &Conversion,
+        pixels: Pixels<'_>,
     ) -> Result<(), CubeError> {
         let row_bytes = window.width() * self.layout.number_type.bytes();
         let plane_bytes = row_bytes * window.rows.len();
-        let mut raw = vec![0; plane_bytes * bands.len()];
+        // Memory that was used before is not cleared again.
+        let mut raw =
+            std::mem::take(&mut *self.planes.lock().unwrap_or_else(PoisonError::into_inner));
+        raw.resize(plane_bytes * bands.len(), 0);
         let is_whole = window.width() == self.layout.samples;
         let planes = raw.par_chunks_mut(plane_bytes).zip(bands);
         planes.try_for_each(|(plane, &band)| {
@@ -160,27 +171,38 @@ impl RawFile {
             }
             Ok(())
         })?;
-        let rows = values.par_chunks_mut(window.width() * bands.len()).enumerate();
-        rows.for_each(|(row, values)| {
-            let row = |band: usize| &raw[band * plane_bytes + row * row_bytes..][..row_bytes];
-            self.transpose(row, bands.len(), values);
+        pixels.rows(window, bands.len()).for_each(|(line, row)| {
+            let start = (line - window.rows.start) * row_bytes;
+            let plane = |band: usize| &raw[band * plane_bytes + start..][..row_bytes];
+            self.transpose(plane, bands.len(), row.values);
+            conversion.row(window.columns.start, row.values, row.mask);
         });
+        *self.planes.lock().unwrap_or_else(PoisonError::into_inner) = raw;
         Ok(())
     }
 }
 
 impl Source for RawFile {
-    fn read(&self, window: &Window, bands: &[usize], values: &mut [f32]) -> Result<(), CubeError> {
-        if values.is_empty() {
+    fn read(
+        &self,
+        window: &Window,
+        bands: &[usize],
+        conversion: &Conversion,
+        pixels: Pixels<'_>,
+    ) -> Result<(), CubeError> {
+        if pixels.values.is_empty() {
             return Ok(());
         }
         if self.layout.interleave == Interleave::Bsq {
-            return self.bsq_rows(window, bands, values);
+            return self.bsq_rows(window, bands, conversion, pixels);
         }
-        let rows = values.par_chunks_mut(window.width() * bands.len());
-        rows.zip(window.rows.clone()).try_for_each(|(values, line)| match self.layout.interleave {
-            Interleave::Bip => self.bip_row(line, window, bands, values),
-            _ => self.bil_row(line, window, bands, values),
+        pixels.rows(window, bands.len()).try_for_each_init(Vec::new, |raw, (line, row)| {
+            match self.layout.interleave {
+                Interleave::Bip => self.bip_row(line, window, bands, raw, row.values)?,
+                _ => self.bil_row(line, window, bands, raw, row.values)?,
+            }
+            conversion.row(window.columns.start, row.values, row.mask);
+            Ok(())
         })
     }
 

@@ -3,10 +3,11 @@
 
 use rayon::prelude::*;
 
-use super::conversion::Terms;
+use super::conversion::{Conversion, Terms};
 use super::error::CubeError;
 use super::opened::Opened;
-use super::window::Window;
+use super::window::{Pixels, Window};
+use crate::pixel_maps::Mask;
 
 /// Least light of a band: share of the brightest band's.
 const LEAST_LIGHT: f64 = 0.01;
@@ -68,11 +69,14 @@ impl Reading {
         let mut sums = vec![(0.0_f64, 0.0_f64); row_values];
         let mut largest = f32::NEG_INFINITY;
         let mut values = vec![0.0; rows * row_values];
+        let mut mask = vec![Mask::Mapped; rows * columns];
         for start in (0..opened.lines).step_by(rows) {
             let window =
                 Window { rows: start..(start + rows).min(opened.lines), columns: 0..columns };
             let values = &mut values[..window.rows.len() * row_values];
-            opened.source.read(&window, &all, values)?;
+            let mask = &mut mask[..window.pixels()];
+            let pixels = Pixels { values: &mut *values, mask };
+            opened.source.read(&window, &all, &Conversion::none(), pixels)?;
             for row in values.chunks_exact(row_values) {
                 sums.par_iter_mut().zip(row).for_each(|((sum, squares), &value)| {
                     let value = f64::from(value);
@@ -173,9 +177,9 @@ impl Readings {
         let mut terms = (Vec::new(), Vec::new());
         for column in 0..columns {
             let mut is_dead = false;
-            for band in 0..scan.bands {
+            for (band, has_light) in good.iter().enumerate() {
                 let light = light(column, band);
-                is_dead |= good[band] && scan.good[band] && light < least / 10.0;
+                is_dead |= *has_light && scan.good[band] && light < least / 10.0;
                 terms.0.push(dark(self.dark.as_ref(), column, band) as f32);
                 terms.1.push((self.tile / (light * self.time_ratio)) as f32);
             }

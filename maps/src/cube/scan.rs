@@ -3,8 +3,6 @@
 use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
-use rayon::prelude::*;
-
 use super::block::Block;
 use super::conversion::{Conversion, Terms};
 use super::error::CubeError;
@@ -12,7 +10,7 @@ use super::interpret::interpret;
 use super::opened::Opened;
 use super::options::CubeOptions;
 use super::readings::Readings;
-use super::window::{Source, Window};
+use super::window::{Pixels, Source, Window};
 use crate::pixel_maps::Mask;
 
 /// How the values of a file become reflectance.
@@ -147,11 +145,11 @@ impl Cube {
             let asked = format!("wavelengths from {} to {} nm", nm.start(), nm.end());
             return Err(self.outside(asked));
         }
-        let of_bands = |all: &[f64]| chosen.iter().map(|&band| all[band]).collect::<Vec<f64>>();
-        self.wavelengths_nm = of_bands(&self.wavelengths_nm);
-        self.fwhm_nm = self.fwhm_nm.as_deref().map(of_bands);
-        self.white_sd = self.white_sd.as_deref().map(of_bands);
-        self.black_sd = self.black_sd.as_deref().map(of_bands);
+        let of_bands = |all: &mut Vec<f64>| *all = chosen.iter().map(|&band| all[band]).collect();
+        of_bands(&mut self.wavelengths_nm);
+        for list in [&mut self.fwhm_nm, &mut self.white_sd, &mut self.black_sd] {
+            list.as_mut().map(of_bands);
+        }
         self.bands = chosen.iter().map(|&band| self.bands[band]).collect();
         self.conversion = self.conversion.of_bands(&chosen, all);
         Ok(self)
@@ -187,6 +185,21 @@ impl Cube {
     /// # Errors
     /// [`CubeError`] if the cube has no such pixels or cannot be read.
     pub fn read(&self, rows: Range<usize>, columns: Range<usize>) -> Result<Block, CubeError> {
+        let mut block = Block::default();
+        self.read_into(rows, columns, &mut block)?;
+        Ok(block)
+    }
+
+    /// Reads the pixels of a rectangle into `block`, whose memory is used again.
+    ///
+    /// # Errors
+    /// [`CubeError`] if the cube has no such pixels or cannot be read.
+    pub fn read_into(
+        &self,
+        rows: Range<usize>,
+        columns: Range<usize>,
+        block: &mut Block,
+    ) -> Result<(), CubeError> {
         let is_inside = |range: &Range<usize>, end| range.start <= range.end && range.end <= end;
         if !is_inside(&rows, self.lines) {
             return Err(self.outside(format!("rows {} to {}", rows.start, rows.end)));
@@ -195,19 +208,13 @@ impl Cube {
             return Err(self.outside(format!("columns {} to {}", columns.start, columns.end)));
         }
         let window = Window { rows, columns };
-        let bands = self.bands.len();
-        let mut values = vec![0.0; window.pixels() * bands];
-        let mut mask = vec![Mask::Mapped; window.pixels()];
-        self.source.read(&window, &self.bands, &mut values)?;
-        let width = window.width().max(1);
-        let rows = values.par_chunks_mut(width * bands).zip(mask.par_chunks_mut(width));
-        rows.for_each(|(values, mask)| {
-            let pixels = values.chunks_exact_mut(bands).zip(mask).zip(window.columns.clone());
-            for ((pixel, mask), column) in pixels {
-                *mask = self.conversion.pixel(column, pixel);
-            }
-        });
-        Ok(Block { rows: window.rows, columns: window.columns, bands, values, mask })
+        block.bands = self.bands.len();
+        block.values.resize(window.pixels() * block.bands, 0.0);
+        block.mask.resize(window.pixels(), Mask::Mapped);
+        let pixels = Pixels { values: &mut block.values, mask: &mut block.mask };
+        self.source.read(&window, &self.bands, &self.conversion, pixels)?;
+        (block.rows, block.columns) = (window.rows, window.columns);
+        Ok(())
     }
 
     fn outside(&self, asked: String) -> CubeError {

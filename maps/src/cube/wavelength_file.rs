@@ -34,7 +34,7 @@ pub(crate) fn wavelengths_of(path: &Path) -> Result<Vec<f64>, CubeError> {
             }
             // Words beside the numbers, such as names of pictures, keep their columns.
             (false, false) => {
-                rows.push(words.iter().map(|word| number_of(word).unwrap_or(f64::NAN)).collect())
+                rows.push(words.iter().map(|word| number_of(word).unwrap_or(f64::NAN)).collect());
             }
         }
     }

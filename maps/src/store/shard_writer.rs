@@ -70,7 +70,7 @@ impl ShardWriter<'_> {
             let inside = start - self.shard.rows.start;
             let end = (start + chunk - inside % chunk).min(rows.end);
             self.fill(inside % chunk, maps, (start - rows.start)..(end - rows.start));
-            if (end - self.shard.rows.start) % chunk == 0 || end == self.shard.rows.end {
+            if (end - self.shard.rows.start).is_multiple_of(chunk) || end == self.shard.rows.end {
                 self.pack(inside / chunk)?;
             }
             start = end;

@@ -97,8 +97,7 @@ impl ArrayMetadata {
         }
         let bytes =
             |sizes: &[usize]| sizes.iter().try_fold(number_type.bytes(), |a, b| a.checked_mul(*b));
-        if !bytes(&chunk).is_some_and(|bytes| bytes <= MOST_CHUNK_BYTES) || bytes(&shape).is_none()
-        {
+        if bytes(&chunk).is_none_or(|bytes| bytes > MOST_CHUNK_BYTES) || bytes(&shape).is_none() {
             return Err(ZarrFault {
                 problem: format!("has chunks of {chunk:?} numbers, more than 512 MB"),
                 way_out: "save it with smaller chunks: xarray's chunk({\"y\": 128, \"x\": 128})",

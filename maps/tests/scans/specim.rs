@@ -47,7 +47,7 @@ fn reflectance(line: usize, sample: usize, band: usize) -> f64 {
 fn write_folder(folder: &Path) -> PathBuf {
     let capture = folder.join("capture");
     std::fs::create_dir_all(&capture).unwrap();
-    let swing = |line: usize| if line % 2 == 0 { 10.0 } else { -10.0 };
+    let swing = |line: usize| if line.is_multiple_of(2) { 10.0 } else { -10.0 };
     write_counts(&capture, "WHITEREF_042", 4, "", |line, sample, band| {
         dark(sample, band) + light(sample, band) + swing(line)
     });
@@ -64,7 +64,7 @@ fn check_near(cube: &Cube) {
     for line in 1..LINES {
         for sample in 1..SAMPLES {
             let (values, mask) = pixels.next().unwrap();
-            assert_eq!(mask, Mask::Mapped);
+            assert_eq!(mask, Mask::Mapped, "{line} {sample}");
             for (band, found) in values.iter().enumerate() {
                 let expected = reflectance(line, sample, band);
                 let far = (f64::from(*found) - expected).abs();

@@ -21,7 +21,7 @@ pub(crate) fn in_order(interleave: &str) -> Vec<u8> {
     match interleave {
         "bsq" => each(BANDS, LINES, SAMPLES, |band, line, sample| add(line, sample, band)),
         "bil" => each(LINES, BANDS, SAMPLES, |line, band, sample| add(line, sample, band)),
-        "bip" => each(LINES, SAMPLES, BANDS, |line, sample, band| add(line, sample, band)),
+        "bip" => each(LINES, SAMPLES, BANDS, add),
         other => panic!("{other}"),
     }
     values

@@ -1,30 +1,21 @@
-//! Cubes in Zarr arrays, as xarray writes them: (y, x, wavelength) in any order, with the wavelengths
-//! as a coordinate.
+//! Finds the array of a cube, its axes and its wavelengths.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use rayon::prelude::*;
 use serde_json::Value;
 
-use super::error::CubeError;
-use super::opened::{Opened, Values};
-use super::options::CubeOptions;
-use super::wavelengths::Wavelengths;
-use super::window::{Source, Window};
-use crate::zarr::{ChunkError, ZarrArray, ZarrFault};
+use super::source::{ZarrSource, chunk_error};
+use crate::cube::error::CubeError;
+use crate::cube::opened::{Opened, Values};
+use crate::cube::options::CubeOptions;
+use crate::cube::wavelengths::Wavelengths;
+use crate::zarr::{ZarrArray, ZarrFault};
 
 /// Names of the axis of the bands, in lower case.
 const BAND_AXES: [&str; 6] = ["wavelength", "wavelengths", "wl", "lambda", "band", "bands"];
 /// Names of the axis of the rows.
 const ROW_AXES: [&str; 5] = ["y", "row", "rows", "line", "lines"];
-
-fn chunk_error(error: ChunkError) -> CubeError {
-    match error {
-        ChunkError::Io(path, reason) => CubeError::reading(&path, reason),
-        ChunkError::Fault(path, fault) => CubeError::data(&path, fault.problem, fault.way_out),
-    }
-}
 
 fn fault_at(path: &Path) -> impl Fn(ZarrFault) -> CubeError {
     |fault| CubeError::format(path, fault.problem, fault.way_out)
@@ -210,105 +201,8 @@ pub(crate) fn open(folder: &Path, options: &CubeOptions) -> Result<Opened, CubeE
         values,
         integration_time: None,
         remarks,
-        source: Box::new(ZarrSource { strides: array.strides(), array, axes }),
+        source: Box::new(ZarrSource::new(array, axes)),
     })
-}
-
-/// Chunks of an array as raw values.
-#[derive(Debug)]
-struct ZarrSource {
-    array: ZarrArray,
-    strides: Vec<usize>,
-    /// Numbers of the axes of rows, columns and bands.
-    axes: [usize; 3],
-}
-
-impl ZarrSource {
-    /// Reads rows that lie in one row of chunks.
-    fn read_part(
-        &self,
-        window: &Window,
-        bands: &[usize],
-        values: &mut [f32],
-    ) -> Result<(), CubeError> {
-        let about = &self.array.about;
-        let [down, across, deep] = self.axes.map(|axis| about.chunk[axis]);
-        let row = window.rows.start / down;
-        let columns = window.columns.start / across..=(window.columns.end - 1) / across;
-        let mut depths: Vec<usize> = bands.iter().map(|band| band / deep).collect();
-        depths.sort_unstable();
-        depths.dedup();
-        let places: Vec<(usize, usize)> =
-            columns.flat_map(|column| depths.iter().map(move |&depth| (column, depth))).collect();
-        let read = |&(column, depth): &(usize, usize)| {
-            let mut at = [0; 3];
-            for (axis, number) in self.axes.into_iter().zip([row, column, depth]) {
-                at[axis] = number;
-            }
-            let chunk = self.array.chunk(&at).map_err(chunk_error)?;
-            let numbers = chunk.map(|bytes| {
-                let mut numbers = vec![0.0; bytes.len() / about.number_type.bytes()];
-                about.number_type.convert(about.chain.byte_order, &bytes, &mut numbers, 1);
-                numbers
-            });
-            Ok(((column, depth), numbers))
-        };
-        let chunks: BTreeMap<_, Option<Vec<f32>>> =
-            places.par_iter().map(read).collect::<Result<_, CubeError>>()?;
-        let [by_row, by_column, by_band] = self.axes.map(|axis| self.strides[axis]);
-        let rows = values.par_chunks_mut(window.width() * bands.len()).zip(window.rows.clone());
-        rows.for_each(|(values, line)| {
-            let pixels = values.chunks_exact_mut(bands.len()).zip(window.columns.clone());
-            for (pixel, column) in pixels {
-                for (value, &band) in pixel.iter_mut().zip(bands) {
-                    let place =
-                        line % down * by_row + column % across * by_column + band % deep * by_band;
-                    let chunk = chunks.get(&(column / across, band / deep));
-                    *value = match chunk {
-                        Some(Some(numbers)) => numbers[place],
-                        _ => about.fill as f32,
-                    };
-                }
-            }
-        });
-        Ok(())
-    }
-}
-
-impl Source for ZarrSource {
-    fn read(&self, window: &Window, bands: &[usize], values: &mut [f32]) -> Result<(), CubeError> {
-        if values.is_empty() {
-            return Ok(());
-        }
-        let down = self.natural_rows();
-        let row_values = window.width() * bands.len();
-        let mut rest = values;
-        let mut start = window.rows.start;
-        while start < window.rows.end {
-            let end = ((start / down + 1) * down).min(window.rows.end);
-            let (part, more) = rest.split_at_mut((end - start) * row_values);
-            let window = Window { rows: start..end, columns: window.columns.clone() };
-            self.read_part(&window, bands, part)?;
-            (rest, start) = (more, end);
-        }
-        Ok(())
-    }
-
-    fn scratch_bytes(&self, _: usize, columns: usize) -> usize {
-        let about = &self.array.about;
-        let [down, across, deep] = self.axes.map(|axis| about.chunk[axis]);
-        let bands = about.shape[self.axes[2]];
-        let numbers = down * (columns + 2 * across) * (bands + deep);
-        numbers * (about.number_type.bytes() + size_of::<f32>())
-    }
-
-    fn natural_rows(&self) -> usize {
-        self.array.about.chunk[self.axes[0]]
-    }
-
-    fn full_scale(&self) -> Option<f64> {
-        self.array.about.number_type.full_scale()
-    }
 }
 
 #[cfg(test)]
