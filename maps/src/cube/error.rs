@@ -19,7 +19,7 @@ pub enum CubeError {
         path: PathBuf,
         /// The kind that was found, as a sentence part.
         problem: String,
-        /// Advice.
+        /// Advice on how to go on.
         way_out: String,
     },
     /// A key of a header is missing or has an impossible value.
@@ -33,7 +33,7 @@ pub enum CubeError {
         key: String,
         /// The fault of the key, with the value that was found.
         problem: String,
-        /// Advice.
+        /// Advice on how to go on.
         way_out: String,
     },
     /// Header and data disagree about the number of bytes.
@@ -68,7 +68,7 @@ pub enum CubeError {
         path: PathBuf,
         /// The fault of all pixels that were sampled.
         problem: String,
-        /// Advice.
+        /// Advice on how to go on.
         way_out: String,
     },
     /// A white or dark reading does not fit the cube.
@@ -80,7 +80,7 @@ pub enum CubeError {
         role: &'static str,
         /// The fault, with both numbers where two disagree.
         problem: String,
-        /// Advice.
+        /// Advice on how to go on.
         way_out: String,
     },
     /// Stored data cannot be decoded.
@@ -90,7 +90,7 @@ pub enum CubeError {
         path: PathBuf,
         /// The fault and its place.
         problem: String,
-        /// Advice.
+        /// Advice on how to go on.
         way_out: String,
     },
     /// A caller asks for pixels or bands that the cube does not have.

@@ -18,7 +18,7 @@ pub enum StoreError {
     Shard {
         /// Path of the store.
         path: PathBuf,
-        /// The shard.
+        /// The shard that was to be written.
         shard: Shard,
         /// The file and the error of the operating system.
         source: FileError,
@@ -58,7 +58,7 @@ pub enum StoreError {
     Damaged {
         /// Path of the file.
         path: PathBuf,
-        /// The fault.
+        /// The fault that was found.
         problem: String,
     },
 }

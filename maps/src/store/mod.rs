@@ -3,11 +3,11 @@
 //! A shard is written whole. One whose mask exists is finished, because the mask is written last; so
 //! a run that was ended at any moment can be resumed, and several processes can write one store.
 
+mod tiles;
+
 mod error;
 
 mod about;
-
-mod tiles;
 
 mod arrays;
 

@@ -19,7 +19,7 @@ impl ZarrFault {
         Self { problem: problem.into(), way_out: SAVE_AGAIN }
     }
 
-    /// Damage.
+    /// Damage to stored bytes.
     pub(crate) fn damaged(problem: impl Into<String>) -> Self {
         Self { problem: problem.into(), way_out: COPY_AGAIN }
     }
