@@ -3,6 +3,7 @@
 //! The share of light is the mean reflectance of a pixel, so that every reader of the maps can be
 //! checked against the scan. WHITE is the value of a white, for scans that do not tell it.
 
+use std::convert::Infallible;
 use std::error::Error;
 use std::ops::ControlFlow;
 
@@ -11,7 +12,7 @@ use maps::cube::{Block, Cube, CubeOptions, CubeScale};
 use maps::pixel_maps::{BlockMaps, Mask};
 use maps::store::{MapStore, MapsAbout, StoreMode};
 
-fn light_and_dark(block: &Block) -> BlockMaps {
+fn light_and_dark(block: &Block) -> Result<BlockMaps, Infallible> {
     let mut maps = BlockMaps::without_values(block.pixels(), 2, Mask::Ignored);
     for (pixel, (values, mask)) in block.iter().enumerate() {
         maps.mask[pixel] = mask;
@@ -29,7 +30,7 @@ fn light_and_dark(block: &Block) -> BlockMaps {
         maps.rms[pixel] = 0.5 * mean;
         maps.second[pixel] = 0b01;
     }
-    maps
+    Ok(maps)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -46,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         pigments: ["light", "dark"].map(str::to_owned).to_vec(),
         library_sha256: String::new(),
         book_sha256: String::new(),
-        scan: scan.clone(),
+        scan: cube.sign()?,
         rows: 0..cube.lines(),
         columns: 0..cube.samples(),
         settings: serde_json::Map::new(),

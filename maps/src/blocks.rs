@@ -1,5 +1,6 @@
 //! Maps a whole cube shard by shard, in bounded memory.
 
+use std::error::Error;
 use std::ops::ControlFlow;
 
 use spectra::hint::{Explain, Fault, Hint};
@@ -68,19 +69,23 @@ pub struct MapOutcome {
 
 /// A run that failed. Shards that were written before are whole.
 #[derive(Debug, thiserror::Error)]
-pub enum MapError {
+pub enum RunError<E: Error + 'static> {
     /// The cube cannot be read.
     #[error(transparent)]
     Cube(#[from] CubeError),
+    /// A block cannot be mapped.
+    #[error(transparent)]
+    Map(E),
     /// The maps cannot be written.
     #[error(transparent)]
     Store(#[from] StoreError),
 }
 
-impl Explain for MapError {
+impl<E: Explain + 'static> Explain for RunError<E> {
     fn hint(&self) -> Option<Hint> {
         match self {
             Self::Cube(error) => error.hint(),
+            Self::Map(error) => error.hint(),
             Self::Store(error) => error.hint(),
         }
     }
@@ -88,6 +93,7 @@ impl Explain for MapError {
     fn fault(&self) -> Fault {
         match self {
             Self::Cube(error) => error.fault(),
+            Self::Map(error) => error.fault(),
             Self::Store(error) => error.fault(),
         }
     }
@@ -101,13 +107,13 @@ impl Explain for MapError {
 /// written.
 ///
 /// # Errors
-/// [`MapError`] if the cube cannot be read or a shard cannot be written.
-pub fn map_cube(
+/// [`RunError`] if the cube cannot be read, a block not mapped or a shard not written.
+pub fn map_cube<E: Error + 'static>(
     cube: &Cube,
     store: &MapStore,
-    map: impl Fn(&Block) -> BlockMaps,
+    map: impl Fn(&Block) -> Result<BlockMaps, E>,
     mut progress: impl FnMut(MapProgress) -> ControlFlow<()>,
-) -> Result<MapOutcome, MapError> {
+) -> Result<MapOutcome, RunError<E>> {
     let pixels = |shard: &Shard| shard.rows.len() as u64 * shard.columns.len() as u64;
     let shards = store.shards();
     let mut state = MapProgress {
@@ -149,14 +155,14 @@ pub fn map_cube(
 /// `None`.
 ///
 /// # Errors
-/// [`MapError`] if the cube cannot be read or the shard cannot be written.
-pub fn map_shard(
+/// [`RunError`] if the cube cannot be read, a block not mapped or the shard not written.
+pub fn map_shard<E: Error + 'static>(
     cube: &Cube,
     store: &MapStore,
     shard: &Shard,
-    map: impl Fn(&Block) -> BlockMaps,
+    map: impl Fn(&Block) -> Result<BlockMaps, E>,
     mut progress: impl FnMut(u64) -> ControlFlow<()>,
-) -> Result<Option<PixelCounts>, MapError> {
+) -> Result<Option<PixelCounts>, RunError<E>> {
     let width = shard.columns.len();
     let rows = cube.rows_within(BLOCK_BYTES, width).min((MOST_PIXELS / width).max(1));
     let mut writer = store.writer(shard);
@@ -166,7 +172,7 @@ pub fn map_shard(
     while start < shard.rows.end {
         let end = (start + rows).min(shard.rows.end);
         cube.read_into(start..end, shard.columns.clone(), &mut block)?;
-        let maps = map(&block);
+        let maps = map(&block).map_err(RunError::Map)?;
         writer.add(start..end, &maps)?;
         counts.add(&maps.mask);
         start = end;

@@ -11,3 +11,5 @@ pub mod cube;
 pub mod store;
 
 pub mod blocks;
+
+pub mod pictures;

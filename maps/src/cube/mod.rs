@@ -42,6 +42,8 @@ mod zarr_cube;
 
 mod scan;
 
+mod sampling;
+
 mod open;
 
 pub use crate::numbers::{ByteOrder, NumberType};
@@ -50,4 +52,5 @@ pub use conversion::{GREATEST_REFLECTANCE, LEAST_REFLECTANCE};
 pub use error::CubeError;
 pub use options::{CubeOptions, CubeScale, DarkReading};
 pub use raw_file::Interleave;
+pub use sampling::SpreadPixels;
 pub use scan::{Cube, CubeValues};

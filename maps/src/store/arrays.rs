@@ -6,9 +6,9 @@ use serde_json::{Map, Value, json};
 use crate::pixel_maps::{BlockMaps, Mask};
 
 /// Number by which a probability of 1 is stored.
-const PRESENCE_ONE: f32 = 250.0;
+pub(crate) const PRESENCE_ONE: f32 = 250.0;
 /// Number that stands for no probability.
-const NO_PRESENCE: u8 = 255;
+pub(crate) const NO_PRESENCE: u8 = 255;
 /// Number of a pixel that no run has mapped yet.
 pub(crate) const NOT_YET: u8 = 255;
 

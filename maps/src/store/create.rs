@@ -31,7 +31,8 @@ pub struct MapStore {
     shards: Vec<Shard>,
 }
 
-const GROUP: &str = "zarr.json";
+/// Name of descriptions.
+pub(crate) const GROUP: &str = "zarr.json";
 
 impl MapStore {
     /// Begins or resumes the store at `path`. The descriptions of its arrays are written at once.
@@ -169,16 +170,21 @@ impl MapStore {
 
     /// File of a shard of an array.
     pub(crate) fn file(&self, array: MapArray, shard: &Shard) -> PathBuf {
-        let (row, column) = shard.at;
-        let mut file = self.path.join(array.name());
-        file.push("c");
-        file.push(row.to_string());
-        file.push(column.to_string());
-        if array.is_of_pigments() {
-            file.push("0");
-        }
-        file
+        shard_file(&self.path, array, shard)
     }
+}
+
+/// File of a shard of an array of the store at `path`.
+pub(crate) fn shard_file(path: &Path, array: MapArray, shard: &Shard) -> PathBuf {
+    let (row, column) = shard.at;
+    let mut file = path.join(array.name());
+    file.push("c");
+    file.push(row.to_string());
+    file.push(column.to_string());
+    if array.is_of_pigments() {
+        file.push("0");
+    }
+    file
 }
 
 fn check(path: &Path, about: &MapsAbout) -> Result<(), StoreError> {

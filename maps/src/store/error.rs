@@ -53,6 +53,16 @@ pub enum StoreError {
         /// The numbers that disagree.
         problem: String,
     },
+    /// Shards are missing.
+    #[error("{}: {missing} of {shards} shards are not written yet", path.display())]
+    Unfinished {
+        /// Path of the store.
+        path: PathBuf,
+        /// Number of shards that are missing.
+        missing: usize,
+        /// Number of all shards.
+        shards: usize,
+    },
     /// The store is damaged or no store of maps.
     #[error("{}: {problem}", path.display())]
     Damaged {
@@ -67,9 +77,13 @@ impl Explain for StoreError {
     fn hint(&self) -> Option<Hint> {
         match self {
             Self::File(error) => error.hint(),
-            Self::Shard { source, .. } => source
-                .hint()
-                .or_else(|| Some(Hint::new("free space on the disk, then go on with [resume]"))),
+            Self::Shard { source, .. } => match source.reason.kind() {
+                std::io::ErrorKind::StorageFull => {
+                    Some(Hint::new("free space on the disk, then go on with [resume]"))
+                }
+                _ => source.hint().or_else(|| Some(Hint::new("go on with [resume] afterwards"))),
+            },
+            Self::Unfinished { .. } => Some(Hint::new("go on with [resume]")),
             Self::Exists { is_maps: true, .. } => {
                 Some(Hint::new("go on with [resume], or name another folder with [out]"))
             }
@@ -87,7 +101,7 @@ impl Explain for StoreError {
             Self::File(error) => error.fault(),
             Self::Shard { .. } => Fault::Environment,
             Self::Exists { .. } | Self::OtherRun { .. } => Fault::Setting,
-            Self::Maps { .. } | Self::Damaged { .. } => Fault::Input,
+            Self::Maps { .. } | Self::Unfinished { .. } | Self::Damaged { .. } => Fault::Input,
         }
     }
 }

@@ -15,8 +15,11 @@ mod create;
 
 mod shard_writer;
 
+mod stored;
+
 pub use about::MapsAbout;
 pub use create::{MapStore, StoreMode};
 pub use error::StoreError;
 pub use shard_writer::ShardWriter;
+pub use stored::StoredMaps;
 pub use tiles::Shard;

@@ -4,8 +4,8 @@ use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use maps::blocks::{MapError, map_cube};
-use maps::cube::{Block, Cube, CubeOptions, CubeScale};
+use maps::blocks::{RunError, map_cube};
+use maps::cube::{Block, Cube, CubeError, CubeOptions, CubeScale};
 use maps::pixel_maps::{BlockMaps, Mask};
 use maps::store::{MapStore, StoreMode};
 use spectra::hint::Explain;
@@ -37,7 +37,7 @@ fn open(path: &Path) -> Cube {
 }
 
 /// Maps that depend on each pixel alone: the share of the first pigment is the first band.
-fn map(block: &Block) -> BlockMaps {
+fn map(block: &Block) -> Result<BlockMaps, CubeError> {
     let mut maps = BlockMaps::without_values(block.pixels(), 2, Mask::Ignored);
     for (pixel, (values, mask)) in block.iter().enumerate() {
         maps.mask[pixel] = mask;
@@ -47,7 +47,7 @@ fn map(block: &Block) -> BlockMaps {
             maps.chi2[pixel] = values[3];
         }
     }
-    maps
+    Ok(maps)
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn a_cube_that_cannot_be_read_leaves_no_shard() {
     let about = about(LINES, SAMPLES, 2);
     let store = MapStore::create(folder.path().join("maps.zarr"), &about, StoreMode::New).unwrap();
     let error = map_cube(&cube, &store, map, |_| ControlFlow::Continue(())).unwrap_err();
-    assert!(matches!(error, MapError::Cube(_)), "{error}");
+    assert!(matches!(error, RunError::Cube(_)), "{error}");
     assert!(error.to_string().contains("scan.raw") && error.hint().is_some(), "{error}");
     assert!(store.shards().iter().all(|shard| !store.is_finished(shard)), "a half shard");
 }

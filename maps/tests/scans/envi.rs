@@ -210,3 +210,29 @@ fn blocks_of_any_size_hold_the_values_of_the_whole() {
         assert_eq!(cube.rows_within(1 << 20, SAMPLES), LINES, "at most all rows");
     }
 }
+
+#[test]
+fn pixels_are_spread_over_the_scan_and_sign_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = fractions(folder.path(), "");
+    let cube = Cube::open(&path).unwrap();
+    let all = cube.spread(0..LINES, 0..SAMPLES, 1000).unwrap();
+    assert_eq!(all.values, cube.read_rows(0..LINES).unwrap().values, "every pixel");
+    assert_eq!((all.places[8], all.looked_at), ((1, 1), LINES * SAMPLES));
+    let few = cube.spread(1..5, 2..7, 5).unwrap();
+    assert_eq!(few.places, [(2, 3), (2, 5), (4, 3), (4, 5)]);
+    assert_eq!(few.values[..BANDS], cube.read(2..3, 3..4).unwrap().values);
+    let sign = cube.sign().unwrap();
+    assert_eq!(sign, Cube::open(&path).unwrap().sign().unwrap());
+    let narrow = Cube::open(&path).unwrap().between(450.0..=700.0).unwrap();
+    assert_ne!(narrow.sign().unwrap(), sign, "other wavelengths");
+    let data = path.with_extension("raw");
+    let mut bytes = std::fs::read(&data).unwrap();
+    bytes[4 * (BANDS * SAMPLES * 3 + 2)..][..4].copy_from_slice(&f32::NAN.to_le_bytes());
+    std::fs::write(&data, &bytes).unwrap();
+    let damaged = Cube::open(&path).unwrap();
+    let left = damaged.spread(0..LINES, 0..SAMPLES, 1000).unwrap();
+    assert_eq!((left.places.len(), left.looked_at), (LINES * SAMPLES - 1, LINES * SAMPLES));
+    assert!(!left.places.contains(&(3, 2)), "a pixel that is no number");
+    assert_ne!(damaged.sign().unwrap(), sign, "another pixel");
+}

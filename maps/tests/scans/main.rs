@@ -19,3 +19,5 @@ mod zarr;
 mod store;
 
 mod blocks;
+
+mod stored;
