@@ -21,9 +21,9 @@ pub struct Overview {
     pub share: Vec<Vec<f32>>,
     /// Mean probability of each pigment.
     pub presence: Vec<Vec<f32>>,
-    /// Mean chi-square.
+    /// Mean chi-square of each square.
     pub chi2: Vec<f32>,
-    /// Mean residual.
+    /// Mean residual of each square.
     pub rms: Vec<f32>,
     /// Mean share of each pigment over all mapped pixels.
     pub mean_share: Vec<f64>,

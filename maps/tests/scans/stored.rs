@@ -26,8 +26,8 @@ fn write(folder: &std::path::Path) -> MapStore {
 
 /// Checks numbers against those that were written, to the precision of the store.
 fn check(found: &BlockMaps, expected: &BlockMaps) {
-    assert_eq!(found.mask, expected.mask);
-    assert_eq!(found.second, expected.second);
+    assert_eq!(found.mask, expected.mask, "masks");
+    assert_eq!(found.second, expected.second, "second");
     for (found, expected, within, name) in [
         (&found.share, &expected.share, 5e-4, "share"),
         (&found.share_sd, &expected.share_sd, 1e-4, "share_sd"),
