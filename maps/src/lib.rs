@@ -13,3 +13,7 @@ pub mod store;
 pub mod blocks;
 
 pub mod pictures;
+
+pub use blocks::map_cube;
+pub use cube::Cube;
+pub use store::{MapStore, StoredMaps};
