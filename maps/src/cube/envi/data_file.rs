@@ -1,0 +1,82 @@
+//! Finds the data of a header, and the header of data.
+
+use std::path::{Path, PathBuf};
+
+use super::header::EnviHeader;
+use crate::cube::error::CubeError;
+
+/// Endings of data files beside `NAME.hdr`.
+const ENDINGS: [&str; 9] = ["img", "dat", "raw", "bil", "bip", "bsq", "cube", "bin", "sc"];
+
+/// `path` with `ending` added to its name.
+fn with_added(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".");
+    name.push(ending);
+    name.into()
+}
+
+/// Paths where the data of the header `path` may be, the likeliest first.
+fn places(path: &Path) -> Vec<PathBuf> {
+    // `scan.img.hdr` belongs to `scan.img`, `scan.hdr` to `scan` or `scan.img`.
+    let stem = path.with_extension("");
+    let mut places = vec![stem.clone()];
+    for ending in ENDINGS {
+        places.push(with_added(&stem, ending));
+        places.push(with_added(&stem, &ending.to_uppercase()));
+    }
+    places
+}
+
+/// Finds the data file of the header at `path`. If several files can be it, the one whose size fits
+/// is.
+pub(crate) fn data_of(path: &Path, header: &EnviHeader) -> Result<PathBuf, CubeError> {
+    let found: Vec<_> = places(path).into_iter().filter(|place| place.is_file()).collect();
+    let bytes = |place: &PathBuf| std::fs::metadata(place).map(|about| about.len()).ok();
+    let expected = header.layout.file_bytes();
+    let fits = |place: &&PathBuf| expected.is_some() && bytes(place) == expected;
+    match found.iter().find(fits).or(found.first()) {
+        None => Err(CubeError::format(
+            path,
+            "the data of this header are not beside it",
+            format!(
+                "put the data file beside it, as {} or with an ending such as .{}",
+                path.with_extension("").display(),
+                ENDINGS[..6].join(", .")
+            ),
+        )),
+        Some(place) if fits(&place) => Ok(place.clone()),
+        Some(place) => Err(size_error(place, path, header, bytes(place).unwrap_or(0))),
+    }
+}
+
+fn size_error(data: &Path, path: &Path, header: &EnviHeader, found: u64) -> CubeError {
+    let Some(expected) = header.layout.file_bytes() else {
+        return CubeError::format(
+            path,
+            format!(
+                "describes more bytes than a file can have: {} samples, {} lines, {} bands",
+                header.layout.samples, header.layout.lines, header.layout.bands
+            ),
+            "correct samples, lines and bands in the header",
+        );
+    };
+    let layout = &header.layout;
+    let sizes = format!(
+        "{} samples x {} lines x {} bands x {} bytes + offset {}",
+        layout.samples,
+        layout.lines,
+        layout.bands,
+        layout.number_type.bytes(),
+        layout.offset
+    );
+    CubeError::Size { data: data.to_owned(), header: path.to_owned(), expected, found, sizes }
+}
+
+/// Finds the header of the data at `path`: `scan.hdr` or `scan.img.hdr`.
+pub(crate) fn header_of(path: &Path) -> Option<PathBuf> {
+    let endings = ["hdr", "HDR"];
+    let added = endings.map(|ending| with_added(path, ending));
+    let replaced = endings.map(|ending| path.with_extension(ending));
+    added.into_iter().chain(replaced).find(|place| place.is_file())
+}

@@ -1,0 +1,242 @@
+//! The header of an ENVI file: sizes, numbers, wavelengths, and how values become reflectance.
+
+use std::path::Path;
+
+use super::fields::{Fields, shortened};
+use crate::cube::error::CubeError;
+use crate::cube::raw_file::{Interleave, Layout};
+use crate::cube::wavelengths::Wavelengths;
+use crate::numbers::{ByteOrder, NumberType};
+
+/// Keys that name the quantity of the values.
+const QUANTITY_KEYS: [&str; 2] = ["data units", "z plot titles"];
+
+/// Most bands of a scan, so that a wrong header takes no memory.
+const MOST_BANDS: usize = 65_536;
+
+/// An ENVI header that was checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EnviHeader {
+    /// Sizes and order of the data.
+    pub(crate) layout: Layout,
+    /// Wavelength of each band in nm, where the header has them.
+    pub wavelengths_nm: Option<Vec<f64>>,
+    /// Full width at half maximum of each band in nm, where the header has them.
+    pub fwhm_nm: Option<Vec<f64>>,
+    /// Whether each band is good (`bbl`).
+    pub good: Vec<bool>,
+    /// Value that marks pixels without data.
+    pub ignore: Option<f64>,
+    /// Number by which values are divided to give reflectance.
+    pub scale_factor: Option<f64>,
+    /// Factor and summand of each band that give reflectance.
+    pub gains: Option<Vec<(f64, f64)>>,
+    /// Whether the header says that the values are a radiance.
+    pub is_radiance: bool,
+    /// Integration time, in the unit of the camera.
+    pub integration_time: Option<f64>,
+    /// Sentences about the header that a user should see.
+    pub remarks: Vec<String>,
+}
+
+impl EnviHeader {
+    /// Reads the header in `bytes`; `path` is its name in messages.
+    ///
+    /// # Errors
+    /// [`CubeError`] with line and key, for anything that the data cannot be read with.
+    pub fn parse(bytes: &[u8], path: &Path) -> Result<Self, CubeError> {
+        let fields = Fields::parse(bytes, path)?;
+        refuse_other_kinds(&fields)?;
+        let [samples, lines, bands] = ["samples", "lines", "bands"].map(|key| size(&fields, key));
+        let (samples, lines, bands) = (samples?, lines?, bands?);
+        if bands > MOST_BANDS {
+            let problem = format!("must be at most {MOST_BANDS}, found `{bands}`");
+            return Err(fields.fault("bands", problem, "correct the header"));
+        }
+        let number_type = number_type(&fields)?;
+        let mut remarks = Vec::new();
+        let wavelengths = fields.list("wavelength", bands)?;
+        let unit = fields.text("wavelength units")?;
+        let wavelengths = wavelengths
+            .map(|values| {
+                Wavelengths::of(&values, unit).map_err(|problem| {
+                    let way_out = "write wavelengths in nm, with `wavelength units = Nanometers`";
+                    fields.fault("wavelength", problem, way_out)
+                })
+            })
+            .transpose()?;
+        remarks.extend(wavelengths.as_ref().and_then(|found| found.remark.clone()));
+        let factor = wavelengths.as_ref().map_or(1.0, |found| found.factor);
+        let fwhm = fields.list("fwhm", bands)?;
+        let fwhm_nm = fwhm.map(|list| list.into_iter().map(|width| width * factor).collect());
+        Ok(Self {
+            layout: Layout {
+                lines,
+                samples,
+                bands,
+                offset: fields.whole("header offset")?.unwrap_or(0),
+                number_type,
+                byte_order: byte_order(&fields, number_type)?,
+                interleave: interleave(&fields, bands)?,
+            },
+            wavelengths_nm: wavelengths.map(|found| found.nm),
+            fwhm_nm,
+            good: good_bands(&fields, bands, &mut remarks)?,
+            ignore: fields.number("data ignore value")?,
+            scale_factor: scale_factor(&fields)?,
+            gains: gains(&fields, bands)?,
+            is_radiance: says(&fields, "radiance")?,
+            integration_time: fields.number("tint").ok().flatten(),
+            remarks,
+        })
+    }
+}
+
+/// Refuses spectral libraries, classifications, compressed data and data with gaps.
+fn refuse_other_kinds(fields: &Fields) -> Result<(), CubeError> {
+    let kind = fields.text("file type")?.unwrap_or_default().to_lowercase();
+    if kind.contains("library") || kind.contains("classification") {
+        let problem = format!("is `{}`, no cube", shortened(&kind));
+        return Err(fields.fault("file type", problem, "name a scan of type ENVI Standard"));
+    }
+    if fields.whole("file compression")?.unwrap_or(0) != 0 {
+        let way_out = "save the scan without compression";
+        return Err(fields.fault("file compression", "says that the data are packed", way_out));
+    }
+    for key in ["major frame offsets", "minor frame offsets"] {
+        let frames = fields.text(key)?.unwrap_or_default();
+        if frames.chars().any(|c| c.is_ascii_digit() && c != '0') {
+            let problem = format!("is `{}`: data with gaps are not read", shortened(frames));
+            return Err(fields.fault(
+                key,
+                problem,
+                "save the scan as ENVI Standard without frames",
+            ));
+        }
+    }
+    for key in QUANTITY_KEYS {
+        let words = fields.text(key)?.unwrap_or_default().to_lowercase();
+        if words.contains("transmi") || words.contains("absorb") {
+            let problem = format!("is `{}`, no reflectance", shortened(&words));
+            let way_out = "export the scan as reflectance";
+            return Err(fields.fault(key, problem, way_out));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a key about the quantity holds `word`.
+fn says(fields: &Fields, word: &str) -> Result<bool, CubeError> {
+    for key in QUANTITY_KEYS {
+        if fields.text(key)?.is_some_and(|text| text.to_lowercase().contains(word)) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+fn size(fields: &Fields, key: &str) -> Result<usize, CubeError> {
+    let number = fields.required(key)?;
+    usize::try_from(number).ok().filter(|size| *size > 0).ok_or_else(|| {
+        fields.fault(key, format!("must be at least 1, found `{number}`"), "correct the header")
+    })
+}
+
+fn number_type(fields: &Fields) -> Result<NumberType, CubeError> {
+    Ok(match fields.required("data type")? {
+        1 => NumberType::U8,
+        2 => NumberType::I16,
+        3 => NumberType::I32,
+        4 => NumberType::F32,
+        5 => NumberType::F64,
+        12 => NumberType::U16,
+        13 => NumberType::U32,
+        14 => NumberType::I64,
+        15 => NumberType::U64,
+        complex @ (6 | 9) => {
+            let problem = format!("is `{complex}`, complex numbers, which are no reflectances");
+            return Err(fields.fault("data type", problem, "save real numbers"));
+        }
+        other => {
+            let problem = format!("must be 1, 2, 3, 4, 5, 12, 13, 14 or 15, found `{other}`");
+            return Err(fields.fault("data type", problem, "correct the header"));
+        }
+    })
+}
+
+fn byte_order(fields: &Fields, number_type: NumberType) -> Result<ByteOrder, CubeError> {
+    match fields.whole("byte order")? {
+        Some(0) => Ok(ByteOrder::Little),
+        Some(1) => Ok(ByteOrder::Big),
+        None if number_type.bytes() == 1 => Ok(ByteOrder::Little),
+        None => {
+            let way_out = "add `byte order = 0` (little endian) or `byte order = 1`";
+            Err(fields.fault("byte order", "is missing", way_out))
+        }
+        Some(other) => {
+            let problem = format!("must be 0 or 1, found `{other}`");
+            Err(fields.fault("byte order", problem, "correct the header"))
+        }
+    }
+}
+
+fn interleave(fields: &Fields, bands: usize) -> Result<Interleave, CubeError> {
+    let text = fields.text("interleave")?.unwrap_or_default();
+    match text.to_lowercase().as_str() {
+        "bsq" => Ok(Interleave::Bsq),
+        "bil" => Ok(Interleave::Bil),
+        "bip" => Ok(Interleave::Bip),
+        "" if bands == 1 => Ok(Interleave::Bsq),
+        _ => {
+            let problem = match text {
+                "" => "is missing".to_owned(),
+                text => format!("must be bsq, bil or bip, found `{}`", shortened(text)),
+            };
+            Err(fields.fault("interleave", problem, "add `interleave = bil`, or the order it has"))
+        }
+    }
+}
+
+fn good_bands(
+    fields: &Fields,
+    bands: usize,
+    remarks: &mut Vec<String>,
+) -> Result<Vec<bool>, CubeError> {
+    let Some(list) = fields.list("bbl", bands)? else { return Ok(vec![true; bands]) };
+    let good: Vec<bool> = list.iter().map(|value| *value != 0.0).collect();
+    match good.iter().filter(|good| !**good).count() {
+        0 => {}
+        all if all == bands => {
+            let way_out = "set good bands to 1, or remove `bbl`";
+            return Err(fields.fault("bbl", "marks every band as bad", way_out));
+        }
+        bad => remarks.push(format!("{bad} of {bands} bands are marked as bad and left out (bbl)")),
+    }
+    Ok(good)
+}
+
+fn scale_factor(fields: &Fields) -> Result<Option<f64>, CubeError> {
+    const KEY: &str = "reflectance scale factor";
+    match fields.number(KEY)? {
+        Some(factor) if !(factor.is_finite() && factor > 0.0) => {
+            let problem = format!("must be above 0, found `{factor}`");
+            Err(fields.fault(KEY, problem, "correct the header"))
+        }
+        factor => Ok(factor),
+    }
+}
+
+fn gains(fields: &Fields, bands: usize) -> Result<Option<Vec<(f64, f64)>>, CubeError> {
+    const GAINS: &str = "data reflectance gain values";
+    const OFFSETS: &str = "data reflectance offset values";
+    let Some(gains) = fields.list(GAINS, bands)? else { return Ok(None) };
+    let offsets = fields.list(OFFSETS, bands)?.unwrap_or_else(|| vec![0.0; bands]);
+    let pairs: Vec<_> = gains.into_iter().zip(offsets).collect();
+    match pairs.iter().position(|(gain, offset)| !(gain.is_finite() && offset.is_finite())) {
+        None => Ok(Some(pairs)),
+        Some(at) => {
+            let problem = format!("must be finite numbers, found `{:?}`", pairs[at]);
+            Err(fields.fault(GAINS, problem, "correct the header"))
+        }
+    }
+}

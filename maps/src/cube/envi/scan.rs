@@ -1,0 +1,51 @@
+//! Opens the scan of an ENVI header.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::data_file::data_of;
+use super::header::EnviHeader;
+use crate::cube::error::CubeError;
+use crate::cube::opened::{Opened, Values};
+use crate::cube::positional::PositionalFile;
+use crate::cube::raw_file::RawFile;
+
+/// Largest header that is read. A header of 65,536 bands has 2 MB.
+const LARGEST_HEADER: u64 = 16 << 20;
+
+/// Opens the header at `path` and its data.
+pub(crate) fn open(path: &Path) -> Result<Opened, CubeError> {
+    let file = File::open(path).map_err(|reason| CubeError::reading(path, reason))?;
+    let mut bytes = Vec::new();
+    let read = file.take(LARGEST_HEADER + 1).read_to_end(&mut bytes);
+    read.map_err(|reason| CubeError::reading(path, reason))?;
+    if bytes.len() as u64 > LARGEST_HEADER {
+        let problem = format!("has more than {LARGEST_HEADER} bytes, which no ENVI header has");
+        return Err(CubeError::format(path, problem, "name the header, which is a short text"));
+    }
+    let header = EnviHeader::parse(&bytes, path)?;
+    let data = data_of(path, &header)?;
+    let layout = header.layout;
+    let file = PositionalFile::open(&data)?;
+    let values = match (header.gains, header.scale_factor) {
+        (Some(gains), _) => Values::Gains(gains),
+        (None, Some(factor)) => Values::Divided(factor),
+        (None, None) if header.is_radiance => Values::Counts,
+        (None, None) => Values::Unknown { are_whole: layout.number_type.is_whole() },
+    };
+    Ok(Opened {
+        path: path.to_owned(),
+        lines: layout.lines,
+        samples: layout.samples,
+        bands: layout.bands,
+        wavelengths_nm: header.wavelengths_nm,
+        fwhm_nm: header.fwhm_nm,
+        good: header.good,
+        ignore: header.ignore,
+        values,
+        integration_time: header.integration_time,
+        remarks: header.remarks,
+        source: Box::new(RawFile::new(file, layout)),
+    })
+}

@@ -1,0 +1,221 @@
+//! Numbers in a plain file, in any order of lines, samples and bands.
+
+use std::sync::{Mutex, PoisonError};
+
+use rayon::prelude::*;
+
+use super::conversion::Conversion;
+use super::error::CubeError;
+use super::positional::PositionalFile;
+use super::window::{Pixels, Source, Window};
+use crate::numbers::{ByteOrder, NumberType};
+
+/// Order of lines, samples and bands in the data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interleave {
+    /// Band after band: band, line, sample.
+    Bsq,
+    /// Line after line, in each band after band: line, band, sample.
+    Bil,
+    /// Pixel after pixel: line, sample, band.
+    Bip,
+}
+
+/// Sizes and order of the numbers of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Layout {
+    pub(crate) lines: usize,
+    pub(crate) samples: usize,
+    pub(crate) bands: usize,
+    /// Bytes before the first number.
+    pub(crate) offset: u64,
+    pub(crate) number_type: NumberType,
+    pub(crate) byte_order: ByteOrder,
+    pub(crate) interleave: Interleave,
+}
+
+impl Layout {
+    /// Bytes of the file; `None` if the number does not exist.
+    pub(crate) fn file_bytes(&self) -> Option<u64> {
+        let sizes = [self.lines, self.samples, self.bands, self.number_type.bytes()];
+        let sizes = sizes.into_iter().map(|size| size as u64);
+        let numbers = sizes.into_iter().try_fold(1_u64, u64::checked_mul)?;
+        numbers.checked_add(self.offset)
+    }
+
+    /// Position of a number. The file has it, so nothing overflows.
+    pub(crate) fn position(&self, line: usize, sample: usize, band: usize) -> u64 {
+        let [lines, samples, bands] =
+            [self.lines, self.samples, self.bands].map(|size| size as u64);
+        let (line, sample, band) = (line as u64, sample as u64, band as u64);
+        let number = match self.interleave {
+            Interleave::Bsq => (band * lines + line) * samples + sample,
+            Interleave::Bil => (line * bands + band) * samples + sample,
+            Interleave::Bip => (line * samples + sample) * bands + band,
+        };
+        self.offset + number * self.number_type.bytes() as u64
+    }
+}
+
+/// A file of plain numbers.
+#[derive(Debug)]
+pub(crate) struct RawFile {
+    file: PositionalFile,
+    layout: Layout,
+    /// Memory for the bands of a block that is stored band after band.
+    planes: Mutex<Vec<u8>>,
+}
+
+/// Pixels that are transposed together, so that their values stay in the fastest cache.
+const TILE: usize = 32;
+
+impl RawFile {
+    /// Takes a file of the size that `layout` describes.
+    pub(crate) fn new(file: PositionalFile, layout: Layout) -> Self {
+        Self { file, layout, planes: Mutex::new(Vec::new()) }
+    }
+
+    /// Converts numbers that lie band after band: `raw(band)` holds a row of the window.
+    fn transpose<'b>(&self, raw: impl Fn(usize) -> &'b [u8], bands: usize, values: &mut [f32]) {
+        let Layout { number_type, byte_order, .. } = self.layout;
+        let tile_bytes = TILE * number_type.bytes();
+        for (tile, values) in values.chunks_mut(TILE * bands).enumerate() {
+            for band in 0..bands {
+                let row = &raw(band)[tile * tile_bytes..];
+                let row = &row[..tile_bytes.min(row.len())];
+                number_type.convert(byte_order, row, &mut values[band..], bands);
+            }
+        }
+    }
+
+    /// Reads a row that is stored band after band.
+    fn bil_row(
+        &self,
+        line: usize,
+        window: &Window,
+        bands: &[usize],
+        raw: &mut Vec<u8>,
+        values: &mut [f32],
+    ) -> Result<(), CubeError> {
+        let first = bands.iter().copied().min().unwrap_or(0);
+        let count = bands.iter().copied().max().unwrap_or(0) + 1 - first;
+        let bytes = self.layout.number_type.bytes();
+        let is_whole = window.width() == self.layout.samples && count <= 2 * bands.len();
+        let row_bytes = window.width() * bytes;
+        // All bands of the row at once where few are left out, else one by one.
+        raw.resize(row_bytes * if is_whole { count } else { bands.len() }, 0);
+        if is_whole {
+            self.file.read_at(raw, self.layout.position(line, 0, first))?;
+            let row = |band: usize| &raw[(bands[band] - first) * row_bytes..][..row_bytes];
+            self.transpose(row, bands.len(), values);
+        } else {
+            for (row, &band) in raw.chunks_exact_mut(row_bytes).zip(bands) {
+                let position = self.layout.position(line, window.columns.start, band);
+                self.file.read_at(row, position)?;
+            }
+            self.transpose(|band| &raw[band * row_bytes..][..row_bytes], bands.len(), values);
+        }
+        Ok(())
+    }
+
+    /// Reads a row that is stored pixel after pixel.
+    fn bip_row(
+        &self,
+        line: usize,
+        window: &Window,
+        bands: &[usize],
+        raw: &mut Vec<u8>,
+        values: &mut [f32],
+    ) -> Result<(), CubeError> {
+        let Layout { number_type, byte_order, .. } = self.layout;
+        let pixel_bytes = self.layout.bands * number_type.bytes();
+        raw.resize(window.width() * pixel_bytes, 0);
+        self.file.read_at(raw, self.layout.position(line, window.columns.start, 0))?;
+        if bands.iter().copied().eq(0..self.layout.bands) {
+            number_type.convert(byte_order, raw, values, 1);
+            return Ok(());
+        }
+        let mut all = vec![0.0; self.layout.bands];
+        for (pixel, values) in raw.chunks_exact(pixel_bytes).zip(values.chunks_mut(bands.len())) {
+            number_type.convert(byte_order, pixel, &mut all, 1);
+            for (value, &band) in values.iter_mut().zip(bands) {
+                *value = all[band];
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a block of rows that is stored band after band: each band's rows at once.
+    fn bsq_rows(
+        &self,
+        window: &Window,
+        bands: &[usize],
+        conversion: &Conversion,
+        pixels: Pixels<'_>,
+    ) -> Result<(), CubeError> {
+        let row_bytes = window.width() * self.layout.number_type.bytes();
+        let plane_bytes = row_bytes * window.rows.len();
+        // Memory that was used before is not cleared again.
+        let mut raw =
+            std::mem::take(&mut *self.planes.lock().unwrap_or_else(PoisonError::into_inner));
+        raw.resize(plane_bytes * bands.len(), 0);
+        let is_whole = window.width() == self.layout.samples;
+        let planes = raw.par_chunks_mut(plane_bytes).zip(bands);
+        planes.try_for_each(|(plane, &band)| {
+            if is_whole {
+                return self.file.read_at(plane, self.layout.position(window.rows.start, 0, band));
+            }
+            for (row, line) in plane.chunks_exact_mut(row_bytes).zip(window.rows.clone()) {
+                let position = self.layout.position(line, window.columns.start, band);
+                self.file.read_at(row, position)?;
+            }
+            Ok(())
+        })?;
+        pixels.rows(window, bands.len()).for_each(|(line, row)| {
+            let start = (line - window.rows.start) * row_bytes;
+            let plane = |band: usize| &raw[band * plane_bytes + start..][..row_bytes];
+            self.transpose(plane, bands.len(), row.values);
+            conversion.row(window.columns.start, row.values, row.mask);
+        });
+        *self.planes.lock().unwrap_or_else(PoisonError::into_inner) = raw;
+        Ok(())
+    }
+}
+
+impl Source for RawFile {
+    fn read(
+        &self,
+        window: &Window,
+        bands: &[usize],
+        conversion: &Conversion,
+        pixels: Pixels<'_>,
+    ) -> Result<(), CubeError> {
+        if pixels.values.is_empty() {
+            return Ok(());
+        }
+        if self.layout.interleave == Interleave::Bsq {
+            return self.bsq_rows(window, bands, conversion, pixels);
+        }
+        pixels.rows(window, bands.len()).try_for_each_init(Vec::new, |raw, (line, row)| {
+            match self.layout.interleave {
+                Interleave::Bip => self.bip_row(line, window, bands, raw, row.values)?,
+                _ => self.bil_row(line, window, bands, raw, row.values)?,
+            }
+            conversion.row(window.columns.start, row.values, row.mask);
+            Ok(())
+        })
+    }
+
+    fn scratch_bytes(&self, rows: usize, columns: usize) -> usize {
+        let row = columns * self.layout.bands * self.layout.number_type.bytes();
+        match self.layout.interleave {
+            Interleave::Bsq => row * rows,
+            // Each thread holds one row.
+            _ => row * rows.min(rayon::current_num_threads()),
+        }
+    }
+
+    fn full_scale(&self) -> Option<f64> {
+        self.layout.number_type.full_scale()
+    }
+}

@@ -1,0 +1,226 @@
+//! A cube: a scan whose values are reflectances, read in blocks.
+
+use std::ops::{Range, RangeInclusive};
+use std::path::{Path, PathBuf};
+
+use super::block::Block;
+use super::conversion::{Conversion, Terms};
+use super::error::CubeError;
+use super::interpret::interpret;
+use super::opened::Opened;
+use super::options::CubeOptions;
+use super::readings::Readings;
+use super::window::{Pixels, Source, Window};
+use crate::pixel_maps::Mask;
+
+/// How the values of a file become reflectance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CubeValues {
+    /// Values times this number.
+    Scaled(f64),
+    /// Values by a factor and a summand a band, or by a white and a dark reading.
+    ByBands,
+}
+
+/// A spectral scan, read in blocks of rows. Bands lie in the order of rising wavelength; those that
+/// the file marks as bad are left out.
+#[derive(Debug)]
+pub struct Cube {
+    path: PathBuf,
+    lines: usize,
+    samples: usize,
+    wavelengths_nm: Vec<f64>,
+    fwhm_nm: Option<Vec<f64>>,
+    white_sd: Option<Vec<f64>>,
+    black_sd: Option<Vec<f64>>,
+    remarks: Vec<String>,
+    /// Indices of the bands in the file.
+    bands: Vec<usize>,
+    conversion: Conversion,
+    source: Box<dyn Source>,
+}
+
+impl Cube {
+    /// Makes a cube of a scan that its reader opened.
+    pub(crate) fn of(
+        scan: Opened,
+        readings: Option<&Readings>,
+        options: &CubeOptions,
+    ) -> Result<Self, CubeError> {
+        let Some(nm) = scan.wavelengths_nm.clone() else {
+            return Err(CubeError::format(
+                &scan.path,
+                format!("names no wavelengths of its {} bands", scan.bands),
+                "add them to the header, or give a file of them with [wavelengths=FILE]",
+            ));
+        };
+        let found = interpret(&scan, &nm, readings, options)?;
+        let of_bands = |all: &Vec<f64>| found.bands.iter().map(|&band| all[band]).collect();
+        let mut remarks = scan.remarks;
+        remarks.extend(found.remarks);
+        Ok(Self {
+            wavelengths_nm: of_bands(&nm),
+            fwhm_nm: scan.fwhm_nm.as_ref().map(of_bands),
+            path: scan.path,
+            lines: scan.lines,
+            samples: scan.samples,
+            white_sd: found.white_sd,
+            black_sd: found.black_sd,
+            remarks,
+            bands: found.bands,
+            conversion: found.conversion,
+            source: scan.source,
+        })
+    }
+
+    /// Path of the header or file, as it was found.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn lines(&self) -> usize {
+        self.lines
+    }
+
+    /// Number of columns.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Wavelengths of the bands in nm, rising.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.wavelengths_nm
+    }
+
+    /// Full width at half maximum of the bands in nm, if the file has them.
+    #[must_use]
+    pub fn fwhm_nm(&self) -> Option<&[f64]> {
+        self.fwhm_nm.as_deref()
+    }
+
+    /// Standard deviation of the reflectance of a white in each band, by the scatter of the white
+    /// reading over its lines; `None` for cubes of reflectance.
+    #[must_use]
+    pub fn white_sd(&self) -> Option<&[f64]> {
+        self.white_sd.as_deref()
+    }
+
+    /// Standard deviation of the reflectance of a black in each band, by the scatter of the dark
+    /// reading over its lines; `None` for cubes of reflectance.
+    #[must_use]
+    pub fn black_sd(&self) -> Option<&[f64]> {
+        self.black_sd.as_deref()
+    }
+
+    /// How the values of the file become reflectance.
+    #[must_use]
+    pub fn values(&self) -> CubeValues {
+        match &self.conversion.terms {
+            Terms::One(gain) => CubeValues::Scaled(f64::from(*gain)),
+            Terms::Columns { .. } => CubeValues::ByBands,
+        }
+    }
+
+    /// Sentences about how the file was understood.
+    #[must_use]
+    pub fn remarks(&self) -> &[String] {
+        &self.remarks
+    }
+
+    /// The cube with the bands from `nm.start()` to `nm.end()` only. Other bands are no longer read
+    /// and no longer decide whether a pixel can be mapped.
+    ///
+    /// # Errors
+    /// [`CubeError::Outside`] if no band is left.
+    pub fn between(mut self, nm: RangeInclusive<f64>) -> Result<Self, CubeError> {
+        let all = self.bands.len();
+        let chosen: Vec<usize> =
+            (0..all).filter(|&band| nm.contains(&self.wavelengths_nm[band])).collect();
+        if chosen.is_empty() {
+            let asked = format!("wavelengths from {} to {} nm", nm.start(), nm.end());
+            return Err(self.outside(asked));
+        }
+        let of_bands = |all: &mut Vec<f64>| *all = chosen.iter().map(|&band| all[band]).collect();
+        of_bands(&mut self.wavelengths_nm);
+        for list in [&mut self.fwhm_nm, &mut self.white_sd, &mut self.black_sd] {
+            list.as_mut().map(of_bands);
+        }
+        self.bands = chosen.iter().map(|&band| self.bands[band]).collect();
+        self.conversion = self.conversion.of_bands(&chosen, all);
+        Ok(self)
+    }
+
+    /// Number of rows of a block of `columns` columns for which `bytes` of memory are enough, at
+    /// least one.
+    #[must_use]
+    pub fn rows_within(&self, bytes: usize, columns: usize) -> usize {
+        let row = columns * (self.bands.len() * size_of::<f32>() + size_of::<Mask>());
+        let natural = self.source.natural_rows();
+        let needed = |rows: usize| {
+            row.saturating_mul(rows).saturating_add(self.source.scratch_bytes(rows, columns))
+        };
+        let mut rows = 1;
+        while rows < self.lines && needed(2 * rows) <= bytes {
+            rows *= 2;
+        }
+        // Whole parts of the file where that costs no more than a half.
+        if rows > natural { rows - rows % natural } else { rows }.clamp(1, self.lines)
+    }
+
+    /// Reads whole rows.
+    ///
+    /// # Errors
+    /// [`CubeError`] if the cube has no such rows or cannot be read.
+    pub fn read_rows(&self, rows: Range<usize>) -> Result<Block, CubeError> {
+        self.read(rows, 0..self.samples)
+    }
+
+    /// Reads the pixels of a rectangle.
+    ///
+    /// # Errors
+    /// [`CubeError`] if the cube has no such pixels or cannot be read.
+    pub fn read(&self, rows: Range<usize>, columns: Range<usize>) -> Result<Block, CubeError> {
+        let mut block = Block::default();
+        self.read_into(rows, columns, &mut block)?;
+        Ok(block)
+    }
+
+    /// Reads the pixels of a rectangle into `block`, whose memory is used again.
+    ///
+    /// # Errors
+    /// [`CubeError`] if the cube has no such pixels or cannot be read.
+    pub fn read_into(
+        &self,
+        rows: Range<usize>,
+        columns: Range<usize>,
+        block: &mut Block,
+    ) -> Result<(), CubeError> {
+        let is_inside = |range: &Range<usize>, end| range.start <= range.end && range.end <= end;
+        if !is_inside(&rows, self.lines) {
+            return Err(self.outside(format!("rows {} to {}", rows.start, rows.end)));
+        }
+        if !is_inside(&columns, self.samples) {
+            return Err(self.outside(format!("columns {} to {}", columns.start, columns.end)));
+        }
+        let window = Window { rows, columns };
+        block.bands = self.bands.len();
+        block.values.resize(window.pixels() * block.bands, 0.0);
+        block.mask.resize(window.pixels(), Mask::Mapped);
+        let pixels = Pixels { values: &mut block.values, mask: &mut block.mask };
+        self.source.read(&window, &self.bands, &self.conversion, pixels)?;
+        (block.rows, block.columns) = (window.rows, window.columns);
+        Ok(())
+    }
+
+    fn outside(&self, asked: String) -> CubeError {
+        let ends = [self.wavelengths_nm.first(), self.wavelengths_nm.last()];
+        let [first, last] = ends.map(|end| end.copied().unwrap_or(0.0));
+        let has = format!("{} rows, {} columns and {first} to {last} nm", self.lines, self.samples);
+        CubeError::Outside { path: self.path.clone(), asked, has }
+    }
+}

@@ -1,0 +1,107 @@
+//! Maps at the size of a screen: means over squares of pixels.
+
+use crate::pixel_maps::Mask;
+use crate::store::{StoreError, StoredMaps};
+
+/// Rows that are read at once.
+const ROWS: usize = 256;
+
+/// Means of maps over squares of pixels. Values are NaN where no pixel of a square is mapped.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Overview {
+    /// Pixels of the scan along each side of a square.
+    pub step: usize,
+    /// Squares in a row.
+    pub width: usize,
+    /// Rows of squares.
+    pub height: usize,
+    /// Names of the pigments.
+    pub pigments: Vec<String>,
+    /// Mean share of each pigment: one field of squares a pigment.
+    pub share: Vec<Vec<f32>>,
+    /// Mean probability of each pigment.
+    pub presence: Vec<Vec<f32>>,
+    /// Mean chi-square of each square.
+    pub chi2: Vec<f32>,
+    /// Mean residual of each square.
+    pub rms: Vec<f32>,
+    /// Mean share of each pigment over all mapped pixels.
+    pub mean_share: Vec<f64>,
+    /// Part of the mapped pixels where a pigment is more likely present than not.
+    pub present: Vec<f64>,
+    /// Number of mapped pixels.
+    pub mapped: u64,
+}
+
+/// Sum of the values of each square.
+struct Sums {
+    share: Vec<Vec<f64>>,
+    presence: Vec<Vec<f64>>,
+    chi2: Vec<f64>,
+    rms: Vec<f64>,
+    counts: Vec<u32>,
+}
+
+impl Overview {
+    /// Reads all of `maps`, with at most `longest` squares along the longer side.
+    ///
+    /// # Errors
+    /// [`StoreError`] if a shard cannot be read.
+    pub fn of(maps: &StoredMaps, longest: usize) -> Result<Self, StoreError> {
+        let (rows, columns) = (maps.rows(), maps.columns());
+        let step = rows.len().max(columns.len()).div_ceil(longest.max(1)).max(1);
+        let (width, height) = (columns.len().div_ceil(step), rows.len().div_ceil(step));
+        let count = maps.pigments().len();
+        let field = || vec![0.0; width * height];
+        let mut sums = Sums {
+            share: vec![field(); count],
+            presence: vec![field(); count],
+            chi2: field(),
+            rms: field(),
+            counts: vec![0; width * height],
+        };
+        let mut present = vec![0_u64; count];
+        let mut start = rows.start;
+        while start < rows.end {
+            let end = (start + ROWS).min(rows.end);
+            let block = maps.read(start..end, columns.clone())?;
+            for (pixel, mask) in block.mask.iter().enumerate() {
+                if *mask != Mask::Mapped {
+                    continue;
+                }
+                let row = start - rows.start + pixel / columns.len();
+                let square = row / step * width + pixel % columns.len() / step;
+                sums.counts[square] += 1;
+                sums.chi2[square] += f64::from(block.chi2[pixel]);
+                sums.rms[square] += f64::from(block.rms[pixel]);
+                for (pigment, present) in present.iter_mut().enumerate() {
+                    let at = pixel * count + pigment;
+                    sums.share[pigment][square] += f64::from(block.share[at]);
+                    sums.presence[pigment][square] += f64::from(block.presence[at]);
+                    *present += u64::from(block.presence[at] > 0.5);
+                }
+            }
+            start = end;
+        }
+        let mapped: u64 = sums.counts.iter().map(|count| u64::from(*count)).sum();
+        let means = |field: &Vec<f64>| -> Vec<f32> {
+            let pairs = field.iter().zip(&sums.counts);
+            // No pixel gives 0 / 0, which is NaN.
+            pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
+        };
+        let of_all = |field: &Vec<f64>| field.iter().sum::<f64>() / mapped.max(1) as f64;
+        Ok(Self {
+            step,
+            width,
+            height,
+            pigments: maps.pigments().to_vec(),
+            mean_share: sums.share.iter().map(of_all).collect(),
+            present: present.into_iter().map(|n| n as f64 / mapped.max(1) as f64).collect(),
+            share: sums.share.iter().map(means).collect(),
+            presence: sums.presence.iter().map(means).collect(),
+            chi2: means(&sums.chi2),
+            rms: means(&sums.rms),
+            mapped,
+        })
+    }
+}

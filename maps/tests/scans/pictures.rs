@@ -1,0 +1,187 @@
+//! Stacks of pictures, pages of TIFF files, and spectral OpenEXR files.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use exr::prelude::{
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes,
+    WritableImage,
+};
+use maps::cube::{Cube, CubeOptions, CubeScale};
+use tiff::encoder::{self, TiffEncoder, colortype};
+
+use crate::written::{BANDS, LINES, SAMPLES, check, refused, value};
+
+const LIST: &str = "400\n500\n600.5\n700\n";
+
+/// Settings under which counts of 16 bits, 100 times the test scan, are its reflectances.
+fn by_20000() -> CubeOptions {
+    CubeOptions { scale: CubeScale::White(20_000.0), ..CubeOptions::default() }
+}
+
+fn plane(band: usize) -> Vec<u16> {
+    let pixels = (0..LINES).flat_map(|line| (0..SAMPLES).map(move |sample| (line, sample)));
+    pixels.map(|(line, sample)| u16::from(value(line, sample, band)) * 100).collect()
+}
+
+fn write_png(path: &Path, values: &[u16]) {
+    let file = File::create(path).unwrap();
+    let mut encoder = png::Encoder::new(file, SAMPLES as u32, LINES as u32);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_be_bytes()).collect();
+    encoder.write_header().unwrap().write_image_data(&bytes).unwrap();
+}
+
+fn write_tiff(path: &Path, pages: &[Vec<u16>]) {
+    let mut encoder = TiffEncoder::new(File::create(path).unwrap()).unwrap();
+    for (at, page) in pages.iter().enumerate() {
+        // Pages are packed in turns, in strips of two rows.
+        encoder = encoder.with_compression(match at % 3 {
+            0 => encoder::Compression::Uncompressed,
+            1 => encoder::Compression::Deflate(encoder::DeflateLevel::Fast),
+            _ => encoder::Compression::Lzw,
+        });
+        let mut image =
+            encoder.new_image::<colortype::Gray16>(SAMPLES as u32, LINES as u32).unwrap();
+        image.rows_per_strip(2).unwrap();
+        image.write_data(page).unwrap();
+    }
+}
+
+#[test]
+fn a_folder_of_pictures_is_read_in_the_order_of_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("wavelengths.txt"), LIST).unwrap();
+    for (band, name) in
+        ["band 8.png", "band 9.tif", "band 10.PNG", "band 11.tiff"].iter().enumerate()
+    {
+        let path = folder.path().join(name);
+        match name.to_lowercase().ends_with("png") {
+            true => write_png(&path, &plane(band)),
+            false => write_tiff(&path, &[plane(band)]),
+        }
+    }
+    let cube = Cube::open_with(folder.path(), &by_20000()).unwrap();
+    check(&cube, 1.0 / 200.0, "pictures");
+    let remark =
+        "4 pictures from band 8.png (400 nm) to band 11.tiff (700 nm), in the order of their names";
+    assert_eq!(cube.remarks(), [remark]);
+    let (found, hint) = refused(folder.path(), &CubeOptions::default());
+    assert!(found.contains("the values are no reflectances"), "{found}: {hint}");
+    // The list may lie elsewhere.
+    let elsewhere = tempfile::tempdir().unwrap();
+    let list = elsewhere.path().join("filters.csv");
+    std::fs::rename(folder.path().join("wavelengths.txt"), &list).unwrap();
+    let options = CubeOptions { wavelengths: Some(list), ..by_20000() };
+    check(&Cube::open_with(folder.path(), &options).unwrap(), 1.0 / 200.0, "another list");
+}
+
+#[test]
+fn pictures_that_do_not_fit_are_refused() {
+    let make = || {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("wavelengths.csv"), LIST).unwrap();
+        for band in 0..BANDS {
+            write_png(&folder.path().join(format!("{band}.png")), &plane(band));
+        }
+        folder
+    };
+    let folder = make();
+    std::fs::remove_file(folder.path().join("2.png")).unwrap();
+    let (found, _) = refused(folder.path(), &by_20000());
+    assert!(found.ends_with("has 4 wavelengths, the folder 3 pictures"), "{found}");
+
+    let folder = make();
+    let file = File::create(folder.path().join("2.png")).unwrap();
+    let mut encoder = png::Encoder::new(file, 3, 2);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.write_header().unwrap().write_image_data(&[1; 6]).unwrap();
+    let (found, _) = refused(folder.path(), &by_20000());
+    let words = "2.png: the picture has 3 x 2 pixels of U8, the first picture of the stack 7 x 5 pixels of U16";
+    assert!(found.ends_with(words), "{found}");
+
+    let folder = make();
+    let file = File::create(folder.path().join("0.png")).unwrap();
+    let mut encoder = png::Encoder::new(file, 3, 2);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.write_header().unwrap().write_image_data(&[1; 18]).unwrap();
+    let (found, _) = refused(folder.path(), &by_20000());
+    assert!(found.contains("0.png: the picture is of kind") && found.contains("gray"), "{found}");
+
+    let folder = make();
+    let path = folder.path().join("1.png");
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() - 30]).unwrap();
+    let (found, _) = refused(folder.path(), &by_20000());
+    assert!(found.contains("1.png"), "{found}");
+
+    let folder = make();
+    let options = CubeOptions { scratch: Some("/no/such/folder".into()), ..by_20000() };
+    let (found, hint) = refused(folder.path(), &options);
+    assert!(found.starts_with("/no/such/folder: unpacked values cannot be written"), "{found}");
+    assert!(hint.contains("`scratch = FOLDER`"), "{hint}");
+}
+
+#[test]
+fn pages_of_a_tiff_file_are_bands() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scan.tif");
+    let pages: Vec<_> = (0..BANDS).map(plane).collect();
+    write_tiff(&path, &pages);
+    let (found, hint) = refused(&path, &by_20000());
+    assert!(
+        found.ends_with("has 4 pages, but no list of their wavelengths is beside it"),
+        "{found}"
+    );
+    assert!(hint.contains("scan.txt"), "{hint}");
+    std::fs::write(folder.path().join("scan.txt"), LIST).unwrap();
+    check(&Cube::open_with(&path, &by_20000()).unwrap(), 1.0 / 200.0, "pages");
+    std::fs::write(folder.path().join("scan.txt"), "400\n500\n").unwrap();
+    let (found, _) = refused(&path, &by_20000());
+    assert!(found.ends_with("scan.txt: has 2 wavelengths, the stack 4 pages"), "{found}");
+}
+
+fn write_exr(path: &Path, names: &[(&str, Option<usize>)], compression: Compression) {
+    let channels = names.iter().map(|(name, band)| {
+        let values = match band {
+            Some(band) => {
+                plane(*band).into_iter().map(|count| f32::from(count) / 20_000.0).collect()
+            }
+            None => vec![0.25; LINES * SAMPLES],
+        };
+        AnyChannel::new(*name, FlatSamples::F32(values))
+    });
+    let channels = AnyChannels::sort(channels.collect());
+    let encoding = Encoding { compression, ..Encoding::FAST_LOSSLESS };
+    let layer = Layer::new((SAMPLES, LINES), LayerAttributes::default(), encoding, channels);
+    Image::from_layer(layer).write().to_file(path).unwrap();
+}
+
+/// Channels of a painting that was exported with its spectra.
+const CHANNELS: [(&str, Option<usize>); 7] = [
+    ("R", None),
+    ("G", None),
+    ("B", None),
+    ("T.400,000000nm", Some(0)),
+    ("T.500,000000nm", Some(1)),
+    ("T.600,500000nm", Some(2)),
+    ("T.700,000000nm", Some(3)),
+];
+
+#[test]
+fn spectral_exr_files_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path: PathBuf = folder.path().join("painting.exr");
+    for compression in [Compression::ZIP16, Compression::Uncompressed, Compression::PIZ] {
+        write_exr(&path, &CHANNELS, compression);
+        check(&Cube::open(&path).unwrap(), 1.0 / 200.0, &format!("{compression:?}"));
+    }
+    write_exr(&path, &CHANNELS[..3], Compression::ZIP16);
+    let (found, hint) = refused(&path, &CubeOptions::default());
+    assert!(found.contains("without channels of reflectance"), "{found}: {hint}");
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+    let (found, _) = refused(&path, &CubeOptions::default());
+    assert!(found.contains("painting.exr"), "{found}");
+}
