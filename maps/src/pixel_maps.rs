@@ -1,0 +1,154 @@
+//! Maps of the pixels of one block: shares, presence, errors and masks as flat vectors.
+
+use serde::{Deserialize, Serialize};
+
+/// Tells whether a pixel is mapped, or why it is not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[repr(u8)]
+pub enum Mask {
+    /// The pixel holds a reflectance that can be mapped.
+    Mapped = 0,
+    /// The file marks the pixel as having no data.
+    Ignored = 1,
+    /// A band of the pixel is not a finite number.
+    NotFinite = 2,
+    /// The pixel is darker than the surface itself reflects (k1).
+    TooDark = 3,
+    /// The detector was saturated in a band of the pixel.
+    Saturated = 4,
+    /// A band lies outside the range of reflectances.
+    OutOfRange = 5,
+}
+
+impl Mask {
+    /// Every mask in the order of its number.
+    pub const ALL: [Self; 6] = [
+        Self::Mapped,
+        Self::Ignored,
+        Self::NotFinite,
+        Self::TooDark,
+        Self::Saturated,
+        Self::OutOfRange,
+    ];
+
+    /// Returns the number that files store.
+    #[must_use]
+    pub const fn code(self) -> u8 {
+        self as u8
+    }
+
+    /// Returns the mask of a stored number.
+    #[must_use]
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(code)).copied()
+    }
+
+    /// Returns the name that files and tables show.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Mapped => "mapped",
+            Self::Ignored => "ignored",
+            Self::NotFinite => "not finite",
+            Self::TooDark => "too dark",
+            Self::Saturated => "saturated",
+            Self::OutOfRange => "out of range",
+        }
+    }
+}
+
+/// Maps of the pixels of one block, in the order of the block's pixels: row after row.
+///
+/// The vectors `share`, `share_sd` and `presence` hold `pigments` numbers a pixel, the others one.
+/// A pixel that is not mapped holds NaN in every number and an empty `second`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockMaps {
+    /// Number of pigments or groups of pigments.
+    pub pigments: usize,
+    /// Shares of the pigments, 0 to 1, which add up to 1 in a pixel.
+    pub share: Vec<f32>,
+    /// Standard deviations of the shares.
+    pub share_sd: Vec<f32>,
+    /// Probabilities that the pigments are present, 0 to 1.
+    pub presence: Vec<f32>,
+    /// Chi-square of each pixel per degree of freedom.
+    pub chi2: Vec<f32>,
+    /// Root mean square of the residual in reflectance over the bands.
+    pub rms: Vec<f32>,
+    /// Second-best set of each pixel: bit `i` is pigment `i`; 0 where there is none.
+    pub second: Vec<u64>,
+    /// Whether each pixel is mapped, or why not.
+    pub mask: Vec<Mask>,
+}
+
+impl BlockMaps {
+    /// Most pigments that the bits of `second` can name.
+    pub const MOST_PIGMENTS: usize = 64;
+
+    /// Returns maps in which every pixel has the mask `mask` and no value.
+    #[must_use]
+    pub fn without_values(pixels: usize, pigments: usize, mask: Mask) -> Self {
+        let of_pigments = vec![f32::NAN; pixels * pigments];
+        Self {
+            pigments,
+            share: of_pigments.clone(),
+            share_sd: of_pigments.clone(),
+            presence: of_pigments,
+            chi2: vec![f32::NAN; pixels],
+            rms: vec![f32::NAN; pixels],
+            second: vec![0; pixels],
+            mask: vec![mask; pixels],
+        }
+    }
+
+    /// Number of pixels.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.mask.len()
+    }
+
+    /// Tells whether the lengths of all vectors agree.
+    #[must_use]
+    pub fn is_consistent(&self) -> bool {
+        let pixels = self.pixels();
+        let numbers = pixels.checked_mul(self.pigments);
+        let of_pigments = [&self.share, &self.share_sd, &self.presence];
+        let of_pixels = [self.chi2.len(), self.rms.len(), self.second.len()];
+        self.pigments <= Self::MOST_PIGMENTS
+            && of_pigments.iter().all(|values| Some(values.len()) == numbers)
+            && of_pixels.iter().all(|&length| length == pixels)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mask_survives_its_number() {
+        for (code, mask) in (0_u8..).zip(Mask::ALL) {
+            assert_eq!(mask.code(), code, "{}", mask.name());
+            assert_eq!(Mask::from_code(code), Some(mask), "{}", mask.name());
+        }
+        assert_eq!(Mask::from_code(6), None, "no mask has the number 6");
+    }
+
+    #[test]
+    fn lengths_that_disagree_are_seen() {
+        let maps = BlockMaps::without_values(6, 3, Mask::Ignored);
+        assert!(maps.is_consistent(), "a fresh block of maps");
+        for change in [
+            |maps: &mut BlockMaps| drop(maps.share.pop()),
+            |maps: &mut BlockMaps| drop(maps.share_sd.pop()),
+            |maps: &mut BlockMaps| drop(maps.presence.pop()),
+            |maps: &mut BlockMaps| drop(maps.chi2.pop()),
+            |maps: &mut BlockMaps| drop(maps.rms.pop()),
+            |maps: &mut BlockMaps| drop(maps.second.pop()),
+            |maps: &mut BlockMaps| maps.pigments = 2,
+        ] {
+            let mut changed = maps.clone();
+            change(&mut changed);
+            assert!(!changed.is_consistent(), "{changed:?}");
+        }
+    }
+}
