@@ -25,7 +25,7 @@ fn main() {
         println!("{:28} {} | {}", b.name(), Scores::of(&t.pigments), Scores::of(&t.groups));
     }
     let mut all = Vec::new();
-    for penalty in [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0] {
+    for penalty in [4.0, 8.0] {
         let t = std::time::Instant::now();
         let settings = MapSettings { penalty, ..MapSettings::default() };
         let trials = swatch_trials(&samples, &settings, &groups).unwrap();

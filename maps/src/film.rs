@@ -7,21 +7,12 @@ use pulp::{Simd, WithSimd};
 
 use crate::bands::MOST_BANDS;
 use crate::paints::Paints;
+use crate::whitening::{LANES, Spectrum, Whitening, WhiteningNoise, dot, padded, total};
 
-/// Numbers that are computed at once.
-pub(crate) const LANES: usize = 8;
 /// Most pigments of a set.
 pub(crate) const MOST_IN_SET: usize = 4;
 /// Range of internal reflectances to which a pixel is moved where it is linearised.
 const INTERNAL: [f32; 2] = [1e-4, 0.9995];
-
-/// A number for each band; bands beyond those of the map hold what does not matter.
-pub(crate) type Spectrum = [f32; MOST_BANDS];
-
-/// `count` rounded up to whole lanes.
-pub(crate) fn padded(count: usize) -> usize {
-    count.div_ceil(LANES) * LANES
-}
 
 /// K, S and surface of the pigments, laid out for vectors.
 #[derive(Debug, Clone)]
@@ -50,6 +41,7 @@ pub(crate) struct Films {
 pub(crate) struct Pixel {
     pub(crate) measured: Spectrum,
     pub(crate) internal: Spectrum,
+    pub(crate) white: Whitening,
 }
 
 /// Differences of a pixel from a film: chi-square, and the normal equations of the shares.
@@ -93,16 +85,21 @@ impl Films {
         }
     }
 
-    /// A pixel of these measured reflectances, one for each band.
-    pub(crate) fn pixel(&self, reflectance: &[f32]) -> Pixel {
-        let mut pixel = Pixel { measured: [0.0; MOST_BANDS], internal: [0.5; MOST_BANDS] };
-        pixel.measured[..self.bands].copy_from_slice(&reflectance[..self.bands]);
-        for (internal, &measured) in pixel.internal.iter_mut().zip(reflectance) {
-            let above = (measured - self.floor).max(0.0);
+    /// A pixel of these measured reflectances, one for each band, whose errors are like `noise`.
+    pub(crate) fn pixel(&self, noise: &WhiteningNoise, reflectance: &[f32]) -> Pixel {
+        let (mut measured, mut internal) = ([0.0; MOST_BANDS], [0.5; MOST_BANDS]);
+        measured[..self.bands].copy_from_slice(&reflectance[..self.bands]);
+        let mut slope = [0.0; MOST_BANDS];
+        for band in 0..self.bands {
+            let above = (measured[band] - self.floor).max(0.0);
             let inside = above / (self.through + self.k2 * above);
-            *internal = inside.clamp(INTERNAL[0], INTERNAL[1]);
+            let r = inside.clamp(INTERNAL[0], INTERNAL[1]);
+            let out = 1.0 / (1.0 - self.k2 * r);
+            internal[band] = r;
+            slope[band] = self.through * out * out * r * (1.0 - r) / (1.0 + r);
         }
-        pixel
+        let white = self.arch.dispatch(|| noise.near(&measured, &slope));
+        Pixel { measured, internal, white }
     }
 
     /// Internal reflectance and 1/S of a film, by band.
@@ -123,31 +120,28 @@ impl Films {
     /// Compares `pixel` with the film of `shares` of the pigments `members`.
     pub(crate) fn difference<const N: usize>(
         &self,
-        whitening: &[f32],
         pixel: &Pixel,
         members: [usize; N],
         shares: [f32; N],
     ) -> Difference {
-        self.arch.dispatch(Compare { films: self, whitening, pixel, members, shares })
+        self.arch.dispatch(Compare { films: self, pixel, members, shares })
     }
 
     /// Products of all pigments' rows, which are 0 in sum at the shares of a film like `pixel`, linearised
     /// with secants to the film of internal reflectance and 1/S `about`.
     pub(crate) fn products(
         &self,
-        whitening: &[f32],
         pixel: &Pixel,
         about: (&Spectrum, &Spectrum),
         work: &mut Work,
     ) {
-        self.arch.dispatch(Products { films: self, whitening, pixel, about, work });
+        self.arch.dispatch(Products { films: self, pixel, about, work });
     }
 }
 
 /// Memory of [`Films::products`].
 #[derive(Debug, Clone)]
 pub(crate) struct Work {
-    plain: Vec<f32>,
     white: Vec<f32>,
     /// Products of the rows of all pairs of pigments, `columns` by `columns`; the upper half is valid.
     pub(crate) products: Vec<f32>,
@@ -157,39 +151,14 @@ impl Work {
     pub(crate) fn new(films: &Films) -> Self {
         let size = films.rows * films.columns;
         Self {
-            plain: vec![0.0; size],
             white: vec![0.0; size],
             products: vec![0.0; films.columns * films.columns],
         }
     }
 }
 
-/// Lays out a lower triangular matrix for [`Films`]: blocks of eight rows, column by column up to the
-/// diagonal.
-pub(crate) fn blocked(matrix: &nalgebra::DMatrix<f64>) -> Vec<f32> {
-    let count = matrix.nrows();
-    let rows = padded(count);
-    let mut blocks = Vec::with_capacity(blocked_length(rows));
-    for block in 0..rows / LANES {
-        for column in 0..(block + 1) * LANES {
-            for row in block * LANES..(block + 1) * LANES {
-                let inside = row < count && column < count && column <= row;
-                blocks.push(if inside { matrix[(row, column)] as f32 } else { 0.0 });
-            }
-        }
-    }
-    blocks
-}
-
-/// Numbers of a matrix of `rows` rows that [`blocked`] laid out.
-pub(crate) fn blocked_length(rows: usize) -> usize {
-    let blocks = rows / LANES;
-    LANES * LANES * blocks * (blocks + 1) / 2
-}
-
 struct Compare<'a, const N: usize> {
     films: &'a Films,
-    whitening: &'a [f32],
     pixel: &'a Pixel,
     members: [usize; N],
     shares: [f32; N],
@@ -200,7 +169,7 @@ impl<const N: usize> WithSimd for Compare<'_, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Difference {
-        let Self { films, whitening, pixel, members, shares } = self;
+        let Self { films, pixel, members, shares } = self;
         let rows = films.rows;
         let mut residual = [0.0f32; MOST_BANDS];
         let mut slopes = [[0.0f32; MOST_BANDS]; N];
@@ -248,9 +217,9 @@ impl<const N: usize> WithSimd for Compare<'_, N> {
                 slopes[i][start..start + LANES].copy_from_slice(&slope);
             }
         }
-        let residual = whitened(whitening, rows, &residual);
+        pixel.white.whiten(rows, &mut residual);
         for slope in &mut slopes {
-            *slope = whitened(whitening, rows, slope);
+            pixel.white.whiten(rows, slope);
         }
         let mut found = Difference {
             chi2: dot(rows, &residual, &residual),
@@ -269,50 +238,8 @@ impl<const N: usize> WithSimd for Compare<'_, N> {
     }
 }
 
-#[inline(always)]
-fn total(lanes: &[f32; LANES]) -> f32 {
-    let [a, b, c, d, e, f, g, h] = *lanes;
-    ((a + e) + (b + f)) + ((c + g) + (d + h))
-}
-
-#[inline(always)]
-fn dot(rows: usize, a: &Spectrum, b: &Spectrum) -> f32 {
-    let mut sums = [0.0f32; LANES];
-    for start in (0..rows).step_by(LANES) {
-        let (a, b) = (&a[start..start + LANES], &b[start..start + LANES]);
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    total(&sums)
-}
-
-/// Product of the matrix laid out by [`blocked`] with `values`.
-#[inline(always)]
-fn whitened(matrix: &[f32], rows: usize, values: &Spectrum) -> Spectrum {
-    let mut result = [0.0f32; MOST_BANDS];
-    let mut at = 0;
-    for start in (0..rows).step_by(LANES) {
-        let columns = start + LANES;
-        let block = &matrix[at..at + columns * LANES];
-        let mut sums = [[0.0f32; LANES]; 2];
-        for (pair, values) in block.chunks_exact(2 * LANES).zip(values[..columns].chunks_exact(2)) {
-            for lane in 0..LANES {
-                sums[0][lane] += pair[lane] * values[0];
-                sums[1][lane] += pair[LANES + lane] * values[1];
-            }
-        }
-        for lane in 0..LANES {
-            result[start + lane] = sums[0][lane] + sums[1][lane];
-        }
-        at += columns * LANES;
-    }
-    result
-}
-
 struct Products<'a> {
     films: &'a Films,
-    whitening: &'a [f32],
     pixel: &'a Pixel,
     about: (&'a Spectrum, &'a Spectrum),
     work: &'a mut Work,
@@ -323,45 +250,23 @@ impl WithSimd for Products<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { films, whitening, pixel, about: (internal, inverse), work } = self;
+        let Self { films, pixel, about: (internal, inverse), work } = self;
         let (rows, columns) = (films.rows, films.columns);
         for band in 0..rows {
             // The secant of K/S between two internal reflectances is exact in this form, without a
             // difference of nearly equal numbers, and finite where the pixel is black.
             let (m, r) = (pixel.internal[band], internal[band]);
-            let weight = films.through * r * inverse[band]
+            let weight = pixel.white.scale[band] * films.through * r * inverse[band]
                 / ((1.0 - films.k2 * m) * (1.0 - films.k2 * r) * (1.0 - m * r));
             let (by_s, by_k) = (weight * (1.0 - m) * (1.0 - m), weight * 2.0 * m);
             let at = band * columns..(band + 1) * columns;
             let k = &films.absorption_of_band[at.clone()];
             let s = &films.scattering_of_band[at.clone()];
-            for (x, (k, s)) in work.plain[at].iter_mut().zip(k.iter().zip(s)) {
+            for (x, (k, s)) in work.white[at].iter_mut().zip(k.iter().zip(s)) {
                 *x = by_s * s - by_k * k;
             }
         }
-        let mut at = 0;
-        for start in (0..rows).step_by(LANES) {
-            let count = start + LANES;
-            let block = &whitening[at..at + count * LANES];
-            for column in (0..columns).step_by(LANES) {
-                let mut sums = [[0.0f32; LANES]; LANES];
-                for (weights, x) in
-                    block.chunks_exact(LANES).zip(work.plain.chunks_exact(columns))
-                {
-                    let x = &x[column..column + LANES];
-                    for row in 0..LANES {
-                        for lane in 0..LANES {
-                            sums[row][lane] += weights[row] * x[lane];
-                        }
-                    }
-                }
-                for (row, sums) in sums.iter().enumerate() {
-                    let to = (start + row) * columns + column;
-                    work.white[to..to + LANES].copy_from_slice(sums);
-                }
-            }
-            at += count * LANES;
-        }
+        pixel.white.whiten_rows(rows, columns, &mut work.white);
         for first in (0..columns).step_by(LANES) {
             for second in (first..columns).step_by(LANES) {
                 let mut sums = [[0.0f32; LANES]; LANES];

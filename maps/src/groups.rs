@@ -105,14 +105,13 @@ fn probability(
     start: &[(usize, f64)],
 ) -> f64 {
     let reflectance: Vec<f32> = paints.reflectance(truth).iter().map(|r| *r as f32).collect();
-    let pixel: Pixel = engine.films.pixel(&reflectance);
-    let place = engine.table.nearest(&engine.table.projection.of(&reflectance));
+    let pixel: Pixel = engine.films.pixel(&engine.noise, &reflectance);
     let mut set = match *start {
         [(a, _)] => SetFit::new([a], [1.0], f32::INFINITY),
         [(a, x), (b, y), ..] => SetFit::new([a, b], [x as f32, y as f32], f32::INFINITY),
         [] => return 0.0,
     };
-    set.refine(&engine.films, engine.table.whitening(place), &pixel, STEPS);
+    set.refine(&engine.films, &pixel, STEPS);
     // The nearer of two hypotheses at a distance of d standard deviations is wrong with the probability
     // that a normal variable exceeds d / 2.
     normal_above(0.5 * f64::from(set.chi2.max(0.0)).sqrt())

@@ -21,6 +21,8 @@ mod noise;
 
 mod settings;
 
+mod whitening;
+
 mod film;
 
 mod nearest;

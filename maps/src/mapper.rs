@@ -40,7 +40,6 @@ const TOGETHER: usize = 256;
 #[derive(Debug, Clone)]
 pub struct Mapper {
     prepared: Prepared,
-    confusion: Confusion,
     columns: Vec<Column>,
     /// Column of each pigment.
     column_of: Vec<usize>,
@@ -59,14 +58,17 @@ impl Mapper {
         settings: &MapSettings,
     ) -> Result<Self, MapError> {
         let prepared = Prepared::new(library, wavelengths, settings)?;
-        let confusion = Confusion::new(&prepared.engine, &prepared.paints);
-        let alike = if settings.group_alike { confusion.groups() } else { Vec::new() };
+        let alike = if settings.group_alike {
+            Confusion::new(&prepared.engine, &prepared.paints).groups()
+        } else {
+            Vec::new()
+        };
         let find = |name: &str| library.find(name).map(|id| library[id].name.clone());
         let columns = columns(&prepared.paints, &settings.groups, find, &alike)?;
         let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
         let column_of = prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
         let identity = identity(library, wavelengths, settings);
-        Ok(Self { prepared, confusion, columns, column_of, identity })
+        Ok(Self { prepared, columns, column_of, identity })
     }
 
     /// Columns of the maps: pigments, and groups of them that are mapped as one.
@@ -83,8 +85,8 @@ impl Mapper {
 
     /// How likely each pigment is taken for another, by places in [`Mapper::pigments`].
     #[must_use]
-    pub fn confusion(&self) -> &Confusion {
-        &self.confusion
+    pub fn confusion(&self) -> Confusion {
+        Confusion::new(&self.prepared.engine, &self.prepared.paints)
     }
 
     /// Bands to which pixels are folded.
@@ -96,7 +98,7 @@ impl Mapper {
     /// Effective number of bands: how many independent ones tell as much of the library's error.
     #[must_use]
     pub fn effective_bands(&self) -> f64 {
-        self.prepared.noise.effective_bands()
+        self.prepared.noise.effective_bands
     }
 
     /// Identity of library, wavelengths and settings, in hexadecimal. Books are valid for one identity.
@@ -156,7 +158,7 @@ impl Mapper {
         masks: &[Mask],
     ) -> Result<BlockMaps, MapError> {
         self.map_with(spectra, masks, |folded, scratch| {
-            book.find(&self.prepared.engine, folded, scratch).0
+            book.find(&self.prepared.engine, folded, scratch);
         })
     }
 
@@ -169,7 +171,6 @@ impl Mapper {
         self.map_with(spectra, &[], |folded, scratch| {
             let place = engine.table.nearest(&folded.point);
             engine.search(&folded.pixel, place, &Prior::default(), scratch);
-            place
         })
     }
 
@@ -177,7 +178,7 @@ impl Mapper {
         &self,
         spectra: &[f32],
         masks: &[Mask],
-        find: impl Fn(&Folded, &mut Scratch) -> usize + Sync,
+        find: impl Fn(&Folded, &mut Scratch) + Sync,
     ) -> Result<BlockMaps, MapError> {
         let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
         if !masks.is_empty() && masks.len() != pixels.len() {
@@ -197,10 +198,9 @@ impl Mapper {
                         };
                         match folded {
                             Ok(folded) => {
-                                let place = find(&folded, scratch);
-                                let whitening = engine.table.whitening(place);
-                                let (pixel, found) = (&folded.pixel, &scratch.found);
-                                told.sum(engine, whitening, pixel, found, &self.column_of);
+                                find(&folded, scratch);
+                                                        let (pixel, found) = (&folded.pixel, &scratch.found);
+                                told.sum(engine, pixel, found, &self.column_of);
                                 push(&mut maps, told);
                             }
                             Err(mask) => push_empty(&mut maps, mask),

@@ -77,16 +77,14 @@ impl OpenBook {
         &self.sets[start..self.ends[entry] as usize]
     }
 
-    /// Finds the sets that explain a pixel, the best first, in `scratch.found`. Returns the film of the table
-    /// near which differences are whitened, and whether the book explained the pixel.
+    /// Finds the sets that explain a pixel, the best first, in `scratch.found`. Returns whether the
+    /// book explained it.
     pub(crate) fn find(
         &self,
         engine: &Engine,
         folded: &Folded,
         scratch: &mut Scratch,
-    ) -> (usize, bool) {
-        let place = engine.table.nearest(&folded.point);
-        let whitening = engine.table.whitening(place);
+    ) -> bool {
         let near = self.nearest.find::<NEIGHBOURS>(&folded.point);
         scratch.found.clear();
         let mut usual = self.usual_chi2;
@@ -113,13 +111,14 @@ impl OpenBook {
             }
         }
         for set in &mut scratch.found {
-            *set = engine.refined(&folded.pixel, whitening, *set, STEPS, &self.prior);
+            *set = engine.refined(&folded.pixel, *set, STEPS, &self.prior);
         }
-        engine.sort(&folded.pixel, whitening, &self.prior, &mut scratch.found);
+        engine.sort(&folded.pixel, &self.prior, &mut scratch.found);
         let explained = scratch.found.first().is_some_and(|best| best.chi2 <= usual);
         if !explained {
+            let place = engine.table.nearest(&folded.point);
             engine.search(&folded.pixel, place, &self.prior, scratch);
         }
-        (place, explained)
+        explained
     }
 }

@@ -4,7 +4,8 @@
 //! Spectra are compared after whitening by the covariance of both, so that neighbouring bands that err
 //! together do not count twice.
 
-use nalgebra::{Cholesky, DMatrix};
+use nalgebra::{DMatrix, SymmetricEigen};
+use spectra::optics::infinite_film;
 
 use crate::bands::Bands;
 use crate::left_out::Residuals;
@@ -23,8 +24,15 @@ const SMOOTH: [(f64, f64); 2] = [(100.0, 0.55), (40.0, 0.42)];
 const LEFT_OUT_TO_FITTED: f64 = 1.9;
 /// Relative error of K and S of a library that tells nothing about its errors.
 pub const USUAL_MODEL_ERROR: f64 = 0.1;
+/// Sum of the squares of a mixture's parts in K and in S, by which stated errors of its pigments partly
+/// cancel: 2 for one pigment, 1 for two alike in strength.
+const CANCELLED: f64 = 1.4;
 /// Least standard deviation of a band, in reflectance.
 const LEAST_SD: f64 = 1e-4;
+/// Least part of a band's variance that is its own.
+const LEAST_OWN: f64 = 1e-3;
+/// Curves over wavelength that describe errors which bands have in common.
+pub(crate) const CURVES: usize = 8;
 
 /// Error of a library's predictions.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,120 +43,85 @@ pub enum ModelError {
     Stated(f64),
 }
 
-/// Covariance of the differences between measured and predicted spectra.
-#[derive(Debug, Clone)]
-pub struct Noise {
+/// Covariance of the differences between measured and predicted spectra near a measured one.
+///
+/// It is that of a few common curves and of each band by itself, both multiplied by a scale that depends
+/// on the measured reflectance, plus the sensor's noise.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Noise {
     /// Variance of the sensor's noise in each band.
-    sensor: Vec<f64>,
-    model: Model,
+    pub(crate) sensor: Vec<f64>,
+    /// Curves by band, each with the standard deviation that it describes.
+    pub(crate) curves: Vec<[f64; CURVES]>,
+    /// Variance of each band that the curves do not describe.
+    pub(crate) own: Vec<f64>,
+    pub(crate) scale: Scale,
     /// Degrees of freedom of Student's distribution; infinite for a normal one.
-    pub tail: f64,
+    pub(crate) tail: f64,
+    /// How many independent bands tell as much of the library's error.
+    pub(crate) effective_bands: f64,
 }
 
-#[derive(Debug, Clone)]
-enum Model {
-    /// Covariance of the cube roots of reflectance.
-    CubeRoot(DMatrix<f64>),
-    /// Relative variance of K and S, and the correlation of their errors between bands.
-    Relative(f64, DMatrix<f64>),
+/// Scale on which errors of predictions are alike for dark and light films.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Scale {
+    /// Fourth root of reflectance: near the perceptually even cube root of the fit, but made of square roots,
+    /// which every machine rounds alike.
+    FourthRoot,
+    /// Logarithm of K/S.
+    LogRatio,
 }
 
 impl Noise {
     /// Noise on `bands` of a sensor whose bands have the standard deviation `sensor`, and of predictions
     /// with the error `model`.
-    #[must_use]
-    pub fn new(bands: &Bands, sensor: f64, model: &ModelError) -> Self {
-        let sensor = bands.noise(sensor).iter().map(|sd| (sd * sd).max(LEAST_SD * LEAST_SD)).collect();
-        match model {
+    pub(crate) fn new(bands: &Bands, sensor: f64, model: &ModelError) -> Self {
+        let sensor: Vec<f64> =
+            bands.noise(sensor).iter().map(|sd| (sd * sd).max(LEAST_SD * LEAST_SD)).collect();
+        let (covariance, scale, tail) = match model {
             ModelError::Stated(relative) => {
-                let model = Model::Relative(relative * relative, correlation(&bands.nm));
-                Self { sensor, model, tail: f64::INFINITY }
+                let variance = CANCELLED * relative * relative;
+                (variance * correlation(&bands.nm), Scale::LogRatio, f64::INFINITY)
             }
             ModelError::Residuals(residuals) => {
-                let covariance = cube_root_covariance(bands, residuals);
-                Self { sensor, model: Model::CubeRoot(covariance), tail: TAIL }
+                (root_covariance(bands, residuals), Scale::FourthRoot, TAIL)
+            }
+        };
+        let count = bands.count();
+        let trace = covariance.trace();
+        let square: f64 = covariance.iter().map(|value| value * value).sum();
+        let effective_bands = if square > 0.0 { trace * trace / square } else { count as f64 };
+        let diagonal: Vec<f64> = covariance.diagonal().iter().copied().collect();
+        let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(covariance);
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by(|&a, &b| eigenvalues[b].total_cmp(&eigenvalues[a]));
+        let mut curves = vec![[0.0; CURVES]; count];
+        for (curve, &axis) in order.iter().take(CURVES).enumerate() {
+            // What every band has by itself is no common curve.
+            let own = order.last().map_or(0.0, |&last| eigenvalues[last]);
+            let sd = (eigenvalues[axis] - own).max(0.0).sqrt();
+            for (band, curves) in curves.iter_mut().enumerate() {
+                curves[curve] = sd * eigenvectors[(band, axis)];
             }
         }
+        let own = diagonal.iter().zip(&curves).map(|(&variance, curves)| {
+            let common: f64 = curves.iter().map(|value| value * value).sum();
+            (variance - common).max(LEAST_OWN * variance).max(1e-12)
+        });
+        Self { sensor, own: own.collect(), curves, scale, tail, effective_bands }
     }
 
     /// Relative error of K and S that explains the root mean square error `rms` of a fit of `paints`.
-    #[must_use]
-    pub fn stated_from_rms(paints: &Paints, rms: f64) -> f64 {
-        let singles = 0..paints.count();
-        let squares: Vec<f64> = singles
-            .flat_map(|pigment| {
-                let (k, s) = paints.mixed(&[(pigment, 1.0)]);
-                let slopes = k.into_iter().zip(s).map(|(k, s)| {
-                    let slope = paints.log_slope(spectra::optics::infinite_film(k, s));
-                    2.0 * slope * slope
-                });
-                slopes.collect::<Vec<f64>>()
-            })
-            .collect();
+    pub(crate) fn stated_from_rms(paints: &Paints, rms: f64) -> f64 {
+        let slope = |pigment: usize| {
+            let (k, s) = paints.mixed(&[(pigment, 1.0)]);
+            k.into_iter().zip(s).map(|(k, s)| paints.log_slope(infinite_film(k, s)))
+        };
+        let squares: Vec<f64> =
+            (0..paints.count()).flat_map(slope).map(|slope| CANCELLED * slope * slope).collect();
         let mean = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
         (LEFT_OUT_TO_FITTED * rms / mean.sqrt().max(1e-6)).clamp(0.01, 1.0)
     }
-
-    /// Covariance of the bands for a film of the pigments `shares` with their shares.
-    #[must_use]
-    pub fn covariance(&self, paints: &Paints, shares: &[(usize, f64)]) -> DMatrix<f64> {
-        let bands = self.sensor.len();
-        let reflectance = paints.reflectance(shares);
-        let mut covariance = match &self.model {
-            Model::CubeRoot(covariance) => {
-                let scale: Vec<f64> =
-                    reflectance.iter().map(|r| 3.0 * r.max(1e-4).powf(2.0 / 3.0)).collect();
-                DMatrix::from_fn(bands, bands, |i, j| scale[i] * covariance[(i, j)] * scale[j])
-            }
-            Model::Relative(variance, correlation) => {
-                let (k, s) = paints.mixed(shares);
-                let slope: Vec<f64> = (0..bands)
-                    .map(|b| paints.log_slope(spectra::optics::infinite_film(k[b], s[b])))
-                    .collect();
-                let parts: Vec<Vec<f64>> = (shares.iter())
-                    .flat_map(|&(p, share)| {
-                        let part = |curve: &[f64], sum: &[f64]| {
-                            (0..bands).map(|b| slope[b] * share * curve[b] / sum[b]).collect()
-                        };
-                        [part(&paints.absorption[p], &k), part(&paints.scattering[p], &s)]
-                    })
-                    .collect();
-                DMatrix::from_fn(bands, bands, |i, j| {
-                    let product: f64 = parts.iter().map(|part| part[i] * part[j]).sum();
-                    variance * correlation[(i, j)] * product
-                })
-            }
-        };
-        for (band, variance) in self.sensor.iter().enumerate() {
-            covariance[(band, band)] += variance;
-        }
-        covariance
-    }
-
-    /// Lower triangular matrix that whitens differences of spectra near the film of `shares`: its product
-    /// with a difference has uncorrelated bands of variance 1.
-    #[must_use]
-    pub fn whitening(&self, paints: &Paints, shares: &[(usize, f64)]) -> DMatrix<f64> {
-        inverse_factor(self.covariance(paints, shares))
-    }
-
-    /// Effective number of bands: how many independent ones tell as much of the library's error.
-    #[must_use]
-    pub fn effective_bands(&self) -> f64 {
-        let (Model::CubeRoot(matrix) | Model::Relative(_, matrix)) = &self.model;
-        let trace = matrix.trace();
-        let square: f64 = matrix.iter().map(|value| value * value).sum();
-        if square > 0.0 { trace * trace / square } else { self.sensor.len() as f64 }
-    }
-}
-
-/// Inverse of the lower Cholesky factor; of the diagonal alone if rounding has made `covariance` indefinite.
-pub(crate) fn inverse_factor(covariance: DMatrix<f64>) -> DMatrix<f64> {
-    let count = covariance.nrows();
-    let diagonal = covariance.diagonal();
-    let factor = Cholesky::new(covariance).map(|cholesky| cholesky.l());
-    let inverse = factor.and_then(|l| l.solve_lower_triangular(&DMatrix::identity(count, count)));
-    inverse.unwrap_or_else(|| DMatrix::from_diagonal(&diagonal.map(|v| 1.0 / v.max(1e-12).sqrt())))
 }
 
 fn correlation(nm: &[f64]) -> DMatrix<f64> {
@@ -164,16 +137,15 @@ fn correlation(nm: &[f64]) -> DMatrix<f64> {
     })
 }
 
-/// Mean product of the residuals of the cube roots, moved towards its diagonal.
-fn cube_root_covariance(bands: &Bands, residuals: &Residuals) -> DMatrix<f64> {
+/// Mean product of the residuals of the fourth roots, moved towards its diagonal.
+fn root_covariance(bands: &Bands, residuals: &Residuals) -> DMatrix<f64> {
     let count = bands.count();
     let mut sum = DMatrix::<f64>::zeros(count, count);
     for (reflectance, residual) in residuals.reflectance.iter().zip(&residuals.residual) {
         let (reflectance, residual) =
             (bands.fold_library(reflectance), bands.fold_library(residual));
         let roots = reflectance.iter().zip(&residual);
-        let roots: Vec<f64> =
-            roots.map(|(r, e)| e / (3.0 * r.max(1e-4).powf(2.0 / 3.0))).collect();
+        let roots: Vec<f64> = roots.map(|(r, e)| e / (4.0 * r.max(1e-4).powf(0.75))).collect();
         for i in 0..count {
             for j in 0..count {
                 sum[(i, j)] += roots[i] * roots[j];

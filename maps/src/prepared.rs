@@ -12,6 +12,7 @@ use crate::pixel_maps::Mask;
 use crate::search::Engine;
 use crate::settings::MapSettings;
 use crate::table::Table;
+use crate::whitening::WhiteningNoise;
 
 /// Reflectances of a band that a scan can have; others show raw counts, percent or a wrong white.
 const REFLECTANCES: std::ops::RangeInclusive<f32> = -0.2..=1.5;
@@ -58,6 +59,7 @@ impl Prepared {
         let engine = Engine {
             films,
             table,
+            noise: WhiteningNoise::new(&noise),
             at_most: settings.at_most.min(paints.count()),
             penalty: settings.penalty as f32,
             tail: noise.tail,
@@ -101,6 +103,6 @@ impl Prepared {
             return Err(Mask::TooDark);
         }
         let point = self.engine.table.projection.of(folded);
-        Ok(Folded { pixel: self.engine.films.pixel(folded), point })
+        Ok(Folded { pixel: self.engine.films.pixel(&self.engine.noise, folded), point })
     }
 }

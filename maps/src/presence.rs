@@ -37,7 +37,6 @@ impl Told {
     pub(crate) fn sum(
         &mut self,
         engine: &Engine,
-        whitening: &[f32],
         pixel: &Pixel,
         found: &[SetFit],
         column_of: &[usize],
@@ -72,7 +71,7 @@ impl Told {
                 self.share_sd[column] += weight * (share - self.share[column]).powi(2);
             }
         }
-        let difference = best.difference(&engine.films, whitening, pixel);
+        let difference = best.difference(&engine.films, pixel);
         let excess = engine.excess(best.chi2);
         let covariance = best.covariance(&difference);
         let mut variance = vec![0.0; self.share.len()];

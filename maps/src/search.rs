@@ -5,15 +5,16 @@ use std::collections::BTreeMap;
 use crate::film::{Films, Pixel, Work};
 use crate::set_fit::{Quadratic, SetFit};
 use crate::table::Table;
+use crate::whitening::WhiteningNoise;
 
 /// Linearised sets that are kept, by their number of pigments.
-const KEPT: [usize; 4] = [4, 16, 12, 8];
+const KEPT: [usize; 4] = [8, 40, 40, 8];
 /// Sets of one size that are extended by each other pigment.
 const BEAM: usize = 8;
 /// Sets that are refined in measured reflectance, in the first round and in the second.
-const REFINED: [usize; 2] = [10, 8];
+const REFINED: [usize; 2] = [60, 60];
 /// Gauss-Newton steps of each set, and of the best one at the end.
-const STEPS: [usize; 2] = [2, 3];
+const STEPS: [usize; 2] = [8, 8];
 /// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
 
@@ -36,6 +37,7 @@ impl Prior {
 pub(crate) struct Engine {
     pub(crate) films: Films,
     pub(crate) table: Table,
+    pub(crate) noise: WhiteningNoise,
     pub(crate) at_most: usize,
     pub(crate) penalty: f32,
     /// Degrees of freedom of the residuals' distribution; infinite for a normal one.
@@ -94,18 +96,17 @@ impl Engine {
         scratch: &mut Scratch,
     ) {
         scratch.found.clear();
-        let whitening = self.table.whitening(place);
         let (internal, inverse) = self.table.film(place);
-        self.films.products(whitening, pixel, (internal, inverse), &mut scratch.work);
+        self.films.products(pixel, (internal, inverse), &mut scratch.work);
         self.shortlist(prior, scratch);
         for index in 0..REFINED[0].min(scratch.shortlist.len()) {
-            self.add_refined(pixel, whitening, index, prior, scratch);
+            self.add_refined(pixel, index, prior, scratch);
         }
         let best = |a: SetFit, b: SetFit| if b.score < a.score { b } else { a };
         let Some(winner) = scratch.found.iter().copied().reduce(best) else { return };
         let parts: Vec<(usize, f32)> = winner.parts().collect();
         let (internal, inverse) = self.films.film(&parts);
-        self.films.products(whitening, pixel, (&internal, &inverse), &mut scratch.work);
+        self.films.products(pixel, (&internal, &inverse), &mut scratch.work);
         self.shortlist(prior, scratch);
         let mut refined = 0;
         for index in 0..scratch.shortlist.len() {
@@ -113,28 +114,26 @@ impl Engine {
             if scratch.found.iter().any(|found| found.key() == set.key()) {
                 continue;
             }
-            if refined < REFINED[1] {
-                self.add_refined(pixel, whitening, index, prior, scratch);
-                refined += 1;
-            } else {
-                scratch.found.push(set);
+            self.add_refined(pixel, index, prior, scratch);
+            refined += 1;
+            if refined == REFINED[1] {
+                break;
             }
         }
-        self.sort(pixel, whitening, prior, &mut scratch.found);
+        self.sort(pixel, prior, &mut scratch.found);
     }
 
     /// Sorts sets, and refines the best ones until they stay the best.
     pub(crate) fn sort(
         &self,
         pixel: &Pixel,
-        whitening: &[f32],
         prior: &Prior,
         found: &mut [SetFit],
     ) {
         let order = |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
-        best.refine(&self.films, whitening, pixel, STEPS[1]);
+        best.refine(&self.films, pixel, STEPS[1]);
         best.score = self.score(best.chi2, best.len()) + prior.of(best.key());
         found.sort_unstable_by(order);
     }
@@ -143,12 +142,11 @@ impl Engine {
     pub(crate) fn refined(
         &self,
         pixel: &Pixel,
-        whitening: &[f32],
         mut set: SetFit,
         steps: usize,
         prior: &Prior,
     ) -> SetFit {
-        set.refine(&self.films, whitening, pixel, steps);
+        set.refine(&self.films, pixel, steps);
         set.score = self.score(set.chi2, set.len()) + prior.of(set.key());
         set
     }
@@ -156,13 +154,12 @@ impl Engine {
     fn add_refined(
         &self,
         pixel: &Pixel,
-        whitening: &[f32],
         index: usize,
         prior: &Prior,
         scratch: &mut Scratch,
     ) {
         let set = scratch.shortlist[index];
-        let set = self.refined(pixel, whitening, set, STEPS[0], prior);
+        let set = self.refined(pixel, set, STEPS[0], prior);
         scratch.found.push(set);
     }
 
@@ -188,14 +185,13 @@ impl Engine {
             }
         }
         if self.at_most > 2 {
-            for pair in pairs.iter().take(BEAM) {
-                let [a, b] = [0, 1].map(|i| usize::from(pair.members[i]));
-                for c in (0..count).filter(|c| ![a, b].contains(c)) {
-                    if let Some(set) = quadratic.set([a, b, c]) {
-                        keep(triples, KEPT[2], set);
-                    }
+            quadratic.triples(count, |members, shares, chi2| {
+                let chi2 = chi2 as f32;
+                if is_kept(triples, KEPT[2], chi2) {
+                    let shares = shares.map(|share| share as f32);
+                    keep(triples, KEPT[2], SetFit::new(members, shares, chi2));
                 }
-            }
+            });
         }
         if self.at_most > 3 {
             for triple in triples.iter().take(BEAM) {
@@ -231,4 +227,28 @@ fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
     }
     let place = list.iter().position(|known| set.chi2 < known.chi2).unwrap_or(list.len());
     list.insert(place, set);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::MapSettings;
+    use crate::prepared::Prepared;
+
+    #[test]
+    fn probe() {
+        let oils = pigment::PigmentLibrary::van_gogh_oils();
+        let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
+        let prepared = Prepared::new(&oils, &nm, &MapSettings { model_error: Some(crate::noise::ModelError::Stated(0.1)), ..MapSettings::default() }).unwrap();
+        let engine = &prepared.engine;
+        let mut scratch = Scratch::new(&engine.films);
+        for truth in [vec![(1, 0.8), (10, 0.2)], vec![(1, 0.5), (4, 0.1), (10, 0.4)], vec![(0, 0.3), (1, 0.7)], vec![(3,0.95),(4,0.05)]] {
+            let spectrum: Vec<f32> = prepared.paints.reflectance(&truth).iter().map(|r| *r as f32).collect();
+            let folded = prepared.fold(&spectrum).unwrap();
+            let place = engine.table.nearest(&folded.point);
+            println!("truth {truth:?} nearest {:?}", engine.table.recipes[place]);
+            engine.search(&folded.pixel, place, &Prior::default(), &mut scratch);
+            for set in scratch.found.iter().take(4) { println!("   {:?} chi2 {} score {}", set.parts().collect::<Vec<_>>(), set.chi2, set.score); }
+        }
+    }
 }

@@ -54,23 +54,22 @@ impl SetFit {
     }
 
     /// Compares `pixel` with the film of these shares.
-    pub(crate) fn difference(&self, films: &Films, whitening: &[f32], pixel: &Pixel) -> Difference {
+    pub(crate) fn difference(&self, films: &Films, pixel: &Pixel) -> Difference {
         match self.count {
-            1 => self.difference_of::<1>(films, whitening, pixel),
-            2 => self.difference_of::<2>(films, whitening, pixel),
-            3 => self.difference_of::<3>(films, whitening, pixel),
-            _ => self.difference_of::<MOST_IN_SET>(films, whitening, pixel),
+            1 => self.difference_of::<1>(films, pixel),
+            2 => self.difference_of::<2>(films, pixel),
+            3 => self.difference_of::<3>(films, pixel),
+            _ => self.difference_of::<MOST_IN_SET>(films, pixel),
         }
     }
 
     fn difference_of<const N: usize>(
         &self,
         films: &Films,
-        whitening: &[f32],
         pixel: &Pixel,
     ) -> Difference {
         let members: [usize; N] = std::array::from_fn(|i| usize::from(self.members[i]));
-        films.difference(whitening, pixel, members, std::array::from_fn(|i| self.shares[i]))
+        films.difference(pixel, members, std::array::from_fn(|i| self.shares[i]))
     }
 
     /// Moves the shares towards the least chi-square in measured reflectance by `steps` Gauss-Newton steps,
@@ -78,18 +77,17 @@ impl SetFit {
     pub(crate) fn refine(
         &mut self,
         films: &Films,
-        whitening: &[f32],
         pixel: &Pixel,
         steps: usize,
     ) -> Difference {
-        let mut found = self.difference(films, whitening, pixel);
+        let mut found = self.difference(films, pixel);
         self.chi2 = found.chi2;
         if self.count == 1 {
             return found;
         }
         let mut tried = self.stepped(&found);
         for step in 1..=steps {
-            let difference = tried.difference(films, whitening, pixel);
+            let difference = tried.difference(films, pixel);
             if difference.chi2 < self.chi2 {
                 self.shares = tried.shares;
                 self.chi2 = difference.chi2;
@@ -241,7 +239,37 @@ impl Quadratic<'_> {
         Some((share as f32, (bb - share * to_a) as f32))
     }
 
-    /// Shares of three or four pigments where the sum of squares is least; `None` if one is 0 or less.
+    /// Calls `found` with the places, the shares and the sum of squares of every three pigments whose best
+    /// shares are all above 0.
+    pub(crate) fn triples(&self, count: usize, mut found: impl FnMut([usize; 3], [f64; 3], f64)) {
+        for a in 0..count {
+            let base = self.at(a, a);
+            // Differences from pigment `a` span the plane of shares of sum 1.
+            let right = |i: usize| base - self.at(a, i);
+            let product = |i: usize, j: usize| self.at(i, j) - self.at(a, i) - self.at(a, j) + base;
+            for b in a + 1..count {
+                let (square, to_b) = (product(b, b), right(b));
+                if !(square > 1e-9 * base) {
+                    continue;
+                }
+                let (inverse, of_pair) = (1.0 / square, base - to_b * to_b / square);
+                for c in b + 1..count {
+                    let along = product(b, c) * inverse;
+                    let rest = product(c, c) - along * along * square;
+                    let share_c = (right(c) - to_b * along) / rest;
+                    let share_b = to_b * inverse - share_c * along;
+                    let share_a = 1.0 - share_b - share_c;
+                    let inside = share_a > 0.0 && share_b > 0.0 && share_c > 0.0;
+                    if inside && rest > 1e-9 * base {
+                        let sum = of_pair - share_c * share_c * rest;
+                        found([a, b, c], [share_a, share_b, share_c], sum);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Shares of a set where the sum of squares is least; `None` if one is 0 or less.
     pub(crate) fn set<const N: usize>(&self, members: [usize; N]) -> Option<SetFit> {
         // The last share is 1 less the others.
         let last = members[N - 1];

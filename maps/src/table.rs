@@ -1,12 +1,12 @@
 //! Films of every pigment and of every pair in thirteen ratios, by which a search begins.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use rayon::prelude::*;
+use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
-use crate::film::{Films, Spectrum, blocked, blocked_length};
+use crate::film::Films;
 use crate::nearest::{DIMENSIONS, Nearest, Point};
-use crate::noise::Noise;
+use crate::noise::{Noise, Scale};
 use crate::paints::Paints;
+use crate::whitening::Spectrum;
 
 /// Ratios of a pair, evenly spaced in their logarithm.
 const RATIOS: i32 = 13;
@@ -22,8 +22,6 @@ pub(crate) struct Table {
     pub(crate) recipes: Vec<Vec<(usize, f64)>>,
     /// Internal reflectance and 1/S of each film.
     films: Vec<(Spectrum, Spectrum)>,
-    whitening: Vec<f32>,
-    length: usize,
     pub(crate) projection: Projection,
     nearest: Nearest,
 }
@@ -31,9 +29,6 @@ pub(crate) struct Table {
 impl Table {
     pub(crate) fn new(paints: &Paints, films: &Films, noise: &Noise) -> Self {
         let recipes = recipes(paints);
-        let length = blocked_length(films.rows);
-        let whitening: Vec<Vec<f32>> =
-            recipes.par_iter().map(|recipe| blocked(&noise.whitening(paints, recipe))).collect();
         let projection = Projection::new(paints, noise, &recipes);
         let points: Vec<Point> = recipes
             .iter()
@@ -48,8 +43,6 @@ impl Table {
         };
         Self {
             films: recipes.iter().map(film).collect(),
-            whitening: whitening.concat(),
-            length,
             projection,
             nearest: Nearest::new(&points),
             recipes,
@@ -60,11 +53,6 @@ impl Table {
     pub(crate) fn nearest(&self, point: &Point) -> usize {
         let [(_, place)] = self.nearest.find::<1>(point);
         place as usize
-    }
-
-    /// Whitening matrix near a film.
-    pub(crate) fn whitening(&self, place: usize) -> &[f32] {
-        &self.whitening[place * self.length..(place + 1) * self.length]
     }
 
     /// Internal reflectance and 1/S of a film.
@@ -90,8 +78,11 @@ fn recipes(paints: &Paints) -> Vec<Vec<(usize, f64)>> {
     recipes
 }
 
+/// Slope of the fourth root of reflectance by the logarithm of K/S, about, for films of middle lightness.
+const ROOT_SLOPE: f64 = 0.15;
+
 /// Few coordinates of a spectrum in which distances tell films apart: the main axes of all films of the
-/// table, in square roots of reflectance whitened by their mean covariance.
+/// table, in fourth roots of reflectance that are whitened by the library's error.
 #[derive(Debug, Clone)]
 pub(crate) struct Projection {
     /// Weights by band, each for all coordinates.
@@ -102,17 +93,24 @@ impl Projection {
     fn new(paints: &Paints, noise: &Noise, recipes: &[Vec<(usize, f64)>]) -> Self {
         let bands = paints.bands();
         let root = |recipe: &Vec<(usize, f64)>| {
-            DVector::from_iterator(bands, paints.reflectance(recipe).into_iter().map(|r| r.max(0.0).sqrt()))
+            let reflectance = paints.reflectance(recipe);
+            DVector::from_iterator(bands, reflectance.into_iter().map(|r| r.max(0.0).sqrt().sqrt()))
         };
         let roots: Vec<DVector<f64>> = recipes.iter().map(root).collect();
-        let mut covariance = DMatrix::zeros(bands, bands);
-        for (recipe, root) in recipes.iter().zip(&roots).take(paints.count()) {
-            let own = noise.covariance(paints, recipe);
-            covariance += DMatrix::from_fn(bands, bands, |i, j| {
-                own[(i, j)] / (4.0 * root[i].max(0.05) * root[j].max(0.05))
-            });
-        }
-        let whitening = crate::noise::inverse_factor(covariance / paints.count() as f64);
+        let scale = match noise.scale {
+            Scale::FourthRoot => 1.0,
+            Scale::LogRatio => ROOT_SLOPE,
+        };
+        let covariance = DMatrix::from_fn(bands, bands, |i, j| {
+            let common: f64 = noise.curves[i].iter().zip(&noise.curves[j]).map(|(a, b)| a * b).sum();
+            // The sensor's noise on the fourth root of a reflectance of 0.1.
+            let own = if i == j { noise.own[i] * scale * scale + 2.0 * noise.sensor[i] } else { 0.0 };
+            common * scale * scale + own
+        });
+        let factor = Cholesky::new(covariance).map(|cholesky| cholesky.l());
+        let inverse =
+            factor.and_then(|l| l.solve_lower_triangular(&DMatrix::identity(bands, bands)));
+        let whitening = inverse.unwrap_or_else(|| DMatrix::identity(bands, bands));
         let white: Vec<DVector<f64>> = roots.iter().map(|root| &whitening * root).collect();
         let mean = white.iter().sum::<DVector<f64>>() / white.len() as f64;
         let mut spread = DMatrix::zeros(bands, bands);
@@ -137,7 +135,7 @@ impl Projection {
     pub(crate) fn of(&self, reflectance: &[f32]) -> Point {
         let mut point = [0.0; DIMENSIONS];
         for (weights, &reflectance) in self.weights.iter().zip(reflectance) {
-            let root = reflectance.max(0.0).sqrt();
+            let root = reflectance.max(0.0).sqrt().sqrt();
             for (sum, weight) in point.iter_mut().zip(weights) {
                 *sum += weight * root;
             }
