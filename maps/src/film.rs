@@ -143,6 +143,9 @@ impl Films {
 #[derive(Debug, Clone)]
 pub(crate) struct Work {
     white: Vec<f32>,
+    /// Mean S of each pigment relative to that of the film about which the rows are linearised, by which each
+    /// row is divided. Else pigments of little S would seem to explain every pixel.
+    pub(crate) sizes: Vec<f32>,
     /// Products of the rows of all pairs of pigments, `columns` by `columns`; the upper half is valid.
     pub(crate) products: Vec<f32>,
 }
@@ -152,6 +155,7 @@ impl Work {
         let size = films.rows * films.columns;
         Self {
             white: vec![0.0; size],
+            sizes: vec![1.0; films.columns],
             products: vec![0.0; films.columns * films.columns],
         }
     }
@@ -252,6 +256,8 @@ impl WithSimd for Products<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { films, pixel, about: (internal, inverse), work } = self;
         let (rows, columns) = (films.rows, films.columns);
+        work.sizes.fill(0.0);
+        let mut whole = 1e-12;
         for band in 0..rows {
             // The secant of K/S between two internal reflectances is exact in this form, without a
             // difference of nearly equal numbers, and finite where the pixel is black.
@@ -262,8 +268,19 @@ impl WithSimd for Products<'_> {
             let at = band * columns..(band + 1) * columns;
             let k = &films.absorption_of_band[at.clone()];
             let s = &films.scattering_of_band[at.clone()];
-            for (x, (k, s)) in work.white[at].iter_mut().zip(k.iter().zip(s)) {
+            whole += by_s / inverse[band];
+            let row = work.white[at].iter_mut().zip(&mut work.sizes);
+            for ((x, size), (k, s)) in row.zip(k.iter().zip(s)) {
+                *size += by_s * s;
                 *x = by_s * s - by_k * k;
+            }
+        }
+        for size in &mut work.sizes {
+            *size = (*size / whole).max(1e-6);
+        }
+        for row in work.white.chunks_exact_mut(columns) {
+            for (x, size) in row.iter_mut().zip(&work.sizes) {
+                *x /= size;
             }
         }
         pixel.white.whiten_rows(rows, columns, &mut work.white);

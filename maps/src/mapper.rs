@@ -13,9 +13,12 @@ use crate::pixel_maps::{BlockMaps, Mask};
 use crate::prepared::{Folded, Prepared};
 use crate::presence::Told;
 use crate::search::{Prior, Scratch};
+use crate::set_fit::SetFit;
 use crate::settings::MapSettings;
 use crate::survey::{survey, survey_step};
 
+/// Gauss-Newton steps of the true pigments in a trial.
+const TRUTH_STEPS: usize = 12;
 /// Pixels that a thread maps at a time.
 const TOGETHER: usize = 256;
 
@@ -172,6 +175,32 @@ impl Mapper {
             let place = engine.table.nearest(&folded.point);
             engine.search(&folded.pixel, place, &Prior::default(), scratch);
         })
+    }
+
+    /// For each pixel, by how much the score of a whole search exceeds that of its true pigments with refined
+    /// shares; 0 or below where the search found a set that is as good or better. Pixels that cannot be mapped
+    /// and those with pigments that do not take part are passed over.
+    pub(crate) fn gaps_to_truth(
+        &self,
+        spectra: &[f32],
+        truth: &[Vec<(&str, f64)>],
+    ) -> Result<Vec<f32>, MapError> {
+        let engine = &self.prepared.engine;
+        let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
+        let gap = |scratch: &mut Scratch, (pixel, parts): (&&[f32], &Vec<(&str, f64)>)| {
+            let folded = self.prepared.fold(pixel).ok()?;
+            let place = |(name, share): &(&str, f64)| {
+                Some((self.prepared.paints.place(name)?, *share as f32))
+            };
+            let parts: Vec<(usize, f32)> = parts.iter().map(place).collect::<Option<_>>()?;
+            let set = SetFit::of_parts(&parts)?;
+            let nearest = engine.table.nearest(&folded.point);
+            engine.search(&folded.pixel, nearest, &Prior::default(), scratch);
+            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS, &Prior::default());
+            Some(scratch.found.first()?.score - truth.score)
+        };
+        let found = pixels.par_iter().zip(truth).map_init(|| Scratch::new(&engine.films), gap);
+        Ok(found.collect::<Vec<Option<f32>>>().into_iter().flatten().collect())
     }
 
     fn map_with(

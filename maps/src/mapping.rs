@@ -5,7 +5,7 @@
 
 use crate::book::Book;
 use crate::map_error::MapError;
-use crate::nearest::{DIMENSIONS, Nearest, Point};
+use crate::nearest::{Nearest, Point};
 use crate::prepared::{Folded, Prepared};
 use crate::search::{Engine, Prior, Scratch};
 use crate::set_fit::SetFit;
@@ -46,19 +46,13 @@ impl OpenBook {
             std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
         };
         let points: Vec<Point> = book.entries.iter().map(|entry| point(&entry.point)).collect();
-        debug_assert!(points.iter().all(|point| point.len() == DIMENSIONS), "points of the tree");
         let (mut ends, mut sets) = (Vec::new(), Vec::new());
         for entry in &book.entries {
             for set in &entry.sets {
-                let member = |i: usize| usize::from(set.pigments[i]);
-                let share = |i: usize| set.shares[i];
-                let unknown = f32::INFINITY;
-                sets.push(match set.pigments.len() {
-                    1 => SetFit::new([member(0)], [1.0], unknown),
-                    2 => SetFit::new([0, 1].map(member), [0, 1].map(share), unknown),
-                    3 => SetFit::new([0, 1, 2].map(member), [0, 1, 2].map(share), unknown),
-                    _ => SetFit::new([0, 1, 2, 3].map(member), [0, 1, 2, 3].map(share), unknown),
-                });
+                let parts = set.pigments.iter().zip(&set.shares);
+                let parts: Vec<(usize, f32)> =
+                    parts.map(|(&member, &share)| (usize::from(member), share)).collect();
+                sets.extend(SetFit::of_parts(&parts));
             }
             ends.push(sets.len() as u32);
         }

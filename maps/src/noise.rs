@@ -16,7 +16,7 @@ use crate::paints::Paints;
 const SHRINKAGE: f64 = 0.5;
 /// Degrees of freedom of the residuals' distribution. Some mixtures err ten times as much as others, so
 /// that their tails are heavier than normal ones; chosen on the Van Gogh oils.
-const TAIL: f64 = 8.0;
+const TAIL: f64 = 10.0;
 /// Lengths in nm over which stated errors of K and S are alike, with their parts of the variance. The
 /// rest is independent from band to band.
 const SMOOTH: [(f64, f64); 2] = [(100.0, 0.55), (40.0, 0.42)];
@@ -141,20 +141,26 @@ fn correlation(nm: &[f64]) -> DMatrix<f64> {
 fn root_covariance(bands: &Bands, residuals: &Residuals) -> DMatrix<f64> {
     let count = bands.count();
     let mut sum = DMatrix::<f64>::zeros(count, count);
+    let mut sizes = Vec::new();
     for (reflectance, residual) in residuals.reflectance.iter().zip(&residuals.residual) {
         let (reflectance, residual) =
             (bands.fold_library(reflectance), bands.fold_library(residual));
         let roots = reflectance.iter().zip(&residual);
         let roots: Vec<f64> = roots.map(|(r, e)| e / (4.0 * r.max(1e-4).powf(0.75))).collect();
+        // The mean square of some is a hundred times that of others, which would not count.
+        let size = (roots.iter().map(|root| root * root).sum::<f64>() / count as f64).sqrt();
+        sizes.push(size);
         for i in 0..count {
             for j in 0..count {
-                sum[(i, j)] += roots[i] * roots[j];
+                sum[(i, j)] += roots[i] * roots[j] / size.max(1e-6);
             }
         }
     }
+    sizes.sort_by(f64::total_cmp);
+    let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
     let samples = residuals.residual.len().max(1) as f64;
     DMatrix::from_fn(count, count, |i, j| {
         let part = if i == j { 1.0 } else { 1.0 - SHRINKAGE };
-        part * sum[(i, j)] / samples
+        part * sum[(i, j)] * median / samples
     })
 }

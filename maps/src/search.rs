@@ -8,13 +8,13 @@ use crate::table::Table;
 use crate::whitening::WhiteningNoise;
 
 /// Linearised sets that are kept, by their number of pigments.
-const KEPT: [usize; 4] = [8, 40, 40, 8];
+const KEPT: [usize; 4] = [6, 20, 20, 8];
 /// Sets of one size that are extended by each other pigment.
 const BEAM: usize = 8;
 /// Sets that are refined in measured reflectance, in the first round and in the second.
-const REFINED: [usize; 2] = [60, 60];
+const REFINED: [usize; 2] = [12, 10];
 /// Gauss-Newton steps of each set, and of the best one at the end.
-const STEPS: [usize; 2] = [8, 8];
+const STEPS: [usize; 2] = [3, 3];
 /// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
 
@@ -167,7 +167,11 @@ impl Engine {
     fn shortlist(&self, prior: &Prior, scratch: &mut Scratch) {
         let Scratch { work, by_size, shortlist, .. } = scratch;
         let count = self.films.pigments;
-        let quadratic = Quadratic { products: &work.products, columns: self.films.columns };
+        let quadratic = Quadratic {
+            products: &work.products,
+            columns: self.films.columns,
+            sizes: &work.sizes,
+        };
         by_size.iter_mut().for_each(Vec::clear);
         let [singles, pairs, triples, fours] = by_size;
         for a in 0..count {
@@ -177,19 +181,17 @@ impl Engine {
             for a in 0..count {
                 for b in a + 1..count {
                     if let Some((share, chi2)) = quadratic.pair(a, b)
-                        && is_kept(pairs, KEPT[1], chi2)
+                        && is_kept(pairs, KEPT[1], chi2 as f32)
                     {
-                        keep(pairs, KEPT[1], SetFit::new([a, b], [share, 1.0 - share], chi2));
+                        keep(pairs, KEPT[1], quadratic.fit([a, b], [share, 1.0 - share], chi2));
                     }
                 }
             }
         }
         if self.at_most > 2 {
             quadratic.triples(count, |members, shares, chi2| {
-                let chi2 = chi2 as f32;
-                if is_kept(triples, KEPT[2], chi2) {
-                    let shares = shares.map(|share| share as f32);
-                    keep(triples, KEPT[2], SetFit::new(members, shares, chi2));
+                if is_kept(triples, KEPT[2], chi2 as f32) {
+                    keep(triples, KEPT[2], quadratic.fit(members, shares, chi2));
                 }
             });
         }

@@ -33,6 +33,18 @@ impl SetFit {
         fit
     }
 
+    /// A set of one to four pigments with their shares; `None` for any other number.
+    pub(crate) fn of_parts(parts: &[(usize, f32)]) -> Option<Self> {
+        let unknown = f32::INFINITY;
+        Some(match *parts {
+            [(a, x)] => Self::new([a], [x], unknown),
+            [(a, x), (b, y)] => Self::new([a, b], [x, y], unknown),
+            [(a, x), (b, y), (c, z)] => Self::new([a, b, c], [x, y, z], unknown),
+            [(a, x), (b, y), (c, z), (d, w)] => Self::new([a, b, c, d], [x, y, z, w], unknown),
+            _ => return None,
+        })
+    }
+
     /// The set as one number.
     pub(crate) fn key(&self) -> u32 {
         u32::from_be_bytes(self.members)
@@ -46,11 +58,6 @@ impl SetFit {
     pub(crate) fn parts(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
         let pairs = self.members.iter().zip(&self.shares).take(self.len());
         pairs.map(|(&member, &share)| (usize::from(member), share))
-    }
-
-    /// The set as bits by pigment.
-    pub(crate) fn bits(&self) -> u64 {
-        self.parts().fold(0, |bits, (member, _)| bits | 1 << member)
     }
 
     /// Compares `pixel` with the film of these shares.
@@ -213,6 +220,8 @@ fn inverted(mut left: Square, count: usize) -> Option<Square> {
 pub(crate) struct Quadratic<'a> {
     pub(crate) products: &'a [f32],
     pub(crate) columns: usize,
+    /// Sizes by which the rows are divided; the shares of a set are divided by them too.
+    pub(crate) sizes: &'a [f32],
 }
 
 impl Quadratic<'_> {
@@ -222,6 +231,22 @@ impl Quadratic<'_> {
         f64::from(self.products[low * self.columns + high])
     }
 
+    /// A set whose parts of the divided rows are `parts`.
+    pub(crate) fn fit<const N: usize>(
+        &self,
+        members: [usize; N],
+        parts: [f64; N],
+        chi2: f64,
+    ) -> SetFit {
+        let mut shares = [0.0; N];
+        let mut sum = 0.0;
+        for i in 0..N {
+            shares[i] = parts[i] / f64::from(self.sizes[members[i]]);
+            sum += shares[i];
+        }
+        SetFit::new(members, shares.map(|share| (share / sum) as f32), chi2 as f32)
+    }
+
     /// A single pigment.
     pub(crate) fn single(&self, a: usize) -> SetFit {
         SetFit::new([a], [1.0], self.at(a, a) as f32)
@@ -229,14 +254,14 @@ impl Quadratic<'_> {
 
     /// Shares of two pigments where the sum of squares is least; `None` if one is 0 or less.
     #[inline(always)]
-    pub(crate) fn pair(&self, a: usize, b: usize) -> Option<(f32, f32)> {
+    pub(crate) fn pair(&self, a: usize, b: usize) -> Option<(f64, f64)> {
         let (aa, ab, bb) = (self.at(a, a), self.at(a, b), self.at(b, b));
         let (to_a, to_b) = (bb - ab, aa - ab);
         if !(to_a > 0.0 && to_b > 0.0) {
             return None;
         }
         let share = to_a / (to_a + to_b);
-        Some((share as f32, (bb - share * to_a) as f32))
+        Some((share, bb - share * to_a))
     }
 
     /// Calls `found` with the places, the shares and the sum of squares of every three pigments whose best
@@ -311,6 +336,6 @@ impl Quadratic<'_> {
             saved += x[i] * right[i];
         }
         x[N - 1] = 1.0 - sum;
-        (x[N - 1] > 0.0).then(|| SetFit::new(members, x.map(|x| x as f32), (base - saved) as f32))
+        (x[N - 1] > 0.0).then(|| self.fit(members, x, base - saved))
     }
 }

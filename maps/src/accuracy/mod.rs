@@ -10,9 +10,10 @@ mod baselines;
 
 mod swatches;
 
-
+mod simulated;
 
 pub use baselines::{Baseline, Unmixed};
 pub use scores::{Coverage, Reliability, Scores, Trial, coverage, reliability};
 
+pub use simulated::{Painting, PaintingPlan};
 pub use swatches::{Choice, NamedGroups, SwatchTrials, choose_penalty, swatch_trials};
