@@ -1,0 +1,19 @@
+//! How far maps can be believed: measured mixtures and simulated paintings, whose pigments are known.
+//!
+//! No scan of a painting with known pigments is at hand. These trials use measured swatches as pixels, each
+//! with a library that was fitted without it, and simulated pixels whose real K and S are off. Linear
+//! methods that are in common use stand beside them.
+
+mod scores;
+
+mod baselines;
+
+mod swatches;
+
+mod simulated;
+
+pub use baselines::{Baseline, Unmixed};
+pub use scores::{Coverage, Reliability, Scores, Trial, coverage, reliability};
+
+pub use simulated::{Painting, PaintingPlan};
+pub use swatches::{Choice, NamedGroups, SwatchTrials, choose_penalty, swatch_trials};

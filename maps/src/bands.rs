@@ -1,0 +1,251 @@
+//! Bands of a scan, cut to the library's wavelengths and folded to its resolution.
+//!
+//! A scan often has several bands within one step of the library's grid. They carry no more about K
+//! and S than one band, but more noise, and more arithmetic. Each folded band is a weighted mean of the
+//! bands around its wavelength, with weights that leave every straight line over wavelength unchanged.
+
+use std::cmp::Ordering::Greater;
+
+use spectra::Grid;
+
+use crate::map_error::MapError;
+
+/// Most folded bands.
+pub const MOST_BANDS: usize = 64;
+/// Least number of bands of a scan within the library's wavelengths.
+pub const LEAST_BANDS: usize = 4;
+/// A step of the scan that is smaller than this part of the wanted step is folded; chosen by eye.
+const FINER: f64 = 0.8;
+
+/// A value of a folded band as a weighted sum of other values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Places of the values, with their weights, whose sum is 1.
+    pub terms: Vec<(usize, f64)>,
+}
+
+impl Row {
+    /// The weighted sum of `values`.
+    ///
+    /// # Panics
+    /// If `values` is shorter than the list for which the row was made.
+    #[must_use]
+    pub fn apply(&self, values: &[f64]) -> f64 {
+        self.terms.iter().map(|&(index, weight)| weight * values[index]).sum()
+    }
+}
+
+/// Folded bands of a scan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bands {
+    /// Wavelengths of the folded bands in nm, rising; 4 to 64.
+    pub nm: Vec<f64>,
+    /// Folded bands from the bands of the scan.
+    pub from_scan: Vec<Row>,
+    /// Folded bands from values on the library's grid.
+    pub from_library: Vec<Row>,
+    /// Number of bands of the scan.
+    pub scan_bands: usize,
+}
+
+impl Bands {
+    /// Folds the bands of a scan at the wavelengths `nm` to the resolution of `grid`.
+    ///
+    /// Bands outside the grid are left out. Where the scan is coarser than the grid its bands stay as
+    /// they are, and the grid is folded to them.
+    ///
+    /// # Errors
+    /// [`MapError::Order`] unless `nm` rises strictly, [`MapError::Overlap`] if fewer than
+    /// [`LEAST_BANDS`] lie within the grid.
+    pub fn new(nm: &[f64], grid: Grid) -> Result<Self, MapError> {
+        let disorder = (1..nm.len()).find(|&i| nm[i].partial_cmp(&nm[i - 1]) != Some(Greater));
+        if let Some(index) = disorder {
+            let (before, after) = (nm[index - 1], nm[index]);
+            return Err(MapError::Order { band: index + 1, before, after });
+        }
+        let inside: Vec<f64> = nm.iter().copied().filter(|&nm| grid.covers(nm)).collect();
+        let overlap = MapError::Overlap {
+            bands: nm.len(),
+            inside: inside.len(),
+            needed: LEAST_BANDS,
+            start_nm: grid.start_nm(),
+            end_nm: grid.end_nm(),
+        };
+        if inside.len() < LEAST_BANDS {
+            return Err(overlap);
+        }
+        let (first, last) = (inside[0], inside[inside.len() - 1]);
+        let wanted = grid.step_nm().max((last - first) / (MOST_BANDS - 1) as f64);
+        let own = median_step(&inside);
+        let centers = if own >= FINER * wanted && inside.len() <= MOST_BANDS {
+            inside
+        } else {
+            centers(grid, first, last, wanted)
+        };
+        let spacing = median_step(&centers);
+        let from_scan = rows(nm, &centers, if own < FINER * wanted { spacing } else { 0.0 });
+        let library: Vec<f64> = grid.wavelengths_nm().collect();
+        let from_library = rows(&library, &centers, spacing.max(grid.step_nm()));
+        // A gap in the scan leaves no band near some wavelengths.
+        let found: Vec<(f64, Row, Row)> = (centers.into_iter().zip(from_scan).zip(from_library))
+            .filter_map(|((nm, scan), library)| Some((nm, scan?, library?)))
+            .collect();
+        if found.len() < LEAST_BANDS {
+            return Err(overlap);
+        }
+        let mut bands = Self {
+            nm: Vec::new(),
+            from_scan: Vec::new(),
+            from_library: Vec::new(),
+            scan_bands: nm.len(),
+        };
+        for (nm, scan, library) in found {
+            bands.nm.push(nm);
+            bands.from_scan.push(scan);
+            bands.from_library.push(library);
+        }
+        Ok(bands)
+    }
+
+    /// Number of folded bands.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.nm.len()
+    }
+
+    /// Values on the library's grid, folded.
+    #[must_use]
+    pub fn fold_library(&self, values: &[f64]) -> Vec<f64> {
+        self.from_library.iter().map(|row| row.apply(values)).collect()
+    }
+
+    /// Reflectances of one pixel of the scan, folded.
+    #[must_use]
+    pub fn fold_scan(&self, values: &[f64]) -> Vec<f64> {
+        self.from_scan.iter().map(|row| row.apply(values)).collect()
+    }
+
+    /// Standard deviation of each folded band, if the bands of the scan have independent noise of standard
+    /// deviation `sensor`.
+    #[must_use]
+    pub fn noise(&self, sensor: f64) -> Vec<f64> {
+        let of_row = |row: &Row| row.terms.iter().map(|(_, w)| w * w).sum::<f64>().sqrt();
+        self.from_scan.iter().map(|row| sensor * of_row(row)).collect()
+    }
+}
+
+
+fn median_step(nm: &[f64]) -> f64 {
+    let mut steps: Vec<f64> = nm.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    steps.get(steps.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// Wavelengths of the grid itself where its step is the wanted one, else evenly spaced ones.
+fn centers(grid: Grid, first: f64, last: f64, wanted: f64) -> Vec<f64> {
+    let slack = 1e-9 * wanted;
+    let own: Vec<f64> =
+        grid.wavelengths_nm().filter(|nm| (first - slack..=last + slack).contains(nm)).collect();
+    if (wanted - grid.step_nm()).abs() <= slack && own.len() >= LEAST_BANDS {
+        return own;
+    }
+    let count = (((last - first) / wanted + 1e-9).floor() as usize + 1).min(MOST_BANDS);
+    let start = f64::midpoint(first, last) - 0.5 * wanted * (count - 1) as f64;
+    (0..count).map(|index| start + wanted * index as f64).collect()
+}
+
+/// Rows of triangular weights of half width `reach` around each centre, made exact for straight lines;
+/// `None` where no value is within reach. With a reach of 0 each centre is one of the values.
+fn rows(nm: &[f64], centers: &[f64], reach: f64) -> Vec<Option<Row>> {
+    let row = |&center: &f64| {
+        if reach == 0.0 {
+            let index = nm.iter().position(|&nm| nm == center)?;
+            return Some(Row { terms: vec![(index, 1.0)] });
+        }
+        let near = nm.iter().enumerate().filter_map(|(index, &nm)| {
+            let x = (nm - center) / reach;
+            (x.abs() < 1.0 - 1e-9).then_some((index, x, 1.0 - x.abs()))
+        });
+        let near: Vec<(usize, f64, f64)> = near.collect();
+        let moment = |power: i32| near.iter().map(|(_, x, w)| w * x.powi(power)).sum::<f64>();
+        let (s0, s1, s2) = (moment(0), moment(1), moment(2));
+        let determinant = s0 * s2 - s1 * s1;
+        let is_line = determinant > 1e-9 * s0 * s0;
+        let weight = |x: f64, w: f64| {
+            if is_line { w * (s2 - s1 * x) / determinant } else { w / s0 }
+        };
+        // A single value stands for its own wavelength only.
+        let fits = is_line || near.iter().any(|(_, x, _)| x.abs() < 1e-6);
+        fits.then(|| Row { terms: near.iter().map(|&(i, x, w)| (i, weight(x, w))).collect() })
+    };
+    centers.iter().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn oils() -> Grid {
+        Grid::from_nm(400.0, 10.0, 31).unwrap()
+    }
+
+    fn even(start: f64, step: f64, count: usize) -> Vec<f64> {
+        (0..count).map(|i| start + step * i as f64).collect()
+    }
+
+    #[test]
+    fn bands_on_the_grid_stay_as_they_are() {
+        let bands = Bands::new(&even(400.0, 10.0, 31), oils()).unwrap();
+        assert_eq!(bands.count(), 31);
+        for (index, row) in bands.from_scan.iter().enumerate() {
+            assert_eq!(row.terms, [(index, 1.0)]);
+        }
+        let values: Vec<f64> = (0..31).map(|i| f64::from(i * i)).collect();
+        assert_eq!(bands.fold_library(&values), values);
+    }
+
+    #[test]
+    fn fine_bands_are_folded_and_straight_lines_kept() {
+        let nm = even(397.3, 2.92, 204);
+        let bands = Bands::new(&nm, oils()).unwrap();
+        assert_eq!(bands.count(), 30, "{:?}", bands.nm);
+        let line = |nm: f64| 0.2 + 0.001 * (nm - 400.0);
+        let scan: Vec<f64> = nm.iter().map(|&nm| line(nm)).collect();
+        let library: Vec<f64> = oils().wavelengths_nm().map(line).collect();
+        for (nm, (a, b)) in
+            bands.nm.iter().zip(bands.fold_scan(&scan).iter().zip(bands.fold_library(&library)))
+        {
+            assert!((a - line(*nm)).abs() < 1e-12 && (b - line(*nm)).abs() < 1e-12, "{nm} nm");
+        }
+        assert!(bands.noise(0.003).iter().all(|&sd| sd < 0.0025), "{:?}", bands.noise(0.003));
+    }
+
+    #[test]
+    fn coarse_bands_stay_and_a_fine_library_is_folded_to_64() {
+        let few = Bands::new(&[420.0, 465.0, 500.0, 555.0, 610.0, 660.0, 810.0], oils()).unwrap();
+        assert_eq!(few.nm, [420.0, 465.0, 500.0, 555.0, 610.0, 660.0]);
+        let grid = Grid::from_nm(380.0, 1.0, 2121).unwrap();
+        let bands = Bands::new(&even(400.0, 2.0, 1000), grid).unwrap();
+        assert_eq!(bands.count(), MOST_BANDS);
+    }
+
+    #[test]
+    fn wavelengths_that_do_not_fit_are_refused() {
+        let error = Bands::new(&[400.0, 410.0, 410.0, 420.0], oils()).unwrap_err();
+        assert!(matches!(error, MapError::Order { band: 3, .. }), "{error}");
+        let error = Bands::new(&[400.0, f64::NAN, 410.0, 420.0], oils()).unwrap_err();
+        assert!(matches!(error, MapError::Order { .. }), "{error}");
+        let micrometres = even(0.4, 0.01, 31);
+        let error = Bands::new(&micrometres, oils()).unwrap_err();
+        assert!(matches!(error, MapError::Overlap { inside: 0, .. }), "{error}");
+        assert!(Bands::new(&[], oils()).is_err(), "no bands");
+    }
+
+    #[test]
+    fn a_gap_in_the_scan_leaves_a_gap_in_the_bands() {
+        let nm: Vec<f64> =
+            even(400.0, 2.5, 121).into_iter().filter(|nm| !(500.0..=560.0).contains(nm)).collect();
+        let bands = Bands::new(&nm, oils()).unwrap();
+        assert!(bands.nm.iter().all(|nm| !(505.0..=555.0).contains(nm)), "{:?}", bands.nm);
+    }
+}

@@ -1,0 +1,317 @@
+//! The front door: a library and the wavelengths of a scan, ready for survey and map.
+
+use pigment::library::{Input, PigmentLibrary};
+use rayon::prelude::*;
+
+use crate::bands::Bands;
+use crate::book::Book;
+use crate::groups::{Column, Confusion, columns};
+use crate::map_error::MapError;
+use crate::mapping::OpenBook;
+use crate::noise::ModelError;
+use crate::pixel_maps::{BlockMaps, Mask};
+use crate::prepared::{Folded, Prepared};
+use crate::presence::Told;
+use crate::search::{Prior, Scratch};
+use crate::set_fit::SetFit;
+use crate::settings::MapSettings;
+use crate::survey::{survey, survey_step};
+
+/// Gauss-Newton steps of the true pigments in a trial.
+const TRUTH_STEPS: usize = 12;
+/// Pixels that a thread maps at a time.
+const TOGETHER: usize = 256;
+
+/// Maps the pigments of a library in scans of certain wavelengths.
+///
+/// ```
+/// use maps::{MapSettings, Mapper};
+/// use pigment::PigmentLibrary;
+///
+/// let oils = PigmentLibrary::van_gogh_oils();
+/// let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
+/// let mapper = Mapper::new(&oils, &nm, &MapSettings::default())?;
+/// let recipe = oils.recipe([("Zinc White", 0.8), ("Viridian", 0.2)])?;
+/// let green: Vec<f32> =
+///     oils.mix(recipe)?.hiding(oils.saunderson).iter().map(|r| *r as f32).collect();
+/// let book = mapper.survey(&green, &|| ())?;
+/// let maps = mapper.map_block(&book, &green)?;
+/// let viridian = mapper.columns().iter().position(|column| column.name == "Viridian").unwrap();
+/// assert!((maps.share[viridian] - 0.2).abs() < 0.01, "{}", maps.share[viridian]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Mapper {
+    prepared: Prepared,
+    columns: Vec<Column>,
+    /// Column of each pigment.
+    column_of: Vec<usize>,
+    identity: String,
+}
+
+impl Mapper {
+    /// Prepares `library` for scans whose bands have the wavelengths `wavelengths` in nm, rising.
+    ///
+    /// # Errors
+    /// [`MapError`] if wavelengths and library do not fit together, a name is unknown, or a setting is out of
+    /// range.
+    pub fn new(
+        library: &PigmentLibrary,
+        wavelengths: &[f64],
+        settings: &MapSettings,
+    ) -> Result<Self, MapError> {
+        let prepared = Prepared::new(library, wavelengths, settings)?;
+        let alike = if settings.group_alike {
+            Confusion::new(&prepared.engine, &prepared.paints).groups()
+        } else {
+            Vec::new()
+        };
+        let find = |name: &str| library.find(name).map(|id| library[id].name.clone());
+        let columns = columns(&prepared.paints, &settings.groups, find, &alike)?;
+        let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
+        let column_of = prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
+        let identity = identity(library, wavelengths, settings);
+        Ok(Self { prepared, columns, column_of, identity })
+    }
+
+    /// Columns of the maps: pigments, and groups of them that are mapped as one.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Names of the pigments that take part, as the library has them.
+    #[must_use]
+    pub fn pigments(&self) -> &[String] {
+        &self.prepared.paints.names
+    }
+
+    /// How likely each pigment is taken for another, by places in [`Mapper::pigments`].
+    #[must_use]
+    pub fn confusion(&self) -> Confusion {
+        Confusion::new(&self.prepared.engine, &self.prepared.paints)
+    }
+
+    /// Bands to which pixels are folded.
+    #[must_use]
+    pub fn bands(&self) -> &Bands {
+        &self.prepared.bands
+    }
+
+    /// Effective number of bands: how many independent ones tell as much of the library's error.
+    #[must_use]
+    pub fn effective_bands(&self) -> f64 {
+        self.prepared.noise.effective_bands
+    }
+
+    /// Identity of library, wavelengths and settings, in hexadecimal. Books are valid for one identity.
+    #[must_use]
+    pub fn identity(&self) -> &str {
+        &self.identity
+    }
+
+    /// Surveys pixels of a scan: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands of
+    /// each. Every k-th pixel is searched whole, so that about 20,000 are. `progress` is called after each of
+    /// them, from any thread.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] for a broken pixel, [`MapError::NothingToSurvey`] if no pixel can be mapped.
+    pub fn survey(
+        &self,
+        spectra: &[f32],
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Book, MapError> {
+        let pixels = self.pixels(spectra)?;
+        let chosen = pixels.clone().step_by(survey_step(pixels.len()));
+        let surveyed = chosen.len();
+        let folded: Vec<Folded> = chosen.filter_map(|pixel| self.prepared.fold(pixel).ok()).collect();
+        if folded.is_empty() {
+            return Err(MapError::NothingToSurvey { pixels: surveyed });
+        }
+        Ok(survey(&self.prepared, &self.identity, &folded, progress))
+    }
+
+    /// Prepares the book of a survey for [`Mapper::map`], once for all blocks of a scan.
+    ///
+    /// # Errors
+    /// [`MapError::OtherBook`] if it was made with another library, other wavelengths or other settings.
+    pub fn open_book(&self, book: &Book) -> Result<OpenBook, MapError> {
+        OpenBook::new(&self.prepared, &self.identity, book)
+    }
+
+    /// Maps the pixels of `spectra` as [`Mapper::map`] does, with a book that is opened for them alone.
+    ///
+    /// # Errors
+    /// [`MapError::OtherBook`] and [`MapError::Length`].
+    pub fn map_block(&self, book: &Book, spectra: &[f32]) -> Result<BlockMaps, MapError> {
+        self.map(&self.open_book(book)?, spectra, &[])
+    }
+
+    /// Maps pixels on all cores: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands of
+    /// each. Pixels whose mask in `masks` is not [`Mask::Mapped`] are passed over; no masks mean none. Each
+    /// pixel's numbers depend on itself and the book only.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] for a broken pixel, [`MapError::Masks`] unless there is a mask for each pixel or
+    /// none.
+    pub fn map(
+        &self,
+        book: &OpenBook,
+        spectra: &[f32],
+        masks: &[Mask],
+    ) -> Result<BlockMaps, MapError> {
+        self.map_with(spectra, masks, |folded, scratch| {
+            book.find(&self.prepared.engine, folded, scratch);
+        })
+    }
+
+    /// Searches every pixel whole, without a survey. This is slow, and tells what a survey can save.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] for a broken pixel.
+    pub fn search(&self, spectra: &[f32]) -> Result<BlockMaps, MapError> {
+        let engine = &self.prepared.engine;
+        self.map_with(spectra, &[], |folded, scratch| {
+            let place = engine.table.nearest(&folded.point);
+            engine.search(&folded.pixel, place, &Prior::default(), scratch);
+        })
+    }
+
+    /// For each pixel, by how much the score of a whole search exceeds that of its true pigments with refined
+    /// shares; 0 or below where the search found a set that is as good or better. Pixels that cannot be mapped
+    /// and those with pigments that do not take part are passed over.
+    pub(crate) fn gaps_to_truth(
+        &self,
+        spectra: &[f32],
+        truth: &[Vec<(&str, f64)>],
+    ) -> Result<Vec<f32>, MapError> {
+        let engine = &self.prepared.engine;
+        let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
+        let gap = |scratch: &mut Scratch, (pixel, parts): (&&[f32], &Vec<(&str, f64)>)| {
+            let folded = self.prepared.fold(pixel).ok()?;
+            let place = |(name, share): &(&str, f64)| {
+                Some((self.prepared.paints.place(name)?, *share as f32))
+            };
+            let parts: Vec<(usize, f32)> = parts.iter().map(place).collect::<Option<_>>()?;
+            let set = SetFit::of_parts(&parts)?;
+            let nearest = engine.table.nearest(&folded.point);
+            engine.search(&folded.pixel, nearest, &Prior::default(), scratch);
+            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS, &Prior::default());
+            Some(scratch.found.first()?.score - truth.score)
+        };
+        let found = pixels.par_iter().zip(truth).map_init(|| Scratch::new(&engine.films), gap);
+        Ok(found.collect::<Vec<Option<f32>>>().into_iter().flatten().collect())
+    }
+
+    fn map_with(
+        &self,
+        spectra: &[f32],
+        masks: &[Mask],
+        find: impl Fn(&Folded, &mut Scratch) + Sync,
+    ) -> Result<BlockMaps, MapError> {
+        let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
+        if !masks.is_empty() && masks.len() != pixels.len() {
+            return Err(MapError::Masks { masks: masks.len(), pixels: pixels.len() });
+        }
+        let engine = &self.prepared.engine;
+        let parts: Vec<BlockMaps> = (pixels.par_chunks(TOGETHER).enumerate())
+            .map_init(
+                || (Scratch::new(&engine.films), Told::new(self.columns.len())),
+                |(scratch, told), (number, pixels)| {
+                    let mut maps = Empty::with(self.columns.len(), pixels.len());
+                    for (index, pixel) in pixels.iter().enumerate() {
+                        let mask = masks.get(number * TOGETHER + index).copied();
+                        let folded = match mask.unwrap_or(Mask::Mapped) {
+                            Mask::Mapped => self.prepared.fold(pixel),
+                            other => Err(other),
+                        };
+                        match folded {
+                            Ok(folded) => {
+                                find(&folded, scratch);
+                                                        let (pixel, found) = (&folded.pixel, &scratch.found);
+                                told.sum(engine, pixel, found, &self.column_of);
+                                push(&mut maps, told);
+                            }
+                            Err(mask) => push_empty(&mut maps, mask),
+                        }
+                    }
+                    maps
+                },
+            )
+            .collect();
+        let mut maps = Empty::with(self.columns.len(), pixels.len());
+        for part in parts {
+            maps.share.extend(part.share);
+            maps.share_sd.extend(part.share_sd);
+            maps.presence.extend(part.presence);
+            maps.chi2.extend(part.chi2);
+            maps.rms.extend(part.rms);
+            maps.second.extend(part.second);
+            maps.mask.extend(part.mask);
+        }
+        Ok(maps)
+    }
+
+    fn pixels<'a>(&self, spectra: &'a [f32]) -> Result<std::slice::ChunksExact<'a, f32>, MapError> {
+        let bands = self.prepared.bands.scan_bands;
+        let pixels = spectra.chunks_exact(bands);
+        if !pixels.remainder().is_empty() {
+            return Err(MapError::Length { values: spectra.len(), bands });
+        }
+        Ok(pixels)
+    }
+}
+
+/// Makes maps that hold no pixel yet.
+struct Empty;
+
+impl Empty {
+    fn with(columns: usize, pixels: usize) -> BlockMaps {
+        BlockMaps {
+            pigments: columns,
+            share: Vec::with_capacity(columns * pixels),
+            share_sd: Vec::with_capacity(columns * pixels),
+            presence: Vec::with_capacity(columns * pixels),
+            chi2: Vec::with_capacity(pixels),
+            rms: Vec::with_capacity(pixels),
+            second: Vec::with_capacity(pixels),
+            mask: Vec::with_capacity(pixels),
+        }
+    }
+}
+
+fn push(maps: &mut BlockMaps, told: &Told) {
+    maps.share.extend(told.share.iter().map(|value| *value as f32));
+    maps.share_sd.extend(told.share_sd.iter().map(|value| *value as f32));
+    maps.presence.extend(told.presence.iter().map(|value| *value as f32));
+    maps.chi2.push(told.chi2 as f32);
+    maps.rms.push(told.rms as f32);
+    maps.second.push(told.second);
+    maps.mask.push(Mask::Mapped);
+}
+
+fn push_empty(maps: &mut BlockMaps, mask: Mask) {
+    let end = maps.share.len() + maps.pigments;
+    for values in [&mut maps.share, &mut maps.share_sd, &mut maps.presence] {
+        values.resize(end, f32::NAN);
+    }
+    maps.chi2.push(f32::NAN);
+    maps.rms.push(f32::NAN);
+    maps.second.push(0);
+    maps.mask.push(mask);
+}
+
+/// SHA-256 of all that a map depends on, beside the pixels.
+fn identity(library: &PigmentLibrary, wavelengths: &[f64], settings: &MapSettings) -> String {
+    use std::fmt::Write as _;
+    let mut text = library.to_json();
+    // Settings that only join columns leave the book valid.
+    let MapSettings { at_most, palette, sensor_noise, model_error, penalty, .. } = settings;
+    let _ = write!(text, "{wavelengths:?} {at_most} {palette:?} {sensor_noise:?} {penalty:?} ");
+    let _ = match model_error {
+        None => write!(text, "usual"),
+        Some(ModelError::Stated(relative)) => write!(text, "{relative:?}"),
+        Some(ModelError::Residuals(residuals)) => write!(text, "{residuals:?}"),
+    };
+    Input::new("", text.as_bytes()).sha256
+}

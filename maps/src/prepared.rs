@@ -1,0 +1,108 @@
+//! Library, bands and noise of a scan, ready for its pixels.
+
+use pigment::library::PigmentLibrary;
+
+use crate::bands::{Bands, MOST_BANDS};
+use crate::film::{Films, Pixel};
+use crate::map_error::MapError;
+use crate::nearest::Point;
+use crate::noise::{ModelError, Noise, USUAL_MODEL_ERROR};
+use crate::paints::Paints;
+use crate::pixel_maps::Mask;
+use crate::search::Engine;
+use crate::settings::MapSettings;
+use crate::table::Table;
+use crate::whitening::WhiteningNoise;
+
+/// Reflectances of a band that a scan can have; others show raw counts, percent or a wrong white.
+const REFLECTANCES: std::ops::RangeInclusive<f32> = -0.2..=1.5;
+
+/// All that does not change from pixel to pixel.
+#[derive(Debug, Clone)]
+pub(crate) struct Prepared {
+    pub(crate) bands: Bands,
+    pub(crate) paints: Paints,
+    pub(crate) noise: Noise,
+    pub(crate) engine: Engine,
+    /// Bands of the scan that take part.
+    used: Vec<usize>,
+    /// Rows of the folded bands: ends in `terms`.
+    ends: Vec<usize>,
+    terms: Vec<(u32, f32)>,
+}
+
+/// A pixel on the folded bands.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Folded {
+    pub(crate) pixel: Pixel,
+    pub(crate) point: Point,
+}
+
+impl Prepared {
+    pub(crate) fn new(
+        library: &PigmentLibrary,
+        wavelengths: &[f64],
+        settings: &MapSettings,
+    ) -> Result<Self, MapError> {
+        settings.check()?;
+        let bands = Bands::new(wavelengths, library.grid)?;
+        let paints = Paints::new(library, &settings.palette, &bands)?;
+        let model = settings.model_error.clone().unwrap_or_else(|| {
+            let rms = library.evidence.as_ref().map(|evidence| evidence.rms);
+            ModelError::Stated(
+                rms.map_or(USUAL_MODEL_ERROR, |rms| Noise::stated_from_rms(&paints, rms)),
+            )
+        });
+        let noise = Noise::new(&bands, settings.sensor_noise, &model);
+        let films = Films::new(&paints);
+        let table = Table::new(&paints, &films, &noise);
+        let engine = Engine {
+            films,
+            table,
+            noise: WhiteningNoise::new(&noise),
+            at_most: settings.at_most.min(paints.count()),
+            penalty: settings.penalty as f32,
+            tail: noise.tail,
+        };
+        let (mut ends, mut terms, mut used) = (Vec::new(), Vec::new(), Vec::new());
+        for row in &bands.from_scan {
+            terms.extend(row.terms.iter().map(|&(band, weight)| (band as u32, weight as f32)));
+            used.extend(row.terms.iter().map(|&(band, _)| band));
+            ends.push(terms.len());
+        }
+        used.sort_unstable();
+        used.dedup();
+        Ok(Self { bands, paints, noise, engine, used, ends, terms })
+    }
+
+    /// Folds a pixel of the scan.
+    ///
+    /// # Errors
+    /// The reason why it cannot be mapped.
+    pub(crate) fn fold(&self, scan: &[f32]) -> Result<Folded, Mask> {
+        for &band in &self.used {
+            let value = scan[band];
+            if !value.is_finite() {
+                return Err(Mask::NotFinite);
+            }
+            if !REFLECTANCES.contains(&value) {
+                return Err(Mask::OutOfRange);
+            }
+        }
+        let mut folded = [0.0; MOST_BANDS];
+        let mut start = 0;
+        for (value, &end) in folded.iter_mut().zip(&self.ends) {
+            for &(band, weight) in &self.terms[start..end] {
+                *value += weight * scan[band as usize];
+            }
+            start = end;
+        }
+        let folded = &folded[..self.bands.count()];
+        let mean = folded.iter().sum::<f32>() / folded.len() as f32;
+        if mean <= self.paints.surface.floor() as f32 {
+            return Err(Mask::TooDark);
+        }
+        let point = self.engine.table.projection.of(folded);
+        Ok(Folded { pixel: self.engine.films.pixel(&self.engine.noise, folded), point })
+    }
+}

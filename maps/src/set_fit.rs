@@ -1,0 +1,341 @@
+//! Shares of one set of pigments for one pixel.
+
+use crate::film::{Difference, Films, MOST_IN_SET, Pixel};
+
+/// A set of one to four pigments with shares that fit a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SetFit {
+    /// Places of the pigments, rising; `u8::MAX` beyond the last.
+    pub(crate) members: [u8; MOST_IN_SET],
+    pub(crate) count: u8,
+    /// Shares of the members, sum 1.
+    pub(crate) shares: [f32; MOST_IN_SET],
+    pub(crate) chi2: f32,
+    /// -2 ln of the likelihood, with the penalty of each pigment.
+    pub(crate) score: f32,
+}
+
+impl SetFit {
+    /// A set of pigments in any order, with their shares.
+    pub(crate) fn new<const N: usize>(members: [usize; N], shares: [f32; N], chi2: f32) -> Self {
+        let mut fit = Self {
+            members: [u8::MAX; MOST_IN_SET],
+            count: N as u8,
+            shares: [0.0; MOST_IN_SET],
+            chi2,
+            score: f32::INFINITY,
+        };
+        for i in 0..N {
+            let place = (0..N).filter(|&j| members[j] < members[i]).count();
+            fit.members[place] = members[i] as u8;
+            fit.shares[place] = shares[i];
+        }
+        fit
+    }
+
+    /// A set of one to four pigments with their shares; `None` for any other number.
+    pub(crate) fn of_parts(parts: &[(usize, f32)]) -> Option<Self> {
+        let unknown = f32::INFINITY;
+        Some(match *parts {
+            [(a, x)] => Self::new([a], [x], unknown),
+            [(a, x), (b, y)] => Self::new([a, b], [x, y], unknown),
+            [(a, x), (b, y), (c, z)] => Self::new([a, b, c], [x, y, z], unknown),
+            [(a, x), (b, y), (c, z), (d, w)] => Self::new([a, b, c, d], [x, y, z, w], unknown),
+            _ => return None,
+        })
+    }
+
+    /// The set as one number.
+    pub(crate) fn key(&self) -> u32 {
+        u32::from_be_bytes(self.members)
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        usize::from(self.count)
+    }
+
+    /// Pigments with their shares.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
+        let pairs = self.members.iter().zip(&self.shares).take(self.len());
+        pairs.map(|(&member, &share)| (usize::from(member), share))
+    }
+
+    /// Compares `pixel` with the film of these shares.
+    pub(crate) fn difference(&self, films: &Films, pixel: &Pixel) -> Difference {
+        match self.count {
+            1 => self.difference_of::<1>(films, pixel),
+            2 => self.difference_of::<2>(films, pixel),
+            3 => self.difference_of::<3>(films, pixel),
+            _ => self.difference_of::<MOST_IN_SET>(films, pixel),
+        }
+    }
+
+    fn difference_of<const N: usize>(
+        &self,
+        films: &Films,
+        pixel: &Pixel,
+    ) -> Difference {
+        let members: [usize; N] = std::array::from_fn(|i| usize::from(self.members[i]));
+        films.difference(pixel, members, std::array::from_fn(|i| self.shares[i]))
+    }
+
+    /// Moves the shares towards the least chi-square in measured reflectance by `steps` Gauss-Newton steps,
+    /// and returns the difference at the best shares that were met.
+    pub(crate) fn refine(
+        &mut self,
+        films: &Films,
+        pixel: &Pixel,
+        steps: usize,
+    ) -> Difference {
+        let mut found = self.difference(films, pixel);
+        self.chi2 = found.chi2;
+        if self.count == 1 {
+            return found;
+        }
+        let mut tried = self.stepped(&found);
+        for step in 1..=steps {
+            let difference = tried.difference(films, pixel);
+            if difference.chi2 < self.chi2 {
+                self.shares = tried.shares;
+                self.chi2 = difference.chi2;
+                found = difference;
+                if step < steps {
+                    tried = self.stepped(&found);
+                }
+            } else {
+                // The step was too long.
+                for (share, best) in tried.shares.iter_mut().zip(&self.shares) {
+                    *share = 0.75 * best + 0.25 * *share;
+                }
+            }
+        }
+        found
+    }
+
+    /// Copy after one full step. A share falls to a tenth at most, so that the step stays on the simplex.
+    fn stepped(&self, difference: &Difference) -> Self {
+        let mut next = *self;
+        let step = match inverse(difference, self.len()) {
+            Some((inverse, _)) => product(&inverse, &difference.right, self.len()),
+            None => [0.0; MOST_IN_SET],
+        };
+        let mut sum = 0.0;
+        for i in 0..self.len() {
+            let share = self.shares[i];
+            next.shares[i] = (share + step[i] as f32).max(0.1 * share).max(1e-7);
+            sum += next.shares[i];
+        }
+        for share in &mut next.shares[..self.len()] {
+            *share /= sum;
+        }
+        next
+    }
+
+    /// Variances and covariances of the shares, from the curvature of chi-square on the simplex.
+    pub(crate) fn covariance(
+        &self,
+        difference: &Difference,
+    ) -> [[f64; MOST_IN_SET]; MOST_IN_SET] {
+        let count = self.len();
+        let mut covariance = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+        if count == 1 {
+            return covariance;
+        }
+        if let Some((inverse, weight)) = inverse(difference, count) {
+            for i in 0..count {
+                for j in 0..count {
+                    let along = f64::from(self.shares[i]) * f64::from(self.shares[j]) / weight;
+                    covariance[i][j] = inverse[i][j] - along;
+                }
+            }
+        }
+        covariance
+    }
+}
+
+type Square = [[f64; MOST_IN_SET]; MOST_IN_SET];
+
+fn product(matrix: &Square, vector: &[f32; MOST_IN_SET], count: usize) -> [f64; MOST_IN_SET] {
+    let mut result = [0.0; MOST_IN_SET];
+    for i in 0..count {
+        for j in 0..count {
+            result[i] += matrix[i][j] * f64::from(vector[j]);
+        }
+    }
+    result
+}
+
+/// Inverse of the normal equations with `weight` added to every entry, and this weight.
+///
+/// The reflectance does not change if all shares grow alike, so that the equations are singular along the
+/// shares. The weight removes that, and a step by the inverse keeps the sum of the shares.
+fn inverse(difference: &Difference, count: usize) -> Option<(Square, f64)> {
+    let mut trace = 0.0;
+    for i in 0..count {
+        trace += f64::from(difference.normal[i][i]);
+    }
+    if !(trace.is_finite() && trace > 0.0) {
+        return None;
+    }
+    let weight = trace / count as f64;
+    let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+    for i in 0..count {
+        for j in 0..count {
+            left[i][j] = f64::from(difference.normal[i][j]) + weight;
+        }
+        left[i][i] *= 1.0 + 1e-6;
+    }
+    Some((inverted(left, count)?, weight))
+}
+
+/// Inverse of a positive definite matrix by Gauss-Jordan elimination; `None` if a pivot is not positive.
+fn inverted(mut left: Square, count: usize) -> Option<Square> {
+    let mut right = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+    for i in 0..count {
+        right[i][i] = 1.0;
+    }
+    for pivot in 0..count {
+        let value = left[pivot][pivot];
+        if !(value > 0.0) {
+            return None;
+        }
+        for column in 0..count {
+            left[pivot][column] /= value;
+            right[pivot][column] /= value;
+        }
+        for row in 0..count {
+            if row != pivot {
+                let factor = left[row][pivot];
+                for column in 0..count {
+                    left[row][column] -= factor * left[pivot][column];
+                    right[row][column] -= factor * right[pivot][column];
+                }
+            }
+        }
+    }
+    Some(right)
+}
+
+/// Products of the rows of pigments, by place.
+pub(crate) struct Quadratic<'a> {
+    pub(crate) products: &'a [f32],
+    pub(crate) columns: usize,
+    /// Sizes by which the rows are divided; the shares of a set are divided by them too.
+    pub(crate) sizes: &'a [f32],
+}
+
+impl Quadratic<'_> {
+    #[inline(always)]
+    fn at(&self, a: usize, b: usize) -> f64 {
+        let (low, high) = if a < b { (a, b) } else { (b, a) };
+        f64::from(self.products[low * self.columns + high])
+    }
+
+    /// A set whose parts of the divided rows are `parts`.
+    pub(crate) fn fit<const N: usize>(
+        &self,
+        members: [usize; N],
+        parts: [f64; N],
+        chi2: f64,
+    ) -> SetFit {
+        let mut shares = [0.0; N];
+        let mut sum = 0.0;
+        for i in 0..N {
+            shares[i] = parts[i] / f64::from(self.sizes[members[i]]);
+            sum += shares[i];
+        }
+        SetFit::new(members, shares.map(|share| (share / sum) as f32), chi2 as f32)
+    }
+
+    /// A single pigment.
+    pub(crate) fn single(&self, a: usize) -> SetFit {
+        SetFit::new([a], [1.0], self.at(a, a) as f32)
+    }
+
+    /// Shares of two pigments where the sum of squares is least; `None` if one is 0 or less.
+    #[inline(always)]
+    pub(crate) fn pair(&self, a: usize, b: usize) -> Option<(f64, f64)> {
+        let (aa, ab, bb) = (self.at(a, a), self.at(a, b), self.at(b, b));
+        let (to_a, to_b) = (bb - ab, aa - ab);
+        if !(to_a > 0.0 && to_b > 0.0) {
+            return None;
+        }
+        let share = to_a / (to_a + to_b);
+        Some((share, bb - share * to_a))
+    }
+
+    /// Calls `found` with the places, the shares and the sum of squares of every three pigments whose best
+    /// shares are all above 0.
+    pub(crate) fn triples(&self, count: usize, mut found: impl FnMut([usize; 3], [f64; 3], f64)) {
+        for a in 0..count {
+            let base = self.at(a, a);
+            // Differences from pigment `a` span the plane of shares of sum 1.
+            let right = |i: usize| base - self.at(a, i);
+            let product = |i: usize, j: usize| self.at(i, j) - self.at(a, i) - self.at(a, j) + base;
+            for b in a + 1..count {
+                let (square, to_b) = (product(b, b), right(b));
+                if !(square > 1e-9 * base) {
+                    continue;
+                }
+                let (inverse, of_pair) = (1.0 / square, base - to_b * to_b / square);
+                for c in b + 1..count {
+                    let along = product(b, c) * inverse;
+                    let rest = product(c, c) - along * along * square;
+                    let share_c = (right(c) - to_b * along) / rest;
+                    let share_b = to_b * inverse - share_c * along;
+                    let share_a = 1.0 - share_b - share_c;
+                    let inside = share_a > 0.0 && share_b > 0.0 && share_c > 0.0;
+                    if inside && rest > 1e-9 * base {
+                        let sum = of_pair - share_c * share_c * rest;
+                        found([a, b, c], [share_a, share_b, share_c], sum);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Shares of a set where the sum of squares is least; `None` if one is 0 or less.
+    pub(crate) fn set<const N: usize>(&self, members: [usize; N]) -> Option<SetFit> {
+        // The last share is 1 less the others.
+        let last = members[N - 1];
+        let base = self.at(last, last);
+        let to_last: [f64; N] = std::array::from_fn(|i| self.at(members[i], last));
+        let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+        let mut x: [f64; N] = std::array::from_fn(|i| base - to_last[i]);
+        for i in 0..N - 1 {
+            for j in 0..N - 1 {
+                left[i][j] = self.at(members[i], members[j]) - to_last[i] - to_last[j] + base;
+            }
+        }
+        let right = x;
+        for pivot in 0..N - 1 {
+            let value = left[pivot][pivot];
+            if !(value > 1e-9 * base) {
+                return None;
+            }
+            for row in pivot + 1..N - 1 {
+                let factor = left[row][pivot] / value;
+                for column in pivot..N - 1 {
+                    left[row][column] -= factor * left[pivot][column];
+                }
+                x[row] -= factor * x[pivot];
+            }
+        }
+        for row in (0..N - 1).rev() {
+            for column in row + 1..N - 1 {
+                x[row] -= left[row][column] * x[column];
+            }
+            x[row] /= left[row][row];
+            if !(x[row] > 0.0) {
+                return None;
+            }
+        }
+        let (mut sum, mut saved) = (0.0, 0.0);
+        for i in 0..N - 1 {
+            sum += x[i];
+            saved += x[i] * right[i];
+        }
+        x[N - 1] = 1.0 - sum;
+        (x[N - 1] > 0.0).then(|| self.fit(members, x, base - saved))
+    }
+}

@@ -1,0 +1,74 @@
+//! Settings of a map.
+
+use crate::map_error::MapError;
+use crate::noise::ModelError;
+
+/// Pigments that a map shows as one.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PigmentGroup {
+    /// Name of the group.
+    pub name: String,
+    /// Names of its pigments.
+    pub pigments: Vec<String>,
+}
+
+/// Settings of [`Mapper::new`](crate::Mapper::new).
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapSettings {
+    /// Most pigments of a mixture, 1 to 4. Default: 3.
+    pub at_most: usize,
+    /// Names of the pigments that take part. Default: all of the library whose K and S are measured.
+    pub palette: Vec<String>,
+    /// Groups of pigments that are mapped as one. Default: none.
+    pub groups: Vec<PigmentGroup>,
+    /// Whether pigments that the bands cannot tell apart are mapped as one. Default: yes.
+    pub group_alike: bool,
+    /// Standard deviation of the noise of each band of the scan, in reflectance; 0 to 1. Default: 0.003.
+    pub sensor_noise: f64,
+    /// Error of the library's predictions. Default: from the errors of its fit, which its file holds, else
+    /// 10 % of K and S.
+    pub model_error: Option<ModelError>,
+    /// Increase of the score (chi-square, -2 ln of the likelihood) that one more pigment must save; 0 to
+    /// 100. Default: 4.
+    pub penalty: f64,
+}
+
+impl Default for MapSettings {
+    fn default() -> Self {
+        Self {
+            at_most: 3,
+            palette: Vec::new(),
+            groups: Vec::new(),
+            group_alike: true,
+            sensor_noise: 0.003,
+            model_error: None,
+            penalty: 4.0,
+        }
+    }
+}
+
+impl MapSettings {
+    /// Checks the range of every number.
+    ///
+    /// # Errors
+    /// [`MapError::Setting`] for the first that is out of range.
+    pub fn check(&self) -> Result<(), MapError> {
+        let stated = match self.model_error {
+            Some(ModelError::Stated(relative)) => relative,
+            _ => 0.1,
+        };
+        let rows = [
+            ("at_most", "1 to 4", self.at_most as f64, 1.0..=4.0),
+            ("sensor_noise", "0 to 1", self.sensor_noise, 0.0..=1.0),
+            ("model_error", "0.001 to 1", stated, 0.001..=1.0),
+            ("penalty", "0 to 100", self.penalty, 0.0..=100.0),
+        ];
+        for (name, range, value, valid) in rows {
+            if !valid.contains(&value) {
+                return Err(MapError::Setting { name, range, value });
+            }
+        }
+        Ok(())
+    }
+}

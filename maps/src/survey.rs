@@ -1,0 +1,147 @@
+//! The survey: some pixels of a scan searched whole, and how often each set explains them.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use crate::book::{Book, BookEntry, BookSet, SetFrequency};
+use crate::prepared::{Folded, Prepared};
+use crate::search::{Engine, Prior, Scratch};
+use crate::set_fit::SetFit;
+
+/// Pixels that a survey searches, about.
+pub const SURVEYED: usize = 20_000;
+/// Scores above the best up to which an entry keeps a set.
+const KEPT_SCORE: f32 = 9.0;
+/// Most sets of an entry.
+const KEPT_SETS: usize = 6;
+/// Part of the prior that all sets share alike.
+const ALIKE: f64 = 0.3;
+/// Rounds in which probabilities and prior of sets settle.
+const ROUNDS: usize = 4;
+/// Greatest addition to the score of a set that the survey did not find.
+const MOST_ADDED: f64 = 8.0;
+
+/// Distance between surveyed pixels: every such pixel of `pixels`, in their order, is searched.
+#[must_use]
+pub fn survey_step(pixels: usize) -> usize {
+    (pixels / SURVEYED).max(1)
+}
+
+/// Searches the pixels of `folded` whole. `progress` is called after each pixel, from any thread.
+pub(crate) fn survey(
+    prepared: &Prepared,
+    identity: &str,
+    folded: &[Folded],
+    progress: &(dyn Fn() + Sync),
+) -> Book {
+    let engine = &prepared.engine;
+    let search = |scratch: &mut Scratch, folded: &Folded| {
+        let place = engine.table.nearest(&folded.point);
+        engine.search(&folded.pixel, place, &Prior::default(), scratch);
+        progress();
+        let best = scratch.found.first().map_or(0.0, |set| set.score);
+        let near = scratch.found.iter().take_while(|set| set.score < best + KEPT_SCORE);
+        near.take(KEPT_SETS).copied().collect::<Vec<SetFit>>()
+    };
+    let mut found: Vec<Vec<SetFit>> =
+        folded.par_iter().map_init(|| Scratch::new(&engine.films), search).collect();
+    let mut parts = BTreeMap::new();
+    for _ in 0..ROUNDS {
+        let prior = prior(engine, &parts);
+        for sets in &mut found {
+            for set in sets.iter_mut() {
+                set.score = engine.score(set.chi2, set.len()) + prior.of(set.key());
+            }
+            sets.sort_by(|a, b| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key())));
+        }
+        parts = frequencies(&found);
+    }
+    let mut book = Book::new(identity.to_owned(), prepared.paints.names.clone());
+    book.usual_chi2 = usual(&found);
+    let members = |key: u32| -> Vec<u8> {
+        key.to_be_bytes().into_iter().filter(|member| *member != u8::MAX).collect()
+    };
+    book.sets = parts
+        .iter()
+        .map(|(&key, &part)| SetFrequency { pigments: members(key), part: part as f32 })
+        .collect();
+    book.sets.sort_by(|a, b| b.part.total_cmp(&a.part).then(a.pigments.cmp(&b.pigments)));
+    book.entries = (found.iter().zip(folded))
+        .map(|(sets, folded)| BookEntry {
+            point: folded.point.to_vec(),
+            chi2: sets.first().map_or(0.0, |set| set.chi2),
+            sets: sets.iter().map(of_fit).collect(),
+        })
+        .collect();
+    book
+}
+
+fn of_fit(set: &SetFit) -> BookSet {
+    BookSet {
+        pigments: set.members[..set.len()].to_vec(),
+        shares: set.shares[..set.len()].to_vec(),
+    }
+}
+
+/// Chi-square that nineteen of twenty pixels do not exceed.
+fn usual(found: &[Vec<SetFit>]) -> f32 {
+    let mut values: Vec<f32> =
+        found.iter().filter_map(|sets| Some(sets.first()?.chi2)).collect();
+    values.sort_by(f32::total_cmp);
+    let place = values.len() * 19 / 20;
+    values.get(place.min(values.len().saturating_sub(1))).copied().unwrap_or(0.0)
+}
+
+/// Mean probability of each set over all pixels.
+fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
+    let mut parts = BTreeMap::new();
+    for sets in found {
+        let Some(best) = sets.first() else { continue };
+        let weight = |set: &SetFit| f64::from(-0.5 * (set.score - best.score)).exp();
+        let total: f64 = sets.iter().map(weight).sum();
+        for set in sets {
+            *parts.entry(set.key()).or_insert(0.0) += weight(set) / total / found.len() as f64;
+        }
+    }
+    parts
+}
+
+/// Prior of sets that explain these parts of a survey.
+fn prior(engine: &Engine, parts: &BTreeMap<u32, f64>) -> Prior {
+    if parts.is_empty() {
+        return Prior::default();
+    }
+    let most = parts.values().copied().fold(0.0, f64::max);
+    let alike = ALIKE / number_of_sets(engine.films.pigments, engine.at_most);
+    let added = |part: f64| {
+        let ratio = ((1.0 - ALIKE) * part + alike) / ((1.0 - ALIKE) * most + alike);
+        (-2.0 * ratio.ln()).min(MOST_ADDED) as f32
+    };
+    Prior {
+        of_set: parts.iter().map(|(&key, &part)| (key, added(part))).collect(),
+        of_others: added(0.0),
+    }
+}
+
+/// Prior that a book tells.
+pub(crate) fn prior_of_book(engine: &Engine, book: &Book) -> Prior {
+    let key = |pigments: &[u8]| {
+        let mut members = [u8::MAX; 4];
+        members[..pigments.len()].copy_from_slice(pigments);
+        u32::from_be_bytes(members)
+    };
+    let parts = book.sets.iter().map(|set| (key(&set.pigments), f64::from(set.part)));
+    prior(engine, &parts.collect())
+}
+
+/// Number of sets of one to `at_most` of `pigments`.
+fn number_of_sets(pigments: usize, at_most: usize) -> f64 {
+    let mut sum = 0.0;
+    let mut sets = 1.0;
+    for size in 1..=at_most {
+        sets *= (pigments + 1 - size) as f64 / size as f64;
+        sum += sets;
+    }
+    sum
+}
