@@ -61,6 +61,8 @@ pub mod store;
 
 pub mod blocks;
 
+mod surveyed;
+
 pub mod pictures;
 
 pub use blocks::map_cube;
@@ -73,5 +75,6 @@ pub use mapping::OpenBook;
 pub use noise::{ModelError, USUAL_MODEL_ERROR};
 pub use paints::Paints;
 pub use settings::{MapSettings, PigmentGroup};
-pub use store::{MapStore, StoredMaps};
+pub use store::{MapStore, StoreMode, StoredMaps};
 pub use survey::{SURVEYED, survey_step};
+pub use surveyed::{FoundColumn, Region, SurveyError, SurveyedScan};

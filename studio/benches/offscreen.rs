@@ -16,8 +16,9 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use eframe::egui::epaint::TexturesDelta;
-use eframe::egui::{Context, Event, FullOutput, Modifiers, PointerButton, Pos2, UiBuilder, vec2};
+use eframe::egui::{
+    Context, Event, FullOutput, Modifiers, PointerButton, Pos2, TexturesDelta, UiBuilder, vec2,
+};
 use eframe::egui_wgpu::{RenderState, ScreenDescriptor, WgpuSetup, WgpuSetupCreateNew, wgpu};
 use egui_kittest::wgpu::create_render_state;
 use egui_kittest::{Harness, TestRenderer};

@@ -42,6 +42,8 @@
 //!
 //! Out of scope: windows, pens and pictures on a screen (crate `studio`).
 
+mod awaited;
+
 mod state;
 
 mod event;

@@ -2,12 +2,12 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread;
 
 use render::gpu::BackendChoice;
 use render::paint::painting::UNDO_BYTES;
 use spectra::hint::Hint;
 
+use super::awaited::Awaited;
 use super::backend::Backend;
 use super::command::Command;
 use super::event::Event;
@@ -29,11 +29,14 @@ impl Default for WorkerOptions {
     }
 }
 
-/// Handle of the thread that owns the paint.
+/// Handle of the thread that owns the paint. Dropping it ends the thread and waits for that, at most five
+/// seconds.
 #[derive(Debug)]
 pub struct Worker {
+    // Dropped first, which tells the thread to end.
     inputs: Sender<Input>,
     events: Receiver<Event>,
+    _thread: Awaited,
 }
 
 impl Worker {
@@ -46,7 +49,7 @@ impl Worker {
     pub fn start(options: WorkerOptions, wake: impl Fn() + Send + 'static) -> Self {
         let (inputs, receiver) = channel();
         let (sender, events) = channel();
-        thread::spawn(move || {
+        let thread = Awaited::spawn(move || {
             let send = move |event| {
                 // Sending fails only if the front end has dropped the receiver.
                 let _ = sender.send(event);
@@ -57,7 +60,7 @@ impl Worker {
                 WorkerLoop::new(Inbox::new(receiver), backend, options.undo_bytes, &send).run();
             });
         });
-        Self { inputs, events }
+        Self { inputs, events, _thread: thread }
     }
 
     /// Sends a command. Has no effect after the worker has ended.

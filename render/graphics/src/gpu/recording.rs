@@ -108,6 +108,13 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// Removes everything, and keeps the memory for what is recorded next.
+    pub(super) fn clear(&mut self) {
+        self.commands.clear();
+        self.parameters.clear();
+        self.batch.clear();
+    }
+
     /// Appends `items` to the data that [`super::Storage::Batch`] binds. Returns the index of
     /// the first, counted in items.
     pub fn batch<T: bytemuck::Pod>(&mut self, items: &[T]) -> u32 {

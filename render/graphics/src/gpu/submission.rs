@@ -40,7 +40,12 @@ impl Device {
     /// # Panics
     /// If a kernel was recorded with fewer or more buffers than it declares.
     pub fn submit(&mut self, recording: &mut Recording) -> Result<(), DeviceError> {
-        let recording = std::mem::take(recording);
+        let submitted = self.submit_all(recording);
+        recording.clear();
+        submitted
+    }
+
+    fn submit_all(&mut self, recording: &Recording) -> Result<(), DeviceError> {
         self.check("a submission")?;
         if recording.is_empty() {
             return Ok(());
@@ -73,7 +78,7 @@ impl Device {
         let parameters = self.filled("parameters", parameters, &recording.parameters, bytes)?;
         let batch = self.batch.take();
         let batch = self.filled("a batch", batch, &recording.batch, recording.batch.len())?;
-        let commands = self.encode(&recording, &parameters, &batch);
+        let commands = self.encode(recording, &parameters, &batch);
         (self.parameters, self.batch) = (Some(parameters), Some(batch));
         let index = self.queue.submit([commands]);
         self.follow(index)

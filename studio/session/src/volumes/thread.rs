@@ -2,7 +2,6 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread;
 
 use spectra::hint::Hint;
 
@@ -10,12 +9,15 @@ use super::command::VolumeCommand;
 use super::event::VolumeEvent;
 use super::inbox::{Inbox, Input};
 use super::worker::SceneLoop;
+use crate::awaited::Awaited;
 
-/// Handle of the thread that owns a scene.
+/// Handle of the thread that owns a scene. Dropping it ends the thread and waits for that, at most five
+/// seconds.
 #[derive(Debug)]
 pub struct VolumeWorker {
     inputs: Sender<Input>,
     events: Receiver<VolumeEvent>,
+    _thread: Awaited,
 }
 
 impl VolumeWorker {
@@ -25,7 +27,7 @@ impl VolumeWorker {
     pub fn start(wake: impl Fn() + Send + 'static) -> Self {
         let (inputs, receiver) = channel();
         let (sender, events) = channel();
-        thread::spawn(move || {
+        let thread = Awaited::spawn(move || {
             let send = move |event| {
                 // Sending fails only if the front end has dropped the receiver.
                 let _ = sender.send(event);
@@ -40,7 +42,7 @@ impl VolumeWorker {
                 });
             }
         });
-        Self { inputs, events }
+        Self { inputs, events, _thread: thread }
     }
 
     /// Sends a command. Has no effect after the worker has ended.

@@ -1,0 +1,294 @@
+//! A scan surveyed with a library: all that its maps depend on, ready to be mapped as a whole or shard by
+//! shard, by one process or by many.
+
+use std::ops::{ControlFlow, Range};
+use std::path::Path;
+
+use pigment::PigmentLibrary;
+use pigment::library::Input;
+use serde_json::{Map, Value, json};
+use spectra::hint::{Explain, Fault, Hint};
+
+use crate::blocks::{MapOutcome, MapProgress, PixelCounts, RunError, map_cube, map_shard};
+use crate::book::Book;
+use crate::cube::{Block, Cube, CubeError};
+use crate::groups::Column;
+use crate::map_error::MapError;
+use crate::mapper::Mapper;
+use crate::mapping::OpenBook;
+use crate::noise::ModelError;
+use crate::pixel_maps::BlockMaps;
+use crate::settings::MapSettings;
+use crate::store::{MapStore, MapsAbout, StoreError, StoreMode};
+use crate::survey::SURVEYED;
+
+/// A rectangle of a scan, in rows and columns from 0.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Region {
+    /// Rows.
+    pub rows: Range<usize>,
+    /// Columns.
+    pub columns: Range<usize>,
+}
+
+/// A column of the maps that the survey found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundColumn {
+    /// Pigment or group.
+    pub column: Column,
+    /// Part of the surveyed pixels that hold it, 0 to 1, each pixel with the probability of its sets.
+    pub part: f64,
+}
+
+/// A scan that was surveyed with a library.
+///
+/// ```no_run
+/// use std::ops::ControlFlow;
+///
+/// use maps::{Cube, MapSettings, StoreMode, SurveyedScan};
+/// use pigment::PigmentLibrary;
+///
+/// let oils = PigmentLibrary::van_gogh_oils();
+/// let cube = Cube::open("scan.hdr")?;
+/// let scan = SurveyedScan::survey(cube, &oils, &MapSettings::default(), None, &|| ())?;
+/// for found in scan.palette() {
+///     println!("{:5.1} % {}", 100.0 * found.part, found.column.name);
+/// }
+/// let store = scan.store("maps.zarr", StoreMode::New)?;
+/// scan.map(&store, |_| ControlFlow::Continue(()))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct SurveyedScan {
+    cube: Cube,
+    mapper: Mapper,
+    book: Book,
+    opened: OpenBook,
+    about: MapsAbout,
+}
+
+impl SurveyedScan {
+    /// Surveys `region` of a scan, by default all of it. `progress` is called after each surveyed pixel, from
+    /// any thread.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if the scan cannot be read, or does not fit the library and the settings.
+    pub fn survey(
+        cube: Cube,
+        library: &PigmentLibrary,
+        settings: &MapSettings,
+        region: Option<Region>,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Self, SurveyError> {
+        let mapper = Mapper::new(library, cube.wavelengths_nm(), settings)?;
+        let region = inside(&cube, region)?;
+        let pixels = cube.spread(region.rows.clone(), region.columns.clone(), SURVEYED)?;
+        let book = mapper.survey(&pixels.values, progress)?;
+        Self::of(cube, library, mapper, settings, region, book)
+    }
+
+    /// The scan with the book of an earlier survey.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if the book was made with another library, other wavelengths or other settings.
+    pub fn with_book(
+        cube: Cube,
+        library: &PigmentLibrary,
+        settings: &MapSettings,
+        region: Option<Region>,
+        book: Book,
+    ) -> Result<Self, SurveyError> {
+        let mapper = Mapper::new(library, cube.wavelengths_nm(), settings)?;
+        let region = inside(&cube, region)?;
+        Self::of(cube, library, mapper, settings, region, book)
+    }
+
+    fn of(
+        cube: Cube,
+        library: &PigmentLibrary,
+        mapper: Mapper,
+        settings: &MapSettings,
+        region: Region,
+        book: Book,
+    ) -> Result<Self, SurveyError> {
+        let opened = mapper.open_book(&book)?;
+        let about = MapsAbout {
+            pigments: mapper.columns().iter().map(|column| column.name.clone()).collect(),
+            library_sha256: Input::new("", library.to_json().as_bytes()).sha256,
+            book_sha256: book.sha256()?,
+            scan: cube.sign()?,
+            rows: region.rows,
+            columns: region.columns,
+            settings: told(settings, &mapper),
+        };
+        Ok(Self { cube, mapper, book, opened, about })
+    }
+
+    /// The scan.
+    #[must_use]
+    pub fn cube(&self) -> &Cube {
+        &self.cube
+    }
+
+    /// The library on the wavelengths of the scan.
+    #[must_use]
+    pub fn mapper(&self) -> &Mapper {
+        &self.mapper
+    }
+
+    /// The book of the survey.
+    #[must_use]
+    pub fn book(&self) -> &Book {
+        &self.book
+    }
+
+    /// What the maps will tell about their run.
+    #[must_use]
+    pub fn about(&self) -> &MapsAbout {
+        &self.about
+    }
+
+    /// Pigments and groups that the survey found, the most frequent first.
+    #[must_use]
+    pub fn palette(&self) -> Vec<FoundColumn> {
+        let part = |column: &Column| -> f64 {
+            let holds = |place: &u8| {
+                let name = self.book.pigments.get(usize::from(*place));
+                name.is_some_and(|name| column.pigments.contains(name))
+            };
+            let sets = self.book.sets.iter().filter(|set| set.pigments.iter().any(holds));
+            sets.map(|set| f64::from(set.part)).sum()
+        };
+        let columns = self.mapper.columns().iter();
+        let mut found: Vec<FoundColumn> =
+            columns.map(|c| FoundColumn { column: c.clone(), part: part(c) }).collect();
+        found.sort_by(|a, b| b.part.total_cmp(&a.part));
+        found
+    }
+
+    /// Begins or resumes the maps at `path`.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the folder holds anything else than maps of this run, or cannot be written.
+    pub fn store(&self, path: impl AsRef<Path>, mode: StoreMode) -> Result<MapStore, StoreError> {
+        MapStore::create(path, &self.about, mode)
+    }
+
+    /// Maps one block of pixels.
+    ///
+    /// # Errors
+    /// [`MapError`] if the block has other bands than the scan.
+    pub fn map_block(&self, block: &Block) -> Result<BlockMaps, MapError> {
+        self.mapper.map(&self.opened, &block.values, &block.mask)
+    }
+
+    /// Maps every shard that is not finished, on all cores and in bounded memory. `progress` is called after
+    /// each block; if it breaks, the run ends, and the shard under way is not written.
+    ///
+    /// # Errors
+    /// [`RunError`] if the scan cannot be read or the maps not be written.
+    pub fn map(
+        &self,
+        store: &MapStore,
+        progress: impl FnMut(MapProgress) -> ControlFlow<()>,
+    ) -> Result<MapOutcome, RunError<MapError>> {
+        map_cube(&self.cube, store, |block| self.map_block(block), progress)
+    }
+
+    /// Maps the shard at `place` in the order of the store, unless it is finished. `None` if it was, or if
+    /// `progress`, called after each block with the number of finished pixels, broke.
+    ///
+    /// # Errors
+    /// [`RunError`] if the scan cannot be read or the shard not be written.
+    pub fn map_shard(
+        &self,
+        store: &MapStore,
+        place: usize,
+        progress: impl FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Option<PixelCounts>, RunError<MapError>> {
+        match store.shards().get(place) {
+            Some(shard) if !store.is_finished(shard) => {
+                map_shard(&self.cube, store, shard, |block| self.map_block(block), progress)
+            }
+            _ => Ok(None),
+        }
+    }
+}
+
+/// The region, or all of the cube.
+fn inside(cube: &Cube, region: Option<Region>) -> Result<Region, SurveyError> {
+    let whole = Region { rows: 0..cube.lines(), columns: 0..cube.samples() };
+    let Some(region) = region else { return Ok(whole) };
+    let fits = |part: &Range<usize>, all: &Range<usize>| !part.is_empty() && part.end <= all.end;
+    if fits(&region.rows, &whole.rows) && fits(&region.columns, &whole.columns) {
+        return Ok(region);
+    }
+    Err(SurveyError::Region { region, lines: whole.rows.end, samples: whole.columns.end })
+}
+
+/// Settings as the maps tell them.
+fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
+    let groups: Map<String, Value> = (mapper.columns().iter())
+        .filter(|column| column.pigments.len() > 1)
+        .map(|column| (column.name.clone(), json!(column.pigments)))
+        .collect();
+    let model_error = match settings.model_error {
+        Some(ModelError::Stated(relative)) => json!(relative),
+        Some(_) => json!("left out"),
+        None => json!("library"),
+    };
+    let all = json!({
+        "at_most": settings.at_most,
+        "palette": mapper.pigments(),
+        "groups": groups,
+        "sensor_noise": settings.sensor_noise,
+        "model_error": model_error,
+        "penalty": settings.penalty,
+    });
+    match all {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}
+
+/// A scan that cannot be surveyed.
+#[derive(Debug, thiserror::Error)]
+pub enum SurveyError {
+    /// The scan cannot be read.
+    #[error(transparent)]
+    Cube(#[from] CubeError),
+    /// Scan, library and settings do not fit together.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// The region does not lie within the scan.
+    #[error(
+        "the region {}..{},{}..{} (rows, columns) does not lie within the scan's {lines} x {samples} pixels",
+        region.rows.start, region.rows.end, region.columns.start, region.columns.end
+    )]
+    Region {
+        /// Region that was asked for.
+        region: Region,
+        /// Rows of the scan.
+        lines: usize,
+        /// Columns of the scan.
+        samples: usize,
+    },
+}
+
+impl Explain for SurveyError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Cube(error) => error.hint(),
+            Self::Map(error) => error.hint(),
+            Self::Region { .. } => Some(Hint::new("leave [region] out to map all of the scan")),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Cube(error) => error.fault(),
+            Self::Map(error) => error.fault(),
+            Self::Region { .. } => Fault::Setting,
+        }
+    }
+}
