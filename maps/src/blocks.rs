@@ -34,7 +34,7 @@ impl PixelCounts {
         self.counts.iter().sum()
     }
 
-    fn add(&mut self, masks: &[Mask]) {
+    pub(crate) fn add(&mut self, masks: &[Mask]) {
         for mask in masks {
             self.counts[usize::from(mask.code())] += 1;
         }

@@ -1,5 +1,6 @@
 //! Maps at the size of a screen: means over squares of pixels.
 
+use crate::blocks::PixelCounts;
 use crate::pixel_maps::Mask;
 use crate::store::{StoreError, StoredMaps};
 
@@ -29,8 +30,8 @@ pub struct Overview {
     pub mean_share: Vec<f64>,
     /// Part of the mapped pixels where a pigment is more likely present than not.
     pub present: Vec<f64>,
-    /// Number of mapped pixels.
-    pub mapped: u64,
+    /// Number of pixels by mask.
+    pub pixels: PixelCounts,
 }
 
 /// Sum of the values of each square.
@@ -60,11 +61,13 @@ impl Overview {
             rms: field(),
             counts: vec![0; width * height],
         };
+        let mut pixels = PixelCounts::default();
         let mut present = vec![0_u64; count];
         let mut start = rows.start;
         while start < rows.end {
             let end = (start + ROWS).min(rows.end);
             let block = maps.read(start..end, columns.clone())?;
+            pixels.add(&block.mask);
             for (pixel, mask) in block.mask.iter().enumerate() {
                 if *mask != Mask::Mapped {
                     continue;
@@ -83,7 +86,7 @@ impl Overview {
             }
             start = end;
         }
-        let mapped: u64 = sums.counts.iter().map(|count| u64::from(*count)).sum();
+        let mapped = pixels.of(Mask::Mapped);
         let means = |field: &Vec<f64>| -> Vec<f32> {
             let pairs = field.iter().zip(&sums.counts);
             // No pixel gives 0 / 0, which is NaN.
@@ -101,7 +104,7 @@ impl Overview {
             presence: sums.presence.iter().map(means).collect(),
             chi2: means(&sums.chi2),
             rms: means(&sums.rms),
-            mapped,
+            pixels,
         })
     }
 }

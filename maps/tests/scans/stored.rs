@@ -115,7 +115,8 @@ fn an_overview_holds_the_means_of_squares() {
     );
     assert!((overview.chi2[square] - chi2 / count).abs() < 1e-3, "{}", overview.chi2[square]);
     let mapped = all.mask.iter().filter(|mask| **mask == Mask::Mapped).count() as u64;
-    assert_eq!(overview.mapped, mapped);
+    assert_eq!(overview.pixels.of(Mask::Mapped), mapped);
+    assert_eq!(overview.pixels.all(), (ROWS * COLUMNS) as u64);
     assert!((overview.mean_share.iter().sum::<f64>() - 1.0).abs() < 1e-3, "shares add up to 1");
     assert_eq!(overview.present[2], 0.0, "a pigment that is nowhere");
 
@@ -147,7 +148,7 @@ fn squares_without_a_mapped_pixel_have_no_value() {
     let overview = Overview::of(&StoredMaps::open(store.path()).unwrap(), 2).unwrap();
     assert_eq!(overview.share[0][0], 1.0);
     assert!(overview.share[0][1..].iter().all(|value| value.is_nan()), "{overview:?}");
-    assert_eq!((overview.present[0], overview.mapped), (1.0, 4));
+    assert_eq!((overview.present[0], overview.pixels.of(Mask::TooDark)), (1.0, 12));
     let png = picture_png(&overview.chi2, (2, 2), &Ramp::of_ink([0; 3])).unwrap();
     assert!(png.starts_with(b"\x89PNG"));
 }
