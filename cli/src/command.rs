@@ -99,9 +99,10 @@ fn collect(command: &Command, pages: &mut Vec<(String, Vec<u8>)>) -> Result<()> 
 }
 
 /// Verbs by what they are for, in the order of the work.
-const GROUPS: [(&str, &[&str]); 4] = [
+const GROUPS: [(&str, &[&str]); 5] = [
     ("Measure and calibrate", &["plan", "color", "light", "fit", "validate", "report"]),
     ("Mix and match", &["mix", "match", "correct", "library", "quadrature"]),
+    ("Map a scan", &["map"]),
     ("Paint", &["paint", "relight", "watercolor", "artmap", "painterly", "stencil"]),
     ("The program", &["demo", "gpu", "help"]),
 ];

@@ -3,7 +3,7 @@
 use clap::Command;
 
 /// Verbs, by their words, and commands that show them.
-const EXAMPLES: [(&str, &[&str]); 32] = [
+const EXAMPLES: [(&str, &[&str]); 33] = [
     (
         "fit",
         &[
@@ -32,6 +32,14 @@ const EXAMPLES: [(&str, &[&str]); 32] = [
             "impasto color measurements/van-gogh-oils.csv --illuminant FL11 --observer 10",
             "impasto color swatch.txt --white-reading white.txt --dark-reading dark.txt --tile 0.98",
             "cat spectra.csv | impasto color - --csv",
+        ],
+    ),
+    (
+        "map",
+        &[
+            "impasto map scan.hdr oils.json -o maps.zarr --pictures maps",
+            "impasto map scan.hdr oils.json --palette \"Lead White\" --palette Ultramarine --json",
+            "impasto map capture.hdr -o maps.zarr --white-reading white.hdr --dark-reading dark.hdr --resume",
         ],
     ),
     ("light", &["impasto light A FL11 LED-B3", "impasto light lamp.spdx --samples"]),

@@ -38,6 +38,8 @@ mod plan;
 
 mod report;
 
+mod map;
+
 mod demo;
 
 mod paint_photograph;
@@ -75,6 +77,7 @@ pub(crate) enum Verb {
     Library(library::Library),
     Plan(plan::Plan),
     Report(report::Report),
+    Map(Box<map::Map>),
     Demo(demo::Demo),
     Paint(Box<paint::Paint>),
     Relight(Box<relight::Relight>),
@@ -99,6 +102,7 @@ impl Verb {
             Self::Library(verb) => verb.run(console),
             Self::Plan(verb) => verb.run(console),
             Self::Report(verb) => verb.run(console),
+            Self::Map(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
             Self::Paint(verb) => verb.run(console),
             Self::Relight(verb) => verb.run(console),

@@ -1,0 +1,107 @@
+//! Text, JSON and CSV of a survey and its maps.
+
+use maps::pictures::Overview;
+use maps::pixel_maps::Mask;
+use maps::{FoundColumn, SurveyedScan};
+use serde_json::{Map, Value, json};
+
+use crate::console::Console;
+use crate::failure::Result;
+
+/// Part of the surveyed pixels below which a pigment is not named in the text.
+const NAMED: f64 = 0.001;
+
+/// One row for each pigment or group, the most frequent first.
+pub(super) fn rows(scan: &SurveyedScan, mapped: Option<&Overview>) -> Vec<Value> {
+    let row = |found: &FoundColumn| {
+        let mut row = json!({
+            "pigment": found.column.name,
+            "survey_part": found.part,
+        });
+        if let Some((overview, place)) = place(found, mapped) {
+            row["present"] = json!(overview.present[place]);
+            row["mean_share"] = json!(overview.mean_share[place]);
+        }
+        row
+    };
+    scan.palette().iter().map(row).collect()
+}
+
+/// Place of a pigment in the maps.
+fn place<'a>(found: &FoundColumn, mapped: Option<&'a Overview>) -> Option<(&'a Overview, usize)> {
+    let overview = mapped?;
+    let place = overview.pigments.iter().position(|name| *name == found.column.name)?;
+    Some((overview, place))
+}
+
+pub(super) fn json(scan: &SurveyedScan, mapped: Option<&Overview>) -> Value {
+    let about = scan.about();
+    let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
+    let groups: Map<String, Value> =
+        grouped.map(|column| (column.name.clone(), json!(column.pigments))).collect();
+    let pixels = mapped.map(|overview| {
+        let each = Mask::ALL.iter().map(|mask| (mask.name(), json!(overview.pixels.of(*mask))));
+        each.map(|(name, count)| (name.to_owned(), count)).collect::<Map<String, Value>>()
+    });
+    json!({
+        "scan": {
+            "lines": scan.cube().lines(),
+            "samples": scan.cube().samples(),
+            "wavelengths_nm": scan.cube().wavelengths_nm(),
+            "sign": about.scan,
+        },
+        "library_sha256": about.library_sha256,
+        "survey_sha256": about.book_sha256,
+        "settings": about.settings,
+        "effective_bands": scan.mapper().effective_bands(),
+        "usual_chi2": scan.book().usual_chi2,
+        "groups": groups,
+        "palette": rows(scan, mapped),
+        "pixels": pixels,
+    })
+}
+
+pub(super) fn print(
+    scan: &SurveyedScan,
+    mapped: Option<&Overview>,
+    console: &mut Console<'_>,
+) -> Result<()> {
+    let cube = scan.cube();
+    let [first, last] = [cube.wavelengths_nm().first(), cube.wavelengths_nm().last()];
+    console.line(format!(
+        "{} x {} pixels, {} from {} to {} nm; {} searched",
+        cube.lines(),
+        cube.samples(),
+        spectra::counted(cube.wavelengths_nm().len(), "band"),
+        first.copied().unwrap_or_default(),
+        last.copied().unwrap_or_default(),
+        spectra::counted(scan.book().entries.len(), "pixel"),
+    ))?;
+    for column in scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1) {
+        let alike = column.pigments.join(", ");
+        console.line(format!("mapped as one: {alike}"))?;
+    }
+    let palette = scan.palette();
+    let named: Vec<&FoundColumn> = palette.iter().filter(|found| found.part >= NAMED).collect();
+    let width = named.iter().map(|found| found.column.name.chars().count()).max().unwrap_or(0);
+    let width = width.max("pigment".len());
+    let headings = if mapped.is_some() { "  survey  present  mean share" } else { "  survey" };
+    console.line(format!("{:width$}{headings}", "pigment"))?;
+    for found in named {
+        let mut line = format!("{:width$}  {:4.1} %", found.column.name, 100.0 * found.part);
+        if let Some((overview, place)) = place(found, mapped) {
+            let [present, share] = [overview.present[place], overview.mean_share[place]];
+            line += &format!("   {:4.1} %      {:4.1} %", 100.0 * present, 100.0 * share);
+        }
+        console.line(line)?;
+    }
+    let Some(overview) = mapped else { return Ok(()) };
+    for mask in Mask::ALL.into_iter().filter(|mask| *mask != Mask::Mapped) {
+        let count = overview.pixels.of(mask);
+        if count > 0 {
+            let all = overview.pixels.all();
+            console.line(format!("not mapped: {count} of {all} pixels, {}", mask.name()))?;
+        }
+    }
+    Ok(())
+}
