@@ -111,7 +111,8 @@ impl Films {
                 k += share * self.absorption[pigment * self.rows + band];
                 s += share * self.scattering[pigment * self.rows + band];
             }
-            internal[band] = (s / (k + s + (k * (k + 2.0 * s)).sqrt())).clamp(INTERNAL[0], INTERNAL[1]);
+            internal[band] =
+                (s / (k + s + (k * (k + 2.0 * s)).sqrt())).clamp(INTERNAL[0], INTERNAL[1]);
             inverse[band] = 1.0 / s;
         }
         (internal, inverse)
@@ -129,12 +130,7 @@ impl Films {
 
     /// Products of all pigments' rows, which are 0 in sum at the shares of a film like `pixel`, linearised
     /// with secants to the film of internal reflectance and 1/S `about`.
-    pub(crate) fn products(
-        &self,
-        pixel: &Pixel,
-        about: (&Spectrum, &Spectrum),
-        work: &mut Work,
-    ) {
+    pub(crate) fn products(&self, pixel: &Pixel, about: (&Spectrum, &Spectrum), work: &mut Work) {
         self.arch.dispatch(Products { films: self, pixel, about, work });
     }
 }
@@ -193,13 +189,13 @@ impl<const N: usize> WithSimd for Compare<'_, N> {
             }
             let measured: [f32; LANES] =
                 std::array::from_fn(|lane| pixel.measured[start..start + LANES][lane]);
-            let (mut over_k, mut over_s, mut rest) = ([0.0f32; LANES], [0.0f32; LANES], [0.0f32; LANES]);
+            let (mut over_k, mut over_s, mut rest) =
+                ([0.0f32; LANES], [0.0f32; LANES], [0.0f32; LANES]);
             for lane in 0..LANES {
                 let (k, s) = (k[lane], s[lane]);
                 let inside = s / (k + s + (k * (k + 2.0 * s)).sqrt());
                 let out = 1.0 / (1.0 - films.k2 * inside);
-                let slope =
-                    -films.through * out * out * inside * (1.0 - inside) / (1.0 + inside);
+                let slope = -films.through * out * out * inside * (1.0 - inside) / (1.0 + inside);
                 rest[lane] = measured[lane] - (films.floor + films.through * inside * out);
                 over_k[lane] = slope / k;
                 over_s[lane] = slope / s;

@@ -40,7 +40,8 @@ pub fn left_out(
     };
     let set = &prepared.set;
     let below = prepared.settings.below_surface;
-    let all = observations(set, surface, below).map_err(calibrate::calibration::CalibrationError::from)?;
+    let all = observations(set, surface, below)
+        .map_err(calibrate::calibration::CalibrationError::from)?;
     let candidates: Vec<usize> = (0..all.len())
         .filter(|&index| all[index].shares.iter().filter(|share| **share > 0.0).count() > 1)
         .collect();

@@ -74,7 +74,8 @@ impl Nearest {
             return;
         }
         let offset = point[dimension] - value;
-        let (near, far) = if offset < 0.0 { (node + 1, above as usize) } else { (above as usize, node + 1) };
+        let (near, far) =
+            if offset < 0.0 { (node + 1, above as usize) } else { (above as usize, node + 1) };
         self.visit(near, point, outside, offsets, best);
         let before = offsets[dimension];
         let beyond = outside - before * before + offset * offset;
@@ -100,9 +101,8 @@ fn split(list: &[Point], order: &mut [u32], start: usize, nodes: &mut Vec<Node>)
     nodes.push(Node { first: range.0, last: range.1, dimension: leaf, value: 0.0, above: 0 });
     let spread = |dimension: usize| {
         let values = order.iter().map(|&place| list[place as usize][dimension]);
-        let ends = values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
+        let ends = values
+            .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         ends.1 - ends.0
     };
     let wider = |a: usize, b: usize| if spread(b) > spread(a) { b } else { a };
@@ -135,7 +135,8 @@ mod tests {
     #[test]
     fn the_tree_finds_what_a_search_of_all_points_finds() {
         let mut random = ChaCha8Rng::seed_from_u64(5);
-        let mut point = || -> Point { std::array::from_fn(|i| random.random::<f32>() / (1 + i) as f32) };
+        let mut point =
+            || -> Point { std::array::from_fn(|i| random.random::<f32>() / (1 + i) as f32) };
         let mut list: Vec<Point> = (0..3000).map(|_| point()).collect();
         list.extend_from_slice(&list.clone()[..50]);
         let tree = Nearest::new(&list);

@@ -88,13 +88,7 @@ impl Engine {
 
     /// Searches all sets, beginning at the film `place` of the table. The sets are left in `scratch.found`,
     /// the best first.
-    pub(crate) fn search(
-        &self,
-        pixel: &Pixel,
-        place: usize,
-        prior: &Prior,
-        scratch: &mut Scratch,
-    ) {
+    pub(crate) fn search(&self, pixel: &Pixel, place: usize, prior: &Prior, scratch: &mut Scratch) {
         scratch.found.clear();
         let (internal, inverse) = self.table.film(place);
         self.films.products(pixel, (internal, inverse), &mut scratch.work);
@@ -124,13 +118,9 @@ impl Engine {
     }
 
     /// Sorts sets, and refines the best ones until they stay the best.
-    pub(crate) fn sort(
-        &self,
-        pixel: &Pixel,
-        prior: &Prior,
-        found: &mut [SetFit],
-    ) {
-        let order = |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
+    pub(crate) fn sort(&self, pixel: &Pixel, prior: &Prior, found: &mut [SetFit]) {
+        let order =
+            |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
         best.refine(&self.films, pixel, STEPS[1]);
@@ -151,13 +141,7 @@ impl Engine {
         set
     }
 
-    fn add_refined(
-        &self,
-        pixel: &Pixel,
-        index: usize,
-        prior: &Prior,
-        scratch: &mut Scratch,
-    ) {
+    fn add_refined(&self, pixel: &Pixel, index: usize, prior: &Prior, scratch: &mut Scratch) {
         let set = scratch.shortlist[index];
         let set = self.refined(pixel, set, STEPS[0], prior);
         scratch.found.push(set);
@@ -167,11 +151,8 @@ impl Engine {
     fn shortlist(&self, prior: &Prior, scratch: &mut Scratch) {
         let Scratch { work, by_size, shortlist, .. } = scratch;
         let count = self.films.pigments;
-        let quadratic = Quadratic {
-            products: &work.products,
-            columns: self.films.columns,
-            sizes: &work.sizes,
-        };
+        let quadratic =
+            Quadratic { products: &work.products, columns: self.films.columns, sizes: &work.sizes };
         by_size.iter_mut().for_each(Vec::clear);
         let [singles, pairs, triples, fours] = by_size;
         for a in 0..count {
@@ -210,7 +191,8 @@ impl Engine {
             let score = self.score(set.chi2, set.len()) + prior.of(set.key());
             shortlist.push(SetFit { score, ..*set });
         }
-        let order = |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
+        let order =
+            |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         shortlist.sort_unstable_by(order);
     }
 }
@@ -234,23 +216,44 @@ fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::MapSettings;
     use crate::prepared::Prepared;
+    use crate::settings::MapSettings;
 
     #[test]
     fn probe() {
         let oils = pigment::PigmentLibrary::van_gogh_oils();
         let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
-        let prepared = Prepared::new(&oils, &nm, &MapSettings { model_error: Some(crate::noise::ModelError::Stated(0.1)), ..MapSettings::default() }).unwrap();
+        let prepared = Prepared::new(
+            &oils,
+            &nm,
+            &MapSettings {
+                model_error: Some(crate::noise::ModelError::Stated(0.1)),
+                ..MapSettings::default()
+            },
+        )
+        .unwrap();
         let engine = &prepared.engine;
         let mut scratch = Scratch::new(&engine.films);
-        for truth in [vec![(1, 0.8), (10, 0.2)], vec![(1, 0.5), (4, 0.1), (10, 0.4)], vec![(0, 0.3), (1, 0.7)], vec![(3,0.95),(4,0.05)]] {
-            let spectrum: Vec<f32> = prepared.paints.reflectance(&truth).iter().map(|r| *r as f32).collect();
+        for truth in [
+            vec![(1, 0.8), (10, 0.2)],
+            vec![(1, 0.5), (4, 0.1), (10, 0.4)],
+            vec![(0, 0.3), (1, 0.7)],
+            vec![(3, 0.95), (4, 0.05)],
+        ] {
+            let spectrum: Vec<f32> =
+                prepared.paints.reflectance(&truth).iter().map(|r| *r as f32).collect();
             let folded = prepared.fold(&spectrum).unwrap();
             let place = engine.table.nearest(&folded.point);
             println!("truth {truth:?} nearest {:?}", engine.table.recipes[place]);
             engine.search(&folded.pixel, place, &Prior::default(), &mut scratch);
-            for set in scratch.found.iter().take(4) { println!("   {:?} chi2 {} score {}", set.parts().collect::<Vec<_>>(), set.chi2, set.score); }
+            for set in scratch.found.iter().take(4) {
+                println!(
+                    "   {:?} chi2 {} score {}",
+                    set.parts().collect::<Vec<_>>(),
+                    set.chi2,
+                    set.score
+                );
+            }
         }
     }
 }

@@ -70,23 +70,14 @@ impl SetFit {
         }
     }
 
-    fn difference_of<const N: usize>(
-        &self,
-        films: &Films,
-        pixel: &Pixel,
-    ) -> Difference {
+    fn difference_of<const N: usize>(&self, films: &Films, pixel: &Pixel) -> Difference {
         let members: [usize; N] = std::array::from_fn(|i| usize::from(self.members[i]));
         films.difference(pixel, members, std::array::from_fn(|i| self.shares[i]))
     }
 
     /// Moves the shares towards the least chi-square in measured reflectance by `steps` Gauss-Newton steps,
     /// and returns the difference at the best shares that were met.
-    pub(crate) fn refine(
-        &mut self,
-        films: &Films,
-        pixel: &Pixel,
-        steps: usize,
-    ) -> Difference {
+    pub(crate) fn refine(&mut self, films: &Films, pixel: &Pixel, steps: usize) -> Difference {
         let mut found = self.difference(films, pixel);
         self.chi2 = found.chi2;
         if self.count == 1 {
@@ -132,10 +123,7 @@ impl SetFit {
     }
 
     /// Variances and covariances of the shares, from the curvature of chi-square on the simplex.
-    pub(crate) fn covariance(
-        &self,
-        difference: &Difference,
-    ) -> [[f64; MOST_IN_SET]; MOST_IN_SET] {
+    pub(crate) fn covariance(&self, difference: &Difference) -> [[f64; MOST_IN_SET]; MOST_IN_SET] {
         let count = self.len();
         let mut covariance = [[0.0; MOST_IN_SET]; MOST_IN_SET];
         if count == 1 {

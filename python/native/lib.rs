@@ -29,11 +29,17 @@ mod quadrature;
 
 mod report;
 
+mod cube;
+
+mod survey;
+
 /// The native part of the package `impasto`.
 #[pymodule]
 mod _native {
     #[pymodule_export]
     use crate::color::{delta_e, rgb, xyz};
+    #[pymodule_export]
+    use crate::cube::Cube;
     #[pymodule_export]
     use crate::fitting::{Fit, Validation, fit, validate};
     #[pymodule_export]
@@ -50,6 +56,8 @@ mod _native {
     use crate::readings::Readings;
     #[pymodule_export]
     use crate::report::report;
+    #[pymodule_export]
+    use crate::survey::Survey;
 
     /// Version of the libraries, which is that of the package.
     #[pymodule_export]

@@ -245,7 +245,12 @@ fn report(times: &[[f64; 2]], seconds: f64) {
     };
     let told = |name: &str, values: Vec<f64>| {
         let at = |share: f64| 1e3 * values[(share * (values.len() - 1) as f64) as usize];
-        println!("{name}: median {:.1} ms, 95 % {:.1} ms, worst {:.1} ms", at(0.5), at(0.95), at(1.0));
+        println!(
+            "{name}: median {:.1} ms, 95 % {:.1} ms, worst {:.1} ms",
+            at(0.5),
+            at(0.95),
+            at(1.0)
+        );
     };
     println!("{:.0} frames/s", times.len() as f64 / seconds);
     told("interface", sorted(&|[step, _]| *step));

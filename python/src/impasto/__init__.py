@@ -6,10 +6,12 @@ pigments are parts, of which only the ratios count, unless a library holds absol
 
 from impasto import color
 from impasto._native import __version__
+from impasto.cube import Cube
 from impasto.errors import Error, FileError, FindingWarning, FitError, ReadingError, RecipeError
 from impasto.fitting import Fit, Surface, Validation, fit, validate
 from impasto.library import Library, Pigment
 from impasto.light import Light
+from impasto.maps import PigmentMaps, Survey, pigment_map, survey
 from impasto.matching import Match, Recipe
 from impasto.planning import Plan, plan
 from impasto.quadrature import Quadrature
@@ -18,6 +20,7 @@ from impasto.reporting import Report, report
 from impasto.spectrum import Spectrum
 
 __all__ = [
+    "Cube",
     "Error",
     "FileError",
     "FindingWarning",
@@ -27,6 +30,7 @@ __all__ = [
     "Light",
     "Match",
     "Pigment",
+    "PigmentMaps",
     "Plan",
     "Quadrature",
     "ReadingError",
@@ -36,12 +40,15 @@ __all__ = [
     "Report",
     "Spectrum",
     "Surface",
+    "Survey",
     "Validation",
     "__version__",
     "color",
     "fit",
+    "pigment_map",
     "plan",
     "read",
     "report",
+    "survey",
     "validate",
 ]

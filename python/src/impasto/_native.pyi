@@ -4,6 +4,9 @@ import os
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from impasto.spectrum import Floats
 
 __version__: str
@@ -141,3 +144,31 @@ def report(
     validate: bool,
     progress: Progress,
 ) -> list[tuple[str, bytes]]: ...
+
+class Cube:
+    @staticmethod
+    def open(path: Path, options: dict[str, Any]) -> Cube: ...
+    @property
+    def shape(self) -> tuple[int, int, int]: ...
+    @property
+    def wavelengths(self) -> Floats: ...
+    @property
+    def remarks(self) -> list[str]: ...
+    def read(
+        self, rows: tuple[int, int], columns: tuple[int, int]
+    ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]: ...
+
+class Survey:
+    def __new__(
+        cls,
+        cube: Cube,
+        library: Library,
+        settings: dict[str, Any],
+        book: str | None,
+        progress: Progress,
+    ) -> Survey: ...
+    def book(self) -> str: ...
+    def about(self) -> str: ...
+    def begin(self, path: Path, resume: bool) -> list[bool]: ...
+    def map(self, path: Path, progress: Progress) -> None: ...
+    def map_shard(self, path: Path, place: int) -> int: ...

@@ -123,26 +123,27 @@ class Library:
 
     def mix(
         self,
-        parts: Mapping[str, float] | ArrayLike,
+        parts: Mapping[str, float] | Sequence[Mapping[str, float]] | ArrayLike,
         *,
         thickness: float | None = None,
         over: float | str | Spectrum | None = None,
     ) -> Spectrum:
-        """Reflectance of mixtures: of one recipe by names, or of rows of parts, (N,) or (M, N) in the
-        order of `names`, all in one call.
+        """Reflectance of mixtures: of one recipe or several by names, or of rows of parts, (N,) or (M, N) in
+        the order of `names`, all in one call.
 
         A library of relative parts gives films that hide, or of `thickness` over the ground `over`: a
         reflectance from 0 to 1, `"white"`, `"black"` or a `Spectrum`. Thickness 1 is that at which the
         reference white has S d = 1; of absolute amounts it is the recipe as given.
         """
-        if isinstance(parts, Mapping):
-            row = np.zeros(len(self))
-            for name, part in parts.items():
-                row[self._native.find(name)] += part
-            rows, single = row[None], True
-            names: tuple[str, ...] = (" + ".join(f"{part:g} {n}" for n, part in parts.items()),)
+        named = [parts] if isinstance(parts, Mapping) else parts
+        if isinstance(named, (list, tuple)) and named and isinstance(named[0], Mapping):
+            rows, single = np.zeros((len(named), len(self))), isinstance(parts, Mapping)
+            for row, recipe in zip(rows, named):
+                for name, part in recipe.items():
+                    row[self._native.find(name)] += part
+            names = tuple(" + ".join(f"{part:g} {n}" for n, part in r.items()) for r in named)
         else:
-            array = floats(parts, "parts", (1, 2))
+            array = floats(named, "parts", (1, 2))  # type: ignore[arg-type]
             rows, single, names = np.atleast_2d(array), array.ndim == 1, ()
         if rows.shape[1] != len(self):
             raise Error(

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use calibrate::PigmentLibrary;
 use image::imageops::FilterType;
 use suite::program::{impasto, repository};
 
@@ -33,7 +34,8 @@ pub(crate) fn prepare(folder: &Path, page: &str) {
     if page.contains("impasto painterly") {
         brushwork(folder);
     }
-    landscape(folder);
+    coarse_scripts(folder);
+    scan(folder);
     std::fs::copy(folder.join(oils), folder.join("batch2.json")).unwrap();
     std::fs::write(folder.join("path.toml"), CAMERA).unwrap();
     std::fs::write(folder.join("spectra.csv"), SPECTRA).unwrap();
@@ -60,13 +62,31 @@ fn brushwork(folder: &Path) {
     run(&["artmap", "build", "small.exr", "--size", "64", "-o", MAP]);
 }
 
-/// The script of the landscape on a coarse canvas.
-fn landscape(folder: &Path) {
-    let file = "paintings/landscape.json";
-    let text = std::fs::read_to_string(repository(file)).unwrap();
-    let mut script: serde_json::Value = serde_json::from_str(&text).unwrap();
-    script["canvas"]["cell_mm"] = 1.0.into();
-    std::fs::write(folder.join(file), script.to_string()).unwrap();
+/// Scripts of paintings on coarse canvases.
+fn coarse_scripts(folder: &Path) {
+    for file in ["paintings/landscape.json", "paintings/colour-study.json"] {
+        let text = std::fs::read_to_string(repository(file)).unwrap();
+        let mut script: serde_json::Value = serde_json::from_str(&text).unwrap();
+        script["canvas"]["cell_mm"] = 1.0.into();
+        std::fs::write(folder.join(file), script.to_string()).unwrap();
+    }
+}
+
+/// A scan of eight pixels of one green.
+fn scan(folder: &Path) {
+    let oils = PigmentLibrary::van_gogh_oils();
+    let recipe = oils.recipe([("Lead White", 4.0), ("Viridian", 1.0)]).unwrap();
+    let green = oils.mix(recipe).unwrap().hiding(oils.saunderson);
+    let pixel: Vec<u8> = green.iter().flat_map(|value| (*value as f32).to_le_bytes()).collect();
+    std::fs::write(folder.join("scan.bip"), pixel.repeat(8)).unwrap();
+    let nm: Vec<String> = oils.grid.wavelengths_nm().map(|nm| nm.to_string()).collect();
+    let header = format!(
+        "ENVI\nsamples = 4\nlines = 2\nbands = {}\ndata type = 4\ninterleave = bip\n\
+         byte order = 0\nwavelength units = Nanometers\nwavelength = {{{}}}\n",
+        nm.len(),
+        nm.join(", ")
+    );
+    std::fs::write(folder.join("scan.hdr"), header).unwrap();
 }
 
 const CAMERA: &str = "\

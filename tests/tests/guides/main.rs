@@ -14,11 +14,12 @@ use suite::guides::{Command, commands};
 use suite::program::{impasto, repository};
 
 /// Pages, in the order in which a reader meets them.
-const PAGES: [&str; 9] = [
+const PAGES: [&str; 10] = [
     "README.md",
     "docs/guide/command-line.md",
     "docs/guide/fitting.md",
     "docs/guide/matching.md",
+    "docs/guide/maps.md",
     "docs/guide/painting.md",
     "docs/guide/watercolor.md",
     "docs/guide/painterly.md",
@@ -27,8 +28,8 @@ const PAGES: [&str; 9] = [
 ];
 
 /// Programs whose commands are not run here: those of Rust have tests of their own, the studio needs a
-/// display, and folders are the reader's.
-const OTHERS: [&str; 4] = ["cargo", "IMPASTO_TURNTABLE=1", "impasto-studio", "mkdir"];
+/// display, the package of Python is tested with it, and folders are the reader's.
+const OTHERS: [&str; 5] = ["cargo", "IMPASTO_TURNTABLE=1", "impasto-studio", "mkdir", "pip"];
 
 /// Verbs, words that the command holds, and options that make its work small.
 const SMALL: [(&str, &[&str], &[&str]); 8] = [

@@ -192,9 +192,9 @@ fn region(text: &str) -> Result<Region> {
         let (first, end) = part.split_once("..")?;
         Some(first.trim().parse().ok()?..end.trim().parse().ok()?)
     };
-    let found = text.split_once(',').and_then(|(rows, columns)| {
-        Some(Region { rows: range(rows)?, columns: range(columns)? })
-    });
+    let found = text
+        .split_once(',')
+        .and_then(|(rows, columns)| Some(Region { rows: range(rows)?, columns: range(columns)? }));
     found.ok_or_else(|| {
         Failure::usage(
             format!("--region takes rows and columns, found `{text}`"),

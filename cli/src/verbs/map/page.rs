@@ -66,7 +66,8 @@ fn ink(library: &PigmentLibrary, scan: &SurveyedScan, column: &str) -> [u8; 3] {
 
 /// A name with letters and digits alone, for a file.
 fn file_name(name: &str) -> String {
-    let kept = name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
+    let kept =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
     let text: String = kept.collect();
     text.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
 }
@@ -83,7 +84,9 @@ fn page(scan: &SurveyedScan, overview: &Overview, cells: &str) -> String {
         .collect();
     let groups = match groups.is_empty() {
         true => "<p>The bands of the scan can tell all of these pigments apart.</p>".to_owned(),
-        false => format!("<p>Mapped as one, since the bands cannot tell them apart:</p><ul>{groups}</ul>"),
+        false => format!(
+            "<p>Mapped as one, since the bands cannot tell them apart:</p><ul>{groups}</ul>"
+        ),
     };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\

@@ -1,0 +1,148 @@
+//! Surveys of scans, and their maps.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use maps::{Book, MapSettings, ModelError, PigmentGroup, Region, StoreMode, SurveyedScan};
+use pyo3::prelude::*;
+use serde_json::{Map, Value, json};
+
+use crate::cube::Cube;
+use crate::failure::{Exception, Raised};
+use crate::library::Library;
+use crate::running::run;
+
+/// Settings of a map, as the public face passes them.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Settings {
+    at_most: usize,
+    palette: Vec<String>,
+    groups: Vec<(String, Vec<String>)>,
+    group_alike: bool,
+    noise: Option<f64>,
+    model_error: Option<f64>,
+    penalty: f64,
+    region: Option<((usize, usize), (usize, usize))>,
+}
+
+impl Settings {
+    fn settings(self, white_sd: Option<f64>) -> (MapSettings, Option<Region>) {
+        let usual = MapSettings::default();
+        let group = |(name, pigments)| PigmentGroup { name, pigments };
+        let settings = MapSettings {
+            at_most: self.at_most,
+            palette: self.palette,
+            groups: self.groups.into_iter().map(group).collect(),
+            group_alike: self.group_alike,
+            sensor_noise: self.noise.or(white_sd).unwrap_or(usual.sensor_noise),
+            model_error: self.model_error.map(ModelError::Stated),
+            penalty: self.penalty,
+        };
+        let region = self.region.map(|(rows, columns)| Region {
+            rows: rows.0..rows.1,
+            columns: columns.0..columns.1,
+        });
+        (settings, region)
+    }
+}
+
+/// A scan that was surveyed with a library.
+#[pyclass(frozen, module = "impasto._native")]
+pub(crate) struct Survey(Arc<SurveyedScan>);
+
+#[pymethods]
+impl Survey {
+    /// Surveys a scan, or takes the `book` of an earlier survey (JSON).
+    #[new]
+    #[pyo3(signature = (cube, library, settings, book, progress))]
+    fn new(
+        py: Python<'_>,
+        cube: &Cube,
+        library: &Library,
+        settings: Settings,
+        book: Option<String>,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let (settings, region) = settings.settings(cube.white_sd());
+        let cube = py.detach(|| cube.again()).raised(py, Exception::Reading)?;
+        let book = book.map(|text| Book::from_json(&text)).transpose();
+        let book = book.raised(py, Exception::Reading)?;
+        let library = library.0.clone();
+        let surveyed = run(py, progress, move |reporter| match book {
+            Some(book) => SurveyedScan::with_book(cube, &library, &settings, region, book),
+            None => {
+                SurveyedScan::survey(cube, &library, &settings, region, &|| reporter.tell("pixel"))
+            }
+        })?;
+        surveyed.map(|scan| Self(Arc::new(scan))).raised(py, Exception::Fit)
+    }
+
+    /// The book of the survey as JSON.
+    fn book(&self, py: Python<'_>) -> PyResult<String> {
+        self.0.book().to_json().raised(py, Exception::Other)
+    }
+
+    /// Palette, groups, hashes and settings as JSON, with the keys of `impasto map --json`.
+    fn about(&self) -> String {
+        let scan = &self.0;
+        let palette = scan.palette().into_iter().map(
+            |found| json!({ "pigment": found.column.name, "survey_part": found.part }),
+        );
+        let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
+        let groups = grouped.map(|column| (column.name.clone(), json!(column.pigments)));
+        let about = scan.about();
+        json!({
+            "library_sha256": about.library_sha256,
+            "survey_sha256": about.book_sha256,
+            "scan": about.scan,
+            "settings": about.settings,
+            "pigments": about.pigments,
+            "effective_bands": scan.mapper().effective_bands(),
+            "usual_chi2": scan.book().usual_chi2,
+            "groups": groups.collect::<Map<String, Value>>(),
+            "palette": palette.collect::<Vec<Value>>(),
+        })
+        .to_string()
+    }
+
+    /// Begins or resumes the maps at `path`, and returns for each shard whether it is finished.
+    fn begin(&self, py: Python<'_>, path: PathBuf, resume: bool) -> PyResult<Vec<bool>> {
+        let mode = if resume { StoreMode::Resume } else { StoreMode::New };
+        let store = py.detach(|| self.0.store(path, mode)).raised(py, Exception::Other)?;
+        Ok(store.shards().iter().map(|shard| store.is_finished(shard)).collect())
+    }
+
+    /// Maps all shards of the maps at `path` that are not finished, on all cores.
+    fn map(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let scan = Arc::clone(&self.0);
+        let store = py.detach(|| scan.store(path, StoreMode::Resume));
+        let store = store.raised(py, Exception::Other)?;
+        let mapped = run(py, progress, move |reporter| {
+            scan.map(&store, |state| {
+                reporter.tell(format!("{} of {} pixels", state.done, state.all));
+                if reporter.given_up() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            })
+        })?;
+        mapped.raised(py, Exception::Other).map(drop)
+    }
+
+    /// Maps one shard of the maps at `path`, and returns the number of its pixels; 0 if it was finished.
+    fn map_shard(&self, py: Python<'_>, path: PathBuf, place: usize) -> PyResult<u64> {
+        let scan = Arc::clone(&self.0);
+        let store = py.detach(|| scan.store(path, StoreMode::Resume));
+        let store = store.raised(py, Exception::Other)?;
+        let mapped = run(py, None, move |reporter| {
+            scan.map_shard(&store, place, |_| {
+                if reporter.given_up() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            })
+        })?;
+        Ok(mapped.raised(py, Exception::Other)?.map_or(0, |counts| counts.all()))
+    }
+}

@@ -1,0 +1,230 @@
+"""Which pigments of a library are where in a scan, how much, and how sure."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from impasto import _native
+from impasto.cube import Cube
+from impasto.display import listed, table
+from impasto.errors import Error
+from impasto.library import Library
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from distributed import Client
+
+TASKS_A_WORKER = 4
+"""Shards that wait for each worker, so that none is idle and a large scan needs little of the scheduler."""
+
+
+class Survey:
+    """About 20,000 pixels of a scan, searched whole: the palette found, and all that maps depend on."""
+
+    def __init__(
+        self, native: _native.Survey, cube: Cube, library: Library, settings: dict[str, Any]
+    ) -> None:
+        self._native = native
+        self.cube = cube
+        """The scan."""
+        self.library = library
+        """The library."""
+        self._settings = settings
+        self.about: dict[str, Any] = json.loads(native.about())
+        """Palette, groups, hashes and settings, with the keys of `impasto map --json`."""
+
+    @property
+    def palette(self) -> dict[str, float]:
+        """Pigments and groups with the part of the surveyed pixels that hold them, the greatest first."""
+        return {found["pigment"]: found["survey_part"] for found in self.about["palette"]}
+
+    @property
+    def groups(self) -> dict[str, list[str]]:
+        """Pigments that are mapped as one, by the name of the group."""
+        result: dict[str, list[str]] = self.about["groups"]
+        return result
+
+    def to_json(self) -> str:
+        """The survey as JSON, for `survey(.., book=)` and `impasto map --survey`."""
+        return self._native.book()
+
+    def __repr__(self) -> str:
+        found = sum(part > 0.001 for part in self.palette.values())
+        return f"<impasto.Survey: {found} pigments or groups found in {self.cube!r}>"
+
+    def _repr_html_(self) -> str:
+        rows = [[n, f"{100 * part:.1f} %"] for n, part in self.palette.items() if part > 0.001]
+        alike = [", ".join(names) for names in self.groups.values()]
+        return table(["pigment", "part of the pixels"], rows, repr(self).strip("<>")) + listed(
+            "Mapped as one, since the bands cannot tell them apart", alike
+        )
+
+
+@dataclass(frozen=True)
+class PigmentMaps:
+    """Finished maps on the disk: a Zarr group."""
+
+    path: Path
+    """The folder."""
+
+    def to_xarray(self) -> xr.Dataset:
+        """The maps as a Dataset: share, share_sd and presence (y, x, pigment), chi2, rms, second, mask (y, x);
+        needs xarray and zarr."""
+        import xarray as xr
+
+        return xr.open_zarr(self.path)
+
+    def plot(self, pigment: str, what: str = "presence") -> Any:
+        """Draws one map of a pigment; needs matplotlib."""
+        return self.to_xarray()[what].sel(pigment=pigment).plot(yincrease=False, vmin=0, vmax=1)
+
+
+def survey(
+    cube: Cube,
+    library: Library,
+    *,
+    at_most: int = 3,
+    palette: Sequence[str] = (),
+    groups: Mapping[str, Sequence[str]] | None = None,
+    group_alike: bool = True,
+    noise: float | None = None,
+    model_error: float | None = None,
+    penalty: float = 4.0,
+    region: tuple[slice, slice] | None = None,
+    book: str | None = None,
+    progress: Callable[[str], object] | None = None,
+) -> Survey:
+    """Searches about 20,000 pixels of a scan whole, as `impasto map` does before it maps.
+
+    `at_most` pigments of one pixel, 1 to 4; `palette` names those that may take part; `groups` are mapped as
+    one, and with `group_alike` also pigments that the bands cannot tell apart. `noise` is the standard
+    deviation of a band as a fraction (default: that of the white reading, else 0.003), `model_error` that of
+    K and S relative to their values (default: by the errors of the library's fit). `region` is rows and
+    columns. `book` takes the JSON of an earlier survey.
+    """
+    if isinstance(palette, str):
+        raise Error(f"palette is a list of names, found `{palette}`", f"try [{palette!r}]")
+    ends = None
+    if region is not None:
+        rows, columns = (part.indices(n)[:2] for part, n in zip(region, cube.shape))
+        ends = (rows, columns)
+    settings = {
+        "at_most": at_most,
+        "palette": list(palette),
+        "groups": [(name, list(names)) for name, names in (groups or {}).items()],
+        "group_alike": group_alike,
+        "noise": noise,
+        "model_error": model_error,
+        "penalty": penalty,
+        "region": ends,
+    }
+    native = _native.Survey(cube._native, library._native, settings, book, progress)
+    return Survey(native, cube, library, settings)
+
+
+def pigment_map(
+    cube: Cube,
+    library: Library,
+    out: str | os.PathLike[str],
+    *,
+    survey: Survey | None = None,
+    resume: bool = False,
+    client: Client | None = None,
+    progress: Callable[[str], object] | None = None,
+    **settings: Any,
+) -> PigmentMaps:
+    """Maps every pixel of a scan into the Zarr group `out`.
+
+    Works on all cores of this machine, in bounded memory; with a Dask `client` on its workers, which must see
+    the scan and `out` under the same paths. One task maps one shard and writes it; nothing travels but
+    numbers of shards. A shard that exists is finished: `resume` continues a run that was ended, and refuses
+    maps of another scan, library or settings. Machines, workers and resumed runs give the same bytes.
+    `settings` are those of `survey`.
+    """
+    found = survey or globals()["survey"](cube, library, progress=progress, **settings)
+    if survey is not None and settings:
+        raise Error(f"settings belong to the survey: {', '.join(settings)}", "give them to survey")
+    path = Path(out)
+    finished = found._native.begin(os.fspath(path), resume)
+    if client is None:
+        found._native.map(os.fspath(path), progress)
+    else:
+        _on_workers(found, path, finished, client, progress)
+    return PigmentMaps(path)
+
+
+def _on_workers(
+    found: Survey,
+    path: Path,
+    finished: Sequence[bool],
+    client: Client,
+    progress: Callable[[str], object] | None,
+) -> None:
+    from distributed import as_completed
+
+    book = found.to_json()
+    # By a file and not by the scheduler, which forgets data with the worker that holds it.
+    file = path.with_name(path.name + ".survey.json")
+    if not file.exists() or file.read_text() != book:
+        part = file.with_name(file.name + ".part")
+        part.write_text(book)
+        part.replace(file)
+    job = json.dumps(
+        {
+            "cube": os.path.abspath(found.cube.path),
+            "options": found.cube._options,
+            "library": found.library.to_json(),
+            "settings": found._settings,
+            "book": os.path.abspath(file),
+            "book_sha256": hashlib.sha256(book.encode()).hexdigest(),
+            "out": os.path.abspath(path),
+        }
+    )
+    waiting = [place for place, done in enumerate(finished) if not done]
+    total, done = len(finished), len(finished) - len(waiting)
+
+    def submit(place: int) -> Any:
+        return client.submit(_map_shard, job, place, pure=False, key=f"impasto-{path.name}-{place}")
+
+    workers = max(1, sum(client.ncores().values()))
+    first, rest = waiting[: TASKS_A_WORKER * workers], iter(waiting[TASKS_A_WORKER * workers :])
+    running = as_completed([submit(place) for place in first])
+    for future in running:
+        future.result()
+        done += 1
+        if progress is not None:
+            progress(f"{done} of {total} shards")
+        place = next(rest, None)
+        if place is not None:
+            running.add(submit(place))
+    file.unlink(missing_ok=True)
+
+
+def _map_shard(job: str, place: int) -> int:
+    """Maps one shard on a worker."""
+    survey, out = _prepared(job)
+    return survey._native.map_shard(out, place)
+
+
+@lru_cache(maxsize=2)
+def _prepared(job: str) -> tuple[Survey, str]:
+    """The survey of a job, prepared once for a worker."""
+    told = json.loads(job)
+    book = Path(told["book"]).read_text()
+    if hashlib.sha256(book.encode()).hexdigest() != told["book_sha256"]:
+        raise Error(f"{told['book']}: is not the survey of this run", "run the survey again")
+    cube = Cube.open(told["cube"], **told["options"])
+    settings = dict(told["settings"])
+    region = settings.pop("region")
+    if region is not None:
+        region = tuple(slice(*ends) for ends in region)
+    settings["groups"] = dict(settings["groups"])
+    library = Library.from_json(told["library"])
+    return survey(cube, library, region=region, book=book, **settings), told["out"]
