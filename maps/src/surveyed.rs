@@ -25,9 +25,9 @@ use crate::survey::SURVEYED;
 /// A rectangle of a scan, in rows and columns from 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Region {
-    /// Rows.
+    /// Rows, from the first to before the last.
     pub rows: Range<usize>,
-    /// Columns.
+    /// Columns, from the first to before the last.
     pub columns: Range<usize>,
 }
 
@@ -124,7 +124,7 @@ impl SurveyedScan {
         Ok(Self { cube, mapper, book, opened, about })
     }
 
-    /// The scan.
+    /// The scan that was surveyed.
     #[must_use]
     pub fn cube(&self) -> &Cube {
         &self.cube

@@ -15,7 +15,7 @@ pub(crate) const RECIPES: [&[(&str, f64)]; 6] = [
     &[("Chrome Yellow", 1.0)],
     &[("Chrome Yellow", 0.7), ("Vermilion", 0.3)],
     &[("Lead White", 0.6), ("Vermilion", 0.4)],
-    &[("Lead White", 0.7), ("Chrome Yellow", 0.2), ("Viridian", 0.1)],
+    &[("Lead White", 1.0)],
 ];
 
 /// Writes an ENVI scan of `rows` x 24 pixels of patches with noise, of each pixel's value times `scale`.

@@ -203,7 +203,7 @@ fn region(text: &str) -> Result<Region> {
     })
 }
 
-/// Parses `NAME=PIGMENT,..`.
+/// Parses a group, `NAME=PIGMENT,..`.
 fn group(text: &str) -> Result<PigmentGroup> {
     let found = text.split_once('=').map(|(name, pigments)| PigmentGroup {
         name: name.trim().to_owned(),
