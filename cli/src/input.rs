@@ -8,6 +8,7 @@ use calibrate::matching::ViewingCondition;
 use calibrate::visible_band::check_visible_band;
 use clap::Args;
 use spectra::color::{Adaptation, Rgb, RgbSpace, Xyz};
+use spectra::file::is_standard_input;
 use spectra::{Grid, Observer, TristimulusWeights, light_from_text};
 
 use crate::console::Console;
@@ -73,6 +74,19 @@ pub(crate) fn remark_coverage(grid: Grid, console: &mut Console<'_>) -> Result<(
 /// Reads a pigment library from a file.
 pub(crate) fn library(path: &Path) -> Result<PigmentLibrary> {
     Ok(PigmentLibrary::open(path)?)
+}
+
+/// Whether a file is TOML: by its ending, standard input by its first line that is no comment.
+pub(crate) fn is_toml(path: &Path) -> bool {
+    if !is_standard_input(path) {
+        return path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    }
+    let bytes = spectra::file::read(path).unwrap_or_default();
+    let Ok(text) = std::str::from_utf8(&bytes) else { return false };
+    let mut lines = text.lines().map(str::trim);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
+    first
+        .is_some_and(|line| line.starts_with('[') || (line.contains('=') && !line.starts_with('{')))
 }
 
 /// Reads a file of text, or standard input.

@@ -12,6 +12,7 @@ use spectra::hint::{Explain, Fault, Hint};
 use crate::color_profile::{ProfileError, to_srgb};
 use crate::field::Field;
 use crate::jpeg_end::{is_cut_off_jpeg, is_of_inks};
+use crate::picture_formats::NAMES;
 
 /// A picture in linear sRGB, white at 1, one colour per cell.
 pub type Picture = Field<[f32; 3]>;
@@ -246,7 +247,7 @@ pub enum PhotographError {
         error: std::io::Error,
     },
     /// The file is not a PNG, JPEG, TIFF or WebP picture, or is damaged.
-    #[error("{name}: not a PNG, JPEG, TIFF or WebP picture that can be read: {reason}")]
+    #[error("{name}: not a {NAMES} picture that can be read: {reason}")]
     NoPicture {
         /// Path of the file.
         name: String,
@@ -285,7 +286,7 @@ impl Explain for PhotographError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
             Self::Unreadable { .. } => "check the path",
-            Self::NoPicture { .. } => "save it as PNG, JPEG, TIFF or WebP",
+            Self::NoPicture { .. } => return Some(Hint::new(format!("save it as {NAMES}"))),
             Self::CutOff { .. } => {
                 "copy or download the file again; the decoder would fill the missing part with grey"
             }
