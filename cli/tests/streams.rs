@@ -88,23 +88,27 @@ fn standard_input_is_a_model_a_photograph_or_toml() {
     assert!(painted == picture(&["watercolor", "-"], ply), "one tent in two formats");
     let photograph = std::fs::read(repository("docs/images/photograph.png")).unwrap();
     assert!(painted != picture(&["watercolor", "-"], &photograph), "another subject");
-    picture(&["stencil", "-"], obj);
+    picture(&["stencil", "-", "--pour", "0.5,0.5"], obj);
     let script = "# a sphere\nformat = \"paint-volumes\"\nversion = 1\n\
-        subject = \"shape:sphere\"\nseconds = 0.1\n";
+        subject = \"shape:sphere\"\nseconds = 0.1\n[[pour]]\npicked = [0.5, 0.5]\namount_mm3 = 9\n";
     let sphere = picture(&["stencil", "-"], script.as_bytes());
-    assert!(sphere == picture(&["stencil", "shape:sphere", "--seconds", "0.1"], b""), "the script");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sphere.toml").display().to_string();
+    std::fs::write(&file, script).unwrap();
+    assert!(sphere == picture(&["stencil", &file], b""), "the script");
     let settings = b"[edges]\nstrength = 5.0\n";
     let tent = ["watercolor", "shape:sphere"];
     let strong = picture(&[&tent[..], &["--settings", "-"]].concat(), settings);
     assert!(strong != picture(&tent, b""), "the settings were read");
     let path = b"frames = 1\n[[keyframe]]\neye = [0.0, 1.0, 6.0]\ntarget = [0.0, 0.0, 0.0]\n\
         [[keyframe]]\neye = [0.0, 2.0, 6.0]\ntarget = [0.0, 0.0, 0.0]\n";
-    let seen = picture(&["stencil", "shape:sphere", "--camera", "-"], path);
+    let seen = picture(&["stencil", &file, "--camera", "-"], path);
     assert!(seen != sphere, "another camera");
-    for (wrong, words) in [(&b"no model\n"[..], "error: -, line 1"), (b"", "error: -")] {
+    for wrong in [&b"no model\n"[..], b""] {
         let refused = piped(&[&["watercolor", "-"], &small[..]].concat(), wrong);
         assert_eq!(refused.status.code(), Some(1), "{}", text(&refused.stderr));
-        assert!(text(&refused.stderr).contains(words), "{}", text(&refused.stderr));
+        let told = text(&refused.stderr);
+        assert!(told.contains("error: -: ") && told.contains(".ply"), "{told}");
     }
 }
 

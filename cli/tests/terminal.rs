@@ -10,7 +10,7 @@ use std::process::Command;
 fn slow(folder: &Path) -> String {
     let stroke =
         r#"{"stroke": {"brush": "flat", "samples": [[0, 3, 4, 0.4], [0.5, 56, 36, 0.6]]}}"#;
-    let actions = vec![stroke; 60].join(", ");
+    let actions = vec![stroke; 16].join(", ");
     let text = format!(
         r#"{{"format": "strokes", "version": 1, "title": "Slow",
         "canvas": {{"width_mm": 60, "height_mm": 40, "cell_mm": 0.1}},
@@ -67,23 +67,38 @@ fn a_bar_is_drawn_in_a_terminal_and_cleared_again() {
     let folder = tempfile::tempdir().unwrap();
     let (script, out) = (slow(folder.path()), folder.path().join("a.png"));
     let paint = format!("impasto paint '{script}' --backend cpu -o '{}'", out.display());
-    let drawn = seen(&paint);
-    assert!(drawn.contains("painting [") && drawn.contains("/61"), "{drawn}");
+    // Results go elsewhere, the bar stays in the terminal.
+    let results = folder.path().join("results.txt");
+    let drawn = seen(&format!("{paint} > '{}'", results.display()));
+    assert!(drawn.contains("painting [") && drawn.contains("/17"), "{drawn}");
     let left = stays(&drawn);
     assert!(left.iter().all(|line| !line.contains("painting [")), "{left:?}");
     assert!(left.iter().any(|line| line.starts_with("Wrote ")), "{left:?}");
-    // Results go elsewhere, the bar stays in the terminal.
-    let results = folder.path().join("results.txt");
-    let apart = seen(&format!("{paint} > '{}'", results.display()));
-    assert!(apart.contains("painting [") && !apart.contains("strokes"), "{apart}");
     let results = std::fs::read_to_string(&results).unwrap();
-    assert!(results.contains("60 strokes") && !results.contains('\x1b'), "{results}");
+    assert!(results.contains("16 strokes") && !results.contains('\x1b'), "{results}");
     // No bar where remarks go to a file, or where none are wanted.
     let errors = folder.path().join("errors.txt");
     let elsewhere = seen(&format!("{paint} 2> '{}'", errors.display()));
-    assert!(elsewhere.contains("60 strokes") && !elsewhere.contains("painting ["), "{elsewhere}");
+    assert!(elsewhere.contains("16 strokes") && !elsewhere.contains("painting ["), "{elsewhere}");
     let errors = std::fs::read_to_string(&errors).unwrap();
     assert!(errors.contains("Wrote ") && !errors.contains("painting ["), "{errors}");
     let quiet = seen(&format!("{paint} -q"));
-    assert!(quiet.contains("60 strokes") && !quiet.contains("painting ["), "{quiet}");
+    assert!(quiet.contains("16 strokes") && !quiet.contains("painting ["), "{quiet}");
+}
+
+#[test]
+fn a_spinner_is_drawn_in_a_terminal_and_cleared_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).display().to_string();
+    let model = format!(
+        "impasto watercolor shape:still-life --width 2400 --backend cpu -o '{}'",
+        place("a.png")
+    );
+    let drawn = seen(&model);
+    assert!(drawn.contains(" painting (") || drawn.contains(" preparing the model ("), "{drawn}");
+    let left = stays(&drawn);
+    assert!(left.iter().all(|line| !line.contains(" (")), "{left:?}");
+    assert!(left.iter().any(|line| line.starts_with("Wrote ")), "{left:?}");
+    let quiet = seen(&format!("{model} -q"));
+    assert!(!quiet.contains("painting (") && !quiet.contains("preparing"), "{quiet}");
 }

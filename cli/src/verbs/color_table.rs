@@ -19,6 +19,9 @@ const NOT_WHITE: &str =
 /// Heading of the last column, as wide as its cells.
 const DISPLAY: &str = "  display ";
 
+/// Width of a patch of colour with its blank.
+const PATCH: usize = 7;
+
 /// Width that a table keeps within, in letters.
 const WIDEST: usize = 100;
 
@@ -116,9 +119,11 @@ impl ColorTable {
         }
         let (colors, differences) = (self.heading(), self.differences_heading(light));
         let longest = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);
-        let apart = longest + 1 + colors.len() + differences.len() + DISPLAY.len() > WIDEST;
+        let patch = if console.screen.colors { PATCH } else { 0 };
+        let display = DISPLAY.len() + patch;
+        let apart = longest + 1 + colors.len() + differences.len() + display > WIDEST;
         let beside = if apart { "" } else { differences.as_str() };
-        let taken = 1 + colors.len() + beside.len() + DISPLAY.len();
+        let taken = 1 + colors.len() + beside.len() + display;
         let width = name_width(longest, taken);
         let heading = format!("{:width$} {colors}{beside}{DISPLAY}", "sample");
         console.line(heading.trim_end())?;

@@ -3,13 +3,15 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageReader, Limits};
+use image::{
+    ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageFormat, ImageReader, Limits,
+};
 use rayon::prelude::*;
 use spectra::color::Rgb;
 use spectra::file::read;
 use spectra::hint::{Explain, Fault, Hint};
 
-use crate::color_profile::{ProfileError, to_srgb};
+use crate::color_profile::{ProfileError, tiff_profile, to_srgb};
 use crate::field::Field;
 use crate::jpeg_end::{is_cut_off_jpeg, is_of_inks};
 use crate::picture_formats::NAMES;
@@ -74,7 +76,12 @@ impl Photograph {
             return Err(refused(ProfileError::Inks("CMYK".to_owned())));
         }
         let orientation = decoder.orientation().map_err(rejected)?;
-        let profile = decoder.icc_profile().map_err(rejected)?;
+        let profile = match image::guess_format(bytes) {
+            Ok(ImageFormat::Tiff) => tiff_profile(bytes).map_err(|error| {
+                PhotographError::NoPicture { name: name.to_owned(), reason: error.to_string() }
+            })?,
+            _ => decoder.icc_profile().map_err(rejected)?,
+        };
         let mut image = DynamicImage::from_decoder(decoder).map_err(rejected)?;
         image.apply_orientation(orientation);
         if !matches!(sample_bytes(image.color()), 1 | 2) {

@@ -27,15 +27,18 @@ use super::model::Mesh;
 /// Reads the bytes of a model; its name is for errors, its pictures lie in the folder.
 type Reader = fn(&str, &Path, &[u8]) -> Result<Mesh, MeshError>;
 
-/// The reader of a model without a name: OBJ, which has no first bytes of its own, if not another.
-fn by_content(bytes: &[u8]) -> Reader {
+/// The reader of a model without a name: by its first bytes, or, of OBJ, by a line with a vertex.
+fn by_content(bytes: &[u8]) -> Option<Reader> {
     let start = bytes.trim_ascii_start();
+    let mut lines = bytes.split(|byte| matches!(byte, b'\n' | b'\r'));
     if start.starts_with(b"glTF") || start.starts_with(b"{") {
-        gltf::read
+        Some(gltf::read)
     } else if start.starts_with(b"ply\n") || start.starts_with(b"ply\r") {
-        ply::read
+        Some(ply::read)
+    } else if lines.any(|line| line.trim_ascii_start().starts_with(b"v ")) {
+        Some(obj::read)
     } else {
-        obj::read
+        None
     }
 }
 
@@ -61,7 +64,9 @@ impl Mesh {
             MeshError::Unreadable { name: name.clone(), error }
         })?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let reader = by_ending.unwrap_or_else(|| by_content(&bytes));
+        let Some(reader) = by_ending.or_else(|| by_content(&bytes)) else {
+            return Err(MeshError::UnknownFormat { name, extension });
+        };
         let mut mesh = reader(&name, folder, &bytes)?;
         // Computing normals needs a valid mesh.
         mesh.check().map_err(|fault| MeshError::Faulty { name, fault })?;
@@ -96,13 +101,17 @@ mod tests {
             0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
         let obj = b"# a triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
         for bytes in [&ply[..], obj] {
-            let mesh = by_content(bytes)("-", Path::new(""), bytes).unwrap();
+            let mesh = by_content(bytes).unwrap()("-", Path::new(""), bytes).unwrap();
             assert_eq!(mesh.triangles.len(), 1);
         }
         for gltf in [&b"glTF\x02\0\0\0"[..], b" {\"asset\": {}}"] {
-            let error = by_content(gltf)("-", Path::new(""), gltf).unwrap_err().to_string();
+            let reader = by_content(gltf).unwrap();
+            let error = reader("-", Path::new(""), gltf).unwrap_err().to_string();
             let wanted = gltf::read("-", Path::new(""), gltf).unwrap_err().to_string();
             assert_eq!(error, wanted);
+        }
+        for other in [&b"no model\nat all\n"[..], b"", b"plys and planks"] {
+            assert!(by_content(other).is_none(), "{other:?}");
         }
     }
 }
