@@ -71,7 +71,7 @@ fn old_spellings_of_the_laboratory_do_what_the_new_ones_do() {
         assert_eq!(write("--white", "new.json"), write("--reference", "old.json"), "{verb}");
     }
     let part = place(folder, "part.json");
-    done(&["library", "subset", &library, "Zinc White", "Viridian", "-o", &part]);
+    done(&["library", "subset", &library, "Zinc White", "Lead White", "-o", &part]);
     let merged = |option: &str, name: &str| {
         let out = place(folder, name);
         done(&["library", "merge", &library, &part, option, "Lead White", "-o", &out]);
