@@ -331,9 +331,10 @@ fn remarks(films: &[Observation], condition: Option<&Condition>) -> Vec<Remark> 
     let mut remarks = Vec::new();
     let open = films.iter().filter(|o| o.hiding.hides() == Some(false)).count();
     if open > 0 {
+        let [lets, its] = if open == 1 { ["lets its", "its"] } else { ["let their", "their"] };
         remarks.push(Remark::note(format!(
-            "{open} of {} films let their backing through; their K/S comes from the two backings",
-            films.len()
+            "{open} of {} {lets} backing through; {its} K/S comes from the two backings",
+            counted(films.len(), "film")
         )));
     }
     let spreads = || films.iter().filter_map(|o| Some((o.spread?, &o.sample)));

@@ -42,7 +42,7 @@ impl FitValidation {
         let Validation { rms, delta_e, per_sample, .. } = &self.errors;
         let count = per_sample.len();
         let manner = match self.folds {
-            Some(folds) => format!("in {} groups", folds.min(count)),
+            Some(folds) => format!("in {}", spectra::counted(folds.min(count), "group")),
             None => "one by one".to_owned(),
         };
         let light = [self.viewing.illuminant.name(), self.viewing.observer.name()];

@@ -6,9 +6,13 @@
 
 mod command_line;
 
+mod decimals;
+
 mod failure;
 
 mod console;
+
+mod progress;
 
 mod shown_color;
 
@@ -53,8 +57,6 @@ mod setting_changes;
 mod subject;
 
 mod palette;
-
-mod progress;
 
 mod animation;
 

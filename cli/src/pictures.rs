@@ -13,6 +13,7 @@ use spectra::hint::Explain;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::output::{Output, OutputFolder, is_stream};
+use crate::progress::waited;
 
 /// Bits of a channel of a PNG.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -245,14 +246,16 @@ impl OpenExports {
             painting: self.painting.as_ref().map(path),
         };
         let (mut streamed, mut wrote) = (Vec::new(), Vec::new());
-        let outside = exports.write_with(painting, &mut |path, bytes| {
+        let mut keep = |path: &Path, bytes: &[u8]| {
             if is_stream(path) {
                 streamed.push(bytes.to_vec());
                 return Ok(());
             }
             wrote.push(path.to_owned());
             write_whole(path, bytes)
-        })?;
+        };
+        let write = || exports.write_with(painting, &mut keep);
+        let outside = waited("making the files", console, write)?;
         streamed.iter().try_for_each(|bytes| console.stream(bytes))?;
         if let Some(folder) = &exports.pigment_maps {
             wrote.retain(|path| path.parent() != Some(folder));

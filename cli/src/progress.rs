@@ -6,6 +6,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::console::Console;
+
 /// Time after which a bar or spinner is shown.
 const DELAY: Duration = Duration::from_secs(1);
 /// Time between two pictures of a bar or spinner.
@@ -62,6 +64,12 @@ impl Progress {
         self.done.store(true, Ordering::Relaxed);
         self.bar.finish_and_clear();
     }
+}
+
+/// Does `work`, behind a spinner where it takes long. The work prints nothing.
+pub(crate) fn waited<T>(label: &'static str, console: &Console<'_>, work: impl FnOnce() -> T) -> T {
+    let _waiting = Waiting::new(label, console.shows_progress());
+    work()
 }
 
 /// Spinner for work without countable steps. Shown only on a terminal, after one second; cleared

@@ -6,7 +6,9 @@ use clap::Args;
 use render::camera::{Camera, CameraPath, Framing};
 use render::mesh::{Mesh, SampleModel};
 use render::picture::Photograph;
+use render::picture_formats::begins_like_picture;
 use render::watercolor::PhotographPainter;
+use spectra::file::{is_standard_input, read};
 
 use crate::failure::{Failure, Result};
 
@@ -83,8 +85,7 @@ impl SubjectOptions {
             };
             return self.mesh(shape.mesh(TRIANGLES), Vec::new());
         }
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        if let Some("obj" | "gltf" | "glb" | "ply") = ending.as_deref() {
+        if is_mesh(path)? {
             return self.mesh(Mesh::open(path)?, vec![path.to_owned()]);
         }
         for (option, present) in [
@@ -141,7 +142,8 @@ impl SubjectOptions {
 
     /// The file of keyframes of `--camera`, if it names one.
     pub(crate) fn camera_file(&self) -> Result<Option<&Path>> {
-        let text = self.camera.as_deref().filter(|text| text.ends_with(".toml"));
+        let is_file = |text: &&str| text.ends_with(".toml") || is_standard_input(Path::new(text));
+        let text = self.camera.as_deref().filter(is_file);
         let Some(path) = text.map(Path::new) else { return Ok(None) };
         match self.turntable {
             None => Ok(Some(path)),
@@ -224,6 +226,15 @@ impl SubjectOptions {
         }
         Ok(Framing { azimuth_deg, elevation_deg, field_of_view_deg, aspect })
     }
+}
+
+/// Whether a file is a mesh: by its ending, standard input if it begins like no picture.
+fn is_mesh(path: &Path) -> Result<bool> {
+    if is_standard_input(path) {
+        return Ok(!begins_like_picture(&read(path)?));
+    }
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    Ok(matches!(ending.as_deref(), Some("obj" | "gltf" | "glb" | "ply")))
 }
 
 /// Degrees to the right and upwards of the cameras before a picture: `way`, or as many as `frames`

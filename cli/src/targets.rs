@@ -2,7 +2,7 @@
 
 use calibrate::matching::ColorTarget;
 use calibrate::measurement::{AveragedSpectra, AveragedSpectrum, Film};
-use spectra::{Reflectance, Spectrum};
+use spectra::{Reflectance, Spectrum, counted_as};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -40,7 +40,8 @@ fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<
     if spectra.len() < count {
         let bare = count - spectra.len();
         console.remark(format!(
-            "{file}: skipped {bare} bare cards, which are targets only if selected by name"
+            "{file}: skipped {} only if selected by name",
+            counted_as(bare, "bare card, which is a target", "bare cards, which are targets")
         ))?;
     }
     let target = |spectrum: AveragedSpectrum| {

@@ -72,6 +72,47 @@ fn a_file_goes_to_standard_output_and_all_else_to_the_error_stream() {
 }
 
 #[test]
+fn standard_input_is_a_model_a_photograph_or_toml() {
+    let small = ["--width", "32", "--backend", "cpu", "-o", "-"];
+    let picture = |verb: &[&str], input: &[u8]| {
+        let made = piped(&[verb, &small].concat(), input);
+        assert!(made.stdout.starts_with(b"\x89PNG"), "{verb:?}: {}", text(&made.stderr));
+        made.stdout
+    };
+    let obj = b"# a tent\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 1 0\n\
+        f 1 5 2\nf 2 5 3\nf 3 5 4\nf 4 5 1\n";
+    let ply = b"ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n\
+        property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n\
+        -1 0 -1\n1 0 -1\n1 0 1\n-1 0 1\n0 1 0\n3 0 4 1\n3 1 4 2\n3 2 4 3\n3 3 4 0\n";
+    let painted = picture(&["watercolor", "-"], obj);
+    assert!(painted == picture(&["watercolor", "-"], ply), "one tent in two formats");
+    let photograph = std::fs::read(repository("docs/images/photograph.png")).unwrap();
+    assert!(painted != picture(&["watercolor", "-"], &photograph), "another subject");
+    picture(&["stencil", "-", "--pour", "0.5,0.5"], obj);
+    let script = "# a sphere\nformat = \"paint-volumes\"\nversion = 1\n\
+        subject = \"shape:sphere\"\nseconds = 0.1\n[[pour]]\npicked = [0.5, 0.5]\namount_mm3 = 9\n";
+    let sphere = picture(&["stencil", "-"], script.as_bytes());
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sphere.toml").display().to_string();
+    std::fs::write(&file, script).unwrap();
+    assert!(sphere == picture(&["stencil", &file], b""), "the script");
+    let settings = b"[edges]\nstrength = 5.0\n";
+    let tent = ["watercolor", "shape:sphere"];
+    let strong = picture(&[&tent[..], &["--settings", "-"]].concat(), settings);
+    assert!(strong != picture(&tent, b""), "the settings were read");
+    let path = b"frames = 1\n[[keyframe]]\neye = [0.0, 1.0, 6.0]\ntarget = [0.0, 0.0, 0.0]\n\
+        [[keyframe]]\neye = [0.0, 2.0, 6.0]\ntarget = [0.0, 0.0, 0.0]\n";
+    let seen = picture(&["stencil", &file, "--camera", "-"], path);
+    assert!(seen != sphere, "another camera");
+    for wrong in [&b"no model\n"[..], b""] {
+        let refused = piped(&[&["watercolor", "-"], &small[..]].concat(), wrong);
+        assert_eq!(refused.status.code(), Some(1), "{}", text(&refused.stderr));
+        let told = text(&refused.stderr);
+        assert!(told.contains("error: -: ") && told.contains(".ply"), "{told}");
+    }
+}
+
+#[test]
 fn the_environment_names_the_default_library() {
     let folder = tempfile::tempdir().unwrap();
     let library = folder.path().join("mine.json");

@@ -38,7 +38,7 @@ pub use artmap;
 pub use graphics::kernels as graphics_kernels;
 pub use graphics::{
     self, camera, coherence, compute, distant_light, encoding, exr_picture, field, gpu, mesh,
-    morphology, orientation, picture, segmentation, surface, tile, tones,
+    morphology, orientation, picture, picture_formats, segmentation, surface, tile, tones,
 };
 pub use paint::{self, amount, composite, layer, light, node_pigments, optics, separation, shade};
 pub use paint::{BrushSpec, Canvas, HeadShape, OpenStroke, PaintingSession, Sample, StrokeScript};

@@ -186,8 +186,11 @@ impl Drawing<'_, '_> {
     /// Draws title and key on the left, note and patches on the right, above the frame.
     fn heading(&self) {
         let Panel { frame, title, subtitle, note, patches, key, .. } = self.panel;
-        let subtitle = if subtitle.is_empty() { 0.0 } else { self.subtitle() };
-        let middle = frame.y - 9.0 - subtitle;
+        // A title of several lines ends where the subtitle begins.
+        let middle = match subtitle.is_empty() {
+            true => frame.y - 9.0,
+            false => self.subtitle() - TITLE / 2.0,
+        };
         let (side, mut right) = (11.0, frame.x + frame.width);
         for patch in patches.iter().rev() {
             let corners = [(right - side, middle - side / 2.0), (right, middle + side / 2.0)];
@@ -212,12 +215,12 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Writes the subtitle and returns the height that it takes, in px.
+    /// Writes the subtitle and returns where it begins, in px.
     fn subtitle(&self) -> f64 {
         let Panel { frame, subtitle, .. } = self.panel;
         let at = (frame.x, frame.y - 4.0 - SUBTITLE / 2.0);
         self.lines(at, (frame.width, SUBTITLE), SMALL_TEXT - 1.0, FAINT, subtitle);
-        SUBTITLE
+        frame.y - 4.0 - SUBTITLE
     }
 
     /// Writes a text in the lines that `space` allows, around the height of `at`. Returns their width

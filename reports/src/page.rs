@@ -231,10 +231,13 @@ code{font:12px/1.4 ui-monospace,Hack,monospace;overflow-wrap:anywhere}
 table{border-collapse:collapse;font-size:13.5px}
 caption{text-align:left;font-weight:600;padding-bottom:6px}
 th,td{padding:2px 14px 2px 0;text-align:left;border-bottom:1px solid var(--grid);vertical-align:top}
+td{overflow-wrap:anywhere}
+td:first-child{min-width:6em}
+td:nth-child(2):not(.n,.c){min-width:17em}
 th{vertical-align:bottom}
 th small{display:block;font-weight:400;color:var(--faint)}
 .c{white-space:nowrap}
-.n{text-align:right;font-variant-numeric:tabular-nums}
+.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .patch{display:inline-block;width:28px;height:13px;vertical-align:-2px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 @media (max-width:1100px){nav{position:static;width:auto;border:0;padding:0;margin:18px 0}main{margin:0}}
 @media screen and (max-width:900px){
@@ -245,8 +248,9 @@ nav>ol>li{margin:0 0 8px;break-inside:avoid}
 .drawing svg{max-width:none;width:820px}
 dl{display:block}
 dd{margin:0 0 6px}
-td,th{white-space:nowrap}
-td:first-child,th:first-child{position:sticky;left:0;background:var(--paper)}
+table{width:max-content}
+td,th{max-width:22em}
+td:first-child,th:first-child{position:sticky;left:0;background:var(--paper);min-width:5em;max-width:38vw}
 }
 @media print{
 @page{margin:14mm}

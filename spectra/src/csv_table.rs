@@ -1,6 +1,8 @@
 //! Tables of spectra in CSV files: the place of a cell, errors of any table, and the wavelength
 //! in a column's heading.
 
+use crate::counted::counted;
+
 /// A cell of a CSV file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CellPlace {
@@ -99,7 +101,7 @@ pub enum CsvTableError {
         column: &'static str,
     },
     /// The number of cells in a row differs from that of the header.
-    #[error("{file}, row {row}: expected {wanted} cells, found `{found}`")]
+    #[error("{file}, row {row}: expected {}, found `{found}`", counted(*wanted, "cell"))]
     RowLength {
         /// Path of the file.
         file: String,

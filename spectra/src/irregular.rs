@@ -1,5 +1,6 @@
 //! Spectra at irregular wavelengths.
 
+use crate::counted::counted;
 use crate::grid::Grid;
 use crate::hint::Explain;
 use crate::interpolate::Extrapolation;
@@ -127,7 +128,8 @@ impl SmoothCurve<'_> {
 pub enum IrregularSpectrumError {
     /// The numbers of wavelengths and values differ, or there are none.
     #[error(
-        "one value for each wavelength is needed, found {wavelengths} wavelengths and `{values}` values"
+        "one value for each wavelength is needed, found `{values}` for {}",
+        counted(*wavelengths, "wavelength")
     )]
     Count {
         /// Number of wavelengths.

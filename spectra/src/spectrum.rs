@@ -2,6 +2,7 @@
 
 use std::marker::PhantomData;
 
+use crate::counted::counted;
 use crate::grid::Grid;
 use crate::hint::Explain;
 use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
@@ -146,7 +147,7 @@ impl<Q: Quantity> Spectrum<Q> {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
     /// The number of values differs from the number of wavelengths.
-    #[error("a grid of {expected} wavelengths needs {expected} values, found `{found}`")]
+    #[error("a grid of {} needs as many values, found `{found}`", counted(*expected, "wavelength"))]
     Count {
         /// Number of wavelengths on the grid.
         expected: usize,

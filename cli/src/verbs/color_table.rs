@@ -16,6 +16,15 @@ use crate::shown_color::TableColors;
 const NOT_WHITE: &str =
     "not white: outside of 40 < W < 5 Y - 280 and -4 < T < 2, the whites of CIE 15:2018, 9.4";
 
+/// Heading of the last column, as wide as its cells.
+const DISPLAY: &str = "  display ";
+
+/// Width of a patch of colour with its blank.
+const PATCH: usize = 7;
+
+/// Width that a table keeps within, in letters.
+const WIDEST: usize = 100;
+
 /// Columns that can be shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum ColumnName {
@@ -95,7 +104,8 @@ impl ColorTable {
         entry
     }
 
-    /// Prints the rows under one light.
+    /// Prints the rows under one light, with the differences from the standard in a table of their own
+    /// where they have no room beside the colours.
     pub(super) fn print(
         &self,
         rows: &[Row],
@@ -107,13 +117,21 @@ impl ColorTable {
         if self.standard.is_some() && light > 0 {
             console.line(LEGEND)?;
         }
-        let width = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0).max(6);
-        console.line(format!("{:width$} {}", "sample", self.heading(light)))?;
+        let (colors, differences) = (self.heading(), self.differences_heading(light));
+        let longest = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);
+        let patch = if console.screen.colors { PATCH } else { 0 };
+        let display = DISPLAY.len() + patch;
+        let apart = longest + 1 + colors.len() + differences.len() + display > WIDEST;
+        let beside = if apart { "" } else { differences.as_str() };
+        let taken = 1 + colors.len() + beside.len() + display;
+        let width = name_width(longest, taken);
+        let heading = format!("{:width$} {colors}{beside}{DISPLAY}", "sample");
+        console.line(heading.trim_end())?;
         let mut colors = TableColors::of(self.space);
         let mut notes: Vec<String> = Vec::new();
         for row in rows {
             let SpectrumColor { xyz, lab, rgb } = &row.colors[light];
-            let mut line = format!("{:width$} ", row.name);
+            let mut line = named(&row.name, width);
             for column in &self.columns {
                 line += &match column {
                     ColumnName::Xyz => decimals(&xyz.to_array(), 2),
@@ -131,17 +149,26 @@ impl ColorTable {
                     }
                 };
             }
-            line += &self.differences(row, light);
+            if !apart {
+                line += &self.differences(row, light);
+            }
             console.line(format!("{line}  {}", colors.cell(*rgb, console)).trim_end())?;
         }
         colors.note("", console)?;
         for note in notes {
             console.line(note)?;
         }
+        if apart && self.standard.is_some() {
+            let width = name_width(longest, 1 + differences.len());
+            console.line(format!("{:width$} {differences}", "sample"))?;
+            for row in rows {
+                console.line(named(&row.name, width) + &self.differences(row, light))?;
+            }
+        }
         Ok(())
     }
 
-    fn heading(&self, light: usize) -> String {
+    fn heading(&self) -> String {
         let mut heading = String::new();
         for column in &self.columns {
             heading += match column {
@@ -152,13 +179,18 @@ impl ColorTable {
                 ColumnName::Whiteness => "       W       T",
             };
         }
-        if self.standard.is_some() {
-            heading += "  CIEDE2000  CIE76  CIE94  CMC2:1";
-            if light > 0 {
-                heading += &format!("  {:>10}", self.change_heading(light));
-            }
+        heading
+    }
+
+    fn differences_heading(&self, light: usize) -> String {
+        if self.standard.is_none() {
+            return String::new();
         }
-        heading + "  display"
+        let heading = "  CIEDE2000  CIE76  CIE94  CMC2:1".to_owned();
+        match light {
+            0 => heading,
+            _ => heading + &format!("  {:>10}", self.change_heading(light)),
+        }
     }
 
     /// Cells of the differences from the standard, with the metamerism index under later lights.
@@ -199,6 +231,19 @@ impl ColorTable {
     fn whiteness(&self, xyz: Xyz, light: usize) -> std::result::Result<Whiteness, WhitenessError> {
         let Viewing { illuminant, observer } = &self.lights[light];
         Whiteness::of(xyz, self.whites[light], illuminant, *observer)
+    }
+}
+
+/// Width of the column of names of which the longest has this many letters, beside `taken` others.
+fn name_width(longest: usize, taken: usize) -> usize {
+    longest.min(WIDEST.saturating_sub(taken)).max("sample".len())
+}
+
+/// A name in a column of this width, and a blank. A longer one has a line of its own.
+fn named(name: &str, width: usize) -> String {
+    match name.chars().count() > width {
+        true => format!("{name}\n{:width$} ", ""),
+        false => format!("{name:width$} "),
     }
 }
 

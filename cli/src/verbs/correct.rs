@@ -8,7 +8,7 @@ use calibrate::matching::{
 use clap::Args;
 use serde_json::{Map, Value, json};
 use spectra::color::Lab;
-use spectra::{Reflectance, Spectrum, name_list};
+use spectra::{Reflectance, Spectrum, counted, name_list};
 
 use super::match_by::MatchBy;
 use crate::console::Console;
@@ -92,7 +92,7 @@ impl Correct {
         let ChosenLibrary { library, .. } = chosen(path.as_deref(), console)?;
         let [target, pot] = words else {
             return Err(Failure::usage(
-                format!("a target and a batch are wanted, found {} words", words.len()),
+                format!("a target and a batch are wanted, found {}", counted(words.len(), "word")),
                 "try impasto correct standard.csv batch.csv --made \"Zinc White=440\"",
             ));
         };

@@ -62,6 +62,11 @@ pub(crate) struct Quadrature {
     csv: bool,
 }
 
+/// One mixture and several, in figures.
+const MIXTURES: [&str; 2] = ["random mixture", "random mixtures"];
+/// One film over a ground and several, in figures.
+const FILMS: [&str; 2] = ["film over a random ground", "films over random grounds"];
+
 impl Quadrature {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
@@ -107,7 +112,7 @@ impl Quadrature {
         }
         rows(&rule, &viewing, console)?;
         match error {
-            Some(error) => console.line(self.told("random mixtures", &error)),
+            Some(error) => console.line(self.told(MIXTURES, &error)),
             None => Ok(()),
         }
     }
@@ -147,7 +152,7 @@ impl Quadrature {
             }));
         }
         rows(&effective.rule, viewing, console)?;
-        for (error, of) in [(hiding, "random mixtures"), (over, "films over random grounds")] {
+        for (error, of) in [(hiding, MIXTURES), (over, FILMS)] {
             if let Some(error) = error {
                 console.line(self.told(of, &error))?;
             }
@@ -155,11 +160,11 @@ impl Quadrature {
         Ok(())
     }
 
-    fn told(&self, of: &str, error: &QuadratureError) -> String {
-        let (count, seed) = (self.mixtures, self.seed);
+    fn told(&self, [one, many]: [&str; 2], error: &QuadratureError) -> String {
+        let (films, seed) = (spectra::counted_as(self.mixtures, one, many), self.seed);
         let QuadratureError { mean, p95, max } = error;
         format!(
-            "CIEDE2000 over {count} {of} (seed {seed}): mean {mean:.3}, 95 % below {p95:.3}, largest {max:.3}"
+            "CIEDE2000 over {films} (seed {seed}): mean {mean:.3}, 95 % below {p95:.3}, largest {max:.3}"
         )
     }
 }

@@ -11,6 +11,7 @@ use spectra::color::{Lab, Rgb, RgbSpace};
 use super::illuminant_change::IlluminantChange;
 use super::recipe_columns::RecipeColumns;
 use crate::console::Console;
+use crate::decimals::at_most;
 use crate::failure::Result;
 use crate::input::srgb;
 use crate::shown_color::TableColors;
@@ -109,7 +110,7 @@ impl RecipeReport<'_> {
         };
         format!(
             "equally near within {} {}, {reason}: the plainest first",
-            format!("{tolerance:.3}").trim_end_matches('0').trim_end_matches('.'),
+            at_most(tolerance, 3),
             self.search.request.metric.unit()
         )
     }

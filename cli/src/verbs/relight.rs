@@ -9,10 +9,12 @@ use render::paint::painting::{DryLayerState, LayerRef, Painting};
 use serde_json::json;
 
 use crate::console::Console;
+use crate::decimals::at_most;
 use crate::engine::EngineOptions;
 use crate::failure::{Failure, Result};
 use crate::input::viewing;
 use crate::pictures::Exports;
+use crate::progress::waited;
 
 /// Show a painting under another light, or as if painted with other pigments
 ///
@@ -71,20 +73,20 @@ impl Relight {
             (_, true) => Form::Csv,
             _ => Form::Text,
         };
-        let mut document = Document::open(&self.painting)?;
+        let read = || Document::open(&self.painting);
+        let mut document = waited("reading the painting", console, read)?;
         document.lighting = self.lighting(&document.lighting)?;
         let Lighting { illuminant, observer, .. } = &document.lighting;
         let light = Light::new(&document.library, &viewing(illuminant, observer)?)?;
         let exports = self.exports.open(std::slice::from_ref(&self.painting))?;
         let engine = self.engine.engine(&document.ground.height, console)?;
         let undo_bytes = self.engine.undo_bytes();
-        let mut painting = Painting::open_under(document, light, engine, undo_bytes)?;
-        for text in &self.swap {
-            swap(&mut painting, text)?;
-        }
-        for text in &self.opacity {
-            opacity(&mut painting, text)?;
-        }
+        let mut painting = waited("lighting the painting", console, || -> Result<Painting> {
+            let mut painting = Painting::open_under(document, light, engine, undo_bytes)?;
+            self.swap.iter().try_for_each(|text| swap(&mut painting, text))?;
+            self.opacity.iter().try_for_each(|text| opacity(&mut painting, text))?;
+            Ok(painting)
+        })?;
         exports.write(&mut painting, console)?;
         print(&painting, form, console)
     }
@@ -218,7 +220,8 @@ fn print(painting: &Painting, form: Form, console: &mut Console<'_>) -> Result<(
         }));
     }
     let (width, height) = (bounds.width, bounds.height);
-    console.line(format!("{width} x {height} cells of {:.3} mm", painting.cell_mm()))?;
+    let cell = at_most(painting.cell_mm(), 4);
+    console.line(format!("{width} x {height} cells of {cell} mm"))?;
     for (layer, dry, pigments) in &layers {
         let about = dry.map_or_else(String::new, about);
         console.line(format!("{layer:>7}: {}{about}", pigments.join(", ")))?;

@@ -79,4 +79,25 @@ mod tests {
         assert!(is_cut_off_jpeg(&with_preview[..with_preview.len() - 2]));
         assert!(!is_cut_off_jpeg(b"\x89PNG"));
     }
+
+    #[test]
+    fn components_are_counted_in_the_frame_header_behind_other_segments() {
+        let file = |kind: u8, components: u8| {
+            let mut file = START.to_vec();
+            // A segment that holds a marker, and a table whose tenth byte is a 4.
+            file.extend([0xff, 0xe0, 0, 6, 0xff, 0xc0, 0, 8]);
+            file.extend([0xff, 0xc4, 0, 12, 0, 1, 2, 3, 3, 4, 5, 6, 7, 8]);
+            // Markers may have bytes of 0xff before them.
+            file.extend([0xff, 0xff, 0xff, kind, 0, 20, 8, 0, 8, 0, 8, components, 1, 0x11, 0]);
+            file
+        };
+        for kind in [0xc0, 0xc1, 0xc2, 0xc9] {
+            assert!(is_of_inks(&file(kind, 4)), "{kind:x}");
+            assert!(!is_of_inks(&file(kind, 3)) && !is_of_inks(&file(kind, 1)), "{kind:x}");
+        }
+        for length in 0..file(0xc0, 4).len() - 4 {
+            assert!(!is_of_inks(&file(0xc0, 4)[..length]), "cut off after {length} bytes");
+        }
+        assert!(!is_of_inks(b"\x89PNG\r\n\x1a\n\x04\x04\x04"), "no JPEG");
+    }
 }

@@ -44,6 +44,8 @@ pub mod encoding;
 
 pub mod jpeg_end;
 
+pub mod picture_formats;
+
 pub mod color_profile;
 
 pub mod picture;

@@ -3,15 +3,18 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageReader, Limits};
+use image::{
+    ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageFormat, ImageReader, Limits,
+};
 use rayon::prelude::*;
 use spectra::color::Rgb;
 use spectra::file::read;
 use spectra::hint::{Explain, Fault, Hint};
 
-use crate::color_profile::{ProfileError, to_srgb};
+use crate::color_profile::{ProfileError, tiff_profile, to_srgb};
 use crate::field::Field;
 use crate::jpeg_end::{is_cut_off_jpeg, is_of_inks};
+use crate::picture_formats::NAMES;
 
 /// A picture in linear sRGB, white at 1, one colour per cell.
 pub type Picture = Field<[f32; 3]>;
@@ -73,7 +76,12 @@ impl Photograph {
             return Err(refused(ProfileError::Inks("CMYK".to_owned())));
         }
         let orientation = decoder.orientation().map_err(rejected)?;
-        let profile = decoder.icc_profile().map_err(rejected)?;
+        let profile = match image::guess_format(bytes) {
+            Ok(ImageFormat::Tiff) => tiff_profile(bytes).map_err(|error| {
+                PhotographError::NoPicture { name: name.to_owned(), reason: error.to_string() }
+            })?,
+            _ => decoder.icc_profile().map_err(rejected)?,
+        };
         let mut image = DynamicImage::from_decoder(decoder).map_err(rejected)?;
         image.apply_orientation(orientation);
         if !matches!(sample_bytes(image.color()), 1 | 2) {
@@ -246,7 +254,7 @@ pub enum PhotographError {
         error: std::io::Error,
     },
     /// The file is not a PNG, JPEG, TIFF or WebP picture, or is damaged.
-    #[error("{name}: not a PNG, JPEG, TIFF or WebP picture that can be read: {reason}")]
+    #[error("{name}: not a {NAMES} picture that can be read: {reason}")]
     NoPicture {
         /// Path of the file.
         name: String,
@@ -285,7 +293,7 @@ impl Explain for PhotographError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::new(match self {
             Self::Unreadable { .. } => "check the path",
-            Self::NoPicture { .. } => "save it as PNG, JPEG, TIFF or WebP",
+            Self::NoPicture { .. } => return Some(Hint::new(format!("save it as {NAMES}"))),
             Self::CutOff { .. } => {
                 "copy or download the file again; the decoder would fill the missing part with grey"
             }

@@ -5,6 +5,7 @@ use std::path::Path;
 use spectra::hint::{Explain, Hint};
 
 use crate::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
+use crate::picture_formats::NAMES;
 
 /// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;
@@ -59,8 +60,8 @@ impl ToneRamp {
         }))
     }
 
-    /// Reads a ramp from the middle row of a PNG or JPEG picture, shade at the left. The grey
-    /// is the mean of the encoded channels.
+    /// Reads a ramp from the middle row of a picture (PNG, JPEG, TIFF or WebP), shade at the left.
+    /// The grey is the mean of the encoded channels.
     ///
     /// # Errors
     /// [`ToneRampError::NoPicture`] with the path.
@@ -130,14 +131,14 @@ pub enum ToneRampError {
 
 impl Explain for ToneRampError {
     fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
+        Some(match self {
             Self::Empty | Self::OutOfRange { .. } => {
-                "give greys from 0 (black, dense paint) to 1 (white, thin paint)"
+                Hint::new("give greys from 0 (black, dense paint) to 1 (white, thin paint)")
             }
-            Self::NoPicture { .. } => {
-                "give a PNG or JPEG file whose middle row runs from shade to light"
-            }
-        }))
+            Self::NoPicture { .. } => Hint::new(format!(
+                "give a picture ({NAMES}) whose middle row runs from shade to light"
+            )),
+        })
     }
 }
 

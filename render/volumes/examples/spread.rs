@@ -4,13 +4,13 @@
 //! Without a script, colour wakes a village.
 
 use std::error::Error;
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use graphics::camera::{Camera, PictureView};
 use graphics::export::{frame_of, frame_png};
 use graphics::mesh::Mesh;
 use graphics::picture::Photograph;
+use graphics::picture_formats::has_picture_ending;
 use volumes::painter::VolumePainter;
 use volumes::performance::{FirstView, Performance};
 use volumes::script::{Script, ScriptCamera, Subject};
@@ -71,15 +71,13 @@ fn subject(script: &Script, folder: &Path) -> Result<(Mesh, Camera), Box<dyn Err
     let aspect = SIZE.0 as f32 / SIZE.1 as f32;
     let scene = match script.subject_in(folder).map_err(|fault| fault.to_string())? {
         Subject::Shape(shape) => shape.mesh(TRIANGLES),
-        Subject::File(path) => match path.extension().and_then(OsStr::to_str) {
-            Some("jpg" | "jpeg" | "png") => {
-                let photograph = Photograph::open(&path)?;
-                let (width, height) = photograph.size();
-                let mesh = Mesh::of_picture(&photograph.with_opacity(width, height));
-                return Ok((mesh, PictureView::of(SIZE).camera()));
-            }
-            _ => Mesh::open(&path)?,
-        },
+        Subject::File(path) if has_picture_ending(&path) => {
+            let photograph = Photograph::open(&path)?;
+            let (width, height) = photograph.size();
+            let mesh = Mesh::of_picture(&photograph.with_opacity(width, height));
+            return Ok((mesh, PictureView::of(SIZE).camera()));
+        }
+        Subject::File(path) => Mesh::open(&path)?,
     };
     let camera = match script.camera.clone().unwrap_or_default().camera(1) {
         ScriptCamera::Framing(framing) => {

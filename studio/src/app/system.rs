@@ -1,11 +1,11 @@
 //! Connections of the window to the system: title, dropped files, performance log and
 //! closing.
 
-use std::ffi::OsStr;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Align2, Context, FontId, Id, LayerId, Order, Rect, ViewportCommand};
+use render::picture_formats::has_picture_ending;
 
 use super::side::Tab;
 use super::studio::Studio;
@@ -70,7 +70,7 @@ impl Studio {
     /// one too.
     fn scene_subject(&self, path: &Path) -> Option<Subject> {
         let subject = Subject::from_text(path.to_str()?);
-        let picture = || self.shows_volumes && path.extension().is_some_and(is_picture);
+        let picture = || self.shows_volumes && has_picture_ending(path);
         subject.or_else(|| picture().then(|| Subject::of_file(path)))
     }
 
@@ -106,10 +106,4 @@ impl Studio {
         log.append_when_due(now, &frames, &self.figures);
         context.request_repaint_after(Duration::from_secs(1));
     }
-}
-
-/// Whether a file with this ending is a picture.
-fn is_picture(ending: &OsStr) -> bool {
-    let pictures = ["png", "jpg", "jpeg"];
-    ending.to_str().is_some_and(|ending| pictures.contains(&ending.to_ascii_lowercase().as_str()))
 }

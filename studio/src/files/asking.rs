@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use eframe::egui::Ui;
 use render::export::PictureFormat;
 use render::paint::scene::PixelsPerCell;
+use render::picture_formats;
 
-use super::browser::{Answer, Browser, BrowserOptions, Filter};
+use super::browser::{Answer, Browser, BrowserOptions, Filter, pictures_and};
 use super::dialogs::{self, Choice};
 use super::drawing::{DrawingKind, DrawnFile};
 use super::exporting::{Export, ExportKind};
@@ -26,9 +27,9 @@ use crate::language::{english, tr, tr_format};
 
 const PAINTINGS: Filter = Filter { label: english("Paintings"), endings: &["exr"] };
 pub(super) const PICTURES: Filter =
-    Filter { label: english("Pictures"), endings: &["png", "jpg", "jpeg"] };
+    Filter { label: english("Pictures"), endings: &picture_formats::ENDINGS };
 const REFERENCES: Filter =
-    Filter { label: english("Pictures and paintings"), endings: &["png", "jpg", "jpeg", "exr"] };
+    Filter { label: english("Pictures and paintings"), endings: &pictures_and::<7>(&["exr"]) };
 const SCRIPTS: Filter = Filter { label: english("Recordings and libraries"), endings: &["json"] };
 const DRAWINGS: Filter = Filter { label: english("Marks and guides"), endings: &["toml"] };
 const SWATCHES: Filter =
@@ -39,7 +40,7 @@ const LAMPS: Filter = Filter {
 };
 const OPENABLE: Filter = Filter {
     label: english("All that can be opened"),
-    endings: &["exr", "json", "png", "jpg", "jpeg"],
+    endings: &pictures_and::<8>(&["exr", "json"]),
 };
 
 impl Files {

@@ -10,6 +10,7 @@ use render::exr_picture::linear_picture;
 use render::paint::document::Document;
 use render::paint::file::PaintingFileError;
 use render::paint::strokes::{SideTable, StrokeScript};
+use render::picture_formats::begins_like_picture;
 use serde::Deserialize;
 use spectra::lamp_from_bytes;
 
@@ -107,7 +108,7 @@ pub(crate) fn read(path: &Path, progress: &Progress) -> Result<Opened, JobError>
 }
 
 const OPENABLE: &str = "open a painting (.exr), a pigment library or a recording (.json), a \
-                        picture (.png, .jpg) or the spectrum of a lamp";
+                        picture (.png, .jpg, .tif, .webp) or the spectrum of a lamp";
 
 fn kind(path: &Path) -> Result<(Kind, File, u64), Problem> {
     let unreadable = |error: std::io::Error| Problem::io(path, "read", &error);
@@ -130,7 +131,7 @@ fn kind(path: &Path) -> Result<(Kind, File, u64), Problem> {
     let text = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).trim_ascii_start();
     let kind = if start.starts_with(b"\x76\x2f\x31\x01") {
         Kind::OpenExr
-    } else if start.starts_with(b"\x89PNG\r\n\x1a\n") || start.starts_with(b"\xff\xd8\xff") {
+    } else if begins_like_picture(start) {
         Kind::Picture
     } else if text.starts_with(b"{") {
         Kind::Json
@@ -259,7 +260,15 @@ mod tests {
         );
         let opened_as = opened("c", library.to_json().as_bytes());
         assert_eq!(opened_as, Ok(Opened::Library(Box::new(library))));
-        assert_eq!(opened("d.exr", b"\x89PNG\r\n\x1a\nrest"), Ok(Opened::Picture));
+        for picture in [
+            &b"\x89PNG\r\n\x1a\nrest"[..],
+            b"\xff\xd8\xff\xe0rest",
+            b"II*\0\x08\0\0\0rest",
+            b"MM\0*\0\0\0\x08rest",
+            b"RIFF\x24\0\0\0WEBPVP8 rest",
+        ] {
+            assert_eq!(opened("d.exr", picture), Ok(Opened::Picture), "{picture:?}");
+        }
         let scene = render::field::Field::filled(3, 2, [0.5, 2.0, 0.1, 1.0]);
         let scene = render::export::linear_exr(&scene, 0.1).unwrap();
         assert_eq!(opened("f.exr", &scene), Ok(Opened::Picture));

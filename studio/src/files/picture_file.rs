@@ -29,7 +29,7 @@ pub(crate) struct ReadPicture {
     pub(crate) scene_linear: bool,
 }
 
-/// Reads a PNG or JPEG, a linear OpenEXR, or a painting, which is shown under its own light.
+/// Reads a photograph, a linear OpenEXR, or a painting, which is shown under its own light.
 /// Reduces it in linear light so that no side is above `longest`. A painting may take
 /// `most_bytes` of memory.
 ///

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::asking::export_options;
-use super::browser::{BrowserOptions, Filter};
+use super::browser::{BrowserOptions, Filter, pictures_and};
 use super::exporting::{Export, ExportKind};
 use super::job::{JobError, Progress};
 use super::open_dialog::{FilePurpose, OpenDialog};
@@ -23,7 +23,7 @@ use session::{Autosave, LostSession, SessionMeta, now};
 
 const SCENES: Filter = Filter {
     label: english("Models, photographs and scripts"),
-    endings: &["glb", "gltf", "obj", "ply", "png", "jpg", "jpeg", "toml"],
+    endings: &pictures_and::<11>(&["glb", "gltf", "obj", "ply", "toml"]),
 };
 const LIBRARIES: Filter = Filter { label: english("Pigment libraries"), endings: &["json"] };
 const SCRIPTS: Filter = Filter { label: english("Scripts"), endings: &["toml"] };

@@ -220,6 +220,38 @@ fn color_shows_the_columns_that_are_asked_for_within_100() {
 }
 
 #[test]
+fn a_comparison_keeps_within_100_columns_and_cuts_no_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("papers.csv");
+    let long =
+        "Cotton rag, cold pressed, 640 g, lot of May, seen from the felt side and then once more";
+    let text = format!(
+        "sample,400,450,500,550,600,650,700\nochre,.1,.1,.2,.4,.5,.5,.5\n\
+         blue,.3,.5,.4,.2,.1,.1,.1\n\"{long}\",.85,.97,.91,.89,.89,.89,.89\n"
+    );
+    std::fs::write(&path, text).unwrap();
+    let file = path.to_str().unwrap();
+    let table = |more: &[&str]| {
+        let run = impasto(&[&["color", file, "--compare", "ochre"], more].concat());
+        assert_eq!(run.status, 0, "{}", run.err);
+        assert!(run.out.lines().all(|line| line.chars().count() <= 100), "{}", run.out);
+        run.out
+    };
+    let short = table(&["--sample", "blue"]);
+    let heading = short.lines().nth(1).unwrap();
+    assert!(heading.contains("b*  CIEDE2000") && heading.ends_with("display"), "{short}");
+    let named = table(&["--illuminant", "D65", "--illuminant", "A"]);
+    assert_eq!(named.lines().filter(|line| *line == long).count(), 4, "{named}");
+    // Each of the two lights has its colours and, below them, the differences.
+    let headings: Vec<&str> = named.lines().filter(|line| line.starts_with("sample")).collect();
+    assert!(headings[0].ends_with("b*  display") && headings[1].ends_with("CMC2:1"), "{named}");
+    assert!(headings[3].ends_with("metamerism D65 to A"), "{named}");
+    let ochre: Vec<&str> = named.lines().filter(|line| line.starts_with("ochre")).collect();
+    let last = ochre[3].split_whitespace().skip(1).collect::<Vec<_>>();
+    assert_eq!(last, ["0.00"; 5], "the standard beside itself: {named}");
+}
+
+#[test]
 fn mix_prints_its_keys_and_a_masstone_is_its_sample() {
     let mix = json(&["mix", &library(), "viridian=2", "--json"]);
     assert_eq!(

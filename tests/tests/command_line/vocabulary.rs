@@ -70,10 +70,43 @@ fn old_spellings_of_the_laboratory_do_what_the_new_ones_do() {
         };
         assert_eq!(write("--white", "new.json"), write("--reference", "old.json"), "{verb}");
     }
+    let part = place(folder, "part.json");
+    done(&["library", "subset", &library, "Zinc White", "Lead White", "-o", &part]);
+    let merged = |option: &str, name: &str| {
+        let out = place(folder, name);
+        done(&["library", "merge", &library, &part, option, "Lead White", "-o", &out]);
+        std::fs::read(out).unwrap()
+    };
+    assert_eq!(merged("--white", "new.json"), merged("--reference", "old.json"), "merge");
+    let demo = place(folder, "demo");
+    done(&["demo", "--out", &demo]);
+    assert!(Path::new(&demo).is_dir(), "demo --out");
     for spelling in ["-o", "--output", "--out"] {
         let out = place(folder, spelling.trim_start_matches('-'));
         done(&["report", &library, spelling, &out]);
         assert!(Path::new(&out).join("report.html").exists(), "{spelling}");
+    }
+}
+
+#[test]
+fn old_spellings_are_not_in_the_help() {
+    let help = |verb: &[&str]| done(&[verb, &["--help"]].concat()).out;
+    let cases: [(&[&str], &[&str]); 9] = [
+        (&["fit"], &["--reference", "--dark "]),
+        (&["plan"], &["--prior"]),
+        (&["color"], &["--white ", "--dark "]),
+        (&["report"], &["--out ", "--white "]),
+        (&["library", "convert"], &["--reference"]),
+        (&["paint"], &["--library"]),
+        (&["watercolor"], &["--pigments"]),
+        (&["painterly"], &["--pigments"]),
+        (&["stencil"], &["--pigments"]),
+    ];
+    for (verb, old) in cases {
+        let told = help(verb);
+        for word in old {
+            assert!(!told.contains(word), "{verb:?} tells {word}: {told}");
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde_json::{Map, Value};
+use spectra::counted;
 use spectra::file::{FileError, read, write_whole};
 use spectra::hint::{Explain, Fault, Hint};
 
@@ -132,7 +133,10 @@ impl PigmentLibrary {
                     let (wanted, found) = (self.grid.count(), values.len());
                     return Err(fault(
                         name,
-                        format!("{curve} has `{found}` values for {wanted} wavelengths"),
+                        format!(
+                            "{curve} has `{found}` values for {}",
+                            counted(wanted, "wavelength")
+                        ),
                     ));
                 }
                 if let Some(at) = values.iter().position(|v| !(v.is_finite() && *v >= 0.0)) {

@@ -6,11 +6,12 @@ use serde_json::{Value, json};
 
 use super::table::Table;
 use crate::console::Console;
+use crate::decimals::at_most;
 use crate::failure::Result;
 
 /// Size, spacing and pigments of a map in one line.
 pub(super) fn summary(map: &ArtMap) -> String {
-    let mm = map.mm_per_texel.map(|mm| format!(" ({:.2} mm)", mm * map.spacing));
+    let mm = map.mm_per_texel.map(|mm| format!(" ({} mm)", at_most(mm * map.spacing, 2)));
     let names = pigment_names(map);
     let pigments = if names.is_empty() { "colours only".to_owned() } else { names.join(", ") };
     let guessed = if map.guessed_relief { "; relief guessed" } else { "" };

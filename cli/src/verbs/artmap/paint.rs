@@ -13,6 +13,7 @@ use super::files::FileAndSheet;
 use super::table::{pigment_names, print_samples, sample_json, set_json, spacing};
 use crate::console::Console;
 use crate::failure::Result;
+use crate::input::is_toml;
 use crate::library_choice::quietly_chosen;
 use crate::progress::Waiting;
 
@@ -91,9 +92,9 @@ impl Paint {
             return console.json(&set_json(&set, set.samples.iter().map(sample_json).collect()));
         }
         console.line(format!(
-            "{}: {} tones in the style {}, strokes {} apart, painted with {}",
+            "{}: {} in the style {}, strokes {} apart, painted with {}",
             output.display(),
-            set.samples.len(),
+            spectra::counted(set.samples.len(), "tone"),
             style.name,
             spacing(&set),
             pigment_names(&set).join(", ")
@@ -104,7 +105,7 @@ impl Paint {
 
 /// The style that ships with this name, or the style in a file, with its path.
 fn style(named: &Path) -> Result<(Style, Option<PathBuf>)> {
-    if named.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+    if is_toml(named) {
         return Ok((Style::open(named)?, Some(named.to_owned())));
     }
     Ok((Style::named(&named.to_string_lossy())?, None))

@@ -11,6 +11,7 @@ use render::artmap::sample::{SampleSet, file};
 use render::artmap::sheet::sheet;
 use render::artmap::synthesis::SynthesisSettings;
 use serde_json::{Value, json};
+use spectra::file::is_standard_input;
 
 use super::files::FileAndSheet;
 use super::propose::{Proposal, ProposalFiles};
@@ -18,6 +19,7 @@ use super::source::{file_name, source};
 use super::table::{Table, sample_json, set_json, size, spacing};
 use crate::console::Console;
 use crate::failure::Result;
+use crate::input::is_toml;
 use crate::plain_picture::{picture_bytes, picture_output, refuse_same};
 use crate::progress::Waiting;
 
@@ -52,8 +54,8 @@ enum ResizedBy {
 /// and a passage at least four of them wide. Look at --marked first: it shows the passages.
 #[derive(Debug, Args)]
 pub(super) struct Sample {
-    /// A picture (.png, .jpg), or a painting (.exr, as `impasto paint --output` writes it), which
-    /// keeps its pigments and relief
+    /// A picture (.png, .jpg, .tif, .webp), or a painting (.exr, as `impasto paint --output` writes
+    /// it), which keeps its pigments and relief
     painting: PathBuf,
     /// Marks of the samples (.toml), or lines over the picture (.png)
     #[arg(long, value_name = "FILE", conflicts_with = "propose")]
@@ -150,10 +152,7 @@ impl Sample {
         console.line(format!(
             "{}: {} of {}, strokes {} apart",
             self.output.display(),
-            match set.samples.len() {
-                1 => "1 sample".to_owned(),
-                count => format!("{count} samples"),
-            },
+            spectra::counted(set.samples.len(), "sample"),
             file_name(&self.painting),
             spacing(&set)
         ))?;
@@ -182,7 +181,8 @@ impl Sample {
             let stem = self.painting.file_stem().unwrap_or_default().to_string_lossy();
             return Ok(Marks::of_whole(&stem, size));
         };
-        if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        let streamed = is_standard_input(path) && !is_toml(path);
+        if streamed || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
             return Ok(Marks::from_overlay(path, size)?);
         }
         let marks = Marks::open(path)?;

@@ -1,4 +1,4 @@
-//! The picture that samples are taken from: PNG, JPEG, or a painting of impasto.
+//! The picture that samples are taken from: a photograph, or a painting of impasto.
 
 use std::path::Path;
 

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use spectra::color::Rgb;
 
 use crate::console::Console;
+use crate::decimals::at_most;
 use crate::failure::Result;
 
 /// Columns of text with a heading each.
@@ -61,10 +62,10 @@ pub(super) fn pigment_names(set: &SampleSet) -> Vec<String> {
     set.paint.as_ref().map(PaintOfSamples::pigment_names).unwrap_or_default()
 }
 
-/// Distance of strokes in texels, and in mm where it is known: `16.0 texels (4.00 mm)`.
+/// Distance of strokes in texels, and in mm where it is known: `16.0 texels (4 mm)`.
 pub(super) fn spacing(set: &SampleSet) -> String {
     let Some(first) = set.samples.first() else { return "no texels".to_owned() };
-    let mm = first.mm_per_texel.map(|mm| format!(" ({:.2} mm)", mm * first.spacing));
+    let mm = first.mm_per_texel.map(|mm| format!(" ({} mm)", at_most(mm * first.spacing, 2)));
     format!("{:.1} texels{}", first.spacing, mm.unwrap_or_default())
 }
 

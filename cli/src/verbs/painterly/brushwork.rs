@@ -10,6 +10,7 @@ use render::painterly::{Brushwork, Region, RegionArea, Regions};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
+use crate::input::is_toml;
 use crate::progress::Waiting;
 
 #[derive(Debug, Args)]
@@ -44,7 +45,7 @@ struct Chosen<'a> {
 impl BrushworkOptions {
     /// Files that the maps are made from.
     pub(super) fn inputs(&self) -> Vec<PathBuf> {
-        let style = self.style.iter().filter(|style| is_toml(style)).cloned();
+        let style = self.style.iter().filter(|style| is_toml(Path::new(style))).cloned();
         let maps = self.map.iter().map(|option| file_of(option).1.to_owned());
         maps.chain(style).map(PathBuf::from).chain(self.regions.clone()).collect()
     }
@@ -120,7 +121,7 @@ impl Maps {
 
 /// A map of samples painted in a style.
 fn styled(style: &str, console: &Console<'_>) -> Result<ArtMap> {
-    let style = match is_toml(style) {
+    let style = match is_toml(Path::new(style)) {
         true => Style::open(Path::new(style))?,
         false => Style::named(style)?,
     };
@@ -135,8 +136,4 @@ fn file_of(option: &str) -> (Option<&str>, &str) {
         Some((material, file)) if !Path::new(option).exists() => (Some(material), file),
         _ => (None, option),
     }
-}
-
-fn is_toml(path: &str) -> bool {
-    Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }

@@ -1,6 +1,6 @@
 //! Options for directions of strokes and the depth of a picture.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use render::mesh::{Guide, Mesh};
@@ -8,6 +8,7 @@ use render::painterly::guides::Guides;
 use render::painterly::{FlowPicture, PictureForm};
 
 use crate::failure::{Failure, Result};
+use crate::input::is_toml;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Subject")]
@@ -17,7 +18,7 @@ pub(super) struct FormOptions {
     #[arg(long, value_name = "FILE")]
     directions: Option<PathBuf>,
     /// Depth of a picture, which makes a relief of it, before which --camera and --turntable move:
-    /// white is near, black is far (.png, .jpg)
+    /// white is near, black is far (.png, .jpg, .tif, .webp)
     #[arg(long, value_name = "FILE")]
     depth: Option<PathBuf>,
 }
@@ -69,8 +70,4 @@ impl FormOptions {
         };
         Ok(guides.on_mesh(mesh, &camera)?)
     }
-}
-
-fn is_toml(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }

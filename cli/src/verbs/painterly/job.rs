@@ -21,6 +21,7 @@ use crate::console::Console;
 use crate::failure::Result;
 use crate::pictures::OpenExports;
 use crate::plain_picture::PX_MM;
+use crate::progress::waited;
 use crate::stages::StageFolder;
 
 /// A subject, and the pictures of it.
@@ -61,14 +62,15 @@ impl Job {
             self;
         let Scene { subject, cameras, size } = scene;
         let brushwork = maps.brushwork();
-        let painter = match &subject {
+        let laid_out = || match &subject {
             SceneSubject::Model(mesh, guides) => {
-                Painter::of_model_with(mesh, &brushwork, guides, &settings)?
+                Painter::of_model_with(mesh, &brushwork, guides, &settings)
             }
             SceneSubject::Picture(photograph, form) => {
-                Painter::of_picture_with(photograph, &brushwork, form, &settings)?
+                Painter::of_picture_with(photograph, &brushwork, form, &settings)
             }
         };
+        let painter = waited("laying out strokes", console, laid_out)?;
         let backend = compute.name().to_owned();
         let mut painter = painter.on(compute)?;
         let recording = match animation {
@@ -96,13 +98,15 @@ impl Job {
                 if let Some((library, palette)) = pigments {
                     painter.set_pigments(library, palette);
                 }
-                let document = painter.painting(&cameras[0], size, 0.0, (&title, &ground))?;
+                let paint = || painter.painting(&cameras[0], size, 0.0, (&title, &ground));
+                let document = waited("painting", console, paint)?;
                 let engine = PaintEngine::on_cpu(document.ground.height.clone());
                 let light = Light::new(&document.library, &Viewing::default())?;
                 exports.write(&mut Painting::open_under(document, light, engine, 0)?, console)?;
             }
             None => {
-                let painted = painter.paint(&cameras[0], size, 0.0)?;
+                let paint = || painter.paint(&cameras[0], size, 0.0);
+                let painted = waited("painting", console, paint)?;
                 let linear = linear_from_encoded(&over_white(&painted.color));
                 exports.write_picture(&linear, PX_MM, console)?;
             }

@@ -40,7 +40,7 @@ use settings::{SettingsOptions, preset_names};
 /// with `impasto artmap`, or name a style.
 #[derive(Debug, Args)]
 pub(crate) struct Painterly {
-    /// A photograph (.png, .jpg), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
+    /// A photograph (.png, .jpg, .tif, .webp), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
     /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
     #[arg(required_unless_present = "show_preset")]
     subject: Option<PathBuf>,

@@ -20,6 +20,7 @@ use super::times::Times;
 use crate::animation::{Animation, FramesDigest};
 use crate::console::Console;
 use crate::failure::{Failure, Result};
+use crate::progress::waited;
 
 /// A scene, its script and its outputs.
 pub(super) struct Job {
@@ -113,13 +114,14 @@ impl Job {
             }
             _ => Snapshots::none(device),
         };
-        let mut painter = self.painter()?;
+        let mut painter = waited("preparing the scene", console, || self.painter())?;
         if painter.counts_elsewhere() {
             console.warnings(&[format!(
                 "{backend} writes no buffers from fragments; volumes are counted on the processor"
             )])?;
         }
-        let still = self.rehearsed(animation.is_some(), &mut snapshots)?;
+        let rehearsed = || self.rehearsed(animation.is_some(), &mut snapshots);
+        let still = waited("spreading the paint", console, rehearsed)?;
         let recording = match (animation, digest) {
             (Some(animation), Some(digest)) => {
                 Some(animation.begin(digest, self.times.frames.len(), size)?)

@@ -24,7 +24,7 @@ use crate::subject::SubjectOptions;
 /// dried, and when.
 #[derive(Debug, Args)]
 pub(crate) struct Stencil {
-    /// A mesh (.obj, .gltf, .glb, .ply), a photograph (.png, .jpg), a built-in shape
+    /// A mesh (.obj, .gltf, .glb, .ply), a photograph (.png, .jpg, .tif, .webp), a built-in shape
     /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere), or a script (.toml)
     #[arg(required_unless_present = "show_preset")]
     pub(super) subject: Option<PathBuf>,

@@ -3,6 +3,7 @@
 use calibrate::library::PigmentLibrary;
 use clap::Args;
 use render::volumes::script::{PourTable, Row, Script};
+use spectra::counted;
 
 use crate::failure::{Failure, Result};
 use crate::palette::{listed, name_in_recipe, pigment_names};
@@ -94,7 +95,7 @@ impl PourOptions {
                 "add --pour 0.5,0.5",
             )),
             (paints, pours) => Err(Failure::usage(
-                format!("{paints} recipes for {pours} pours"),
+                format!("{} for {}", counted(paints, "recipe"), counted(pours, "pour")),
                 "give one --paint for all pours, or one for each",
             )),
         }

@@ -16,7 +16,7 @@ use spectra::instrument::split_file_and_name;
 use super::cameras::{camera_table, model_cameras, picture_cameras};
 use super::pours::PourOptions;
 use crate::failure::{Failure, Result};
-use crate::input::text;
+use crate::input::{is_toml, text};
 use crate::subject::{PictureViews, Subject, SubjectOptions};
 
 /// A script with the file that it was read from, if any.
@@ -51,7 +51,7 @@ impl OpenScript {
     /// Reads a script, or makes one in which nothing happens to `subject`.
     pub(super) fn of(subject: &Path, pours: &PourOptions) -> Result<Self> {
         let seconds_given = pours.has_seconds();
-        if !is_script(subject) {
+        if !is_toml(subject) {
             let script = Script::new(&subject.to_string_lossy(), pours.usual_seconds());
             return Ok(Self {
                 script,
@@ -244,9 +244,4 @@ fn lamp_from(lamp: &str, folder: &Path) -> String {
     let (file, name) = split_file_and_name(lamp);
     let file = path_from(Path::new(file), folder);
     name.map_or(file.clone(), |name| format!("{file}#{name}"))
-}
-
-/// Whether a subject is a script.
-fn is_script(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }

@@ -7,6 +7,7 @@ use render::volumes::world::StepDevice;
 use spectra::file::{read, write_whole};
 
 use crate::console::Console;
+use crate::decimals::at_most;
 use crate::failure::{Context, Result};
 
 /// Frames from one snapshot to the next.
@@ -66,7 +67,7 @@ impl Snapshots {
         }
         found.sort_by_key(Performance::step);
         let start = found.last().map_or("the beginning".to_owned(), |newest| {
-            format!("the snapshot after {:.2} s", newest.world().seconds())
+            format!("the snapshot after {} s", at_most(newest.world().seconds(), 2))
         });
         for fault in faults {
             console.remark(format!("{fault}; the script goes on from {start}"))?;

@@ -17,6 +17,7 @@ use crate::failure::Result;
 use crate::output::Output;
 use crate::pictures::OpenExports;
 use crate::plain_picture::PX_MM;
+use crate::progress::waited;
 use crate::stages::StageFolder;
 
 /// A world at one time, seen by the first camera.
@@ -53,9 +54,14 @@ impl Stills<'_> {
     /// Writes the picture, and the painting with its layers.
     fn exports(&mut self, exports: OpenExports, console: &mut Console<'_>) -> Result<()> {
         match self.lighting.filter(|_| self.show == Show::Final) {
-            Some(lighting) => exports.write(&mut self.painting(lighting)?, console),
+            Some(lighting) => {
+                let mut painting = waited("painting", console, || self.painting(lighting))?;
+                exports.write(&mut painting, console)
+            }
             None => {
-                let picture = self.painter.shown(self.world, self.camera, self.size, self.show)?;
+                let Self { world, camera, size, show, .. } = *self;
+                let draw = || self.painter.shown(world, camera, size, show);
+                let picture = waited("drawing", console, draw)?;
                 let linear = linear_from_encoded(&over_white(&picture));
                 exports.write_picture(&linear, PX_MM, console)
             }

@@ -5,6 +5,7 @@ use render::volumes::world::World;
 use serde_json::json;
 
 use crate::console::Console;
+use crate::decimals::at_most;
 use crate::failure::Result;
 
 /// Summary of a finished run.
@@ -74,7 +75,8 @@ impl Summary {
         let [on_scene, lifted, in_tube] = self.paint_mm3;
         let volumes = spectra::counted(*volumes, "volume");
         let mut line = format!(
-            "{width} x {height} pixels on {backend}: {volumes} after {seconds:.2} s, {on_scene:.1} mm3 of paint"
+            "{width} x {height} pixels on {backend}: {volumes} after {} s, {on_scene:.1} mm3 of paint",
+            at_most(*seconds, 2)
         );
         if lifted > 0.0 {
             line += &format!(", {lifted:.1} mm3 taken up");
@@ -85,7 +87,9 @@ impl Summary {
         if let Some((frames, found)) = self.frames {
             line += &format!(", {}", spectra::counted(frames, "frame"));
             if found > 0 {
-                let from = self.from_s.map_or("the beginning".to_owned(), |s| format!("{s:.2} s"));
+                let from = self
+                    .from_s
+                    .map_or("the beginning".to_owned(), |s| format!("{} s", at_most(s, 2)));
                 line += &format!(" ({found} of them existed already; played from {from})");
             }
         }

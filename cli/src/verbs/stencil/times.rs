@@ -21,7 +21,7 @@ impl Times {
         let at = at.unwrap_or(seconds);
         if !(0.0..=seconds).contains(&at) {
             return Err(Failure::usage(
-                format!("--at takes 0 to {seconds} seconds, found `{at}`"),
+                format!("--at takes 0 to {seconds} s, found `{at}`"),
                 "leave it out for the end, or give more --seconds",
             ));
         }

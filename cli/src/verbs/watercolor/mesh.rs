@@ -5,6 +5,7 @@ use render::compute::Compute;
 use render::encoding::{encoded_from_linear, linear_from_encoded};
 use render::export::frame_of;
 use render::mesh::Mesh;
+use render::paint::document::Document;
 use render::watercolor::{ModelPainter, Stage};
 
 use super::job::{Job, Summary};
@@ -13,6 +14,7 @@ use super::pigments::open_painting;
 use crate::animation::FramesDigest;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
+use crate::progress::waited;
 
 /// Paints a mesh. The picture and the stages show it from the first camera, the animation from all
 /// cameras.
@@ -36,7 +38,8 @@ pub(super) fn paint(
         digest = digest.add(&settings.toon.greys.as_ref().map(std::fs::read));
         digest = digest.add(&controls);
     }
-    let mut painter = ModelPainter::new(compute, mesh, &settings, size)?;
+    let prepared = || ModelPainter::new(compute, mesh, &settings, size);
+    let mut painter = waited("preparing the model", console, prepared)?;
     painter.set_controls(controls);
     let Some(first) = cameras.first() else {
         return Err(Failure::data("the camera path has no frames", "give frames = 60"));
@@ -54,12 +57,15 @@ pub(super) fn paint(
     if outputs.exports.any() {
         match &mut glazes {
             None => {
-                let picture = linear_from_encoded(&painter.paint(first)?);
+                let painted = waited("painting", console, || painter.paint(first))?;
+                let picture = linear_from_encoded(&painted);
                 outputs.exports.write_picture(&picture, painter.paper().px_mm, console)?;
             }
             Some(glazes) => {
-                let (wash, textures) = painter.wash(first)?;
-                let document = glazes.paint(&title, &wash, &textures, painter.settings())?;
+                let document = waited("painting", console, || -> Result<Document> {
+                    let (wash, textures) = painter.wash(first)?;
+                    Ok(glazes.paint(&title, &wash, &textures, painter.settings())?)
+                })?;
                 outputs.exports.write(&mut open_painting(document, glazes)?, console)?;
             }
         }

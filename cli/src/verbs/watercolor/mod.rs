@@ -37,7 +37,7 @@ use style::{StyleOptions, preset_names};
 /// clouds and grains stay on the object.
 #[derive(Debug, Args)]
 pub(crate) struct Watercolor {
-    /// A photograph (.png, .jpg), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
+    /// A photograph (.png, .jpg, .tif, .webp), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
     /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
     #[arg(required_unless_present = "show_preset")]
     subject: Option<PathBuf>,

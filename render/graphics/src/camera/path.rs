@@ -1,5 +1,6 @@
 //! Camera paths: keyframes from a TOML file, interpolated to one camera per frame.
 
+use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 use glam::Vec3;
@@ -105,7 +106,7 @@ pub enum CameraPathError {
         name: String,
         /// Reason given by the system.
         #[source]
-        error: std::io::Error,
+        error: Error,
     },
     /// The text is not TOML, or a key is missing, unknown or of the wrong type.
     #[error("{name}: line {line}: {reason}")]
@@ -155,8 +156,12 @@ impl CameraPath {
     /// [`CameraPathError`] with the path and the line or key.
     pub fn open(path: &Path) -> Result<Self, CameraPathError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| CameraPathError::Unreadable { name: name.clone(), error })?;
+        let unreadable = |error| CameraPathError::Unreadable { name: name.clone(), error };
+        let bytes = spectra::file::read(path).map_err(|error| {
+            unreadable(Error::new(error.reason.kind(), error.reason.to_string()))
+        })?;
+        let text = String::from_utf8(bytes)
+            .map_err(|error| unreadable(Error::new(ErrorKind::InvalidData, error)))?;
         Self::from_text(&name, &text)
     }
 

@@ -4,6 +4,7 @@ use std::io::{BufRead, Seek};
 
 use png::{BitDepth, ColorType, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
+use spectra::counted;
 use spectra::hint::{Explain, Fault, Hint};
 
 use crate::field::Field;
@@ -35,7 +36,7 @@ pub enum FrameError {
         found: [usize; 2],
     },
     /// The number of frames is not the announced one.
-    #[error("an animation of {wanted} frames, found `{found}`")]
+    #[error("an animation of {}, found `{found}`", counted(*wanted, "frame"))]
     Count {
         /// Number of frames announced in advance.
         wanted: usize,

@@ -1,5 +1,6 @@
 //! Validity of a mesh: the conditions that rendering relies on.
 
+use spectra::counted_as;
 use spectra::hint::{Explain, Hint};
 
 use super::model::Mesh;
@@ -11,7 +12,7 @@ pub enum MeshFault {
     #[error("the mesh has no triangle")]
     NoTriangle,
     /// A per-vertex list has another length than the list of positions.
-    #[error("{found} {what} for {wanted} vertices")]
+    #[error("{found} {what} for {}", counted_as(*wanted, "vertex", "vertices"))]
     ListLength {
         /// Name of the list, for example `normals`.
         what: &'static str,

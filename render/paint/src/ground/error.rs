@@ -1,5 +1,6 @@
 //! Errors of making a ground.
 
+use graphics::picture_formats::NAMES;
 use spectra::hint::{Explain, Hint};
 
 /// A ground cannot be made as described.
@@ -68,9 +69,9 @@ impl Explain for GroundError {
             Self::TooHigh { .. } => Hint::new("use larger cells, or a lower ground"),
             Self::Color { .. } => Hint::new("or give a number 0 to 1, or {\"spectrum\": {..}}"),
             Self::Band { library, .. } => Hint::new(format!("the library covers {library}")),
-            Self::Picture { .. } => {
-                Hint::new("the relief of a ground is a grey PNG or JPEG, white the highest")
-            }
+            Self::Picture { .. } => Hint::new(format!(
+                "the relief of a ground is a grey picture ({NAMES}), white the highest"
+            )),
             Self::Recipe(error) => return error.hint(),
             Self::OutOfRange { .. } | Self::Spectrum(_) | Self::Resampled(_) => return None,
         })

@@ -16,7 +16,7 @@ use graphics::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PictureRelief {
-    /// Path of the picture, a PNG or JPEG file.
+    /// Path of the picture, a PNG, JPEG, TIFF or WebP file.
     pub path: String,
     /// Height of white in mm, 0 to 20; 0.2 by default.
     #[serde(default = "default_depth_mm")]

@@ -5,6 +5,7 @@ use crate::dry_layer::LayerId;
 use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
 use graphics::gpu::DeviceError;
+use spectra::counted;
 use spectra::hint::{Explain, Fault, Hint};
 
 /// Why a painting refuses an action. Nothing is changed then, unless the device failed.
@@ -178,7 +179,10 @@ pub enum PaintingError {
         pigments: Vec<String>,
     },
     /// There is no dry layer with this index.
-    #[error("there are {count} dry layers, counted from 0, found `{index}`")]
+    #[error(
+        "the painting has {}, counted from 0, found `{index}`",
+        counted(*count, "dry layer")
+    )]
     NoLayer {
         /// The index, from 0 for the lowest.
         index: usize,

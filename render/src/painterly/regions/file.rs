@@ -8,6 +8,7 @@ use graphics::picture::Photograph;
 use serde::Deserialize;
 use spectra::ParserReason;
 use spectra::color::Rgb;
+use spectra::counted;
 
 use super::error::RegionsError;
 use super::region::{Region, RegionArea, Regions};
@@ -82,7 +83,7 @@ impl Regions {
             }
             match &region.area {
                 RegionArea::Polygon(points) if points.len() < 3 => {
-                    let fault = format!("polygon has {} points", points.len());
+                    let fault = format!("polygon has {}", counted(points.len(), "point"));
                     return error(fault, "three points or more enclose an area");
                 }
                 RegionArea::Polygon(points)

@@ -66,8 +66,8 @@ pub struct DispersionSettings {
 pub struct PaperSettings {
     /// Finish of the paper: hot-pressed, cold-pressed or rough.
     pub kind: PaperFinish,
-    /// Path of a picture of heights (PNG or JPEG, white is high) that replaces the generated
-    /// paper.
+    /// Path of a picture of heights (PNG, JPEG, TIFF or WebP, white is high) that replaces the
+    /// generated paper.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scan: Option<String>,
     /// Width of a pixel of the scan in px, 0.05..=20.

@@ -25,8 +25,8 @@ pub struct AbstractionSettings {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ToonSettings {
-    /// Path of a picture (PNG or JPEG) whose middle row replaces the steps: greys from shade
-    /// to light.
+    /// Path of a picture (PNG, JPEG, TIFF or WebP) whose middle row replaces the steps: greys from
+    /// shade to light.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub greys: Option<String>,
     /// Number of steps from shade to light, 1..=16; 1 is flat colour.

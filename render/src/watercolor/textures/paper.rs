@@ -10,6 +10,7 @@ use super::quantiles::Quantiles;
 use crate::watercolor::settings::PaperSettings;
 use graphics::field::Field;
 use graphics::picture::{Photograph, PhotographError};
+use graphics::picture_formats::NAMES;
 use paint::amount::QUANTA_PER_CELL;
 use paint::ground::{GroundError, Paper, PaperFinish};
 
@@ -246,9 +247,9 @@ pub enum PaperTextureError {
 impl Explain for PaperTextureError {
     fn hint(&self) -> Option<Hint> {
         match self {
-            Self::Scan(_) => Some(Hint::new(
-                "paper.scan names a PNG or JPEG; without it paper.kind makes a paper",
-            )),
+            Self::Scan(_) => Some(Hint::new(format!(
+                "paper.scan names a picture ({NAMES}); without it paper.kind makes a paper"
+            ))),
             Self::Ground(error) => error.hint(),
         }
     }

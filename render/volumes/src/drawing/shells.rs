@@ -1,5 +1,6 @@
 //! Concentric shells of a volume, and the tint at each count of them.
 
+use spectra::counted_as;
 use spectra::hint::{Explain, Fault, Hint};
 
 /// Most shells of a volume.
@@ -15,7 +16,11 @@ pub enum ShellError {
         found: usize,
     },
     /// There is not one tint more than there are shells.
-    #[error("{shells} shells want {} tints, from outside to the core; found `{tints}`", .shells + 1)]
+    #[error(
+        "{} {} tints, from outside to the core; found `{tints}`",
+        counted_as(*shells, "shell wants", "shells want"),
+        .shells + 1
+    )]
     Lengths {
         /// Number of shells.
         shells: usize,

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use spectra::counted;
+
 use super::file::Script;
 use super::ranges::{
     MOST_LENGTH, check_direction, check_place, check_positive, check_range, check_time,
@@ -101,7 +103,7 @@ impl Script {
                     0 => "add a [[volume]]".to_owned(),
                     _ => "volumes count from 1 in the order of the script".to_owned(),
                 };
-                let wanted = format!("the number of one of {count} volumes");
+                let wanted = format!("the number of one of {}", counted(count, "volume"));
                 Err(Fault::new(&key.key("volume"), wanted, number, hint))
             }
             _ => Ok(()),

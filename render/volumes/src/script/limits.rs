@@ -1,5 +1,7 @@
 //! Limits on what a script may ask for, and what would fit where it asks for more.
 
+use spectra::counted_as;
+
 use crate::sphere_mesh::MOST_DETAIL;
 use crate::toml_text::{Checked, Fault, KeyPath};
 use crate::wetting::MOST_CELLS;
@@ -74,7 +76,7 @@ pub(super) fn check_particles(details: &[u8]) -> Checked {
             let fits = finest.find(|&detail| of(detail) * details.len() <= MOST_PARTICLES);
             let hint = match fits {
                 Some(fits) => format!("detail = {fits} fits for all {}", details.len()),
-                None => format!("{index} volumes fit"),
+                None => counted_as(index, "volume fits", "volumes fit"),
             };
             let key = KeyPath::of("volume").index(index).key("detail");
             let wanted = format!("at most {MOST_PARTICLES} particles in all volumes");

@@ -1,5 +1,7 @@
 //! Concentric shells of a volume and the tint of a place by the number of shells that hold it.
 
+use spectra::counted;
+
 use crate::drawing::MOST_SHELLS;
 use crate::toml_text::{Checked, Fault, KeyPath};
 
@@ -29,7 +31,7 @@ pub(crate) fn check_shells(table: &KeyPath, shells: &[f64], tints: &[f64]) -> Ch
     let key = table.key("tint");
     let even = format!("{} is even, and so is []", list(&even_tints(shells.len())));
     if !tints.is_empty() && tints.len() != shells.len() + 1 {
-        let wanted = format!("{} shares for {} shells", shells.len() + 1, shells.len());
+        let wanted = format!("{} shares for {}", shells.len() + 1, counted(shells.len(), "shell"));
         return Err(Fault::new(&key, wanted, list(tints), even));
     }
     let rising = tints.windows(2).all(|pair| pair[0] <= pair[1]);

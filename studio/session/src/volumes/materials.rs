@@ -9,6 +9,7 @@ use render::paint::document::{Lighting, Slots};
 use render::paint::ground::GroundSpec;
 use render::volumes::painter::VolumePigments;
 use render::volumes::script::{Script, ScriptError, is_light};
+use spectra::counted;
 use spectra::hint::Hint;
 
 use super::state::SceneTube;
@@ -170,10 +171,10 @@ pub(super) fn fill_tubes(script: &mut Script, library: &PigmentLibrary) -> Resul
     };
     if names.len() < letters.len() {
         let what = format!(
-            "{}: it has {} pigments that can be mixed, and the scene {} tubes",
+            "{}: it has {} that can be mixed, and the scene {}",
             library.title,
-            names.len(),
-            letters.len()
+            counted(names.len(), "pigment"),
+            counted(letters.len(), "tube")
         );
         let hint = Some(Hint::new("take a library with more pigments, or begin a new scene"));
         return Err(FileFailure { what, hint });

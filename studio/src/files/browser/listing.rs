@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::time::SystemTime;
 
+use render::picture_formats::ENDINGS;
+
 use crate::files::job::{JobError, Progress};
 use crate::files::problem::Problem;
 use crate::language::english;
@@ -43,6 +45,18 @@ impl Filter {
         let ends = |ending: &&str| name.strip_suffix(ending).is_some_and(|n| n.ends_with('.'));
         self.endings.is_empty() || self.endings.iter().any(ends)
     }
+}
+
+/// Endings of all pictures that can be read, and `others`: `ALL` together.
+pub(crate) const fn pictures_and<const ALL: usize>(others: &[&'static str]) -> [&'static str; ALL] {
+    let mut endings = [""; ALL];
+    assert!(ALL == ENDINGS.len() + others.len(), "the number of all endings");
+    let mut at = 0;
+    while at < ALL {
+        endings[at] = if at < others.len() { others[at] } else { ENDINGS[at - others.len()] };
+        at += 1;
+    }
+    endings
 }
 
 /// Lists `folder` without hidden entries: folders first, each group sorted by name with
@@ -109,6 +123,16 @@ mod tests {
         let names: Vec<_> = entries.iter().map(|entry| entry.name.as_str()).collect();
         assert_eq!(names, ["zebra", "A.exr", "b9.exr", "b10.exr"]);
         assert_eq!((entries[0].folder, entries[1].bytes), (true, 1));
+    }
+
+    #[test]
+    fn a_filter_of_pictures_shows_all_that_can_be_read() {
+        const ENDINGS: [&str; 7] = pictures_and(&["exr"]);
+        let filter = Filter { label: english("Pictures and paintings"), endings: &ENDINGS };
+        for name in ["a.exr", "a.png", "a.JPEG", "scan.tif", "scan.tiff", "web.webp"] {
+            assert!(filter.passes(name), "{name}");
+        }
+        assert!(!filter.passes("oils.json"), "no picture");
     }
 
     #[test]

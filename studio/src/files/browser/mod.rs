@@ -19,6 +19,6 @@ mod entries_view;
 
 mod show;
 
-pub(crate) use listing::Filter;
+pub(crate) use listing::{Filter, pictures_and};
 pub(crate) use state::{Answer, Browser, BrowserOptions};
 pub(crate) use thumbnails::Thumbnails;

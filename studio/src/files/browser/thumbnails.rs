@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use render::picture_formats::has_picture_ending;
 
 use super::listing::Entry;
 use crate::files::job::Job;
@@ -24,9 +25,6 @@ const MOST_FILE_BYTES: u64 = 256 << 20;
 
 /// Most memory that reading a painting for its picture may take, in bytes: 2 GiB.
 const MOST_MEMORY: u64 = 2 << 30;
-
-/// Extensions of files that may have a picture, in lower case.
-const ENDINGS: [&str; 4] = ["exr", "png", "jpg", "jpeg"];
 
 /// Size and time of a file: its picture is read again when they change.
 type Stamp = (u64, Option<SystemTime>);
@@ -121,8 +119,9 @@ impl Thumbnails {
 
 /// Whether a file of this name may have a picture.
 fn may_have_picture(name: &str) -> bool {
-    let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
-    ending.is_some_and(|ending| ENDINGS.contains(&ending.to_lowercase().as_str()))
+    let path = Path::new(name);
+    let is_painting = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"));
+    is_painting || has_picture_ending(path)
 }
 
 /// The picture of a file as it is shown, at most [`LONGEST`] pixels a side.
@@ -157,14 +156,18 @@ mod tests {
     fn pictures_are_small_and_files_without_one_are_plain() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
-        image::RgbImage::new(400, 200).save(path("a.png")).unwrap();
+        for name in ["a.png", "a.tif", "a.WEBP"] {
+            image::RgbImage::new(400, 200).save(path(name)).unwrap();
+        }
         std::fs::write(path("b.exr"), "cut off").unwrap();
         std::fs::write(path("c.json"), "{}").unwrap();
         let mut thumbnails = Thumbnails::default();
-        assert_eq!(picture(&mut thumbnails, &path("a.png")), Some([192, 96]));
+        for name in ["a.png", "a.tif", "a.WEBP"] {
+            assert_eq!(picture(&mut thumbnails, &path(name)), Some([192, 96]), "{name}");
+        }
         assert_eq!(picture(&mut thumbnails, &path("b.exr")), None, "it cannot be read");
         assert_eq!(picture(&mut thumbnails, &path("c.json")), None, "it is no picture");
-        assert_eq!(thumbnails.known.len(), 2, "the JSON was not read");
+        assert_eq!(thumbnails.known.len(), 4, "the JSON was not read");
     }
 
     #[test]

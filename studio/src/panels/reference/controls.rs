@@ -15,7 +15,9 @@ impl Reference {
         ui.horizontal_wrapped(|ui| {
             let open = ui.button(tr("Open\u{2026}")).accessible_name(tr("Open picture"));
             if open
-                .on_hover_text(tr("Opens another picture: PNG, JPEG, OpenEXR or a painting"))
+                .on_hover_text(tr(
+                    "Opens another picture: PNG, JPEG, TIFF, WebP, OpenEXR or a painting",
+                ))
                 .clicked()
             {
                 cx.file(FileRequest::OpenReference(None));

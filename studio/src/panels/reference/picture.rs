@@ -23,7 +23,7 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// Reads a PNG, JPEG, linear OpenEXR or painting, and reduces it in linear light if it is too
+    /// Reads a photograph, linear OpenEXR or painting, and reduces it in linear light if it is too
     /// large.
     fn open(path: &Path) -> Result<Self, String> {
         let read = read_picture(path, LONGEST, MEMORY_LIMIT);

@@ -83,7 +83,7 @@ impl Default for Reference {
 }
 
 impl Reference {
-    /// Starts to read a PNG, JPEG, linear OpenEXR or painting on another thread, replacing the current picture and what is
+    /// Starts to read a photograph, linear OpenEXR or painting on another thread, replacing the current picture and what is
     /// drawn on it. An error is shown in the panel.
     pub fn open(&mut self, context: &Context, path: &Path) {
         let context = context.clone();

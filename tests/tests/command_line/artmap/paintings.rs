@@ -86,7 +86,7 @@ fn samples_of_a_painting_carry_its_pigments_and_relief() {
     assert!(0.01 < mean && mean < most, "{mean} {most}");
     let shown = done(&["show", &output]).out;
     assert!(
-        shown.contains("strokes 8.0 texels (4.00 mm) apart; Zinc White, Lead White"),
+        shown.contains("strokes 8.0 texels (4 mm) apart; Zinc White, Lead White"),
         "{shown}"
     );
 }

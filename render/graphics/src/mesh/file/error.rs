@@ -3,6 +3,7 @@
 use spectra::hint::{Explain, Fault, Hint};
 
 use crate::mesh::check::MeshFault;
+use crate::picture_formats::NAMES;
 
 /// A model could not be read. Every message starts with the file's path.
 #[derive(Debug, thiserror::Error)]
@@ -62,8 +63,10 @@ impl Explain for MeshError {
             Self::UnknownFormat { .. } => "models are read from .obj, .gltf, .glb and .ply files",
             Self::Malformed { .. } => "correct that place, or export the model again",
             Self::Texture { .. } => {
-                "put the picture (PNG or JPEG) where the model names it, or export the model \
-                 with its pictures"
+                return Some(Hint::new(format!(
+                    "put the picture ({NAMES}) where the model names it, or export the model \
+                     with its pictures"
+                )));
             }
             Self::Faulty { fault, .. } => return fault.hint(),
         }))

@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::{Mat3, Mat4, Vec3};
 use gltf::mesh::{Mode, Semantic};
 use spectra::color::Rgb;
+use spectra::counted_as;
 
 use super::error::MeshError;
 use super::gltf_values::{COLORS, COORDINATES, CORNERS, NORMALS, POSITIONS, check, path_of, slice};
@@ -189,7 +190,10 @@ impl Reader<'_> {
             ("colours", part.colors.len()),
         ] {
             if found != 0 && found != count {
-                return Err(format!("{found} {what} for {count} vertices"));
+                return Err(format!(
+                    "{found} {what} for {}",
+                    counted_as(count, "vertex", "vertices")
+                ));
             }
         }
         let listed: Vec<u32> = match reader.read_indices() {

@@ -1,6 +1,8 @@
 //! Validation of OBJ and MTL files line by line, since the parser reports no line numbers
 //! and panics on some input.
 
+use spectra::counted;
+
 /// Line number from 1, and the reason.
 pub(super) type LineFault = (usize, String);
 
@@ -29,7 +31,10 @@ pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
                 so_far.positions += 1;
                 let found = numbers(&words).map_err(fault)?;
                 if ![3, 4, 6].contains(&found) {
-                    return Err(fault(format!("{found} numbers for a position: `{line}`")));
+                    return Err(fault(format!(
+                        "{} for a position: `{line}`",
+                        counted(found, "number")
+                    )));
                 }
                 if words.get(3).is_some_and(|w| found == 4 && w.parse() == Ok(0.0f32)) {
                     return Err(fault(format!("a position divided by 0: `{line}`")));
@@ -53,7 +58,10 @@ pub(super) fn check_obj(text: &str) -> Result<(), LineFault> {
             }
             "f" => {
                 if words.len() < 3 {
-                    return Err(fault(format!("a face of {} corners: `{line}`", words.len())));
+                    return Err(fault(format!(
+                        "a face of {}: `{line}`",
+                        counted(words.len(), "corner")
+                    )));
                 }
                 words.iter().try_for_each(|word| corner(word, so_far, all)).map_err(fault)?;
             }

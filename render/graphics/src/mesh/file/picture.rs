@@ -11,7 +11,7 @@ use crate::mesh::model::Texture;
 const LONGEST: u32 = 16_384;
 
 impl Texture {
-    /// Decodes a PNG or JPEG image; the error is the decoder's reason.
+    /// Decodes a PNG, JPEG, TIFF or WebP image; the error is the decoder's reason.
     pub(super) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         if is_cut_off_jpeg(bytes) {
             return Err(CUT_OFF.to_owned());
