@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::film::{Films, Pixel, Work};
+use crate::film::{Difference, Films, Pixel, Work};
 use crate::set_fit::{Quadratic, SetFit};
 use crate::table::Table;
 use crate::whitening::WhiteningNoise;
@@ -15,6 +15,8 @@ const BEAM: usize = 8;
 const REFINED: [usize; 2] = [12, 10];
 /// Gauss-Newton steps of each set, and of the best one at the end.
 const STEPS: [usize; 2] = [3, 3];
+/// Penalty of a pigment among linearised sets, before what its share costs is known.
+const SHORTLIST_PENALTY: f32 = 6.0;
 /// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
 
@@ -39,7 +41,8 @@ pub(crate) struct Engine {
     pub(crate) table: Table,
     pub(crate) noise: WhiteningNoise,
     pub(crate) at_most: usize,
-    pub(crate) penalty: f32,
+    /// Additions to the score by number of pigments.
+    pub(crate) of_count: [f32; 4],
     /// Degrees of freedom of the residuals' distribution; infinite for a normal one.
     pub(crate) tail: f64,
 }
@@ -65,9 +68,21 @@ impl Scratch {
 }
 
 impl Engine {
-    /// -2 ln of the likelihood of a chi-square, less a constant, with the penalty of `count` pigments.
-    pub(crate) fn score(&self, chi2: f32, count: usize) -> f32 {
-        self.penalty * count as f32 + self.misfit(chi2)
+    /// -2 ln of the probability of a refined set, less a constant: its misfit, the part of all shares that
+    /// agree with the pixel, and the prior. A set of any number of pigments is as likely as one of another, and
+    /// so is any set of one number.
+    pub(crate) fn score(&self, set: &SetFit, difference: &Difference, prior: &Prior) -> f32 {
+        let exactness = difference.exactness(set.len(), self.excess(set.chi2)) as f32;
+        self.misfit(set.chi2) + exactness + self.of_count[set.len() - 1] + prior.of(set.key())
+    }
+
+    /// Additions to the score by number of pigments, for `pigments` of which up to four are mixed.
+    pub(crate) fn of_count(pigments: usize, penalty: f64) -> [f32; 4] {
+        let mut sets = 1.0;
+        std::array::from_fn(|size| {
+            sets *= pigments.saturating_sub(size).max(1) as f64 / (size + 1) as f64;
+            (2.0 * sets.ln() + penalty * (size + 1) as f64) as f32
+        })
     }
 
     pub(crate) fn misfit(&self, chi2: f32) -> f32 {
@@ -133,8 +148,8 @@ impl Engine {
         let order = |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
-        best.refine(&self.films, pixel, STEPS[1]);
-        best.score = self.score(best.chi2, best.len()) + prior.of(best.key());
+        let difference = best.refine(&self.films, pixel, STEPS[1]);
+        best.score = self.score(best, &difference, prior);
         found.sort_unstable_by(order);
     }
 
@@ -146,8 +161,8 @@ impl Engine {
         steps: usize,
         prior: &Prior,
     ) -> SetFit {
-        set.refine(&self.films, pixel, steps);
-        set.score = self.score(set.chi2, set.len()) + prior.of(set.key());
+        let difference = set.refine(&self.films, pixel, steps);
+        set.score = self.score(&set, &difference, prior);
         set
     }
 
@@ -207,7 +222,8 @@ impl Engine {
         }
         shortlist.clear();
         for set in by_size.iter().flatten() {
-            let score = self.score(set.chi2, set.len()) + prior.of(set.key());
+            let penalty = SHORTLIST_PENALTY * set.len() as f32;
+            let score = self.misfit(set.chi2) + penalty + prior.of(set.key());
             shortlist.push(SetFit { score, ..*set });
         }
         let order = |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));

@@ -153,6 +153,37 @@ impl SetFit {
     }
 }
 
+/// Variance of a share that may be anything from 0 to 1.
+const FREE_SHARE: f64 = 1.0 / 12.0;
+
+impl Difference {
+    /// -2 ln of the part of all shares of `count` pigments that agree with the pixel, where variances are
+    /// `excess` times those of the curvature: what a set pays for shares that had to be found exactly.
+    pub(crate) fn exactness(&self, count: usize, excess: f64) -> f64 {
+        let last = count - 1;
+        let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+        let at = |i: usize, j: usize| f64::from(self.normal[i][j]);
+        for i in 0..last {
+            for j in 0..last {
+                let along = at(i, j) - at(i, last) - at(j, last) + at(last, last);
+                left[i][j] = FREE_SHARE * along / excess + if i == j { 1.0 } else { 0.0 };
+            }
+        }
+        let mut determinant = 1.0;
+        for pivot in 0..last {
+            let value = left[pivot][pivot].max(1.0);
+            determinant *= value;
+            for row in pivot + 1..last {
+                let factor = left[row][pivot] / value;
+                for column in pivot..last {
+                    left[row][column] -= factor * left[pivot][column];
+                }
+            }
+        }
+        determinant.ln()
+    }
+}
+
 type Square = [[f64; MOST_IN_SET]; MOST_IN_SET];
 
 fn product(matrix: &Square, vector: &[f32; MOST_IN_SET], count: usize) -> [f64; MOST_IN_SET] {
