@@ -25,8 +25,8 @@ const LEFT_OUT_TO_FITTED: f64 = 1.9;
 /// Relative error of K and S of a library that tells nothing about its errors.
 pub const USUAL_MODEL_ERROR: f64 = 0.1;
 /// Sum of the squares of a mixture's parts in K and in S, by which stated errors of its pigments partly
-/// cancel: 2 for one pigment, 1 for two alike in strength.
-const CANCELLED: f64 = 1.4;
+/// cancel: 2 for one pigment, 1 for two alike in strength; a mean.
+const CANCELLED: f64 = 1.6;
 /// Least standard deviation of a band, in reflectance.
 const LEAST_SD: f64 = 1e-4;
 /// Least part of a band's variance that is its own.

@@ -8,13 +8,16 @@ use crate::table::Table;
 use crate::whitening::WhiteningNoise;
 
 /// Linearised sets that are kept, by their number of pigments.
-const KEPT: [usize; 4] = [6, 20, 20, 8];
-/// Sets of one size that are extended by each other pigment.
+const KEPT: [usize; 4] = [6, 20, 24, 8];
+/// Sets of three that are extended by each other pigment.
 const BEAM: usize = 8;
-/// Sets that are refined in measured reflectance, in the first round and in the second.
-const REFINED: [usize; 2] = [12, 10];
-/// Gauss-Newton steps of each set, and of the best one at the end.
-const STEPS: [usize; 2] = [3, 3];
+/// Sets that are refined in measured reflectance: about the nearest film of the table, then about the best
+/// set of these.
+const REFINED: [usize; 2] = [24, 20];
+/// Gauss-Newton steps of each set, of one that may be among the best, and of the best one at the end.
+const STEPS: [usize; 3] = [1, 2, 3];
+/// Score above the best after the first step from which a set is not refined further.
+const HOPELESS: f32 = 15.0;
 /// Penalty of a pigment among linearised sets, before what its share costs is known.
 const SHORTLIST_PENALTY: f32 = 6.0;
 /// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
@@ -54,6 +57,8 @@ pub(crate) struct Scratch {
     pub(crate) found: Vec<SetFit>,
     by_size: [Vec<SetFit>; 4],
     shortlist: Vec<SetFit>,
+    /// Least score of a refined set.
+    least: f32,
 }
 
 impl Scratch {
@@ -63,6 +68,7 @@ impl Scratch {
             found: Vec::new(),
             by_size: [const { Vec::new() }; 4],
             shortlist: Vec::new(),
+            least: f32::INFINITY,
         }
     }
 }
@@ -85,7 +91,8 @@ impl Engine {
         })
     }
 
-    pub(crate) fn misfit(&self, chi2: f32) -> f32 {
+    /// -2 ln of the likelihood of a chi-square, less a constant.
+    fn misfit(&self, chi2: f32) -> f32 {
         if self.tail.is_infinite() {
             return chi2;
         }
@@ -111,6 +118,7 @@ impl Engine {
         scratch: &mut Scratch,
     ) {
         scratch.found.clear();
+        scratch.least = f32::INFINITY;
         let (internal, inverse) = self.table.film(place);
         self.films.products(pixel, (internal, inverse), &mut scratch.work);
         self.shortlist(prior, scratch);
@@ -125,20 +133,16 @@ impl Engine {
         self.shortlist(prior, scratch);
         let mut refined = 0;
         for index in 0..scratch.shortlist.len() {
-            let set = scratch.shortlist[index];
-            if scratch.found.iter().any(|found| found.key() == set.key()) {
-                continue;
-            }
-            self.add_refined(pixel, index, prior, scratch);
-            refined += 1;
-            if refined == REFINED[1] {
-                break;
+            let key = scratch.shortlist[index].key();
+            if refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key) {
+                self.add_refined(pixel, index, prior, scratch);
+                refined += 1;
             }
         }
         self.sort(pixel, prior, &mut scratch.found);
     }
 
-    /// Sorts sets, and refines the best ones until they stay the best.
+    /// Sorts sets by their scores, after the best one is refined further.
     pub(crate) fn sort(
         &self,
         pixel: &Pixel,
@@ -148,7 +152,7 @@ impl Engine {
         let order = |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
-        let difference = best.refine(&self.films, pixel, STEPS[1]);
+        let difference = best.refine(&self.films, pixel, STEPS[2]);
         best.score = self.score(best, &difference, prior);
         found.sort_unstable_by(order);
     }
@@ -173,8 +177,11 @@ impl Engine {
         prior: &Prior,
         scratch: &mut Scratch,
     ) {
-        let set = scratch.shortlist[index];
-        let set = self.refined(pixel, set, STEPS[0], prior);
+        let mut set = self.refined(pixel, scratch.shortlist[index], STEPS[0], prior);
+        if set.score < scratch.least + HOPELESS {
+            set = self.refined(pixel, set, STEPS[1], prior);
+        }
+        scratch.least = scratch.least.min(set.score);
         scratch.found.push(set);
     }
 
@@ -250,23 +257,69 @@ fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::MapSettings;
-    use crate::prepared::Prepared;
+    use crate::film::Films;
+    use crate::noise::{ModelError, Noise};
+    use crate::paints::Paints;
+
+    /// An engine for the oils that ship, their paints, and their bands.
+    fn oils(at_most: usize) -> (Engine, Paints) {
+        let library = pigment::PigmentLibrary::van_gogh_oils();
+        let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+        let bands = crate::bands::Bands::new(&nm, library.grid).unwrap();
+        let paints = Paints::new(&library, &[], &bands).unwrap();
+        let noise = Noise::new(&bands, 0.003, &ModelError::Stated(0.1));
+        let films = Films::new(&paints);
+        let table = Table::new(&paints, &films, &noise);
+        let of_count = Engine::of_count(paints.count(), 2.0);
+        let (noise, tail) = (WhiteningNoise::new(&noise), noise.tail);
+        (Engine { films, table, noise, at_most, of_count, tail }, paints)
+    }
+
+    fn found(engine: &Engine, paints: &Paints, truth: &[(usize, f64)]) -> Vec<SetFit> {
+        let reflectance: Vec<f32> = paints.reflectance(truth).iter().map(|r| *r as f32).collect();
+        let place = engine.table.nearest(&engine.table.projection.of(&reflectance));
+        let pixel = engine.films.pixel(&engine.noise, &reflectance);
+        let mut scratch = Scratch::new(&engine.films);
+        engine.search(&pixel, place, &Prior::default(), &mut scratch);
+        scratch.found
+    }
 
     #[test]
-    fn probe() {
-        let oils = pigment::PigmentLibrary::van_gogh_oils();
-        let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
-        let prepared = Prepared::new(&oils, &nm, &MapSettings { model_error: Some(crate::noise::ModelError::Stated(0.1)), ..MapSettings::default() }).unwrap();
-        let engine = &prepared.engine;
-        let mut scratch = Scratch::new(&engine.films);
-        for truth in [vec![(1, 0.8), (10, 0.2)], vec![(1, 0.5), (4, 0.1), (10, 0.4)], vec![(0, 0.3), (1, 0.7)], vec![(3,0.95),(4,0.05)]] {
-            let spectrum: Vec<f32> = prepared.paints.reflectance(&truth).iter().map(|r| *r as f32).collect();
-            let folded = prepared.fold(&spectrum).unwrap();
-            let place = engine.table.nearest(&folded.point);
-            println!("truth {truth:?} nearest {:?}", engine.table.recipes[place]);
-            engine.search(&folded.pixel, place, &Prior::default(), &mut scratch);
-            for set in scratch.found.iter().take(4) { println!("   {:?} chi2 {} score {}", set.parts().collect::<Vec<_>>(), set.chi2, set.score); }
+    fn exact_films_are_explained_by_their_own_pigments() {
+        let (engine, paints) = oils(3);
+        let place = |name: &str| paints.place(name).unwrap();
+        let (white, black) = (place("Zinc White"), place("Bone Black"));
+        for truth in [
+            vec![(place("Viridian"), 1.0)],
+            vec![(white, 0.8), (place("Viridian"), 0.2)],
+            vec![(white, 0.97), (place("Prussian Blue"), 0.03)],
+            vec![(black, 0.05), (place("Vermilion"), 0.95)],
+            vec![(white, 0.5), (black, 0.1), (place("Viridian"), 0.4)],
+            vec![(white, 0.3), (place("Cobalt Blue"), 0.3), (place("Chrome Yellow"), 0.4)],
+        ] {
+            let found = found(&engine, &paints, &truth);
+            let own = found.iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2)).unwrap();
+            let best = found[0];
+            assert!(own.chi2 < 0.01, "{truth:?}: {own:?}");
+            assert!(best.chi2 < 1.0 && best.len() <= truth.len(), "{truth:?}: {best:?}");
+            for &(pigment, share) in &truth {
+                let told = own.parts().find(|part| part.0 == pigment).map_or(0.0, |part| part.1);
+                assert!((f64::from(told) - share).abs() < 0.01, "{truth:?}: {own:?}");
+            }
+            assert!(found.windows(2).all(|pair| pair[0].score <= pair[1].score), "sorted");
+        }
+    }
+
+    #[test]
+    fn sets_are_no_greater_than_asked_for() {
+        for at_most in 1..=4 {
+            let (engine, paints) = oils(at_most);
+            let found = found(&engine, &paints, &[(1, 0.4), (4, 0.1), (10, 0.3), (13, 0.2)]);
+            let greatest = found.iter().map(SetFit::len).max();
+            assert!(greatest.is_some_and(|most| most <= at_most), "{at_most}: {greatest:?}");
+            if at_most == 4 {
+                assert!(found[0].chi2 < 1.0, "{:?}", found[0]);
+            }
         }
     }
 }

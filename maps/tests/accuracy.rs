@@ -1,0 +1,89 @@
+//! Accuracy of maps on measured swatches and simulated paintings, seeded. The example `accuracy` prints the
+//! figures; the bounds here lie a little below them.
+
+use calibrate::Readings;
+use maps::accuracy::{
+    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, missing_pigment,
+    oil_groups, painting_trials, prepared_oils, reliability, swatch_trials,
+};
+use maps::left_out::{half_library, left_out};
+use maps::{MapSettings, ModelError};
+use pigment::PigmentLibrary;
+
+fn readings() -> Readings {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../measurements/van-gogh-oils.csv");
+    Readings::open(path).unwrap()
+}
+
+fn stated() -> MapSettings {
+    MapSettings {
+        groups: oil_groups(),
+        group_alike: false,
+        model_error: Some(ModelError::Stated(0.1)),
+        ..MapSettings::default()
+    }
+}
+
+fn plan(pixels: usize) -> PaintingPlan {
+    PaintingPlan { pixels, ..PaintingPlan::default() }
+}
+
+#[test]
+fn left_out_swatches_are_unmixed_better_than_by_linear_methods() {
+    let samples = left_out(&prepared_oils(&readings()).unwrap(), &|| ()).unwrap();
+    assert_eq!(samples.len(), 65, "binary mixtures");
+    let groups = oil_groups();
+    let trials = swatch_trials(&samples, &MapSettings::default(), &groups).unwrap();
+    let (pigments, joined) = (Scores::of(&trials.pigments), Scores::of(&trials.groups));
+    println!("pigments {pigments}, groups {joined}");
+    assert!(joined.precision > 0.88 && joined.recall > 0.86, "groups {joined}");
+    assert!(joined.share_error < 0.15, "groups {joined}");
+    assert!(pigments.precision > 0.79 && pigments.recall > 0.74, "pigments {pigments}");
+    let named = NamedGroups::of(&samples, &groups);
+    for baseline in Baseline::ALL {
+        let linear = SwatchTrials::baseline(&samples, &named, baseline, 0.1);
+        let linear = Scores::of(&linear.groups);
+        assert!(linear.f1() + 0.15 < joined.f1(), "{}: {linear}", baseline.name());
+        assert!(linear.share_error > 2.0 * joined.share_error, "{}: {linear}", baseline.name());
+    }
+}
+
+#[test]
+fn simulated_paintings_are_unmixed_and_told_honestly() {
+    let oils = PigmentLibrary::van_gogh_oils();
+    let trials = painting_trials((&oils, &oils), &plan(100), 201..231, &stated()).unwrap();
+    let (searched, mapped) = (Scores::of(&trials.searched), Scores::of(&trials.mapped));
+    println!("searched {searched}, mapped {mapped}, worse {:.3}", trials.worse);
+    assert!(searched.precision > 0.91 && searched.recall > 0.82, "searched {searched}");
+    assert!(searched.share_error < 0.15, "searched {searched}");
+    assert!(mapped.f1() > searched.f1() - 0.03, "mapped {mapped}");
+    assert!(trials.worse < 0.04, "{}", trials.worse);
+    for range in reliability(&trials.searched, &[0.0, 0.1, 0.9]) {
+        println!("{range:?}");
+        assert!((range.told - range.true_part).abs() < 0.05, "{range:?}");
+    }
+    let covered = coverage(&trials.searched);
+    println!("{covered:?}");
+    assert!((0.58..0.75).contains(&covered.within), "{covered:?}");
+}
+
+#[test]
+fn a_library_of_other_readings_serves_too() {
+    let prepared = prepared_oils(&readings()).unwrap();
+    let [real, known] = [0, 1].map(|half| half_library(&prepared, half).unwrap());
+    let settings = MapSettings { model_error: None, ..stated() };
+    let exact = PaintingPlan { error: 0.0, ..plan(100) };
+    let trials = painting_trials((&real, &known), &exact, 301..321, &settings).unwrap();
+    let searched = Scores::of(&trials.searched);
+    println!("searched {searched}, worse {:.3}", trials.worse);
+    assert!(searched.precision > 0.8 && searched.recall > 0.75, "{searched}");
+}
+
+#[test]
+fn a_pigment_that_the_library_lacks_raises_chi_square() {
+    let oils = PigmentLibrary::van_gogh_oils();
+    let found = missing_pigment(&oils, &plan(100), 401..411, &stated()).unwrap();
+    println!("{found:?}");
+    assert!(found.chi2[1] > 1.5 * found.chi2[0], "{found:?}");
+    assert!(found.noticed > 0.3, "{found:?}");
+}
