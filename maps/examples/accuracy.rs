@@ -17,7 +17,7 @@ use maps::accuracy::{
     Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, Trial, choose_penalty, coverage,
     missing_pigment, oil_groups, painting_trials, prepared_oils, reliability, swatch_trials,
 };
-use maps::left_out::{half_library, left_out};
+use maps::left_out::{Residuals, half_of, left_out};
 use maps::{MapSettings, Mapper, ModelError};
 use pigment::PigmentLibrary;
 
@@ -37,10 +37,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let plan = PaintingPlan { pixels: 400, ..PaintingPlan::default() };
     paintings("K and S off by 10 %", (&oils, &oils), &plan, &stated)?;
-    let halves = [half_library(&prepared, 0)?, half_library(&prepared, 1)?];
-    let usual = MapSettings { model_error: None, ..stated.clone() };
+    let halves = [half_of(&prepared, 0), half_of(&prepared, 1)];
+    let (real, known) = (halves[0].fit()?.library, halves[1].fit()?.library);
+    let model_error = Residuals::of(&left_out(&halves[1], &|| ())?).map(ModelError::Residuals);
+    let usual = MapSettings { model_error, ..stated.clone() };
     let exact = PaintingPlan { error: 0.0, ..plan.clone() };
-    paintings("library from the other half", (&halves[0], &halves[1]), &exact, &usual)?;
+    paintings("library from the other half", (&real, &known), &exact, &usual)?;
 
     println!("\n4. A pigment that the library lacks, in 10 paintings");
     let found = missing_pigment(&oils, &plan, 1..11, &stated)?;

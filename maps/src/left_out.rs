@@ -85,26 +85,23 @@ fn without(
     }))
 }
 
-/// Library fitted on one half of the readings: all films of one pigment, and every second mixture, from
+/// One half of the readings, ready to be fitted: all films of one pigment, and every second mixture, from
 /// mixture `half` (0 or 1) on.
-///
-/// # Errors
-/// [`FittingError`] if the half does not suffice for a fit.
-pub fn half_library(prepared: &PreparedFit, half: usize) -> Result<PigmentLibrary, FittingError> {
+#[must_use]
+pub fn half_of(prepared: &PreparedFit, half: usize) -> PreparedFit {
     let mixtures: Vec<&str> = (prepared.set.swatches.iter())
         .filter(|swatch| swatch.shares.iter().filter(|share| **share > 0.0).count() > 1)
         .map(|swatch| swatch.sample.as_str())
         .collect();
     let out: Vec<&str> = mixtures.iter().copied().skip(1 - half % 2).step_by(2).collect();
     let mut part = prepared.clone();
-    let set = prepared.set.retaining(|swatch| !out.contains(&swatch.sample.as_str()));
+    part.set = prepared.set.retaining(|swatch| !out.contains(&swatch.sample.as_str()));
     if let FilmModel::Relative { reference, .. } = &mut part.model {
         let white = &prepared.set.pigments[reference.index()];
-        let place = set.pigments.iter().position(|name| name == white);
+        let place = part.set.pigments.iter().position(|name| name == white);
         *reference = PigmentId(place.unwrap_or(reference.index()));
     }
-    part.set = set;
-    Ok(part.fit()?.library)
+    part
 }
 
 /// Errors of a library's predictions for mixtures that it has not seen.

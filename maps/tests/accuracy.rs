@@ -6,7 +6,7 @@ use maps::accuracy::{
     Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, missing_pigment,
     oil_groups, painting_trials, prepared_oils, reliability, swatch_trials,
 };
-use maps::left_out::{half_library, left_out};
+use maps::left_out::{Residuals, half_of, left_out};
 use maps::{MapSettings, ModelError};
 use pigment::PigmentLibrary;
 
@@ -70,8 +70,11 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
 #[test]
 fn a_library_of_other_readings_serves_too() {
     let prepared = prepared_oils(&readings()).unwrap();
-    let [real, known] = [0, 1].map(|half| half_library(&prepared, half).unwrap());
-    let settings = MapSettings { model_error: None, ..stated() };
+    let halves = [0, 1].map(|half| half_of(&prepared, half));
+    let [real, known] = halves.each_ref().map(|half| half.fit().unwrap().library);
+    let residuals = Residuals::of(&left_out(&halves[1], &|| ()).unwrap()).unwrap();
+    let model_error = Some(ModelError::Residuals(residuals));
+    let settings = MapSettings { model_error, ..stated() };
     let exact = PaintingPlan { error: 0.0, ..plan(100) };
     let trials = painting_trials((&real, &known), &exact, 301..321, &settings).unwrap();
     let searched = Scores::of(&trials.searched);

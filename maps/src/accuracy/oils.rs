@@ -82,7 +82,8 @@ pub struct Missing {
     pub false_presences: [f64; 2],
 }
 
-/// Maps paintings as [`painting_trials`] does, with a library that lacks the first pigment of each.
+/// Maps paintings as [`painting_trials`] does, with a library that lacks one pigment of each: the first that is
+/// in no group of `settings`, because another of its group would take its place.
 ///
 /// # Errors
 /// [`MapError`] if library and settings cannot be used.
@@ -97,13 +98,15 @@ pub fn missing_pigment(
     for seed in seeds {
         let painting =
             Painting::simulate(library, library, &PaintingPlan { seed, ..plan.clone() });
-        let missing = &painting.pigments[0];
+        let alike = |name: &String| settings.groups.iter().any(|g| g.pigments.contains(name));
+        let Some(lacking) = painting.pigments.iter().position(|name| !alike(name)) else { continue };
+        let missing = &painting.pigments[lacking];
         let known = library.pigments.iter().filter(|p| p.identified && p.name != *missing);
         let palette = known.map(|pigment| pigment.name.clone()).collect();
         let mapper = Mapper::new(library, &nm, &MapSettings { palette, ..settings.clone() })?;
         let maps = mapper.search(&painting.spectra)?;
         for (trial, truth) in painting.trials(&mapper, &maps).iter().zip(&painting.truth) {
-            let with = usize::from(truth.iter().any(|(place, _)| *place == 0));
+            let with = usize::from(truth.iter().any(|(place, _)| *place == lacking));
             chi2[with].push(trial.chi2);
             let pairs = trial.present.iter().zip(&trial.truth);
             wrong[with] += pairs.filter(|(present, truth)| **present && **truth == 0.0).count() as f64;
