@@ -20,6 +20,8 @@ const STEPS: [usize; 3] = [1, 2, 3];
 const HOPELESS: f32 = 15.0;
 /// Penalty of a pigment among linearised sets, before what its share costs is known.
 const SHORTLIST_PENALTY: f32 = 6.0;
+/// Score above the best from which a linearised set is not refined.
+const FAR: f32 = 40.0;
 /// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
 
@@ -54,6 +56,7 @@ pub(crate) struct Engine {
 #[derive(Debug)]
 pub(crate) struct Scratch {
     work: Work,
+    quadratic: Quadratic,
     pub(crate) found: Vec<SetFit>,
     by_size: [Vec<SetFit>; 4],
     shortlist: Vec<SetFit>,
@@ -65,6 +68,7 @@ impl Scratch {
     pub(crate) fn new(films: &Films) -> Self {
         Self {
             work: Work::new(films),
+            quadratic: Quadratic::new(films.pigments),
             found: Vec::new(),
             by_size: [const { Vec::new() }; 4],
             shortlist: Vec::new(),
@@ -122,8 +126,11 @@ impl Engine {
         let (internal, inverse) = self.table.film(place);
         self.films.products(pixel, (internal, inverse), &mut scratch.work);
         self.shortlist(prior, scratch);
+        let far = scratch.shortlist.first().map_or(0.0, |best| best.score + FAR);
         for index in 0..REFINED[0].min(scratch.shortlist.len()) {
-            self.add_refined(pixel, index, prior, scratch);
+            if scratch.shortlist[index].score < far {
+                self.add_refined(pixel, index, prior, scratch);
+            }
         }
         let best = |a: SetFit, b: SetFit| if b.score < a.score { b } else { a };
         let Some(winner) = scratch.found.iter().copied().reduce(best) else { return };
@@ -134,7 +141,8 @@ impl Engine {
         let mut refined = 0;
         for index in 0..scratch.shortlist.len() {
             let key = scratch.shortlist[index].key();
-            if refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key) {
+            let near = scratch.shortlist[index].score < scratch.least + FAR;
+            if near && refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key) {
                 self.add_refined(pixel, index, prior, scratch);
                 refined += 1;
             }
@@ -187,13 +195,9 @@ impl Engine {
 
     /// Best sets of the linearised problem, in `scratch.shortlist`, the best first.
     fn shortlist(&self, prior: &Prior, scratch: &mut Scratch) {
-        let Scratch { work, by_size, shortlist, .. } = scratch;
+        let Scratch { work, quadratic, by_size, shortlist, .. } = scratch;
         let count = self.films.pigments;
-        let quadratic = Quadratic {
-            products: &work.products,
-            columns: self.films.columns,
-            sizes: &work.sizes,
-        };
+        quadratic.read(work);
         by_size.iter_mut().for_each(Vec::clear);
         let [singles, pairs, triples, fours] = by_size;
         for a in 0..count {
@@ -211,10 +215,10 @@ impl Engine {
             }
         }
         if self.at_most > 2 {
-            quadratic.triples(count, |members, shares, chi2| {
-                if is_kept(triples, KEPT[2], chi2 as f32) {
-                    keep(triples, KEPT[2], quadratic.fit(members, shares, chi2));
-                }
+            quadratic.triples(|members, shares, chi2| {
+                keep(triples, KEPT[2], quadratic.fit(members, shares, chi2));
+                let full = triples.len() == KEPT[2];
+                triples.last().filter(|_| full).map_or(f64::INFINITY, |last| f64::from(last.chi2))
             });
         }
         if self.at_most > 3 {
@@ -321,5 +325,30 @@ mod tests {
                 assert!(found[0].chi2 < 1.0, "{:?}", found[0]);
             }
         }
+    }
+}
+#[cfg(test)]
+mod speed {
+    use super::*;
+    #[test]
+    #[ignore]
+    fn speed() {
+        let library = pigment::PigmentLibrary::van_gogh_oils();
+        let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+        let p = crate::prepared::Prepared::new(&library, &nm, &crate::settings::MapSettings { model_error: Some(crate::noise::ModelError::Stated(0.1)), ..Default::default() }).unwrap();
+        let painting = crate::accuracy::Painting::simulate(&library, &library, &crate::accuracy::PaintingPlan { pixels: 500, ..Default::default() });
+        let folded: Vec<_> = painting.spectra.chunks_exact(31).map(|s| p.fold(s).unwrap()).collect();
+        let e = &p.engine;
+        let mut scratch = Scratch::new(&e.films);
+        let n = 500.0;
+        let time = |name: &str, f: &mut dyn FnMut()| { let mut best = f64::INFINITY; for _ in 0..7 { let t = std::time::Instant::now(); f(); best = best.min(t.elapsed().as_secs_f64()); } println!("{name}: {:.2} us a pixel", best / n * 1e6); };
+        time("fold", &mut || for s in painting.spectra.chunks_exact(31) { std::hint::black_box(p.fold(s).unwrap()); });
+        time("nearest film", &mut || for f in &folded { std::hint::black_box(e.table.nearest(&f.point)); });
+        time("products", &mut || for f in &folded { let (i, v) = e.table.film(700); e.films.products(&f.pixel, (i, v), &mut scratch.work); });
+        time("shortlist", &mut || for _ in &folded { e.shortlist(&Prior::default(), &mut scratch); });
+        time("difference 3", &mut || for f in &folded { std::hint::black_box(e.films.difference(&f.pixel, [1, 4, 10], [0.5, 0.1, 0.4])); });
+        let mut s = SetFit::new([1, 4, 10], [0.5, 0.1, 0.4], 0.0);
+        time("refine 1 step", &mut || for f in &folded { std::hint::black_box(s.refine(&e.films, &f.pixel, 1)); });
+        time("search", &mut || for f in &folded { let place = e.table.nearest(&f.point); e.search(&f.pixel, place, &Prior::default(), &mut scratch); });
     }
 }

@@ -1,6 +1,6 @@
 //! Shares of one set of pigments for one pixel.
 
-use crate::film::{Difference, Films, MOST_IN_SET, Pixel};
+use crate::film::{Difference, Films, MOST_IN_SET, Pixel, Work};
 
 /// A set of one to four pigments with shares that fit a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -248,18 +248,36 @@ fn inverted(mut left: Square, count: usize) -> Option<Square> {
 }
 
 /// Products of the rows of pigments, by place.
-pub(crate) struct Quadratic<'a> {
-    pub(crate) products: &'a [f32],
-    pub(crate) columns: usize,
+#[derive(Debug, Clone)]
+pub(crate) struct Quadratic {
+    count: usize,
+    /// Products by pair.
+    products: Vec<f64>,
     /// Sizes by which the rows are divided; the shares of a set are divided by them too.
-    pub(crate) sizes: &'a [f32],
+    sizes: Vec<f64>,
 }
 
-impl Quadratic<'_> {
+impl Quadratic {
+    /// Memory for the products of `count` pigments.
+    pub(crate) fn new(count: usize) -> Self {
+        Self { count, products: vec![0.0; count * count], sizes: vec![1.0; count] }
+    }
+
+    /// Takes over the products that were computed in `work`.
+    pub(crate) fn read(&mut self, work: &Work) {
+        for a in 0..self.count {
+            self.sizes[a] = f64::from(work.size(a));
+            for b in a..self.count {
+                let product = f64::from(work.product(a, b));
+                self.products[a * self.count + b] = product;
+                self.products[b * self.count + a] = product;
+            }
+        }
+    }
+
     #[inline(always)]
     fn at(&self, a: usize, b: usize) -> f64 {
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        f64::from(self.products[low * self.columns + high])
+        self.products[a * self.count + b]
     }
 
     /// A set whose parts of the divided rows are `parts`.
@@ -272,7 +290,7 @@ impl Quadratic<'_> {
         let mut shares = [0.0; N];
         let mut sum = 0.0;
         for i in 0..N {
-            shares[i] = parts[i] / f64::from(self.sizes[members[i]]);
+            shares[i] = parts[i] / self.sizes[members[i]];
             sum += shares[i];
         }
         SetFit::new(members, shares.map(|share| (share / sum) as f32), chi2 as f32)
@@ -295,30 +313,38 @@ impl Quadratic<'_> {
         Some((share, bb - share * to_a))
     }
 
-    /// Calls `found` with the places, the shares and the sum of squares of every three pigments whose best
-    /// shares are all above 0.
-    pub(crate) fn triples(&self, count: usize, mut found: impl FnMut([usize; 3], [f64; 3], f64)) {
+    /// Calls `found` with the places, the shares and the sum of squares of three pigments whose best shares
+    /// are all above 0, if the sum is below a limit: at first infinite, then what `found` returned last.
+    pub(crate) fn triples(&self, mut found: impl FnMut([usize; 3], [f64; 3], f64) -> f64) {
+        let count = self.count;
+        let mut limit = f64::INFINITY;
         for a in 0..count {
-            let base = self.at(a, a);
-            // Differences from pigment `a` span the plane of shares of sum 1.
-            let right = |i: usize| base - self.at(a, i);
-            let product = |i: usize, j: usize| self.at(i, j) - self.at(a, i) - self.at(a, j) + base;
+            let of_a = &self.products[a * count..(a + 1) * count];
+            let base = of_a[a];
             for b in a + 1..count {
-                let (square, to_b) = (product(b, b), right(b));
+                // Differences from pigment `a` span the plane of shares of sum 1.
+                let of_b = &self.products[b * count..(b + 1) * count];
+                let (square, to_b) = (of_b[b] - 2.0 * of_a[b] + base, base - of_a[b]);
                 if !(square > 1e-9 * base) {
                     continue;
                 }
                 let (inverse, of_pair) = (1.0 / square, base - to_b * to_b / square);
                 for c in b + 1..count {
-                    let along = product(b, c) * inverse;
-                    let rest = product(c, c) - along * along * square;
-                    let share_c = (right(c) - to_b * along) / rest;
+                    let along = (of_b[c] - of_a[b] - of_a[c] + base) * inverse;
+                    let own = self.products[c * count + c] - 2.0 * of_a[c] + base;
+                    let rest = own - along * along * square;
+                    let to_c = base - of_a[c] - to_b * along;
+                    // Most sets end here, before a division.
+                    if !(rest > 1e-9 * base && to_c > 0.0 && to_c * to_c > (of_pair - limit) * rest)
+                    {
+                        continue;
+                    }
+                    let share_c = to_c / rest;
                     let share_b = to_b * inverse - share_c * along;
                     let share_a = 1.0 - share_b - share_c;
-                    let inside = share_a > 0.0 && share_b > 0.0 && share_c > 0.0;
-                    if inside && rest > 1e-9 * base {
-                        let sum = of_pair - share_c * share_c * rest;
-                        found([a, b, c], [share_a, share_b, share_c], sum);
+                    if share_a > 0.0 && share_b > 0.0 {
+                        let sum = of_pair - share_c * to_c;
+                        limit = found([a, b, c], [share_a, share_b, share_c], sum);
                     }
                 }
             }
