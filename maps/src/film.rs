@@ -247,7 +247,7 @@ pub(crate) struct Work {
     /// row is divided. Else pigments of little S would seem to explain every pixel.
     sizes: Vec<f32x8>,
     /// Products of the rows of all pairs of pigments; the upper half is valid.
-    products: Vec<f32x8>,
+    pub(crate) products: Vec<f32x8>,
 }
 
 impl Work {

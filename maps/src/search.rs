@@ -22,6 +22,8 @@ const HOPELESS: f32 = 15.0;
 const SHORTLIST_PENALTY: f32 = 6.0;
 /// Score above the best from which a linearised set is not refined.
 const FAR: f32 = 40.0;
+/// Chi-square of three pigments relative to that of the best pair from which they are passed over.
+const WORSE: f64 = 1.5;
 /// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
 
@@ -215,10 +217,13 @@ impl Engine {
             }
         }
         if self.at_most > 2 {
-            quadratic.triples(|members, shares, chi2| {
+            // A third pigment that does not save much on the best pair is of no use.
+            let least = singles.iter().chain(&*pairs).map(|set| set.chi2).reduce(f32::min);
+            let limit = f64::from(least.unwrap_or(f32::INFINITY)) * WORSE + f64::from(FAR);
+            quadratic.triples(limit, |members, shares, chi2| {
                 keep(triples, KEPT[2], quadratic.fit(members, shares, chi2));
                 let full = triples.len() == KEPT[2];
-                triples.last().filter(|_| full).map_or(f64::INFINITY, |last| f64::from(last.chi2))
+                triples.last().filter(|_| full).map_or(limit, |last| f64::from(last.chi2))
             });
         }
         if self.at_most > 3 {

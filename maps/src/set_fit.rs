@@ -1,6 +1,9 @@
 //! Shares of one set of pigments for one pixel.
 
+use wide::{CmpGt, f32x8};
+
 use crate::film::{Difference, Films, MOST_IN_SET, Pixel, Work};
+use crate::whitening::LANES;
 
 /// A set of one to four pigments with shares that fit a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -253,6 +256,10 @@ pub(crate) struct Quadratic {
     count: usize,
     /// Products by pair.
     products: Vec<f64>,
+    /// Products by pair in lanes, of which the upper half is valid.
+    rows: Vec<f32x8>,
+    /// Products of each pigment with itself, in lanes.
+    own: Vec<f32x8>,
     /// Sizes by which the rows are divided; the shares of a set are divided by them too.
     sizes: Vec<f64>,
 }
@@ -260,11 +267,26 @@ pub(crate) struct Quadratic {
 impl Quadratic {
     /// Memory for the products of `count` pigments.
     pub(crate) fn new(count: usize) -> Self {
-        Self { count, products: vec![0.0; count * count], sizes: vec![1.0; count] }
+        let columns = count.div_ceil(LANES);
+        Self {
+            count,
+            products: vec![0.0; count * count],
+            rows: vec![f32x8::ZERO; columns * LANES * columns],
+            own: vec![f32x8::ZERO; columns],
+            sizes: vec![1.0; count],
+        }
     }
 
     /// Takes over the products that were computed in `work`.
     pub(crate) fn read(&mut self, work: &Work) {
+        self.rows.copy_from_slice(&work.products);
+        for (block, own) in self.own.iter_mut().enumerate() {
+            let product = |lane: usize| {
+                let place = block * LANES + lane;
+                if place < self.count { work.product(place, place) } else { 0.0 }
+            };
+            *own = f32x8::new(std::array::from_fn(product));
+        }
         for a in 0..self.count {
             self.sizes[a] = f64::from(work.size(a));
             for b in a..self.count {
@@ -314,37 +336,54 @@ impl Quadratic {
     }
 
     /// Calls `found` with the places, the shares and the sum of squares of three pigments whose best shares
-    /// are all above 0, if the sum is below a limit: at first infinite, then what `found` returned last.
-    pub(crate) fn triples(&self, mut found: impl FnMut([usize; 3], [f64; 3], f64) -> f64) {
-        let count = self.count;
-        let mut limit = f64::INFINITY;
+    /// are all above 0, if the sum is below a limit: at first `limit`, then what `found` returned last.
+    pub(crate) fn triples(
+        &self,
+        mut limit: f64,
+        mut found: impl FnMut([usize; 3], [f64; 3], f64) -> f64,
+    ) {
+        let (count, columns) = (self.count, self.own.len());
         for a in 0..count {
-            let of_a = &self.products[a * count..(a + 1) * count];
-            let base = of_a[a];
+            let base = self.at(a, a);
+            let of_a = &self.rows[a * columns..(a + 1) * columns];
             for b in a + 1..count {
                 // Differences from pigment `a` span the plane of shares of sum 1.
-                let of_b = &self.products[b * count..(b + 1) * count];
-                let (square, to_b) = (of_b[b] - 2.0 * of_a[b] + base, base - of_a[b]);
+                let (square, to_b) = (self.at(b, b) - 2.0 * self.at(a, b) + base, base - self.at(a, b));
                 if !(square > 1e-9 * base) {
                     continue;
                 }
                 let (inverse, of_pair) = (1.0 / square, base - to_b * to_b / square);
-                for c in b + 1..count {
-                    let along = (of_b[c] - of_a[b] - of_a[c] + base) * inverse;
-                    let own = self.products[c * count + c] - 2.0 * of_a[c] + base;
-                    let rest = own - along * along * square;
-                    let to_c = base - of_a[c] - to_b * along;
-                    // Most sets end here, before a division.
-                    if !(rest > 1e-9 * base && to_c > 0.0 && to_c * to_c > (of_pair - limit) * rest)
-                    {
-                        continue;
-                    }
-                    let share_c = to_c / rest;
-                    let share_b = to_b * inverse - share_c * along;
-                    let share_a = 1.0 - share_b - share_c;
-                    if share_a > 0.0 && share_b > 0.0 {
-                        let sum = of_pair - share_c * to_c;
-                        limit = found([a, b, c], [share_a, share_b, share_c], sum);
+                let of_b = &self.rows[b * columns..(b + 1) * columns];
+                let splat = |value: f64| f32x8::splat(value as f32);
+                let (shift, slope) = (splat(base - self.at(a, b)), splat(inverse));
+                let (base_of_all, square_of_all, to_b_of_all) =
+                    (splat(base), splat(square), splat(to_b));
+                for block in (b + 1) / LANES..columns {
+                    let along = (of_b[block] - of_a[block] + shift) * slope;
+                    let rest = self.own[block] - of_a[block] - of_a[block] + base_of_all
+                        - along * along * square_of_all;
+                    let to_c = base_of_all - of_a[block] - to_b_of_all * along;
+                    // Most sets end here, where a little slack makes up for rounding.
+                    let saved = splat(of_pair - 1.01 * limit - 1e-6 * base);
+                    let near = to_c.simd_gt(f32x8::ZERO) & (to_c * to_c).simd_gt(saved * rest);
+                    let mut lanes = near.to_bitmask();
+                    while lanes != 0 {
+                        let c = block * LANES + lanes.trailing_zeros() as usize;
+                        lanes &= lanes - 1;
+                        if !(b < c && c < count) {
+                            continue;
+                        }
+                        let along = (self.at(b, c) - self.at(a, c) - self.at(a, b) + base) * inverse;
+                        let rest = self.at(c, c) - 2.0 * self.at(a, c) + base
+                            - along * along * square;
+                        let share_c = (base - self.at(a, c) - to_b * along) / rest;
+                        let share_b = to_b * inverse - share_c * along;
+                        let share_a = 1.0 - share_b - share_c;
+                        let sum = of_pair - share_c * share_c * rest;
+                        let inside = share_a > 0.0 && share_b > 0.0 && share_c > 0.0;
+                        if inside && rest > 1e-9 * base && sum < limit {
+                            limit = found([a, b, c], [share_a, share_b, share_c], sum);
+                        }
                     }
                 }
             }
