@@ -74,7 +74,8 @@ impl Bands {
         if inside.len() < LEAST_BANDS {
             return Err(overlap);
         }
-        let (first, last) = (inside[0], inside[inside.len() - 1]);
+        // A band beyond the grid still tells of the grid's end, if there is one on its other side.
+        let (first, last) = (nm[0].max(grid.start_nm()), nm[nm.len() - 1].min(grid.end_nm()));
         let wanted = grid.step_nm().max((last - first) / (MOST_BANDS - 1) as f64);
         let own = median_step(&inside);
         let centers = if own >= FINER * wanted && inside.len() <= MOST_BANDS {
@@ -207,7 +208,7 @@ mod tests {
     fn fine_bands_are_folded_and_straight_lines_kept() {
         let nm = even(397.3, 2.92, 204);
         let bands = Bands::new(&nm, oils()).unwrap();
-        assert_eq!(bands.count(), 30, "{:?}", bands.nm);
+        assert_eq!(bands.count(), 31, "{:?}", bands.nm);
         let line = |nm: f64| 0.2 + 0.001 * (nm - 400.0);
         let scan: Vec<f64> = nm.iter().map(|&nm| line(nm)).collect();
         let library: Vec<f64> = oils().wavelengths_nm().map(line).collect();

@@ -1,13 +1,10 @@
-//! Arithmetic of one pixel in f32, eight bands or pigments at a time.
-//!
-//! Every sum has one order, and no multiplication is fused with an addition, so that machines with wide and
-//! with narrow vectors give the same bits.
+//! Films of paint and one pixel in f32, eight bands or pigments at a time.
 
-use pulp::{Simd, WithSimd};
+use wide::f32x8;
 
 use crate::bands::MOST_BANDS;
 use crate::paints::Paints;
-use crate::whitening::{LANES, Spectrum, Whitening, WhiteningNoise, dot, padded, total};
+use crate::whitening::{LANES, Spectrum, Whitening, WhiteningNoise, dot, spectrum, total};
 
 /// Most pigments of a set.
 pub(crate) const MOST_IN_SET: usize = 4;
@@ -19,29 +16,30 @@ const INTERNAL: [f32; 2] = [1e-4, 0.9995];
 pub(crate) struct Films {
     pub(crate) pigments: usize,
     pub(crate) bands: usize,
-    /// Bands rounded up to whole lanes, with K = S = 1 beyond the last.
-    pub(crate) rows: usize,
-    /// Pigments rounded up to whole lanes, with K = S = 0 beyond the last.
+    /// Blocks of bands, with K = S = 1 beyond the last band.
+    pub(crate) blocks: usize,
+    /// Blocks of pigments, with K = S = 0 beyond the last pigment.
     pub(crate) columns: usize,
-    /// K and S by pigment, each `rows` long.
-    absorption: Vec<f32>,
-    scattering: Vec<f32>,
+    /// K and S by pigment, each `blocks` long.
+    absorption: Vec<f32x8>,
+    scattering: Vec<f32x8>,
     /// K and S by band, each `columns` long.
-    absorption_of_band: Vec<f32>,
-    scattering_of_band: Vec<f32>,
-    floor: f32,
+    absorption_of_band: Vec<f32x8>,
+    scattering_of_band: Vec<f32x8>,
+    /// 1 for each band of the map, 0 beyond.
+    inside: Spectrum,
+    floor: f32x8,
     /// (1 - k1) (1 - k2).
-    through: f32,
-    k2: f32,
-    arch: pulp::Arch,
+    through: f32x8,
+    k2: f32x8,
 }
 
-/// A pixel's measured reflectance, and the internal one within the range of films.
+/// A pixel's measured reflectance, the internal one within the range of films, and the whitening near it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pixel {
-    pub(crate) measured: Spectrum,
-    pub(crate) internal: Spectrum,
-    pub(crate) white: Whitening,
+    measured: Spectrum,
+    internal: Spectrum,
+    white: Whitening,
 }
 
 /// Differences of a pixel from a film: chi-square, and the normal equations of the shares.
@@ -57,63 +55,69 @@ pub(crate) struct Difference {
 impl Films {
     pub(crate) fn new(paints: &Paints) -> Self {
         let (pigments, bands) = (paints.count(), paints.bands());
-        let (rows, columns) = (padded(bands), padded(pigments));
-        let by_pigment = |curves: &[Vec<f64>]| -> Vec<f32> {
+        let (blocks, columns) = (bands.div_ceil(LANES), pigments.div_ceil(LANES));
+        let by_pigment = |curves: &[Vec<f64>]| -> Vec<f32x8> {
             let value = |p: usize, b: usize| if b < bands { curves[p][b] as f32 } else { 1.0 };
-            (0..pigments * rows).map(|i| value(i / rows, i % rows)).collect()
+            let block = |p: usize, block: usize| {
+                f32x8::new(std::array::from_fn(|lane| value(p, block * LANES + lane)))
+            };
+            (0..pigments * blocks).map(|i| block(i / blocks, i % blocks)).collect()
         };
-        let by_band = |curves: &[Vec<f64>]| -> Vec<f32> {
+        let by_band = |curves: &[Vec<f64>]| -> Vec<f32x8> {
             let value = |b: usize, p: usize| {
                 if b < bands && p < pigments { curves[p][b] as f32 } else { 0.0 }
             };
-            (0..rows * columns).map(|i| value(i / columns, i % columns)).collect()
+            let block = |b: usize, block: usize| {
+                f32x8::new(std::array::from_fn(|lane| value(b, block * LANES + lane)))
+            };
+            (0..blocks * LANES * columns).map(|i| block(i / columns, i % columns)).collect()
         };
         let surface = paints.surface;
         Self {
             pigments,
             bands,
-            rows,
+            blocks,
             columns,
             absorption: by_pigment(&paints.absorption),
             scattering: by_pigment(&paints.scattering),
             absorption_of_band: by_band(&paints.absorption),
             scattering_of_band: by_band(&paints.scattering),
-            floor: surface.floor() as f32,
-            through: ((1.0 - surface.k1) * (1.0 - surface.k2)) as f32,
-            k2: surface.k2 as f32,
-            arch: pulp::Arch::new(),
+            inside: spectrum(&vec![1.0; bands], 0.0),
+            floor: f32x8::splat(surface.floor() as f32),
+            through: f32x8::splat(((1.0 - surface.k1) * (1.0 - surface.k2)) as f32),
+            k2: f32x8::splat(surface.k2 as f32),
         }
     }
 
     /// A pixel of these measured reflectances, one for each band, whose errors are like `noise`.
     pub(crate) fn pixel(&self, noise: &WhiteningNoise, reflectance: &[f32]) -> Pixel {
-        let (mut measured, mut internal) = ([0.0; MOST_BANDS], [0.5; MOST_BANDS]);
-        measured[..self.bands].copy_from_slice(&reflectance[..self.bands]);
-        let mut slope = [0.0; MOST_BANDS];
-        for band in 0..self.bands {
-            let above = (measured[band] - self.floor).max(0.0);
-            let inside = above / (self.through + self.k2 * above);
-            let r = inside.clamp(INTERNAL[0], INTERNAL[1]);
-            let out = 1.0 / (1.0 - self.k2 * r);
-            internal[band] = r;
-            slope[band] = self.through * out * out * r * (1.0 - r) / (1.0 + r);
+        let measured = spectrum(&reflectance[..self.bands], 0.3);
+        let (mut internal, mut slope) = (measured, measured);
+        let (low, high) = (f32x8::splat(INTERNAL[0]), f32x8::splat(INTERNAL[1]));
+        for block in 0..self.blocks {
+            let above = (measured[block] - self.floor).fast_max(f32x8::ZERO);
+            let r = above / (self.through + self.k2 * above);
+            let r = r.fast_max(low).fast_min(high);
+            let out = f32x8::ONE / (f32x8::ONE - self.k2 * r);
+            internal[block] = r;
+            slope[block] = self.through * out * out * r * (f32x8::ONE - r) / (f32x8::ONE + r);
         }
-        let white = self.arch.dispatch(|| noise.near(&measured, &slope));
-        Pixel { measured, internal, white }
+        Pixel { white: noise.near(&measured, &slope), measured, internal }
     }
 
     /// Internal reflectance and 1/S of a film, by band.
     pub(crate) fn film(&self, shares: &[(usize, f32)]) -> (Spectrum, Spectrum) {
-        let (mut internal, mut inverse) = ([0.5; MOST_BANDS], [1.0; MOST_BANDS]);
-        for band in 0..self.rows {
-            let (mut k, mut s) = (0.0, 0.0);
+        let half = [f32x8::HALF; MOST_BANDS / LANES];
+        let (mut internal, mut inverse) = (half, half);
+        let (low, high) = (f32x8::splat(INTERNAL[0]), f32x8::splat(INTERNAL[1]));
+        for block in 0..self.blocks {
+            let (mut k, mut s) = (f32x8::ZERO, f32x8::ZERO);
             for &(pigment, share) in shares {
-                k += share * self.absorption[pigment * self.rows + band];
-                s += share * self.scattering[pigment * self.rows + band];
+                k += f32x8::splat(share) * self.absorption[pigment * self.blocks + block];
+                s += f32x8::splat(share) * self.scattering[pigment * self.blocks + block];
             }
-            internal[band] =
-                (s / (k + s + (k * (k + 2.0 * s)).sqrt())).clamp(INTERNAL[0], INTERNAL[1]);
-            inverse[band] = 1.0 / s;
+            internal[block] = (s / (k + s + (k * (k + s + s)).sqrt())).fast_max(low).fast_min(high);
+            inverse[block] = f32x8::ONE / s;
         }
         (internal, inverse)
     }
@@ -125,177 +129,142 @@ impl Films {
         members: [usize; N],
         shares: [f32; N],
     ) -> Difference {
-        self.arch.dispatch(Compare { films: self, pixel, members, shares })
-    }
-
-    /// Products of all pigments' rows, which are 0 in sum at the shares of a film like `pixel`, linearised
-    /// with secants to the film of internal reflectance and 1/S `about`.
-    pub(crate) fn products(&self, pixel: &Pixel, about: (&Spectrum, &Spectrum), work: &mut Work) {
-        self.arch.dispatch(Products { films: self, pixel, about, work });
-    }
-}
-
-/// Memory of [`Films::products`].
-#[derive(Debug, Clone)]
-pub(crate) struct Work {
-    white: Vec<f32>,
-    /// Mean S of each pigment relative to that of the film about which the rows are linearised, by which each
-    /// row is divided. Else pigments of little S would seem to explain every pixel.
-    pub(crate) sizes: Vec<f32>,
-    /// Products of the rows of all pairs of pigments, `columns` by `columns`; the upper half is valid.
-    pub(crate) products: Vec<f32>,
-}
-
-impl Work {
-    pub(crate) fn new(films: &Films) -> Self {
-        let size = films.rows * films.columns;
-        Self {
-            white: vec![0.0; size],
-            sizes: vec![1.0; films.columns],
-            products: vec![0.0; films.columns * films.columns],
-        }
-    }
-}
-
-struct Compare<'a, const N: usize> {
-    films: &'a Films,
-    pixel: &'a Pixel,
-    members: [usize; N],
-    shares: [f32; N],
-}
-
-impl<const N: usize> WithSimd for Compare<'_, N> {
-    type Output = Difference;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Difference {
-        let Self { films, pixel, members, shares } = self;
-        let rows = films.rows;
-        let mut residual = [0.0f32; MOST_BANDS];
-        let mut slopes = [[0.0f32; MOST_BANDS]; N];
-        let mut squares = [0.0f32; LANES];
-        for start in (0..rows).step_by(LANES) {
-            let (mut k, mut s) = ([0.0f32; LANES], [0.0f32; LANES]);
-            let curve = |all: &'_ [f32], member: usize| -> [f32; LANES] {
-                let at = members[member] * rows + start;
-                std::array::from_fn(|lane| all[at..at + LANES][lane])
-            };
+        let blocks = self.blocks;
+        let one = f32x8::ONE;
+        let curves = members.map(|p| p * blocks..(p + 1) * blocks);
+        let absorption = curves.clone().map(|range| &self.absorption[range]);
+        let scattering = curves.map(|range| &self.scattering[range]);
+        let shares = shares.map(f32x8::splat);
+        let mut residual = [f32x8::ZERO; MOST_BANDS / LANES];
+        let mut slopes = [residual; N];
+        let mut squares = f32x8::ZERO;
+        for block in 0..blocks {
+            let (mut k, mut s) = (f32x8::ZERO, f32x8::ZERO);
             for i in 0..N {
-                let (a, b) = (curve(&films.absorption, i), curve(&films.scattering, i));
-                for lane in 0..LANES {
-                    k[lane] += shares[i] * a[lane];
-                    s[lane] += shares[i] * b[lane];
-                }
+                k += shares[i] * absorption[i][block];
+                s += shares[i] * scattering[i][block];
             }
-            let measured: [f32; LANES] =
-                std::array::from_fn(|lane| pixel.measured[start..start + LANES][lane]);
-            let (mut over_k, mut over_s, mut rest) =
-                ([0.0f32; LANES], [0.0f32; LANES], [0.0f32; LANES]);
-            for lane in 0..LANES {
-                let (k, s) = (k[lane], s[lane]);
-                let inside = s / (k + s + (k * (k + 2.0 * s)).sqrt());
-                let out = 1.0 / (1.0 - films.k2 * inside);
-                let slope = -films.through * out * out * inside * (1.0 - inside) / (1.0 + inside);
-                rest[lane] = measured[lane] - (films.floor + films.through * inside * out);
-                over_k[lane] = slope / k;
-                over_s[lane] = slope / s;
-            }
-            residual[start..start + LANES].copy_from_slice(&rest);
-            if start + LANES <= films.bands {
-                for lane in 0..LANES {
-                    squares[lane] += rest[lane] * rest[lane];
-                }
-            } else {
-                for lane in 0..films.bands - start {
-                    squares[lane] += rest[lane] * rest[lane];
-                }
-            }
+            let inside = s / (k + s + (k * (k + s + s)).sqrt());
+            let out = one / (one - self.k2 * inside);
+            let slope = -self.through * out * out * inside * (one - inside) / (one + inside);
+            let rest = pixel.measured[block] - (self.floor + self.through * inside * out);
+            let (over_k, over_s) = (slope / k, slope / s);
+            residual[block] = rest;
+            squares += rest * rest * self.inside[block];
             for i in 0..N {
-                let (a, b) = (curve(&films.absorption, i), curve(&films.scattering, i));
-                let slope: [f32; LANES] =
-                    std::array::from_fn(|lane| a[lane] * over_k[lane] - b[lane] * over_s[lane]);
-                slopes[i][start..start + LANES].copy_from_slice(&slope);
+                slopes[i][block] = absorption[i][block] * over_k - scattering[i][block] * over_s;
             }
         }
-        pixel.white.whiten(rows, &mut residual);
+        pixel.white.whiten(blocks, &mut residual);
         for slope in &mut slopes {
-            pixel.white.whiten(rows, slope);
+            pixel.white.whiten(blocks, slope);
         }
         let mut found = Difference {
-            chi2: dot(rows, &residual, &residual),
-            squares: total(&squares),
+            chi2: dot(blocks, &residual, &residual),
+            squares: total(squares),
             ..Difference::default()
         };
         for i in 0..N {
-            found.right[i] = dot(rows, &slopes[i], &residual);
+            found.right[i] = dot(blocks, &slopes[i], &residual);
             for j in 0..=i {
-                let product = dot(rows, &slopes[i], &slopes[j]);
+                let product = dot(blocks, &slopes[i], &slopes[j]);
                 found.normal[i][j] = product;
                 found.normal[j][i] = product;
             }
         }
         found
     }
-}
 
-struct Products<'a> {
-    films: &'a Films,
-    pixel: &'a Pixel,
-    about: (&'a Spectrum, &'a Spectrum),
-    work: &'a mut Work,
-}
-
-impl WithSimd for Products<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { films, pixel, about: (internal, inverse), work } = self;
-        let (rows, columns) = (films.rows, films.columns);
-        work.sizes.fill(0.0);
-        let mut whole = 1e-12;
-        for band in 0..rows {
+    /// Products of all pigments' rows, which are 0 in sum at the shares of a film like `pixel`, linearised
+    /// with secants to the film of internal reflectance and 1/S `about`.
+    pub(crate) fn products(
+        &self,
+        pixel: &Pixel,
+        (internal, inverse): (&Spectrum, &Spectrum),
+        work: &mut Work,
+    ) {
+        let one = f32x8::ONE;
+        work.sizes.fill(f32x8::ZERO);
+        let mut whole = f32x8::splat(1e-12);
+        for block in 0..self.blocks {
             // The secant of K/S between two internal reflectances is exact in this form, without a
             // difference of nearly equal numbers, and finite where the pixel is black.
-            let (m, r) = (pixel.internal[band], internal[band]);
-            let weight = pixel.white.scale[band] * films.through * r * inverse[band]
-                / ((1.0 - films.k2 * m) * (1.0 - films.k2 * r) * (1.0 - m * r));
-            let (by_s, by_k) = (weight * (1.0 - m) * (1.0 - m), weight * 2.0 * m);
-            let at = band * columns..(band + 1) * columns;
-            let k = &films.absorption_of_band[at.clone()];
-            let s = &films.scattering_of_band[at.clone()];
-            whole += by_s / inverse[band];
-            let row = work.white[at].iter_mut().zip(&mut work.sizes);
-            for ((x, size), (k, s)) in row.zip(k.iter().zip(s)) {
-                *size += by_s * s;
-                *x = by_s * s - by_k * k;
+            let (m, r) = (pixel.internal[block], internal[block]);
+            let weight = pixel.white.scale[block] * self.through * r * inverse[block]
+                / ((one - self.k2 * m) * (one - self.k2 * r) * (one - m * r));
+            let (by_s, by_k) = (weight * (one - m) * (one - m), weight * (m + m));
+            whole += by_s / inverse[block];
+            for (lane, (by_s, by_k)) in by_s.to_array().into_iter().zip(by_k.to_array()).enumerate()
+            {
+                let band = block * LANES + lane;
+                let at = band * self.columns..(band + 1) * self.columns;
+                let (by_s, by_k) = (f32x8::splat(by_s), f32x8::splat(by_k));
+                let curves = self.absorption_of_band[at.clone()].iter();
+                let curves = curves.zip(&self.scattering_of_band[at.clone()]);
+                let row = work.white[at].iter_mut().zip(&mut work.sizes);
+                for ((x, size), (k, s)) in row.zip(curves) {
+                    let scattered = by_s * *s;
+                    *size += scattered;
+                    *x = scattered - by_k * *k;
+                }
             }
         }
+        let whole = f32x8::splat(total(whole));
         for size in &mut work.sizes {
-            *size = (*size / whole).max(1e-6);
+            *size = (*size / whole).fast_max(f32x8::splat(1e-6));
         }
-        for row in work.white.chunks_exact_mut(columns) {
-            for (x, size) in row.iter_mut().zip(&work.sizes) {
-                *x /= size;
+        let inverse: Vec<f32x8> = work.sizes.iter().map(|size| one / *size).collect();
+        for row in work.white.chunks_exact_mut(self.columns) {
+            for (x, inverse) in row.iter_mut().zip(&inverse) {
+                *x *= *inverse;
             }
         }
-        pixel.white.whiten_rows(rows, columns, &mut work.white);
-        for first in (0..columns).step_by(LANES) {
-            for second in (first..columns).step_by(LANES) {
-                let mut sums = [[0.0f32; LANES]; LANES];
-                for row in work.white.chunks_exact(columns) {
-                    let (a, b) = (&row[first..first + LANES], &row[second..second + LANES]);
-                    for i in 0..LANES {
-                        for lane in 0..LANES {
-                            sums[i][lane] += a[i] * b[lane];
-                        }
+        pixel.white.whiten_rows(self.columns, &mut work.white);
+        for first in 0..self.columns {
+            for second in first..self.columns {
+                let mut sums = [f32x8::ZERO; LANES];
+                for row in work.white.chunks_exact(self.columns) {
+                    let b = row[second];
+                    for (sum, a) in sums.iter_mut().zip(row[first].to_array()) {
+                        *sum += f32x8::splat(a) * b;
                     }
                 }
-                for (i, sums) in sums.iter().enumerate() {
-                    let to = (first + i) * columns + second;
-                    work.products[to..to + LANES].copy_from_slice(sums);
+                for (lane, sum) in sums.iter().enumerate() {
+                    work.products[(first * LANES + lane) * self.columns + second] = *sum;
                 }
             }
         }
+    }
+}
+
+/// Memory of [`Films::products`].
+#[derive(Debug, Clone)]
+pub(crate) struct Work {
+    white: Vec<f32x8>,
+    /// Mean S of each pigment relative to that of the film about which the rows are linearised, by which each
+    /// row is divided. Else pigments of little S would seem to explain every pixel.
+    sizes: Vec<f32x8>,
+    /// Products of the rows of all pairs of pigments; the upper half is valid.
+    pub(crate) products: Vec<f32x8>,
+}
+
+impl Work {
+    pub(crate) fn new(films: &Films) -> Self {
+        Self {
+            white: vec![f32x8::ZERO; films.blocks * LANES * films.columns],
+            sizes: vec![f32x8::ONE; films.columns],
+            products: vec![f32x8::ZERO; films.columns * LANES * films.columns],
+        }
+    }
+
+    /// Product of the rows of two pigments, of which `a` is not after `b`.
+    #[inline(always)]
+    pub(crate) fn product(&self, a: usize, b: usize) -> f32 {
+        self.products[a * self.sizes.len() + b / LANES].as_array()[b % LANES]
+    }
+
+    /// Size by which the row of a pigment is divided.
+    pub(crate) fn size(&self, pigment: usize) -> f32 {
+        self.sizes[pigment / LANES].as_array()[pigment % LANES]
     }
 }

@@ -1,6 +1,8 @@
 //! Measured mixtures with libraries that were fitted without them.
 
-use calibrate::calibration::calibrate;
+#![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
+
+use calibrate::calibration::{CalibrationError, calibrate};
 use calibrate::observation::{Observation, observations};
 use calibrate::swatch::{Swatch, SwatchSet};
 use calibrate::{FilmModel, FittingError, PreparedFit};
@@ -26,11 +28,11 @@ pub struct LeftOut {
 }
 
 /// Leaves out each mixture of two pigments or more in turn, on all cores. `progress` is called after each,
-/// from any thread. Mixtures without which a pigment's K or S would be unknown are passed over, as are
-/// readings of absolute amounts, whose films do not hide.
+/// from any thread. Mixtures without which the rest cannot be fitted, or a pigment's K or S would be
+/// unknown, are passed over, as are readings of absolute amounts, whose films do not hide.
 ///
 /// # Errors
-/// [`FittingError`] if readings cannot be used or a fit fails.
+/// [`FittingError`] if readings cannot be used.
 pub fn left_out(
     prepared: &PreparedFit,
     progress: &(dyn Fn() + Sync),
@@ -40,8 +42,7 @@ pub fn left_out(
     };
     let set = &prepared.set;
     let below = prepared.settings.below_surface;
-    let all = observations(set, surface, below)
-        .map_err(calibrate::calibration::CalibrationError::from)?;
+    let all = observations(set, surface, below).map_err(CalibrationError::from)?;
     let candidates: Vec<usize> = (0..all.len())
         .filter(|&index| all[index].shares.iter().filter(|share| **share > 0.0).count() > 1)
         .collect();
@@ -68,7 +69,11 @@ fn without(
     let rest = prepared.set.retaining(keep);
     let Some(place) = rest.pigments.iter().position(|name| name == white) else { return Ok(None) };
     let (settings, viewing) = (&prepared.settings, prepared.viewing());
-    let library = calibrate(&rest, PigmentId(place), surface, settings, viewing)?.library;
+    let library = match calibrate(&rest, PigmentId(place), surface, settings, viewing) {
+        Ok(calibration) => calibration.library,
+        Err(CalibrationError::Fit(_)) => return Ok(None),
+        Err(error) => return Err(error.into()),
+    };
     let present = pigments.iter().zip(&target.shares).filter(|(_, share)| **share > 0.0);
     let shares: Vec<(String, f64)> = present.map(|(name, share)| (name.clone(), *share)).collect();
     let ids = shares.iter().map(|(name, share)| Some((library.find(name).ok()?, *share)));
@@ -86,26 +91,23 @@ fn without(
     }))
 }
 
-/// Library fitted on one half of the readings: all films of one pigment, and every second mixture, from
+/// One half of the readings, ready to be fitted: all films of one pigment, and every second mixture, from
 /// mixture `half` (0 or 1) on.
-///
-/// # Errors
-/// [`FittingError`] if the half does not suffice for a fit.
-pub fn half_library(prepared: &PreparedFit, half: usize) -> Result<PigmentLibrary, FittingError> {
+#[must_use]
+pub fn half_of(prepared: &PreparedFit, half: usize) -> PreparedFit {
     let mixtures: Vec<&str> = (prepared.set.swatches.iter())
         .filter(|swatch| swatch.shares.iter().filter(|share| **share > 0.0).count() > 1)
         .map(|swatch| swatch.sample.as_str())
         .collect();
     let out: Vec<&str> = mixtures.iter().copied().skip(1 - half % 2).step_by(2).collect();
     let mut part = prepared.clone();
-    let set = prepared.set.retaining(|swatch| !out.contains(&swatch.sample.as_str()));
+    part.set = prepared.set.retaining(|swatch| !out.contains(&swatch.sample.as_str()));
     if let FilmModel::Relative { reference, .. } = &mut part.model {
         let white = &prepared.set.pigments[reference.index()];
-        let place = set.pigments.iter().position(|name| name == white);
+        let place = part.set.pigments.iter().position(|name| name == white);
         *reference = PigmentId(place.unwrap_or(reference.index()));
     }
-    part.set = set;
-    Ok(part.fit()?.library)
+    part
 }
 
 /// Errors of a library's predictions for mixtures that it has not seen.

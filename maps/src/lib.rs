@@ -31,6 +31,8 @@ mod nearest;
 
 mod set_fit;
 
+mod quadratic;
+
 mod table;
 
 mod search;
@@ -78,3 +80,6 @@ pub use settings::{MapSettings, PigmentGroup};
 pub use store::{MapStore, StoreMode, StoredMaps};
 pub use survey::{SURVEYED, survey_step};
 pub use surveyed::{FoundColumn, Region, SurveyError, SurveyedScan};
+
+#[cfg(test)]
+mod film_tests;

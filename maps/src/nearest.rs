@@ -62,7 +62,9 @@ impl Nearest {
             let range = first as usize..last as usize;
             for (other, &place) in self.points[range.clone()].iter().zip(&self.places[range]) {
                 let mut found = (distance(point, other), place);
-                if !(found < best[K - 1]) {
+                // NaN is near nothing.
+                let is_near = found < best[K - 1];
+                if !is_near {
                     continue;
                 }
                 for slot in best.iter_mut() {
@@ -107,7 +109,8 @@ fn split(list: &[Point], order: &mut [u32], start: usize, nodes: &mut Vec<Node>)
     };
     let wider = |a: usize, b: usize| if spread(b) > spread(a) { b } else { a };
     let dimension = (0..DIMENSIONS).reduce(wider).unwrap_or(0);
-    if order.len() <= LEAF || !(spread(dimension) > 0.0) {
+    let differs = spread(dimension) > 0.0;
+    if order.len() <= LEAF || !differs {
         return;
     }
     let middle = order.len() / 2;

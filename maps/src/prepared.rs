@@ -61,7 +61,7 @@ impl Prepared {
             table,
             noise: WhiteningNoise::new(&noise),
             at_most: settings.at_most.min(paints.count()),
-            penalty: settings.penalty as f32,
+            of_count: Engine::of_count(paints.count(), settings.penalty),
             tail: noise.tail,
         };
         let (mut ends, mut terms, mut used) = (Vec::new(), Vec::new(), Vec::new());

@@ -2,19 +2,29 @@
 
 use std::collections::BTreeMap;
 
-use crate::film::{Films, Pixel, Work};
-use crate::set_fit::{Quadratic, SetFit};
+use crate::film::{Difference, Films, Pixel, Work};
+use crate::quadratic::Quadratic;
+use crate::set_fit::SetFit;
 use crate::table::Table;
 use crate::whitening::WhiteningNoise;
 
 /// Linearised sets that are kept, by their number of pigments.
-const KEPT: [usize; 4] = [6, 20, 20, 8];
-/// Sets of one size that are extended by each other pigment.
+const KEPT: [usize; 4] = [6, 20, 24, 8];
+/// Sets of three that are extended by each other pigment.
 const BEAM: usize = 8;
-/// Sets that are refined in measured reflectance, in the first round and in the second.
-const REFINED: [usize; 2] = [12, 10];
-/// Gauss-Newton steps of each set, and of the best one at the end.
-const STEPS: [usize; 2] = [3, 3];
+/// Sets that are refined in measured reflectance: about the nearest film of the table, then about the best
+/// set of these.
+const REFINED: [usize; 2] = [32, 24];
+/// Gauss-Newton steps of each set, of one that may be among the best, and of the best one at the end.
+const STEPS: [usize; 3] = [1, 2, 3];
+/// Score above the best after the first step from which a set is not refined further.
+const HOPELESS: f32 = 12.0;
+/// Penalty of a pigment among linearised sets, before what its share costs is known.
+const SHORTLIST_PENALTY: f32 = 6.0;
+/// Score above the best from which a linearised set is not refined.
+const FAR: f32 = 30.0;
+/// Chi-square of three pigments relative to that of the best pair from which they are passed over.
+const WORSE: f64 = 1.5;
 /// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
 
@@ -39,7 +49,8 @@ pub(crate) struct Engine {
     pub(crate) table: Table,
     pub(crate) noise: WhiteningNoise,
     pub(crate) at_most: usize,
-    pub(crate) penalty: f32,
+    /// Additions to the score by number of pigments.
+    pub(crate) of_count: [f32; 4],
     /// Degrees of freedom of the residuals' distribution; infinite for a normal one.
     pub(crate) tail: f64,
 }
@@ -48,34 +59,60 @@ pub(crate) struct Engine {
 #[derive(Debug)]
 pub(crate) struct Scratch {
     work: Work,
+    quadratic: Quadratic,
     pub(crate) found: Vec<SetFit>,
     by_size: [Vec<SetFit>; 4],
     shortlist: Vec<SetFit>,
+    /// Least score of a refined set.
+    least: f32,
 }
 
 impl Scratch {
     pub(crate) fn new(films: &Films) -> Self {
         Self {
             work: Work::new(films),
+            quadratic: Quadratic::new(films.pigments),
             found: Vec::new(),
             by_size: [const { Vec::new() }; 4],
             shortlist: Vec::new(),
+            least: f32::INFINITY,
         }
     }
 }
 
 impl Engine {
-    /// -2 ln of the likelihood of a chi-square, less a constant, with the penalty of `count` pigments.
-    pub(crate) fn score(&self, chi2: f32, count: usize) -> f32 {
-        self.penalty * count as f32 + self.misfit(chi2)
+    /// -2 ln of the probability of a refined set, less a constant: its misfit, the part of all shares that
+    /// agree with the pixel, and the prior. A set of any number of pigments is as likely as one of another, and
+    /// so is any set of one number.
+    pub(crate) fn score(&self, set: &SetFit, difference: &Difference, prior: &Prior) -> f32 {
+        let exactness = difference.exactness(set.len(), self.excess(set.chi2)) as f32;
+        self.misfit(set.chi2) + exactness + self.of_count[set.len() - 1] + prior.of(set.key())
     }
 
-    pub(crate) fn misfit(&self, chi2: f32) -> f32 {
+    /// Additions to the score by number of pigments, for `pigments` of which up to four are mixed.
+    pub(crate) fn of_count(pigments: usize, penalty: f64) -> [f32; 4] {
+        let mut sets = 1.0;
+        std::array::from_fn(|size| {
+            sets *= pigments.saturating_sub(size).max(1) as f64 / (size + 1) as f64;
+            (2.0 * sets.ln() + penalty * (size + 1) as f64) as f32
+        })
+    }
+
+    /// -2 ln of the likelihood of a chi-square, less a constant.
+    fn misfit(&self, chi2: f32) -> f32 {
         if self.tail.is_infinite() {
             return chi2;
         }
         let scale = self.tail + self.films.bands as f64;
         (scale * (f64::from(chi2.max(0.0)) / self.tail).ln_1p()) as f32
+    }
+
+    /// Greatest change of the score by chi-square.
+    fn steepest(&self) -> f32 {
+        if self.tail.is_infinite() {
+            return 1.0;
+        }
+        ((self.tail + self.films.bands as f64) / self.tail) as f32
     }
 
     /// Factor by which the variance of a pixel's errors exceeds the usual one.
@@ -90,11 +127,15 @@ impl Engine {
     /// the best first.
     pub(crate) fn search(&self, pixel: &Pixel, place: usize, prior: &Prior, scratch: &mut Scratch) {
         scratch.found.clear();
+        scratch.least = f32::INFINITY;
         let (internal, inverse) = self.table.film(place);
         self.films.products(pixel, (internal, inverse), &mut scratch.work);
         self.shortlist(prior, scratch);
+        let far = scratch.shortlist.first().map_or(0.0, |best| best.score + FAR * self.steepest());
         for index in 0..REFINED[0].min(scratch.shortlist.len()) {
-            self.add_refined(pixel, index, prior, scratch);
+            if scratch.shortlist[index].score < far {
+                self.add_refined(pixel, index, prior, scratch);
+            }
         }
         let best = |a: SetFit, b: SetFit| if b.score < a.score { b } else { a };
         let Some(winner) = scratch.found.iter().copied().reduce(best) else { return };
@@ -104,27 +145,25 @@ impl Engine {
         self.shortlist(prior, scratch);
         let mut refined = 0;
         for index in 0..scratch.shortlist.len() {
-            let set = scratch.shortlist[index];
-            if scratch.found.iter().any(|found| found.key() == set.key()) {
-                continue;
-            }
-            self.add_refined(pixel, index, prior, scratch);
-            refined += 1;
-            if refined == REFINED[1] {
-                break;
+            let key = scratch.shortlist[index].key();
+            let near = scratch.shortlist[index].score < scratch.least + FAR * self.steepest();
+            if near && refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key)
+            {
+                self.add_refined(pixel, index, prior, scratch);
+                refined += 1;
             }
         }
         self.sort(pixel, prior, &mut scratch.found);
     }
 
-    /// Sorts sets, and refines the best ones until they stay the best.
+    /// Sorts sets by their scores, after the best one is refined further.
     pub(crate) fn sort(&self, pixel: &Pixel, prior: &Prior, found: &mut [SetFit]) {
         let order =
             |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
-        best.refine(&self.films, pixel, STEPS[1]);
-        best.score = self.score(best.chi2, best.len()) + prior.of(best.key());
+        let difference = best.refine(&self.films, pixel, STEPS[2]);
+        best.score = self.score(best, &difference, prior);
         found.sort_unstable_by(order);
     }
 
@@ -136,23 +175,25 @@ impl Engine {
         steps: usize,
         prior: &Prior,
     ) -> SetFit {
-        set.refine(&self.films, pixel, steps);
-        set.score = self.score(set.chi2, set.len()) + prior.of(set.key());
+        let difference = set.refine(&self.films, pixel, steps);
+        set.score = self.score(&set, &difference, prior);
         set
     }
 
     fn add_refined(&self, pixel: &Pixel, index: usize, prior: &Prior, scratch: &mut Scratch) {
-        let set = scratch.shortlist[index];
-        let set = self.refined(pixel, set, STEPS[0], prior);
+        let mut set = self.refined(pixel, scratch.shortlist[index], STEPS[0], prior);
+        if set.score < scratch.least + HOPELESS * self.steepest() {
+            set = self.refined(pixel, set, STEPS[1], prior);
+        }
+        scratch.least = scratch.least.min(set.score);
         scratch.found.push(set);
     }
 
     /// Best sets of the linearised problem, in `scratch.shortlist`, the best first.
     fn shortlist(&self, prior: &Prior, scratch: &mut Scratch) {
-        let Scratch { work, by_size, shortlist, .. } = scratch;
+        let Scratch { work, quadratic, by_size, shortlist, .. } = scratch;
         let count = self.films.pigments;
-        let quadratic =
-            Quadratic { products: &work.products, columns: self.films.columns, sizes: &work.sizes };
+        quadratic.read(work);
         by_size.iter_mut().for_each(Vec::clear);
         let [singles, pairs, triples, fours] = by_size;
         for a in 0..count {
@@ -170,10 +211,13 @@ impl Engine {
             }
         }
         if self.at_most > 2 {
-            quadratic.triples(count, |members, shares, chi2| {
-                if is_kept(triples, KEPT[2], chi2 as f32) {
-                    keep(triples, KEPT[2], quadratic.fit(members, shares, chi2));
-                }
+            // A third pigment that does not save much on the best pair is of no use.
+            let least = singles.iter().chain(&*pairs).map(|set| set.chi2).reduce(f32::min);
+            let limit = f64::from(least.unwrap_or(f32::INFINITY)) * WORSE + f64::from(FAR);
+            quadratic.triples(limit, |members, shares, chi2| {
+                keep(triples, KEPT[2], quadratic.fit(members, shares, chi2));
+                let full = triples.len() == KEPT[2];
+                triples.last().filter(|_| full).map_or(limit, |last| f64::from(last.chi2))
             });
         }
         if self.at_most > 3 {
@@ -188,7 +232,8 @@ impl Engine {
         }
         shortlist.clear();
         for set in by_size.iter().flatten() {
-            let score = self.score(set.chi2, set.len()) + prior.of(set.key());
+            let penalty = SHORTLIST_PENALTY * set.len() as f32;
+            let score = self.misfit(set.chi2) + penalty + prior.of(set.key());
             shortlist.push(SetFit { score, ..*set });
         }
         let order =
@@ -216,43 +261,68 @@ fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::prepared::Prepared;
-    use crate::settings::MapSettings;
+    use crate::film::Films;
+    use crate::noise::{ModelError, Noise};
+    use crate::paints::Paints;
+
+    /// An engine for the oils that ship, their paints, and their bands.
+    fn oils(at_most: usize) -> (Engine, Paints) {
+        let library = pigment::PigmentLibrary::van_gogh_oils();
+        let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
+        let bands = crate::bands::Bands::new(&nm, library.grid).unwrap();
+        let paints = Paints::new(&library, &[], &bands).unwrap();
+        let noise = Noise::new(&bands, 0.003, &ModelError::Stated(0.1));
+        let films = Films::new(&paints);
+        let table = Table::new(&paints, &films, &noise);
+        let of_count = Engine::of_count(paints.count(), 2.0);
+        let (noise, tail) = (WhiteningNoise::new(&noise), noise.tail);
+        (Engine { films, table, noise, at_most, of_count, tail }, paints)
+    }
+
+    fn found(engine: &Engine, paints: &Paints, truth: &[(usize, f64)]) -> Vec<SetFit> {
+        let reflectance: Vec<f32> = paints.reflectance(truth).iter().map(|r| *r as f32).collect();
+        let place = engine.table.nearest(&engine.table.projection.of(&reflectance));
+        let pixel = engine.films.pixel(&engine.noise, &reflectance);
+        let mut scratch = Scratch::new(&engine.films);
+        engine.search(&pixel, place, &Prior::default(), &mut scratch);
+        scratch.found
+    }
 
     #[test]
-    fn probe() {
-        let oils = pigment::PigmentLibrary::van_gogh_oils();
-        let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
-        let prepared = Prepared::new(
-            &oils,
-            &nm,
-            &MapSettings {
-                model_error: Some(crate::noise::ModelError::Stated(0.1)),
-                ..MapSettings::default()
-            },
-        )
-        .unwrap();
-        let engine = &prepared.engine;
-        let mut scratch = Scratch::new(&engine.films);
+    fn exact_films_are_explained_by_their_own_pigments() {
+        let (engine, paints) = oils(3);
+        let place = |name: &str| paints.place(name).unwrap();
+        let (white, black) = (place("Zinc White"), place("Bone Black"));
         for truth in [
-            vec![(1, 0.8), (10, 0.2)],
-            vec![(1, 0.5), (4, 0.1), (10, 0.4)],
-            vec![(0, 0.3), (1, 0.7)],
-            vec![(3, 0.95), (4, 0.05)],
+            vec![(place("Viridian"), 1.0)],
+            vec![(white, 0.8), (place("Viridian"), 0.2)],
+            vec![(white, 0.97), (place("Prussian Blue"), 0.03)],
+            vec![(black, 0.05), (place("Vermilion"), 0.95)],
+            vec![(white, 0.5), (black, 0.1), (place("Viridian"), 0.4)],
+            vec![(white, 0.3), (place("Cobalt Blue"), 0.3), (place("Chrome Yellow"), 0.4)],
         ] {
-            let spectrum: Vec<f32> =
-                prepared.paints.reflectance(&truth).iter().map(|r| *r as f32).collect();
-            let folded = prepared.fold(&spectrum).unwrap();
-            let place = engine.table.nearest(&folded.point);
-            println!("truth {truth:?} nearest {:?}", engine.table.recipes[place]);
-            engine.search(&folded.pixel, place, &Prior::default(), &mut scratch);
-            for set in scratch.found.iter().take(4) {
-                println!(
-                    "   {:?} chi2 {} score {}",
-                    set.parts().collect::<Vec<_>>(),
-                    set.chi2,
-                    set.score
-                );
+            let found = found(&engine, &paints, &truth);
+            let own = found.iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2)).unwrap();
+            let best = found[0];
+            assert!(own.chi2 < 0.01, "{truth:?}: {own:?}");
+            assert!(best.chi2 < 1.0 && best.len() <= truth.len(), "{truth:?}: {best:?}");
+            for &(pigment, share) in &truth {
+                let told = own.parts().find(|part| part.0 == pigment).map_or(0.0, |part| part.1);
+                assert!((f64::from(told) - share).abs() < 0.01, "{truth:?}: {own:?}");
+            }
+            assert!(found.windows(2).all(|pair| pair[0].score <= pair[1].score), "sorted");
+        }
+    }
+
+    #[test]
+    fn sets_are_no_greater_than_asked_for() {
+        for at_most in 1..=4 {
+            let (engine, paints) = oils(at_most);
+            let found = found(&engine, &paints, &[(1, 0.4), (4, 0.1), (10, 0.3), (13, 0.2)]);
+            let greatest = found.iter().map(SetFit::len).max();
+            assert!(greatest.is_some_and(|most| most <= at_most), "{at_most}: {greatest:?}");
+            if at_most == 4 {
+                assert!(found[0].chi2 < 1.0, "{:?}", found[0]);
             }
         }
     }

@@ -1,5 +1,10 @@
 //! Shares of one set of pigments for one pixel.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "sums over rows and columns of small matrices read best by their indices"
+)]
+
 use crate::film::{Difference, Films, MOST_IN_SET, Pixel};
 
 /// A set of one to four pigments with shares that fit a pixel.
@@ -141,6 +146,37 @@ impl SetFit {
     }
 }
 
+/// Variance of a share that may be anything from 0 to 1.
+const FREE_SHARE: f64 = 1.0 / 12.0;
+
+impl Difference {
+    /// -2 ln of the part of all shares of `count` pigments that agree with the pixel, where variances are
+    /// `excess` times those of the curvature: what a set pays for shares that had to be found exactly.
+    pub(crate) fn exactness(&self, count: usize, excess: f64) -> f64 {
+        let last = count - 1;
+        let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
+        let at = |i: usize, j: usize| f64::from(self.normal[i][j]);
+        for i in 0..last {
+            for j in 0..last {
+                let along = at(i, j) - at(i, last) - at(j, last) + at(last, last);
+                left[i][j] = FREE_SHARE * along / excess + if i == j { 1.0 } else { 0.0 };
+            }
+        }
+        let mut determinant = 1.0;
+        for pivot in 0..last {
+            let value = left[pivot][pivot].max(1.0);
+            determinant *= value;
+            for row in pivot + 1..last {
+                let factor = left[row][pivot] / value;
+                for column in pivot..last {
+                    left[row][column] -= factor * left[pivot][column];
+                }
+            }
+        }
+        determinant.ln()
+    }
+}
+
 type Square = [[f64; MOST_IN_SET]; MOST_IN_SET];
 
 fn product(matrix: &Square, vector: &[f32; MOST_IN_SET], count: usize) -> [f64; MOST_IN_SET] {
@@ -184,7 +220,8 @@ fn inverted(mut left: Square, count: usize) -> Option<Square> {
     }
     for pivot in 0..count {
         let value = left[pivot][pivot];
-        if !(value > 0.0) {
+        let is_definite = value > 0.0;
+        if !is_definite {
             return None;
         }
         for column in 0..count {
@@ -202,128 +239,4 @@ fn inverted(mut left: Square, count: usize) -> Option<Square> {
         }
     }
     Some(right)
-}
-
-/// Products of the rows of pigments, by place.
-pub(crate) struct Quadratic<'a> {
-    pub(crate) products: &'a [f32],
-    pub(crate) columns: usize,
-    /// Sizes by which the rows are divided; the shares of a set are divided by them too.
-    pub(crate) sizes: &'a [f32],
-}
-
-impl Quadratic<'_> {
-    #[inline(always)]
-    fn at(&self, a: usize, b: usize) -> f64 {
-        let (low, high) = if a < b { (a, b) } else { (b, a) };
-        f64::from(self.products[low * self.columns + high])
-    }
-
-    /// A set whose parts of the divided rows are `parts`.
-    pub(crate) fn fit<const N: usize>(
-        &self,
-        members: [usize; N],
-        parts: [f64; N],
-        chi2: f64,
-    ) -> SetFit {
-        let mut shares = [0.0; N];
-        let mut sum = 0.0;
-        for i in 0..N {
-            shares[i] = parts[i] / f64::from(self.sizes[members[i]]);
-            sum += shares[i];
-        }
-        SetFit::new(members, shares.map(|share| (share / sum) as f32), chi2 as f32)
-    }
-
-    /// A single pigment.
-    pub(crate) fn single(&self, a: usize) -> SetFit {
-        SetFit::new([a], [1.0], self.at(a, a) as f32)
-    }
-
-    /// Shares of two pigments where the sum of squares is least; `None` if one is 0 or less.
-    #[inline(always)]
-    pub(crate) fn pair(&self, a: usize, b: usize) -> Option<(f64, f64)> {
-        let (aa, ab, bb) = (self.at(a, a), self.at(a, b), self.at(b, b));
-        let (to_a, to_b) = (bb - ab, aa - ab);
-        if !(to_a > 0.0 && to_b > 0.0) {
-            return None;
-        }
-        let share = to_a / (to_a + to_b);
-        Some((share, bb - share * to_a))
-    }
-
-    /// Calls `found` with the places, the shares and the sum of squares of every three pigments whose best
-    /// shares are all above 0.
-    pub(crate) fn triples(&self, count: usize, mut found: impl FnMut([usize; 3], [f64; 3], f64)) {
-        for a in 0..count {
-            let base = self.at(a, a);
-            // Differences from pigment `a` span the plane of shares of sum 1.
-            let right = |i: usize| base - self.at(a, i);
-            let product = |i: usize, j: usize| self.at(i, j) - self.at(a, i) - self.at(a, j) + base;
-            for b in a + 1..count {
-                let (square, to_b) = (product(b, b), right(b));
-                if !(square > 1e-9 * base) {
-                    continue;
-                }
-                let (inverse, of_pair) = (1.0 / square, base - to_b * to_b / square);
-                for c in b + 1..count {
-                    let along = product(b, c) * inverse;
-                    let rest = product(c, c) - along * along * square;
-                    let share_c = (right(c) - to_b * along) / rest;
-                    let share_b = to_b * inverse - share_c * along;
-                    let share_a = 1.0 - share_b - share_c;
-                    let inside = share_a > 0.0 && share_b > 0.0 && share_c > 0.0;
-                    if inside && rest > 1e-9 * base {
-                        let sum = of_pair - share_c * share_c * rest;
-                        found([a, b, c], [share_a, share_b, share_c], sum);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Shares of a set where the sum of squares is least; `None` if one is 0 or less.
-    pub(crate) fn set<const N: usize>(&self, members: [usize; N]) -> Option<SetFit> {
-        // The last share is 1 less the others.
-        let last = members[N - 1];
-        let base = self.at(last, last);
-        let to_last: [f64; N] = std::array::from_fn(|i| self.at(members[i], last));
-        let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
-        let mut x: [f64; N] = std::array::from_fn(|i| base - to_last[i]);
-        for i in 0..N - 1 {
-            for j in 0..N - 1 {
-                left[i][j] = self.at(members[i], members[j]) - to_last[i] - to_last[j] + base;
-            }
-        }
-        let right = x;
-        for pivot in 0..N - 1 {
-            let value = left[pivot][pivot];
-            if !(value > 1e-9 * base) {
-                return None;
-            }
-            for row in pivot + 1..N - 1 {
-                let factor = left[row][pivot] / value;
-                for column in pivot..N - 1 {
-                    left[row][column] -= factor * left[pivot][column];
-                }
-                x[row] -= factor * x[pivot];
-            }
-        }
-        for row in (0..N - 1).rev() {
-            for column in row + 1..N - 1 {
-                x[row] -= left[row][column] * x[column];
-            }
-            x[row] /= left[row][row];
-            if !(x[row] > 0.0) {
-                return None;
-            }
-        }
-        let (mut sum, mut saved) = (0.0, 0.0);
-        for i in 0..N - 1 {
-            sum += x[i];
-            saved += x[i] * right[i];
-        }
-        x[N - 1] = 1.0 - sum;
-        (x[N - 1] > 0.0).then(|| self.fit(members, x, base - saved))
-    }
 }

@@ -29,8 +29,8 @@ pub struct MapSettings {
     /// Error of the library's predictions. Default: from the errors of its fit, which its file holds, else
     /// 10 % of K and S.
     pub model_error: Option<ModelError>,
-    /// Increase of the score (chi-square, -2 ln of the likelihood) that one more pigment must save; 0 to
-    /// 100. Default: 4.
+    /// Chi-square that one more pigment must save beyond the prior, by which mixtures of any number of
+    /// pigments are alike; 0 to 100. Default: 2.
     pub penalty: f64,
 }
 
@@ -43,7 +43,7 @@ impl Default for MapSettings {
             group_alike: true,
             sensor_noise: 0.003,
             model_error: None,
-            penalty: 4.0,
+            penalty: 2.0,
         }
     }
 }

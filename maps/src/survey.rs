@@ -19,8 +19,8 @@ const KEPT_SETS: usize = 6;
 const ALIKE: f64 = 0.3;
 /// Rounds in which probabilities and prior of sets settle.
 const ROUNDS: usize = 4;
-/// Greatest addition to the score of a set that the survey did not find.
-const MOST_ADDED: f64 = 8.0;
+/// Greatest change of the score of a set by how often the survey found it.
+const MOST_SAVED: f64 = 10.0;
 
 /// Distance between surveyed pixels: every such pixel of `pixels`, in their order, is searched.
 #[must_use]
@@ -46,12 +46,14 @@ pub(crate) fn survey(
     };
     let mut found: Vec<Vec<SetFit>> =
         folded.par_iter().map_init(|| Scratch::new(&engine.films), search).collect();
+    let alone: Vec<BTreeMap<u32, f32>> =
+        found.iter().map(|sets| sets.iter().map(|set| (set.key(), set.score)).collect()).collect();
     let mut parts = BTreeMap::new();
     for _ in 0..ROUNDS {
-        let prior = prior(engine, &parts);
-        for sets in &mut found {
+        let prior = if parts.is_empty() { Prior::default() } else { prior(engine, &parts) };
+        for (sets, alone) in found.iter_mut().zip(&alone) {
             for set in sets.iter_mut() {
-                set.score = engine.score(set.chi2, set.len()) + prior.of(set.key());
+                set.score = alone[&set.key()] + prior.of(set.key());
             }
             sets.sort_by(|a, b| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key())));
         }
@@ -106,21 +108,16 @@ fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
     parts
 }
 
-/// Prior of sets that explain these parts of a survey.
+/// Prior of sets that explain these parts of a survey, relative to one in which all sets of one size are
+/// alike.
 fn prior(engine: &Engine, parts: &BTreeMap<u32, f64>) -> Prior {
-    if parts.is_empty() {
-        return Prior::default();
-    }
-    let most = parts.values().copied().fold(0.0, f64::max);
-    let alike = ALIKE / number_of_sets(engine.films.pigments, engine.at_most);
-    let added = |part: f64| {
-        let ratio = ((1.0 - ALIKE) * part + alike) / ((1.0 - ALIKE) * most + alike);
-        (-2.0 * ratio.ln()).min(MOST_ADDED) as f32
+    let saved = |(&key, &part): (&u32, &f64)| {
+        let size = key.to_be_bytes().iter().filter(|member| **member != u8::MAX).count();
+        let sets = number_of_sets(engine.films.pigments, size) * engine.at_most as f64;
+        let ratio = (1.0 - ALIKE) * part * sets + ALIKE;
+        (key, (-2.0 * ratio.ln()).clamp(-MOST_SAVED, MOST_SAVED) as f32)
     };
-    Prior {
-        of_set: parts.iter().map(|(&key, &part)| (key, added(part))).collect(),
-        of_others: added(0.0),
-    }
+    Prior { of_set: parts.iter().map(saved).collect(), of_others: -2.0 * ALIKE.ln() as f32 }
 }
 
 /// Prior that a book tells.
@@ -134,13 +131,7 @@ pub(crate) fn prior_of_book(engine: &Engine, book: &Book) -> Prior {
     prior(engine, &parts.collect())
 }
 
-/// Number of sets of one to `at_most` of `pigments`.
-fn number_of_sets(pigments: usize, at_most: usize) -> f64 {
-    let mut sum = 0.0;
-    let mut sets = 1.0;
-    for size in 1..=at_most {
-        sets *= (pigments + 1 - size) as f64 / size as f64;
-        sum += sets;
-    }
-    sum
+/// Number of sets of `size` of `pigments`.
+fn number_of_sets(pigments: usize, size: usize) -> f64 {
+    (0..size).map(|i| pigments.saturating_sub(i).max(1) as f64 / (i + 1) as f64).product()
 }

@@ -12,7 +12,13 @@ mod swatches;
 
 mod simulated;
 
+mod oils;
+
 pub use baselines::{Baseline, Unmixed};
+pub use oils::{
+    Missing, PaintingTrials, light_palette, missing_pigment, oil_groups, painting_trials,
+    prepared_oils,
+};
 pub use scores::{Coverage, Reliability, Scores, Trial, coverage, reliability};
 
 pub use simulated::{Painting, PaintingPlan};

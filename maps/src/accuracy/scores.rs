@@ -40,6 +40,12 @@ impl Trial {
         }
     }
 
+    /// The trial with that told to be present which has a share in the best set.
+    #[must_use]
+    pub fn of_best_set(&self) -> Self {
+        Self { present: self.told.iter().map(|share| *share > 0.0).collect(), ..self.clone() }
+    }
+
     /// The trial with those columns joined that have one number in `group_of`, of which there are `count`.
     /// Probabilities and deviations cannot be joined and are dropped.
     #[must_use]

@@ -1,0 +1,214 @@
+//! Maps of simulated pixels: equal bytes in any pieces, bad pixels, books, settings.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use maps::accuracy::{Painting, PaintingPlan};
+use maps::pixel_maps::{BlockMaps, Mask};
+use maps::{Book, MapError, MapSettings, Mapper, ModelError, PigmentGroup};
+use pigment::PigmentLibrary;
+use spectra::hint::Explain;
+
+fn oils() -> (PigmentLibrary, Vec<f64>) {
+    let oils = PigmentLibrary::van_gogh_oils();
+    let nm = oils.grid.wavelengths_nm().collect();
+    (oils, nm)
+}
+
+fn settings() -> MapSettings {
+    let model_error = Some(ModelError::Stated(0.1));
+    MapSettings { group_alike: false, model_error, ..MapSettings::default() }
+}
+
+fn scan(pixels: usize) -> (Mapper, Vec<f32>) {
+    let (oils, nm) = oils();
+    let plan = PaintingPlan { pixels, recipes: 12, ..PaintingPlan::default() };
+    let painting = Painting::simulate(&oils, &oils, &plan);
+    (Mapper::new(&oils, &nm, &settings()).unwrap(), painting.spectra)
+}
+
+/// All numbers of a map as bits, so that NaN equals NaN.
+fn bits(maps: &BlockMaps) -> Vec<u32> {
+    let lists = [&maps.share, &maps.share_sd, &maps.presence, &maps.chi2, &maps.rms];
+    let numbers = lists.into_iter().flatten().map(|value| value.to_bits());
+    let second = maps.second.iter().map(|bits| *bits as u32);
+    numbers.chain(second).chain(maps.mask.iter().map(|mask| u32::from(mask.code()))).collect()
+}
+
+#[test]
+fn a_pixel_depends_on_itself_and_the_book_only() {
+    let (mapper, spectra) = scan(700);
+    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let whole = mapper.map_block(&book, &spectra).unwrap();
+    assert!(whole.is_consistent(), "lengths");
+    for pool in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(pool).build().unwrap();
+        let again = pool.install(|| mapper.survey(&spectra, &|| ()).unwrap());
+        assert_eq!(again.to_json().unwrap(), book.to_json().unwrap());
+        for pixels in [1, 97, 700] {
+            let pieces = spectra.chunks(pixels * 31);
+            let pieces: Vec<BlockMaps> =
+                pool.install(|| pieces.map(|p| mapper.map_block(&book, p).unwrap()).collect());
+            let first: Vec<u32> =
+                pieces.iter().flat_map(|p| p.share.iter().map(|v| v.to_bits())).collect();
+            let expected: Vec<u32> = whole.share.iter().map(|v| v.to_bits()).collect();
+            assert_eq!(first, expected, "{pixels} pixels at a time");
+            if pixels == 700 {
+                assert_eq!(bits(&pieces[0]), bits(&whole));
+            }
+        }
+    }
+}
+
+#[test]
+fn shares_sum_to_1_and_probabilities_are_probabilities() {
+    let (mapper, spectra) = scan(300);
+    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let maps = mapper.map_block(&book, &spectra).unwrap();
+    for pixel in maps.share.chunks_exact(maps.pigments) {
+        assert!((pixel.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{pixel:?}");
+    }
+    assert!(maps.presence.iter().all(|p| (0.0..=1.0001).contains(p)), "probabilities");
+    assert!(maps.share_sd.iter().all(|sd| (0.0..=1.0).contains(sd)), "deviations");
+    assert!(maps.rms.iter().all(|rms| (0.0..0.1).contains(rms)), "residuals");
+}
+
+#[test]
+fn no_pixel_panics_and_bad_ones_are_masked() {
+    let (mapper, spectra) = scan(200);
+    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let bad: Vec<(f32, Mask)> = vec![
+        (f32::NAN, Mask::NotFinite),
+        (f32::INFINITY, Mask::NotFinite),
+        (-0.1, Mask::TooDark),
+        (0.0, Mask::TooDark),
+        (0.029, Mask::TooDark),
+        (55.0, Mask::OutOfRange),
+        (-3.0, Mask::OutOfRange),
+        (0.031, Mask::Mapped),
+        (0.5, Mask::Mapped),
+        (1.0, Mask::Mapped),
+        (1.4, Mask::Mapped),
+    ];
+    let mut pixels: Vec<f32> = bad.iter().flat_map(|(value, _)| [*value; 31]).collect();
+    // One dead band spoils its pixel alone.
+    pixels
+        .extend(spectra[..31].iter().enumerate().map(|(b, v)| if b == 7 { f32::NAN } else { *v }));
+    pixels.extend(&spectra[..31]);
+    // Bands that leap between the extremes, as no paint does.
+    pixels.extend((0..31).map(|band| if band % 2 == 0 { 0.0 } else { 1.0 }));
+    for maps in [mapper.map_block(&book, &pixels).unwrap(), mapper.search(&pixels).unwrap()] {
+        let expected = bad.iter().map(|(_, mask)| *mask);
+        let expected: Vec<Mask> =
+            expected.chain([Mask::NotFinite, Mask::Mapped, Mask::Mapped]).collect();
+        assert_eq!(maps.mask, expected);
+        let of = |index: usize| &maps.share[index * maps.pigments..(index + 1) * maps.pigments];
+        assert!(of(0).iter().all(|share| share.is_nan()), "no numbers where there is no map");
+        assert!(of(9).iter().all(|share| share.is_finite()), "white");
+        assert!(maps.chi2[13] > 10.0 * maps.chi2[12], "{:?}", &maps.chi2[12..]);
+    }
+    let masks = [Mask::Saturated, Mask::Mapped];
+    let opened = mapper.open_book(&book).unwrap();
+    let maps = mapper.map(&opened, &spectra[..62], &masks).unwrap();
+    assert_eq!(maps.mask, masks);
+}
+
+#[test]
+fn wrong_lengths_and_other_books_are_refused() {
+    let (mapper, spectra) = scan(50);
+    let error = mapper.survey(&spectra[..40], &|| ()).unwrap_err();
+    assert_eq!(error, MapError::Length { values: 40, bands: 31 });
+    assert!(error.hint().is_some(), "a way out");
+    let error = mapper.survey(&[f32::NAN; 62], &|| ()).unwrap_err();
+    assert_eq!(error, MapError::NothingToSurvey { pixels: 2 });
+    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let opened = mapper.open_book(&book).unwrap();
+    let error = mapper.map(&opened, &spectra, &[Mask::Mapped]).unwrap_err();
+    assert_eq!(error, MapError::Masks { masks: 1, pixels: 50 });
+    let (oils, nm) = oils();
+    let other = Mapper::new(&oils, &nm, &MapSettings { at_most: 2, ..settings() }).unwrap();
+    let error = other.map_block(&book, &spectra).unwrap_err();
+    assert!(matches!(error, MapError::OtherBook { .. }), "{error}");
+    // Groups join columns of the map, which leaves the book valid.
+    let groups = vec![PigmentGroup {
+        name: "whites".to_owned(),
+        pigments: vec!["Zinc White".to_owned(), "lead white".to_owned()],
+    }];
+    let joined = Mapper::new(&oils, &nm, &MapSettings { groups, ..settings() }).unwrap();
+    assert_eq!(joined.columns().len(), 17);
+    let maps = joined.map_block(&book, &spectra).unwrap();
+    assert_eq!(maps.pigments, 17);
+}
+
+#[test]
+fn books_survive_their_file_and_broken_ones_are_refused() {
+    let (mapper, spectra) = scan(40);
+    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let text = book.to_json().unwrap();
+    let read = Book::from_json(&text).unwrap();
+    assert_eq!(read, book);
+    assert_eq!(read.sha256().unwrap(), book.sha256().unwrap());
+    let whole = mapper.map_block(&book, &spectra).unwrap();
+    assert_eq!(bits(&mapper.map_block(&read, &spectra).unwrap()), bits(&whole));
+    for (from, to) in [
+        ("impasto-survey", "other"),
+        ("\"version\":1", "\"version\":2"),
+        ("\"point\":[", "\"point\":[1.0,"),
+        ("\"shares\":[", "\"shares\":[7.0,"),
+    ] {
+        let broken = text.replacen(from, to, 1);
+        assert!(matches!(Book::from_json(&broken), Err(MapError::Book { .. })), "{from}");
+    }
+    assert!(Book::from_json(&text[..100]).is_err(), "a part of a file");
+}
+
+#[test]
+fn settings_out_of_range_are_refused() {
+    let (oils, nm) = oils();
+    let usual = MapSettings { group_alike: false, ..MapSettings::default() };
+    for wrong in [
+        MapSettings { at_most: 0, ..usual.clone() },
+        MapSettings { at_most: 5, ..usual.clone() },
+        MapSettings { sensor_noise: f64::NAN, ..usual.clone() },
+        MapSettings { penalty: -1.0, ..usual.clone() },
+        MapSettings { model_error: Some(ModelError::Stated(10.0)), ..usual.clone() },
+    ] {
+        let error = Mapper::new(&oils, &nm, &wrong).unwrap_err();
+        assert!(matches!(error, MapError::Setting { .. }), "{error}");
+    }
+    let group = |name: &str| PigmentGroup {
+        name: name.to_owned(),
+        pigments: vec!["Zinc White".to_owned()],
+    };
+    let twice = MapSettings { groups: vec![group("a"), group("b")], ..usual };
+    let error = Mapper::new(&oils, &nm, &twice).unwrap_err();
+    assert!(matches!(error, MapError::TwoGroups { .. }), "{error}");
+}
+
+#[test]
+fn pigments_that_look_alike_are_grouped_and_others_are_not() {
+    let (oils, nm) = oils();
+    let mapper = Mapper::new(&oils, &nm, &MapSettings::default()).unwrap();
+    let column = |name: &str| {
+        mapper.columns().iter().position(|c| c.pigments.iter().any(|p| p == name)).unwrap()
+    };
+    assert_eq!(column("Eosin Lake"), column("Eosin Lake (wax)"), "eosins");
+    assert_eq!(column("Zinc White"), column("Lead White"), "whites");
+    assert_ne!(column("Viridian"), column("Cobalt Blue"), "a green and a blue");
+    assert_ne!(column("Zinc White"), column("Bone Black"), "white and black");
+}
+
+#[test]
+fn few_pigments_and_few_bands_suffice() {
+    let (oils, _) = oils();
+    let nm = [410.0, 460.0, 520.0, 590.0, 640.0, 690.0];
+    let palette = vec!["Zinc White".to_owned(), "Viridian".to_owned()];
+    let mapper = Mapper::new(&oils, &nm, &MapSettings { palette, ..settings() }).unwrap();
+    let recipe = oils.recipe([("Zinc White", 0.7), ("Viridian", 0.3)]).unwrap();
+    let film = oils.mix(recipe).unwrap().hiding(oils.saunderson);
+    let at = |nm: f64| film[((nm - 400.0) / 10.0) as usize] as f32;
+    let maps = mapper.search(&nm.map(at)).unwrap();
+    assert!((maps.share[1] - 0.3).abs() < 0.03, "{:?}", maps.share);
+    let palette = vec!["Viridian".to_owned()];
+    let one = Mapper::new(&oils, &nm, &MapSettings { palette, ..settings() }).unwrap();
+    assert_eq!(one.search(&nm.map(at)).unwrap().share, [1.0]);
+}
