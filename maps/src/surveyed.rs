@@ -80,6 +80,7 @@ impl SurveyedScan {
         region: Option<Region>,
         progress: &(dyn Fn() + Sync),
     ) -> Result<Self, SurveyError> {
+        let cube = within(cube, library)?;
         let mapper = Mapper::new(library, cube.wavelengths_nm(), settings)?;
         let region = inside(&cube, region)?;
         let pixels = cube.spread(region.rows.clone(), region.columns.clone(), SURVEYED)?;
@@ -98,6 +99,7 @@ impl SurveyedScan {
         region: Option<Region>,
         book: Book,
     ) -> Result<Self, SurveyError> {
+        let cube = within(cube, library)?;
         let mapper = Mapper::new(library, cube.wavelengths_nm(), settings)?;
         let region = inside(&cube, region)?;
         Self::of(cube, library, mapper, settings, region, book)
@@ -212,6 +214,17 @@ impl SurveyedScan {
             }
             _ => Ok(None),
         }
+    }
+}
+
+/// The cube with the bands within the library's wavelengths: others do not decide whether a pixel can be
+/// mapped.
+fn within(cube: Cube, library: &PigmentLibrary) -> Result<Cube, CubeError> {
+    let range = library.grid.start_nm()..=library.grid.end_nm();
+    // Without any, the mapper says which it needs.
+    match cube.wavelengths_nm().iter().any(|nm| range.contains(nm)) {
+        true => cube.between(range),
+        false => Ok(cube),
     }
 }
 

@@ -97,7 +97,7 @@ impl PigmentOptions {
         let groups = self.group.iter().map(|text| group(text)).collect::<Result<_>>()?;
         let of_white = white_sd.filter(|sd| !sd.is_empty()).map(|sd| {
             let squares: f64 = sd.iter().map(|sd| sd * sd).sum();
-            (squares / sd.len() as f64).sqrt()
+            (squares / sd.len() as f64).sqrt().max(usual.sensor_noise)
         });
         Ok(MapSettings {
             at_most: self.at_most.unwrap_or(usual.at_most),
