@@ -63,10 +63,15 @@ mod tests {
 
     #[test]
     fn a_jpeg_is_cut_off_wherever_its_end_is_missing() {
-        let picture =
-            image::RgbImage::from_fn(64, 48, |x, y| image::Rgb([x as u8 * 4, y as u8, 9]));
+        let noise = |x: u32, y: u32| (x * 7919 + y * 104_729).wrapping_mul(2_654_435_761);
+        let picture = image::RgbImage::from_fn(64, 48, |x, y| {
+            let [r, g, b, _] = noise(x, y).to_le_bytes();
+            image::Rgb([r, g, b])
+        });
         let mut whole = Vec::new();
-        JpegEncoder::new(&mut whole).encode_image(&picture).unwrap();
+        JpegEncoder::new_with_quality(&mut whole, 100).encode_image(&picture).unwrap();
+        // Coded data hold bytes of 0xff, each with a 0 behind it.
+        assert!(whole.windows(2).any(|pair| pair == [0xff, 0]), "no such byte");
         assert!(!is_cut_off_jpeg(&whole));
         for length in 2..whole.len() {
             assert!(is_cut_off_jpeg(&whole[..length]), "{length} of {} bytes", whole.len());

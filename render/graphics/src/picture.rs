@@ -325,6 +325,12 @@ mod tests {
             assert!(Photograph::from_bytes("whole", &whole).is_ok(), "{format:?}");
             let cut = Photograph::from_bytes("cut", &whole[..whole.len() / 3]);
             assert!(cut.is_err(), "{format:?}");
+            // A decoder fills the missing part of a JPEG with grey.
+            for length in [whole.len() * 2 / 3, whole.len() - 2] {
+                let cut = Photograph::from_bytes("cut", &whole[..length]);
+                let told = matches!(cut, Err(PhotographError::CutOff { .. }));
+                assert_eq!(told, format == Jpeg, "{format:?}, {length} bytes: {cut:?}");
+            }
         }
     }
 }
