@@ -1,6 +1,6 @@
 //! Measured mixtures with libraries that were fitted without them.
 
-use calibrate::calibration::calibrate;
+use calibrate::calibration::{CalibrationError, calibrate};
 use calibrate::observation::{Observation, observations};
 use calibrate::swatch::{Swatch, SwatchSet};
 use calibrate::{FilmModel, FittingError, PreparedFit};
@@ -26,11 +26,11 @@ pub struct LeftOut {
 }
 
 /// Leaves out each mixture of two pigments or more in turn, on all cores. `progress` is called after each,
-/// from any thread. Mixtures without which a pigment's K or S would be unknown are passed over, as are
-/// readings of absolute amounts, whose films do not hide.
+/// from any thread. Mixtures without which the rest cannot be fitted, or a pigment's K or S would be
+/// unknown, are passed over, as are readings of absolute amounts, whose films do not hide.
 ///
 /// # Errors
-/// [`FittingError`] if readings cannot be used or a fit fails.
+/// [`FittingError`] if readings cannot be used.
 pub fn left_out(
     prepared: &PreparedFit,
     progress: &(dyn Fn() + Sync),
@@ -40,7 +40,7 @@ pub fn left_out(
     };
     let set = &prepared.set;
     let below = prepared.settings.below_surface;
-    let all = observations(set, surface, below).map_err(calibrate::calibration::CalibrationError::from)?;
+    let all = observations(set, surface, below).map_err(CalibrationError::from)?;
     let candidates: Vec<usize> = (0..all.len())
         .filter(|&index| all[index].shares.iter().filter(|share| **share > 0.0).count() > 1)
         .collect();
@@ -67,7 +67,11 @@ fn without(
     let rest = prepared.set.retaining(keep);
     let Some(place) = rest.pigments.iter().position(|name| name == white) else { return Ok(None) };
     let (settings, viewing) = (&prepared.settings, prepared.viewing());
-    let library = calibrate(&rest, PigmentId(place), surface, settings, viewing)?.library;
+    let library = match calibrate(&rest, PigmentId(place), surface, settings, viewing) {
+        Ok(calibration) => calibration.library,
+        Err(CalibrationError::Fit(_)) => return Ok(None),
+        Err(error) => return Err(error.into()),
+    };
     let present = pigments.iter().zip(&target.shares).filter(|(_, share)| **share > 0.0);
     let shares: Vec<(String, f64)> = present.map(|(name, share)| (name.clone(), *share)).collect();
     let ids = shares.iter().map(|(name, share)| Some((library.find(name).ok()?, *share)));

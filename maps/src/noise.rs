@@ -19,7 +19,7 @@ const SHRINKAGE: f64 = 0.5;
 const TAIL: f64 = 10.0;
 /// Lengths in nm over which stated errors of K and S are alike, with their parts of the variance. The
 /// rest is independent from band to band.
-const SMOOTH: [(f64, f64); 2] = [(100.0, 0.55), (40.0, 0.42)];
+const SMOOTH: [(f64, f64); 2] = [(60.0, 0.5), (30.0, 0.45)];
 /// Left-out errors of a fit relative to its own; measured on the Van Gogh oils.
 const LEFT_OUT_TO_FITTED: f64 = 1.9;
 /// Relative error of K and S of a library that tells nothing about its errors.

@@ -1,6 +1,6 @@
 //! Shares of one set of pigments for one pixel.
 
-use wide::{CmpGt, f32x8};
+use wide::f32x8;
 
 use crate::film::{Difference, Films, MOST_IN_SET, Pixel, Work};
 use crate::whitening::LANES;

@@ -18,8 +18,6 @@ const SHIFT: f64 = 2.0;
 /// Films by which pixels are linearised and differences whitened.
 #[derive(Debug, Clone)]
 pub(crate) struct Table {
-    /// Pigments of each film with their shares.
-    pub(crate) recipes: Vec<Vec<(usize, f64)>>,
     /// Internal reflectance and 1/S of each film.
     films: Vec<(Spectrum, Spectrum)>,
     pub(crate) projection: Projection,
@@ -45,7 +43,6 @@ impl Table {
             films: recipes.iter().map(film).collect(),
             projection,
             nearest: Nearest::new(&points),
-            recipes,
         }
     }
 

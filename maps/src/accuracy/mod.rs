@@ -16,7 +16,8 @@ mod oils;
 
 pub use baselines::{Baseline, Unmixed};
 pub use oils::{
-    Missing, PaintingTrials, missing_pigment, oil_groups, painting_trials, prepared_oils,
+    Missing, PaintingTrials, light_palette, missing_pigment, oil_groups, painting_trials,
+    prepared_oils,
 };
 pub use scores::{Coverage, Reliability, Scores, Trial, coverage, reliability};
 

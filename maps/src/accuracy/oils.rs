@@ -25,6 +25,23 @@ pub fn oil_groups() -> Vec<PigmentGroup> {
     named.into_iter().map(group).collect()
 }
 
+/// Eight of the Van Gogh oils that a painter sets out, without black and Prussian blue, in whose mixtures
+/// other pigments hardly show.
+#[must_use]
+pub fn light_palette() -> Vec<String> {
+    let names = [
+        "Zinc White",
+        "Chrome Yellow",
+        "Minium",
+        "Vermilion",
+        "Viridian",
+        "Emerald Green",
+        "Cobalt Blue",
+        "Ultramarine",
+    ];
+    names.map(str::to_owned).to_vec()
+}
+
 /// Readings of the Van Gogh oils with the options by which their library is fitted.
 ///
 /// # Errors

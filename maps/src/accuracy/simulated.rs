@@ -25,8 +25,10 @@ const EQUAL: f32 = 0.05;
 pub struct PaintingPlan {
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Pigments of the painting, drawn from the library.
+    /// Pigments of the painting, drawn from the library, or from `palette` if it names some.
     pub pigments: usize,
+    /// Names of the pigments that may be drawn; empty for all of the library.
+    pub palette: Vec<String>,
     /// Recipes of the painting, each of one to `at_most` of its pigments.
     pub recipes: usize,
     /// Most pigments of a recipe.
@@ -47,6 +49,7 @@ impl Default for PaintingPlan {
         Self {
             seed: 1,
             pigments: 8,
+            palette: Vec::new(),
             recipes: 60,
             at_most: 3,
             least_share: 0.1,
@@ -78,6 +81,7 @@ impl Painting {
         };
         let mut ids: Vec<PigmentId> = (real.ids())
             .filter(|&id| usable(real, &real[id].name) && usable(known, &real[id].name))
+            .filter(|&id| plan.palette.is_empty() || plan.palette.contains(&real[id].name))
             .collect();
         ids.shuffle(&mut random);
         ids.truncate(plan.pigments);
