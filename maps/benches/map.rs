@@ -66,7 +66,5 @@ fn map(bencher: Bencher, bands: usize) {
 #[divan::bench(args = [31], sample_count = 5)]
 fn whole_search(bencher: Bencher, bands: usize) {
     let scan = scan(bands);
-    bencher
-        .counter(ItemsCount::new(PIXELS))
-        .bench(|| scan.mapper.search(black_box(&scan.spectra)));
+    bencher.counter(ItemsCount::new(PIXELS)).bench(|| scan.mapper.search(black_box(&scan.spectra)));
 }

@@ -135,7 +135,6 @@ impl Bands {
     }
 }
 
-
 fn median_step(nm: &[f64]) -> f64 {
     let mut steps: Vec<f64> = nm.windows(2).map(|pair| pair[1] - pair[0]).collect();
     steps.sort_by(f64::total_cmp);

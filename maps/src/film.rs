@@ -100,8 +100,7 @@ impl Films {
             let r = r.fast_max(low).fast_min(high);
             let out = f32x8::ONE / (f32x8::ONE - self.k2 * r);
             internal[block] = r;
-            slope[block] =
-                self.through * out * out * r * (f32x8::ONE - r) / (f32x8::ONE + r);
+            slope[block] = self.through * out * out * r * (f32x8::ONE - r) / (f32x8::ONE + r);
         }
         Pixel { white: noise.near(&measured, &slope), measured, internal }
     }
@@ -195,8 +194,7 @@ impl Films {
                 / ((one - self.k2 * m) * (one - self.k2 * r) * (one - m * r));
             let (by_s, by_k) = (weight * (one - m) * (one - m), weight * (m + m));
             whole += by_s / inverse[block];
-            for (lane, (by_s, by_k)) in
-                by_s.to_array().into_iter().zip(by_k.to_array()).enumerate()
+            for (lane, (by_s, by_k)) in by_s.to_array().into_iter().zip(by_k.to_array()).enumerate()
             {
                 let band = block * LANES + lane;
                 let at = band * self.columns..(band + 1) * self.columns;

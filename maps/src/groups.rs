@@ -166,7 +166,9 @@ pub(crate) fn columns(
         let free: Vec<usize> = group.iter().copied().filter(|&p| group_of[p].is_none()).collect();
         if free.len() > 1 {
             free.iter().for_each(|&p| group_of[p] = Some(names.len()));
-            names.push(free.iter().map(|&p| paints.names[p].as_str()).collect::<Vec<_>>().join(" / "));
+            names.push(
+                free.iter().map(|&p| paints.names[p].as_str()).collect::<Vec<_>>().join(" / "),
+            );
         }
     }
     let mut columns: Vec<Column> = Vec::new();

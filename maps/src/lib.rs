@@ -29,6 +29,8 @@ mod nearest;
 
 mod set_fit;
 
+mod quadratic;
+
 mod table;
 
 mod search;
@@ -60,3 +62,6 @@ pub use noise::{ModelError, USUAL_MODEL_ERROR};
 pub use paints::Paints;
 pub use settings::{MapSettings, PigmentGroup};
 pub use survey::{SURVEYED, survey_step};
+
+#[cfg(test)]
+mod film_tests;

@@ -104,7 +104,9 @@ pub enum MapError {
 impl Explain for MapError {
     fn hint(&self) -> Option<Hint> {
         match self {
-            Self::Order { .. } => Some(Hint::new("sort the bands of the scan by wavelength, in nm")),
+            Self::Order { .. } => {
+                Some(Hint::new("sort the bands of the scan by wavelength, in nm"))
+            }
             Self::Overlap { .. } => Some(Hint::new(
                 "check that the wavelengths are in nm, or fit a library from readings that cover the scan",
             )),

@@ -69,7 +69,8 @@ impl Mapper {
         let find = |name: &str| library.find(name).map(|id| library[id].name.clone());
         let columns = columns(&prepared.paints, &settings.groups, find, &alike)?;
         let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
-        let column_of = prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
+        let column_of =
+            prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
         let identity = identity(library, wavelengths, settings);
         Ok(Self { prepared, columns, column_of, identity })
     }
@@ -116,15 +117,12 @@ impl Mapper {
     ///
     /// # Errors
     /// [`MapError::Length`] for a broken pixel, [`MapError::NothingToSurvey`] if no pixel can be mapped.
-    pub fn survey(
-        &self,
-        spectra: &[f32],
-        progress: &(dyn Fn() + Sync),
-    ) -> Result<Book, MapError> {
+    pub fn survey(&self, spectra: &[f32], progress: &(dyn Fn() + Sync)) -> Result<Book, MapError> {
         let pixels = self.pixels(spectra)?;
         let chosen = pixels.clone().step_by(survey_step(pixels.len()));
         let surveyed = chosen.len();
-        let folded: Vec<Folded> = chosen.filter_map(|pixel| self.prepared.fold(pixel).ok()).collect();
+        let folded: Vec<Folded> =
+            chosen.filter_map(|pixel| self.prepared.fold(pixel).ok()).collect();
         if folded.is_empty() {
             return Err(MapError::NothingToSurvey { pixels: surveyed });
         }
@@ -228,7 +226,7 @@ impl Mapper {
                         match folded {
                             Ok(folded) => {
                                 find(&folded, scratch);
-                                                        let (pixel, found) = (&folded.pixel, &scratch.found);
+                                let (pixel, found) = (&folded.pixel, &scratch.found);
                                 told.sum(engine, pixel, found, &self.column_of);
                                 push(&mut maps, told);
                             }

@@ -73,12 +73,7 @@ impl OpenBook {
 
     /// Finds the sets that explain a pixel, the best first, in `scratch.found`. Returns whether the
     /// book explained it.
-    pub(crate) fn find(
-        &self,
-        engine: &Engine,
-        folded: &Folded,
-        scratch: &mut Scratch,
-    ) -> bool {
+    pub(crate) fn find(&self, engine: &Engine, folded: &Folded, scratch: &mut Scratch) -> bool {
         let near = self.nearest.find::<NEIGHBOURS>(&folded.point);
         scratch.found.clear();
         let mut usual = self.usual_chi2;

@@ -62,7 +62,9 @@ impl Nearest {
             let range = first as usize..last as usize;
             for (other, &place) in self.points[range.clone()].iter().zip(&self.places[range]) {
                 let mut found = (distance(point, other), place);
-                if !(found < best[K - 1]) {
+                // NaN is near nothing.
+                let is_near = found < best[K - 1];
+                if !is_near {
                     continue;
                 }
                 for slot in best.iter_mut() {
@@ -74,7 +76,8 @@ impl Nearest {
             return;
         }
         let offset = point[dimension] - value;
-        let (near, far) = if offset < 0.0 { (node + 1, above as usize) } else { (above as usize, node + 1) };
+        let (near, far) =
+            if offset < 0.0 { (node + 1, above as usize) } else { (above as usize, node + 1) };
         self.visit(near, point, outside, offsets, best);
         let before = offsets[dimension];
         let beyond = outside - before * before + offset * offset;
@@ -100,14 +103,14 @@ fn split(list: &[Point], order: &mut [u32], start: usize, nodes: &mut Vec<Node>)
     nodes.push(Node { first: range.0, last: range.1, dimension: leaf, value: 0.0, above: 0 });
     let spread = |dimension: usize| {
         let values = order.iter().map(|&place| list[place as usize][dimension]);
-        let ends = values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
+        let ends = values
+            .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         ends.1 - ends.0
     };
     let wider = |a: usize, b: usize| if spread(b) > spread(a) { b } else { a };
     let dimension = (0..DIMENSIONS).reduce(wider).unwrap_or(0);
-    if order.len() <= LEAF || !(spread(dimension) > 0.0) {
+    let differs = spread(dimension) > 0.0;
+    if order.len() <= LEAF || !differs {
         return;
     }
     let middle = order.len() / 2;
@@ -135,7 +138,8 @@ mod tests {
     #[test]
     fn the_tree_finds_what_a_search_of_all_points_finds() {
         let mut random = ChaCha8Rng::seed_from_u64(5);
-        let mut point = || -> Point { std::array::from_fn(|i| random.random::<f32>() / (1 + i) as f32) };
+        let mut point =
+            || -> Point { std::array::from_fn(|i| random.random::<f32>() / (1 + i) as f32) };
         let mut list: Vec<Point> = (0..3000).map(|_| point()).collect();
         list.extend_from_slice(&list.clone()[..50]);
         let tree = Nearest::new(&list);

@@ -141,9 +141,8 @@ mod tests {
         let (library, bands) = oils();
         let paints = Paints::new(&library, &[], &bands).unwrap();
         for q in [1e-3, 0.1, 1.0, 30.0] {
-            let at = |log: f64| {
-                paints.surface.measured_from_internal(infinite_film(f64::exp(log), 1.0))
-            };
+            let at =
+                |log: f64| paints.surface.measured_from_internal(infinite_film(f64::exp(log), 1.0));
             let log = f64::ln(q);
             let quotient = (at(log + 1e-5) - at(log - 1e-5)) / 2e-5;
             let slope = paints.log_slope(infinite_film(q, 1.0));

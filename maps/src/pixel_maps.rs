@@ -138,12 +138,12 @@ mod tests {
         let maps = BlockMaps::without_values(6, 3, Mask::Ignored);
         assert!(maps.is_consistent(), "a fresh block of maps");
         for change in [
-            |maps: &mut BlockMaps| drop(maps.share.pop()),
-            |maps: &mut BlockMaps| drop(maps.share_sd.pop()),
-            |maps: &mut BlockMaps| drop(maps.presence.pop()),
-            |maps: &mut BlockMaps| drop(maps.chi2.pop()),
-            |maps: &mut BlockMaps| drop(maps.rms.pop()),
-            |maps: &mut BlockMaps| drop(maps.second.pop()),
+            |maps: &mut BlockMaps| maps.share.truncate(5),
+            |maps: &mut BlockMaps| maps.share_sd.truncate(5),
+            |maps: &mut BlockMaps| maps.presence.truncate(5),
+            |maps: &mut BlockMaps| maps.chi2.truncate(5),
+            |maps: &mut BlockMaps| maps.rms.truncate(5),
+            |maps: &mut BlockMaps| maps.second.truncate(5),
             |maps: &mut BlockMaps| maps.pigments = 2,
         ] {
             let mut changed = maps.clone();

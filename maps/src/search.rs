@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::film::{Difference, Films, Pixel, Work};
-use crate::set_fit::{Quadratic, SetFit};
+use crate::quadratic::Quadratic;
+use crate::set_fit::SetFit;
 use crate::table::Table;
 use crate::whitening::WhiteningNoise;
 
@@ -13,7 +14,7 @@ const KEPT: [usize; 4] = [6, 20, 24, 8];
 const BEAM: usize = 8;
 /// Sets that are refined in measured reflectance: about the nearest film of the table, then about the best
 /// set of these.
-const REFINED: [usize; 2] = [20, 12];
+const REFINED: [usize; 2] = [24, 16];
 /// Gauss-Newton steps of each set, of one that may be among the best, and of the best one at the end.
 const STEPS: [usize; 3] = [1, 2, 3];
 /// Score above the best after the first step from which a set is not refined further.
@@ -116,13 +117,7 @@ impl Engine {
 
     /// Searches all sets, beginning at the film `place` of the table. The sets are left in `scratch.found`,
     /// the best first.
-    pub(crate) fn search(
-        &self,
-        pixel: &Pixel,
-        place: usize,
-        prior: &Prior,
-        scratch: &mut Scratch,
-    ) {
+    pub(crate) fn search(&self, pixel: &Pixel, place: usize, prior: &Prior, scratch: &mut Scratch) {
         scratch.found.clear();
         scratch.least = f32::INFINITY;
         let (internal, inverse) = self.table.film(place);
@@ -144,7 +139,8 @@ impl Engine {
         for index in 0..scratch.shortlist.len() {
             let key = scratch.shortlist[index].key();
             let near = scratch.shortlist[index].score < scratch.least + FAR;
-            if near && refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key) {
+            if near && refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key)
+            {
                 self.add_refined(pixel, index, prior, scratch);
                 refined += 1;
             }
@@ -153,13 +149,9 @@ impl Engine {
     }
 
     /// Sorts sets by their scores, after the best one is refined further.
-    pub(crate) fn sort(
-        &self,
-        pixel: &Pixel,
-        prior: &Prior,
-        found: &mut [SetFit],
-    ) {
-        let order = |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
+    pub(crate) fn sort(&self, pixel: &Pixel, prior: &Prior, found: &mut [SetFit]) {
+        let order =
+            |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
         let difference = best.refine(&self.films, pixel, STEPS[2]);
@@ -180,13 +172,7 @@ impl Engine {
         set
     }
 
-    fn add_refined(
-        &self,
-        pixel: &Pixel,
-        index: usize,
-        prior: &Prior,
-        scratch: &mut Scratch,
-    ) {
+    fn add_refined(&self, pixel: &Pixel, index: usize, prior: &Prior, scratch: &mut Scratch) {
         let mut set = self.refined(pixel, scratch.shortlist[index], STEPS[0], prior);
         if set.score < scratch.least + HOPELESS {
             set = self.refined(pixel, set, STEPS[1], prior);
@@ -242,7 +228,8 @@ impl Engine {
             let score = self.misfit(set.chi2) + penalty + prior.of(set.key());
             shortlist.push(SetFit { score, ..*set });
         }
-        let order = |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
+        let order =
+            |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         shortlist.sort_unstable_by(order);
     }
 }

@@ -88,8 +88,7 @@ fn of_fit(set: &SetFit) -> BookSet {
 
 /// Chi-square that nineteen of twenty pixels do not exceed.
 fn usual(found: &[Vec<SetFit>]) -> f32 {
-    let mut values: Vec<f32> =
-        found.iter().filter_map(|sets| Some(sets.first()?.chi2)).collect();
+    let mut values: Vec<f32> = found.iter().filter_map(|sets| Some(sets.first()?.chi2)).collect();
     values.sort_by(f32::total_cmp);
     let place = values.len() * 19 / 20;
     values.get(place.min(values.len().saturating_sub(1))).copied().unwrap_or(0.0)

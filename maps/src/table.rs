@@ -36,7 +36,8 @@ impl Table {
             })
             .collect();
         let film = |recipe: &Vec<(usize, f64)>| {
-            let shares: Vec<(usize, f32)> = recipe.iter().map(|&(p, share)| (p, share as f32)).collect();
+            let shares: Vec<(usize, f32)> =
+                recipe.iter().map(|&(p, share)| (p, share as f32)).collect();
             films.film(&shares)
         };
         Self {
@@ -99,9 +100,11 @@ impl Projection {
             Scale::LogRatio => ROOT_SLOPE,
         };
         let covariance = DMatrix::from_fn(bands, bands, |i, j| {
-            let common: f64 = noise.curves[i].iter().zip(&noise.curves[j]).map(|(a, b)| a * b).sum();
+            let common: f64 =
+                noise.curves[i].iter().zip(&noise.curves[j]).map(|(a, b)| a * b).sum();
             // The sensor's noise on the fourth root of a reflectance of 0.1.
-            let own = if i == j { noise.own[i] * scale * scale + 2.0 * noise.sensor[i] } else { 0.0 };
+            let own =
+                if i == j { noise.own[i] * scale * scale + 2.0 * noise.sensor[i] } else { 0.0 };
             common * scale * scale + own
         });
         let factor = Cholesky::new(covariance).map(|cholesky| cholesky.l());

@@ -3,6 +3,11 @@
 //! Every sum has one order, and no multiplication is fused with an addition, so that all machines give the
 //! same bits.
 
+#![expect(
+    clippy::needless_range_loop,
+    reason = "sums over rows and columns of small matrices read best by their indices"
+)]
+
 use wide::f32x8;
 
 use crate::bands::MOST_BANDS;
@@ -83,11 +88,8 @@ impl WhiteningNoise {
     /// `slope`.
     pub(crate) fn near(&self, measured: &Spectrum, slope: &Spectrum) -> Whitening {
         let zero = [f32x8::ZERO; MOST_BLOCKS];
-        let mut white = Whitening {
-            scale: zero,
-            curves: [f32x8::ZERO; MOST_BANDS],
-            removed: [zero; CURVES],
-        };
+        let mut white =
+            Whitening { scale: zero, curves: [f32x8::ZERO; MOST_BANDS], removed: [zero; CURVES] };
         let mut products = [f32x8::ZERO; CURVES];
         for block in 0..self.bands.div_ceil(LANES) {
             let size = match self.scale {

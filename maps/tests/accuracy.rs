@@ -1,10 +1,12 @@
 //! Accuracy of maps on measured swatches and simulated paintings, seeded. The example `accuracy` prints the
 //! figures; the bounds here lie a little below them.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 use calibrate::Readings;
 use maps::accuracy::{
-    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, missing_pigment,
-    oil_groups, painting_trials, prepared_oils, reliability, swatch_trials,
+    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, light_palette,
+    missing_pigment, oil_groups, painting_trials, prepared_oils, reliability, swatch_trials,
 };
 use maps::left_out::{Residuals, half_of, left_out};
 use maps::{MapSettings, ModelError};
@@ -51,20 +53,28 @@ fn left_out_swatches_are_unmixed_better_than_by_linear_methods() {
 #[test]
 fn simulated_paintings_are_unmixed_and_told_honestly() {
     let oils = PigmentLibrary::van_gogh_oils();
-    let trials = painting_trials((&oils, &oils), &plan(100), 201..231, &stated()).unwrap();
+    let light = PaintingPlan { palette: light_palette(), ..plan(100) };
+    let trials = painting_trials((&oils, &oils), &light, 201..211, &stated()).unwrap();
+    let (searched, mapped) = (Scores::of(&trials.searched), Scores::of(&trials.mapped));
+    println!("light palette: searched {searched}, mapped {mapped}, worse {:.3}", trials.worse);
+    assert!(searched.precision > 0.95 && searched.recall > 0.90, "searched {searched}");
+    assert!(searched.share_error < 0.08, "searched {searched}");
+    assert!(mapped.f1() > 0.93 && mapped.share_error < 0.08, "mapped {mapped}");
+    assert!(trials.worse < 0.03, "{}", trials.worse);
+    let trials = painting_trials((&oils, &oils), &plan(100), 201..221, &stated()).unwrap();
     let (searched, mapped) = (Scores::of(&trials.searched), Scores::of(&trials.mapped));
     println!("searched {searched}, mapped {mapped}, worse {:.3}", trials.worse);
     assert!(searched.precision > 0.91 && searched.recall > 0.82, "searched {searched}");
     assert!(searched.share_error < 0.15, "searched {searched}");
     assert!(mapped.f1() > searched.f1() - 0.03, "mapped {mapped}");
-    assert!(trials.worse < 0.04, "{}", trials.worse);
+    assert!(trials.worse < 0.06, "{}", trials.worse);
     for range in reliability(&trials.searched, &[0.0, 0.1, 0.9]) {
         println!("{range:?}");
         assert!((range.told - range.true_part).abs() < 0.05, "{range:?}");
     }
     let covered = coverage(&trials.searched);
     println!("{covered:?}");
-    assert!((0.58..0.75).contains(&covered.within), "{covered:?}");
+    assert!((0.6..0.76).contains(&covered.within), "{covered:?}");
 }
 
 #[test]

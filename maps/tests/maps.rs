@@ -1,5 +1,7 @@
 //! Maps of simulated pixels: equal bytes in any pieces, bad pixels, books, settings.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 use maps::accuracy::{Painting, PaintingPlan};
 use maps::pixel_maps::{BlockMaps, Mask};
 use maps::{Book, MapError, MapSettings, Mapper, ModelError, PigmentGroup};
@@ -89,7 +91,8 @@ fn no_pixel_panics_and_bad_ones_are_masked() {
     ];
     let mut pixels: Vec<f32> = bad.iter().flat_map(|(value, _)| [*value; 31]).collect();
     // One dead band spoils its pixel alone.
-    pixels.extend(spectra[..31].iter().enumerate().map(|(b, v)| if b == 7 { f32::NAN } else { *v }));
+    pixels
+        .extend(spectra[..31].iter().enumerate().map(|(b, v)| if b == 7 { f32::NAN } else { *v }));
     pixels.extend(&spectra[..31]);
     // Bands that leap between the extremes, as no paint does.
     pixels.extend((0..31).map(|band| if band % 2 == 0 { 0.0 } else { 1.0 }));

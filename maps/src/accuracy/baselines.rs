@@ -120,7 +120,14 @@ mod tests {
         let x = nonnegative(&columns, &target);
         for (column, x) in columns.iter().zip(&x) {
             let rest: Vec<f64> = (0..3)
-                .map(|row| target[row] - columns.iter().zip(&*nonnegative(&columns, &target)).map(|(c, x)| c[row] * x).sum::<f64>())
+                .map(|row| {
+                    target[row]
+                        - columns
+                            .iter()
+                            .zip(&*nonnegative(&columns, &target))
+                            .map(|(c, x)| c[row] * x)
+                            .sum::<f64>()
+                })
                 .collect();
             let slope = dot(column, &rest);
             assert!(slope < 1e-6 && (slope.abs() < 1e-6 || *x == 0.0), "{x} {slope}");

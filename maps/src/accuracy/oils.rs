@@ -1,5 +1,7 @@
 //! Trials with the Van Gogh oils, whose readings ship with impasto.
 
+#![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
+
 use calibrate::observation::BelowSurface;
 use calibrate::{FitOptions, FittingError, PreparedFit, Readings};
 use pigment::library::PigmentLibrary;
@@ -14,8 +16,7 @@ use crate::settings::{MapSettings, PigmentGroup};
 #[must_use]
 pub fn oil_groups() -> Vec<PigmentGroup> {
     let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"];
-    let lakes =
-        ["Eosin Lake (wax)", "Eosin Lake", "Eosin Lake (lead, wax)", "Cochineal Lake"];
+    let lakes = ["Eosin Lake (wax)", "Eosin Lake", "Eosin Lake (lead, wax)", "Cochineal Lake"];
     let chromes = ["Chrome Yellow", "Chrome Yellow (Otero)"];
     let named = [("whites", &whites[..]), ("red lakes", &lakes), ("chrome yellows", &chromes)];
     let group = |(name, pigments): (&str, &[&str])| PigmentGroup {
@@ -113,10 +114,11 @@ pub fn missing_pigment(
     let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
     let (mut chi2, mut wrong) = ([Vec::new(), Vec::new()], [0.0, 0.0]);
     for seed in seeds {
-        let painting =
-            Painting::simulate(library, library, &PaintingPlan { seed, ..plan.clone() });
+        let painting = Painting::simulate(library, library, &PaintingPlan { seed, ..plan.clone() });
         let alike = |name: &String| settings.groups.iter().any(|g| g.pigments.contains(name));
-        let Some(lacking) = painting.pigments.iter().position(|name| !alike(name)) else { continue };
+        let Some(lacking) = painting.pigments.iter().position(|name| !alike(name)) else {
+            continue;
+        };
         let missing = &painting.pigments[lacking];
         let known = library.pigments.iter().filter(|p| p.identified && p.name != *missing);
         let palette = known.map(|pigment| pigment.name.clone()).collect();
@@ -126,7 +128,8 @@ pub fn missing_pigment(
             let with = usize::from(truth.iter().any(|(place, _)| *place == lacking));
             chi2[with].push(trial.chi2);
             let pairs = trial.present.iter().zip(&trial.truth);
-            wrong[with] += pairs.filter(|(present, truth)| **present && **truth == 0.0).count() as f64;
+            wrong[with] +=
+                pairs.filter(|(present, truth)| **present && **truth == 0.0).count() as f64;
         }
     }
     chi2.iter_mut().for_each(|values| values.sort_by(f64::total_cmp));

@@ -111,7 +111,10 @@ pub fn swatch_trials(
         let own = |groups: &[PigmentGroup]| MapSettings {
             groups: groups.to_vec(),
             group_alike: false,
-            model_error: settings.model_error.clone().or(residuals.clone().map(ModelError::Residuals)),
+            model_error: settings
+                .model_error
+                .clone()
+                .or(residuals.clone().map(ModelError::Residuals)),
             ..settings.clone()
         };
         let truth = named.list(sample.shares.iter().map(|(name, share)| (name.as_str(), *share)));
