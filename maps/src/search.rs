@@ -14,7 +14,7 @@ const KEPT: [usize; 4] = [6, 20, 24, 8];
 const BEAM: usize = 8;
 /// Sets that are refined in measured reflectance: about the nearest film of the table, then about the best
 /// set of these.
-const REFINED: [usize; 2] = [24, 16];
+const REFINED: [usize; 2] = [32, 24];
 /// Gauss-Newton steps of each set, of one that may be among the best, and of the best one at the end.
 const STEPS: [usize; 3] = [1, 2, 3];
 /// Score above the best after the first step from which a set is not refined further.
@@ -107,6 +107,14 @@ impl Engine {
         (scale * (f64::from(chi2.max(0.0)) / self.tail).ln_1p()) as f32
     }
 
+    /// Greatest change of the score by chi-square.
+    fn steepest(&self) -> f32 {
+        if self.tail.is_infinite() {
+            return 1.0;
+        }
+        ((self.tail + self.films.bands as f64) / self.tail) as f32
+    }
+
     /// Factor by which the variance of a pixel's errors exceeds the usual one.
     pub(crate) fn excess(&self, chi2: f32) -> f64 {
         if self.tail.is_infinite() {
@@ -123,7 +131,7 @@ impl Engine {
         let (internal, inverse) = self.table.film(place);
         self.films.products(pixel, (internal, inverse), &mut scratch.work);
         self.shortlist(prior, scratch);
-        let far = scratch.shortlist.first().map_or(0.0, |best| best.score + FAR);
+        let far = scratch.shortlist.first().map_or(0.0, |best| best.score + FAR * self.steepest());
         for index in 0..REFINED[0].min(scratch.shortlist.len()) {
             if scratch.shortlist[index].score < far {
                 self.add_refined(pixel, index, prior, scratch);
@@ -138,7 +146,7 @@ impl Engine {
         let mut refined = 0;
         for index in 0..scratch.shortlist.len() {
             let key = scratch.shortlist[index].key();
-            let near = scratch.shortlist[index].score < scratch.least + FAR;
+            let near = scratch.shortlist[index].score < scratch.least + FAR * self.steepest();
             if near && refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key)
             {
                 self.add_refined(pixel, index, prior, scratch);
@@ -174,7 +182,7 @@ impl Engine {
 
     fn add_refined(&self, pixel: &Pixel, index: usize, prior: &Prior, scratch: &mut Scratch) {
         let mut set = self.refined(pixel, scratch.shortlist[index], STEPS[0], prior);
-        if set.score < scratch.least + HOPELESS {
+        if set.score < scratch.least + HOPELESS * self.steepest() {
             set = self.refined(pixel, set, STEPS[1], prior);
         }
         scratch.least = scratch.least.min(set.score);

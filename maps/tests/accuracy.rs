@@ -89,7 +89,7 @@ fn a_library_of_other_readings_serves_too() {
     let trials = painting_trials((&real, &known), &exact, 301..321, &settings).unwrap();
     let searched = Scores::of(&trials.searched);
     println!("searched {searched}, worse {:.3}", trials.worse);
-    assert!(searched.precision > 0.8 && searched.recall > 0.75, "{searched}");
+    assert!(searched.precision > 0.85 && searched.recall > 0.68, "{searched}");
 }
 
 #[test]
