@@ -198,3 +198,67 @@ impl Quadratic {
         (x[N - 1] > 0.0).then(|| self.fit(members, x, base - saved))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Products of ten rows of invented numbers.
+    fn invented() -> Quadratic {
+        let rows: Vec<Vec<f64>> = (0..10)
+            .map(|p: usize| (0..12).map(|b| ((3 * p * p + 7 * b * p + b) as f64).sin()).collect())
+            .collect();
+        let mut quadratic = Quadratic::new(rows.len());
+        for (a, first) in rows.iter().enumerate() {
+            for (b, second) in rows.iter().enumerate() {
+                let product: f64 = first.iter().zip(second).map(|(x, y)| x * y).sum();
+                quadratic.products[a * 10 + b] = product;
+                let block = &mut quadratic.rows[a * 2 + b / LANES];
+                let mut lanes = block.to_array();
+                lanes[b % LANES] = product as f32;
+                *block = f32x8::new(lanes);
+                if a == b {
+                    let mut lanes = quadratic.own[a / LANES].to_array();
+                    lanes[a % LANES] = product as f32;
+                    quadratic.own[a / LANES] = f32x8::new(lanes);
+                }
+            }
+        }
+        quadratic
+    }
+
+    #[test]
+    fn triples_are_those_of_the_closed_form_of_each_set() {
+        let quadratic = invented();
+        let mut found = Vec::new();
+        quadratic.triples(f64::INFINITY, |members, shares, sum| {
+            found.push(quadratic.fit(members, shares, sum));
+            f64::INFINITY
+        });
+        let mut expected = Vec::new();
+        for a in 0..10 {
+            for b in a + 1..10 {
+                for c in b + 1..10 {
+                    expected.extend(quadratic.set([a, b, c]));
+                }
+            }
+        }
+        assert!(expected.len() > 10, "{} sets inside", expected.len());
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(found.members, expected.members);
+            assert!((found.chi2 - expected.chi2).abs() < 1e-5, "{found:?} {expected:?}");
+            for (a, b) in found.shares.iter().zip(&expected.shares) {
+                assert!((a - b).abs() < 1e-5, "{found:?} {expected:?}");
+            }
+        }
+        let least = found.iter().map(|set| set.chi2).fold(f32::INFINITY, f32::min);
+        let mut below = Vec::new();
+        quadratic.triples(f64::from(least) * 1.5, |members, shares, sum| {
+            below.push(quadratic.fit(members, shares, sum));
+            f64::from(least) * 1.5
+        });
+        let expected = found.iter().filter(|set| set.chi2 < 1.5 * least).count();
+        assert_eq!(below.len(), expected, "sets below a limit");
+    }
+}
