@@ -58,8 +58,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     println!("\nPigments that look alike in 31 bands from 400 to 700 nm, told from K and S alone");
     let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();
-    let mapper =
-        Mapper::new(&oils, &nm, &MapSettings { groups: Vec::new(), group_alike: true, ..stated })?;
+    let mapper = Mapper::new(&oils, &nm, &MapSettings::default())?;
     for column in mapper.columns().iter().filter(|column| column.pigments.len() > 1) {
         println!("  {}", column.pigments.join(", "));
     }

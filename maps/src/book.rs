@@ -14,7 +14,7 @@ const VERSION: u32 = 1;
 pub struct BookSet {
     /// Places of the pigments in the book's list of names.
     pub pigments: Vec<u8>,
-    /// Their shares, sum 1.
+    /// Shares of these pigments, sum 1.
     pub shares: Vec<f32>,
 }
 

@@ -40,7 +40,7 @@ pub enum MapError {
     Pigments {
         /// Number of pigments that would take part.
         found: usize,
-        /// Greatest number.
+        /// Greatest number that can.
         most: usize,
     },
     /// A pigment belongs to two groups.

@@ -30,7 +30,7 @@ const SUM: f64 = 100.0;
 const SWEEPS: usize = 20_000;
 
 impl Baseline {
-    /// All baselines.
+    /// All baselines in the order of a table.
     pub const ALL: [Self; 4] = [Self::Reflectance, Self::Absorbance, Self::Ratio, Self::Angle];
 
     /// Name for a table.

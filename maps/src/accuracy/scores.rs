@@ -125,7 +125,7 @@ pub struct Reliability {
     pub from: f64,
     /// Number of probabilities in it.
     pub count: usize,
-    /// Their mean.
+    /// Mean of these probabilities.
     pub told: f64,
     /// Part of them where the pigment is present.
     pub true_part: f64,

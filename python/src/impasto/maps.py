@@ -96,7 +96,7 @@ def survey(
     group_alike: bool = True,
     noise: float | None = None,
     model_error: float | None = None,
-    penalty: float = 4.0,
+    penalty: float = 2.0,
     region: tuple[slice, slice] | None = None,
     book: str | None = None,
     progress: Callable[[str], object] | None = None,

@@ -86,7 +86,7 @@ struct PigmentOptions {
     /// 0.003]
     #[arg(long, value_name = "SD")]
     noise: Option<f64>,
-    /// What one more pigment must save in chi-square [default: 4]
+    /// What one more pigment must save in chi-square [default: 2]
     #[arg(long, value_name = "N")]
     penalty: Option<f64>,
 }
