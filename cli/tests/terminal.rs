@@ -53,7 +53,7 @@ fn stays(seen: &str) -> Vec<String> {
                 rest = rest
                     .trim_start_matches(|c: char| !c.is_ascii_alphabetic())
                     .get(1..)
-                    .unwrap_or("")
+                    .unwrap_or("");
             }
             other => line.push(other),
         }

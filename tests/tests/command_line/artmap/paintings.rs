@@ -85,10 +85,7 @@ fn samples_of_a_painting_carry_its_pigments_and_relief() {
     let [mean, most] = ["mean", "greatest"].map(|of| half["height_mm"][of].as_f64().unwrap());
     assert!(0.01 < mean && mean < most, "{mean} {most}");
     let shown = done(&["show", &output]).out;
-    assert!(
-        shown.contains("strokes 8.0 texels (4 mm) apart; Zinc White, Lead White"),
-        "{shown}"
-    );
+    assert!(shown.contains("strokes 8.0 texels (4 mm) apart; Zinc White, Lead White"), "{shown}");
 }
 
 #[test]
