@@ -127,11 +127,7 @@ impl Options<'_> {
             method: chosen(
                 py,
                 ("method", &self.method),
-                &[
-                    ("qp", Method::Qp),
-                    ("weighted", Method::Weighted),
-                    ("refined", Method::Refined),
-                ],
+                &[("qp", Method::Qp), ("weighted", Method::Weighted), ("refined", Method::Refined)],
             )?,
             reference: self.reference.clone(),
             surface: surface.raised(py, Exception::Fit)?,

@@ -32,9 +32,7 @@ impl Ground<'_> {
     pub(crate) fn backing(&self, py: Python<'_>) -> PyResult<Backing> {
         match self {
             Self::Even(value) => Backing::even(*value).raised(py, Exception::Recipe),
-            Self::Measured(grid, values) => {
-                Ok(Backing::Measured(reflectance(py, *grid, values)?))
-            }
+            Self::Measured(grid, values) => Ok(Backing::Measured(reflectance(py, *grid, values)?)),
         }
     }
 }
@@ -160,7 +158,12 @@ impl Library {
         });
         done.map_err(|(row, error)| {
             let message = format!("row {row}: {error}");
-            Exception::Recipe.with(py, Fault::Input, &message, Some("parts are 0 and up, with a sum above 0"))
+            Exception::Recipe.with(
+                py,
+                Fault::Input,
+                &message,
+                Some("parts are 0 and up, with a sum above 0"),
+            )
         })?;
         Ok((PyArray1::from_vec(py, mixed).reshape([count, bands])?, film.remarks))
     }

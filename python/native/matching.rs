@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    AmountLimit, ColorTarget, MatchOptions, Metric, PriceList, RecipeMatch, RecipeMatches, RecipeSearch,
-    RequiredName, SpectrumWeights, Thickness, ViewingCondition,
+    AmountLimit, ColorTarget, MatchOptions, Metric, PriceList, RecipeMatch, RecipeMatches,
+    RecipeSearch, RequiredName, SpectrumWeights, Thickness, ViewingCondition,
 };
-use calibrate::Viewing;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
@@ -84,7 +84,11 @@ impl Options<'_> {
             metric: metric(py, &self.by)?,
             conditions: self.lights.iter().map(condition).collect(),
             thickness: self.thickness.map(|(least, most)| {
-                if least == most { Thickness::Fixed(least) } else { Thickness::Between(least, most) }
+                if least == most {
+                    Thickness::Fixed(least)
+                } else {
+                    Thickness::Between(least, most)
+                }
             }),
             over: self.over.as_ref().map(|ground| ground.backing(py)).transpose()?,
             only: self.only.clone(),
@@ -111,7 +115,12 @@ fn metric(py: Python<'_>, name: &str) -> PyResult<Metric> {
     known.into_iter().find(|metric| metric.name() == name).ok_or_else(|| {
         let names = known.map(Metric::name).join(", ");
         let message = format!("unknown measure `{name}`");
-        Exception::Recipe.with(py, Fault::Setting, &message, Some(&format!("`by` is one of {names}")))
+        Exception::Recipe.with(
+            py,
+            Fault::Setting,
+            &message,
+            Some(&format!("`by` is one of {names}")),
+        )
     })
 }
 
@@ -187,9 +196,11 @@ fn recipe_json(library: &PigmentLibrary, lights: &[&str], recipe: &RecipeMatch) 
         entry
     });
     let color = display(recipe.lab[0]);
-    let metamerism = lights.iter().skip(1).zip(&recipe.metamerism).map(|(light, index)| {
-        json!({ "from": lights[0], "to": light, "index": index })
-    });
+    let metamerism = lights
+        .iter()
+        .skip(1)
+        .zip(&recipe.metamerism)
+        .map(|(light, index)| json!({ "from": lights[0], "to": light, "index": index }));
     json!({
         "pigments": pigments.collect::<Vec<Value>>(),
         "distance": recipe.distance,

@@ -78,9 +78,7 @@ fn json(plan: &Plan) -> Value {
 fn forecast_json(plan: &Plan, forecast: &Forecast) -> Value {
     let by_paint = |deviations: &[RelativeDeviation]| -> Map<String, Value> {
         let pairs = plan.paints.ids().zip(deviations);
-        let pair = |d: &RelativeDeviation| {
-            json!({ "absorption": d.absorption, "scattering": d.scattering })
-        };
+        let pair = |d: &RelativeDeviation| json!({ "absorption": d.absorption, "scattering": d.scattering });
         pairs.map(|(id, d)| (plan.paints.name(id).to_owned(), pair(d))).collect()
     };
     json!({

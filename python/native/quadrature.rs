@@ -29,7 +29,9 @@ pub(crate) fn quadrature(
     let library = library.map(|library| library.0.clone());
     let method = method.to_owned();
     let (known, has_library) = (["gauss", "moments", "library", "effective"], library.is_some());
-    if !known.contains(&method.as_str()) || (!has_library && ["library", "effective"].contains(&&*method)) {
+    if !known.contains(&method.as_str())
+        || (!has_library && ["library", "effective"].contains(&&*method))
+    {
         let message = if known.contains(&method.as_str()) {
             format!("the method `{method}` needs a pigment library")
         } else {
@@ -44,7 +46,9 @@ pub(crate) fn quadrature(
                 "gauss" => Quadrature::gauss(&viewing, nodes)?,
                 _ => Quadrature::moments(&viewing, nodes)?,
             };
-            return Ok(json!({ "nodes_nm": rule.nodes_nm, "weights": rule.weights, "error": null }));
+            return Ok(
+                json!({ "nodes_nm": rule.nodes_nm, "weights": rule.weights, "error": null }),
+            );
         };
         let library = Arc::clone(&library);
         let weights = viewing.weights(library.grid)?;
@@ -53,9 +57,11 @@ pub(crate) fn quadrature(
             let hiding = FilmSet::hiding(&library, &weights, mixtures, seed);
             let over = FilmSet::over_grounds(&library, &weights, mixtures, seed);
             let curves = found.absorption.iter().zip(&found.scattering);
-            let pigments = library.pigments.iter().zip(curves).map(
-                |(p, (k, s))| json!({ "name": p.name, "absorption": k, "scattering": s }),
-            );
+            let pigments = library
+                .pigments
+                .iter()
+                .zip(curves)
+                .map(|(p, (k, s))| json!({ "name": p.name, "absorption": k, "scattering": s }));
             return Ok(json!({
                 "nodes_nm": found.rule.nodes_nm, "weights": found.rule.weights,
                 "error": found.error(&library, &hiding),

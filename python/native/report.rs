@@ -43,7 +43,8 @@ pub(crate) fn report(
     };
     let readings = readings.map(|readings| Arc::clone(&readings.0));
     let drawn = run(py, progress, move |reporter| {
-        let mut subject = Subject::of_library(&library, &viewing, "impasto.report").map_err(boxed)?;
+        let mut subject =
+            Subject::of_library(&library, &viewing, "impasto.report").map_err(boxed)?;
         let step = || reporter.tell("drawing");
         if let Some(readings) = readings {
             let set = readings.swatches().map_err(boxed)?;

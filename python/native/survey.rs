@@ -40,10 +40,9 @@ impl Settings {
             model_error: self.model_error.map(ModelError::Stated),
             penalty: self.penalty,
         };
-        let region = self.region.map(|(rows, columns)| Region {
-            rows: rows.0..rows.1,
-            columns: columns.0..columns.1,
-        });
+        let region = self
+            .region
+            .map(|(rows, columns)| Region { rows: rows.0..rows.1, columns: columns.0..columns.1 });
         (settings, region)
     }
 }
@@ -87,9 +86,10 @@ impl Survey {
     /// Palette, groups, hashes and settings as JSON, with the keys of `impasto map --json`.
     fn about(&self) -> String {
         let scan = &self.0;
-        let palette = scan.palette().into_iter().map(
-            |found| json!({ "pigment": found.column.name, "survey_part": found.part }),
-        );
+        let palette = scan
+            .palette()
+            .into_iter()
+            .map(|found| json!({ "pigment": found.column.name, "survey_part": found.part }));
         let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
         let groups = grouped.map(|column| (column.name.clone(), json!(column.pigments)));
         let about = scan.about();
