@@ -65,6 +65,8 @@ pub mod blocks;
 
 mod surveyed;
 
+mod spot;
+
 pub mod pictures;
 
 pub use blocks::map_cube;
@@ -77,6 +79,7 @@ pub use mapping::OpenBook;
 pub use noise::{ModelError, USUAL_MODEL_ERROR};
 pub use paints::Paints;
 pub use settings::{MapSettings, PigmentGroup};
+pub use spot::{Spot, SpotError, SpotPigment};
 pub use store::{MapStore, StoreMode, StoredMaps};
 pub use survey::{SURVEYED, survey_step};
 pub use surveyed::{FoundColumn, Region, SurveyError, SurveyedScan};

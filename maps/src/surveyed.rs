@@ -176,6 +176,14 @@ impl SurveyedScan {
         MapStore::create(path, &self.about, mode)
     }
 
+    /// Maps pixels, the reflectances of all bands of each after another.
+    ///
+    /// # Errors
+    /// [`MapError`] for a broken pixel.
+    pub fn map_pixels(&self, spectra: &[f32]) -> Result<BlockMaps, MapError> {
+        self.mapper.map(&self.opened, spectra, &[])
+    }
+
     /// Maps one block of pixels.
     ///
     /// # Errors

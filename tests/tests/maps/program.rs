@@ -109,3 +109,34 @@ fn counts_without_a_white_are_refused() {
     let whites = map(&scan, &["--group", "whites"]);
     assert!(whites.status != 0, "{}", whites.out);
 }
+
+#[test]
+fn spots_are_compared_with_their_mixtures() {
+    let folder = tempfile::tempdir().unwrap();
+    let scan = written(folder.path(), 6, 1.0);
+    let out = folder.path().join("maps.zarr").display().to_string();
+    let pictures = folder.path().join("pictures");
+    let shown = pictures.display().to_string();
+    let spots = ["--spot", "0..6,8..12", "--spot", "3,5"];
+    let run = map(&scan, &[&["-o", &out, "--pictures", &shown, "--json"][..], &spots].concat());
+    assert_eq!(run.status, 0, "{}", run.err);
+    let json = run.json();
+    let [yellow, green] = [&json["spots"][0], &json["spots"][1]];
+    assert_eq!([&yellow["pixels"], &green["pixels"]], [24, 1]);
+    assert_eq!(yellow["pigments"][0]["pigment"], "Chrome Yellow", "{yellow}");
+    assert!(yellow["pigments"][0]["share"].as_f64().unwrap() > 0.98, "{yellow}");
+    let names = green["pigments"].to_string();
+    assert!(names.contains("Viridian") && names.contains("Lead White"), "{names}");
+    for spot in [yellow, green] {
+        let list = |key: &str| -> Vec<f64> { serde_json::from_value(spot[key].clone()).unwrap() };
+        assert_eq!(list("measured_nm"), list("mapped_nm"), "the scan has the library's bands");
+        let apart = list("measured").into_iter().zip(list("mapped")).map(|(a, b)| (a - b).abs());
+        assert!(apart.fold(0.0, f64::max) < 0.03, "{spot}");
+    }
+    let page = std::fs::read_to_string(pictures.join("maps.html")).unwrap();
+    assert_eq!(page.matches("<svg").count(), 2, "a chart each");
+    let outside = map(&scan, &["--spot", "9,0"]);
+    assert!(outside.status != 0 && !outside.err.is_empty(), "{}", outside.out);
+    let wrong = map(&scan, &["--spot", "middle"]);
+    assert!(wrong.status == 2 && wrong.err.contains("--spot 120,40"), "{}", wrong.err);
+}

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use maps::pictures::Overview;
-use maps::{Book, MapSettings, PigmentGroup, Region, StoreMode, StoredMaps, SurveyedScan};
+use maps::{Book, MapSettings, PigmentGroup, Region, Spot, StoreMode, StoredMaps, SurveyedScan};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -54,11 +54,15 @@ pub(crate) struct Map {
     /// The file of a survey to use; or to write, if there is none of this name
     #[arg(long, value_name = "JSON")]
     survey: Option<PathBuf>,
+    /// A pixel or region to compare, its measured spectrum beside that of the mixture that explains it, such
+    /// as 120,40 or 120..124,40..44; may be repeated
+    #[arg(long, value_name = "ROWS,COLUMNS")]
+    spot: Vec<String>,
     #[command(flatten)]
     reading: ScanOptions,
     #[command(flatten)]
     pigments: PigmentOptions,
-    /// Print JSON: palette, groups, pixels, and of maps their hashes and settings
+    /// Print JSON: palette, groups, pixels, spots, and of maps their hashes and settings
     #[arg(long)]
     json: bool,
     /// Print the palette as CSV
@@ -117,6 +121,7 @@ impl Map {
         let inputs = [self.scan.clone()];
         let folder = |path: &PathBuf| OutputFolder::open(path, &inputs);
         let pictures = self.pictures.as_ref().map(folder).transpose()?;
+        let spots = self.spot.iter().map(|text| spot(text)).collect::<Result<Vec<Region>>>()?;
         let library = chosen(self.library.as_deref(), console)?.library;
         let cube = self.reading.cube(&self.scan)?;
         for remark in cube.remarks() {
@@ -146,17 +151,20 @@ impl Map {
                 Some(Overview::of(&maps, PICTURE)?)
             }
         };
+        let spots = spots.into_iter().map(|region| Ok(scan.spot(&library, region)?));
+        let spots = spots.collect::<Result<Vec<Spot>>>()?;
         if let (Some(folder), Some(overview)) = (pictures, &mapped) {
-            page::write(&folder, &scan, overview, &library)?;
+            page::write(&folder, &scan, overview, (&library, &spots))?;
             folder.told(console)?;
         }
         if self.csv {
             return console.csv_rows(&told::rows(&scan, mapped.as_ref()));
         }
         if self.json {
-            return console.json(&told::json(&scan, mapped.as_ref()));
+            return console.json(&told::json(&scan, mapped.as_ref(), &spots));
         }
         told::print(&scan, mapped.as_ref(), console)?;
+        told::print_spots(&spots, console)?;
         if self.output.is_none() {
             console.remark("Wrote no maps; give --output maps.zarr to map every pixel")?;
         }
@@ -199,6 +207,24 @@ fn region(text: &str) -> Result<Region> {
         Failure::usage(
             format!("--region takes rows and columns, found `{text}`"),
             "try --region 0..512,100..300",
+        )
+    })
+}
+
+/// Parses `ROW,COLUMN` or `ROWS,COLUMNS`.
+fn spot(text: &str) -> Result<Region> {
+    let range = |part: &str| {
+        let (first, end) = part.split_once("..").unwrap_or((part, part));
+        let (first, end): (usize, usize) = (first.trim().parse().ok()?, end.trim().parse().ok()?);
+        Some(first..if part.contains("..") { end } else { end.checked_add(1)? })
+    };
+    let found = text
+        .split_once(',')
+        .and_then(|(rows, columns)| Some(Region { rows: range(rows)?, columns: range(columns)? }));
+    found.filter(|region| !region.rows.is_empty() && !region.columns.is_empty()).ok_or_else(|| {
+        Failure::usage(
+            format!("--spot takes a row and a column, or rows and columns, found `{text}`"),
+            "try --spot 120,40 or --spot 120..124,40..44",
         )
     })
 }

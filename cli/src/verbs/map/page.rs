@@ -1,10 +1,11 @@
 //! Pictures of maps, and a page that shows them.
 
 use calibrate::library::PigmentLibrary;
-use maps::SurveyedScan;
 use maps::pictures::{Overview, Ramp, picture_png};
+use maps::{Spot, SurveyedScan};
 use spectra::Viewing;
 
+use super::told::place_name;
 use crate::failure::Result;
 use crate::output::OutputFolder;
 
@@ -17,7 +18,7 @@ pub(super) fn write(
     folder: &OutputFolder,
     scan: &SurveyedScan,
     overview: &Overview,
-    library: &PigmentLibrary,
+    (library, spots): (&PigmentLibrary, &[Spot]),
 ) -> Result<()> {
     let size = (overview.width, overview.height);
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
@@ -45,7 +46,10 @@ pub(super) fn write(
     let rms = Ramp { from: (0.0, [255; 3]), to: (0.05, [20, 20, 150]) };
     files.push(("chi2.png".to_owned(), picture_png(&overview.chi2, size, &chi2)?));
     files.push(("residual.png".to_owned(), picture_png(&overview.rms, size, &rms)?));
-    files.push(("maps.html".to_owned(), page(scan, overview, &cells).into_bytes()));
+    files.push((
+        "maps.html".to_owned(),
+        page(scan, overview, (&cells, &figures(spots))).into_bytes(),
+    ));
     let names = files.iter().map(|(name, _)| name.clone());
     let outputs = folder.outputs(names)?;
     outputs.into_iter().zip(files).try_for_each(|(output, (_, content))| output.put(content))
@@ -72,11 +76,65 @@ fn file_name(name: &str) -> String {
     text.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
 }
 
+/// A chart of each spot: the measured spectrum as dots, that of the mapped mixture as a line.
+fn figures(spots: &[Spot]) -> String {
+    if spots.is_empty() {
+        return String::new();
+    }
+    let (width, height) = (460.0, 220.0);
+    let mut all = "<h2>Spots</h2><p>Dots: measured. Line: the mapped mixture.</p>\n".to_owned();
+    for spot in spots {
+        let ends = [spot.mapped_nm.first(), spot.mapped_nm.last()];
+        let [first, last] = ends.map(|nm| nm.copied().unwrap_or_default());
+        let most = spot.measured.iter().chain(&spot.mapped).copied().fold(0.1, f64::max);
+        let x = |nm: f64| 40.0 + (width - 50.0) * (nm - first) / (last - first).max(1.0);
+        let y = |value: f64| height - 30.0 - (height - 45.0) * value / most;
+        let line: Vec<String> = spot
+            .mapped_nm
+            .iter()
+            .zip(&spot.mapped)
+            .map(|(nm, value)| format!("{:.1},{:.1}", x(*nm), y(*value)))
+            .collect();
+        let dots: String = spot
+            .measured_nm
+            .iter()
+            .zip(&spot.measured)
+            .map(|(nm, value)| {
+                format!("<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"2.5\"/>", x(*nm), y(*value))
+            })
+            .collect();
+        let pigments = spot.pigments.iter().map(|pigment| {
+            let [share, sd] = [pigment.share, pigment.share_sd].map(|part| 100.0 * part);
+            format!("{} {share:.0} &plusmn; {sd:.0} %", escaped(&pigment.name))
+        });
+        all += &format!(
+            "<h3>{}</h3><p>{}; residual {:.4}, chi-square {:.2}</p>\
+             <svg viewBox=\"0 0 {width} {height}\" style=\"max-width:{width}px;width:100%\" fill=\"currentColor\">\
+             <polyline points=\"{}\" fill=\"none\" stroke=\"#d2691e\" stroke-width=\"2\"/>{dots}\
+             <text x=\"40\" y=\"{:.0}\" font-size=\"12\">{first:.0} nm</text>\
+             <text x=\"{:.0}\" y=\"{:.0}\" font-size=\"12\" text-anchor=\"end\">{last:.0} nm</text>\
+             <text x=\"2\" y=\"{:.0}\" font-size=\"12\">{most:.2}</text>\
+             <text x=\"2\" y=\"{:.0}\" font-size=\"12\">0</text></svg>\n",
+            place_name(spot),
+            pigments.collect::<Vec<_>>().join(", "),
+            spot.rms,
+            spot.chi2,
+            line.join(" "),
+            height - 12.0,
+            width - 8.0,
+            height - 12.0,
+            y(most) + 4.0,
+            y(0.0) + 4.0,
+        );
+    }
+    all
+}
+
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }
 
-fn page(scan: &SurveyedScan, overview: &Overview, cells: &str) -> String {
+fn page(scan: &SurveyedScan, overview: &Overview, (cells, spots): (&str, &str)) -> String {
     let about = scan.about();
     let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
     let groups: String = grouped
@@ -103,7 +161,7 @@ fn page(scan: &SurveyedScan, overview: &Overview, cells: &str) -> String {
          library may lack a pigment, or the film does not hide. Right: residual, white for 0, blue for 0.05 and \
          more of reflectance.</p>\n\
          <p><img src=\"chi2.png\" alt=\"chi-square\"> <img src=\"residual.png\" alt=\"residual\"></p>\n\
-         <p class=\"small\">library {}<br>survey {}<br>scan {}</p>\n</body></html>\n",
+         {spots}<p class=\"small\">library {}<br>survey {}<br>scan {}</p>\n</body></html>\n",
         about.rows.len(),
         about.columns.len(),
         overview.pixels.of(maps::pixel_maps::Mask::Mapped),
@@ -118,6 +176,6 @@ fn page(scan: &SurveyedScan, overview: &Overview, cells: &str) -> String {
 /// Style of the page: readable in light and dark, and on narrow screens.
 const STYLE: &str = "body{font:16px/1.5 sans-serif;margin:1rem auto;max-width:75rem;padding:0 1rem}\
     img{max-width:100%;min-width:8rem;background:repeating-conic-gradient(#ccc 0 25%,#eee 0 50%) 0 0/16px 16px}\
-    table{border-collapse:collapse;display:block;overflow-x:auto}td,th{padding:.3rem .6rem;text-align:left;\
+    table{border-collapse:collapse;display:block;overflow-x:auto}td,th{padding:.3rem .6rem;text-align:left;white-space:nowrap;\
     vertical-align:top}.small{font-size:.75rem;overflow-wrap:anywhere}\
     @media(prefers-color-scheme:dark){body{background:#222;color:#eee}}";

@@ -2,7 +2,7 @@
 
 use maps::pictures::Overview;
 use maps::pixel_maps::Mask;
-use maps::{FoundColumn, SurveyedScan};
+use maps::{FoundColumn, Spot, SurveyedScan};
 use serde_json::{Map, Value, json};
 
 use crate::console::Console;
@@ -34,7 +34,7 @@ fn place<'a>(found: &FoundColumn, mapped: Option<&'a Overview>) -> Option<(&'a O
     Some((overview, place))
 }
 
-pub(super) fn json(scan: &SurveyedScan, mapped: Option<&Overview>) -> Value {
+pub(super) fn json(scan: &SurveyedScan, mapped: Option<&Overview>, spots: &[Spot]) -> Value {
     let about = scan.about();
     let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
     let groups: Map<String, Value> =
@@ -58,7 +58,58 @@ pub(super) fn json(scan: &SurveyedScan, mapped: Option<&Overview>) -> Value {
         "groups": groups,
         "palette": rows(scan, mapped),
         "pixels": pixels,
+        "spots": spots.iter().map(spot_json).collect::<Vec<Value>>(),
     })
+}
+
+fn spot_json(spot: &Spot) -> Value {
+    let pigments = spot.pigments.iter().map(|pigment| {
+        json!({
+            "pigment": pigment.name,
+            "share": pigment.share,
+            "share_sd": pigment.share_sd,
+            "presence": pigment.presence,
+        })
+    });
+    json!({
+        "rows": [spot.region.rows.start, spot.region.rows.end],
+        "columns": [spot.region.columns.start, spot.region.columns.end],
+        "pixels": spot.pixels,
+        "pigments": pigments.collect::<Vec<Value>>(),
+        "chi2": spot.chi2,
+        "rms": spot.rms,
+        "measured_nm": spot.measured_nm,
+        "measured": spot.measured,
+        "mapped_nm": spot.mapped_nm,
+        "mapped": spot.mapped,
+    })
+}
+
+/// Pigments and residual of each spot, a line each.
+pub(super) fn print_spots(spots: &[Spot], console: &mut Console<'_>) -> Result<()> {
+    for spot in spots {
+        let each = spot.pigments.iter().map(|pigment| {
+            let [share, sd] = [pigment.share, pigment.share_sd].map(|part| 100.0 * part);
+            format!("{} {share:.0} +- {sd:.0} %", pigment.name)
+        });
+        console.line(format!(
+            "{}: {}; residual {:.4}, chi-square {:.2}",
+            place_name(spot),
+            each.collect::<Vec<_>>().join(", "),
+            spot.rms,
+            spot.chi2
+        ))?;
+    }
+    Ok(())
+}
+
+/// Words for the place of a spot.
+pub(super) fn place_name(spot: &Spot) -> String {
+    let part = |name: &str, range: &std::ops::Range<usize>| match range.len() {
+        1 => format!("{name} {}", range.start),
+        _ => format!("{name}s {}..{}", range.start, range.end),
+    };
+    format!("{}, {}", part("row", &spot.region.rows), part("column", &spot.region.columns))
 }
 
 pub(super) fn print(
