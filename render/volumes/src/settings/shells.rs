@@ -58,7 +58,7 @@ mod tests {
             (&[0.9, 1.0], &[], "drawing.shells takes sizes that fall"),
             (&[1.0, f64::NAN], &[], "drawing.shells takes sizes that fall"),
             (&[1.0, 0.001], &[], "drawing.shells takes sizes that fall"),
-            (&[1.0], &[0.0, 0.5, 1.0], "drawing.tint takes 2 shares for 1 shells"),
+            (&[1.0], &[0.0, 0.5, 1.0], "drawing.tint takes 2 shares for 1 shell"),
             (&[1.0], &[1.0, 0.0], "drawing.tint takes shares that rise"),
             (&[1.0], &[0.0, f64::NAN], "drawing.tint takes shares that rise"),
         ] {

@@ -116,7 +116,7 @@ fn faults_of_a_file_name_line_key_and_way_out() {
         ),
         (
             "drawing.tint = [0.0]",
-            "mine, line 1: drawing.tint takes 2 shares for 1 shells",
+            "mine, line 1: drawing.tint takes 2 shares for 1 shell",
             "[0, 1] is even",
         ),
         (
