@@ -163,6 +163,33 @@ impl Mapper {
         })
     }
 
+    /// Pigments of the best set of one pixel with their shares, the greatest first: the single pigments, also
+    /// where the maps show their group. `None` if the pixel cannot be mapped.
+    ///
+    /// # Errors
+    /// [`MapError::Length`] unless `spectrum` has one reflectance a band.
+    pub fn best_set(
+        &self,
+        book: &OpenBook,
+        spectrum: &[f32],
+    ) -> Result<Option<Vec<(String, f64)>>, MapError> {
+        let bands = self.prepared.bands.scan_bands;
+        if spectrum.len() != bands {
+            return Err(MapError::Length { values: spectrum.len(), bands });
+        }
+        let engine = &self.prepared.engine;
+        let Ok(folded) = self.prepared.fold(spectrum) else { return Ok(None) };
+        let mut scratch = Scratch::new(&engine.films);
+        book.find(engine, &folded, &mut scratch);
+        let Some(best) = scratch.found.first() else { return Ok(None) };
+        let members = best.members.iter().zip(best.shares).take(usize::from(best.count));
+        let name = |place: &u8| self.prepared.paints.names[usize::from(*place)].clone();
+        let mut set: Vec<(String, f64)> =
+            members.map(|(place, share)| (name(place), f64::from(share))).collect();
+        set.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Ok(Some(set))
+    }
+
     /// Searches every pixel whole, without a survey. This is slow, and tells what a survey can save.
     ///
     /// # Errors

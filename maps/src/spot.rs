@@ -37,7 +37,7 @@ pub struct Spot {
     pub measured: Vec<f64>,
     /// Wavelengths of the library in nm.
     pub mapped_nm: Vec<f64>,
-    /// Reflectance of the mapped mixture, a group by its first pigment.
+    /// Reflectance of the mapped mixture, of its single pigments.
     pub mapped: Vec<f64>,
     /// Pigments and groups with a share, the greatest first.
     pub pigments: Vec<SpotPigment>,
@@ -70,9 +70,10 @@ impl SurveyedScan {
             return Err(SpotError::NothingMapped { region });
         }
         let columns = self.mapper().columns();
-        let parts = columns.iter().zip(&maps.share).filter(|(_, share)| **share > LEAST_SHARE);
-        let parts = parts.map(|(column, share)| (&column.pigments[0], f64::from(*share)));
-        let mixture = library.mix(library.recipe(parts)?)?;
+        let Some(set) = self.best_set(&mean)? else {
+            return Err(SpotError::NothingMapped { region });
+        };
+        let mixture = library.mix(library.recipe(set)?)?;
         let told = columns.iter().enumerate().map(|(place, column)| SpotPigment {
             name: column.name.clone(),
             share: f64::from(maps.share[place]),

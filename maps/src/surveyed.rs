@@ -184,6 +184,15 @@ impl SurveyedScan {
         self.mapper.map(&self.opened, spectra, &[])
     }
 
+    /// Pigments of the best set of one pixel with their shares, the greatest first; `None` if it cannot be
+    /// mapped.
+    ///
+    /// # Errors
+    /// [`MapError`] unless `spectrum` has one reflectance a band.
+    pub fn best_set(&self, spectrum: &[f32]) -> Result<Option<Vec<(String, f64)>>, MapError> {
+        self.mapper.best_set(&self.opened, spectrum)
+    }
+
     /// Maps one block of pixels.
     ///
     /// # Errors

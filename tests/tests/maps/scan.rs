@@ -14,7 +14,7 @@ pub(crate) const RECIPES: [&[(&str, f64)]; 6] = [
     &[("Lead White", 0.5), ("Viridian", 0.5)],
     &[("Chrome Yellow", 1.0)],
     &[("Chrome Yellow", 0.7), ("Vermilion", 0.3)],
-    &[("Lead White", 0.6), ("Vermilion", 0.4)],
+    &[("Vermilion", 1.0)],
     &[("Lead White", 1.0)],
 ];
 
