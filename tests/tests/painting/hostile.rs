@@ -54,9 +54,9 @@ fn what_is_wrong_is_told_with_its_place_and_nothing_is_written() {
         (
             UNDO,
             r#"{"merge": {"layer": 1}}"#,
-            vec!["script.json", "action 6 (merge)", "dry layers", "`1`"],
+            vec!["script.json", "action 6 (merge)", "dry layer", "`1`"],
         ),
-        (UNDO, r#"{"merge": {"layer": 7}}"#, vec!["action 6 (merge)", "dry layers", "`7`"]),
+        (UNDO, r#"{"merge": {"layer": 7}}"#, vec!["action 6 (merge)", "dry layer", "`7`"]),
         (UNDO, r#"{"opacity": {"layer": 3, "value": 1}}"#, vec!["action 6 (opacity)", "`3`"]),
         (UNDO, r#"{"opacity": {"layer": "wet", "value": 1}}"#, vec!["action 6 (opacity)", "hint:"]),
         (UNDO, r#"{"palette": ["Viridian"]}"#, vec!["action 6 (palette)", "still wet", "hint:"]),

@@ -128,7 +128,7 @@ fn looks_that_are_none() {
             "a warm white",
         ),
         ("--settings", &torn, 1, "torn.toml, line 1: ", preset),
-        ("--settings", &scan, 1, "none.png", "paper.scan names a PNG or JPEG"),
+        ("--settings", &scan, 1, "none.png", "paper.scan names a picture (PNG"),
         (
             "--set",
             "edges.strength",
@@ -176,7 +176,7 @@ fn looks_that_are_none() {
     }
     let mesh = folder.pyramid();
     let run = watercolor(&mesh, &["--picture", &out, "--settings", &scan]);
-    refused(&run, 1, "none.png", "paper.scan names a PNG or JPEG");
+    refused(&run, 1, "none.png", "paper.scan names a picture (PNG");
     for option in ["--preset", "--show-preset"] {
         let run = impasto(&["watercolor", option, "oil"]);
         misused(&run, "[possible values: portrait, landscape, sketch]");
