@@ -92,21 +92,22 @@ def test_pigments_are_found_with_their_shares(
 ) -> None:
     pytest.importorskip("xarray")
     cube = im.Cube.open(scan[0])
-    survey = im.survey(cube, oils)
-    assert set(list(survey.palette)[:5]) >= set(PIGMENTS) - {"Lead White"}, survey.palette
-    assert any("Lead White" in names for names in survey.groups.values())
+    # The scan is made of the library's own pigments.
+    survey = im.survey(cube, oils, model_error=0.05)
+    assert set(list(survey.palette)[:5]) == set(PIGMENTS), survey.palette
     maps = im.pigment_map(cube, oils, tmp_path / "maps.zarr", survey=survey)
     data = maps.to_xarray()
     assert data.attrs["library_sha256"] and dict(data.sizes)["pigment"] == len(survey.about["pigments"])
     truth = scan[1]
-    for name in ("Ultramarine", "Viridian", "Chrome Yellow", "Vermilion"):
+    for name in PIGMENTS[1:]:
         share = data.share.sel(pigment=name).values
         error = np.abs(share - truth[:, :, oils.names.index(name)])
-        # Dark mixtures of ultramarine and viridian differ by less than their noise.
-        assert error.mean() < 0.06, (name, error.mean())
+        assert error.mean() < 0.03, (name, error.mean())
         present = data.presence.sel(pigment=name).values > 0.5
-        assert (present == (truth[:, :, oils.names.index(name)] > 0)).mean() > 0.88, name
-    assert "Mapped as one" in survey._repr_html_()
+        assert (present == (truth[:, :, oils.names.index(name)] > 0)).mean() > 0.95, name
+    usual = im.survey(cube, oils)
+    assert any("Lead White" in names for names in usual.groups.values()), usual.groups
+    assert "Mapped as one" in usual._repr_html_()
 
 
 def test_maps_of_another_run_are_refused(

@@ -51,6 +51,17 @@ fn pigments_of_a_scan_are_found_with_their_shares() {
 }
 
 #[test]
+fn a_library_that_is_exact_tells_whites_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let scan = written(folder.path(), 6, 1.0);
+    let json = map(&scan, &["--model-error", "0.02", "--json"]).json();
+    assert_eq!(json["groups"], serde_json::json!({}), "{json}");
+    assert!((figure(&json, "Lead White", "survey_part") - 0.5).abs() < 0.05, "{json}");
+    let wrong = map(&scan, &["--model-error", "7"]);
+    assert!(wrong.status != 0 && wrong.err.contains("0.001 to 1"), "{}", wrong.err);
+}
+
+#[test]
 fn maps_of_another_run_are_refused_and_those_of_this_one_continued() {
     let folder = tempfile::tempdir().unwrap();
     let scan = written(folder.path(), 6, 1.0);

@@ -11,7 +11,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use maps::pictures::Overview;
-use maps::{Book, MapSettings, PigmentGroup, Region, Spot, StoreMode, StoredMaps, SurveyedScan};
+use maps::{
+    Book, MapSettings, ModelError, PigmentGroup, Region, Spot, StoreMode, StoredMaps, SurveyedScan,
+};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
@@ -90,6 +92,9 @@ struct PigmentOptions {
     /// 0.003]
     #[arg(long, value_name = "SD")]
     noise: Option<f64>,
+    /// How far K and S of the library may be off, as a fraction [default: by the errors of its fit, else 0.1]
+    #[arg(long, value_name = "0.05")]
+    model_error: Option<f64>,
     /// What one more pigment must save in chi-square [default: 2]
     #[arg(long, value_name = "N")]
     penalty: Option<f64>,
@@ -110,6 +115,7 @@ impl PigmentOptions {
             group_alike: !self.apart,
             sensor_noise: self.noise.or(of_white).unwrap_or(usual.sensor_noise),
             penalty: self.penalty.unwrap_or(usual.penalty),
+            model_error: self.model_error.map(ModelError::Stated),
             ..usual
         })
     }
