@@ -8,7 +8,7 @@ use crate::book::Book;
 use crate::groups::{Column, Confusion, columns};
 use crate::map_error::MapError;
 use crate::mapping::OpenBook;
-use crate::noise::ModelError;
+use crate::noise::{ModelError, USUAL_MODEL_ERROR};
 use crate::pixel_maps::{BlockMaps, Mask};
 use crate::prepared::{Folded, Prepared};
 use crate::presence::Told;
@@ -62,7 +62,7 @@ impl Mapper {
     ) -> Result<Self, MapError> {
         let prepared = Prepared::new(library, wavelengths, settings)?;
         let alike = if settings.group_alike {
-            Confusion::new(&prepared.engine, &prepared.paints).groups()
+            alike(library, wavelengths, settings, &prepared)?
         } else {
             Vec::new()
         };
@@ -285,6 +285,27 @@ impl Mapper {
         }
         Ok(pixels)
     }
+}
+
+/// Pigments that are alike within twice a stated error of the library, or within the errors of mixtures that
+/// it had not seen. With the error itself, measured oils are often taken for others of their kind.
+fn alike(
+    library: &PigmentLibrary,
+    wavelengths: &[f64],
+    settings: &MapSettings,
+    prepared: &Prepared,
+) -> Result<Vec<Vec<usize>>, MapError> {
+    let stated = match settings.model_error {
+        Some(ModelError::Residuals(_)) => {
+            return Ok(Confusion::new(&prepared.engine, &prepared.paints).groups());
+        }
+        Some(ModelError::Stated(relative)) => relative,
+        None => USUAL_MODEL_ERROR,
+    };
+    let model_error = Some(ModelError::Stated((2.0 * stated).min(1.0)));
+    let twice =
+        Prepared::new(library, wavelengths, &MapSettings { model_error, ..settings.clone() })?;
+    Ok(Confusion::new(&twice.engine, &twice.paints).groups())
 }
 
 /// Makes maps that hold no pixel yet.

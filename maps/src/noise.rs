@@ -5,11 +5,9 @@
 //! together do not count twice.
 
 use nalgebra::{DMatrix, SymmetricEigen};
-use spectra::optics::infinite_film;
 
 use crate::bands::Bands;
 use crate::left_out::Residuals;
-use crate::paints::Paints;
 
 /// Part of the covariance of left-out residuals that is moved to its diagonal. A few dozen mixtures do not
 /// tell a covariance of 31 bands; chosen on the Van Gogh oils, where 0.3 to 0.6 do alike.
@@ -21,8 +19,6 @@ const TAIL: f64 = 10.0;
 /// rest is independent from band to band. Chosen on simulated paintings of other seeds than those of the
 /// tests: longer ones tell deviations that are too small.
 const SMOOTH: [(f64, f64); 2] = [(60.0, 0.5), (30.0, 0.45)];
-/// Left-out errors of a fit relative to its own; measured on the Van Gogh oils.
-const LEFT_OUT_TO_FITTED: f64 = 1.9;
 /// Relative error of K and S of a library that tells nothing about its errors.
 pub const USUAL_MODEL_ERROR: f64 = 0.1;
 /// Sum of the squares of a mixture's parts in K and in S, by which stated errors of its pigments partly
@@ -110,18 +106,6 @@ impl Noise {
             (variance - common).max(LEAST_OWN * variance).max(1e-12)
         });
         Self { sensor, own: own.collect(), curves, scale, tail, effective_bands }
-    }
-
-    /// Relative error of K and S that explains the root mean square error `rms` of a fit of `paints`.
-    pub(crate) fn stated_from_rms(paints: &Paints, rms: f64) -> f64 {
-        let slope = |pigment: usize| {
-            let (k, s) = paints.mixed(&[(pigment, 1.0)]);
-            k.into_iter().zip(s).map(|(k, s)| paints.log_slope(infinite_film(k, s)))
-        };
-        let squares: Vec<f64> =
-            (0..paints.count()).flat_map(slope).map(|slope| CANCELLED * slope * slope).collect();
-        let mean = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
-        (LEFT_OUT_TO_FITTED * rms / mean.sqrt().max(1e-6)).clamp(0.01, 1.0)
     }
 }
 

@@ -47,12 +47,8 @@ impl Prepared {
         settings.check()?;
         let bands = Bands::new(wavelengths, library.grid)?;
         let paints = Paints::new(library, &settings.palette, &bands)?;
-        let model = settings.model_error.clone().unwrap_or_else(|| {
-            let rms = library.evidence.as_ref().map(|evidence| evidence.rms);
-            ModelError::Stated(
-                rms.map_or(USUAL_MODEL_ERROR, |rms| Noise::stated_from_rms(&paints, rms)),
-            )
-        });
+        let model = settings.model_error.clone();
+        let model = model.unwrap_or(ModelError::Stated(USUAL_MODEL_ERROR));
         let noise = Noise::new(&bands, settings.sensor_noise, &model);
         let films = Films::new(&paints);
         let table = Table::new(&paints, &films, &noise);

@@ -106,7 +106,7 @@ def survey(
     `at_most` pigments of one pixel, 1 to 4; `palette` names those that may take part; `groups` are mapped as
     one, and with `group_alike` also pigments that the bands cannot tell apart. `noise` is the standard
     deviation of a band as a fraction (default: that of the white reading, else 0.003), `model_error` that of
-    K and S relative to their values (default: by the errors of the library's fit). `region` is rows and
+    K and S relative to their values (default: 0.1). `region` is rows and
     columns. `book` takes the JSON of an earlier survey.
     """
     if isinstance(palette, str):

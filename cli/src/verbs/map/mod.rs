@@ -92,7 +92,7 @@ struct PigmentOptions {
     /// 0.003]
     #[arg(long, value_name = "SD")]
     noise: Option<f64>,
-    /// How far K and S of the library may be off, as a fraction [default: by the errors of its fit, else 0.1]
+    /// How far K and S of the library may be off, as a fraction [default: 0.1]
     #[arg(long, value_name = "0.05")]
     model_error: Option<f64>,
     /// What one more pigment must save in chi-square [default: 2]
