@@ -116,7 +116,6 @@ impl PigmentOptions {
             sensor_noise: self.noise.or(of_white).unwrap_or(usual.sensor_noise),
             penalty: self.penalty.unwrap_or(usual.penalty),
             model_error: self.model_error.map(ModelError::Stated),
-            ..usual
         })
     }
 }
