@@ -22,8 +22,8 @@ fn slow(folder: &Path) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// What a terminal gets of a command line of a shell, in which `impasto` is the program. The terminal
-/// is the one that `script` of util-linux makes.
+/// Bytes that a terminal receives while a shell runs `line`, in which `impasto` is the built program.
+/// `script` of util-linux makes the terminal.
 fn seen(line: &str) -> String {
     let line = format!("impasto() {{ '{}' \"$@\"; }}; {line}", env!("CARGO_BIN_EXE_impasto"));
     let told = Command::new("script")

@@ -21,7 +21,7 @@ use maps::accuracy::{
     swatch_trials,
 };
 use maps::left_out::{Residuals, half_of, left_out};
-use maps::{MapSettings, Mapper, ModelError};
+use maps::{MapSettings, Mapper, ModelError, USUAL_MODEL_ERROR};
 use pigment::PigmentLibrary;
 
 /// Ranges of told probabilities.
@@ -77,6 +77,13 @@ fn swatches(prepared: &calibrate::PreparedFit) -> Result<(), Box<dyn std::error:
     for baseline in Baseline::ALL {
         row(baseline.name(), &SwatchTrials::baseline(&samples, &named, baseline, 0.1));
     }
+    let stated = MapSettings {
+        model_error: Some(ModelError::Stated(USUAL_MODEL_ERROR)),
+        ..MapSettings::default()
+    };
+    let trials = swatch_trials(&samples, &stated, &groups)?;
+    row("two constants, K and S off by 10 %", &trials);
+    println!("  with the errors of the other mixtures:");
     let mut of_penalty = Vec::new();
     for penalty in [0.0, 1.0, 2.0, 4.0] {
         let settings = MapSettings { penalty, ..MapSettings::default() };

@@ -19,7 +19,7 @@ const TAIL: f64 = 10.0;
 /// rest is independent from band to band. Chosen on simulated paintings of other seeds than those of the
 /// tests: longer ones tell deviations that are too small.
 const SMOOTH: [(f64, f64); 2] = [(60.0, 0.5), (30.0, 0.45)];
-/// Relative error of K and S of a library that tells nothing about its errors.
+/// Relative error of K and S where the settings state none.
 pub const USUAL_MODEL_ERROR: f64 = 0.1;
 /// Sum of the squares of a mixture's parts in K and in S, by which stated errors of its pigments partly
 /// cancel: 2 for one pigment, 1 for two alike in strength; a mean.
@@ -94,7 +94,7 @@ impl Noise {
         order.sort_by(|&a, &b| eigenvalues[b].total_cmp(&eigenvalues[a]));
         let mut curves = vec![[0.0; CURVES]; count];
         for (curve, &axis) in order.iter().take(CURVES).enumerate() {
-            // What every band has by itself is no common curve.
+            // The variance that a band has by itself belongs to no curve.
             let own = order.last().map_or(0.0, |&last| eigenvalues[last]);
             let sd = (eigenvalues[axis] - own).max(0.0).sqrt();
             for (band, curves) in curves.iter_mut().enumerate() {

@@ -16,7 +16,7 @@ use crate::groups::Column;
 use crate::map_error::MapError;
 use crate::mapper::Mapper;
 use crate::mapping::OpenBook;
-use crate::noise::ModelError;
+use crate::noise::{ModelError, USUAL_MODEL_ERROR};
 use crate::pixel_maps::BlockMaps;
 use crate::settings::MapSettings;
 use crate::store::{MapStore, MapsAbout, StoreError, StoreMode};
@@ -144,7 +144,7 @@ impl SurveyedScan {
         &self.book
     }
 
-    /// What the maps will tell about their run.
+    /// Description of the run that the maps will hold: hashes, region, settings.
     #[must_use]
     pub fn about(&self) -> &MapsAbout {
         &self.about
@@ -265,7 +265,7 @@ fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
     let model_error = match settings.model_error {
         Some(ModelError::Stated(relative)) => json!(relative),
         Some(_) => json!("left out"),
-        None => json!("library"),
+        None => json!(USUAL_MODEL_ERROR),
     };
     let all = json!({
         "at_most": settings.at_most,

@@ -28,7 +28,7 @@ pub enum StoreError {
     Exists {
         /// Path of the store.
         path: PathBuf,
-        /// What the folder holds, as a sentence part.
+        /// Content of the folder with its verb, such as `holds maps`.
         holds: String,
         /// Whether it can be resumed.
         is_maps: bool,

@@ -96,13 +96,12 @@ class Cube:
         needs xarray and dask."""
         import dask.array as da
         import xarray as xr
+        from dask import delayed
 
         lines, samples, bands = self.shape
 
         def block(start: int, stop: int) -> NDArray[np.float32]:
             return self.read(slice(start, stop))[0]
-
-        from dask import delayed
 
         parts = []
         for start in range(0, lines, chunk):

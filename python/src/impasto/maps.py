@@ -129,6 +129,10 @@ def survey(
     return Survey(native, cube, library, settings)
 
 
+# A parameter of `pigment_map` has the name of the function.
+_surveyed = survey
+
+
 def pigment_map(
     cube: Cube,
     library: Library,
@@ -148,7 +152,7 @@ def pigment_map(
     maps of another scan, library or settings. Machines, workers and resumed runs give the same bytes.
     `settings` are those of `survey`.
     """
-    found = survey or globals()["survey"](cube, library, progress=progress, **settings)
+    found = survey or _surveyed(cube, library, progress=progress, **settings)
     if survey is not None and settings:
         raise Error(f"settings belong to the survey: {', '.join(settings)}", "give them to survey")
     path = Path(out)

@@ -82,7 +82,7 @@ struct PigmentOptions {
     /// A pigment that may take part; may be repeated [default: all whose S is known]
     #[arg(long, value_name = "NAME")]
     palette: Vec<String>,
-    /// Pigments that are mapped as one, such as \"whites=Lead White,Zinc White\"; may be repeated
+    /// Pigments that are mapped as one, such as `whites=Lead White,Zinc White`; may be repeated
     #[arg(long, value_name = "NAME=PIGMENT,..")]
     group: Vec<String>,
     /// Map each pigment by itself, also those that the bands cannot tell apart
@@ -95,7 +95,7 @@ struct PigmentOptions {
     /// How far K and S of the library may be off, as a fraction [default: 0.1]
     #[arg(long, value_name = "0.05")]
     model_error: Option<f64>,
-    /// What one more pigment must save in chi-square [default: 2]
+    /// Amount by which one more pigment must lower chi-square to be told [default: 2]
     #[arg(long, value_name = "N")]
     penalty: Option<f64>,
 }

@@ -176,6 +176,6 @@ fn page(scan: &SurveyedScan, overview: &Overview, (cells, spots): (&str, &str)) 
 /// Style of the page: readable in light and dark, and on narrow screens.
 const STYLE: &str = "body{font:16px/1.5 sans-serif;margin:1rem auto;max-width:75rem;padding:0 1rem}\
     img{max-width:100%;min-width:8rem;background:repeating-conic-gradient(#ccc 0 25%,#eee 0 50%) 0 0/16px 16px}\
-    table{border-collapse:collapse;display:block;overflow-x:auto}td,th{padding:.3rem .6rem;text-align:left;white-space:nowrap;\
-    vertical-align:top}.small{font-size:.75rem;overflow-wrap:anywhere}\
+    table{border-collapse:collapse;display:block;overflow-x:auto}td,th{padding:.3rem .6rem;text-align:left;\
+    vertical-align:top}td:nth-child(2),td:nth-child(3){white-space:nowrap}.small{font-size:.75rem;overflow-wrap:anywhere}\
     @media(prefers-color-scheme:dark){body{background:#222;color:#eee}}";
