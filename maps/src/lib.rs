@@ -13,43 +13,11 @@ pub mod pixel_maps;
 
 mod map_error;
 
-pub mod bands;
-
-pub mod left_out;
-
-mod paints;
-
-mod noise;
-
-mod settings;
-
-mod whitening;
-
-mod film;
-
-mod nearest;
-
-mod set_fit;
-
-mod quadratic;
-
-mod table;
+mod films;
 
 mod search;
 
-mod groups;
-
-mod prepared;
-
-mod book;
-
-mod survey;
-
-mod presence;
-
 mod mapping;
-
-mod mapper;
 
 pub mod accuracy;
 
@@ -70,19 +38,18 @@ mod spot;
 pub mod pictures;
 
 pub use blocks::map_cube;
-pub use book::{Book, BookEntry, BookSet, SetFrequency};
 pub use cube::Cube;
-pub use groups::{ALIKE, Column, Confusion};
+pub use films::bands;
+pub use films::left_out;
+pub use films::noise::{ModelError, USUAL_MODEL_ERROR};
+pub use films::paints::Paints;
+pub use films::settings::{MapSettings, PigmentGroup};
 pub use map_error::MapError;
-pub use mapper::Mapper;
-pub use mapping::OpenBook;
-pub use noise::{ModelError, USUAL_MODEL_ERROR};
-pub use paints::Paints;
-pub use settings::{MapSettings, PigmentGroup};
+pub use mapping::book::{Book, BookEntry, BookSet, SetFrequency};
+pub use mapping::groups::{ALIKE, Column, Confusion};
+pub use mapping::mapper::Mapper;
+pub use mapping::open_book::OpenBook;
+pub use mapping::survey::{SURVEYED, survey_step};
 pub use spot::{Spot, SpotError, SpotPigment};
 pub use store::{MapStore, StoreMode, StoredMaps};
-pub use survey::{SURVEYED, survey_step};
 pub use surveyed::{FoundColumn, Region, SurveyError, SurveyedScan};
-
-#[cfg(test)]
-mod film_tests;

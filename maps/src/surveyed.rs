@@ -10,17 +10,17 @@ use serde_json::{Map, Value, json};
 use spectra::hint::{Explain, Fault, Hint};
 
 use crate::blocks::{MapOutcome, MapProgress, PixelCounts, RunError, map_cube, map_shard};
-use crate::book::Book;
 use crate::cube::{Block, Cube, CubeError};
-use crate::groups::Column;
+use crate::films::noise::{ModelError, USUAL_MODEL_ERROR};
+use crate::films::settings::MapSettings;
 use crate::map_error::MapError;
-use crate::mapper::Mapper;
-use crate::mapping::OpenBook;
-use crate::noise::{ModelError, USUAL_MODEL_ERROR};
+use crate::mapping::book::Book;
+use crate::mapping::groups::Column;
+use crate::mapping::mapper::Mapper;
+use crate::mapping::open_book::OpenBook;
+use crate::mapping::survey::SURVEYED;
 use crate::pixel_maps::BlockMaps;
-use crate::settings::MapSettings;
 use crate::store::{MapStore, MapsAbout, StoreError, StoreMode};
-use crate::survey::SURVEYED;
 
 /// A rectangle of a scan, in rows and columns from 0.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use spectra::optics::absorption_over_scattering;
 
-use crate::paints::Paints;
+use crate::films::paints::Paints;
 
 /// A linear method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

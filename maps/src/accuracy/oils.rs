@@ -8,9 +8,9 @@ use pigment::library::PigmentLibrary;
 
 use crate::accuracy::scores::Trial;
 use crate::accuracy::simulated::{Painting, PaintingPlan};
+use crate::films::settings::{MapSettings, PigmentGroup};
 use crate::map_error::MapError;
-use crate::mapper::Mapper;
-use crate::settings::{MapSettings, PigmentGroup};
+use crate::mapping::mapper::Mapper;
 
 /// Groups of the Van Gogh oils that look alike from 400 to 700 nm, for which figures are told.
 #[must_use]

@@ -10,7 +10,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::accuracy::scores::Trial;
 use crate::map_error::MapError;
-use crate::mapper::Mapper;
+use crate::mapping::mapper::Mapper;
 use crate::pixel_maps::BlockMaps;
 
 /// Length in nm over which the simulated errors of K and S are alike.

@@ -2,11 +2,11 @@
 
 use crate::accuracy::baselines::Baseline;
 use crate::accuracy::scores::{Scores, Trial};
-use crate::left_out::{LeftOut, Residuals};
+use crate::films::left_out::{LeftOut, Residuals};
+use crate::films::noise::ModelError;
+use crate::films::settings::{MapSettings, PigmentGroup};
 use crate::map_error::MapError;
-use crate::mapper::Mapper;
-use crate::noise::ModelError;
-use crate::settings::{MapSettings, PigmentGroup};
+use crate::mapping::mapper::Mapper;
 
 /// Groups by name; every other pigment is by itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,8 +74,8 @@ impl SwatchTrials {
         let trial = |sample: &LeftOut| -> Option<Trial> {
             let library = &sample.library;
             let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
-            let bands = crate::bands::Bands::new(&nm, library.grid).ok()?;
-            let paints = crate::paints::Paints::new(library, &[], &bands).ok()?;
+            let bands = crate::films::bands::Bands::new(&nm, library.grid).ok()?;
+            let paints = crate::films::paints::Paints::new(library, &[], &bands).ok()?;
             let shares = baseline.unmix(&paints, &sample.reflectance).shares;
             let told = named.list(paints.names.iter().map(String::as_str).zip(shares));
             let truth = named.list(sample.shares.iter().map(|(name, s)| (name.as_str(), *s)));

@@ -3,13 +3,13 @@
 //! A pixel is compared with the sets of the four nearest pixels of the survey. Where none explains it, it
 //! is searched whole. Its result depends on itself and the book only.
 
-use crate::book::Book;
+use super::book::Book;
+use super::prepared::{Folded, Prepared};
+use super::survey::prior_of_book;
 use crate::map_error::MapError;
-use crate::nearest::{Nearest, Point};
-use crate::prepared::{Folded, Prepared};
-use crate::search::{Engine, Prior, Scratch};
-use crate::set_fit::SetFit;
-use crate::survey::prior_of_book;
+use crate::search::engine::{Engine, Prior, Scratch};
+use crate::search::nearest::{Nearest, Point};
+use crate::search::set_fit::SetFit;
 
 /// Entries of the book that propose sets.
 const NEIGHBOURS: usize = 4;

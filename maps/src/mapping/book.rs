@@ -101,7 +101,7 @@ impl Book {
                 && set.shares.iter().all(|share| (0.0..=1.0).contains(share))
         };
         let is_entry = |entry: &BookEntry| {
-            entry.point.len() == crate::nearest::DIMENSIONS
+            entry.point.len() == crate::search::nearest::DIMENSIONS
                 && entry.point.iter().all(|value| value.is_finite())
                 && entry.sets.iter().all(is_set)
         };

@@ -2,9 +2,9 @@
 
 use wide::f32x8;
 
-use crate::bands::MOST_BANDS;
-use crate::paints::Paints;
-use crate::whitening::{LANES, Spectrum, Whitening, WhiteningNoise, dot, spectrum, total};
+use super::bands::MOST_BANDS;
+use super::paints::Paints;
+use super::whitening::{LANES, Spectrum, Whitening, WhiteningNoise, dot, spectrum, total};
 
 /// Most pigments of a set.
 pub(crate) const MOST_IN_SET: usize = 4;

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::book::{Book, BookEntry, BookSet, SetFrequency};
-use crate::prepared::{Folded, Prepared};
-use crate::search::{Engine, Prior, Scratch};
-use crate::set_fit::SetFit;
+use super::book::{Book, BookEntry, BookSet, SetFrequency};
+use super::prepared::{Folded, Prepared};
+use crate::search::engine::{Engine, Prior, Scratch};
+use crate::search::set_fit::SetFit;
 
 /// Pixels that a survey searches, about.
 pub const SURVEYED: usize = 20_000;

@@ -1,11 +1,11 @@
 //! Pigments that the bands of a scan cannot tell apart, told from K, S and the noise alone.
 
-use crate::film::Pixel;
+use crate::films::film::Pixel;
+use crate::films::paints::Paints;
+use crate::films::settings::PigmentGroup;
 use crate::map_error::MapError;
-use crate::paints::Paints;
-use crate::search::Engine;
-use crate::set_fit::SetFit;
-use crate::settings::PigmentGroup;
+use crate::search::engine::Engine;
+use crate::search::set_fit::SetFit;
 
 /// Parts of a companion's optical strength in the films that are compared.
 const COMPANION_PARTS: [f64; 3] = [0.2, 0.5, 0.8];

@@ -1,7 +1,7 @@
 //! Settings of a map.
 
+use super::noise::ModelError;
 use crate::map_error::MapError;
-use crate::noise::ModelError;
 
 /// Pigments that a map shows as one.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -5,7 +5,7 @@
     reason = "sums over rows and columns of small matrices read best by their indices"
 )]
 
-use crate::film::{Difference, Films, MOST_IN_SET, Pixel};
+use crate::films::film::{Difference, Films, MOST_IN_SET, Pixel};
 
 /// A set of one to four pigments with shares that fit a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,17 +2,17 @@
 
 use pigment::library::PigmentLibrary;
 
-use crate::bands::{Bands, MOST_BANDS};
-use crate::film::{Films, Pixel};
+use crate::films::bands::{Bands, MOST_BANDS};
+use crate::films::film::{Films, Pixel};
+use crate::films::noise::{ModelError, Noise, USUAL_MODEL_ERROR};
+use crate::films::paints::Paints;
+use crate::films::settings::MapSettings;
+use crate::films::whitening::WhiteningNoise;
 use crate::map_error::MapError;
-use crate::nearest::Point;
-use crate::noise::{ModelError, Noise, USUAL_MODEL_ERROR};
-use crate::paints::Paints;
 use crate::pixel_maps::Mask;
-use crate::search::Engine;
-use crate::settings::MapSettings;
-use crate::table::Table;
-use crate::whitening::WhiteningNoise;
+use crate::search::engine::Engine;
+use crate::search::nearest::Point;
+use crate::search::table::Table;
 
 /// Reflectances of a band that a scan can have; others show raw counts, percent or a wrong white.
 const REFLECTANCES: std::ops::RangeInclusive<f32> = -0.2..=1.5;

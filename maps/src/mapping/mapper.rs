@@ -3,19 +3,19 @@
 use pigment::library::{Input, PigmentLibrary};
 use rayon::prelude::*;
 
-use crate::bands::Bands;
-use crate::book::Book;
-use crate::groups::{Column, Confusion, columns};
+use super::book::Book;
+use super::groups::{Column, Confusion, columns};
+use super::open_book::OpenBook;
+use super::prepared::{Folded, Prepared};
+use super::presence::Told;
+use super::survey::{survey, survey_step};
+use crate::films::bands::Bands;
+use crate::films::noise::{ModelError, USUAL_MODEL_ERROR};
+use crate::films::settings::MapSettings;
 use crate::map_error::MapError;
-use crate::mapping::OpenBook;
-use crate::noise::{ModelError, USUAL_MODEL_ERROR};
 use crate::pixel_maps::{BlockMaps, Mask};
-use crate::prepared::{Folded, Prepared};
-use crate::presence::Told;
-use crate::search::{Prior, Scratch};
-use crate::set_fit::SetFit;
-use crate::settings::MapSettings;
-use crate::survey::{survey, survey_step};
+use crate::search::engine::{Prior, Scratch};
+use crate::search::set_fit::SetFit;
 
 /// Gauss-Newton steps of the true pigments in a trial.
 const TRUTH_STEPS: usize = 12;

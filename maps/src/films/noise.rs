@@ -6,8 +6,8 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use crate::bands::Bands;
-use crate::left_out::Residuals;
+use super::bands::Bands;
+use super::left_out::Residuals;
 
 /// Part of the covariance of left-out residuals that is moved to its diagonal. A few dozen mixtures do not
 /// tell a covariance of 31 bands; chosen on the Van Gogh oils, where 0.3 to 0.6 do alike.

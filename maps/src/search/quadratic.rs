@@ -7,9 +7,9 @@
 
 use wide::f32x8;
 
-use crate::film::{MOST_IN_SET, Work};
-use crate::set_fit::SetFit;
-use crate::whitening::LANES;
+use super::set_fit::SetFit;
+use crate::films::film::{MOST_IN_SET, Work};
+use crate::films::whitening::LANES;
 
 /// Products of the rows of pigments, by place.
 #[derive(Debug, Clone)]

@@ -10,8 +10,8 @@
 
 use wide::f32x8;
 
-use crate::bands::MOST_BANDS;
-use crate::noise::{CURVES, Noise, Scale};
+use super::bands::MOST_BANDS;
+use super::noise::{CURVES, Noise, Scale};
 
 /// Numbers that are computed at once.
 pub(crate) const LANES: usize = 8;

@@ -4,7 +4,7 @@ use pigment::library::PigmentLibrary;
 use pigment::{PigmentId, RecipeError};
 use spectra::optics::{Surface, infinite_film};
 
-use crate::bands::Bands;
+use super::bands::Bands;
 use crate::map_error::MapError;
 use crate::pixel_maps::BlockMaps;
 

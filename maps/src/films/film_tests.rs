@@ -2,12 +2,12 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use crate::bands::Bands;
-use crate::film::{Films, Work};
-use crate::left_out::Residuals;
-use crate::noise::{ModelError, Noise, Scale};
-use crate::paints::Paints;
-use crate::whitening::WhiteningNoise;
+use super::bands::Bands;
+use super::film::{Films, Work};
+use super::left_out::Residuals;
+use super::noise::{ModelError, Noise, Scale};
+use super::paints::Paints;
+use super::whitening::WhiteningNoise;
 
 struct Oils {
     paints: Paints,

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::film::{Difference, Films, Pixel, Work};
-use crate::quadratic::Quadratic;
-use crate::set_fit::SetFit;
-use crate::table::Table;
-use crate::whitening::WhiteningNoise;
+use super::quadratic::Quadratic;
+use super::set_fit::SetFit;
+use super::table::Table;
+use crate::films::film::{Difference, Films, Pixel, Work};
+use crate::films::whitening::WhiteningNoise;
 
 /// Linearised sets that are kept, by their number of pigments.
 const KEPT: [usize; 4] = [6, 20, 24, 8];
@@ -261,15 +261,15 @@ fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::Films;
-    use crate::noise::{ModelError, Noise};
-    use crate::paints::Paints;
+    use crate::films::film::Films;
+    use crate::films::noise::{ModelError, Noise};
+    use crate::films::paints::Paints;
 
     /// An engine for the oils that ship, their paints, and their bands.
     fn oils(at_most: usize) -> (Engine, Paints) {
         let library = pigment::PigmentLibrary::van_gogh_oils();
         let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
-        let bands = crate::bands::Bands::new(&nm, library.grid).unwrap();
+        let bands = crate::films::bands::Bands::new(&nm, library.grid).unwrap();
         let paints = Paints::new(&library, &[], &bands).unwrap();
         let noise = Noise::new(&bands, 0.003, &ModelError::Stated(0.1));
         let films = Films::new(&paints);

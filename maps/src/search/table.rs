@@ -2,11 +2,11 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
-use crate::film::Films;
-use crate::nearest::{DIMENSIONS, Nearest, Point};
-use crate::noise::{Noise, Scale};
-use crate::paints::Paints;
-use crate::whitening::Spectrum;
+use super::nearest::{DIMENSIONS, Nearest, Point};
+use crate::films::film::Films;
+use crate::films::noise::{Noise, Scale};
+use crate::films::paints::Paints;
+use crate::films::whitening::Spectrum;
 
 /// Ratios of a pair, evenly spaced in their logarithm.
 const RATIOS: i32 = 13;

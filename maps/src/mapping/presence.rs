@@ -1,8 +1,8 @@
 //! Shares and probabilities of a pixel from all sets that were tried.
 
-use crate::film::Pixel;
-use crate::search::{Engine, NEGLIGIBLE};
-use crate::set_fit::SetFit;
+use crate::films::film::Pixel;
+use crate::search::engine::{Engine, NEGLIGIBLE};
+use crate::search::set_fit::SetFit;
 
 /// Numbers of one pixel, by column of the map.
 #[derive(Debug, Clone, PartialEq)]

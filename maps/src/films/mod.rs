@@ -1,0 +1,18 @@
+//! Films of paint in the bands of a scan: K and S, noise, and the arithmetic of one pixel.
+
+pub mod bands;
+
+pub mod left_out;
+
+pub(crate) mod paints;
+
+pub(crate) mod noise;
+
+pub(crate) mod settings;
+
+pub(crate) mod whitening;
+
+pub(crate) mod film;
+
+#[cfg(test)]
+mod film_tests;

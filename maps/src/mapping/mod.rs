@@ -1,0 +1,15 @@
+//! From pixels searched whole to maps of all pixels: groups, survey and its book, presence.
+
+pub(crate) mod groups;
+
+pub(crate) mod prepared;
+
+pub(crate) mod book;
+
+pub(crate) mod survey;
+
+mod presence;
+
+pub(crate) mod open_book;
+
+pub(crate) mod mapper;
