@@ -91,7 +91,12 @@ impl Studio {
             |place: Rect| (place, place.center_top() - vec2(0.0, GAP), Align2::CENTER_BOTTOM);
         let tab = |tab: Tab| {
             let place = places::rect(context, Part::Tab(tab.name()))?;
-            let left = self.canvas.rect().right() - GAP;
+            let canvas = self.canvas.rect();
+            let left = canvas.right() - GAP;
+            // Beside a tab low in the window it would hide the tubes.
+            if place.top() > canvas.center().y {
+                return Some((place, Pos2::new(left, canvas.bottom() - GAP), Align2::RIGHT_BOTTOM));
+            }
             Some((place, Pos2::new(left, place.top()), Align2::RIGHT_TOP))
         };
         match step {

@@ -138,6 +138,12 @@ fn a_painter_goes_through_the_whole_tour() {
         assert_eq!(window.studio().tour().step(), Some(step));
         assert!(window.harness().query_by_label(step.title()).is_some(), "{step:?} has a card");
         window.save(&format!("tour-{step:?}"));
+        let leave = window.harness().get_by_label("Leave the tour").rect();
+        let card = window.harness().get_by_label(step.title()).rect().union(leave);
+        for pigment in ["Zinc White", "Cochineal Lake", "Bone Black"] {
+            let tube = window.harness().get_by_label(&format!("tube of {pigment}")).rect();
+            assert!(!card.intersects(tube), "{step:?}: the card at {card} hides {pigment}");
+        }
         match step {
             TourStep::Load => double_click_tube(&mut window, "Vermilion"),
             TourStep::Paint => draw(&mut window, SurfaceId::Canvas, (6.0, 10.0), (16.0, 14.0)),

@@ -14,6 +14,7 @@ use studio::panels::wheel::{Plane, Wheel};
 use studio::wheel_maker::WheelRequest;
 
 use super::fixture::{Fixture, click, painting, picture, show_panel};
+use super::harness::Window;
 
 fn wheel(painting: PaintingState, wanted: Option<Lab>) -> Harness<'static, Fixture<Wheel>> {
     let wanted = wanted.map(|lab| TargetColor { name: "Lab".to_owned(), color: Color::Lab(lab) });
@@ -113,4 +114,26 @@ fn a_palette_without_paint_that_mixes_tells_so() {
     bare.slots = [None; SLOTS];
     let harness = wheel(bare, None);
     assert!(harness.query_by_label_contains("can be mixed").is_some());
+}
+
+#[test]
+fn a_low_window_shows_the_wheel_whole() {
+    for height in [800.0, 900.0, 1080.0] {
+        let mut window = Window::sized("low-wheel", vec2(1440.0, height), 1.0);
+        window.click("Wheel");
+        let start = Instant::now();
+        while window.harness().query_by_label("Colour wheel").is_none() {
+            assert!(start.elapsed() < Duration::from_secs(60), "no wheel");
+            std::thread::sleep(Duration::from_millis(10));
+            window.harness().step();
+        }
+        window.settle();
+        window.save(&format!("low-wheel-{height}"));
+        let rect = window.harness().get_by_label("Colour wheel").rect();
+        let tab = window.harness().get_by_label("Wheel").rect();
+        // The status line takes 24 points.
+        let room = tab.bottom()..=height - 24.0;
+        assert!(rect.width() >= 128.0, "{rect} is too small to read");
+        assert!(room.contains(&rect.top()) && room.contains(&rect.bottom()), "{rect} of {height}");
+    }
 }

@@ -21,6 +21,9 @@ const REACHED: f64 = 1.0;
 /// Largest side of the plot, in points.
 const LARGEST: f32 = 420.0;
 
+/// Side down to which the plot shrinks so that a low panel shows all of it, in points.
+const SMALLEST: f32 = 128.0;
+
 /// State of the wheel panel.
 #[derive(Debug, Default)]
 pub struct Wheel {
@@ -114,8 +117,12 @@ impl Wheel {
         wheel: &ColorWheel,
         wanted: Option<&TargetColor>,
     ) -> Option<TargetColor> {
-        let side = ui.available_width().min(LARGEST);
-        let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
+        // The controls above the plot scroll with it, so that the side does not change.
+        let above = ui.cursor().top() - ui.min_rect().top();
+        let seen = (ui.clip_rect().height() - above).max(SMALLEST);
+        let side = ui.available_width().min(LARGEST).min(seen);
+        let sized = |ui: &mut Ui| ui.allocate_exact_size(vec2(side, side), Sense::click());
+        let (rect, response) = ui.vertical_centered(sized).inner;
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr("Colour wheel")));
         let plane = Plane::with_chroma(rect, self.view.chroma);
         let painter = ui.painter_at(rect);
