@@ -4,7 +4,10 @@
 //! gradient points outwards is fixed for one step, and every trial point is projected into the
 //! bounds (Kanzow, Yamashita and Fukushima 2004, the projected variant).
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 /// First damping: Nielsen's choice for a start near the minimum.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -47,41 +50,125 @@ impl NormalEquations {
     }
 }
 
+/// Groups of three residuals that depend on few of the parameters, in runs of neighbours.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SparseRows {
+    groups: Vec<Group>,
+    runs: Vec<Range<usize>>,
+    /// Derivatives of the three residuals, parameter by parameter.
+    derivatives: Vec<[f64; 3]>,
+}
+
+#[derive(Debug, Clone)]
+struct Group {
+    residuals: [f64; 3],
+    runs: Range<usize>,
+    /// Where its derivatives begin.
+    first: usize,
+}
+
+impl SparseRows {
+    /// Adds three residuals with their derivatives over the parameters of `runs`, which rise.
+    pub(crate) fn push(
+        &mut self,
+        residuals: [f64; 3],
+        runs: &[Range<usize>],
+        derivatives: &[[f64; 3]],
+    ) {
+        let (before, first) = (self.runs.len(), self.derivatives.len());
+        self.runs.extend_from_slice(runs);
+        self.derivatives.extend_from_slice(derivatives);
+        self.groups.push(Group { residuals, runs: before..self.runs.len(), first });
+    }
+
+    /// Residuals, runs and derivatives of each group.
+    fn groups(&self) -> impl Iterator<Item = ([f64; 3], &[Range<usize>], &[[f64; 3]])> {
+        let parts = |group: &Group| {
+            let derivatives = &self.derivatives[group.first..];
+            (group.residuals, &self.runs[group.runs.clone()], derivatives)
+        };
+        self.groups.iter().map(parts)
+    }
+}
+
 impl NormalEquations {
-    /// Adds one residual that depends only on the parameters at `places`, in rising order, with its
-    /// derivatives over them.
-    pub(crate) fn add_at(&mut self, residual: f64, places: &[usize], derivatives: &[f64]) {
-        self.cost += 0.5 * residual * residual;
-        let count = self.gradient.len();
-        let columns = self.matrix.as_mut_slice();
-        for (index, (&j, &d)) in places.iter().zip(derivatives).enumerate() {
-            self.gradient[j] += d * residual;
-            let column = &mut columns[j * count..(j + 1) * count];
-            for (&i, other) in places[index..].iter().zip(&derivatives[index..]) {
-                column[i] += d * other;
+    /// Equations of `count` parameters. Each column of the matrix is added up in the order of the rows,
+    /// so that its bits do not depend on the number of threads.
+    pub(crate) fn of_rows(count: usize, parts: &[SparseRows]) -> Self {
+        let groups = || parts.iter().flat_map(SparseRows::groups);
+        let mut equations = Self::zeros(count);
+        // Products that each column takes.
+        let mut work = vec![0; count];
+        for (residuals, runs, derivatives) in groups() {
+            equations.cost += 0.5 * dot(residuals, residuals);
+            let mut left: usize = runs.iter().map(|run| run.len()).sum();
+            for (place, &slopes) in runs.iter().cloned().flatten().zip(derivatives) {
+                equations.gradient[place] += dot(slopes, residuals);
+                work[place] += left;
+                left -= 1;
             }
         }
+        let mut columns = equations.matrix.as_mut_slice();
+        let mut tasks = Vec::new();
+        for range in even_parts(&work, rayon::current_num_threads()) {
+            let (part, rest) = columns.split_at_mut(range.len() * count);
+            columns = rest;
+            tasks.push((range, part));
+        }
+        tasks.into_par_iter().for_each(|(range, columns)| {
+            for (_, runs, derivatives) in groups() {
+                add_columns(&range, columns, count, runs, derivatives);
+            }
+        });
+        equations
     }
+}
 
-    /// Removes all residuals.
-    pub(crate) fn clear(&mut self) {
-        self.cost = 0.0;
-        self.gradient.fill(0.0);
-        self.matrix.fill(0.0);
+/// Adds the products of one group to the columns in `range`: the lower triangle only.
+fn add_columns(
+    range: &Range<usize>,
+    columns: &mut [f64],
+    count: usize,
+    runs: &[Range<usize>],
+    derivatives: &[[f64; 3]],
+) {
+    let mut first = 0;
+    for (index, run) in runs.iter().enumerate() {
+        for j in run.start.max(range.start)..run.end.min(range.end) {
+            let column = &mut columns[(j - range.start) * count..][..count];
+            let mut others = &derivatives[first + j - run.start..];
+            let slopes = others[0];
+            let mut add = |to: Range<usize>| {
+                let (here, rest) = others.split_at(to.len());
+                others = rest;
+                for (sum, &other) in column[to].iter_mut().zip(here) {
+                    *sum += dot(slopes, other);
+                }
+            };
+            add(j..run.end);
+            runs[index + 1..].iter().for_each(|run| add(run.clone()));
+        }
+        first += run.len();
     }
+}
 
-    /// Adds the residuals of `other`.
-    pub(crate) fn join(&mut self, other: &Self) {
-        self.cost += other.cost;
-        self.gradient += &other.gradient;
-        let count = self.gradient.len();
-        let columns = self.matrix.as_mut_slice().chunks_exact_mut(count.max(1));
-        let others = other.matrix.as_slice().chunks_exact(count.max(1));
-        // The lower triangle only, as in `add`.
-        for (j, (column, other)) in columns.zip(others).enumerate() {
-            column[j..].iter_mut().zip(&other[j..]).for_each(|(a, b)| *a += b);
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Cuts the places of `work` into at most `count` parts of about as much work.
+fn even_parts(work: &[usize], count: usize) -> Vec<Range<usize>> {
+    let all: usize = work.iter().sum();
+    let (mut parts, mut begin, mut done) = (Vec::new(), 0, 0);
+    for (place, more) in work.iter().enumerate() {
+        done += more;
+        let last = place + 1 == work.len();
+        if last || done * count >= all * (parts.len() + 1) {
+            parts.push(begin..place + 1);
+            begin = place + 1;
         }
     }
+    parts
 }
 
 /// Stopping rule of [`minimise`].
@@ -138,11 +225,10 @@ pub(crate) fn minimise(
             damping = damping.max(LEAST_DAMPING);
             growth = 2.0;
             point = trial;
-            let done = decrease <= stop.relative_decrease * equations.cost;
-            equations = build(&point);
-            if done {
-                break;
+            if decrease <= stop.relative_decrease * equations.cost {
+                return Minimum { point, cost: trial_cost };
             }
+            equations = build(&point);
         } else {
             damping *= growth;
             growth *= 2.0;
@@ -214,6 +300,42 @@ mod tests {
             },
             |p| residuals(p).iter().map(|r| 0.5 * r * r).sum(),
         )
+    }
+
+    #[test]
+    fn sparse_rows_give_the_equations_of_full_ones() {
+        let count = 53;
+        let mut parts = vec![SparseRows::default(); 3];
+        let mut wanted = NormalEquations::zeros(count);
+        for number in 0..40_usize {
+            let runs = [0..5, 7 + number % 4..12 + number % 3, 20 + number % 30..53 - number % 3];
+            let slopes = |place: usize| [1.0, 2.0, 3.0].map(|c| (c * place as f64 + c).sin());
+            let places: Vec<usize> = runs.iter().cloned().flatten().collect();
+            let derivatives: Vec<[f64; 3]> = places.iter().map(|&place| slopes(place)).collect();
+            let residuals = [0.1, 0.2, 0.3].map(|c| (c * number as f64).cos());
+            // Groups in the order of the parts.
+            parts[number / 14].push(residuals, &runs, &derivatives);
+            for (row, residual) in residuals.into_iter().enumerate() {
+                let mut full = vec![0.0; count];
+                places.iter().for_each(|&place| full[place] = slopes(place)[row]);
+                wanted.add(residual, &full, 1.0);
+            }
+        }
+        let found = NormalEquations::of_rows(count, &parts);
+        assert!((found.cost - wanted.cost).abs() < 1e-12, "{}", found.cost);
+        assert!((&found.gradient - wanted.gradient).amax() < 1e-12, "gradient");
+        assert!((&found.matrix - wanted.matrix).amax() < 1e-12, "matrix");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().unwrap();
+        let on_five = pool.install(|| NormalEquations::of_rows(count, &parts));
+        assert_eq!(on_five.matrix, found.matrix, "bits do not depend on the number of threads");
+    }
+
+    #[test]
+    fn parts_cover_all_places_and_share_the_work() {
+        assert_eq!(even_parts(&[8, 1, 1, 2, 2, 2], 2), [0..1, 1..6]);
+        assert_eq!(even_parts(&[1; 6], 3), [0..2, 2..4, 4..6]);
+        assert_eq!(even_parts(&[0, 0], 4), [0..1, 1..2]);
+        assert_eq!(even_parts(&[], 4), []);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! Effective K and S, fitted together with the weights to films of a library.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 use rayon::prelude::*;
 use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
@@ -9,8 +11,9 @@ use super::effective::EffectiveQuadrature;
 use super::films::{Film, FilmSet};
 use super::rule::{Quadrature, QuadratureFailure};
 use crate::evaluate::Viewing;
-use crate::least_squares::{NormalEquations, Stop, minimise};
+use crate::least_squares::{NormalEquations, SparseRows, Stop, minimise};
 use crate::library::PigmentLibrary;
+use crate::recipe::PigmentId;
 
 /// Films of the training set for each pigment, and at least.
 const FILMS_A_PIGMENT: usize = 120;
@@ -168,60 +171,62 @@ impl<'a> Problem<'a> {
         (metric.apply(difference), metric.after(&Lab::slopes_over_xyz(xyz, white)))
     }
 
-    fn add_film(&self, index: usize, found: &EffectiveQuadrature, equations: &mut NormalEquations) {
+    fn add_film(&self, index: usize, found: &EffectiveQuadrature, rows: &mut SparseRows) {
         let n = self.nodes();
         let parts = &self.films.films[index].parts;
         let [absorption, scattering] = found.mixed(parts);
         let at_nodes: Vec<[f64; 3]> =
             (0..n).map(|i| self.reflectance(index, i, absorption[i], scattering[i])).collect();
         let (residual, slopes) = self.residual(index, sum(&at_nodes, &found.rule.weights));
-        let mut places: Vec<usize> = (0..3 * (n - 1)).collect();
         let mut sorted = parts.clone();
         sorted.sort_by_key(|(pigment, _)| *pigment);
-        for (pigment, _) in &sorted {
+        let of_pigment = |(pigment, _): &(PigmentId, f64)| {
             let first = self.place(pigment.index(), 0);
-            places.extend(first..first + 2 * n);
+            first..first + 2 * n
+        };
+        let runs: Vec<Range<usize>> =
+            std::iter::once(0..3 * (n - 1)).chain(sorted.iter().map(of_pigment)).collect();
+        let slopes = slopes.0;
+        let mut derivatives = Vec::with_capacity(runs.iter().map(|run| run.len()).sum());
+        for [value, ..] in &at_nodes[..n - 1] {
+            let more = value - at_nodes[n - 1][0];
+            derivatives.extend((0..3).map(|channel| slopes.map(|slope| slope[channel] * more)));
         }
-        let mut derivatives = Vec::with_capacity(places.len());
-        for (row, slope) in residual.into_iter().zip(slopes.0) {
-            derivatives.clear();
-            for [value, ..] in &at_nodes[..n - 1] {
-                derivatives.extend(slope.map(|s| s * (value - at_nodes[n - 1][0])));
+        for (pigment, part) in &sorted {
+            let (absorption, scattering) =
+                (&found.absorption[pigment.index()], &found.scattering[pigment.index()]);
+            for (node, [_, over_k, over_s]) in at_nodes.iter().enumerate() {
+                let weights = found.rule.weights[node];
+                let along = slopes.map(|slope| slope.iter().zip(weights).map(|(s, w)| s * w).sum());
+                derivatives.push(along.map(|along: f64| along * over_k * part * absorption[node]));
+                derivatives.push(along.map(|along: f64| along * over_s * part * scattering[node]));
             }
-            for (pigment, part) in &sorted {
-                for (node, [_, over_k, over_s]) in at_nodes.iter().enumerate() {
-                    let weights = found.rule.weights[node];
-                    let along: f64 = slope.iter().zip(weights).map(|(s, w)| s * w).sum();
-                    let pigment = pigment.index();
-                    derivatives.push(along * over_k * part * found.absorption[pigment][node]);
-                    derivatives.push(along * over_s * part * found.scattering[pigment][node]);
-                }
-            }
-            equations.add_at(row, &places, &derivatives);
         }
+        rows.push(residual, &runs, &derivatives);
     }
 
     fn equations(&self, point: &DVector<f64>) -> NormalEquations {
         let found = self.at(point);
         let indices: Vec<usize> = (0..self.films.len()).collect();
-        let chunks: Vec<&[usize]> = indices.chunks(CHUNK).collect();
-        let mut total = NormalEquations::zeros(point.len());
-        // The equations of many pigments are large, so only one set a thread is kept. Chunks are joined in
-        // their order, on any number of threads.
-        let mut sums = vec![total.clone(); rayon::current_num_threads().min(chunks.len())];
-        for several in chunks.chunks(sums.len().max(1)) {
-            sums.par_iter_mut().zip(several).for_each(|(equations, chunk)| {
-                equations.clear();
-                for &index in *chunk {
-                    self.add_film(index, &found, equations);
-                }
-            });
-            sums.iter().take(several.len()).for_each(|equations| total.join(equations));
-        }
+        let mut parts: Vec<SparseRows> = indices
+            .par_chunks(CHUNK)
+            .map(|chunk| {
+                let mut rows = SparseRows::default();
+                chunk.iter().for_each(|&index| self.add_film(index, &found, &mut rows));
+                rows
+            })
+            .collect();
+        let mut prior = SparseRows::default();
         for place in 3 * (self.nodes() - 1)..point.len() {
-            total.add_at(PRIOR.sqrt() * point[place], &[place], &[PRIOR.sqrt()]);
+            let weight = PRIOR.sqrt();
+            prior.push(
+                [weight * point[place], 0.0, 0.0],
+                std::slice::from_ref(&(place..place + 1)),
+                &[[weight, 0.0, 0.0]],
+            );
         }
-        total
+        parts.push(prior);
+        NormalEquations::of_rows(point.len(), &parts)
     }
 
     fn cost(&self, point: &DVector<f64>) -> f64 {
