@@ -120,9 +120,3 @@ fn mixer(bencher: Bencher) {
         .counter(ItemsCount::new(shares.len()))
         .bench_local(|| mixer.mix_into(divan::black_box(&shares), &mut out));
 }
-
-/// Fits the eight wavelengths of a light to a library.
-#[divan::bench(sample_count = 3, sample_size = 1)]
-fn light() -> Light {
-    Light::new(&library(), &Viewing::default()).expect("eight wavelengths of D65")
-}

@@ -8,6 +8,7 @@ use spectra::color::{Adaptation, RgbSpace};
 use spectra::hint::{Explain, Fault, Hint};
 use spectra::{LightError, Observer, ObserverError, light_from_text};
 
+use super::kept;
 use crate::optics::NODES;
 
 /// An illuminant with an observer, prepared for painting with one library.
@@ -24,12 +25,13 @@ pub struct Light {
 }
 
 impl Light {
-    /// Prepares the light of `viewing` for painting with `library`. Takes about a second.
+    /// Prepares the light of `viewing` for painting with `library`. Takes up to a second, unless this
+    /// program prepared it before and used few others since.
     ///
     /// # Errors
     /// [`PaintLightError::Quadrature`] if the light has fewer than eight usable wavelengths.
     pub fn new(library: &PigmentLibrary, viewing: &Viewing) -> Result<Self, PaintLightError> {
-        let quadrature = EffectiveQuadrature::of(viewing, library, NODES)?;
+        let quadrature = kept::quadrature(library, viewing)?;
         let rgb_from_nodes = rgb_from_nodes(&quadrature.rule, 1.0).map(|rgb| rgb.map(|v| v as f32));
         Ok(Self { viewing: viewing.clone(), quadrature, rgb_from_nodes })
     }
