@@ -177,9 +177,10 @@ pub(crate) fn fit(
     let options = options.options(py)?;
     let readings = readings.0.clone();
     let done = run(py, progress, move |reporter| {
-        let prepared = PreparedFit::new(&readings, &options, &|| reporter.tell("film model"))?;
         let told = |stage| reporter.tell(stage);
-        let mut fit = prepared.fit_watched(Watch::new(&told))?;
+        let watch = Watch::new(&told).until(reporter.cancellation());
+        let prepared = PreparedFit::new(&readings, &options, watch)?;
+        let mut fit = prepared.fit_watched(watch)?;
         fit.remarks.splice(0..0, prepared.remarks);
         Ok::<_, calibrate::FittingError>(fit)
     })?;
@@ -199,9 +200,9 @@ pub(crate) fn validate(
     let options = ValidationOptions { fit: options.options(py)?, folds, with };
     let readings = readings.0.clone();
     let done = run(py, progress, move |reporter| {
-        let prepared = PreparedFit::new(&readings, &options.fit, &|| reporter.tell("film model"))?;
-        let fit = prepared.fit()?;
-        prepared.validate_fit(fit, &options, &|| reporter.tell("mixture"))
+        let told = |stage| reporter.tell(stage);
+        let watch = Watch::new(&told).until(reporter.cancellation());
+        PreparedFit::new(&readings, &options.fit, watch)?.validate(&options, watch)
     })?;
     done.map(Validation).raised(py, Exception::Fit)
 }

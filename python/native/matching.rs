@@ -6,7 +6,7 @@ use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
     AmountLimit, ColorTarget, MatchOptions, Metric, PriceList, RecipeMatch, RecipeMatches,
-    RecipeSearch, RequiredName, SpectrumWeights, Thickness, ViewingCondition,
+    RecipeSearch, RequiredName, SearchControl, SpectrumWeights, Thickness, ViewingCondition,
 };
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -142,10 +142,8 @@ pub(crate) fn recipes_for(
         let search = library.recipe_search(&options)?;
         let mut found = Vec::new();
         for target in &targets {
-            if reporter.given_up() {
-                break;
-            }
-            let matched = search.recipes_for(target)?;
+            let control = SearchControl::until(reporter.cancellation().clone());
+            let Some(matched) = search.recipes_with_control(target, &control)? else { break };
             reporter.tell(&matched.target.name);
             found.push((json(&library, &search, &matched).to_string(), remarks(&matched.remarks)));
         }

@@ -1,7 +1,9 @@
 //! Plans of swatches.
 
 use calibrate::fit::ExpectedNoise;
-use calibrate::plan::{Forecast, MeasurementForm, Plan, PlanOptions, RelativeDeviation};
+use calibrate::plan::{
+    Forecast, MeasurementForm, Plan, PlanOptions, RelativeDeviation, plan_until,
+};
 use calibrate::{PigmentId, PigmentLibrary, Recipe};
 use pyo3::prelude::*;
 use serde_json::{Map, Value, json};
@@ -45,7 +47,9 @@ pub(crate) fn plan(
         balance: options.balance,
         noise,
     };
-    let planned = run(py, None, move |_| calibrate::plan(&pigments, &white, &chosen))?;
+    let planned = run(py, None, move |reporter| {
+        plan_until(&pigments, &white, &chosen, reporter.cancellation())
+    })?;
     let planned = planned.raised(py, Exception::Fit)?;
     Ok((json(&planned).to_string(), planned.form(&form), remarks(&planned.remarks)))
 }

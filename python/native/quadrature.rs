@@ -40,7 +40,7 @@ pub(crate) fn quadrature(
         let hint = "methods are gauss, moments, library and effective; the last two take a library";
         return Err(Exception::Other.with(py, Fault::Setting, &message, Some(hint)));
     }
-    let done = run(py, None, move |_| {
+    let done = run(py, None, move |reporter| {
         let Some(library) = library else {
             let rule = match method.as_str() {
                 "gauss" => Quadrature::gauss(&viewing, nodes)?,
@@ -53,7 +53,8 @@ pub(crate) fn quadrature(
         let library = Arc::clone(&library);
         let weights = viewing.weights(library.grid)?;
         if method == "effective" {
-            let found = EffectiveQuadrature::of(&viewing, &library, nodes)?;
+            let found =
+                EffectiveQuadrature::of_until(&viewing, &library, nodes, reporter.cancellation())?;
             let hiding = FilmSet::hiding(&library, &weights, mixtures, seed);
             let over = FilmSet::over_grounds(&library, &weights, mixtures, seed);
             let curves = found.absorption.iter().zip(&found.scattering);

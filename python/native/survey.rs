@@ -1,6 +1,5 @@
 //! Surveys of scans, and their maps.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -71,9 +70,10 @@ impl Survey {
         let library = library.0.clone();
         let surveyed = run(py, progress, move |reporter| match book {
             Some(book) => SurveyedScan::with_book(cube, &library, &settings, region, book),
-            None => {
-                SurveyedScan::survey(cube, &library, &settings, region, &|| reporter.tell("pixel"))
-            }
+            None => SurveyedScan::survey(cube, &library, &settings, region, &|| {
+                reporter.tell("pixel");
+                reporter.flow()
+            }),
         })?;
         surveyed.map(|scan| Self(Arc::new(scan))).raised(py, Exception::Fit)
     }
@@ -127,7 +127,7 @@ impl Survey {
         let mapped = run(py, progress, move |reporter| {
             scan.map(&store, |state| {
                 reporter.tell(format!("{} of {} pixels", state.done, state.all));
-                if reporter.given_up() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                reporter.flow()
             })
         })?;
         mapped.raised(py, Exception::Other).map(drop)
@@ -138,11 +138,8 @@ impl Survey {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
-        let mapped = run(py, None, move |reporter| {
-            scan.map_shard(&store, place, |_| {
-                if reporter.given_up() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            })
-        })?;
+        let mapped =
+            run(py, None, move |reporter| scan.map_shard(&store, place, |_| reporter.flow()))?;
         Ok(mapped.raised(py, Exception::Other)?.map_or(0, |counts| counts.all()))
     }
 }

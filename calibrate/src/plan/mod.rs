@@ -30,7 +30,7 @@ pub use exchange::optimal;
 pub use form::MeasurementForm;
 pub use information::{Information, RelativeDeviation};
 pub use paints::PaintSet;
-pub use planned::{Forecast, Plan, PlanOptions, PlannedSwatch, plan};
+pub use planned::{Forecast, Plan, PlanOptions, PlannedSwatch, plan, plan_until};
 pub use swatch_recipe::{Purpose, SwatchRecipe};
 pub use usual::{usual, usual_count};
 pub use weighing::Weighing;

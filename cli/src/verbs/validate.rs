@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use calibrate::ValidationOptions;
+use calibrate::fit::Watch;
 use calibrate::library::AmountKind;
 use calibrate::remark::Remark;
 use calibrate::validation::Validation;
@@ -62,7 +63,8 @@ impl Validate {
             console.remarks(&[advice])?;
         }
         let progress = Progress::new(mixtures, "leaving out", console.shows_progress());
-        let validation = prepared.validate_fit(fit, &options, &|| progress.step())?;
+        let told = |_| progress.step();
+        let validation = prepared.validate_fit(fit, &options, Watch::new(&told))?;
         progress.done();
         let warnings = validation.warnings();
         if self.csv {

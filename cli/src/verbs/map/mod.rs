@@ -140,7 +140,9 @@ impl Map {
                 let book = Book::from_json(&crate::input::text(path)?)?;
                 SurveyedScan::with_book(cube, &library, &settings, region, book)?
             }
-            None => SurveyedScan::survey(cube, &library, &settings, region, &|| ())?,
+            None => SurveyedScan::survey(cube, &library, &settings, region, &|| {
+                ControlFlow::Continue(())
+            })?,
         };
         drop(waiting);
         if let (Some(path), None) = (&self.survey, known) {
