@@ -5,9 +5,8 @@ use std::sync::Arc;
 use calibrate::fit::{Method, Smoothness, Watch};
 use calibrate::library::AmountKind;
 use calibrate::observation::BelowSurface;
-use calibrate::{FitOptions, FitValidation, PreparedFit, ValidationOptions, shares_of_squares};
+use calibrate::{FitOptions, FitValidation, PreparedFit, ValidationOptions};
 use pyo3::prelude::*;
-use serde_json::{Value, json};
 use spectra::hint::Fault;
 use spectra::optics::{Specular, Surface};
 
@@ -46,16 +45,7 @@ impl Fit {
 
     /// Errors of the fit as JSON, with the keys of `impasto fit --json`.
     fn errors(&self) -> String {
-        let evidence = self.fit.evidence();
-        let shares = shares_of_squares(&evidence.per_sample);
-        let entry = |(sample, share): (&str, f64)| json!({ "sample": sample, "share": share });
-        json!({
-            "samples": evidence.per_sample.len(), "pigments": self.fit.library.pigments.len(),
-            "rms": evidence.rms, "delta_e": evidence.delta_e, "per_sample": evidence.per_sample,
-            "shares_of_squares": shares.into_iter().map(entry).collect::<Vec<Value>>(),
-            "warnings": evidence.warnings,
-        })
-        .to_string()
+        serde_json::Value::Object(self.fit.errors_json()).to_string()
     }
 
     /// The report that `impasto fit` prints.

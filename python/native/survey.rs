@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use maps::{Book, MapSettings, ModelError, PigmentGroup, Region, StoreMode, SurveyedScan};
 use pyo3::prelude::*;
-use serde_json::{Map, Value, json};
 
 use crate::cube::Cube;
 use crate::failure::{Exception, Raised};
@@ -85,26 +84,7 @@ impl Survey {
 
     /// Palette, groups, hashes and settings as JSON, with the keys of `impasto map --json`.
     fn about(&self) -> String {
-        let scan = &self.0;
-        let palette = scan
-            .palette()
-            .into_iter()
-            .map(|found| json!({ "pigment": found.column.name, "survey_part": found.part }));
-        let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
-        let groups = grouped.map(|column| (column.name.clone(), json!(column.pigments)));
-        let about = scan.about();
-        json!({
-            "library_sha256": about.library_sha256,
-            "survey_sha256": about.book_sha256,
-            "scan": about.scan,
-            "settings": about.settings,
-            "pigments": about.pigments,
-            "effective_bands": scan.mapper().effective_bands(),
-            "usual_chi2": scan.book().usual_chi2,
-            "groups": groups.collect::<Map<String, Value>>(),
-            "palette": palette.collect::<Vec<Value>>(),
-        })
-        .to_string()
+        self.0.to_json(None, &[]).to_string()
     }
 
     /// Begins or resumes the maps at `path`, and returns for each shard whether it is finished.

@@ -24,6 +24,8 @@ mod form;
 
 mod planned;
 
+mod told;
+
 pub use candidates::candidates;
 pub use error::PlanError;
 pub use exchange::optimal;

@@ -6,7 +6,6 @@ use calibrate::ValidationOptions;
 use calibrate::fit::Watch;
 use calibrate::library::AmountKind;
 use calibrate::remark::Remark;
-use calibrate::validation::Validation;
 use clap::Args;
 use serde_json::json;
 
@@ -72,11 +71,8 @@ impl Validate {
             return console.csv_rows(&fit_report::rows(&validation.errors.per_sample));
         }
         if self.json {
-            let Validation { rms, delta_e, per_sample, .. } = &validation.errors;
-            let pigments = validation.fit.library.pigments.len();
             let seconds = start.elapsed().as_secs_f64();
-            let mut told =
-                fit_report::to_json(pigments, *rms, delta_e, per_sample, &warnings, seconds);
+            let mut told = fit_report::timed(validation.errors_json(), seconds);
             told["strength_free"] = json!(validation.errors.strength_free);
             told["by_pigment"] = json!(validation.errors.by_pigment);
             return console.json(&told);

@@ -15,6 +15,10 @@ use crate::library::PigmentLibrary;
 use crate::remark::Remark;
 use crate::visible_band::check_visible_band;
 
+/// Largest distance at which a target counts as reached, in CIEDE2000 or percent of reflectance. Larger
+/// differences are clearly visible side by side. Chosen by eye.
+const REACHED: f64 = 1.0;
+
 /// Band in nm that a match by spectrum should cover: it holds nearly all of the luminance and chroma.
 const VISIBLE_NM: [f64; 2] = [420.0, 680.0];
 
@@ -25,7 +29,7 @@ const FAR: f64 = 5.0;
 /// A search for recipes of one library, prepared for any number of targets.
 #[derive(Debug, Clone)]
 pub struct RecipeSearch<'a> {
-    library: &'a PigmentLibrary,
+    pub(super) library: &'a PigmentLibrary,
     /// Limits of the recipes.
     pub request: MatchRequest,
     /// Origin of the request's tolerance.
@@ -70,7 +74,14 @@ impl RecipeMatches {
     #[must_use]
     pub fn hint(&self) -> Option<Hint> {
         let advice = "allow more pigments with [at_most], or add paints to the library";
-        (self.nearest() > 1.0).then(|| Hint::new(advice))
+        (!self.is_reached()).then(|| Hint::new(advice))
+    }
+
+    /// Whether a recipe differs from the target by no more than can be seen: 1 CIEDE2000, or 1 % of
+    /// reflectance.
+    #[must_use]
+    pub fn is_reached(&self) -> bool {
+        self.nearest() <= REACHED
     }
 }
 

@@ -165,10 +165,10 @@ impl Map {
             folder.told(console)?;
         }
         if self.csv {
-            return console.csv_rows(&told::rows(&scan, mapped.as_ref()));
+            return console.csv_rows(&scan.palette_json(mapped.as_ref()));
         }
         if self.json {
-            return console.json(&told::json(&scan, mapped.as_ref(), &spots));
+            return console.json(&scan.to_json(mapped.as_ref(), &spots));
         }
         told::print(&scan, mapped.as_ref(), console)?;
         told::print_spots(&spots, console)?;
