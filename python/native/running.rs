@@ -13,6 +13,9 @@ use spectra::Cancellation;
 /// Time between two looks for signals.
 const LOOK: Duration = Duration::from_millis(50);
 
+/// Name of the thread of the work.
+const THREAD: &str = "impasto-work";
+
 /// How work tells its stages, and learns that nobody waits for it any more.
 pub(crate) struct Reporter {
     told: Mutex<Sender<String>>,
@@ -55,11 +58,12 @@ pub(crate) fn run<T: Send + 'static>(
     let (told, stages) = channel();
     let (done, result) = channel();
     let reporter = Reporter { told: Mutex::new(told), cancellation: cancellation.clone() };
-    let worker = std::thread::spawn(move || {
+    let thread = std::thread::Builder::new().name(THREAD.to_owned());
+    let worker = thread.spawn(move || {
         let result = catch_unwind(AssertUnwindSafe(|| work(&reporter)));
         // Nobody listens once the caller has given up.
         let _ = done.send(result);
-    });
+    })?;
     let waited = wait(py, progress, &stages, result);
     if waited.is_err() {
         cancellation.cancel();
