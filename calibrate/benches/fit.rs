@@ -8,7 +8,7 @@ use calibrate::PigmentId;
 use calibrate::calibration::calibrate;
 use calibrate::evaluate::Viewing;
 use calibrate::fit::{
-    FitSettings, Method, Problem, Refinement, Smoothness, fit_qp, fit_refined, fit_weighted,
+    FitSettings, Method, Problem, Refinement, Smoothness, Watch, fit_qp, fit_refined, fit_weighted,
 };
 use calibrate::library::PigmentLibrary;
 use calibrate::measurement::{MeasurementTable, ScaleChoice};
@@ -109,7 +109,7 @@ fn leave_one_out_of_the_oils(bencher: Bencher<'_, '_>) {
         viewing: &viewing,
         state,
         folds: None,
-        progress: &|| (),
+        watch: Watch::default(),
     };
     bencher.bench_local(|| leave_out(&set, white, SURFACE, black_box(&plan), |_| true));
 }

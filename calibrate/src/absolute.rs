@@ -10,8 +10,8 @@ use spectra::optics::{Surface, UnevenFilm};
 use crate::calibration::{Calibration, CalibrationError, pigment};
 use crate::findings;
 use crate::fit::{
-    FiniteProblem, FitError, FitSettings, MeasuredFilm, Refined, Refinement, Smoothness, Watch,
-    fit_finite, root_mean_square,
+    FiniteProblem, FitError, FitSettings, FitStage, MeasuredFilm, Refined, Refinement, Smoothness,
+    Watch, fit_finite, root_mean_square,
 };
 use crate::measurement::MeasurementError;
 use crate::scores::Scores;
@@ -76,7 +76,7 @@ pub fn calibrate_absolute(
     calibrate_absolute_watched(set, film, settings, viewing, Watch::default())
 }
 
-/// Fits like [`calibrate_absolute`], and tells `watch` the stages of the fit.
+/// Fits like [`calibrate_absolute`], tells `watch` the stages of the fit, and ends when it asks for that.
 ///
 /// # Errors
 /// [`CalibrationError`] if readings cannot be used or the fit fails.
@@ -161,14 +161,14 @@ fn undetermined(fit: &Refined) -> Vec<PigmentId> {
 /// mean CIEDE2000 in five-fold cross-validation over seeded folds. Another model replaces the current one
 /// only if its score is lower by more than 3 %. With fewer than 20 films the plain model (0 and 0) is
 /// returned without a test. The chosen k2 serves prediction only. It does not measure the surface, because
-/// unevenness has a similar effect.
+/// unevenness has a similar effect. `watch` is told [`FitStage::FilmModel`] after each fit.
 ///
 /// # Errors
 /// [`FitError`] from any fit.
 pub fn chosen_film(
     problem: &FiniteProblem,
     surface: Surface,
-    progress: &(impl Fn() + Sync),
+    watch: Watch<'_>,
 ) -> Result<UnevenFilm, FitError> {
     let plain = UnevenFilm { surface: Surface { k2: 0.0, ..surface }, unevenness: 0.0 };
     if problem.films.len() < 4 * FOLDS {
@@ -183,13 +183,12 @@ pub fn chosen_film(
             .map(|left_out| {
                 let kept = all_but(problem.films.len(), left_out);
                 let part = problem.with_films(&kept);
-                let fit = fit_finite(
-                    &part,
-                    film,
-                    &weights,
-                    Refinement::prediction(Smoothness::None, None),
-                )?;
-                progress();
+                let how = Refinement {
+                    watch: watch.quiet(),
+                    ..Refinement::prediction(Smoothness::None, None)
+                };
+                let fit = fit_finite(&part, film, &weights, how)?;
+                watch.tell(FitStage::FilmModel);
                 Ok(errors(problem, &fit, film, left_out, &weights))
             })
             .collect::<Result<_, FitError>>()?;
@@ -207,7 +206,7 @@ pub fn chosen_film(
                 best = (score, Some(model));
             }
         }
-        Ok(best.1.map_or(kept, |model| (best.0, model)))
+        Ok::<_, FitError>(best.1.map_or(kept, |model| (best.0, model)))
     };
     let kept = replaced((score(plain)?, plain), [with(0.3, 0.0), with(0.6, 0.0)])?;
     let k2 = kept.1.surface.k2;

@@ -1,13 +1,13 @@
 //! The main job: from swatches to a pigment library with its evidence.
 
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 use spectra::optics::Surface;
 
 use crate::findings;
 use crate::fit::{
     Condition, FitError, FitSettings, Method, Problem, Refined, RefinedState, Refinement,
-    Unidentified, Unknown, Watch, condition, fit_qp, fit_refined, fit_weighted, linear_deviations,
-    unidentified,
+    Unidentified, Unknown, Watch, condition, fit_qp_watched, fit_refined, fit_weighted_watched,
+    linear_deviations, unidentified,
 };
 use crate::measurement::MeasurementError;
 use crate::observation::{Observation, observations};
@@ -50,7 +50,7 @@ pub fn calibrate(
     calibrate_watched(set, reference, surface, settings, viewing, Watch::default())
 }
 
-/// Fits like [`calibrate`], and tells `watch` the stages of the fit.
+/// Fits like [`calibrate`], tells `watch` the stages of the fit, and ends when it asks for that.
 ///
 /// # Errors
 /// [`CalibrationError`] if readings cannot be used or the fit fails.
@@ -150,8 +150,8 @@ pub(crate) fn solve(
         state: None,
     };
     Ok(match method {
-        Method::Qp => plain(fit_qp(problem)?),
-        Method::Weighted => plain(fit_weighted(problem)?),
+        Method::Qp => plain(fit_qp_watched(problem, how.watch)?),
+        Method::Weighted => plain(fit_weighted_watched(problem, how.watch)?),
         Method::Refined => {
             // K and S must not depend on the light under which errors are computed.
             let weights =
@@ -252,6 +252,13 @@ impl Explain for CalibrationError {
         match self {
             Self::Measurement(error) => error.hint(),
             Self::Fit(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Measurement(error) => error.fault(),
+            Self::Fit(error) => error.fault(),
         }
     }
 }

@@ -7,9 +7,9 @@ use spectra::hint::{Explain, Hint};
 use spectra::optics::Surface;
 use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
-use crate::absolute::{calibrate_absolute, films};
-use crate::calibration::{CalibrationError, calibrate};
-use crate::fit::{FitSettings, MeasuredFilm};
+use crate::absolute::{calibrate_absolute_watched, films};
+use crate::calibration::{CalibrationError, calibrate_watched};
+use crate::fit::{FitSettings, MeasuredFilm, Watch};
 use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, observations};
 use crate::scores::Scores;
@@ -220,13 +220,16 @@ impl Comparable {
     /// For a library without settings of its fit, [`FitSettings::default`] is assumed with dark readings
     /// read as black.
     ///
+    /// `watch` is told [`FitStage::LeftOut`](crate::fit::FitStage::LeftOut) after each mixture, and may
+    /// end the work.
+    ///
     /// # Errors
     /// [`CalibrationError`] from any fit.
     pub fn left_out(
         &self,
         library: &PigmentLibrary,
         viewing: &Viewing,
-        progress: &(dyn Fn() + Sync),
+        watch: Watch<'_>,
     ) -> Result<Option<Validation>, CalibrationError> {
         if self.mixtures(library) == 0 {
             return Ok(None);
@@ -234,16 +237,18 @@ impl Comparable {
         let settings = settings(library);
         let set = self.fitted_again(library);
         let plan =
-            |state, folds| ValidationPlan { settings: &settings, viewing, state, folds, progress };
+            |state, folds| ValidationPlan { settings: &settings, viewing, state, folds, watch };
         if library.amounts == AmountKind::Absolute {
             let film = library.film();
-            let state = calibrate_absolute(&set, film, &settings, viewing)?.state;
+            let state =
+                calibrate_absolute_watched(&set, film, &settings, viewing, watch.quiet())?.state;
             return leave_out_films(&set, film, &plan(state, Some(DEFAULT_FOLDS))).map(Some);
         }
         let named = |name: &String| set.pigments.iter().position(|p| p == name).map(PigmentId);
         let Some(reference) = library.reference.as_ref().and_then(named) else { return Ok(None) };
         let surface: Surface = library.saunderson;
-        let state = calibrate(&set, reference, surface, &settings, viewing)?.state;
+        let state =
+            calibrate_watched(&set, reference, surface, &settings, viewing, watch.quiet())?.state;
         leave_out(&set, reference, surface, &plan(state, None), |_| true).map(Some)
     }
 

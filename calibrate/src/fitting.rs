@@ -81,7 +81,7 @@ pub struct FitOptions {
 /// [`FittingError`] if options exclude each other, a name is unknown, readings cannot be used, or the
 /// fit fails.
 pub fn fit(readings: &Readings, options: &FitOptions) -> Result<Fit, FittingError> {
-    let prepared = PreparedFit::new(readings, options, &|| ())?;
+    let prepared = PreparedFit::new(readings, options, Watch::default())?;
     let mut fit = prepared.fit()?;
     fit.remarks.splice(0..0, prepared.remarks);
     Ok(fit)
@@ -164,19 +164,19 @@ pub enum FilmModel {
 }
 
 impl PreparedFit {
-    /// Number of times that [`Self::new`] calls `progress` if it chooses the film model of absolute
-    /// amounts.
+    /// Number of times that [`Self::new`] tells [`FitStage::FilmModel`](crate::fit::FitStage::FilmModel)
+    /// if it chooses the film model of absolute amounts.
     pub const MODEL_FITS: usize = CHOICE_FITS;
 
-    /// Resolves the options: selects samples, finds the reference white and the surface. `progress` is
-    /// called, from any thread, after each fit made to choose the film model of absolute amounts.
+    /// Resolves the options: selects samples, finds the reference white and the surface. `watch` is
+    /// told each fit made to choose the film model of absolute amounts, and may end them.
     ///
     /// # Errors
     /// [`FittingError`] if options exclude each other, a name is unknown, or readings cannot be used.
     pub fn new(
         readings: &Readings,
         options: &FitOptions,
-        progress: &(impl Fn() + Sync),
+        watch: Watch<'_>,
     ) -> Result<Self, FittingError> {
         let mut remarks = Vec::from_iter(check_visible_band(readings.table.grid)?);
         let set = without_excluded(readings.swatches()?, &options.exclude)?;
@@ -212,7 +212,7 @@ impl PreparedFit {
                 if options.reference.is_some() || options.method != Method::Refined {
                     return Err(FittingError::AbsoluteOptions);
                 }
-                FilmModel::Absolute(film_model(&set, options, progress, &mut remarks)?)
+                FilmModel::Absolute(film_model(&set, options, watch, &mut remarks)?)
             }
         };
         let first = readings.inputs.first().map_or("", |input| input.path.as_str());
@@ -249,10 +249,10 @@ impl PreparedFit {
         self.fit_watched(Watch::default())
     }
 
-    /// Fits like [`Self::fit`], and tells `watch` the stages of the fit.
+    /// Fits like [`Self::fit`], tells `watch` the stages of the fit, and ends when it asks for that.
     ///
     /// # Errors
-    /// [`FittingError::Calibration`] if readings cannot be used or the fit fails.
+    /// [`FittingError::Calibration`] if readings cannot be used, the fit fails or `watch` ends it.
     pub fn fit_watched(&self, watch: Watch<'_>) -> Result<Fit, FittingError> {
         let Calibration { mut library, observations, condition, state } = match self.model {
             FilmModel::Relative { reference, surface } => {
@@ -306,7 +306,7 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
 fn film_model(
     set: &SwatchSet,
     options: &FitOptions,
-    progress: &(impl Fn() + Sync),
+    watch: Watch<'_>,
     remarks: &mut Vec<Remark>,
 ) -> Result<UnevenFilm, FittingError> {
     let plain = Surface { k1: 0.0, k2: 0.0, specular: options.specular };
@@ -317,7 +317,7 @@ fn film_model(
         });
     }
     let problem = films(set)?;
-    let film = chosen_film(&problem, plain, progress).map_err(CalibrationError::from)?;
+    let film = chosen_film(&problem, plain, watch).map_err(CalibrationError::from)?;
     remarks.push(Remark::note(format!(
         "film model by cross-validation: k2 = {}, unevenness {}",
         film.surface.k2, film.unevenness

@@ -90,6 +90,8 @@ impl Explain for FittingError {
     fn fault(&self) -> Fault {
         match self {
             Self::AbsoluteOptions | Self::AbsoluteWith | Self::Folds { .. } => Fault::Setting,
+            Self::Measurement(error) => error.fault(),
+            Self::Calibration(error) => error.fault(),
             _ => Fault::Input,
         }
     }

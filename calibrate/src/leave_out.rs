@@ -1,5 +1,6 @@
 //! Validation of a fit from readings: each mixture predicted without its own measurement.
 
+use crate::fit::Watch;
 use crate::fitting::{FilmModel, Fit, FitOptions, PreparedFit, index_of};
 use crate::fitting_error::FittingError;
 use crate::observation::Observation;
@@ -91,8 +92,8 @@ pub fn validate(
     readings: &Readings,
     options: &ValidationOptions,
 ) -> Result<FitValidation, FittingError> {
-    let prepared = PreparedFit::new(readings, &options.fit, &|| ())?;
-    prepared.validate(options, &|| ())
+    let prepared = PreparedFit::new(readings, &options.fit, Watch::default())?;
+    prepared.validate(options, Watch::default())
 }
 
 impl PreparedFit {
@@ -107,28 +108,28 @@ impl PreparedFit {
         Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
     }
 
-    /// Validates like [`validate`], with these readings and fit options. `progress` is called after
-    /// each mixture, from any thread.
+    /// Validates like [`validate`], with these readings and fit options. `watch` is told
+    /// the stages of the first fit and [`FitStage::LeftOut`](crate::fit::FitStage::LeftOut) after each mixture, and may end the work.
     ///
     /// # Errors
-    /// [`FittingError`] if a name is unknown, a fit fails, or no mixture can be left out.
+    /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.
     pub fn validate(
         &self,
         options: &ValidationOptions,
-        progress: &(dyn Fn() + Sync),
+        watch: Watch<'_>,
     ) -> Result<FitValidation, FittingError> {
-        self.validate_fit(self.fit()?, options, progress)
+        self.validate_fit(self.fit_watched(watch)?, options, watch)
     }
 
     /// Validates like [`Self::validate`], where `fit` is the fit of all samples that [`Self::fit`] made.
     ///
     /// # Errors
-    /// [`FittingError`] if a name is unknown, a fit fails, or no mixture can be left out.
+    /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.
     pub fn validate_fit(
         &self,
         fit: Fit,
         options: &ValidationOptions,
-        progress: &(dyn Fn() + Sync),
+        watch: Watch<'_>,
     ) -> Result<FitValidation, FittingError> {
         if let Some(folds) = options.folds.filter(|folds| *folds < 2) {
             return Err(FittingError::Folds { folds });
@@ -144,7 +145,7 @@ impl PreparedFit {
             viewing: &viewing,
             state: fit.state,
             folds,
-            progress,
+            watch,
         };
         let errors = match self.model {
             FilmModel::Relative { reference, surface } => {

@@ -31,9 +31,10 @@
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
 pub use pigment::{
-    Appearance, Backing, BackingError, ColorError, Curves, FilmOver, MixtureColor, PigmentId,
-    PigmentLibrary, Recipe, Remark, RemarkKind, Viewing, curation, curves, digits, evaluate,
-    library, matching, palette, quadrature, recipe, remark, smooth_reflectance, visible_band,
+    Appearance, Backing, BackingError, ColorError, Curves, FilmOver, IlluminantChange,
+    MixtureColor, PigmentId, PigmentLibrary, Recipe, Remark, RemarkKind, Viewing, curation, curves,
+    digits, evaluate, library, matching, palette, quadrature, recipe, remark, smooth_reflectance,
+    visible_band,
 };
 
 pub mod measurement;
@@ -69,6 +70,8 @@ pub mod fitting;
 pub mod validation;
 
 pub mod leave_out;
+
+mod told;
 
 pub mod comparison;
 

@@ -146,7 +146,8 @@ mod tests {
         for (readings, below_surface) in [(&lighter, None), (&readings, Some(BelowSurface::Floor))]
         {
             let options = FitOptions { below_surface, ..FitOptions::default() };
-            let prepared = PreparedFit::new(readings, &options, &|| ()).unwrap();
+            let prepared =
+                PreparedFit::new(readings, &options, crate::fit::Watch::default()).unwrap();
             let FilmModel::Relative { surface, .. } = prepared.model else { panic!("relative") };
             assert_eq!(surface.k1, 0.03);
         }

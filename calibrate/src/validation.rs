@@ -7,7 +7,8 @@ use spectra::optics::{Surface, UnevenFilm};
 use crate::absolute::{all_but, films, folds};
 use crate::calibration::{CalibrationError, solve, without};
 use crate::fit::{
-    FitError, FitSettings, Problem, RefinedState, Refinement, fit_finite, unidentified,
+    FitError, FitSettings, FitStage, Problem, RefinedState, Refinement, Watch, fit_finite,
+    unidentified,
 };
 use crate::observation::{Observation, observations};
 use crate::scores::Scores;
@@ -52,6 +53,7 @@ pub struct PigmentError {
 }
 
 /// Settings of a validation: the fit, and the mixtures that are left out.
+#[derive(Debug)]
 pub struct ValidationPlan<'a> {
     /// Settings of the fits.
     pub settings: &'a FitSettings,
@@ -62,20 +64,16 @@ pub struct ValidationPlan<'a> {
     pub state: Option<RefinedState>,
     /// Number of seeded groups that are left out in turn; `None` for each mixture by itself.
     pub folds: Option<usize>,
-    /// Called after each mixture, from any thread.
-    pub progress: &'a (dyn Fn() + Sync),
-}
-
-impl std::fmt::Debug for ValidationPlan<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("ValidationPlan")
-            .field("settings", &self.settings)
-            .field("folds", &self.folds)
-            .finish_non_exhaustive()
-    }
+    /// Told [`FitStage::LeftOut`] after each mixture, from any thread; may end the work.
+    pub watch: Watch<'a>,
 }
 
 impl ValidationPlan<'_> {
+    fn prediction(&self) -> Refinement<'_> {
+        let how = Refinement::prediction(self.settings.smoothness, self.state);
+        Refinement { watch: self.watch.quiet(), ..how }
+    }
+
     fn groups(&self, candidates: &[usize]) -> Vec<Vec<usize>> {
         let Some(count) = self.folds else { return candidates.iter().map(|&c| vec![c]).collect() };
         let dealt = folds(candidates.len(), count);
@@ -123,10 +121,9 @@ pub fn leave_out(
         let (solvable, identified) = without(&rest, &unknown);
         let among = identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
         let problem = Problem::new(set.grid, surface, &solvable, PigmentId(among))?;
-        let how = Refinement::prediction(plan.settings.smoothness, plan.state);
-        let solution = solve(&problem, plan.settings.method, how)?;
+        let solution = solve(&problem, plan.settings.method, plan.prediction())?;
         let predictions = group.iter().map(|&index| {
-            (plan.progress)();
+            plan.watch.tell(FitStage::LeftOut);
             let target = &observations[index];
             let needed = unknown.iter().any(|u| target.shares[u.pigment.index()] > 0.0);
             let larger =
@@ -214,11 +211,10 @@ pub fn leave_out_films(
     let candidates: Vec<usize> =
         (0..count).filter(|&i| problem.films[i].recipe.len() > 1).collect();
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
-        let how = Refinement::prediction(plan.settings.smoothness, plan.state);
         let part = problem.with_films(&all_but(count, group));
-        let fit = fit_finite(&part, film, &weights, how)?;
+        let fit = fit_finite(&part, film, &weights, plan.prediction())?;
         let predictions = group.iter().map(|&index| {
-            (plan.progress)();
+            plan.watch.tell(FitStage::LeftOut);
             Prediction { index, predicted: Some((problem.predicted(&fit, film, index), None)) }
         });
         Ok(predictions.collect())

@@ -2,6 +2,8 @@
 //!
 //! Simulated pixels of 8 of 18 oils, noise 0.003, K and S off by 10 %.
 
+use std::ops::ControlFlow;
+
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use maps::accuracy::{Painting, PaintingPlan};
@@ -51,7 +53,7 @@ fn scan(bands: usize) -> Scan {
 }
 
 fn book(scan: &Scan) -> Book {
-    scan.mapper.survey(&scan.spectra, &|| ()).expect("a book")
+    scan.mapper.survey(&scan.spectra, &|| ControlFlow::Continue(())).expect("a book")
 }
 
 #[divan::bench(args = [31, 204], sample_count = 5)]

@@ -37,6 +37,8 @@ mod spot;
 
 pub mod pictures;
 
+mod told;
+
 pub use blocks::map_cube;
 pub use cube::Cube;
 pub use films::bands;

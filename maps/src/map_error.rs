@@ -1,6 +1,7 @@
 //! Reasons why spectra cannot be mapped with a library.
 
 use pigment::RecipeError;
+use spectra::Cancelled;
 use spectra::hint::{Explain, Fault, Hint};
 
 /// A library, wavelengths or settings with which no map can be made.
@@ -99,6 +100,9 @@ pub enum MapError {
         /// Reason, in words.
         reason: String,
     },
+    /// The survey was ended before all its pixels were searched.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl Explain for MapError {
@@ -121,6 +125,7 @@ impl Explain for MapError {
             Self::NothingToSurvey { .. } => Some(Hint::new(
                 "check that the scan holds reflectances from 0 to 1 rather than raw counts or percent",
             )),
+            Self::Cancelled(error) => error.hint(),
             Self::OtherBook { .. } => Some(Hint::new("survey the scan again with these settings")),
         }
     }
@@ -131,6 +136,7 @@ impl Explain for MapError {
             | Self::Pigments { .. }
             | Self::TwoGroups { .. }
             | Self::Setting { .. } => Fault::Setting,
+            Self::Cancelled(error) => error.fault(),
             _ => Fault::Input,
         }
     }

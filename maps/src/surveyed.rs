@@ -50,7 +50,8 @@ pub struct FoundColumn {
 ///
 /// let oils = PigmentLibrary::van_gogh_oils();
 /// let cube = Cube::open("scan.hdr")?;
-/// let scan = SurveyedScan::survey(cube, &oils, &MapSettings::default(), None, &|| ())?;
+/// let go_on = || ControlFlow::Continue(());
+/// let scan = SurveyedScan::survey(cube, &oils, &MapSettings::default(), None, &go_on)?;
 /// for found in scan.palette() {
 ///     println!("{:5.1} % {}", 100.0 * found.part, found.column.name);
 /// }
@@ -69,16 +70,17 @@ pub struct SurveyedScan {
 
 impl SurveyedScan {
     /// Surveys `region` of a scan, by default all of it. `progress` is called after each surveyed pixel, from
-    /// any thread.
+    /// any thread; if it breaks, the survey ends.
     ///
     /// # Errors
-    /// [`SurveyError`] if the scan cannot be read, or does not fit the library and the settings.
+    /// [`SurveyError`] if the scan cannot be read, does not fit the library and the settings, or `progress`
+    /// broke.
     pub fn survey(
         cube: Cube,
         library: &PigmentLibrary,
         settings: &MapSettings,
         region: Option<Region>,
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn() -> ControlFlow<()> + Sync),
     ) -> Result<Self, SurveyError> {
         let cube = within(cube, library)?;
         let mapper = Mapper::new(library, cube.wavelengths_nm(), settings)?;

@@ -2,6 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use maps::accuracy::{Painting, PaintingPlan};
 use maps::pixel_maps::{BlockMaps, Mask};
 use maps::{Book, MapError, MapSettings, Mapper, ModelError, PigmentGroup};
@@ -37,12 +40,13 @@ fn bits(maps: &BlockMaps) -> Vec<u32> {
 #[test]
 fn a_pixel_depends_on_itself_and_the_book_only() {
     let (mapper, spectra) = scan(700);
-    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
     let whole = mapper.map_block(&book, &spectra).unwrap();
     assert!(whole.is_consistent(), "lengths");
     for pool in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(pool).build().unwrap();
-        let again = pool.install(|| mapper.survey(&spectra, &|| ()).unwrap());
+        let again =
+            pool.install(|| mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap());
         assert_eq!(again.to_json().unwrap(), book.to_json().unwrap());
         for pixels in [1, 97, 700] {
             let pieces = spectra.chunks(pixels * 31);
@@ -62,7 +66,7 @@ fn a_pixel_depends_on_itself_and_the_book_only() {
 #[test]
 fn shares_sum_to_1_and_probabilities_are_probabilities() {
     let (mapper, spectra) = scan(300);
-    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
     let maps = mapper.map_block(&book, &spectra).unwrap();
     for pixel in maps.share.chunks_exact(maps.pigments) {
         assert!((pixel.iter().sum::<f32>() - 1.0).abs() < 1e-5, "{pixel:?}");
@@ -75,7 +79,7 @@ fn shares_sum_to_1_and_probabilities_are_probabilities() {
 #[test]
 fn no_pixel_panics_and_bad_ones_are_masked() {
     let (mapper, spectra) = scan(200);
-    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
     let bad: Vec<(f32, Mask)> = vec![
         (f32::NAN, Mask::NotFinite),
         (f32::INFINITY, Mask::NotFinite),
@@ -115,12 +119,12 @@ fn no_pixel_panics_and_bad_ones_are_masked() {
 #[test]
 fn wrong_lengths_and_other_books_are_refused() {
     let (mapper, spectra) = scan(50);
-    let error = mapper.survey(&spectra[..40], &|| ()).unwrap_err();
+    let error = mapper.survey(&spectra[..40], &|| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(error, MapError::Length { values: 40, bands: 31 });
     assert!(error.hint().is_some(), "a way out");
-    let error = mapper.survey(&[f32::NAN; 62], &|| ()).unwrap_err();
+    let error = mapper.survey(&[f32::NAN; 62], &|| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(error, MapError::NothingToSurvey { pixels: 2 });
-    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
     let opened = mapper.open_book(&book).unwrap();
     let error = mapper.map(&opened, &spectra, &[Mask::Mapped]).unwrap_err();
     assert_eq!(error, MapError::Masks { masks: 1, pixels: 50 });
@@ -142,7 +146,7 @@ fn wrong_lengths_and_other_books_are_refused() {
 #[test]
 fn books_survive_their_file_and_broken_ones_are_refused() {
     let (mapper, spectra) = scan(40);
-    let book = mapper.survey(&spectra, &|| ()).unwrap();
+    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
     let text = book.to_json().unwrap();
     let read = Book::from_json(&text).unwrap();
     assert_eq!(read, book);
@@ -211,4 +215,18 @@ fn few_pigments_and_few_bands_suffice() {
     let palette = vec!["Viridian".to_owned()];
     let one = Mapper::new(&oils, &nm, &MapSettings { palette, ..settings() }).unwrap();
     assert_eq!(one.search(&nm.map(at)).unwrap().share, [1.0]);
+}
+
+#[test]
+fn a_survey_ends_when_its_progress_breaks() {
+    let (mapper, spectra) = scan(20);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let called = AtomicUsize::new(0);
+    let third = || match called.fetch_add(1, Ordering::Relaxed) {
+        0 | 1 => ControlFlow::Continue(()),
+        _ => ControlFlow::Break(()),
+    };
+    let error = pool.install(|| mapper.survey(&spectra, &third).unwrap_err());
+    assert!(matches!(error, MapError::Cancelled(_)) && error.hint().is_some(), "{error:?}");
+    assert_eq!(called.into_inner(), 3, "pixels were searched after the break");
 }

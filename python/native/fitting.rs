@@ -5,9 +5,8 @@ use std::sync::Arc;
 use calibrate::fit::{Method, Smoothness, Watch};
 use calibrate::library::AmountKind;
 use calibrate::observation::BelowSurface;
-use calibrate::{FitOptions, FitValidation, PreparedFit, ValidationOptions, shares_of_squares};
+use calibrate::{FitOptions, FitValidation, PreparedFit, ValidationOptions};
 use pyo3::prelude::*;
-use serde_json::{Value, json};
 use spectra::hint::Fault;
 use spectra::optics::{Specular, Surface};
 
@@ -46,16 +45,7 @@ impl Fit {
 
     /// Errors of the fit as JSON, with the keys of `impasto fit --json`.
     fn errors(&self) -> String {
-        let evidence = self.fit.evidence();
-        let shares = shares_of_squares(&evidence.per_sample);
-        let entry = |(sample, share): (&str, f64)| json!({ "sample": sample, "share": share });
-        json!({
-            "samples": evidence.per_sample.len(), "pigments": self.fit.library.pigments.len(),
-            "rms": evidence.rms, "delta_e": evidence.delta_e, "per_sample": evidence.per_sample,
-            "shares_of_squares": shares.into_iter().map(entry).collect::<Vec<Value>>(),
-            "warnings": evidence.warnings,
-        })
-        .to_string()
+        serde_json::Value::Object(self.fit.errors_json()).to_string()
     }
 
     /// The report that `impasto fit` prints.
@@ -177,9 +167,10 @@ pub(crate) fn fit(
     let options = options.options(py)?;
     let readings = readings.0.clone();
     let done = run(py, progress, move |reporter| {
-        let prepared = PreparedFit::new(&readings, &options, &|| reporter.tell("film model"))?;
         let told = |stage| reporter.tell(stage);
-        let mut fit = prepared.fit_watched(Watch::new(&told))?;
+        let watch = Watch::new(&told).until(reporter.cancellation());
+        let prepared = PreparedFit::new(&readings, &options, watch)?;
+        let mut fit = prepared.fit_watched(watch)?;
         fit.remarks.splice(0..0, prepared.remarks);
         Ok::<_, calibrate::FittingError>(fit)
     })?;
@@ -199,9 +190,9 @@ pub(crate) fn validate(
     let options = ValidationOptions { fit: options.options(py)?, folds, with };
     let readings = readings.0.clone();
     let done = run(py, progress, move |reporter| {
-        let prepared = PreparedFit::new(&readings, &options.fit, &|| reporter.tell("film model"))?;
-        let fit = prepared.fit()?;
-        prepared.validate_fit(fit, &options, &|| reporter.tell("mixture"))
+        let told = |stage| reporter.tell(stage);
+        let watch = Watch::new(&told).until(reporter.cancellation());
+        PreparedFit::new(&readings, &options.fit, watch)?.validate(&options, watch)
     })?;
     done.map(Validation).raised(py, Exception::Fit)
 }

@@ -5,14 +5,12 @@ use std::sync::Arc;
 use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    AmountLimit, ColorTarget, MatchOptions, Metric, PriceList, RecipeMatch, RecipeMatches,
-    RecipeSearch, RequiredName, SpectrumWeights, Thickness, ViewingCondition,
+    ColorTarget, MatchOptions, Metric, PriceList, 
+    RequiredName, SearchControl, SpectrumWeights, Thickness, ViewingCondition,
 };
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-use serde_json::{Map, Value, json};
 use spectra::Observer;
-use spectra::color::{ColorValues, Lab, Rgb, RgbSpace};
 use spectra::hint::Fault;
 
 use crate::arrays::{GridNumbers, reflectance};
@@ -142,89 +140,12 @@ pub(crate) fn recipes_for(
         let search = library.recipe_search(&options)?;
         let mut found = Vec::new();
         for target in &targets {
-            if reporter.given_up() {
-                break;
-            }
-            let matched = search.recipes_for(target)?;
+            let control = SearchControl::until(reporter.cancellation().clone());
+            let Some(matched) = search.recipes_with_control(target, &control)? else { break };
             reporter.tell(&matched.target.name);
-            found.push((json(&library, &search, &matched).to_string(), remarks(&matched.remarks)));
+            found.push((search.to_json(&matched, None).to_string(), remarks(&matched.remarks)));
         }
         Ok::<_, calibrate::matching::MatchError>(found)
     })?;
     found.raised(py, Exception::Recipe)
-}
-
-fn json(library: &PigmentLibrary, search: &RecipeSearch<'_>, matched: &RecipeMatches) -> Value {
-    let conditions = &search.request.conditions;
-    let lights: Vec<&str> = conditions.iter().map(|c| c.viewing.illuminant.name()).collect();
-    let target = &matched.target;
-    let recipes = |recipes: &[RecipeMatch]| -> Vec<Value> {
-        recipes.iter().map(|recipe| recipe_json(library, &lights, recipe)).collect()
-    };
-    json!({
-        "target": target.name,
-        "lab": by_light(&lights, target.lab.iter().map(|lab| json!(lab.to_array()))),
-        "hex": display(target.lab[0]).to_hex(),
-        "in_gamut": display(target.lab[0]).in_gamut(),
-        "nearest": matched.nearest(),
-        "beyond_measured": matched.beyond_measured(),
-        "by": search.request.metric.name(),
-        "unit": search.request.metric.unit(),
-        "band_nm": target.spectrum.as_ref().map(|spectrum| spectrum.band_nm()),
-        "tolerance": search.request.tolerance,
-        "tolerance_origin": search.tolerance_origin.name(),
-        "recipes": recipes(&matched.recipes),
-        "by_cie1976": recipes(&matched.by_cie1976),
-    })
-}
-
-fn recipe_json(library: &PigmentLibrary, lights: &[&str], recipe: &RecipeMatch) -> Value {
-    let pigments = recipe.shares.iter().enumerate().map(|(place, (id, share))| {
-        let mut entry = json!({ "name": library[*id].name, "share": share });
-        if let Some(parts) = &recipe.parts {
-            entry["parts"] = json!(parts[place]);
-        }
-        if library[*id].guessed {
-            entry["guessed"] = json!(true);
-        }
-        if let Some((_, limit)) = recipe.at_limit.iter().find(|(limited, _)| limited == id) {
-            entry["at_limit"] = match limit {
-                AmountLimit::Least => json!("least measured"),
-                AmountLimit::Greatest => json!("greatest measured"),
-            };
-        }
-        entry
-    });
-    let color = display(recipe.lab[0]);
-    let metamerism = lights
-        .iter()
-        .skip(1)
-        .zip(&recipe.metamerism)
-        .map(|(light, index)| json!({ "from": lights[0], "to": light, "index": index }));
-    json!({
-        "pigments": pigments.collect::<Vec<Value>>(),
-        "distance": recipe.distance,
-        "delta_e": by_light(lights, recipe.delta_e.iter().map(|d| json!(d))),
-        "lab": by_light(lights, recipe.lab.iter().map(|lab| json!(lab.to_array()))),
-        "hex": color.to_hex(),
-        "in_gamut": color.in_gamut(),
-        "reflectance": recipe.reflectance,
-        "rms_percent": recipe.rms_percent,
-        "metamerism": metamerism.collect::<Vec<Value>>(),
-        "thickness": recipe.thickness,
-        "cost": recipe.cost,
-    })
-}
-
-/// Encoded sRGB of `lab`, seen adapted to its light.
-fn display(lab: Lab) -> Rgb {
-    // Lab is relative to its white, so any white serves for the round trip.
-    let white = RgbSpace::Srgb.white();
-    ColorValues::from_xyz(lab.to_xyz(white), white).srgb
-}
-
-/// One value for each light, by its name.
-fn by_light(lights: &[&str], values: impl Iterator<Item = Value>) -> Value {
-    let names = lights.iter().map(|name| (*name).to_owned());
-    Value::Object(names.zip(values).collect::<Map<_, _>>())
 }

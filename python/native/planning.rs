@@ -1,10 +1,9 @@
 //! Plans of swatches.
 
 use calibrate::fit::ExpectedNoise;
-use calibrate::plan::{Forecast, MeasurementForm, Plan, PlanOptions, RelativeDeviation};
-use calibrate::{PigmentId, PigmentLibrary, Recipe};
+use calibrate::plan::{MeasurementForm, PlanOptions, plan_until};
+use calibrate::PigmentLibrary;
 use pyo3::prelude::*;
-use serde_json::{Map, Value, json};
 
 use crate::arrays::{GridNumbers, grid};
 use crate::failure::{Exception, Raised};
@@ -26,7 +25,7 @@ pub(crate) struct Options<'py> {
     replicates: usize,
 }
 
-/// Plans swatches. Returns JSON (swatches, totals_g, prior), the measurement form as bytes, and remarks.
+/// Plans swatches. Returns JSON with the keys of `impasto plan --json`, the measurement form as bytes, and remarks.
 #[pyfunction]
 pub(crate) fn plan(
     py: Python<'_>,
@@ -45,46 +44,9 @@ pub(crate) fn plan(
         balance: options.balance,
         noise,
     };
-    let planned = run(py, None, move |_| calibrate::plan(&pigments, &white, &chosen))?;
+    let planned = run(py, None, move |reporter| {
+        plan_until(&pigments, &white, &chosen, reporter.cancellation())
+    })?;
     let planned = planned.raised(py, Exception::Fit)?;
-    Ok((json(&planned).to_string(), planned.form(&form), remarks(&planned.remarks)))
-}
-
-fn json(plan: &Plan) -> Value {
-    let name = |paint: PigmentId| plan.paints.name(paint).to_owned();
-    let swatches = plan.swatches.iter().map(|swatch| {
-        let parts = swatch.recipe.parts.iter().map(|&(id, parts)| (name(id), json!(parts)));
-        let grams = |recipe: &Recipe| -> Map<String, Value> {
-            recipe.iter().map(|&(id, grams)| (name(id), json!(grams))).collect()
-        };
-        json!({
-            "sample": swatch.name, "purpose": swatch.recipe.purpose.word(),
-            "parts": parts.collect::<Map<_, _>>(), "grams": grams(&swatch.grams),
-            "why": swatch.recipe.purpose.why(),
-        })
-    });
-    let swatches: Vec<Value> = swatches.collect();
-    // Removes the floating-point error of a sum of balance steps.
-    let rounded = |total: f64| json!((1e6 * total).round() / 1e6);
-    let totals = plan.paints.ids().zip(plan.totals_g());
-    let totals: Map<_, _> = totals.map(|(id, total)| (name(id), rounded(total))).collect();
-    json!({
-        "swatches": swatches,
-        "totals_g": totals,
-        "prior": plan.forecast.as_ref().map(|forecast| forecast_json(plan, forecast)),
-    })
-}
-
-fn forecast_json(plan: &Plan, forecast: &Forecast) -> Value {
-    let by_paint = |deviations: &[RelativeDeviation]| -> Map<String, Value> {
-        let pairs = plan.paints.ids().zip(deviations);
-        let pair = |d: &RelativeDeviation| json!({ "absorption": d.absorption, "scattering": d.scattering });
-        pairs.map(|(id, d)| (plan.paints.name(id).to_owned(), pair(d))).collect()
-    };
-    json!({
-        "usual_efficiency": forecast.usual_efficiency,
-        "relative_sd": by_paint(&forecast.deviations),
-        "usual_relative_sd": by_paint(&forecast.usual_deviations),
-        "noise": [forecast.noise.constant, forecast.noise.even],
-    })
+    Ok((planned.to_json().to_string(), planned.form(&form), remarks(&planned.remarks)))
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use calibrate::quadrature::{EffectiveQuadrature, FilmSet, MixtureSet, Quadrature};
 use pyo3::prelude::*;
-use serde_json::{Value, json};
+use serde_json::Value;
 use spectra::hint::Fault;
 
 use crate::failure::Exception;
@@ -40,43 +40,32 @@ pub(crate) fn quadrature(
         let hint = "methods are gauss, moments, library and effective; the last two take a library";
         return Err(Exception::Other.with(py, Fault::Setting, &message, Some(hint)));
     }
-    let done = run(py, None, move |_| {
+    let done = run(py, None, move |reporter| {
         let Some(library) = library else {
             let rule = match method.as_str() {
                 "gauss" => Quadrature::gauss(&viewing, nodes)?,
                 _ => Quadrature::moments(&viewing, nodes)?,
             };
-            return Ok(
-                json!({ "nodes_nm": rule.nodes_nm, "weights": rule.weights, "error": null }),
-            );
+            return Ok(rule.to_json(None));
         };
         let library = Arc::clone(&library);
         let weights = viewing.weights(library.grid)?;
         if method == "effective" {
-            let found = EffectiveQuadrature::of(&viewing, &library, nodes)?;
-            let hiding = FilmSet::hiding(&library, &weights, mixtures, seed);
-            let over = FilmSet::over_grounds(&library, &weights, mixtures, seed);
-            let curves = found.absorption.iter().zip(&found.scattering);
-            let pigments = library
-                .pigments
-                .iter()
-                .zip(curves)
-                .map(|(p, (k, s))| json!({ "name": p.name, "absorption": k, "scattering": s }));
-            return Ok(json!({
-                "nodes_nm": found.rule.nodes_nm, "weights": found.rule.weights,
-                "error": found.error(&library, &hiding),
-                "error_over_grounds": found.error(&library, &over),
-                "pigments": pigments.collect::<Vec<Value>>(),
-            }));
+            let found =
+                EffectiveQuadrature::of_until(&viewing, &library, nodes, reporter.cancellation())?;
+            let error = |films: FilmSet| (mixtures > 0).then(|| found.error(&library, &films));
+            let hiding = error(FilmSet::hiding(&library, &weights, mixtures, seed));
+            let over = error(FilmSet::over_grounds(&library, &weights, mixtures, seed));
+            return Ok(found.to_json(&library, [hiding, over]));
         }
         let rule = match method.as_str() {
             "gauss" => Quadrature::gauss(&viewing, nodes)?,
             "moments" => Quadrature::moments(&viewing, nodes)?,
             _ => Quadrature::library(&viewing, &library, nodes)?,
         };
-        let mixtures = MixtureSet::random(&library, &weights, mixtures, seed);
-        let error = rule.error(&mixtures);
-        Ok(json!({ "nodes_nm": rule.nodes_nm, "weights": rule.weights, "error": error }))
+        let error =
+            || rule.error(&MixtureSet::random(&library, &weights, mixtures, seed));
+        Ok(rule.to_json((mixtures > 0).then(error)))
     })?;
     let done: Result<Value, QuadratureOrGrid> = done;
     done.map(|value| value.to_string()).map_err(|error| match error {

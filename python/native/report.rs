@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use calibrate::comparison::Comparable;
+use calibrate::fit::Watch;
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
 use pyo3::prelude::*;
@@ -53,11 +54,15 @@ pub(crate) fn report(
             subject.cards = comparable.set.cards(&subject.weights);
             subject.comparison = Some(comparison);
             if validate {
-                let left_out = comparable.left_out(&library, &viewing, &step).map_err(boxed)?;
+                let told = |stage| reporter.tell(stage);
+                let watch = Watch::new(&told).until(reporter.cancellation());
+                let left_out = comparable.left_out(&library, &viewing, watch).map_err(boxed)?;
                 subject.validation = left_out;
             }
         }
+        reporter.cancellation().check().map_err(boxed)?;
         subject.quadratures = QuadratureTrial::all(&viewing, &library, &COUNTS).map_err(boxed)?;
+        reporter.cancellation().check().map_err(boxed)?;
         subject.pair = pair;
         subject.cards = match subject.comparison {
             Some(_) => subject.cards,

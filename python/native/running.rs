@@ -1,21 +1,25 @@
 //! Long work beside Python: other threads of Python go on, Ctrl-C is obeyed, progress is told.
 
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use spectra::Cancellation;
 
 /// Time between two looks for signals.
 const LOOK: Duration = Duration::from_millis(50);
 
+/// Name of the thread of the work.
+const THREAD: &str = "impasto-work";
+
 /// How work tells its stages, and learns that nobody waits for it any more.
 pub(crate) struct Reporter {
     told: Mutex<Sender<String>>,
-    given_up: Arc<AtomicBool>,
+    cancellation: Cancellation,
 }
 
 impl Reporter {
@@ -27,36 +31,47 @@ impl Reporter {
         }
     }
 
-    /// Whether the caller was interrupted.
-    pub(crate) fn given_up(&self) -> bool {
-        self.given_up.load(Ordering::Relaxed)
+    /// Set once the caller was interrupted.
+    pub(crate) fn cancellation(&self) -> &Cancellation {
+        &self.cancellation
+    }
+
+    /// Whether work goes on: not once the caller was interrupted.
+    pub(crate) fn flow(&self) -> ControlFlow<()> {
+        if self.cancellation.is_cancelled() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     }
 }
 
 /// Does `work` on a thread of its own. Meanwhile `progress` is called with each stage as text, and
-/// signals are looked for: after Ctrl-C the call returns at once, and the work ends when it next asks
-/// [`Reporter::given_up`], or by itself.
+/// signals are looked for. After Ctrl-C, or an exception of `progress`, the work is asked to end, and the
+/// call raises once its thread has ended.
 pub(crate) fn run<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&Reporter) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let given_up = Arc::new(AtomicBool::new(false));
+    let cancellation = Cancellation::default();
     let (told, stages) = channel();
     let (done, result) = channel();
-    let reporter = Reporter { told: Mutex::new(told), given_up: given_up.clone() };
-    let worker = std::thread::spawn(move || {
+    let reporter = Reporter { told: Mutex::new(told), cancellation: cancellation.clone() };
+    let thread = std::thread::Builder::new().name(THREAD.to_owned());
+    let worker = thread.spawn(move || {
         let result = catch_unwind(AssertUnwindSafe(|| work(&reporter)));
         // Nobody listens once the caller has given up.
         let _ = done.send(result);
-    });
+    })?;
     let waited = wait(py, progress, &stages, result);
     if waited.is_err() {
-        given_up.store(true, Ordering::Relaxed);
+        cancellation.cancel();
     }
-    let result = waited?;
-    drop(worker);
-    result.map_err(|_| PyRuntimeError::new_err("a defect of impasto: please report it"))
+    // A thread that still computes while the program ends or goes on would take its processors and files.
+    let ended = py.detach(|| worker.join());
+    ended.map_err(|_| PyRuntimeError::new_err("the thread of the work was lost"))?;
+    waited?.map_err(|_| PyRuntimeError::new_err("a defect of impasto: please report it"))
 }
 
 fn wait<T: Send>(

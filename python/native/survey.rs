@@ -1,12 +1,10 @@
 //! Surveys of scans, and their maps.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use maps::{Book, MapSettings, ModelError, PigmentGroup, Region, StoreMode, SurveyedScan};
 use pyo3::prelude::*;
-use serde_json::{Map, Value, json};
 
 use crate::cube::Cube;
 use crate::failure::{Exception, Raised};
@@ -71,9 +69,10 @@ impl Survey {
         let library = library.0.clone();
         let surveyed = run(py, progress, move |reporter| match book {
             Some(book) => SurveyedScan::with_book(cube, &library, &settings, region, book),
-            None => {
-                SurveyedScan::survey(cube, &library, &settings, region, &|| reporter.tell("pixel"))
-            }
+            None => SurveyedScan::survey(cube, &library, &settings, region, &|| {
+                reporter.tell("pixel");
+                reporter.flow()
+            }),
         })?;
         surveyed.map(|scan| Self(Arc::new(scan))).raised(py, Exception::Fit)
     }
@@ -85,26 +84,7 @@ impl Survey {
 
     /// Palette, groups, hashes and settings as JSON, with the keys of `impasto map --json`.
     fn about(&self) -> String {
-        let scan = &self.0;
-        let palette = scan
-            .palette()
-            .into_iter()
-            .map(|found| json!({ "pigment": found.column.name, "survey_part": found.part }));
-        let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
-        let groups = grouped.map(|column| (column.name.clone(), json!(column.pigments)));
-        let about = scan.about();
-        json!({
-            "library_sha256": about.library_sha256,
-            "survey_sha256": about.book_sha256,
-            "scan": about.scan,
-            "settings": about.settings,
-            "pigments": about.pigments,
-            "effective_bands": scan.mapper().effective_bands(),
-            "usual_chi2": scan.book().usual_chi2,
-            "groups": groups.collect::<Map<String, Value>>(),
-            "palette": palette.collect::<Vec<Value>>(),
-        })
-        .to_string()
+        self.0.to_json(None, &[]).to_string()
     }
 
     /// Begins or resumes the maps at `path`, and returns for each shard whether it is finished.
@@ -127,7 +107,7 @@ impl Survey {
         let mapped = run(py, progress, move |reporter| {
             scan.map(&store, |state| {
                 reporter.tell(format!("{} of {} pixels", state.done, state.all));
-                if reporter.given_up() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                reporter.flow()
             })
         })?;
         mapped.raised(py, Exception::Other).map(drop)
@@ -138,11 +118,8 @@ impl Survey {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
-        let mapped = run(py, None, move |reporter| {
-            scan.map_shard(&store, place, |_| {
-                if reporter.given_up() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            })
-        })?;
+        let mapped =
+            run(py, None, move |reporter| scan.map_shard(&store, place, |_| reporter.flow()))?;
         Ok(mapped.raised(py, Exception::Other)?.map_or(0, |counts| counts.all()))
     }
 }

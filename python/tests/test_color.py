@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -99,7 +100,7 @@ def _array(random: np.random.Generator) -> Any:
 
 
 def test_any_array_gives_a_result_or_an_error(oils: im.Library) -> None:
-    calls = [
+    calls: list[Callable[[Any], object]] = [
         lambda a: im.color.xyz(a, wavelengths=NM),
         lambda a: im.color.srgb(a, wavelengths=NM),
         lambda a: im.color.display(a, wavelengths=NM),

@@ -70,8 +70,10 @@ def test_recipes_are_those_of_the_program(oils: im.Library) -> None:
     assert set(best.delta_e) == {"D65", "A"} and abs(sum(best.shares.values()) - 1) < 1e-9
     assert np.allclose(oils.mix(best.shares).values, best.reflectance.values, atol=1e-12)
     measured = oils.match(oils.mix({"Viridian": 1, "Zinc White": 3}), by="spectrum")
+    assert isinstance(measured, im.Match)
     assert measured[0].distance < 0.2 and set(measured[0].shares) == {"Viridian", "Zinc White"}
     several = oils.match(oils.mix(np.eye(len(oils))[:3]), count=1)
+    assert isinstance(several, list)
     assert [m[0].distance < 0.1 for m in several] == [True] * 3
 
 

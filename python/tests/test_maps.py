@@ -68,6 +68,11 @@ def digest(folder: Path) -> str:
     return whole.hexdigest()
 
 
+def finished_shards(maps: Path) -> int:
+    """Shards of maps on the disk that have a mask, which is written last."""
+    return len([file for file in (maps / "mask" / "c").rglob("*") if file.is_file()])
+
+
 def test_a_scan_is_read_as_it_was_written(scan: tuple[Path, np.ndarray], oils: im.Library) -> None:
     cube = im.Cube.open(scan[0])
     assert cube.shape == (32, 96, 31) and np.array_equal(cube.wavelengths, oils.wavelengths)
@@ -97,7 +102,7 @@ def test_pigments_are_found_with_their_shares(
     assert set(list(survey.palette)[:5]) == set(PIGMENTS), survey.palette
     maps = im.pigment_map(cube, oils, tmp_path / "maps.zarr", survey=survey)
     data = maps.to_xarray()
-    assert data.attrs["library_sha256"] and dict(data.sizes)["pigment"] == len(survey.about["pigments"])
+    assert data.attrs["library_sha256"] and dict(data.sizes)["pigment"] == len(survey.palette)
     truth = scan[1]
     for name in PIGMENTS[1:]:
         share = data.share.sel(pigment=name).values
@@ -138,7 +143,7 @@ def test_killed_workers_and_clients_leave_the_maps_of_one_machine(
     wide: Path, oils: im.Library, tmp_path: Path
 ) -> None:
     distributed = pytest.importorskip("distributed")
-    import dask
+    import dask.config
 
     cube = im.Cube.open(wide)
     survey = im.survey(cube, oils)
@@ -168,6 +173,35 @@ def test_killed_workers_and_clients_leave_the_maps_of_one_machine(
     assert digest(tmp_path / "many.zarr") == expected
 
 
+def test_a_killed_client_is_followed_by_another(
+    wide: Path, oils: im.Library, tmp_path: Path
+) -> None:
+    distributed = pytest.importorskip("distributed")
+    cube, out = im.Cube.open(wide), tmp_path / "maps.zarr"
+    survey = im.survey(cube, oils)
+    im.pigment_map(cube, oils, tmp_path / "one.zarr", survey=survey)
+    program = (
+        "import impasto as im, sys; from distributed import Client;"
+        "cube = im.Cube.open(sys.argv[1]); oils = im.Library.from_json(open(sys.argv[4]).read());"
+        "im.pigment_map(cube, oils, sys.argv[2], client=Client(sys.argv[3]))"
+    )
+    oils.save(tmp_path / "oils.json")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as cluster:
+        words = [str(wide), str(out), cluster.scheduler_address, str(tmp_path / "oils.json")]
+        run = subprocess.Popen([sys.executable, "-c", program, *words])
+        while run.poll() is None and finished_shards(out) < 2:
+            time.sleep(0.005)
+        run.kill()
+        assert run.wait() == -signal.SIGKILL, "it was killed before its end"
+        assert finished_shards(out) < 8, "the killed client left no work"
+        with distributed.Client(cluster) as client:
+            im.pigment_map(cube, oils, out, survey=survey, resume=True, client=client)
+    assert digest(out) == digest(tmp_path / "one.zarr")
+    assert not list(tmp_path.glob("*.survey.json*")), "the file of the survey is removed"
+
+
 def test_a_killed_run_is_resumed(wide: Path, oils: im.Library, tmp_path: Path) -> None:
     cube, out = im.Cube.open(wide), tmp_path / "maps.zarr"
     survey = im.survey(cube, oils)
@@ -177,8 +211,7 @@ def test_a_killed_run_is_resumed(wide: Path, oils: im.Library, tmp_path: Path) -
         "oils = im.Library.van_gogh_oils(); im.pigment_map(cube, oils, sys.argv[2])"
     )
     run = subprocess.Popen([sys.executable, "-c", program, str(wide), str(out)])
-    masks = out / "mask" / "c"
-    while run.poll() is None and len([f for f in masks.rglob("*") if f.is_file()]) < 2:
+    while run.poll() is None and finished_shards(out) < 2:
         time.sleep(0.005)
     run.kill()
     assert run.wait() == -signal.SIGKILL, "it was killed before its end"

@@ -38,6 +38,8 @@
 
 pub mod hint;
 
+mod cancellation;
+
 mod name_list;
 
 mod counted;
@@ -95,6 +97,7 @@ pub mod swatch_file;
 pub mod optics;
 
 pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};
+pub use cancellation::{Cancellation, Cancelled};
 pub use color_rendering::{ColorFidelity, ColorRendering, ColorRenderingError, RenderingIndex};
 pub use color_temperature::ColorTemperature;
 pub use counted::{counted, counted_as};

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use spectra::Cancellation;
 
 /// First damping: Nielsen's choice for a start near the minimum.
 const FIRST_DAMPING: f64 = 1e-3;
@@ -173,11 +174,13 @@ fn even_parts(work: &[usize], count: usize) -> Vec<Range<usize>> {
 
 /// Stopping rule of [`minimise`].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stop {
+pub(crate) struct Stop<'a> {
     /// Largest number of steps.
     pub(crate) iterations: usize,
     /// Stops when a step lowers the cost by less than this fraction of it.
     pub(crate) relative_decrease: f64,
+    /// Stops once this asks for it.
+    pub(crate) cancellation: Option<&'a Cancellation>,
 }
 
 /// Point of least cost that was found, with that cost.
@@ -192,7 +195,7 @@ pub(crate) struct Minimum {
 pub(crate) fn minimise(
     start: DVector<f64>,
     (lower, upper): (&DVector<f64>, &DVector<f64>),
-    stop: Stop,
+    stop: Stop<'_>,
     mut build: impl FnMut(&DVector<f64>) -> NormalEquations,
     mut cost: impl FnMut(&DVector<f64>) -> f64,
 ) -> Minimum {
@@ -202,6 +205,9 @@ pub(crate) fn minimise(
     let mut damping = FIRST_DAMPING;
     let mut growth = 2.0;
     for _ in 0..stop.iterations {
+        if stop.cancellation.is_some_and(Cancellation::is_cancelled) {
+            break;
+        }
         let held: Vec<bool> = (0..point.len())
             .map(|i| {
                 (point[i] <= lower[i] && equations.gradient[i] > 0.0)
@@ -290,7 +296,7 @@ mod tests {
         minimise(
             DVector::from_vec(vec![-1.2, 0.4]),
             (&bounds.0, &bounds.1),
-            Stop { iterations: 500, relative_decrease: 1e-15 },
+            Stop { iterations: 500, relative_decrease: 1e-15, cancellation: None },
             |p| {
                 let [r1, r2] = residuals(p);
                 let mut equations = NormalEquations::zeros(2);

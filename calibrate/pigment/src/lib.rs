@@ -57,6 +57,8 @@ pub mod quadrature;
 
 pub mod palette;
 
+mod illuminant_change;
+
 pub mod matching;
 
 pub use appearance::Appearance;
@@ -64,6 +66,7 @@ pub use backing::{Backing, BackingError};
 pub use color::{ColorError, FilmOver, MixtureColor};
 pub use curves::Curves;
 pub use evaluate::Viewing;
+pub use illuminant_change::IlluminantChange;
 pub use library::{LibraryError, Pigment, PigmentLibrary, RecipeError};
 pub use matching::{
     ColorTarget, MatchError, MatchOptions, PriceList, RecipeMatch, RecipeMatches, ViewingCondition,

@@ -186,7 +186,7 @@ impl Problem<'_> {
             equations
         };
         let bound = DVector::from_element(start.len(), 6.0);
-        let stop = Stop { iterations: 500, relative_decrease: 1e-9 };
+        let stop = Stop { iterations: 500, relative_decrease: 1e-9, cancellation: None };
         minimise(start, (&-&bound, &bound), stop, build, cost).point
     }
 }

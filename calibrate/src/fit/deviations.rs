@@ -57,7 +57,7 @@ pub(super) fn standard_deviations<F: Forward>(
 }
 
 /// Sum over samples of the squared steps that their own gradients alone would make, by unknown. Samples
-/// are added in their order, on any number of threads.
+/// are added in their order, on any number of threads. Incomplete if the watch ends the fit.
 fn spread_of_gradients<F: Forward>(
     objective: &Objective<'_, F>,
     unknowns: &[f64],
@@ -69,6 +69,9 @@ fn spread_of_gradients<F: Forward>(
     let samples: Vec<usize> = (0..objective.data.recipes.len()).collect();
     let mut spread = vec![0.0; layout.len()];
     for several in samples.chunks(TOGETHER * rayon::current_num_threads()) {
+        if watch.is_cancelled() {
+            break;
+        }
         watch.tell(FitStage::Deviations { done: several[0], of: samples.len() });
         let steps = several.par_chunks(TOGETHER).map(|group| {
             let mut right = vec![[0.0; TOGETHER]; layout.len()];

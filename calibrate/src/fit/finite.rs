@@ -77,7 +77,7 @@ impl FiniteProblem {
 /// minimised, see [`super::fit_refined`].
 ///
 /// # Errors
-/// [`FitError::Empty`] without films.
+/// [`FitError::Empty`] without films, [`FitError::Cancelled`] if `how.watch` ends it.
 pub fn fit_finite(
     problem: &FiniteProblem,
     film: UnevenFilm,
@@ -105,13 +105,14 @@ pub fn fit_finite(
     let start = Start { film, recipes: &recipes, target: &reflectance, backing: &backing };
     let curves: Vec<(Vec<f64>, f64)> =
         (0..problem.pigments).map(|pigment| start.of(pigment, layout.wavelengths)).collect();
+    how.watch.check()?;
     let start = CurveTable {
         absorption: curves.iter().map(|(k, _)| k.clone()).collect(),
         scattering: curves.iter().map(|(_, s)| vec![*s; layout.wavelengths]).collect(),
     };
     let forward = Finite { film, backing: &backing };
     let data = Data::new(layout, forward, &recipes, &reflectance, problem.reading_sd);
-    let mut refined = refine(&data, &start, weights, problem.grid, how);
+    let mut refined = refine(&data, &start, weights, problem.grid, how)?;
     for curves in refined.curves.iter_mut().chain(refined.deviations.iter_mut().flatten()) {
         let values = curves.absorption.iter_mut().chain(&mut curves.scattering);
         values.for_each(|value| *value /= unit);

@@ -53,6 +53,8 @@ pub use pigment::fit_settings::{FitSettings, Method, Smoothness};
 pub(crate) use problem::root_mean_square;
 pub use problem::{FitError, Problem};
 pub use program::fit_qp;
+pub(crate) use program::fit_qp_watched;
 pub use refined::{Refined, RefinedState, Refinement, fit_refined};
 pub use stage::{FitStage, Watch};
 pub use weighted::fit_weighted;
+pub(crate) use weighted::fit_weighted_watched;

@@ -6,6 +6,7 @@ use super::banded::{Banded, BandedCholesky, ColumnsMut, Spare};
 use super::color_term::{ColorResidual, ColorTerm};
 use super::curves::{LOWER, UPPER};
 use super::forward::{Data, Forward, Linear};
+use super::stage::Watch;
 
 /// Strength of the pull of every unknown towards its start, in 1 / (log unit)^2: a standard deviation of 10.
 /// It only keeps unknowns that no sample determines from diverging.
@@ -48,6 +49,8 @@ pub(super) struct Objective<'a, F> {
     pub(super) scattering_ridge: f64,
     pub(super) color: Option<ColorPart<'a>>,
     pub(super) spare: Spare,
+    /// Ends a descent before its time.
+    pub(super) watch: Watch<'a>,
 }
 
 /// Colour term of the cost.
@@ -183,11 +186,14 @@ impl<F: Forward> Objective<'_, F> {
     }
 
     /// Moves `unknowns` downhill until one step lowers the cost by less than the fraction `relative`, or
-    /// for `iterations` steps.
+    /// for `iterations` steps, or until the watch ends the fit.
     pub(super) fn descend(&self, unknowns: &mut Vec<f64>, iterations: usize, relative: f64) {
         let mut damping: f64 = FIRST_DAMPING;
         let mut local = self.local(unknowns);
         for _ in 0..iterations {
+            if self.watch.is_cancelled() {
+                break;
+            }
             let Some((trial, cost)) = self.improved(unknowns, &local, &mut damping) else { break };
             let decrease = local.cost - cost;
             *unknowns = trial;

@@ -1,8 +1,8 @@
 //! Data of a fit as arrays.
 
-use spectra::Grid;
-use spectra::hint::{Explain, Hint};
+use spectra::hint::{Explain, Fault, Hint};
 use spectra::optics::Surface;
+use spectra::{Cancelled, Grid};
 
 use super::curves::CurveTable;
 use crate::observation::Observation;
@@ -126,6 +126,9 @@ pub enum FitError {
         /// Status of the solver.
         status: String,
     },
+    /// The fit was asked to end before its time.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl Explain for FitError {
@@ -135,6 +138,14 @@ impl Explain for FitError {
                 "measure the white by itself and mixtures with it, or name another white with [reference]",
             )),
             Self::Shape { .. } | Self::Solver { .. } => None,
+            Self::Cancelled(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Cancelled(error) => error.fault(),
+            _ => Fault::Input,
         }
     }
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::curves::CurveTable;
 use super::problem::{FitError, Problem};
+use super::stage::Watch;
 use pigment::Curves;
 
 /// Unknowns from which the minimum without bounds is tried first: fewer take the solver no time.
@@ -24,19 +25,26 @@ const LEAST_PIVOT: f64 = 1e-4;
 /// # Errors
 /// [`FitError::Solver`] if the solver does not reach its tolerance.
 pub fn fit_qp(problem: &Problem) -> Result<Vec<Curves>, FitError> {
+    fit_qp_watched(problem, Watch::default())
+}
+
+/// Fits like [`fit_qp`], until `watch` ends it.
+pub(crate) fn fit_qp_watched(problem: &Problem, watch: Watch<'_>) -> Result<Vec<Curves>, FitError> {
     let rows = vec![1.0; problem.recipes.len()];
-    Ok(solve_all(problem, |_| rows.clone())?.into_curves(problem.grid))
+    Ok(solve_all(problem, watch, |_| rows.clone())?.into_curves(problem.grid))
 }
 
 /// Solves the program at every wavelength, on all cores, with row weights from `weights`.
 pub(super) fn solve_all(
     problem: &Problem,
+    watch: Watch<'_>,
     weights: impl Fn(usize) -> Vec<f64> + Sync,
 ) -> Result<CurveTable, FitError> {
     let count = problem.grid.count();
     let solved: Vec<Vec<f64>> = (0..count)
         .into_par_iter()
         .map(|at| {
+            watch.check()?;
             let program = Program::new(problem, at, &weights(at));
             let many = program.free.len() >= MANY;
             let free = many.then(|| program.solve_freely()).flatten();

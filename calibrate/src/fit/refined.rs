@@ -85,7 +85,7 @@ pub struct Refinement<'a> {
     pub state: Option<RefinedState>,
     /// Whether standard deviations are computed; predictions do without them.
     pub deviations: bool,
-    /// Function that is told the stages of the fit.
+    /// Who is told the stages of the fit, and may end it.
     pub watch: Watch<'a>,
 }
 
@@ -116,7 +116,8 @@ impl Refinement<'_> {
 /// `how.state` instead, if given.
 ///
 /// # Errors
-/// [`FitError`] from [`super::fit_weighted`], from which the refinement starts.
+/// [`FitError`] from [`super::fit_weighted`], from which the refinement starts, and
+/// [`FitError::Cancelled`] if `how.watch` ends it.
 pub fn fit_refined(
     problem: &Problem,
     weights: &TristimulusWeights,
@@ -126,17 +127,21 @@ pub fn fit_refined(
     let start = weighted(problem, how.watch)?.into_curves(problem.grid);
     let start = CurveTable::off_zero(&start, OFF_ZERO);
     let data = Data::hiding(problem);
-    Ok(refine(&data, &start, weights, problem.grid, how))
+    refine(&data, &start, weights, problem.grid, how)
 }
 
 /// Refines `start` under any optical model.
+///
+/// # Errors
+/// [`FitError::Cancelled`] if the watch ends the fit: the loops below then end early, and the last check
+/// refuses what they leave.
 pub(super) fn refine<F: Forward>(
     data: &Data<'_, F>,
     start: &CurveTable,
     weights: &TristimulusWeights,
     grid: Grid,
     how: Refinement<'_>,
-) -> Refined {
+) -> Result<Refined, FitError> {
     let smoothness = how.smoothness;
     let layout = data.layout;
     let term = ColorTerm::new(weights, data.target);
@@ -163,6 +168,7 @@ pub(super) fn refine<F: Forward>(
         scattering_ridge: if layout.reference.is_some() { RIDGE } else { SCATTERING_RIDGE },
         color: None,
         spare: Spare::default(),
+        watch: how.watch,
     };
     let watched =
         |estimate: usize| move |round: usize| how.watch.tell(FitStage::Spectra { estimate, round });
@@ -175,6 +181,7 @@ pub(super) fn refine<F: Forward>(
         1
     };
     for round in 0..rounds {
+        how.watch.check()?;
         state.noise_ratio = noise.likeliest_ratio(&data.values(&layout.curves(&unknowns)));
         settle(&mut objective, &noise, state.noise_ratio, &mut unknowns, watched(round + 2));
         if round + 1 == rounds {
@@ -188,6 +195,7 @@ pub(super) fn refine<F: Forward>(
         objective.smoothness = next;
     }
 
+    how.watch.check()?;
     how.watch.tell(FitStage::Colors);
     let differences: Vec<f64> = data
         .values(&layout.curves(&unknowns))
@@ -203,13 +211,15 @@ pub(super) fn refine<F: Forward>(
 
     let curves = layout.curves(&unknowns);
     let (mut deviations, mut scattering_known) = (None, Vec::new());
+    how.watch.check()?;
     if how.deviations {
         let table = standard_deviations(&objective, &unknowns, &curves, how.watch);
         deviations = Some(table.into_curves(grid));
         objective.smoothness = 0.0;
         scattering_known = share_of_scattering_known(&objective, &unknowns);
     }
-    Refined { curves: curves.into_curves(grid), deviations, scattering_known, state }
+    how.watch.check()?;
+    Ok(Refined { curves: curves.into_curves(grid), deviations, scattering_known, state })
 }
 
 /// Descends while the residuals' scale is set anew from their median in each round, until it settles.
@@ -229,7 +239,7 @@ fn settle<F: Forward>(
         let settled = round >= LEAST_SCALE_ROUNDS && (sd / before - 1.0).abs() < SETTLED_SCALE;
         before = sd;
         objective.descend(unknowns, SCALE_STEPS[usize::from(settled)], SCALE_DECREASE);
-        if settled {
+        if settled || objective.watch.is_cancelled() {
             break;
         }
     }

@@ -23,7 +23,15 @@ const LEAST_SCATTERING: f64 = 1e-3;
 /// # Errors
 /// [`FitError::Solver`] if the solver does not reach its tolerance.
 pub fn fit_weighted(problem: &Problem) -> Result<Vec<Curves>, FitError> {
-    Ok(weighted(problem, Watch::default())?.into_curves(problem.grid))
+    fit_weighted_watched(problem, Watch::default())
+}
+
+/// Fits like [`fit_weighted`], and tells `watch` the rounds.
+pub(crate) fn fit_weighted_watched(
+    problem: &Problem,
+    watch: Watch<'_>,
+) -> Result<Vec<Curves>, FitError> {
+    Ok(weighted(problem, watch)?.into_curves(problem.grid))
 }
 
 pub(super) fn weighted(problem: &Problem, watch: Watch<'_>) -> Result<CurveTable, FitError> {
@@ -37,8 +45,9 @@ pub(super) fn weighted(problem: &Problem, watch: Watch<'_>) -> Result<CurveTable
     let mut scattering = vec![vec![1.0f64; wavelengths]; problem.recipes.len()];
     let mut best: Option<(Vec<f64>, CurveTable)> = None;
     for round in 1..=ROUNDS {
+        watch.check()?;
         watch.tell(FitStage::Programs { round, of: ROUNDS });
-        let curves = solve_all(problem, |at| {
+        let curves = solve_all(problem, watch, |at| {
             let pairs = slopes.iter().zip(&scattering);
             pairs.map(|(slope, s)| slope[at] / f64::max(s[at], LEAST_SCATTERING)).collect()
         })?;

@@ -1,6 +1,7 @@
 //! Reasons why there is no plan.
 
 use pigment::RecipeError;
+use spectra::Cancelled;
 use spectra::hint::{Explain, Fault, Hint};
 
 /// A plan that cannot be made.
@@ -62,6 +63,9 @@ pub enum PlanError {
     /// A name does not denote one pigment of the prior library.
     #[error(transparent)]
     Prior(#[from] RecipeError),
+    /// The search was asked to end before its time.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl Explain for PlanError {
@@ -85,12 +89,14 @@ impl Explain for PlanError {
             Self::NotPositive { .. } => "give grams, such as [grams=10] [balance=0.01]".into(),
             Self::Unidentified { .. } => "give more [swatches]".into(),
             Self::Prior(error) => return error.hint(),
+            Self::Cancelled(error) => return error.hint(),
         }))
     }
 
     fn fault(&self) -> Fault {
         match self {
             Self::Unidentified { .. } | Self::Prior(_) => Fault::Input,
+            Self::Cancelled(error) => error.fault(),
             _ => Fault::Setting,
         }
     }

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
+use spectra::{Cancellation, Cancelled};
 
 use super::information::Information;
 
@@ -17,28 +18,43 @@ const LEAST_GAIN: f64 = 1e-9;
 /// Fedorov's exchange (1972): each recipe in turn is replaced by the one that adds most to log det of the
 /// information. There are two starts, `start` itself and a greedy design, of which the better result is
 /// returned, so it is never worse than `start`. Nothing is random.
-#[must_use]
-pub fn optimal(information: &Information, start: &[usize], kept: usize) -> Vec<usize> {
+///
+/// # Errors
+/// [`Cancelled`] once `cancellation` asks for it.
+pub fn optimal(
+    information: &Information,
+    start: &[usize],
+    kept: usize,
+    cancellation: &Cancellation,
+) -> Result<Vec<usize>, Cancelled> {
     let mut greedy = start[..kept].to_vec();
     let mut state = State::of(information, &greedy);
     while greedy.len() < start.len() {
+        cancellation.check()?;
         let (best, _) = state.best(&greedy).expect("the pool contains the start");
         state.change(best, 1.0);
         greedy.push(best);
     }
-    let mut results = [start.to_vec(), greedy].map(|design| exchanged(information, design, kept));
-    results.iter_mut().for_each(|design| design[kept..].sort_unstable());
-    let [first, second] = results;
+    let exchanged = |design| exchanged(information, design, kept, cancellation);
+    let (mut first, mut second) = (exchanged(start.to_vec())?, exchanged(greedy)?);
+    first[kept..].sort_unstable();
+    second[kept..].sort_unstable();
     let better = information.log_determinant(&second) > information.log_determinant(&first);
-    if better { second } else { first }
+    Ok(if better { second } else { first })
 }
 
-fn exchanged(information: &Information, mut design: Vec<usize>, kept: usize) -> Vec<usize> {
+fn exchanged(
+    information: &Information,
+    mut design: Vec<usize>,
+    kept: usize,
+    cancellation: &Cancellation,
+) -> Result<Vec<usize>, Cancelled> {
     for _ in 0..SWEEPS {
         // Computed anew in each sweep, so that rounding errors do not add up.
         let mut state = State::of(information, &design);
         let mut changed = false;
         for place in kept..design.len() {
+            cancellation.check()?;
             let leaving = design[place];
             state.change(leaving, -1.0);
             let stay = state.gain(leaving);
@@ -57,7 +73,7 @@ fn exchanged(information: &Information, mut design: Vec<usize>, kept: usize) -> 
             break;
         }
     }
-    design
+    Ok(design)
 }
 
 /// Covariances of a design, updated with each exchange.

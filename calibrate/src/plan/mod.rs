@@ -24,13 +24,15 @@ mod form;
 
 mod planned;
 
+mod told;
+
 pub use candidates::candidates;
 pub use error::PlanError;
 pub use exchange::optimal;
 pub use form::MeasurementForm;
 pub use information::{Information, RelativeDeviation};
 pub use paints::PaintSet;
-pub use planned::{Forecast, Plan, PlanOptions, PlannedSwatch, plan};
+pub use planned::{Forecast, Plan, PlanOptions, PlannedSwatch, plan, plan_until};
 pub use swatch_recipe::{Purpose, SwatchRecipe};
 pub use usual::{usual, usual_count};
 pub use weighing::Weighing;

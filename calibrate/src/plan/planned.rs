@@ -12,6 +12,7 @@ use super::weighing::Weighing;
 use crate::fit::{ExpectedNoise, unidentified};
 use pigment::remark::Remark;
 use pigment::{PigmentId, PigmentLibrary, Recipe};
+use spectra::{Cancellation, Cancelled};
 
 /// Expected error of an instrument, as a standard deviation of reflectance.
 const INSTRUMENT_ERROR: f64 = 0.002;
@@ -103,6 +104,19 @@ pub fn plan<N: AsRef<str>>(
     white: &str,
     options: &PlanOptions,
 ) -> Result<Plan, PlanError> {
+    plan_until(pigments, white, options, &Cancellation::default())
+}
+
+/// Plans like [`plan`], until `cancellation` ends it: many swatches of many paints take minutes.
+///
+/// # Errors
+/// [`PlanError`] for impossible names, masses or numbers of swatches, or if the plan was cancelled.
+pub fn plan_until<N: AsRef<str>>(
+    pigments: &[N],
+    white: &str,
+    options: &PlanOptions,
+    cancellation: &Cancellation,
+) -> Result<Plan, PlanError> {
     let paints = paint_set(pigments, white, options)?;
     let weighing = Weighing::new(options.grams, options.balance)?;
     let pool = candidates(&paints, weighing.least_share());
@@ -113,7 +127,8 @@ pub fn plan<N: AsRef<str>>(
         let ids =
             paints.names.iter().map(|name| prior.find(name)).collect::<Result<Vec<_>, _>>()?;
         remarks = reservations(prior, &ids);
-        let (best, prediction) = best_design(prior, &ids, &pool, &design, options.noise);
+        let (best, prediction) =
+            best_design(prior, (&ids, &pool), &design, options.noise, cancellation)?;
         (design, forecast) = (best, Some(prediction));
     }
     let recipes: Vec<SwatchRecipe> = design.iter().map(|&index| pool[index].clone()).collect();
@@ -180,24 +195,24 @@ fn reservations(prior: &PigmentLibrary, ids: &[PigmentId]) -> Vec<Remark> {
 /// The design of greatest information by `prior`, and its predictions.
 fn best_design(
     prior: &PigmentLibrary,
-    ids: &[PigmentId],
-    pool: &[SwatchRecipe],
+    (ids, pool): (&[PigmentId], &[SwatchRecipe]),
     usual: &[usize],
     noise: Option<ExpectedNoise>,
-) -> (Vec<usize>, Forecast) {
+    cancellation: &Cancellation,
+) -> Result<(Vec<usize>, Forecast), Cancelled> {
     let left = prior.evidence.as_ref();
     let left = left.map_or(MIXING_ERROR, |evidence| evidence.rms.max(LEAST_MIXING_ERROR));
     let noise = noise.unwrap_or(ExpectedNoise { constant: INSTRUMENT_ERROR, even: left });
     let information = Information::new(prior, ids, pool, noise);
     // The first swatch of the usual design is the white alone, which every plan must contain.
-    let design = optimal(&information, usual, 1);
+    let design = optimal(&information, usual, 1, cancellation)?;
     let forecast = Forecast {
         usual_efficiency: information.efficiency(usual, &design),
         deviations: information.deviations(&design),
         usual_deviations: information.deviations(usual),
         noise,
     };
-    (design, forecast)
+    Ok((design, forecast))
 }
 
 /// Refuses a plan from which a fit would not identify every pigment.

@@ -180,7 +180,8 @@ pub(super) fn prepare_fit(
     let steps = if chooses_model { PreparedFit::MODEL_FITS } else { 0 };
     let progress =
         Progress::new(steps, "choosing the film model", console.shows_progress() && chooses_model);
-    let prepared = PreparedFit::new(readings, options, &|| progress.step())?;
+    let told = |_| progress.step();
+    let prepared = PreparedFit::new(readings, options, Watch::new(&told))?;
     progress.done();
     console.remarks(&prepared.remarks)?;
     Ok(prepared)

@@ -1,5 +1,6 @@
 //! Table and rows of the colours of measured spectra.
 
+use calibrate::IlluminantChange;
 use calibrate::evaluate::Viewing;
 use clap::ValueEnum;
 use serde_json::{Value, json};
@@ -7,7 +8,6 @@ use spectra::color::{
     ColorDifferences, Lab, Rgb, RgbSpace, Whiteness, WhitenessError, Xyz, metamerism_index,
 };
 
-use super::illuminant_change::{IlluminantChange, LEGEND};
 use crate::console::Console;
 use crate::failure::Result;
 use crate::shown_color::TableColors;
@@ -98,7 +98,7 @@ impl ColorTable {
             });
             if light > 0 {
                 let index = self.metamerism(standard, row, light);
-                entry["metamerism"] = self.change_to(light).json(index);
+                entry["metamerism"] = self.change_to(light).to_json(index);
             }
         }
         entry
@@ -115,7 +115,7 @@ impl ColorTable {
         let Viewing { illuminant, observer } = &self.lights[light];
         console.line(format!("{}, observer {observer}", illuminant.name()))?;
         if self.standard.is_some() && light > 0 {
-            console.line(LEGEND)?;
+            console.line(IlluminantChange::LEGEND)?;
         }
         let (colors, differences) = (self.heading(), self.differences_heading(light));
         let longest = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);

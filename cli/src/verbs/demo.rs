@@ -55,7 +55,7 @@ impl Demo {
             return console.csv_rows(&fit_report::rows(&fit.evidence().per_sample));
         }
         if self.json {
-            return console.json(&fit_report::fit_json(&fit, seconds));
+            return console.json(&fit_report::timed(fit.errors_json(), seconds));
         }
         console.line(format!("{} ({})", library.title, library.licence))?;
         console.line("")?;

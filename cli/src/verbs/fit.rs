@@ -66,7 +66,8 @@ impl Fit {
             return console.csv_rows(&fit_report::rows(&fit.evidence().per_sample));
         }
         if self.json {
-            return console.json(&fit_report::fit_json(&fit, start.elapsed().as_secs_f64()));
+            return console
+                .json(&fit_report::timed(fit.errors_json(), start.elapsed().as_secs_f64()));
         }
         console.warnings(fit.warnings())?;
         console.line(fit.report().to_string())?;

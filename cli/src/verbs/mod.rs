@@ -10,8 +10,6 @@ mod validate;
 
 mod mix;
 
-mod illuminant_change;
-
 mod color_table;
 
 mod color;

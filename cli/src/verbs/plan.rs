@@ -124,11 +124,11 @@ impl Plan {
             output.write(plan.form(&form), console)?;
         }
         if self.csv {
-            let whole = plan_report::as_json(&plan);
+            let whole = plan.to_json();
             return console.csv_rows(whole["swatches"].as_array().map_or(&[], Vec::as_slice));
         }
         if self.json {
-            return console.json(&plan_report::as_json(&plan));
+            return console.json(&plan.to_json());
         }
         plan_report::print_swatches(&plan, console)?;
         plan_report::print_totals(&plan, console)?;

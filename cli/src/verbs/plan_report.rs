@@ -1,8 +1,7 @@
-//! Report of a plan: text and JSON.
+//! Report of a plan as text.
 
-use calibrate::plan::{Forecast, PaintSet, Plan, RelativeDeviation};
+use calibrate::plan::{Forecast, PaintSet, Plan};
 use calibrate::{PigmentId, Recipe};
-use serde_json::{Map, Value, json};
 
 use crate::console::Console;
 use crate::failure::Result;
@@ -62,57 +61,4 @@ pub(super) fn print_forecast(
         ))?;
     }
     Ok(())
-}
-
-pub(super) fn as_json(plan: &Plan) -> Value {
-    let name = |paint: PigmentId| plan.paints.name(paint).to_owned();
-    let swatches = plan.swatches.iter().map(|swatch| {
-        let parts = swatch.recipe.parts.iter();
-        let parts: Map<String, Value> =
-            parts.map(|&(paint, parts)| (name(paint), json!(parts))).collect();
-        let grams = swatch.grams.iter();
-        let grams: Map<String, Value> =
-            grams.map(|&(paint, grams)| (name(paint), json!(grams))).collect();
-        json!({
-            "sample": swatch.name,
-            "purpose": swatch.recipe.purpose.word(),
-            "parts": parts,
-            "grams": grams,
-            "why": swatch.recipe.purpose.why(),
-        })
-    });
-    let swatches: Vec<Value> = swatches.collect();
-    // Removes the floating-point error of a sum of balance steps.
-    let rounded = |total: f64| (1e6 * total).round() / 1e6;
-    let totals: Map<String, Value> = plan
-        .paints
-        .ids()
-        .zip(plan.totals_g())
-        .map(|(paint, total)| (name(paint), json!(rounded(total))))
-        .collect();
-    let prior = plan.forecast.as_ref().map(|forecast| {
-        let of = |deviations: &[RelativeDeviation]| -> Map<String, Value> {
-            let pairs = plan.paints.ids().zip(deviations).map(|(paint, deviation)| {
-                let pair = json!({
-                    "absorption": deviation.absorption,
-                    "scattering": deviation.scattering,
-                });
-                (name(paint), pair)
-            });
-            pairs.collect()
-        };
-        json!({
-            "usual_efficiency": forecast.usual_efficiency,
-            "noise": {"constant": forecast.noise.constant, "even": forecast.noise.even},
-            "relative_deviations": of(&forecast.deviations),
-            "usual_relative_deviations": of(&forecast.usual_deviations),
-        })
-    });
-    json!({
-        "swatches": swatches,
-        "totals_g": totals,
-        "unknowns": plan.paints.unknowns(),
-        "identified": true,
-        "prior": prior,
-    })
 }

@@ -104,11 +104,7 @@ impl Quadrature {
             return console.csv_rows(&csv_rows(&rule));
         }
         if self.json {
-            return console.json(&json!({
-                "nodes_nm": rule.nodes_nm,
-                "weights": rule.weights,
-                "error": error,
-            }));
+            return console.json(&rule.to_json(error));
         }
         rows(&rule, &viewing, console)?;
         match error {
@@ -136,20 +132,7 @@ impl Quadrature {
             return console.csv_rows(&csv_rows(&effective.rule));
         }
         if self.json {
-            let curves = effective.absorption.iter().zip(&effective.scattering);
-            let pigments: Vec<Value> = library
-                .pigments
-                .iter()
-                .zip(curves)
-                .map(|(p, (k, s))| json!({ "name": p.name, "absorption": k, "scattering": s }))
-                .collect();
-            return console.json(&json!({
-                "nodes_nm": effective.rule.nodes_nm,
-                "weights": effective.rule.weights,
-                "error": hiding,
-                "error_over_grounds": over,
-                "pigments": pigments,
-            }));
+            return console.json(&effective.to_json(library, [hiding, over]));
         }
         rows(&effective.rule, viewing, console)?;
         for (error, of) in [(hiding, MIXTURES), (over, FILMS)] {

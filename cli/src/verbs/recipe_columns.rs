@@ -1,8 +1,7 @@
 //! Columns of figures in the table of recipes: differences under each light, metamerism, reflectance.
 
+use calibrate::IlluminantChange;
 use calibrate::matching::RecipeMatch;
-
-use super::illuminant_change::{IlluminantChange, LEGEND};
 
 /// Least width of a column.
 const WIDTH: usize = 8;
@@ -55,7 +54,8 @@ impl RecipeColumns {
             lines[0] += &format!("  {title:>width$}");
             lines[1] += &format!("  {below:>width$}");
         }
-        let legend = (!self.changes.is_empty()).then(|| format!("     {LEGEND}"));
+        let legend =
+            (!self.changes.is_empty()).then(|| format!("     {}", IlluminantChange::LEGEND));
         legend.into_iter().chain(lines).collect()
     }
 

@@ -128,7 +128,8 @@ impl Match {
             return console.csv_rows(&rows);
         }
         if self.json {
-            let list: Vec<Value> = found.iter().map(|matches| report.json(matches)).collect();
+            let list: Vec<Value> =
+                found.iter().map(|one| search.to_json(one, self.grams)).collect();
             return console.json(&Value::from(list));
         }
         for (index, matches) in found.iter().enumerate() {

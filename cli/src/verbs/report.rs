@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use calibrate::comparison::{Comparable, Comparison};
+use calibrate::fit::Watch;
 use calibrate::library::PigmentLibrary;
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
@@ -98,10 +99,11 @@ impl Report {
         let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
         let progress = Progress::new(mixtures + STEPS, "drawing", console.shows_progress());
         let step = || progress.step();
+        let told = |_| progress.step();
         // In parallel, so that cores that finish one task help with the other.
         let (validation, quadratures) = std::thread::scope(|scope| {
             let trials = scope.spawn(|| QuadratureTrial::all(&viewing, &library, &COUNTS));
-            let left_out = measured.map(|set| set.left_out(&library, &viewing, &step));
+            let left_out = measured.map(|set| set.left_out(&library, &viewing, Watch::new(&told)));
             (left_out.transpose(), trials.join().expect("quadrature trials do not panic"))
         });
         let (validation, quadratures) = (validation?, quadratures?);

@@ -3,9 +3,9 @@
 use std::time::{Duration, Instant};
 
 use calibrate::ValidationOptions;
+use calibrate::fit::Watch;
 use calibrate::library::AmountKind;
 use calibrate::remark::Remark;
-use calibrate::validation::Validation;
 use clap::Args;
 use serde_json::json;
 
@@ -62,7 +62,8 @@ impl Validate {
             console.remarks(&[advice])?;
         }
         let progress = Progress::new(mixtures, "leaving out", console.shows_progress());
-        let validation = prepared.validate_fit(fit, &options, &|| progress.step())?;
+        let told = |_| progress.step();
+        let validation = prepared.validate_fit(fit, &options, Watch::new(&told))?;
         progress.done();
         let warnings = validation.warnings();
         if self.csv {
@@ -70,11 +71,8 @@ impl Validate {
             return console.csv_rows(&fit_report::rows(&validation.errors.per_sample));
         }
         if self.json {
-            let Validation { rms, delta_e, per_sample, .. } = &validation.errors;
-            let pigments = validation.fit.library.pigments.len();
             let seconds = start.elapsed().as_secs_f64();
-            let mut told =
-                fit_report::to_json(pigments, *rms, delta_e, per_sample, &warnings, seconds);
+            let mut told = fit_report::timed(validation.errors_json(), seconds);
             told["strength_free"] = json!(validation.errors.strength_free);
             told["by_pigment"] = json!(validation.errors.by_pigment);
             return console.json(&told);

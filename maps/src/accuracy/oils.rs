@@ -2,6 +2,9 @@
 
 #![expect(clippy::result_large_err, reason = "the error of calibrate, as its own calls return it")]
 
+use std::ops::ControlFlow;
+
+use calibrate::fit::Watch;
 use calibrate::observation::BelowSurface;
 use calibrate::{FitOptions, FittingError, PreparedFit, Readings};
 use pigment::library::PigmentLibrary;
@@ -49,7 +52,11 @@ pub fn light_palette() -> Vec<String> {
 /// [`FittingError`] if `readings` are others.
 pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
     let below_surface = Some(BelowSurface::Floor);
-    PreparedFit::new(readings, &FitOptions { below_surface, ..FitOptions::default() }, &|| ())
+    PreparedFit::new(
+        readings,
+        &FitOptions { below_surface, ..FitOptions::default() },
+        Watch::default(),
+    )
 }
 
 /// Trials of simulated paintings of several seeds.
@@ -81,7 +88,7 @@ pub fn painting_trials(
     for seed in seeds {
         let painting = Painting::simulate(real, known, &PaintingPlan { seed, ..plan.clone() });
         searched.extend(painting.trials(&mapper, &mapper.search(&painting.spectra)?));
-        let book = mapper.survey(&painting.spectra, &|| ())?;
+        let book = mapper.survey(&painting.spectra, &|| ControlFlow::Continue(()))?;
         mapped.extend(painting.trials(&mapper, &mapper.map_block(&book, &painting.spectra)?));
         worse += painting.search_worse_than_truth(&mapper)? / count;
     }

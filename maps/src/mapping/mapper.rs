@@ -1,5 +1,7 @@
 //! The front door: a library and the wavelengths of a scan, ready for survey and map.
 
+use std::ops::ControlFlow;
+
 use pigment::library::{Input, PigmentLibrary};
 use rayon::prelude::*;
 
@@ -25,6 +27,8 @@ const TOGETHER: usize = 256;
 /// Maps the pigments of a library in scans of certain wavelengths.
 ///
 /// ```
+/// use std::ops::ControlFlow;
+///
 /// use maps::{MapSettings, Mapper};
 /// use pigment::PigmentLibrary;
 ///
@@ -34,7 +38,7 @@ const TOGETHER: usize = 256;
 /// let recipe = oils.recipe([("Zinc White", 0.8), ("Viridian", 0.2)])?;
 /// let green: Vec<f32> =
 ///     oils.mix(recipe)?.hiding(oils.saunderson).iter().map(|r| *r as f32).collect();
-/// let book = mapper.survey(&green, &|| ())?;
+/// let book = mapper.survey(&green, &|| ControlFlow::Continue(()))?;
 /// let maps = mapper.map_block(&book, &green)?;
 /// let viridian = mapper.columns().iter().position(|column| column.name == "Viridian").unwrap();
 /// assert!((maps.share[viridian] - 0.2).abs() < 0.01, "{}", maps.share[viridian]);
@@ -113,11 +117,16 @@ impl Mapper {
 
     /// Surveys pixels of a scan: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands of
     /// each. Every k-th pixel is searched whole, so that about 20,000 are. `progress` is called after each of
-    /// them, from any thread.
+    /// them, from any thread; if it breaks, the survey ends.
     ///
     /// # Errors
-    /// [`MapError::Length`] for a broken pixel, [`MapError::NothingToSurvey`] if no pixel can be mapped.
-    pub fn survey(&self, spectra: &[f32], progress: &(dyn Fn() + Sync)) -> Result<Book, MapError> {
+    /// [`MapError::Length`] for a broken pixel, [`MapError::NothingToSurvey`] if no pixel can be mapped,
+    /// [`MapError::Cancelled`] if `progress` broke.
+    pub fn survey(
+        &self,
+        spectra: &[f32],
+        progress: &(dyn Fn() -> ControlFlow<()> + Sync),
+    ) -> Result<Book, MapError> {
         let pixels = self.pixels(spectra)?;
         let chosen = pixels.clone().step_by(survey_step(pixels.len()));
         let surveyed = chosen.len();
@@ -126,7 +135,7 @@ impl Mapper {
         if folded.is_empty() {
             return Err(MapError::NothingToSurvey { pixels: surveyed });
         }
-        Ok(survey(&self.prepared, &self.identity, &folded, progress))
+        Ok(survey(&self.prepared, &self.identity, &folded, progress)?)
     }
 
     /// Prepares the book of a survey for [`Mapper::map`], once for all blocks of a scan.

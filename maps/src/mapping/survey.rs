@@ -1,8 +1,10 @@
 //! The survey: some pixels of a scan searched whole, and how often each set explains them.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 use rayon::prelude::*;
+use spectra::{Cancellation, Cancelled};
 
 use super::book::{Book, BookEntry, BookSet, SetFrequency};
 use super::prepared::{Folded, Prepared};
@@ -28,24 +30,32 @@ pub fn survey_step(pixels: usize) -> usize {
     (pixels / SURVEYED).max(1)
 }
 
-/// Searches the pixels of `folded` whole. `progress` is called after each pixel, from any thread.
+/// Searches the pixels of `folded` whole. `progress` is called after each pixel, from any thread; if it
+/// breaks, the survey ends.
 pub(crate) fn survey(
     prepared: &Prepared,
     identity: &str,
     folded: &[Folded],
-    progress: &(dyn Fn() + Sync),
-) -> Book {
+    progress: &(dyn Fn() -> ControlFlow<()> + Sync),
+) -> Result<Book, Cancelled> {
     let engine = &prepared.engine;
+    let ended = Cancellation::default();
     let search = |scratch: &mut Scratch, folded: &Folded| {
+        ended.check()?;
         let place = engine.table.nearest(&folded.point);
         engine.search(&folded.pixel, place, &Prior::default(), scratch);
-        progress();
+        if progress().is_break() {
+            ended.cancel();
+        }
         let best = scratch.found.first().map_or(0.0, |set| set.score);
         let near = scratch.found.iter().take_while(|set| set.score < best + KEPT_SCORE);
-        near.take(KEPT_SETS).copied().collect::<Vec<SetFit>>()
+        Ok(near.take(KEPT_SETS).copied().collect::<Vec<SetFit>>())
     };
-    let mut found: Vec<Vec<SetFit>> =
-        folded.par_iter().map_init(|| Scratch::new(&engine.films), search).collect();
+    let mut found: Vec<Vec<SetFit>> = folded
+        .par_iter()
+        .map_init(|| Scratch::new(&engine.films), search)
+        .collect::<Result<_, _>>()?;
+    ended.check()?;
     let alone: Vec<BTreeMap<u32, f32>> =
         found.iter().map(|sets| sets.iter().map(|set| (set.key(), set.score)).collect()).collect();
     let mut parts = BTreeMap::new();
@@ -76,7 +86,7 @@ pub(crate) fn survey(
             sets: sets.iter().map(of_fit).collect(),
         })
         .collect();
-    book
+    Ok(book)
 }
 
 fn of_fit(set: &SetFit) -> BookSet {

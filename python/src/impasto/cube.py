@@ -96,7 +96,7 @@ class Cube:
         needs xarray and dask."""
         import dask.array as da
         import xarray as xr
-        from dask import delayed
+        from dask.delayed import delayed
 
         lines, samples, bands = self.shape
 

@@ -147,7 +147,7 @@ def fit(
 
     `reference` is the white whose S is 1 (default: the commonest white). `surface` is chosen if none is
     given. `amounts` is `relative` or `absolute`, `method` `refined`, `weighted` or `qp`. Light and
-    observer set the colour errors only. `progress` is called with each stage as text. Ctrl-C is obeyed.
+    observer set the colour errors only. `progress` is called with each stage as text. Ctrl-C ends the fit.
 
     Raises `FitError`; findings about the data are told as `FindingWarning`.
     """
@@ -178,7 +178,7 @@ def validate(
     """Leaves each mixture out in turn, fits the rest, and predicts it, as `impasto validate` does.
 
     `folds` leaves out seeded groups instead; `using` names pigments, only mixtures with one of them are
-    left out. `progress` is called after each mixture.
+    left out. `progress` is called with each stage of the fit, and after each mixture.
     """
     options = _options(locals())
     native = _native.validate(readings._native, options, folds, list(using), progress)

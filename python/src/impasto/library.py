@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -71,9 +71,10 @@ class Library:
     @property
     def about(self) -> dict[str, Any]:
         """All but the curves: title, licence, source, amounts, reference, surface, inputs, evidence."""
-        if self._about is None:
-            self._about = json.loads(self._native.about())
-        return self._about
+        about = self._about
+        if about is None:
+            about = self._about = json.loads(self._native.about())
+        return about
 
     @property
     def names(self) -> list[str]:
@@ -135,16 +136,17 @@ class Library:
         reflectance from 0 to 1, `"white"`, `"black"` or a `Spectrum`. Thickness 1 is that at which the
         reference white has S d = 1; of absolute amounts it is the recipe as given.
         """
-        named = [parts] if isinstance(parts, Mapping) else parts
-        if isinstance(named, (list, tuple)) and named and isinstance(named[0], Mapping):
+        named = _by_name(parts)
+        names: tuple[str, ...] = ()
+        if named is not None:
             rows, single = np.zeros((len(named), len(self))), isinstance(parts, Mapping)
             for row, recipe in zip(rows, named):
                 for name, part in recipe.items():
                     row[self._native.find(name)] += part
             names = tuple(" + ".join(f"{part:g} {n}" for n, part in r.items()) for r in named)
         else:
-            array = floats(named, "parts", (1, 2))  # type: ignore[arg-type]
-            rows, single, names = np.atleast_2d(array), array.ndim == 1, ()
+            array = floats(cast(Any, parts), "parts", (1, 2))
+            rows, single = np.atleast_2d(array), array.ndim == 1
         if rows.shape[1] != len(self):
             raise Error(
                 f"parts has shape {rows.shape}, but the library has {len(self)} pigments",
@@ -170,6 +172,54 @@ class Library:
         warn(warnings_of(remarks))
         result: dict[str, Any] = json.loads(text)
         return result
+
+    @overload
+    def match(
+        self,
+        target: str | tuple[float, float, float],
+        *,
+        wavelengths: ArrayLike | None = ...,
+        by: str = ...,
+        lights: Mapping[str | Light, float] | Sequence[str | Light] | str | Light = ...,
+        observer: str = ...,
+        only: Sequence[str] = ...,
+        using: Mapping[str, float | None] | Sequence[str] = ...,
+        without: Sequence[str] = ...,
+        at_most: int = ...,
+        least_share: float = ...,
+        whole_parts: int | None = ...,
+        prices: Mapping[str, float] | None = ...,
+        tolerance: float | None = ...,
+        thickness: float | tuple[float, float] | None = ...,
+        over: float | str | Spectrum | None = ...,
+        beyond_measured: bool = ...,
+        count: int = ...,
+        progress: Any = ...,
+    ) -> Match: ...
+
+    @overload
+    def match(
+        self,
+        target: Any,
+        *,
+        wavelengths: ArrayLike | None = ...,
+        by: str = ...,
+        lights: Mapping[str | Light, float] | Sequence[str | Light] | str | Light = ...,
+        observer: str = ...,
+        only: Sequence[str] = ...,
+        using: Mapping[str, float | None] | Sequence[str] = ...,
+        without: Sequence[str] = ...,
+        at_most: int = ...,
+        least_share: float = ...,
+        whole_parts: int | None = ...,
+        prices: Mapping[str, float] | None = ...,
+        tolerance: float | None = ...,
+        thickness: float | tuple[float, float] | None = ...,
+        over: float | str | Spectrum | None = ...,
+        beyond_measured: bool = ...,
+        count: int = ...,
+        progress: Any = ...,
+    ) -> Match | list[Match]: ...
 
     def match(
         self,
@@ -257,6 +307,14 @@ class Library:
         errors = f", CIEDE2000 mean {evidence['delta_e']['mean']:.2f}" if evidence else ""
         headings = ["masstone, 1:9 tint", "pigment", "sRGB", "notes"]
         return table(headings, rows, self.about["title"] + errors)
+
+
+def _by_name(parts: Any) -> Sequence[Mapping[str, float]] | None:
+    """Recipes whose parts have names; none where parts are numbers in the order of the pigments."""
+    if isinstance(parts, Mapping):
+        return [parts]
+    several = isinstance(parts, (list, tuple)) and parts and isinstance(parts[0], Mapping)
+    return parts if several else None
 
 
 def ground_of(over: float | str | Any | None) -> Any:

@@ -83,7 +83,8 @@ class PigmentMaps:
 
     def plot(self, pigment: str, what: str = "presence") -> Any:
         """Draws one map of a pigment; needs matplotlib."""
-        return self.to_xarray()[what].sel(pigment=pigment).plot(yincrease=False, vmin=0, vmax=1)
+        shown: Any = self.to_xarray()[what].sel(pigment=pigment)
+        return shown.plot(yincrease=False, vmin=0, vmax=1)
 
 
 def survey(
@@ -197,7 +198,8 @@ def _on_workers(
     def submit(place: int) -> Any:
         return client.submit(_map_shard, job, place, pure=False, key=f"impasto-{path.name}-{place}")
 
-    workers = max(1, sum(client.ncores().values()))
+    cores: Any = client.ncores()
+    workers = max(1, sum(cores.values()))
     first, rest = waiting[: TASKS_A_WORKER * workers], iter(waiting[TASKS_A_WORKER * workers :])
     running = as_completed([submit(place) for place in first])
     for future in running:
@@ -228,7 +230,8 @@ def _prepared(job: str) -> tuple[Survey, str]:
     settings = dict(told["settings"])
     region = settings.pop("region")
     if region is not None:
-        region = tuple(slice(*ends) for ends in region)
+        rows, columns = region
+        region = slice(*rows), slice(*columns)
     settings["groups"] = dict(settings["groups"])
     library = Library.from_json(told["library"])
     return survey(cube, library, region=region, book=book, **settings), told["out"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -72,7 +72,13 @@ class Match(Sequence[Recipe]):
     def __len__(self) -> int:
         return len(self._recipes)
 
-    def __getitem__(self, index: Any) -> Any:
+    @overload
+    def __getitem__(self, index: int) -> Recipe: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Recipe]: ...
+
+    def __getitem__(self, index: int | slice) -> Recipe | list[Recipe]:
         return self._recipes[index]
 
     def __repr__(self) -> str:
@@ -97,7 +103,7 @@ def _recipe(entry: dict[str, Any], library: Library) -> Recipe:
         hex=entry["hex"],
         in_gamut=entry["in_gamut"],
         reflectance=Spectrum(library.wavelengths, entry["reflectance"]),
-        thickness=entry["thickness"],
+        thickness=entry.get("thickness"),
         about=entry,
     )
 

@@ -3,7 +3,7 @@
 
 use calibrate::absolute::{calibrate_absolute, chosen_film, films};
 use calibrate::evaluate::Viewing;
-use calibrate::fit::FitSettings;
+use calibrate::fit::{FitSettings, Watch};
 use calibrate::library::PigmentLibrary;
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::BelowSurface;
@@ -51,7 +51,7 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
     // predicts these mixtures with a mean error of about 2.2.
     let set = Watercolors::hard(1).swatches();
     let problem = films(&set).unwrap();
-    let film = chosen_film(&problem, Surface::NONE, &|| ()).unwrap();
+    let film = chosen_film(&problem, Surface::NONE, Watch::default()).unwrap();
     assert!(film.unevenness > 0.0 || film.surface.k2 > 0.0, "{film:?}");
     let settings = FitSettings::default();
     let viewing = Viewing::default();
@@ -60,7 +60,7 @@ fn unseen_mixtures_of_uneven_washes_are_predicted_within_two() {
         viewing: &viewing,
         state: None,
         folds: Some(3),
-        progress: &|| (),
+        watch: Watch::default(),
     };
     let chosen = leave_out_films(&set, film, &plan).unwrap();
     assert_eq!(chosen.per_sample.len(), 702, "three folds of 234 left-out mixtures");
@@ -125,7 +125,7 @@ fn few_films_are_fitted_without_holding_any_back() {
     set.swatches.truncate(1);
     let set = set.retaining(|_| true);
     let problem = films(&set).unwrap();
-    assert_eq!(chosen_film(&problem, Surface::NONE, &|| ()).unwrap(), EVEN);
+    assert_eq!(chosen_film(&problem, Surface::NONE, Watch::default()).unwrap(), EVEN);
     assert!(calibrate_absolute(&set, EVEN, &FitSettings::default(), &Viewing::default()).is_ok());
 }
 

@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod absolute;
+mod cancelled;
 mod known_paint;
 mod oils;
 mod quadrature;

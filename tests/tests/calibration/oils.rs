@@ -1,7 +1,7 @@
 //! Error limits of fits to the Van Gogh oils, in CIEDE2000 under D65 for the CIE 1931 observer.
 
 use calibrate::evaluate::Viewing;
-use calibrate::fit::{FitSettings, Method, Smoothness};
+use calibrate::fit::{FitSettings, Method, Smoothness, Watch};
 use calibrate::library::PigmentLibrary;
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
@@ -42,7 +42,7 @@ fn unseen_mixtures_with_white_or_black_meet_their_figures() {
         viewing: &viewing,
         state: None,
         folds: None,
-        progress: &|| (),
+        watch: Watch::default(),
     };
     // The four mixtures with both white and black are not left out: their errors are small and
     // would lower the mean.
@@ -77,7 +77,7 @@ fn leaving_out_in_groups_predicts_every_mixture_once() {
         viewing: &viewing,
         state: None,
         folds: Some(5),
-        progress: &|| (),
+        watch: Watch::default(),
     };
     let found = leave_out(&set, white, SURFACE, &plan, |_| true).unwrap();
     let mut names: Vec<&str> = found.per_sample.iter().map(|s| s.sample.as_str()).collect();

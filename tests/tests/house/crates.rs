@@ -100,3 +100,33 @@ fn only_programs_parse_arguments() {
         assert!(may || !dependencies(&path).contains_key("clap"), "{path} depends on clap");
     }
 }
+
+/// The profile of tests in a manifest, without the packages that `lock` does not hold.
+fn test_profile(manifest: &str, lock: &str) -> toml::Table {
+    let manifest: toml::Table = text(manifest).parse().unwrap();
+    let mut profile = manifest["profile"]["dev"].as_table().unwrap().clone();
+    let packages = profile["package"].as_table_mut().unwrap();
+    packages.retain(|name, _| name == "*" || lock.contains(&format!("name = \"{name}\"\n")));
+    profile
+}
+
+#[test]
+fn the_python_package_takes_over_what_the_tests_compiled() {
+    let lock = text("python/Cargo.lock");
+    let [ours, theirs] =
+        ["Cargo.toml", "python/Cargo.toml"].map(|manifest| test_profile(manifest, &lock));
+    assert_eq!(ours, theirs, "[profile.dev] of python/Cargo.toml and of the workspace");
+    // Other versions would be compiled beside those of the tests.
+    let packages = |lock: &str| -> BTreeSet<(String, String)> {
+        let lock: toml::Table = lock.parse().unwrap();
+        let all = lock["package"].as_array().unwrap().iter();
+        let word = |package: &toml::Value, key: &str| package[key].as_str().unwrap().to_owned();
+        all.map(|package| (word(package, "name"), word(package, "version"))).collect()
+    };
+    let workspace = packages(&text("Cargo.lock"));
+    let known: BTreeSet<&String> = workspace.iter().map(|(name, _)| name).collect();
+    for package in packages(&lock) {
+        let only_here = !known.contains(&package.0);
+        assert!(only_here || workspace.contains(&package), "python/Cargo.lock: {package:?}");
+    }
+}

@@ -12,6 +12,7 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
+use spectra::Cancellation;
 use spectra::optics::absorption_over_scattering;
 
 use crate::painted::oils;
@@ -124,7 +125,7 @@ impl Bench {
 fn the_optimal_plan_recovers_k_and_s_better_than_the_usual_and_the_usual_than_chance() {
     let bench = bench();
     let start = usual(&bench.paints, &bench.pool, 20).unwrap();
-    let best = optimal(&bench.information, &start, 1);
+    let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
     let random: Vec<Vec<usize>> = (0..6).map(|seed| bench.random(20, seed)).collect();
     let chance = random.iter().map(|design| bench.typical_error(design)).sum::<f64>() / 6.0;
     let (best_error, usual_error) = (bench.typical_error(&best), bench.typical_error(&start));
@@ -141,7 +142,8 @@ fn the_optimal_plan_recovers_k_and_s_better_than_the_usual_and_the_usual_than_ch
 fn the_predicted_deviations_are_of_the_size_of_the_errors() {
     let bench = bench();
     let start = usual(&bench.paints, &bench.pool, 24).unwrap();
-    for design in [optimal(&bench.information, &start, 1), start] {
+    for design in [optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap(), start]
+    {
         let pulls = (0..4).flat_map(|seed| bench.errors(&design, 40 + seed));
         // The prediction is linear, which holds for relative deviations below about a third.
         let known = pulls.filter(|(_, deviation)| *deviation < 0.3);
@@ -159,7 +161,7 @@ fn the_predicted_deviations_are_of_the_size_of_the_errors() {
 fn no_single_exchange_improves_the_optimal_plan() {
     let bench = bench();
     let start = usual(&bench.paints, &bench.pool, 14).unwrap();
-    let best = optimal(&bench.information, &start, 1);
+    let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
     let reached = bench.information.log_determinant(&best);
     assert!(reached > bench.information.log_determinant(&start), "{reached}");
     assert_eq!(best[0], 0, "the masstone of the white stays");
@@ -171,7 +173,11 @@ fn no_single_exchange_improves_the_optimal_plan() {
             assert!(value < reached + 1e-8, "{entering} for {}: {value}", best[place]);
         }
     }
-    assert_eq!(best, optimal(&bench.information, &start, 1), "the plan is reproducible");
+    assert_eq!(
+        best,
+        optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap(),
+        "the plan is reproducible"
+    );
 }
 
 #[test]
@@ -194,7 +200,7 @@ fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
             unidentified(shares(&start).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
             "usual of {count}"
         );
-        let best = optimal(&bench.information, &start, 1);
+        let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
         assert!(
             unidentified(shares(&best).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
             "optimal of {count}"

@@ -41,6 +41,8 @@ mod options;
 
 mod recipe_search;
 
+mod told;
+
 mod least_addition;
 
 mod correction;

@@ -78,18 +78,8 @@ pub fn recipes(
     target: &Target,
     request: &MatchRequest,
 ) -> Result<Vec<RecipeMatch>, MatchError> {
-    Ok(recipes_and_nearest(library, target, request)?.0)
-}
-
-/// Searches recipes like [`recipes`], and tells the distance of the nearest recipe of all, which the list
-/// may leave out because another is as near within the tolerance.
-pub(super) fn recipes_and_nearest(
-    library: &PigmentLibrary,
-    target: &Target,
-    request: &MatchRequest,
-) -> Result<(Vec<RecipeMatch>, f64), MatchError> {
-    let found = searched(library, target, request, &SearchControl::default())?;
-    Ok(found.unwrap_or_else(|| (Vec::new(), f64::INFINITY)))
+    Ok(recipes_with_control(library, target, request, &SearchControl::default())?
+        .unwrap_or_default())
 }
 
 /// Searches recipes like [`recipes`], under the control of another thread. Returns `None` if the search
@@ -107,11 +97,12 @@ pub fn recipes_with_control(
     request: &MatchRequest,
     control: &SearchControl,
 ) -> Result<Option<Vec<RecipeMatch>>, MatchError> {
-    Ok(searched(library, target, request, control)?.map(|(recipes, _)| recipes))
+    Ok(recipes_and_nearest(library, target, request, control)?.map(|(recipes, _)| recipes))
 }
 
-/// Recipes and the distance of the nearest of all.
-fn searched(
+/// Recipes, and the distance of the nearest of all, which the list may leave out because another is as near
+/// within the tolerance. `None` if the search was cancelled.
+pub(super) fn recipes_and_nearest(
     library: &PigmentLibrary,
     target: &Target,
     request: &MatchRequest,

@@ -5,14 +5,19 @@ use spectra::hint::Hint;
 
 use super::error::MatchError;
 use super::options::{MatchOptions, ToleranceOrigin};
-use super::ranking::{RecipeMatch, recipes, recipes_and_nearest};
+use super::ranking::{RecipeMatch, recipes_and_nearest, recipes_with_control};
 use super::request::{MatchRequest, USUAL_TOLERANCE};
+use super::search_control::SearchControl;
 use super::spectral_target::SpectralTarget;
 use super::target::{ColorTarget, Target, TargetColor};
 use super::viewing_condition::{Metric, ViewingCondition};
 use crate::library::PigmentLibrary;
 use crate::remark::Remark;
 use crate::visible_band::check_visible_band;
+
+/// Largest distance at which a target counts as reached, in CIEDE2000 or percent of reflectance. Larger
+/// differences are clearly visible side by side. Chosen by eye.
+const REACHED: f64 = 1.0;
 
 /// Band in nm that a match by spectrum should cover: it holds nearly all of the luminance and chroma.
 const VISIBLE_NM: [f64; 2] = [420.0, 680.0];
@@ -24,7 +29,7 @@ const FAR: f64 = 5.0;
 /// A search for recipes of one library, prepared for any number of targets.
 #[derive(Debug, Clone)]
 pub struct RecipeSearch<'a> {
-    library: &'a PigmentLibrary,
+    pub(super) library: &'a PigmentLibrary,
     /// Limits of the recipes.
     pub request: MatchRequest,
     /// Origin of the request's tolerance.
@@ -38,7 +43,7 @@ pub struct RecipeSearch<'a> {
 pub struct RecipeMatches {
     /// Colours that the recipes should have.
     pub target: Target,
-    /// Recipes in the order of [`recipes`].
+    /// Recipes in the order of [`recipes`](super::recipes).
     pub recipes: Vec<RecipeMatch>,
     /// Nearest recipe by CIE 1976, for a target from which all recipes differ by more than 5 CIEDE2000;
     /// empty otherwise, and by spectrum.
@@ -69,7 +74,14 @@ impl RecipeMatches {
     #[must_use]
     pub fn hint(&self) -> Option<Hint> {
         let advice = "allow more pigments with [at_most], or add paints to the library";
-        (self.nearest() > 1.0).then(|| Hint::new(advice))
+        (!self.is_reached()).then(|| Hint::new(advice))
+    }
+
+    /// Whether a recipe differs from the target by no more than can be seen: 1 CIEDE2000, or 1 % of
+    /// reflectance.
+    #[must_use]
+    pub fn is_reached(&self) -> bool {
+        self.nearest() <= REACHED
     }
 }
 
@@ -117,6 +129,20 @@ impl RecipeSearch<'_> {
     /// # Errors
     /// [`MatchError`] if no recipe fits the options, or a spectrum has no visible wavelength.
     pub fn recipes_for(&self, target: &ColorTarget) -> Result<RecipeMatches, MatchError> {
+        let found = self.recipes_with_control(target, &SearchControl::default())?;
+        found.ok_or(MatchError::NoRecipe)
+    }
+
+    /// Searches recipes like [`Self::recipes_for`], under the control of another thread. Returns `None` if the
+    /// search was cancelled. The progress is that of one of the searches that a target may take.
+    ///
+    /// # Errors
+    /// [`MatchError`] if no recipe fits the options, or a spectrum has no visible wavelength.
+    pub fn recipes_with_control(
+        &self,
+        target: &ColorTarget,
+        control: &SearchControl,
+    ) -> Result<Option<RecipeMatches>, MatchError> {
         let mut remarks = self.remarks.clone();
         if let TargetColor::Reflectance(reflectance) = &target.color {
             remarks.extend(check_visible_band(reflectance.grid())?);
@@ -124,12 +150,13 @@ impl RecipeSearch<'_> {
         let MatchRequest { metric, conditions, .. } = &self.request;
         let spectrum = spectrum_of(target, self.library.grid, (*metric, conditions), &mut remarks)?;
         let target = Target { spectrum, ..target.under(&self.request.conditions)? };
-        let (found, nearest) = recipes_and_nearest(self.library, &target, &self.request)?;
+        let found = recipes_and_nearest(self.library, &target, &self.request, control)?;
+        let Some((found, nearest)) = found else { return Ok(None) };
         if found.is_empty() {
             return Err(MatchError::NoRecipe);
         }
         let mut matches = RecipeMatches {
-            beyond_measured: self.nearest_beyond_measured(&target, nearest)?,
+            beyond_measured: self.nearest_beyond_measured(&target, nearest, control)?,
             target,
             recipes: found,
             by_cie1976: Vec::new(),
@@ -139,9 +166,10 @@ impl RecipeSearch<'_> {
         if matches.nearest() > FAR && self.request.metric == Metric::Ciede2000 {
             let metric = Metric::Cie1976;
             let request = MatchRequest { metric, count: 1, ..self.request.clone() };
-            matches.by_cie1976 = recipes(self.library, &matches.target, &request)?;
+            let found = recipes_with_control(self.library, &matches.target, &request, control)?;
+            matches.by_cie1976 = found.unwrap_or_default();
         }
-        Ok(matches)
+        Ok((!control.cancelled()).then_some(matches))
     }
 
     /// Distance of the nearest recipe of any amounts, if limits of amounts keep it from being found.
@@ -149,13 +177,14 @@ impl RecipeSearch<'_> {
         &self,
         target: &Target,
         nearest: f64,
+        control: &SearchControl,
     ) -> Result<Option<f64>, MatchError> {
         if self.request.amounts.iter().all(Option::is_none) {
             return Ok(None);
         }
         let request = MatchRequest { amounts: Vec::new(), count: 1, ..self.request.clone() };
-        let (_, free) = recipes_and_nearest(self.library, target, &request)?;
-        Ok((free < nearest - USUAL_TOLERANCE).then_some(free))
+        let found = recipes_and_nearest(self.library, target, &request, control)?;
+        Ok(found.map(|(_, free)| free).filter(|free| *free < nearest - USUAL_TOLERANCE))
     }
 }
 

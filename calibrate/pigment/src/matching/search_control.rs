@@ -1,25 +1,33 @@
 //! Progress and cancellation of a search that runs on other threads.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use spectra::Cancellation;
 
 /// Progress of a running search for recipes, and the request to cancel it. Shared between threads.
 #[derive(Debug, Default)]
 pub struct SearchControl {
     done: AtomicUsize,
     total: AtomicUsize,
-    cancelled: AtomicBool,
+    cancellation: Cancellation,
 }
 
 impl SearchControl {
+    /// The control of a search that `cancellation` may end.
+    #[must_use]
+    pub fn until(cancellation: Cancellation) -> Self {
+        Self { cancellation, ..Self::default() }
+    }
+
     /// Asks the search to end soon: each thread finishes its current recipe.
     pub fn cancel(&self) {
-        self.cancelled.store(true, Ordering::Relaxed);
+        self.cancellation.cancel();
     }
 
     /// Whether the search was asked to end.
     #[must_use]
     pub fn cancelled(&self) -> bool {
-        self.cancelled.load(Ordering::Relaxed)
+        self.cancellation.is_cancelled()
     }
 
     /// Fraction of the sets of pigments that have been tried, 0 to 1.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use nalgebra::DVector;
 use rayon::prelude::*;
+use spectra::Cancellation;
 use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
 use spectra::optics::{Layer, infinite_film_from_ratio, infinite_film_slope};
 
@@ -21,7 +22,7 @@ const LEAST_FILMS: usize = 2000;
 /// Seed of the training set.
 const SEED: u64 = 2004;
 /// Stopping rule of the fit.
-const STOP: Stop = Stop { iterations: 100, relative_decrease: 1e-5 };
+const STOP: Stop<'static> = Stop { iterations: 100, relative_decrease: 1e-5, cancellation: None };
 /// Greatest size of every weight, as of the fitted rule.
 const LARGEST_WEIGHT: f64 = 1e3;
 /// Greatest change of the logarithm of K or S.
@@ -46,11 +47,26 @@ impl EffectiveQuadrature {
         library: &PigmentLibrary,
         count: usize,
     ) -> Result<Self, QuadratureFailure> {
+        Self::of_until(viewing, library, count, &Cancellation::default())
+    }
+
+    /// Fits like [`Self::of`], until `cancellation` ends it: many wavelengths of many pigments take minutes.
+    ///
+    /// # Errors
+    /// [`QuadratureFailure`] for 0 nodes, or more than 32, or if the fit was cancelled.
+    pub fn of_until(
+        viewing: &Viewing,
+        library: &PigmentLibrary,
+        count: usize,
+        cancellation: &Cancellation,
+    ) -> Result<Self, QuadratureFailure> {
         let start = Quadrature::library(viewing, library, count)?;
         let weights = viewing.weights(library.grid).expect("the method fits the grid");
         let films = LEAST_FILMS.max(FILMS_A_PIGMENT * library.pigments.len());
         let films = FilmSet::for_fitting(library, &weights, films, SEED);
-        Ok(Problem::new(start, library, &films).solve())
+        let found = Problem::new(start, library, &films).solve(cancellation);
+        cancellation.check()?;
+        Ok(found)
     }
 }
 
@@ -96,7 +112,8 @@ impl<'a> Problem<'a> {
         3 * (self.nodes() - 1) + 2 * (pigment * self.nodes() + node)
     }
 
-    fn solve(&self) -> EffectiveQuadrature {
+    /// The fit, or where it stands once it was cancelled.
+    fn solve(&self, cancellation: &Cancellation) -> EffectiveQuadrature {
         let n = self.nodes();
         let free = 3 * (n - 1);
         let count = self.place(self.start.absorption.len(), 0);
@@ -112,7 +129,7 @@ impl<'a> Problem<'a> {
         let minimum = minimise(
             point,
             (&bound(-1.0), &bound(1.0)),
-            STOP,
+            Stop { cancellation: Some(cancellation), ..STOP },
             |point| self.equations(point),
             |point| self.cost(point),
         );

@@ -16,7 +16,7 @@ const TRAINING: usize = 700;
 /// Seed of the training set.
 const TRAINING_SEED: u64 = 2004;
 /// Stopping rule of each fit.
-const STOP: Stop = Stop { iterations: 120, relative_decrease: 1e-6 };
+const STOP: Stop<'static> = Stop { iterations: 120, relative_decrease: 1e-6, cancellation: None };
 /// Limits of the nodes in nm: the band of the CIE's observers.
 const NODE_BAND_NM: [f64; 2] = [360.0, 830.0];
 /// Greatest size of every weight, positive or negative. The weights of a channel sum to about 100, so a good

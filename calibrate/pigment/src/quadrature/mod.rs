@@ -29,6 +29,8 @@ mod effective_fit;
 
 mod trial;
 
+mod told;
+
 pub use effective::EffectiveQuadrature;
 pub use films::FilmSet;
 pub use gauss::GaussRule;

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use spectra::color::{Lab, Xyz, delta_e_ciede2000};
 use spectra::hint::{Explain, Fault, Hint};
-use spectra::{Grid, TristimulusWeights};
+use spectra::{Cancelled, Grid, TristimulusWeights};
 
 use super::gauss::GaussRule;
 use super::mixtures::MixtureSet;
@@ -194,14 +194,25 @@ pub enum QuadratureFailure {
         /// Number of nodes that was requested.
         count: usize,
     },
+    /// The fit was asked to end before its time.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 impl Explain for QuadratureFailure {
     fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("eight wavelengths are enough for most paints: [nodes=8]"))
+        match self {
+            Self::Count { .. } => {
+                Some(Hint::new("eight wavelengths are enough for most paints: [nodes=8]"))
+            }
+            Self::Cancelled(error) => error.hint(),
+        }
     }
 
     fn fault(&self) -> Fault {
-        Fault::Setting
+        match self {
+            Self::Count { .. } => Fault::Setting,
+            Self::Cancelled(error) => error.fault(),
+        }
     }
 }

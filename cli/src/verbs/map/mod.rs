@@ -140,7 +140,9 @@ impl Map {
                 let book = Book::from_json(&crate::input::text(path)?)?;
                 SurveyedScan::with_book(cube, &library, &settings, region, book)?
             }
-            None => SurveyedScan::survey(cube, &library, &settings, region, &|| ())?,
+            None => SurveyedScan::survey(cube, &library, &settings, region, &|| {
+                ControlFlow::Continue(())
+            })?,
         };
         drop(waiting);
         if let (Some(path), None) = (&self.survey, known) {
@@ -163,10 +165,10 @@ impl Map {
             folder.told(console)?;
         }
         if self.csv {
-            return console.csv_rows(&told::rows(&scan, mapped.as_ref()));
+            return console.csv_rows(&scan.palette_json(mapped.as_ref()));
         }
         if self.json {
-            return console.json(&told::json(&scan, mapped.as_ref(), &spots));
+            return console.json(&scan.to_json(mapped.as_ref(), &spots));
         }
         told::print(&scan, mapped.as_ref(), console)?;
         told::print_spots(&spots, console)?;

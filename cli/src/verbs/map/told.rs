@@ -1,9 +1,8 @@
-//! Text, JSON and CSV of a survey and its maps.
+//! Text of a survey and its maps.
 
 use maps::pictures::Overview;
 use maps::pixel_maps::Mask;
 use maps::{FoundColumn, Spot, SurveyedScan};
-use serde_json::{Map, Value, json};
 
 use crate::console::Console;
 use crate::failure::Result;
@@ -11,78 +10,11 @@ use crate::failure::Result;
 /// Part of the surveyed pixels below which a pigment is not named in the text.
 const NAMED: f64 = 0.001;
 
-/// One row for each pigment or group, the most frequent first.
-pub(super) fn rows(scan: &SurveyedScan, mapped: Option<&Overview>) -> Vec<Value> {
-    let row = |found: &FoundColumn| {
-        let mut row = json!({
-            "pigment": found.column.name,
-            "survey_part": found.part,
-        });
-        if let Some((overview, place)) = place(found, mapped) {
-            row["present"] = json!(overview.present[place]);
-            row["mean_share"] = json!(overview.mean_share[place]);
-        }
-        row
-    };
-    scan.palette().iter().map(row).collect()
-}
-
 /// Place of a pigment in the maps.
 fn place<'a>(found: &FoundColumn, mapped: Option<&'a Overview>) -> Option<(&'a Overview, usize)> {
     let overview = mapped?;
     let place = overview.pigments.iter().position(|name| *name == found.column.name)?;
     Some((overview, place))
-}
-
-pub(super) fn json(scan: &SurveyedScan, mapped: Option<&Overview>, spots: &[Spot]) -> Value {
-    let about = scan.about();
-    let grouped = scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1);
-    let groups: Map<String, Value> =
-        grouped.map(|column| (column.name.clone(), json!(column.pigments))).collect();
-    let pixels = mapped.map(|overview| {
-        let each = Mask::ALL.iter().map(|mask| (mask.name(), json!(overview.pixels.of(*mask))));
-        each.map(|(name, count)| (name.to_owned(), count)).collect::<Map<String, Value>>()
-    });
-    json!({
-        "scan": {
-            "lines": scan.cube().lines(),
-            "samples": scan.cube().samples(),
-            "wavelengths_nm": scan.cube().wavelengths_nm(),
-            "sign": about.scan,
-        },
-        "library_sha256": about.library_sha256,
-        "survey_sha256": about.book_sha256,
-        "settings": about.settings,
-        "effective_bands": scan.mapper().effective_bands(),
-        "usual_chi2": scan.book().usual_chi2,
-        "groups": groups,
-        "palette": rows(scan, mapped),
-        "pixels": pixels,
-        "spots": spots.iter().map(spot_json).collect::<Vec<Value>>(),
-    })
-}
-
-fn spot_json(spot: &Spot) -> Value {
-    let pigments = spot.pigments.iter().map(|pigment| {
-        json!({
-            "pigment": pigment.name,
-            "share": pigment.share,
-            "share_sd": pigment.share_sd,
-            "presence": pigment.presence,
-        })
-    });
-    json!({
-        "rows": [spot.region.rows.start, spot.region.rows.end],
-        "columns": [spot.region.columns.start, spot.region.columns.end],
-        "pixels": spot.pixels,
-        "pigments": pigments.collect::<Vec<Value>>(),
-        "chi2": spot.chi2,
-        "rms": spot.rms,
-        "measured_nm": spot.measured_nm,
-        "measured": spot.measured,
-        "mapped_nm": spot.mapped_nm,
-        "mapped": spot.mapped,
-    })
 }
 
 /// Pigments and residual of each spot, a line each.
