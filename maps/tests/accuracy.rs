@@ -5,10 +5,10 @@
 
 use calibrate::Readings;
 use maps::accuracy::{
-    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, light_palette,
-    missing_pigment, oil_groups, painting_trials, prepared_oils, reliability, swatch_trials,
+    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, half_of, light_palette,
+    missing_pigment, oil_groups, painting_trials, prepared_oils, reliability, residuals_of,
+    swatch_trials,
 };
-use maps::left_out::{Residuals, half_of, left_out};
 use maps::{MapSettings, ModelError};
 use pigment::PigmentLibrary;
 
@@ -32,7 +32,7 @@ fn plan(pixels: usize) -> PaintingPlan {
 
 #[test]
 fn left_out_swatches_are_unmixed_better_than_by_linear_methods() {
-    let samples = left_out(&prepared_oils(&readings()).unwrap(), &|| ()).unwrap();
+    let samples = prepared_oils(&readings()).unwrap().left_out(&|| ()).unwrap();
     assert_eq!(samples.len(), 65, "binary mixtures");
     let groups = oil_groups();
     let trials = swatch_trials(&samples, &MapSettings::default(), &groups).unwrap();
@@ -82,7 +82,7 @@ fn a_library_of_other_readings_serves_too() {
     let prepared = prepared_oils(&readings()).unwrap();
     let halves = [0, 1].map(|half| half_of(&prepared, half));
     let [real, known] = halves.each_ref().map(|half| half.fit().unwrap().library);
-    let residuals = Residuals::of(&left_out(&halves[1], &|| ()).unwrap()).unwrap();
+    let residuals = residuals_of(&halves[1].left_out(&|| ()).unwrap()).unwrap();
     let model_error = Some(ModelError::Residuals(residuals));
     let settings = MapSettings { model_error, ..stated() };
     let exact = PaintingPlan { error: 0.0, ..plan(100) };

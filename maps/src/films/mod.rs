@@ -2,8 +2,6 @@
 
 pub mod bands;
 
-pub mod left_out;
-
 pub(crate) mod paints;
 
 pub(crate) mod noise;

@@ -28,10 +28,10 @@ pub fn survey_step(pixels: usize) -> usize {
     (pixels / SURVEYED).max(1)
 }
 
-/// Searches the pixels of `folded` whole. `progress` is called after each pixel, from any thread.
+/// Searches the pixels of `folded` whole, and fills the empty `book`. `progress` is called after each pixel, from any thread.
 pub(crate) fn survey(
     prepared: &Prepared,
-    identity: &str,
+    mut book: Book,
     folded: &[Folded],
     progress: &(dyn Fn() + Sync),
 ) -> Book {
@@ -59,7 +59,6 @@ pub(crate) fn survey(
         }
         parts = frequencies(&found);
     }
-    let mut book = Book::new(identity.to_owned(), prepared.paints.names.clone());
     book.usual_chi2 = usual(&found);
     let members = |key: u32| -> Vec<u8> {
         key.to_be_bytes().into_iter().filter(|member| *member != u8::MAX).collect()
