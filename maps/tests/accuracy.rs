@@ -72,9 +72,16 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
         println!("{range:?}");
         assert!((range.told - range.true_part).abs() < 0.05, "{range:?}");
     }
-    let covered = coverage(&trials.searched);
-    println!("{covered:?}");
-    assert!((0.6..0.76).contains(&covered.within), "{covered:?}");
+    // After a survey as in a whole search.
+    for told in [&trials.searched, &trials.mapped] {
+        let covered = coverage(told);
+        println!("{covered:?}");
+        assert!((0.62..0.76).contains(&covered.within), "{covered:?}");
+        for range in reliability(told, &[0.1, 0.3, 0.5, 0.7, 0.9]) {
+            println!("{range:?}");
+            assert!(range.told - range.true_part < 0.1, "{range:?}");
+        }
+    }
 }
 
 #[test]

@@ -8,6 +8,8 @@ pub(crate) mod noise;
 
 pub(crate) mod settings;
 
+pub(crate) mod vectors;
+
 pub(crate) mod whitening;
 
 pub(crate) mod film;

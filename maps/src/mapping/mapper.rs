@@ -14,7 +14,7 @@ use crate::films::noise::ModelError;
 use crate::films::settings::MapSettings;
 use crate::map_error::MapError;
 use crate::pixel_maps::{BlockMaps, Mask};
-use crate::search::engine::{Prior, Scratch};
+use crate::search::engine::Scratch;
 use crate::search::set_fit::SetFit;
 
 /// Gauss-Newton steps of the true pigments in a trial.
@@ -215,7 +215,7 @@ impl Mapper {
         let engine = &self.prepared.engine;
         self.map_with(spectra, &[], |folded, scratch| {
             let place = engine.table.nearest(&folded.point);
-            engine.search(&folded.pixel, place, &Prior::default(), scratch);
+            engine.search(&folded.pixel, place, scratch);
         })
     }
 
@@ -237,8 +237,8 @@ impl Mapper {
             let parts: Vec<(usize, f32)> = parts.iter().map(place).collect::<Option<_>>()?;
             let set = SetFit::of_parts(&parts)?;
             let nearest = engine.table.nearest(&folded.point);
-            engine.search(&folded.pixel, nearest, &Prior::default(), scratch);
-            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS, &Prior::default());
+            engine.search(&folded.pixel, nearest, scratch);
+            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
             Some(scratch.found.first()?.score - truth.score)
         };
         let found = pixels.par_iter().zip(truth).map_init(|| Scratch::new(&engine.films), gap);
