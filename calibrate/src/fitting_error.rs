@@ -34,6 +34,9 @@ pub enum FittingError {
     /// A validation of absolute amounts cannot be limited to pigments.
     #[error("a validation with certain pigments needs relative amounts")]
     AbsoluteWith,
+    /// Films of absolute amounts do not hide, so that they have no residuals for maps.
+    #[error("residuals of films that hide need relative amounts")]
+    AbsoluteResiduals,
     /// A validation needs two groups or more.
     #[error("a validation in groups needs at least 2, found `{folds}`")]
     Folds {
@@ -77,6 +80,7 @@ impl Explain for FittingError {
             Self::AllExcluded => "leave out some [exclude]".into(),
             Self::AbsoluteOptions => "leave out [reference] and [method]".into(),
             Self::AbsoluteWith => "leave out [with]".into(),
+            Self::AbsoluteResiduals => "leave out [residuals]".into(),
             Self::Folds { .. } => "try [folds=10]".into(),
             Self::NothingToLeaveOut { .. } => {
                 "measure more mixtures of each pigment (masstone, two tints, a shade)".into()
@@ -89,7 +93,10 @@ impl Explain for FittingError {
 
     fn fault(&self) -> Fault {
         match self {
-            Self::AbsoluteOptions | Self::AbsoluteWith | Self::Folds { .. } => Fault::Setting,
+            Self::AbsoluteOptions
+            | Self::AbsoluteWith
+            | Self::AbsoluteResiduals
+            | Self::Folds { .. } => Fault::Setting,
             Self::Measurement(error) => error.fault(),
             Self::Calibration(error) => error.fault(),
             _ => Fault::Input,

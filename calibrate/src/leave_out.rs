@@ -1,13 +1,19 @@
 //! Validation of a fit from readings: each mixture predicted without its own measurement.
 
-use crate::fit::Watch;
+use crate::calibration::CalibrationError;
+use crate::fit::{FitError, FitStage, Watch};
 use crate::fitting::{FilmModel, Fit, FitOptions, PreparedFit, index_of};
 use crate::fitting_error::FittingError;
-use crate::observation::Observation;
+use crate::observation::{Observation, observations};
 use crate::readings::Readings;
 use crate::report::ErrorReport;
-use crate::validation::{DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films};
+use crate::residuals::{LeftOutMixture, Residuals};
+use crate::validation::{
+    DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films, left_out_mixture,
+};
 use pigment::evaluate::Viewing;
+use pigment::library::{AmountKind, PigmentLibrary};
+use rayon::prelude::*;
 
 /// Pigments that a report names for their part of the error.
 const NAMED_PIGMENTS: usize = 4;
@@ -22,6 +28,15 @@ pub struct ValidationOptions {
     pub folds: Option<usize>,
     /// Names of pigments; only mixtures with one of them are left out. Default: all mixtures.
     pub with: Vec<String>,
+}
+
+/// A measured mixture, and a library that was fitted to all other samples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LeftOut {
+    /// Measured and predicted film of the mixture.
+    pub mixture: LeftOutMixture,
+    /// Library of the other samples.
+    pub library: PigmentLibrary,
 }
 
 /// Errors of mixtures that were predicted without their own measurement.
@@ -49,6 +64,27 @@ impl FitValidation {
         let light = [self.viewing.illuminant.name(), self.viewing.observer.name()];
         let title = format!("{}, left out {manner}", spectra::counted(count, "mixture"));
         ErrorReport::new(title, delta_e, *rms, light, per_sample).with_lines(self.findings())
+    }
+
+    /// Measured and predicted films of the mixtures that were left out, rounded as their file has them: by
+    /// these, pigment maps know how far the library's predictions err.
+    ///
+    /// # Errors
+    /// [`FittingError::AbsoluteResiduals`] for absolute amounts, whose films do not hide.
+    pub fn residuals(&self) -> Result<Residuals, FittingError> {
+        let library = &self.fit.library;
+        if library.amounts == AmountKind::Absolute {
+            return Err(FittingError::AbsoluteResiduals);
+        }
+        let residuals = Residuals {
+            grid: library.grid,
+            saunderson: library.saunderson,
+            settings: library.settings.clone().unwrap_or_default(),
+            folds: self.folds,
+            inputs: library.inputs.clone(),
+            mixtures: self.errors.mixtures.clone(),
+        };
+        Ok(residuals.rounded())
     }
 
     /// Which pigments carry the error, and how much of it is strength.
@@ -158,6 +194,43 @@ impl PreparedFit {
             return Err(FittingError::NothingToLeaveOut { needed: errors.needed });
         }
         Ok(FitValidation { errors, fit, folds, viewing })
+    }
+
+    /// Leaves out each mixture of two pigments or more in turn, on all cores, like [`Self::validate`], and
+    /// returns the library of each fit. Mixtures without which the rest cannot be fitted, or a pigment would
+    /// not be identified, are passed over, as are films of absolute amounts, which do not hide. `watch` is told
+    /// [`FitStage::LeftOut`] after each, from any thread.
+    ///
+    /// # Errors
+    /// [`FittingError`] if readings cannot be used, the fit of all samples fails, or the work was cancelled.
+    pub fn left_out(&self, watch: Watch<'_>) -> Result<Vec<LeftOut>, FittingError> {
+        let FilmModel::Relative { reference, surface } = self.model else {
+            return Ok(Vec::new());
+        };
+        let (set, settings) = (&self.set, &self.settings);
+        let observations = observations(set, surface, settings.below_surface);
+        let observations = observations.map_err(CalibrationError::from)?;
+        let (state, viewing) = (self.fit_watched(watch.quiet())?.state, self.viewing());
+        let plan = ValidationPlan { settings, viewing, state, folds: None, watch };
+        let refits = plan.refits(set, &observations, reference, surface);
+        let mixtures: Vec<usize> = refits.mixtures().collect();
+        let left_out = |&index: &usize| -> Result<Option<LeftOut>, FittingError> {
+            let target = &observations[index];
+            let refit = refits.without(&[index]);
+            watch.tell(FitStage::LeftOut);
+            let refit = match refit {
+                Err(CalibrationError::Fit(error)) if !matches!(error, FitError::Cancelled(_)) => {
+                    return Ok(None);
+                }
+                other => other?,
+            };
+            Ok(refit.identifies(target).then(|| LeftOut {
+                mixture: left_out_mixture(set, target, &refit.film(target, surface, 1.0)),
+                library: refits.library(&refit),
+            }))
+        };
+        let found = mixtures.par_iter().map(left_out).collect::<Result<Vec<_>, _>>()?;
+        Ok(found.into_iter().flatten().collect())
     }
 
     fn chosen(&self, options: &ValidationOptions) -> Result<ChosenPigments, FittingError> {

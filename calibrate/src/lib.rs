@@ -55,6 +55,10 @@ pub mod fit;
 
 mod scores;
 
+mod residuals_error;
+
+mod residuals;
+
 mod findings;
 
 pub mod calibration;
@@ -66,6 +70,8 @@ pub mod report;
 mod fitting_error;
 
 pub mod fitting;
+
+mod refit;
 
 pub mod validation;
 
@@ -83,9 +89,11 @@ pub mod synthetic;
 
 pub use fitting::{FilmModel, Fit, FitOptions, PreparedFit, fit};
 pub use fitting_error::FittingError;
-pub use leave_out::{FitValidation, ValidationOptions, validate};
+pub use leave_out::{FitValidation, LeftOut, ValidationOptions, validate};
 pub use plan::plan;
 pub use readings::{ReadingFormat, ReadingOptions, Readings};
 pub use readings_error::ReadingsError;
 pub use report::ErrorReport;
+pub use residuals::{LeftOutMixture, Residuals};
+pub use residuals_error::ResidualsError;
 pub use scores::shares_of_squares;

@@ -5,17 +5,16 @@ use serde::Serialize;
 use spectra::optics::{Surface, UnevenFilm};
 
 use crate::absolute::{all_but, films, folds};
-use crate::calibration::{CalibrationError, solve, without};
-use crate::fit::{
-    FitError, FitSettings, FitStage, Problem, RefinedState, Refinement, Watch, fit_finite,
-    unidentified,
-};
+use crate::calibration::CalibrationError;
+use crate::fit::{FitSettings, FitStage, RefinedState, Refinement, Watch, fit_finite};
 use crate::observation::{Observation, observations};
+use crate::refit::Refits;
+use crate::residuals::LeftOutMixture;
 use crate::scores::Scores;
 use crate::swatch::SwatchSet;
+use pigment::PigmentId;
 use pigment::evaluate::{Summary, Viewing, delta_e};
 use pigment::library::SampleEvidence;
-use pigment::{Curves, PigmentId};
 
 /// Groups that are left out in turn for absolute amounts, where each film by itself would take too long;
 /// chosen by eye.
@@ -38,6 +37,9 @@ pub struct Validation {
     pub strength_free: Option<Summary>,
     /// Pigments by their part of the error, the greatest first; empty for absolute amounts.
     pub by_pigment: Vec<PigmentError>,
+    /// Measured and predicted films of the mixtures; empty for absolute amounts, whose films do not hide.
+    #[serde(skip)]
+    pub mixtures: Vec<LeftOutMixture>,
 }
 
 /// Part of the errors of a validation in mixtures with one pigment.
@@ -69,9 +71,17 @@ pub struct ValidationPlan<'a> {
 }
 
 impl ValidationPlan<'_> {
-    fn prediction(&self) -> Refinement<'_> {
-        let how = Refinement::prediction(self.settings.smoothness, self.state);
-        Refinement { watch: self.watch.quiet(), ..how }
+    /// Fits of parts of `set` with these settings.
+    pub(crate) fn refits<'a>(
+        &'a self,
+        set: &'a SwatchSet,
+        observations: &'a [Observation],
+        reference: PigmentId,
+        surface: Surface,
+    ) -> Refits<'a> {
+        let (settings, state) = (self.settings, self.state);
+        let watch = self.watch.quiet();
+        Refits { set, observations, reference, surface, settings, state, watch }
     }
 
     fn groups(&self, candidates: &[usize]) -> Vec<Vec<usize>> {
@@ -107,51 +117,47 @@ pub fn leave_out(
     chosen: impl Fn(&Observation) -> bool,
 ) -> Result<Validation, CalibrationError> {
     let observations = observations(set, surface, plan.settings.below_surface)?;
-    let unknown = unidentified(observations.iter().map(|o| o.shares.as_slice()), reference);
-    let is_mixture = |o: &Observation| o.shares.iter().filter(|s| **s > 0.0).count() > 1;
-    let candidates: Vec<usize> = (0..observations.len())
-        .filter(|&i| is_mixture(&observations[i]) && chosen(&observations[i]))
-        .filter(|&i| unknown.iter().all(|u| observations[i].shares[u.pigment.index()] == 0.0))
-        .collect();
+    let refits = plan.refits(set, &observations, reference, surface);
+    let candidates: Vec<usize> = refits.mixtures().filter(|&i| chosen(&observations[i])).collect();
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
-        let rest: Vec<Observation> =
-            all_but(observations.len(), group).iter().map(|&i| observations[i].clone()).collect();
-        let unknown = unidentified(rest.iter().map(|o| o.shares.as_slice()), reference);
-        let (solvable, identified) = without(&rest, &unknown);
-        let among = identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
-        let problem = Problem::new(set.grid, surface, &solvable, PigmentId(among))?;
-        let solution = solve(&problem, plan.settings.method, plan.prediction())?;
+        let refit = refits.without(group)?;
         let predictions = group.iter().map(|&index| {
             plan.watch.tell(FitStage::LeftOut);
             let target = &observations[index];
-            let needed = unknown.iter().any(|u| target.shares[u.pigment.index()] > 0.0);
-            let larger =
-                |a: usize, b: usize| if target.shares[b] > target.shares[a] { b } else { a };
-            let main = (0..target.shares.len()).reduce(larger).map(PigmentId);
-            let film = |strength: f64| {
-                let parts = identified.iter().zip(&solution.curves).map(|(pigment, curves)| {
-                    let (absorption, scattering) = curves.as_slices();
-                    let share = target.shares[pigment.index()];
-                    let scale = if Some(*pigment) == main { 1.0 } else { strength };
-                    (share * scale, absorption, scattering)
-                });
-                Curves::weighted_sum(set.grid, parts).hiding(surface)
-            };
+            let film = |strength: f64| refit.film(target, surface, strength);
             let error = |strength: f64| delta_e(&weights, &target.as_read, &film(strength));
             let prediction = || (film(1.0), Some(least_error(error)));
-            Prediction { index, predicted: (!needed).then(prediction) }
+            Prediction { index, predicted: refit.identifies(target).then(prediction) }
         });
         Ok(predictions.collect())
     };
     let predictions = plan.predictions(&candidates, predict)?;
-    let predicted = predictions.iter().filter(|prediction| prediction.predicted.is_some());
-    let mixtures: Vec<&Observation> =
-        predicted.map(|prediction| &observations[prediction.index]).collect();
+    let found = predictions.iter().filter_map(|prediction| {
+        Some((&observations[prediction.index], &prediction.predicted.as_ref()?.0))
+    });
+    let (mixtures, films): (Vec<&Observation>, Vec<LeftOutMixture>) =
+        found.map(|(target, film)| (target, left_out_mixture(set, target, film))).unzip();
     let sample =
         |index: usize| (observations[index].sample.clone(), observations[index].as_read.as_slice());
     let errors = summary(set, plan, predictions, sample);
-    Ok(Validation { by_pigment: by_pigment(set, &mixtures, &errors.per_sample), ..errors })
+    let by_pigment = by_pigment(set, &mixtures, &errors.per_sample);
+    Ok(Validation { by_pigment, mixtures: films, ..errors })
+}
+
+/// Measured and predicted films of a mixture, both of which hide.
+pub(crate) fn left_out_mixture(
+    set: &SwatchSet,
+    target: &Observation,
+    predicted: &[f64],
+) -> LeftOutMixture {
+    let shares = set.pigments.iter().zip(&target.shares).filter(|(_, share)| **share > 0.0);
+    LeftOutMixture {
+        sample: target.sample.clone(),
+        shares: shares.map(|(name, share)| (name.clone(), *share)).collect(),
+        measured: target.reflectance.clone(),
+        predicted: predicted.to_vec(),
+    }
 }
 
 /// Factors of the strength that are tried, from 1/4 to 4, evenly spaced in their logarithm.
@@ -210,9 +216,11 @@ pub fn leave_out_films(
     let count = problem.films.len();
     let candidates: Vec<usize> =
         (0..count).filter(|&i| problem.films[i].recipe.len() > 1).collect();
+    let how = Refinement::prediction(plan.settings.smoothness, plan.state);
+    let how = Refinement { watch: plan.watch.quiet(), ..how };
     let predict = |group: &Vec<usize>| -> Result<Vec<Prediction>, CalibrationError> {
         let part = problem.with_films(&all_but(count, group));
-        let fit = fit_finite(&part, film, &weights, plan.prediction())?;
+        let fit = fit_finite(&part, film, &weights, how)?;
         let predictions = group.iter().map(|&index| {
             plan.watch.tell(FitStage::LeftOut);
             Prediction { index, predicted: Some((problem.predicted(&fit, film, index), None)) }
@@ -254,5 +262,13 @@ fn summary<'a>(
     }
     let Scores { rms, delta_e, per_sample } = Scores::of(&weights, films);
     let strength_free = (!strength_free.is_empty()).then(|| Summary::of(&strength_free));
-    Validation { rms, delta_e, per_sample, needed, strength_free, by_pigment: Vec::new() }
+    Validation {
+        rms,
+        delta_e,
+        per_sample,
+        needed,
+        strength_free,
+        by_pigment: Vec::new(),
+        mixtures: Vec::new(),
+    }
 }

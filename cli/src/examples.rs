@@ -17,6 +17,7 @@ const EXAMPLES: [(&str, &[&str]); 33] = [
         &[
             "impasto validate measurements/van-gogh-oils.csv",
             "impasto validate readings.csv --with Viridian --csv",
+            "impasto validate readings.csv --residuals residuals.json",
         ],
     ),
     (
@@ -38,6 +39,7 @@ const EXAMPLES: [(&str, &[&str]); 33] = [
         "map",
         &[
             "impasto map scan.hdr oils.json -o maps.zarr --pictures maps",
+            "impasto map scan.hdr oils.json --residuals residuals.json -o maps.zarr",
             "impasto map scan.hdr oils.json --palette \"Lead White\" --palette Ultramarine --json",
             "impasto map capture.hdr -o maps.zarr --white-reading white.hdr --dark-reading dark.hdr --resume",
         ],

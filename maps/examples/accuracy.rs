@@ -15,12 +15,12 @@
 #![expect(clippy::print_stdout, reason = "an example prints its result")]
 
 use calibrate::Readings;
+use calibrate::fit::Watch;
 use maps::accuracy::{
     Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, Trial, choose_penalty, coverage,
-    light_palette, missing_pigment, oil_groups, painting_trials, prepared_oils, reliability,
-    swatch_trials,
+    half_of, light_palette, missing_pigment, oil_groups, painting_trials, prepared_oils,
+    reliability, residuals_of, swatch_trials,
 };
-use maps::left_out::{Residuals, half_of, left_out};
 use maps::{MapSettings, Mapper, ModelError, USUAL_MODEL_ERROR};
 use pigment::PigmentLibrary;
 
@@ -44,7 +44,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     paintings("any eight, K and S off by 10 %", (&oils, &oils), &plan, &stated)?;
     let halves = [half_of(&prepared, 0), half_of(&prepared, 1)];
     let (real, known) = (halves[0].fit()?.library, halves[1].fit()?.library);
-    let model_error = Residuals::of(&left_out(&halves[1], &|| ())?).map(ModelError::Residuals);
+    let model_error =
+        residuals_of(&halves[1].left_out(Watch::default())?).map(ModelError::Residuals);
     let usual = MapSettings { model_error, ..stated.clone() };
     let exact = PaintingPlan { error: 0.0, ..plan.clone() };
     paintings("library from the other half", (&real, &known), &exact, &usual)?;
@@ -66,7 +67,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn swatches(prepared: &calibrate::PreparedFit) -> Result<(), Box<dyn std::error::Error>> {
-    let samples = left_out(prepared, &|| ())?;
+    let samples = prepared.left_out(Watch::default())?;
     let groups = oil_groups();
     let named = NamedGroups::of(&samples, &groups);
     println!("1. {} measured mixtures, each left out of its library", samples.len());

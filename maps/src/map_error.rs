@@ -1,5 +1,6 @@
 //! Reasons why spectra cannot be mapped with a library.
 
+use calibrate::ResidualsError;
 use pigment::RecipeError;
 use spectra::Cancelled;
 use spectra::hint::{Explain, Fault, Hint};
@@ -36,6 +37,9 @@ pub enum MapError {
     /// A name matches no pigment of the library, or several.
     #[error(transparent)]
     Name(#[from] RecipeError),
+    /// Residuals do not suit the library.
+    #[error(transparent)]
+    Residuals(#[from] ResidualsError),
     /// Too few or too many pigments take part.
     #[error("1 to {most} pigments can take part in a map, found `{found}`")]
     Pigments {
@@ -94,6 +98,14 @@ pub enum MapError {
         /// Identity of the mapper.
         expected: String,
     },
+    /// A book was made with another error of the library's predictions.
+    #[error("the survey was made with {found}, not with {expected}")]
+    OtherModelError {
+        /// Error of the book, in words.
+        found: String,
+        /// Error of the mapper, in words.
+        expected: String,
+    },
     /// A file of a book cannot be read.
     #[error("the book of a survey is not valid: {reason}")]
     Book {
@@ -115,6 +127,7 @@ impl Explain for MapError {
                 "check that the wavelengths are in nm, or fit a library from readings that cover the scan",
             )),
             Self::Name(error) => error.hint(),
+            Self::Residuals(error) => error.hint(),
             Self::Pigments { .. } => Some(Hint::new("name the pigments with [palette]")),
             Self::TwoGroups { .. } => Some(Hint::new("name each pigment in one [group]")),
             Self::Setting { .. } | Self::Book { .. } => None,
@@ -127,11 +140,15 @@ impl Explain for MapError {
             )),
             Self::Cancelled(error) => error.hint(),
             Self::OtherBook { .. } => Some(Hint::new("survey the scan again with these settings")),
+            Self::OtherModelError { .. } => Some(Hint::new(
+                "give the same [residuals] or [model_error] as for the survey, or survey the scan again",
+            )),
         }
     }
 
     fn fault(&self) -> Fault {
         match self {
+            Self::Residuals(error) => error.fault(),
             Self::Name(_)
             | Self::Pigments { .. }
             | Self::TwoGroups { .. }

@@ -11,7 +11,7 @@ use spectra::hint::{Explain, Fault, Hint};
 
 use crate::blocks::{MapOutcome, MapProgress, PixelCounts, RunError, map_cube, map_shard};
 use crate::cube::{Block, Cube, CubeError};
-use crate::films::noise::{ModelError, USUAL_MODEL_ERROR};
+use crate::films::noise::ModelError;
 use crate::films::settings::MapSettings;
 use crate::map_error::MapError;
 use crate::mapping::book::Book;
@@ -264,10 +264,12 @@ fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
         .filter(|column| column.pigments.len() > 1)
         .map(|column| (column.name.clone(), json!(column.pigments)))
         .collect();
-    let model_error = match settings.model_error {
-        Some(ModelError::Stated(relative)) => json!(relative),
-        Some(_) => json!("left out"),
-        None => json!(USUAL_MODEL_ERROR),
+    let model_error = match mapper.model_error() {
+        ModelError::Stated(relative) => json!(relative),
+        ModelError::Residuals(residuals) => json!({
+            "left_out_mixtures": residuals.mixtures.len(),
+            "residuals_sha256": residuals.sha256(),
+        }),
     };
     let all = json!({
         "at_most": settings.at_most,

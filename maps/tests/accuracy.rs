@@ -4,11 +4,12 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use calibrate::Readings;
+use calibrate::fit::Watch;
 use maps::accuracy::{
-    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, light_palette,
-    missing_pigment, oil_groups, painting_trials, prepared_oils, reliability, swatch_trials,
+    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, half_of, light_palette,
+    missing_pigment, oil_groups, painting_trials, prepared_oils, reliability, residuals_of,
+    swatch_trials,
 };
-use maps::left_out::{Residuals, half_of, left_out};
 use maps::{MapSettings, ModelError};
 use pigment::PigmentLibrary;
 
@@ -32,7 +33,7 @@ fn plan(pixels: usize) -> PaintingPlan {
 
 #[test]
 fn left_out_swatches_are_unmixed_better_than_by_linear_methods() {
-    let samples = left_out(&prepared_oils(&readings()).unwrap(), &|| ()).unwrap();
+    let samples = prepared_oils(&readings()).unwrap().left_out(Watch::default()).unwrap();
     assert_eq!(samples.len(), 65, "binary mixtures");
     let groups = oil_groups();
     let trials = swatch_trials(&samples, &MapSettings::default(), &groups).unwrap();
@@ -72,9 +73,16 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
         println!("{range:?}");
         assert!((range.told - range.true_part).abs() < 0.05, "{range:?}");
     }
-    let covered = coverage(&trials.searched);
-    println!("{covered:?}");
-    assert!((0.6..0.76).contains(&covered.within), "{covered:?}");
+    // After a survey as in a whole search.
+    for told in [&trials.searched, &trials.mapped] {
+        let covered = coverage(told);
+        println!("{covered:?}");
+        assert!((0.62..0.76).contains(&covered.within), "{covered:?}");
+        for range in reliability(told, &[0.1, 0.3, 0.5, 0.7, 0.9]) {
+            println!("{range:?}");
+            assert!(range.told - range.true_part < 0.1, "{range:?}");
+        }
+    }
 }
 
 #[test]
@@ -82,7 +90,7 @@ fn a_library_of_other_readings_serves_too() {
     let prepared = prepared_oils(&readings()).unwrap();
     let halves = [0, 1].map(|half| half_of(&prepared, half));
     let [real, known] = halves.each_ref().map(|half| half.fit().unwrap().library);
-    let residuals = Residuals::of(&left_out(&halves[1], &|| ()).unwrap()).unwrap();
+    let residuals = residuals_of(&halves[1].left_out(Watch::default()).unwrap()).unwrap();
     let model_error = Some(ModelError::Residuals(residuals));
     let settings = MapSettings { model_error, ..stated() };
     let exact = PaintingPlan { error: 0.0, ..plan(100) };

@@ -5,6 +5,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use calibrate::{Residuals, ResidualsError};
 use maps::accuracy::{Painting, PaintingPlan};
 use maps::pixel_maps::{BlockMaps, Mask};
 use maps::{Book, MapError, MapSettings, Mapper, ModelError, PigmentGroup};
@@ -155,7 +156,7 @@ fn books_survive_their_file_and_broken_ones_are_refused() {
     assert_eq!(bits(&mapper.map_block(&read, &spectra).unwrap()), bits(&whole));
     for (from, to) in [
         ("impasto-survey", "other"),
-        ("\"version\":1", "\"version\":2"),
+        ("\"version\":2", "\"version\":1"),
         ("\"point\":[", "\"point\":[1.0,"),
         ("\"shares\":[", "\"shares\":[7.0,"),
     ] {
@@ -199,6 +200,42 @@ fn pigments_that_look_alike_are_grouped_and_others_are_not() {
     assert_eq!(column("Zinc White"), column("Lead White"), "whites");
     assert_ne!(column("Viridian"), column("Cobalt Blue"), "a green and a blue");
     assert_ne!(column("Zinc White"), column("Bone Black"), "white and black");
+}
+
+#[test]
+fn the_oils_that_ship_err_like_their_left_out_mixtures() {
+    let (oils, nm) = oils();
+    let shipped = ModelError::Residuals(Residuals::van_gogh_oils());
+    let usual = Mapper::new(&oils, &nm, &MapSettings::default()).unwrap();
+    assert_eq!(*usual.model_error(), shipped);
+    let given = MapSettings { model_error: Some(shipped), ..MapSettings::default() };
+    let given = Mapper::new(&oils, &nm, &given).unwrap();
+    assert_eq!(given.identity(), usual.identity(), "the default is the file that ships");
+    let other = PigmentLibrary { title: "others".to_owned(), ..oils.clone() };
+    let other = Mapper::new(&other, &nm, &MapSettings::default()).unwrap();
+    assert_eq!(*other.model_error(), ModelError::Stated(0.1));
+}
+
+#[test]
+fn books_of_other_residuals_are_refused_with_both() {
+    let (oils, nm) = oils();
+    let (_, spectra) = scan(30);
+    let with = |residuals: Residuals| {
+        let model_error = Some(ModelError::Residuals(residuals));
+        Mapper::new(&oils, &nm, &MapSettings { model_error, ..settings() })
+    };
+    let mut half = Residuals::van_gogh_oils();
+    half.mixtures.truncate(32);
+    let first = with(half.clone()).unwrap();
+    let book = first.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let error = with(Residuals::van_gogh_oils()).unwrap().open_book(&book).unwrap_err();
+    let words = error.to_string();
+    assert!(words.contains("32 left-out") && words.contains(&half.sha256()), "{words}");
+    assert!(words.contains("65 left-out") && error.hint().is_some(), "{words}");
+    half.mixtures.truncate(9);
+    let few = with(half).unwrap_err();
+    let expected = ResidualsError::Few { found: 9, least: maps::LEAST_MIXTURES };
+    assert_eq!(few, MapError::Residuals(expected));
 }
 
 #[test]

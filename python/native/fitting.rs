@@ -15,6 +15,7 @@ use crate::json::{RemarkTuple, remarks};
 use crate::library::Library;
 use crate::light::{Light, viewing};
 use crate::readings::Readings;
+use crate::residuals::Residuals;
 use crate::running::run;
 
 /// A fitted library, with what a user should know about the fit.
@@ -70,6 +71,12 @@ impl Validation {
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.0.warnings()
+    }
+
+    /// Measured and predicted reflectances of the mixtures.
+    fn residuals(&self, py: Python<'_>) -> PyResult<Residuals> {
+        let residuals = self.0.residuals().raised(py, Exception::Fit)?;
+        Ok(Residuals(Arc::new(residuals)))
     }
 
     /// Errors as JSON: rms, delta_e, per_sample, needed, strength_free, by_pigment.

@@ -19,6 +19,8 @@ mod library;
 
 mod readings;
 
+mod residuals;
+
 mod fitting;
 
 mod matching;
@@ -56,6 +58,8 @@ mod _native {
     use crate::readings::Readings;
     #[pymodule_export]
     use crate::report::report;
+    #[pymodule_export]
+    use crate::residuals::Residuals;
     #[pymodule_export]
     use crate::survey::Survey;
 

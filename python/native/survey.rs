@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use crate::cube::Cube;
 use crate::failure::{Exception, Raised};
 use crate::library::Library;
+use crate::residuals::Residuals;
 use crate::running::run;
 
 /// Settings of a map, as the public face passes them.
@@ -21,6 +22,7 @@ pub(crate) struct Settings {
     group_alike: bool,
     noise: Option<f64>,
     model_error: Option<f64>,
+    residuals: Option<Py<Residuals>>,
     penalty: f64,
     region: Option<((usize, usize), (usize, usize))>,
 }
@@ -29,13 +31,16 @@ impl Settings {
     fn settings(self, white_sd: Option<f64>) -> (MapSettings, Option<Region>) {
         let usual = MapSettings::default();
         let group = |(name, pigments)| PigmentGroup { name, pigments };
+        let residuals = self.residuals.map(|residuals| {
+            ModelError::Residuals(calibrate::Residuals::clone(&residuals.get().0))
+        });
         let settings = MapSettings {
             at_most: self.at_most,
             palette: self.palette,
             groups: self.groups.into_iter().map(group).collect(),
             group_alike: self.group_alike,
             sensor_noise: self.noise.or(white_sd).unwrap_or(usual.sensor_noise),
-            model_error: self.model_error.map(ModelError::Stated),
+            model_error: residuals.or(self.model_error.map(ModelError::Stated)),
             penalty: self.penalty,
         };
         let region = self

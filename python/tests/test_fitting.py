@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from conftest import OILS_CSV, OILS_JSON, ROOT
 
@@ -100,6 +101,24 @@ def test_left_out_mixtures_are_those_of_the_program(readings: im.Readings) -> No
     assert left_out == len(validation.samples) + len(validation.warnings) > 50
     assert validation.by_pigment[0]["share"] >= validation.by_pigment[1]["share"]
     assert str(validation).startswith(f"{len(validation.samples)} mixtures, left out in 3 groups")
+
+
+def test_residuals_are_those_of_the_program(readings: im.Readings, tmp_path: Path) -> None:
+    with pytest.warns(im.FindingWarning):
+        validation = im.validate(readings, surface=im.Surface(), below_surface="floor")
+    residuals = validation.residuals
+    shipped = (ROOT / "measurements/van-gogh-oils.residuals.json").read_text()
+    assert residuals.to_json().replace(str(OILS_CSV), "measurements/van-gogh-oils.csv") == shipped
+    assert residuals.samples == [name for name, _ in validation.samples]
+    assert residuals.measured.shape == residuals.predicted.shape == (65, 31)
+    error = np.sqrt(np.mean((residuals.measured - residuals.predicted) ** 2))
+    assert 0.5 * validation.rms < error < 1.5 * validation.rms
+    residuals.save(tmp_path / "residuals.json")
+    again = im.Residuals.load(tmp_path / "residuals.json")
+    assert again.sha256 == residuals.sha256 and again.wavelengths[-1] == 700
+    with pytest.raises(im.ReadingError, match="impasto-residuals") as caught:
+        im.Residuals.load(ROOT / "measurements/van-gogh-oils.pigments.json")
+    assert caught.value.hint
 
 
 def test_a_plan_has_the_form_of_the_program(oils: im.Library, tmp_path: Path) -> None:

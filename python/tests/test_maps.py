@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import OILS_JSON
 
 import impasto as im
 
@@ -139,6 +140,25 @@ def test_a_survey_is_kept_as_json(scan: tuple[Path, np.ndarray], oils: im.Librar
         im.survey(cube, oils, at_most=2, book=first.to_json())
 
 
+def test_residuals_of_a_library_reach_its_maps(
+    scan: tuple[Path, np.ndarray], oils: im.Library, tmp_path: Path
+) -> None:
+    cube = im.Cube.open(scan[0])
+    file = OILS_JSON.with_name("van-gogh-oils.residuals.json")
+    told = {"left_out_mixtures": 65, "residuals_sha256": im.Residuals.load(file).sha256}
+    assert im.survey(cube, oils).about["settings"]["model_error"] == told, "the oils that ship"
+    other = im.Library.from_json(oils.to_json().replace("Van Gogh's oils", "others"))
+    assert im.survey(cube, other).about["settings"]["model_error"] == 0.1
+    by_path = im.survey(cube, other, residuals=file)
+    assert by_path.about["settings"]["model_error"] == told
+    given = im.survey(cube, other, residuals=im.Residuals.load(file))
+    assert given.to_json() == by_path.to_json()
+    with pytest.raises(im.Error, match="left-out mixtures"):
+        im.survey(cube, other, book=given.to_json())
+    with pytest.raises(im.Error, match="exclude each other"):
+        im.survey(cube, other, residuals=file, model_error=0.1)
+
+
 def test_killed_workers_and_clients_leave_the_maps_of_one_machine(
     wide: Path, oils: im.Library, tmp_path: Path
 ) -> None:
@@ -146,7 +166,8 @@ def test_killed_workers_and_clients_leave_the_maps_of_one_machine(
     import dask.config
 
     cube = im.Cube.open(wide)
-    survey = im.survey(cube, oils)
+    residuals = OILS_JSON.with_name("van-gogh-oils.residuals.json")
+    survey = im.survey(cube, oils, residuals=residuals)
     im.pigment_map(cube, oils, tmp_path / "one.zarr", survey=survey)
     expected = digest(tmp_path / "one.zarr")
     with (

@@ -1,11 +1,13 @@
 //! `impasto validate`: measures how well mixtures outside the fit are predicted.
 
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use calibrate::ValidationOptions;
 use calibrate::fit::Watch;
 use calibrate::library::AmountKind;
 use calibrate::remark::Remark;
+use calibrate::validation::Validation;
+use calibrate::{FittingError, ValidationOptions};
 use clap::Args;
 use serde_json::json;
 
@@ -14,6 +16,7 @@ use super::fit_report;
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::ViewingOptions;
+use crate::output::Output;
 use crate::progress::Progress;
 
 /// Leave each mixture out in turn, refit, and predict it
@@ -30,6 +33,12 @@ pub(crate) struct Validate {
     /// Leave out only mixtures with this pigment (may be repeated)
     #[arg(long = "with", value_name = "PIGMENT")]
     with: Vec<String>,
+    /// Write measured and predicted reflectances of the mixtures as JSON, for `impasto map --residuals`
+    ///
+    /// Films that hide, at each wavelength, with the settings of the fit and the hashes of the files. By
+    /// them, pigment maps know how far the library errs.
+    #[arg(long, value_name = "FILE")]
+    residuals: Option<PathBuf>,
     #[command(flatten)]
     viewing: ViewingOptions,
     /// Print JSON: samples, pigments, rms, delta_e, per_sample, shares_of_squares, warnings,
@@ -52,6 +61,11 @@ impl Validate {
             folds: self.folds,
             with: self.with,
         };
+        if self.residuals.is_some() && options.fit.amounts == AmountKind::Absolute {
+            return Err(FittingError::AbsoluteResiduals.into());
+        }
+        let open = |path| Output::open(path, &self.options.files());
+        let residuals = self.residuals.as_deref().map(open).transpose()?;
         let readings = self.options.readings(console)?;
         let prepared = prepare_fit(&readings, &options.fit, console)?;
         let mixtures = prepared.mixtures(&options)?;
@@ -65,6 +79,9 @@ impl Validate {
         let told = |_| progress.step();
         let validation = prepared.validate_fit(fit, &options, Watch::new(&told))?;
         progress.done();
+        if let Some(output) = residuals {
+            output.write(validation.residuals()?.to_json(), console)?;
+        }
         let warnings = validation.warnings();
         if self.csv {
             console.warnings(&warnings)?;

@@ -16,10 +16,12 @@ mod oils;
 
 pub use baselines::{Baseline, Unmixed};
 pub use oils::{
-    Missing, PaintingTrials, light_palette, missing_pigment, oil_groups, painting_trials,
+    Missing, PaintingTrials, half_of, light_palette, missing_pigment, oil_groups, painting_trials,
     prepared_oils,
 };
 pub use scores::{Coverage, Reliability, Scores, Trial, coverage, reliability};
 
 pub use simulated::{Painting, PaintingPlan};
-pub use swatches::{Choice, NamedGroups, SwatchTrials, choose_penalty, swatch_trials};
+pub use swatches::{
+    Choice, NamedGroups, SwatchTrials, choose_penalty, residuals_of, swatch_trials,
+};

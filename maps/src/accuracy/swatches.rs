@@ -1,8 +1,9 @@
 //! Measured mixtures as pixels, each with a library that was fitted without it.
 
+use calibrate::{LeftOut, Residuals};
+
 use crate::accuracy::baselines::Baseline;
 use crate::accuracy::scores::{Scores, Trial};
-use crate::films::left_out::{LeftOut, Residuals};
 use crate::films::noise::ModelError;
 use crate::films::settings::{MapSettings, PigmentGroup};
 use crate::map_error::MapError;
@@ -76,9 +77,9 @@ impl SwatchTrials {
             let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
             let bands = crate::films::bands::Bands::new(&nm, library.grid).ok()?;
             let paints = crate::films::paints::Paints::new(library, &[], &bands).ok()?;
-            let shares = baseline.unmix(&paints, &sample.reflectance).shares;
+            let shares = baseline.unmix(&paints, &sample.mixture.measured).shares;
             let told = named.list(paints.names.iter().map(String::as_str).zip(shares));
-            let truth = named.list(sample.shares.iter().map(|(name, s)| (name.as_str(), *s)));
+            let truth = named.list(true_shares(sample));
             let present = told.iter().map(|share| *share > least).collect();
             let (probability, sd) = (Vec::new(), Vec::new());
             Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN })
@@ -87,6 +88,26 @@ impl SwatchTrials {
         let groups = pigments.iter().map(|t| t.joined(&named.group_of, named.count)).collect();
         Self { pigments, groups }
     }
+}
+
+/// Pigments of a sample with their shares.
+fn true_shares(sample: &LeftOut) -> impl Iterator<Item = (&str, f64)> {
+    sample.mixture.shares.iter().map(|(name, share)| (name.as_str(), *share))
+}
+
+/// Errors of the predictions for `samples`; `None` if there are none.
+#[must_use]
+pub fn residuals_of<'a>(samples: impl IntoIterator<Item = &'a LeftOut>) -> Option<Residuals> {
+    let mut samples = samples.into_iter().peekable();
+    let library = &samples.peek()?.library;
+    Some(Residuals {
+        grid: library.grid,
+        saunderson: library.saunderson,
+        settings: library.settings.clone().unwrap_or_default(),
+        folds: None,
+        inputs: Vec::new(),
+        mixtures: samples.map(|sample| sample.mixture.clone()).collect(),
+    })
 }
 
 /// Maps each of `samples` with its own library and the residuals of all others: by single pigment, and by the
@@ -104,10 +125,10 @@ pub fn swatch_trials(
     let trial = |index: usize| -> Result<(Trial, Trial), MapError> {
         let sample = &samples[index];
         let others = samples.iter().enumerate().filter(|(other, _)| *other != index);
-        let residuals = Residuals::of(others.map(|(_, sample)| sample));
+        let residuals = residuals_of(others.map(|(_, sample)| sample));
         let library = &sample.library;
         let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
-        let spectrum: Vec<f32> = sample.reflectance.iter().map(|r| *r as f32).collect();
+        let spectrum: Vec<f32> = sample.mixture.measured.iter().map(|r| *r as f32).collect();
         let own = |groups: &[PigmentGroup]| MapSettings {
             groups: groups.to_vec(),
             group_alike: false,
@@ -117,7 +138,7 @@ pub fn swatch_trials(
                 .or(residuals.clone().map(ModelError::Residuals)),
             ..settings.clone()
         };
-        let truth = named.list(sample.shares.iter().map(|(name, share)| (name.as_str(), *share)));
+        let truth = named.list(true_shares(sample));
         let single = Mapper::new(library, &nm, &own(&[]))?;
         let maps = single.search(&spectrum)?;
         let names = || single.columns().iter().map(|column| column.name.as_str());

@@ -4,6 +4,7 @@ use wide::f32x8;
 
 use super::bands::MOST_BANDS;
 use super::paints::Paints;
+use super::vectors::{Task, by_vectors};
 use super::whitening::{LANES, Spectrum, Whitening, WhiteningNoise, dot, spectrum, total};
 
 /// Most pigments of a set.
@@ -129,6 +130,16 @@ impl Films {
         members: [usize; N],
         shares: [f32; N],
     ) -> Difference {
+        by_vectors(Comparison { films: self, pixel, members, shares })
+    }
+
+    #[inline(always)]
+    fn compared<const N: usize>(
+        &self,
+        pixel: &Pixel,
+        members: [usize; N],
+        shares: [f32; N],
+    ) -> Difference {
         let blocks = self.blocks;
         let one = f32x8::ONE;
         let curves = members.map(|p| p * blocks..(p + 1) * blocks);
@@ -146,9 +157,11 @@ impl Films {
             }
             let inside = s / (k + s + (k * (k + s + s)).sqrt());
             let out = one / (one - self.k2 * inside);
-            let slope = -self.through * out * out * inside * (one - inside) / (one + inside);
+            let slope = -self.through * out * out * inside * (one - inside);
             let rest = pixel.measured[block] - (self.floor + self.through * inside * out);
-            let (over_k, over_s) = (slope / k, slope / s);
+            // One division for the slopes over K and over S: it takes as long as many products.
+            let over_both = slope / ((one + inside) * (k * s));
+            let (over_k, over_s) = (over_both * s, over_both * k);
             residual[block] = rest;
             squares += rest * rest * self.inside[block];
             for i in 0..N {
@@ -177,7 +190,12 @@ impl Films {
 
     /// Products of all pigments' rows, which are 0 in sum at the shares of a film like `pixel`, linearised
     /// with secants to the film of internal reflectance and 1/S `about`.
-    pub(crate) fn products(
+    pub(crate) fn products(&self, pixel: &Pixel, about: (&Spectrum, &Spectrum), work: &mut Work) {
+        by_vectors(Products { films: self, pixel, about, work });
+    }
+
+    #[inline(always)]
+    fn multiplied(
         &self,
         pixel: &Pixel,
         (internal, inverse): (&Spectrum, &Spectrum),
@@ -234,6 +252,38 @@ impl Films {
                 }
             }
         }
+    }
+}
+
+struct Comparison<'a, const N: usize> {
+    films: &'a Films,
+    pixel: &'a Pixel,
+    members: [usize; N],
+    shares: [f32; N],
+}
+
+impl<const N: usize> Task for Comparison<'_, N> {
+    type Result = Difference;
+
+    #[inline(always)]
+    fn run(self) -> Difference {
+        self.films.compared(self.pixel, self.members, self.shares)
+    }
+}
+
+struct Products<'a> {
+    films: &'a Films,
+    pixel: &'a Pixel,
+    about: (&'a Spectrum, &'a Spectrum),
+    work: &'a mut Work,
+}
+
+impl Task for Products<'_> {
+    type Result = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.films.multiplied(self.pixel, self.about, self.work);
     }
 }
 

@@ -1,10 +1,12 @@
 //! Tests of the arithmetic of one pixel against dense matrices and difference quotients.
 
+use std::collections::BTreeMap;
+
+use calibrate::{LeftOutMixture, Residuals};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::bands::Bands;
 use super::film::{Films, Work};
-use super::left_out::Residuals;
 use super::noise::{ModelError, Noise, Scale};
 use super::paints::Paints;
 use super::whitening::WhiteningNoise;
@@ -43,14 +45,20 @@ fn covariance(oils: &Oils, noise: &Noise, reflectance: &[f64]) -> DMatrix<f64> {
 
 /// Errors of invented mixtures.
 fn residuals() -> Residuals {
-    let grid = pigment::PigmentLibrary::van_gogh_oils().grid;
     let curve = |number: usize, scale: f64| -> Vec<f64> {
         let wave = |i: usize| (0.3 * (i * (1 + number % 5)) as f64 + number as f64).sin();
         (0..31).map(|i| scale * (1.1 + wave(i))).collect()
     };
-    let reflectance = (0..12).map(|number| curve(number, 0.3)).collect();
-    let residual = (0..12).map(|number| curve(number + 3, 0.01)).collect();
-    Residuals { grid, reflectance, residual }
+    let mixture = |number: usize| {
+        let (measured, error) = (curve(number, 0.3), curve(number + 3, 0.01));
+        LeftOutMixture {
+            sample: number.to_string(),
+            shares: BTreeMap::new(),
+            predicted: measured.iter().zip(&error).map(|(m, e)| m - e).collect(),
+            measured,
+        }
+    };
+    Residuals { mixtures: (0..12).map(mixture).collect(), ..Residuals::van_gogh_oils() }
 }
 
 #[test]

@@ -2,13 +2,13 @@
 
 pub mod bands;
 
-pub mod left_out;
-
 pub(crate) mod paints;
 
 pub(crate) mod noise;
 
 pub(crate) mod settings;
+
+pub(crate) mod vectors;
 
 pub(crate) mod whitening;
 

@@ -4,10 +4,10 @@
 //! Spectra are compared after whitening by the covariance of both, so that neighbouring bands that err
 //! together do not count twice.
 
+use calibrate::Residuals;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::bands::Bands;
-use super::left_out::Residuals;
 
 /// Part of the covariance of left-out residuals that is moved to its diagonal. A few dozen mixtures do not
 /// tell a covariance of 31 bands; chosen on the Van Gogh oils, where 0.3 to 0.6 do alike.
@@ -24,6 +24,9 @@ pub const USUAL_MODEL_ERROR: f64 = 0.1;
 /// Sum of the squares of a mixture's parts in K and in S, by which stated errors of its pigments partly
 /// cancel: 2 for one pigment, 1 for two alike in strength; a mean.
 const CANCELLED: f64 = 1.8;
+/// Least number of left-out mixtures that tell how a library errs; fewer, and their mean product depends on a
+/// few contradictory swatches.
+pub const LEAST_MIXTURES: usize = 10;
 /// Least standard deviation of a band, in reflectance.
 const LEAST_SD: f64 = 1e-4;
 /// Least part of a band's variance that is its own.
@@ -34,10 +37,26 @@ pub(crate) const CURVES: usize = 8;
 /// Error of a library's predictions.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ModelError {
-    /// Errors of mixtures that the library had not seen.
+    /// Errors of at least [`LEAST_MIXTURES`] mixtures that the library had not seen, on wavelengths that cover
+    /// its own.
     Residuals(Residuals),
     /// Smooth errors of K and S of each pigment, as a standard deviation relative to their values; 0 to 1.
     Stated(f64),
+}
+
+impl ModelError {
+    /// Words for messages and books. Errors of equal words are equal.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self {
+            Self::Stated(relative) => format!("K and S off by {} %", 100.0 * relative),
+            Self::Residuals(residuals) => format!(
+                "the errors of {} left-out mixtures, sha256 {}",
+                residuals.mixtures.len(),
+                residuals.sha256()
+            ),
+        }
+    }
 }
 
 /// Covariance of the differences between measured and predicted spectra near a measured one.
@@ -127,9 +146,11 @@ fn root_covariance(bands: &Bands, residuals: &Residuals) -> DMatrix<f64> {
     let count = bands.count();
     let mut sum = DMatrix::<f64>::zeros(count, count);
     let mut sizes = Vec::new();
-    for (reflectance, residual) in residuals.reflectance.iter().zip(&residuals.residual) {
+    for mixture in &residuals.mixtures {
+        let pairs = mixture.measured.iter().zip(&mixture.predicted);
+        let residual: Vec<f64> = pairs.map(|(measured, predicted)| measured - predicted).collect();
         let (reflectance, residual) =
-            (bands.fold_library(reflectance), bands.fold_library(residual));
+            (bands.fold_library(&mixture.measured), bands.fold_library(&residual));
         let roots = reflectance.iter().zip(&residual);
         let roots: Vec<f64> = roots.map(|(r, e)| e / (4.0 * r.max(1e-4).powf(0.75))).collect();
         // The mean square of some is a hundred times that of others, which would not count.
@@ -143,7 +164,7 @@ fn root_covariance(bands: &Bands, residuals: &Residuals) -> DMatrix<f64> {
     }
     sizes.sort_by(f64::total_cmp);
     let median = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
-    let samples = residuals.residual.len().max(1) as f64;
+    let samples = residuals.mixtures.len().max(1) as f64;
     DMatrix::from_fn(count, count, |i, j| {
         let part = if i == j { 1.0 } else { 1.0 - SHRINKAGE };
         part * sum[(i, j)] * median / samples

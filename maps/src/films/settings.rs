@@ -1,6 +1,9 @@
 //! Settings of a map.
 
-use super::noise::ModelError;
+use calibrate::{Residuals, ResidualsError};
+use pigment::PigmentLibrary;
+
+use super::noise::{LEAST_MIXTURES, ModelError, USUAL_MODEL_ERROR};
 use crate::map_error::MapError;
 
 /// Pigments that a map shows as one.
@@ -26,8 +29,9 @@ pub struct MapSettings {
     pub group_alike: bool,
     /// Standard deviation of the noise of each band of the scan, in reflectance; 0 to 1. Default: 0.003.
     pub sensor_noise: f64,
-    /// Error of the library's predictions. Default: 10 % of K and S, with which the measured Van Gogh oils are
-    /// unmixed best of 5 to 70 %; the errors of mixtures left out of its own fit serve better still.
+    /// Error of the library's predictions. Default: for the library that ships the errors of the mixtures left
+    /// out of its fit, for any other 10 % of K and S, with which the measured Van Gogh oils are unmixed best of
+    /// 5 to 70 %.
     pub model_error: Option<ModelError>,
     /// Chi-square that one more pigment must save beyond the prior, by which mixtures of any number of
     /// pigments are alike; 0 to 100. Default: 2.
@@ -49,6 +53,26 @@ impl Default for MapSettings {
 }
 
 impl MapSettings {
+    /// Error of the predictions of `library`: as stated, else the usual one. Residuals are on the library's
+    /// wavelengths.
+    ///
+    /// # Errors
+    /// [`ResidualsError`] if residuals hold fewer than [`LEAST_MIXTURES`] mixtures, or do not cover the
+    /// library's wavelengths.
+    pub fn model_error_of(&self, library: &PigmentLibrary) -> Result<ModelError, ResidualsError> {
+        let residuals = match &self.model_error {
+            Some(ModelError::Stated(relative)) => return Ok(ModelError::Stated(*relative)),
+            Some(ModelError::Residuals(residuals)) => residuals,
+            None if *library == PigmentLibrary::van_gogh_oils() => &Residuals::van_gogh_oils(),
+            None => return Ok(ModelError::Stated(USUAL_MODEL_ERROR)),
+        };
+        let found = residuals.mixtures.len();
+        if found < LEAST_MIXTURES {
+            return Err(ResidualsError::Few { found, least: LEAST_MIXTURES });
+        }
+        residuals.on_grid(library.grid).map(ModelError::Residuals)
+    }
+
     /// Checks the range of every number.
     ///
     /// # Errors

@@ -12,6 +12,7 @@ use wide::f32x8;
 
 use super::bands::MOST_BANDS;
 use super::noise::{CURVES, Noise, Scale};
+use super::vectors::{Task, by_vectors};
 
 /// Numbers that are computed at once.
 pub(crate) const LANES: usize = 8;
@@ -87,6 +88,11 @@ impl WhiteningNoise {
     /// Whitening near a pixel of these measured reflectances, whose slopes by the logarithm of K/S are
     /// `slope`.
     pub(crate) fn near(&self, measured: &Spectrum, slope: &Spectrum) -> Whitening {
+        by_vectors(Near { noise: self, measured, slope })
+    }
+
+    #[inline(always)]
+    fn whitening(&self, measured: &Spectrum, slope: &Spectrum) -> Whitening {
         let zero = [f32x8::ZERO; MOST_BLOCKS];
         let mut white =
             Whitening { scale: zero, curves: [f32x8::ZERO; MOST_BANDS], removed: [zero; CURVES] };
@@ -127,6 +133,21 @@ impl WhiteningNoise {
         }
         white.removed = removed.map(|values| spectrum(&values, 0.0));
         white
+    }
+}
+
+struct Near<'a> {
+    noise: &'a WhiteningNoise,
+    measured: &'a Spectrum,
+    slope: &'a Spectrum,
+}
+
+impl Task for Near<'_> {
+    type Result = Whitening;
+
+    #[inline(always)]
+    fn run(self) -> Whitening {
+        self.noise.whitening(self.measured, self.slope)
     }
 }
 
@@ -197,6 +218,7 @@ impl Whitening {
 
     /// Whitens many differences, which stand side by side in rows of `columns` blocks for each band, and are
     /// already multiplied by the scale.
+    #[inline(always)]
     pub(crate) fn whiten_rows(&self, columns: usize, values: &mut [f32x8]) {
         for column in 0..columns {
             let mut common = [f32x8::ZERO; CURVES];

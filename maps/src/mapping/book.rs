@@ -6,7 +6,7 @@ use sha2::{Digest, Sha256};
 use crate::map_error::MapError;
 
 /// Version of the file of a book.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A set of pigments of an entry, with its shares.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,6 +48,8 @@ pub struct Book {
     version: u32,
     /// Identity of library, wavelengths and settings.
     pub identity: String,
+    /// Error of the library's predictions, in words.
+    pub model_error: String,
     /// Names of the pigments.
     pub pigments: Vec<String>,
     /// Sets that the survey found, the most frequent first.
@@ -59,11 +61,12 @@ pub struct Book {
 }
 
 impl Book {
-    pub(crate) fn new(identity: String, pigments: Vec<String>) -> Self {
+    pub(crate) fn new(identity: String, model_error: String, pigments: Vec<String>) -> Self {
         Self {
             format: "impasto-survey".to_owned(),
             version: VERSION,
             identity,
+            model_error,
             pigments,
             sets: Vec::new(),
             usual_chi2: 0.0,

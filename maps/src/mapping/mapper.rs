@@ -12,11 +12,11 @@ use super::prepared::{Folded, Prepared};
 use super::presence::Told;
 use super::survey::{survey, survey_step};
 use crate::films::bands::Bands;
-use crate::films::noise::{ModelError, USUAL_MODEL_ERROR};
+use crate::films::noise::ModelError;
 use crate::films::settings::MapSettings;
 use crate::map_error::MapError;
 use crate::pixel_maps::{BlockMaps, Mask};
-use crate::search::engine::{Prior, Scratch};
+use crate::search::engine::Scratch;
 use crate::search::set_fit::SetFit;
 
 /// Gauss-Newton steps of the true pigments in a trial.
@@ -50,6 +50,7 @@ pub struct Mapper {
     columns: Vec<Column>,
     /// Column of each pigment.
     column_of: Vec<usize>,
+    model_error: ModelError,
     identity: String,
 }
 
@@ -57,16 +58,18 @@ impl Mapper {
     /// Prepares `library` for scans whose bands have the wavelengths `wavelengths` in nm, rising.
     ///
     /// # Errors
-    /// [`MapError`] if wavelengths and library do not fit together, a name is unknown, or a setting is out of
-    /// range.
+    /// [`MapError`] if wavelengths, library and residuals do not fit together, a name is unknown, or a setting
+    /// is out of range.
     pub fn new(
         library: &PigmentLibrary,
         wavelengths: &[f64],
         settings: &MapSettings,
     ) -> Result<Self, MapError> {
-        let prepared = Prepared::new(library, wavelengths, settings)?;
+        settings.check()?;
+        let model_error = settings.model_error_of(library)?;
+        let prepared = Prepared::new(library, wavelengths, settings, &model_error)?;
         let alike = if settings.group_alike {
-            alike(library, wavelengths, settings, &prepared)?
+            alike(library, wavelengths, (settings, &model_error), &prepared)?
         } else {
             Vec::new()
         };
@@ -75,8 +78,8 @@ impl Mapper {
         let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
         let column_of =
             prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
-        let identity = identity(library, wavelengths, settings);
-        Ok(Self { prepared, columns, column_of, identity })
+        let identity = identity(library, wavelengths, settings, &model_error);
+        Ok(Self { prepared, columns, column_of, model_error, identity })
     }
 
     /// Columns of the maps: pigments, and groups of them that are mapped as one.
@@ -109,6 +112,12 @@ impl Mapper {
         self.prepared.noise.effective_bands
     }
 
+    /// Error of the library's predictions that the maps reckon with.
+    #[must_use]
+    pub fn model_error(&self) -> &ModelError {
+        &self.model_error
+    }
+
     /// Identity of library, wavelengths and settings, in hexadecimal. Books are valid for one identity.
     #[must_use]
     pub fn identity(&self) -> &str {
@@ -135,14 +144,22 @@ impl Mapper {
         if folded.is_empty() {
             return Err(MapError::NothingToSurvey { pixels: surveyed });
         }
-        Ok(survey(&self.prepared, &self.identity, &folded, progress)?)
+        let names = self.pigments().to_vec();
+        let book = Book::new(self.identity.clone(), self.model_error.words(), names);
+        Ok(survey(&self.prepared, book, &folded, progress)?)
     }
 
     /// Prepares the book of a survey for [`Mapper::map`], once for all blocks of a scan.
     ///
     /// # Errors
-    /// [`MapError::OtherBook`] if it was made with another library, other wavelengths or other settings.
+    /// [`MapError::OtherBook`] if it was made with another library, other wavelengths or other settings,
+    /// [`MapError::OtherModelError`] with another error of the library's predictions.
     pub fn open_book(&self, book: &Book) -> Result<OpenBook, MapError> {
+        let model_error = self.model_error.words();
+        if book.model_error != model_error {
+            let (found, expected) = (book.model_error.clone(), model_error);
+            return Err(MapError::OtherModelError { found, expected });
+        }
         OpenBook::new(&self.prepared, &self.identity, book)
     }
 
@@ -207,7 +224,7 @@ impl Mapper {
         let engine = &self.prepared.engine;
         self.map_with(spectra, &[], |folded, scratch| {
             let place = engine.table.nearest(&folded.point);
-            engine.search(&folded.pixel, place, &Prior::default(), scratch);
+            engine.search(&folded.pixel, place, scratch);
         })
     }
 
@@ -229,8 +246,8 @@ impl Mapper {
             let parts: Vec<(usize, f32)> = parts.iter().map(place).collect::<Option<_>>()?;
             let set = SetFit::of_parts(&parts)?;
             let nearest = engine.table.nearest(&folded.point);
-            engine.search(&folded.pixel, nearest, &Prior::default(), scratch);
-            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS, &Prior::default());
+            engine.search(&folded.pixel, nearest, scratch);
+            let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
             Some(scratch.found.first()?.score - truth.score)
         };
         let found = pixels.par_iter().zip(truth).map_init(|| Scratch::new(&engine.films), gap);
@@ -301,19 +318,17 @@ impl Mapper {
 fn alike(
     library: &PigmentLibrary,
     wavelengths: &[f64],
-    settings: &MapSettings,
+    (settings, model_error): (&MapSettings, &ModelError),
     prepared: &Prepared,
 ) -> Result<Vec<Vec<usize>>, MapError> {
-    let stated = match settings.model_error {
-        Some(ModelError::Residuals(_)) => {
+    let stated = match model_error {
+        ModelError::Residuals(_) => {
             return Ok(Confusion::new(&prepared.engine, &prepared.paints).groups());
         }
-        Some(ModelError::Stated(relative)) => relative,
-        None => USUAL_MODEL_ERROR,
+        ModelError::Stated(relative) => *relative,
     };
-    let model_error = Some(ModelError::Stated((2.0 * stated).min(1.0)));
-    let twice =
-        Prepared::new(library, wavelengths, &MapSettings { model_error, ..settings.clone() })?;
+    let twice = ModelError::Stated((2.0 * stated).min(1.0));
+    let twice = Prepared::new(library, wavelengths, settings, &twice)?;
     Ok(Confusion::new(&twice.engine, &twice.paints).groups())
 }
 
@@ -357,16 +372,17 @@ fn push_empty(maps: &mut BlockMaps, mask: Mask) {
 }
 
 /// SHA-256 of all that a map depends on, beside the pixels.
-fn identity(library: &PigmentLibrary, wavelengths: &[f64], settings: &MapSettings) -> String {
+fn identity(
+    library: &PigmentLibrary,
+    wavelengths: &[f64],
+    settings: &MapSettings,
+    model_error: &ModelError,
+) -> String {
     use std::fmt::Write as _;
     let mut text = library.to_json();
     // Settings that only join columns leave the book valid.
-    let MapSettings { at_most, palette, sensor_noise, model_error, penalty, .. } = settings;
+    let MapSettings { at_most, palette, sensor_noise, penalty, .. } = settings;
     let _ = write!(text, "{wavelengths:?} {at_most} {palette:?} {sensor_noise:?} {penalty:?} ");
-    let _ = match model_error {
-        None => write!(text, "usual"),
-        Some(ModelError::Stated(relative)) => write!(text, "{relative:?}"),
-        Some(ModelError::Residuals(residuals)) => write!(text, "{residuals:?}"),
-    };
+    let _ = write!(text, "{}", model_error.words());
     Input::new("", text.as_bytes()).sha256
 }

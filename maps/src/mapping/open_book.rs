@@ -5,9 +5,8 @@
 
 use super::book::Book;
 use super::prepared::{Folded, Prepared};
-use super::survey::prior_of_book;
 use crate::map_error::MapError;
-use crate::search::engine::{Engine, Prior, Scratch};
+use crate::search::engine::{Engine, Scratch};
 use crate::search::nearest::{Nearest, Point};
 use crate::search::set_fit::SetFit;
 
@@ -29,7 +28,6 @@ pub struct OpenBook {
     sets: Vec<SetFit>,
     chi2: Vec<f32>,
     usual_chi2: f32,
-    pub(crate) prior: Prior,
 }
 
 impl OpenBook {
@@ -62,7 +60,6 @@ impl OpenBook {
             sets,
             chi2: book.entries.iter().map(|entry| entry.chi2).collect(),
             usual_chi2: book.usual_chi2,
-            prior: prior_of_book(&prepared.engine, book),
         })
     }
 
@@ -100,13 +97,13 @@ impl OpenBook {
             }
         }
         for set in &mut scratch.found {
-            *set = engine.refined(&folded.pixel, *set, STEPS, &self.prior);
+            *set = engine.refined(&folded.pixel, *set, STEPS);
         }
-        engine.sort(&folded.pixel, &self.prior, &mut scratch.found);
+        engine.sort(&folded.pixel, &mut scratch.found);
         let explained = scratch.found.first().is_some_and(|best| best.chi2 <= usual);
         if !explained {
             let place = engine.table.nearest(&folded.point);
-            engine.search(&folded.pixel, place, &self.prior, scratch);
+            engine.search(&folded.pixel, place, scratch);
         }
         explained
     }

@@ -4,7 +4,7 @@ use pigment::library::PigmentLibrary;
 
 use crate::films::bands::{Bands, MOST_BANDS};
 use crate::films::film::{Films, Pixel};
-use crate::films::noise::{ModelError, Noise, USUAL_MODEL_ERROR};
+use crate::films::noise::{ModelError, Noise};
 use crate::films::paints::Paints;
 use crate::films::settings::MapSettings;
 use crate::films::whitening::WhiteningNoise;
@@ -39,17 +39,16 @@ pub(crate) struct Folded {
 }
 
 impl Prepared {
+    /// Prepares `library`, whose predictions err by `model`.
     pub(crate) fn new(
         library: &PigmentLibrary,
         wavelengths: &[f64],
         settings: &MapSettings,
+        model: &ModelError,
     ) -> Result<Self, MapError> {
-        settings.check()?;
         let bands = Bands::new(wavelengths, library.grid)?;
         let paints = Paints::new(library, &settings.palette, &bands)?;
-        let model = settings.model_error.clone();
-        let model = model.unwrap_or(ModelError::Stated(USUAL_MODEL_ERROR));
-        let noise = Noise::new(&bands, settings.sensor_noise, &model);
+        let noise = Noise::new(&bands, settings.sensor_noise, model);
         let films = Films::new(&paints);
         let table = Table::new(&paints, &films, &noise);
         let engine = Engine {

@@ -1,7 +1,5 @@
 //! Whole search of one pixel: all sets of pigments, best first.
 
-use std::collections::BTreeMap;
-
 use super::quadratic::Quadratic;
 use super::set_fit::SetFit;
 use super::table::Table;
@@ -27,20 +25,6 @@ const FAR: f32 = 30.0;
 const WORSE: f64 = 1.5;
 /// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
-
-/// Additions to the scores of sets, by their keys, from how often a survey found them.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Prior {
-    pub(crate) of_set: BTreeMap<u32, f32>,
-    /// Addition to the score of any other set.
-    pub(crate) of_others: f32,
-}
-
-impl Prior {
-    pub(crate) fn of(&self, key: u32) -> f32 {
-        self.of_set.get(&key).copied().unwrap_or(self.of_others)
-    }
-}
 
 /// All that a search needs, but the pixel.
 #[derive(Debug, Clone)]
@@ -82,11 +66,13 @@ impl Scratch {
 
 impl Engine {
     /// -2 ln of the probability of a refined set, less a constant: its misfit, the part of all shares that
-    /// agree with the pixel, and the prior. A set of any number of pigments is as likely as one of another, and
-    /// so is any set of one number.
-    pub(crate) fn score(&self, set: &SetFit, difference: &Difference, prior: &Prior) -> f32 {
+    /// agree with the pixel, and the prior: a set of any number of pigments is as likely as one of another, and
+    /// so is any set of one number. How often a survey found a set is no part of it. Pixels of one paint share
+    /// the errors of the library, so that they are no independent evidence; as a prior they made probabilities
+    /// between 0.5 and 0.9 too high by 0.2.
+    pub(crate) fn score(&self, set: &SetFit, difference: &Difference) -> f32 {
         let exactness = difference.exactness(set.len(), self.excess(set.chi2)) as f32;
-        self.misfit(set.chi2) + exactness + self.of_count[set.len() - 1] + prior.of(set.key())
+        self.misfit(set.chi2) + exactness + self.of_count[set.len() - 1]
     }
 
     /// Additions to the score by number of pigments, for `pigments` of which up to four are mixed.
@@ -125,16 +111,16 @@ impl Engine {
 
     /// Searches all sets, beginning at the film `place` of the table. The sets are left in `scratch.found`,
     /// the best first.
-    pub(crate) fn search(&self, pixel: &Pixel, place: usize, prior: &Prior, scratch: &mut Scratch) {
+    pub(crate) fn search(&self, pixel: &Pixel, place: usize, scratch: &mut Scratch) {
         scratch.found.clear();
         scratch.least = f32::INFINITY;
         let (internal, inverse) = self.table.film(place);
         self.films.products(pixel, (internal, inverse), &mut scratch.work);
-        self.shortlist(prior, scratch);
+        self.shortlist(scratch);
         let far = scratch.shortlist.first().map_or(0.0, |best| best.score + FAR * self.steepest());
         for index in 0..REFINED[0].min(scratch.shortlist.len()) {
             if scratch.shortlist[index].score < far {
-                self.add_refined(pixel, index, prior, scratch);
+                self.add_refined(pixel, index, scratch);
             }
         }
         let best = |a: SetFit, b: SetFit| if b.score < a.score { b } else { a };
@@ -142,55 +128,52 @@ impl Engine {
         let parts: Vec<(usize, f32)> = winner.parts().collect();
         let (internal, inverse) = self.films.film(&parts);
         self.films.products(pixel, (&internal, &inverse), &mut scratch.work);
-        self.shortlist(prior, scratch);
+        self.shortlist(scratch);
         let mut refined = 0;
         for index in 0..scratch.shortlist.len() {
             let key = scratch.shortlist[index].key();
             let near = scratch.shortlist[index].score < scratch.least + FAR * self.steepest();
             if near && refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key)
             {
-                self.add_refined(pixel, index, prior, scratch);
+                self.add_refined(pixel, index, scratch);
                 refined += 1;
             }
         }
-        self.sort(pixel, prior, &mut scratch.found);
+        self.sort(pixel, &mut scratch.found);
     }
 
     /// Sorts sets by their scores, after the best one is refined further.
-    pub(crate) fn sort(&self, pixel: &Pixel, prior: &Prior, found: &mut [SetFit]) {
+    pub(crate) fn sort(&self, pixel: &Pixel, found: &mut [SetFit]) {
         let order =
             |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
         let difference = best.refine(&self.films, pixel, STEPS[2]);
-        best.score = self.score(best, &difference, prior);
+        best.score = self.score(best, &difference);
         found.sort_unstable_by(order);
     }
 
     /// Refines a set in measured reflectance by `steps`, and tells its score.
-    pub(crate) fn refined(
-        &self,
-        pixel: &Pixel,
-        mut set: SetFit,
-        steps: usize,
-        prior: &Prior,
-    ) -> SetFit {
+    pub(crate) fn refined(&self, pixel: &Pixel, mut set: SetFit, steps: usize) -> SetFit {
         let difference = set.refine(&self.films, pixel, steps);
-        set.score = self.score(&set, &difference, prior);
+        set.score = self.score(&set, &difference);
         set
     }
 
-    fn add_refined(&self, pixel: &Pixel, index: usize, prior: &Prior, scratch: &mut Scratch) {
-        let mut set = self.refined(pixel, scratch.shortlist[index], STEPS[0], prior);
+    fn add_refined(&self, pixel: &Pixel, index: usize, scratch: &mut Scratch) {
+        let mut set = scratch.shortlist[index];
+        let first = set.refine(&self.films, pixel, STEPS[0]);
+        set.score = self.score(&set, &first);
         if set.score < scratch.least + HOPELESS * self.steepest() {
-            set = self.refined(pixel, set, STEPS[1], prior);
+            let second = set.refine_from(first, &self.films, pixel, STEPS[1]);
+            set.score = self.score(&set, &second);
         }
         scratch.least = scratch.least.min(set.score);
         scratch.found.push(set);
     }
 
     /// Best sets of the linearised problem, in `scratch.shortlist`, the best first.
-    fn shortlist(&self, prior: &Prior, scratch: &mut Scratch) {
+    fn shortlist(&self, scratch: &mut Scratch) {
         let Scratch { work, quadratic, by_size, shortlist, .. } = scratch;
         let count = self.films.pigments;
         quadratic.read(work);
@@ -224,7 +207,10 @@ impl Engine {
             for triple in triples.iter().take(BEAM) {
                 let [a, b, c] = [0, 1, 2].map(|i| usize::from(triple.members[i]));
                 for d in (0..count).filter(|d| ![a, b, c].contains(d)) {
-                    if let Some(set) = quadratic.set([a, b, c, d]) {
+                    // Several sets of three lead to the same set of four.
+                    if let Some(set) = quadratic.set([a, b, c, d])
+                        && fours.iter().all(|known| known.key() != set.key())
+                    {
                         keep(fours, KEPT[3], set);
                     }
                 }
@@ -233,7 +219,7 @@ impl Engine {
         shortlist.clear();
         for set in by_size.iter().flatten() {
             let penalty = SHORTLIST_PENALTY * set.len() as f32;
-            let score = self.misfit(set.chi2) + penalty + prior.of(set.key());
+            let score = self.misfit(set.chi2) + penalty;
             shortlist.push(SetFit { score, ..*set });
         }
         let order =
@@ -246,9 +232,9 @@ fn is_kept(list: &[SetFit], most: usize, chi2: f32) -> bool {
     list.len() < most || list.last().is_none_or(|last| chi2 < last.chi2)
 }
 
-/// Adds `set` to a list of at most `most` sets, sorted by chi-square, unless it is in it.
+/// Adds `set` to a list of at most `most` sets, sorted by chi-square.
 fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
-    if !is_kept(list, most, set.chi2) || list.iter().any(|known| known.key() == set.key()) {
+    if !is_kept(list, most, set.chi2) {
         return;
     }
     if list.len() == most {
@@ -284,7 +270,7 @@ mod tests {
         let place = engine.table.nearest(&engine.table.projection.of(&reflectance));
         let pixel = engine.films.pixel(&engine.noise, &reflectance);
         let mut scratch = Scratch::new(&engine.films);
-        engine.search(&pixel, place, &Prior::default(), &mut scratch);
+        engine.search(&pixel, place, &mut scratch);
         scratch.found
     }
 

@@ -9,6 +9,7 @@ use wide::f32x8;
 
 use super::set_fit::SetFit;
 use crate::films::film::{MOST_IN_SET, Work};
+use crate::films::vectors::{Task, by_vectors};
 use crate::films::whitening::LANES;
 
 /// Products of the rows of pigments, by place.
@@ -95,7 +96,12 @@ impl Quadratic {
 
     /// Calls `found` with the places, the shares and the sum of squares of three pigments whose best shares
     /// are all above 0, if the sum is below a limit: at first `limit`, then what `found` returned last.
-    pub(crate) fn triples(
+    pub(crate) fn triples(&self, limit: f64, found: impl FnMut([usize; 3], [f64; 3], f64) -> f64) {
+        by_vectors(Triples { quadratic: self, limit, found });
+    }
+
+    #[inline(always)]
+    fn sets_of_three(
         &self,
         mut limit: f64,
         mut found: impl FnMut([usize; 3], [f64; 3], f64) -> f64,
@@ -196,6 +202,21 @@ impl Quadratic {
         }
         x[N - 1] = 1.0 - sum;
         (x[N - 1] > 0.0).then(|| self.fit(members, x, base - saved))
+    }
+}
+
+struct Triples<'a, F> {
+    quadratic: &'a Quadratic,
+    limit: f64,
+    found: F,
+}
+
+impl<F: FnMut([usize; 3], [f64; 3], f64) -> f64> Task for Triples<'_, F> {
+    type Result = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.quadratic.sets_of_three(self.limit, self.found);
     }
 }
 

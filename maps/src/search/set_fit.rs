@@ -83,7 +83,18 @@ impl SetFit {
     /// Moves the shares towards the least chi-square in measured reflectance by `steps` Gauss-Newton steps,
     /// and returns the difference at the best shares that were met.
     pub(crate) fn refine(&mut self, films: &Films, pixel: &Pixel, steps: usize) -> Difference {
-        let mut found = self.difference(films, pixel);
+        let found = self.difference(films, pixel);
+        self.refine_from(found, films, pixel, steps)
+    }
+
+    /// Like [`SetFit::refine`], where `found` is the difference at these shares.
+    pub(crate) fn refine_from(
+        &mut self,
+        mut found: Difference,
+        films: &Films,
+        pixel: &Pixel,
+        steps: usize,
+    ) -> Difference {
         self.chi2 = found.chi2;
         if self.count == 1 {
             return found;
@@ -194,44 +205,54 @@ fn product(matrix: &Square, vector: &[f32; MOST_IN_SET], count: usize) -> [f64; 
 /// The reflectance does not change if all shares grow alike, so that the equations are singular along the
 /// shares. The weight removes that, and a step by the inverse keeps the sum of the shares.
 fn inverse(difference: &Difference, count: usize) -> Option<(Square, f64)> {
+    match count {
+        2 => inverse_of::<2>(difference),
+        3 => inverse_of::<3>(difference),
+        _ => inverse_of::<MOST_IN_SET>(difference),
+    }
+}
+
+#[inline(always)]
+fn inverse_of<const N: usize>(difference: &Difference) -> Option<(Square, f64)> {
     let mut trace = 0.0;
-    for i in 0..count {
+    for i in 0..N {
         trace += f64::from(difference.normal[i][i]);
     }
     if !(trace.is_finite() && trace > 0.0) {
         return None;
     }
-    let weight = trace / count as f64;
+    let weight = trace / N as f64;
     let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
-    for i in 0..count {
-        for j in 0..count {
+    for i in 0..N {
+        for j in 0..N {
             left[i][j] = f64::from(difference.normal[i][j]) + weight;
         }
         left[i][i] *= 1.0 + 1e-6;
     }
-    Some((inverted(left, count)?, weight))
+    Some((inverted::<N>(left)?, weight))
 }
 
 /// Inverse of a positive definite matrix by Gauss-Jordan elimination; `None` if a pivot is not positive.
-fn inverted(mut left: Square, count: usize) -> Option<Square> {
+#[inline(always)]
+fn inverted<const N: usize>(mut left: Square) -> Option<Square> {
     let mut right = [[0.0; MOST_IN_SET]; MOST_IN_SET];
-    for i in 0..count {
+    for i in 0..N {
         right[i][i] = 1.0;
     }
-    for pivot in 0..count {
+    for pivot in 0..N {
         let value = left[pivot][pivot];
         let is_definite = value > 0.0;
         if !is_definite {
             return None;
         }
-        for column in 0..count {
+        for column in 0..N {
             left[pivot][column] /= value;
             right[pivot][column] /= value;
         }
-        for row in 0..count {
+        for row in 0..N {
             if row != pivot {
                 let factor = left[row][pivot];
-                for column in 0..count {
+                for column in 0..N {
                     left[row][column] -= factor * left[pivot][column];
                     right[row][column] -= factor * right[pivot][column];
                 }

@@ -17,6 +17,7 @@ from impasto.planning import Plan, plan
 from impasto.quadrature import Quadrature
 from impasto.readings import Readings, read
 from impasto.reporting import Report, report
+from impasto.residuals import Residuals
 from impasto.spectrum import Spectrum
 
 __all__ = [
@@ -38,6 +39,7 @@ __all__ = [
     "Recipe",
     "RecipeError",
     "Report",
+    "Residuals",
     "Spectrum",
     "Surface",
     "Survey",

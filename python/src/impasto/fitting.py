@@ -13,6 +13,7 @@ from impasto.errors import notes_of, warn, warnings_of
 from impasto.library import Library
 from impasto.light import Light, light_of
 from impasto.readings import Readings
+from impasto.residuals import Residuals
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -113,6 +114,12 @@ class Validation(_Errors):
     def warnings(self) -> list[str]:
         """Mixtures that could not be left out."""
         return self._native.warnings
+
+    @property
+    def residuals(self) -> Residuals:
+        """Measured and predicted reflectances of the mixtures, for `survey`; `FitError` for absolute amounts,
+        whose films do not hide."""
+        return Residuals(self._native.residuals())
 
     def __str__(self) -> str:
         return self._native.text()

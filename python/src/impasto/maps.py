@@ -16,6 +16,7 @@ from impasto.cube import Cube
 from impasto.display import listed, table
 from impasto.errors import Error
 from impasto.library import Library
+from impasto.residuals import Residuals
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -97,6 +98,7 @@ def survey(
     group_alike: bool = True,
     noise: float | None = None,
     model_error: float | None = None,
+    residuals: Residuals | str | os.PathLike[str] | None = None,
     penalty: float = 2.0,
     region: tuple[slice, slice] | None = None,
     book: str | None = None,
@@ -106,10 +108,15 @@ def survey(
 
     `at_most` pigments of one pixel, 1 to 4; `palette` names those that may take part; `groups` are mapped as
     one, and with `group_alike` also pigments that the bands cannot tell apart. `noise` is the standard
-    deviation of a band as a fraction (default: that of the white reading, else 0.003), `model_error` that of
-    K and S relative to their values (default: 0.1). `region` is rows and
-    columns. `book` takes the JSON of an earlier survey.
+    deviation of a band as a fraction (default: that of the white reading, else 0.003). `residuals` are the
+    errors of mixtures that the library had not seen, `validate(..).residuals` or their file, or `model_error`
+    is the standard deviation of K and S relative to their values (default: the residuals of the oils that
+    ship, else 0.1). `region` is rows and columns. `book` takes the JSON of an earlier survey.
     """
+    if residuals is not None and model_error is not None:
+        raise Error("residuals and model_error exclude each other", "leave one of them out")
+    if residuals is not None and not isinstance(residuals, Residuals):
+        residuals = Residuals.load(residuals)
     if isinstance(palette, str):
         raise Error(f"palette is a list of names, found `{palette}`", f"try [{palette!r}]")
     ends = None
@@ -123,10 +130,12 @@ def survey(
         "group_alike": group_alike,
         "noise": noise,
         "model_error": model_error,
+        "residuals": None if residuals is None else residuals._native,
         "penalty": penalty,
         "region": ends,
     }
     native = _native.Survey(cube._native, library._native, settings, book, progress)
+    settings["residuals"] = None if residuals is None else residuals.to_json()
     return Survey(native, cube, library, settings)
 
 
@@ -233,5 +242,8 @@ def _prepared(job: str) -> tuple[Survey, str]:
         rows, columns = region
         region = slice(*rows), slice(*columns)
     settings["groups"] = dict(settings["groups"])
+    residuals = settings.pop("residuals")
+    if residuals is not None:
+        settings["residuals"] = Residuals.from_json(residuals)
     library = Library.from_json(told["library"])
     return survey(cube, library, region=region, book=book, **settings), told["out"]

@@ -5,3 +5,5 @@
 mod scan;
 
 mod program;
+
+mod residuals;

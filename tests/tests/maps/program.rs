@@ -45,6 +45,9 @@ fn pigments_of_a_scan_are_found_with_their_shares() {
     let whites = groups.iter().any(|group| group.to_string().contains("Lead White"));
     assert!(whites, "the whites are alike from 400 to 700 nm: {groups:?}");
     let page = std::fs::read_to_string(pictures.join("maps.html")).unwrap();
+    let headings: Vec<&str> = page.split("<th>").skip(1).collect();
+    let distinct: std::collections::BTreeSet<&&str> = headings.iter().collect();
+    assert!(headings.len() == 5 && distinct.len() == 5, "{headings:?}");
     assert!(
         page.contains("presence-vermilion.png") && pictures.join("presence-vermilion.png").exists()
     );

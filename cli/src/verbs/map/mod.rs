@@ -1,5 +1,7 @@
 //! `impasto map`: which pigments of a library are where in a spectral scan.
 
+mod pigment_options;
+
 mod scan_options;
 
 mod told;
@@ -11,15 +13,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 use maps::pictures::Overview;
-use maps::{
-    Book, MapSettings, ModelError, PigmentGroup, Region, Spot, StoreMode, StoredMaps, SurveyedScan,
-};
+use maps::{Book, Region, Spot, StoreMode, StoredMaps, SurveyedScan};
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::library_choice::chosen;
 use crate::output::OutputFolder;
 use crate::progress::{Progress, Waiting};
+use pigment_options::PigmentOptions;
 use scan_options::ScanOptions;
 
 /// Squares along the longer side of the pictures.
@@ -72,54 +73,6 @@ pub(crate) struct Map {
     csv: bool,
 }
 
-/// Which pigments take part, and how they are told.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Pigments")]
-struct PigmentOptions {
-    /// Most pigments of one pixel, 1 to 4 [default: 3]
-    #[arg(long, value_name = "N")]
-    at_most: Option<usize>,
-    /// A pigment that may take part; may be repeated [default: all whose S is known]
-    #[arg(long, value_name = "NAME")]
-    palette: Vec<String>,
-    /// Pigments that are mapped as one, such as `whites=Lead White,Zinc White`; may be repeated
-    #[arg(long, value_name = "NAME=PIGMENT,..")]
-    group: Vec<String>,
-    /// Map each pigment by itself, also those that the bands cannot tell apart
-    #[arg(long)]
-    apart: bool,
-    /// Standard deviation of the noise of a band, as a fraction [default: that of the white reading, else
-    /// 0.003]
-    #[arg(long, value_name = "SD")]
-    noise: Option<f64>,
-    /// How far K and S of the library may be off, as a fraction [default: 0.1]
-    #[arg(long, value_name = "0.05")]
-    model_error: Option<f64>,
-    /// Amount by which one more pigment must lower chi-square to be told [default: 2]
-    #[arg(long, value_name = "N")]
-    penalty: Option<f64>,
-}
-
-impl PigmentOptions {
-    fn settings(&self, white_sd: Option<&[f64]>) -> Result<MapSettings> {
-        let usual = MapSettings::default();
-        let groups = self.group.iter().map(|text| group(text)).collect::<Result<_>>()?;
-        let of_white = white_sd.filter(|sd| !sd.is_empty()).map(|sd| {
-            let squares: f64 = sd.iter().map(|sd| sd * sd).sum();
-            (squares / sd.len() as f64).sqrt().max(usual.sensor_noise)
-        });
-        Ok(MapSettings {
-            at_most: self.at_most.unwrap_or(usual.at_most),
-            palette: self.palette.clone(),
-            groups,
-            group_alike: !self.apart,
-            sensor_noise: self.noise.or(of_white).unwrap_or(usual.sensor_noise),
-            penalty: self.penalty.unwrap_or(usual.penalty),
-            model_error: self.model_error.map(ModelError::Stated),
-        })
-    }
-}
-
 impl Map {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let region = self.region.as_deref().map(region).transpose()?;
@@ -132,7 +85,7 @@ impl Map {
         for remark in cube.remarks() {
             console.remark(remark)?;
         }
-        let settings = self.pigments.settings(cube.white_sd())?;
+        let settings = self.pigments.settings(cube.white_sd(), &library)?;
         let waiting = Waiting::new("surveying", console.shows_progress());
         let known = self.survey.as_ref().filter(|path| path.exists());
         let scan = match known {
@@ -145,6 +98,7 @@ impl Map {
             })?,
         };
         drop(waiting);
+        console.remarks(self.pigments.remark(&scan).as_slice())?;
         if let (Some(path), None) = (&self.survey, known) {
             spectra::file::write_whole(path, scan.book().to_json()?.as_bytes())?;
             console.wrote(path)?;
@@ -232,23 +186,6 @@ fn spot(text: &str) -> Result<Region> {
         Failure::usage(
             format!("--spot takes a row and a column, or rows and columns, found `{text}`"),
             "try --spot 120,40 or --spot 120..124,40..44",
-        )
-    })
-}
-
-/// Parses a group, `NAME=PIGMENT,..`.
-fn group(text: &str) -> Result<PigmentGroup> {
-    let found = text.split_once('=').map(|(name, pigments)| PigmentGroup {
-        name: name.trim().to_owned(),
-        pigments: pigments.split(',').map(|name| name.trim().to_owned()).collect(),
-    });
-    let named = |group: &PigmentGroup| {
-        !group.name.is_empty() && group.pigments.iter().all(|name| !name.is_empty())
-    };
-    found.filter(named).ok_or_else(|| {
-        Failure::usage(
-            format!("--group takes NAME=PIGMENT,PIGMENT.., found `{text}`"),
-            "try --group \"whites=Lead White,Zinc White\"",
         )
     })
 }

@@ -154,7 +154,7 @@ fn page(scan: &SurveyedScan, overview: &Overview, (cells, spots): (&str, &str)) 
          <p>{} x {} pixels, of which {} were mapped; one square of the pictures is {} x {step} pixels. \
          Presence is the probability that a pigment is there; the columns tell the part of the pixels where it is \
          more likely than not, and its mean share. Transparent squares were not mapped.</p>\n{groups}\n\
-         <table><tr><th>pigment</th><th>present</th><th>share</th><th>presence</th><th>share</th></tr>\n\
+         <table><tr><th>pigment</th><th>present</th><th>mean share</th><th>presence</th><th>share</th></tr>\n\
          {cells}</table>\n\
          <h2>How well the spectra are explained</h2>\n\
          <p>Left: chi-square per degree of freedom, white for 0, red for 4 and more; where it is high, the \

@@ -1,0 +1,105 @@
+//! Options of a map: which pigments take part, and how far the library may err.
+
+use std::path::PathBuf;
+
+use calibrate::remark::Remark;
+use calibrate::{PigmentLibrary, Residuals};
+use clap::Args;
+use maps::{MapSettings, ModelError, PigmentGroup, SurveyedScan};
+
+use crate::failure::{Failure, Result};
+
+/// Which pigments take part, and how they are told.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Pigments")]
+pub(super) struct PigmentOptions {
+    /// Most pigments of one pixel, 1 to 4 [default: 3]
+    #[arg(long, value_name = "N")]
+    at_most: Option<usize>,
+    /// A pigment that may take part; may be repeated [default: all whose S is known]
+    #[arg(long, value_name = "NAME")]
+    palette: Vec<String>,
+    /// Pigments that are mapped as one, such as `whites=Lead White,Zinc White`; may be repeated
+    #[arg(long, value_name = "NAME=PIGMENT,..")]
+    group: Vec<String>,
+    /// Map each pigment by itself, also those that the bands cannot tell apart
+    #[arg(long)]
+    apart: bool,
+    /// Standard deviation of the noise of a band, as a fraction [default: that of the white reading, else
+    /// 0.003]
+    #[arg(long, value_name = "SD")]
+    noise: Option<f64>,
+    /// Errors of mixtures that the library had not seen, from `impasto validate READINGS --residuals FILE`
+    /// [default: for the oils that ship their own]
+    #[arg(long, value_name = "FILE")]
+    residuals: Option<PathBuf>,
+    /// How far K and S of the library may be off, as a fraction [default: 0.1 for a library without
+    /// residuals]
+    #[arg(long, value_name = "0.05", conflicts_with = "residuals")]
+    model_error: Option<f64>,
+    /// Amount by which one more pigment must lower chi-square to be told [default: 2]
+    #[arg(long, value_name = "N")]
+    penalty: Option<f64>,
+}
+
+impl PigmentOptions {
+    /// Settings of a map of a scan whose white reading has these standard deviations by band, with `library`.
+    pub(super) fn settings(
+        &self,
+        white_sd: Option<&[f64]>,
+        library: &PigmentLibrary,
+    ) -> Result<MapSettings> {
+        let usual = MapSettings::default();
+        let groups = self.group.iter().map(|text| group(text)).collect::<Result<_>>()?;
+        let of_white = white_sd.filter(|sd| !sd.is_empty()).map(|sd| {
+            let squares: f64 = sd.iter().map(|sd| sd * sd).sum();
+            (squares / sd.len() as f64).sqrt().max(usual.sensor_noise)
+        });
+        let residuals = self.residuals.as_ref().map(|path| -> Result<ModelError> {
+            Ok(ModelError::Residuals(Residuals::open(path)?))
+        });
+        let stated = self.model_error.map(ModelError::Stated);
+        let settings = MapSettings {
+            at_most: self.at_most.unwrap_or(usual.at_most),
+            palette: self.palette.clone(),
+            groups,
+            group_alike: !self.apart,
+            sensor_noise: self.noise.or(of_white).unwrap_or(usual.sensor_noise),
+            penalty: self.penalty.unwrap_or(usual.penalty),
+            model_error: residuals.transpose()?.or(stated),
+        };
+        if let (Err(error), Some(path)) = (settings.model_error_of(library), &self.residuals) {
+            return Err(Failure::from(error).within(format!("{} cannot be used", path.display())));
+        }
+        Ok(settings)
+    }
+
+    /// Remark on a library about whose errors nothing is known.
+    pub(super) fn remark(&self, scan: &SurveyedScan) -> Option<Remark> {
+        let assumed = self.model_error.is_none()
+            && matches!(scan.mapper().model_error(), ModelError::Stated(_));
+        assumed.then(|| {
+            let words = scan.mapper().model_error().words();
+            Remark::note(format!("this library is taken to have {words}")).with_hint(
+                "`impasto validate READINGS [residuals=FILE.json]` measures its errors, and [residuals=FILE.json] gives them to the map",
+            )
+        })
+    }
+}
+
+/// Parses a group, `NAME=PIGMENT,..`.
+fn group(text: &str) -> Result<PigmentGroup> {
+    let found = text.split_once('=').map(|(name, pigments)| PigmentGroup {
+        name: name.trim().to_owned(),
+        pigments: pigments.split(',').map(|name| name.trim().to_owned()).collect(),
+    });
+    let named = |group: &PigmentGroup| {
+        !group.name.is_empty() && group.pigments.iter().all(|name| !name.is_empty())
+    };
+    found.filter(named).ok_or_else(|| {
+        Failure::usage(
+            format!("--group takes NAME=PIGMENT,PIGMENT.., found `{text}`"),
+            "try --group \"whites=Lead White,Zinc White\"",
+        )
+    })
+}
