@@ -40,6 +40,8 @@ mod report;
 
 mod map;
 
+mod simulate_scan;
+
 mod demo;
 
 mod paint_photograph;
@@ -78,6 +80,7 @@ pub(crate) enum Verb {
     Plan(plan::Plan),
     Report(report::Report),
     Map(Box<map::Map>),
+    SimulateScan(simulate_scan::SimulateScan),
     Demo(demo::Demo),
     Paint(Box<paint::Paint>),
     Relight(Box<relight::Relight>),
@@ -103,6 +106,7 @@ impl Verb {
             Self::Plan(verb) => verb.run(console),
             Self::Report(verb) => verb.run(console),
             Self::Map(verb) => verb.run(console),
+            Self::SimulateScan(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
             Self::Paint(verb) => verb.run(console),
             Self::Relight(verb) => verb.run(console),

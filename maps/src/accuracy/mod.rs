@@ -19,7 +19,7 @@ pub use oils::{
     Missing, PaintingTrials, light_palette, missing_pigment, oil_groups, painting_trials,
     prepared_oils,
 };
-pub use scores::{Coverage, Reliability, Scores, Trial, coverage, reliability};
+pub use scores::{Coverage, Reliability, ScoreSums, Scores, Trial, coverage, covered, reliability};
 
 pub use simulated::{Painting, PaintingPlan};
 pub use swatches::{Choice, NamedGroups, SwatchTrials, choose_penalty, swatch_trials};
