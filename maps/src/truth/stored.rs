@@ -10,6 +10,7 @@ use super::arrays::{TITLE, TruthArray};
 use super::error::TruthError;
 use super::paint_class::PaintClass;
 use super::seen::TruthRows;
+use crate::numbers::ByteOrder;
 use crate::store::GROUP;
 use crate::zarr::{ChunkError, ZarrArray};
 
@@ -69,6 +70,8 @@ impl Truth {
             if *shape != expected
                 || *chunk != expected_chunk
                 || opened.about.number_type.bytes() != array.bytes()
+                || opened.about.chain.transpose.is_some()
+                || opened.about.chain.byte_order != ByteOrder::Little
             {
                 let name = array.name();
                 let problem = format!(
