@@ -1,12 +1,13 @@
 //! Simulated scans: their truth, their bytes, and how near the maps of one come to it.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use maps::cube::envi::WRITTEN_SCALE;
 use maps::truth::{PaintClass, Truth};
 use serde_json::Value;
 use suite::oils::library;
-use suite::program::{Run, impasto};
+use suite::program::{Run, impasto, repository};
 
 use crate::painted::{bare, dried, lay, patches, with_clear_viridian, written};
 
@@ -138,6 +139,25 @@ fn maps_of_a_simulated_scan_are_near_its_truth() {
         }
         assert!(figure(&json, "hiding, light", "chi2_risen") < 0.2, "{}", json["truth"]);
     }
+}
+
+#[test]
+fn halves_of_the_mixtures_have_none_in_common() {
+    let readings = repository("measurements/van-gogh-oils.csv");
+    let samples = |more: &[&str]| -> BTreeSet<String> {
+        let usual = ["fit", &readings, "--method", "weighted", "--below-surface", "floor", "--json"];
+        let run = impasto(&[&usual, more].concat());
+        assert_eq!(run.status, 0, "{}", run.err);
+        let rows = run.json()["per_sample"].as_array().unwrap().clone();
+        rows.iter().map(|row| row["sample"].as_str().unwrap().to_owned()).collect()
+    };
+    let [all, first, second] = [&[][..], &["--half", "0"], &["--half", "1"]].map(samples);
+    let both: BTreeSet<String> = first.intersection(&second).cloned().collect();
+    assert_eq!(first.union(&second).count(), all.len());
+    assert!(both.len() < 20, "films of one pigment alone are in both: {both:?}");
+    assert!(first.len().abs_diff(second.len()) < 4, "{} and {}", first.len(), second.len());
+    let run = impasto(&["fit", &readings, "--half", "2"]);
+    assert!(run.status == 2 && run.err.contains("--half"), "{}", run.err);
 }
 
 #[test]
