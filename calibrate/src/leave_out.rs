@@ -11,6 +11,7 @@ use crate::residuals::{LeftOutMixture, Residuals};
 use crate::validation::{
     DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films, left_out_mixture,
 };
+use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::{AmountKind, PigmentLibrary};
 use rayon::prelude::*;
@@ -231,6 +232,25 @@ impl PreparedFit {
         };
         let found = mixtures.par_iter().map(left_out).collect::<Result<Vec<_>, _>>()?;
         Ok(found.into_iter().flatten().collect())
+    }
+
+    /// One half of the readings, ready to be fitted: all films of one pigment, and every second mixture,
+    /// from mixture `half` (0 or 1) on.
+    #[must_use]
+    pub fn half(&self, half: usize) -> Self {
+        let mixtures: Vec<&str> = (self.set.swatches.iter())
+            .filter(|swatch| swatch.shares.iter().filter(|share| **share > 0.0).count() > 1)
+            .map(|swatch| swatch.sample.as_str())
+            .collect();
+        let out: Vec<&str> = mixtures.iter().copied().skip(1 - half % 2).step_by(2).collect();
+        let mut part = self.clone();
+        part.set = self.set.retaining(|swatch| !out.contains(&swatch.sample.as_str()));
+        if let FilmModel::Relative { reference, .. } = &mut part.model {
+            let white = &self.set.pigments[reference.index()];
+            let place = part.set.pigments.iter().position(|name| name == white);
+            *reference = PigmentId(place.unwrap_or(reference.index()));
+        }
+        part
     }
 
     fn chosen(&self, options: &ValidationOptions) -> Result<ChosenPigments, FittingError> {

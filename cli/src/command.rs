@@ -102,7 +102,7 @@ fn collect(command: &Command, pages: &mut Vec<(String, Vec<u8>)>) -> Result<()> 
 const GROUPS: [(&str, &[&str]); 5] = [
     ("Measure and calibrate", &["plan", "color", "light", "fit", "validate", "report"]),
     ("Mix and match", &["mix", "match", "correct", "library", "quadrature"]),
-    ("Map a scan", &["map"]),
+    ("Map a scan", &["map", "simulate-scan"]),
     ("Paint", &["paint", "relight", "watercolor", "artmap", "painterly", "stencil"]),
     ("The program", &["demo", "gpu", "help"]),
 ];

@@ -3,12 +3,13 @@
 use clap::Command;
 
 /// Verbs, by their words, and commands that show them.
-const EXAMPLES: [(&str, &[&str]); 33] = [
+const EXAMPLES: [(&str, &[&str]); 34] = [
     (
         "fit",
         &[
             "impasto fit measurements/van-gogh-oils.csv --saunderson 0.03,0.6 --below-surface floor -o oils.json",
             "impasto fit swatches.ti3 --recipes recipes.csv --white \"Zinc White\" -o paints.json",
+            "impasto fit measurements/van-gogh-oils.csv --below-surface floor --half 1 -o half.json",
             "impasto fit counts.csv --white-reading white.txt --dark-reading dark.txt --csv",
         ],
     ),
@@ -41,7 +42,15 @@ const EXAMPLES: [(&str, &[&str]); 33] = [
             "impasto map scan.hdr oils.json -o maps.zarr --pictures maps",
             "impasto map scan.hdr oils.json --residuals residuals.json -o maps.zarr",
             "impasto map scan.hdr oils.json --palette \"Lead White\" --palette Ultramarine --json",
+            "impasto map field.hdr oils.json -o maps.zarr --truth field-truth.zarr",
             "impasto map capture.hdr -o maps.zarr --white-reading white.hdr --dark-reading dark.hdr --resume",
+        ],
+    ),
+    (
+        "simulate-scan",
+        &[
+            "impasto simulate-scan field.exr -o field.hdr",
+            "impasto simulate-scan field.exr -o fine.hdr --bands 204 --seed 7",
         ],
     ),
     ("light", &["impasto light A FL11 LED-B3", "impasto light lamp.spdx --samples"]),

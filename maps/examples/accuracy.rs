@@ -18,8 +18,8 @@ use calibrate::Readings;
 use calibrate::fit::Watch;
 use maps::accuracy::{
     Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, Trial, choose_penalty, coverage,
-    half_of, light_palette, missing_pigment, oil_groups, painting_trials, prepared_oils,
-    reliability, residuals_of, swatch_trials,
+    light_palette, missing_pigment, oil_groups, painting_trials, prepared_oils, reliability,
+    residuals_of, swatch_trials,
 };
 use maps::{MapSettings, Mapper, ModelError, USUAL_MODEL_ERROR};
 use pigment::PigmentLibrary;
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let light = PaintingPlan { palette: light_palette(), ..plan.clone() };
     paintings("eight light pigments, K and S off by 10 %", (&oils, &oils), &light, &stated)?;
     paintings("any eight, K and S off by 10 %", (&oils, &oils), &plan, &stated)?;
-    let halves = [half_of(&prepared, 0), half_of(&prepared, 1)];
+    let halves = [prepared.half(0), prepared.half(1)];
     let (real, known) = (halves[0].fit()?.library, halves[1].fit()?.library);
     let model_error =
         residuals_of(&halves[1].left_out(Watch::default())?).map(ModelError::Residuals);

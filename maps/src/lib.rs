@@ -21,6 +21,8 @@ mod mapping;
 
 pub mod accuracy;
 
+pub mod camera;
+
 mod numbers;
 
 mod zarr;
@@ -28,6 +30,8 @@ mod zarr;
 pub mod cube;
 
 pub mod store;
+
+pub mod truth;
 
 pub mod blocks;
 

@@ -6,7 +6,7 @@
 use calibrate::Readings;
 use calibrate::fit::Watch;
 use maps::accuracy::{
-    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, half_of, light_palette,
+    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, coverage, light_palette,
     missing_pigment, oil_groups, painting_trials, prepared_oils, reliability, residuals_of,
     swatch_trials,
 };
@@ -88,7 +88,7 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
 #[test]
 fn a_library_of_other_readings_serves_too() {
     let prepared = prepared_oils(&readings()).unwrap();
-    let halves = [0, 1].map(|half| half_of(&prepared, half));
+    let halves = [0, 1].map(|half| prepared.half(half));
     let [real, known] = halves.each_ref().map(|half| half.fit().unwrap().library);
     let residuals = residuals_of(&halves[1].left_out(Watch::default()).unwrap()).unwrap();
     let model_error = Some(ModelError::Residuals(residuals));

@@ -33,6 +33,11 @@ pub(crate) struct Fit {
     /// Source of the measurements
     #[arg(long, default_value = "not stated")]
     source: String,
+    /// Fit to one half of the mixtures alone: every second, from the first (0) or the second (1) on, with all
+    /// films of one pigment. What a painting of the one library looks like to the other shows how far it can be
+    /// believed
+    #[arg(long, value_name = "0|1", value_parser = clap::value_parser!(u8).range(0..=1))]
+    half: Option<u8>,
     #[command(flatten)]
     viewing: ViewingOptions,
     /// Print JSON: samples, pigments, rms, delta_e, per_sample, shares_of_squares, warnings,
@@ -54,7 +59,10 @@ impl Fit {
         let open = |path| Output::open(path, &self.options.files());
         let output = self.output.as_deref().map(open).transpose()?;
         let readings = self.options.readings(console)?;
-        let prepared = prepare_fit(&readings, &options, console)?;
+        let mut prepared = prepare_fit(&readings, &options, console)?;
+        if let Some(half) = self.half {
+            prepared = prepared.half(usize::from(half));
+        }
         let fit = watched_fit(&prepared, console)?;
         console.remarks(&fit.remarks)?;
         let wrote = output.is_some();

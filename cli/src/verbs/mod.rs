@@ -38,6 +38,8 @@ mod report;
 
 mod map;
 
+mod simulate_scan;
+
 mod demo;
 
 mod paint_photograph;
@@ -76,6 +78,7 @@ pub(crate) enum Verb {
     Plan(plan::Plan),
     Report(report::Report),
     Map(Box<map::Map>),
+    SimulateScan(simulate_scan::SimulateScan),
     Demo(demo::Demo),
     Paint(Box<paint::Paint>),
     Relight(Box<relight::Relight>),
@@ -101,6 +104,7 @@ impl Verb {
             Self::Plan(verb) => verb.run(console),
             Self::Report(verb) => verb.run(console),
             Self::Map(verb) => verb.run(console),
+            Self::SimulateScan(verb) => verb.run(console),
             Self::Demo(verb) => verb.run(console),
             Self::Paint(verb) => verb.run(console),
             Self::Relight(verb) => verb.run(console),

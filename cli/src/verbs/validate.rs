@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 use calibrate::fit::Watch;
 use calibrate::library::AmountKind;
 use calibrate::remark::Remark;
-use calibrate::validation::Validation;
 use calibrate::{FittingError, ValidationOptions};
 use clap::Args;
 use serde_json::json;

@@ -16,10 +16,10 @@ mod oils;
 
 pub use baselines::{Baseline, Unmixed};
 pub use oils::{
-    Missing, PaintingTrials, half_of, light_palette, missing_pigment, oil_groups, painting_trials,
+    Missing, PaintingTrials, light_palette, missing_pigment, oil_groups, painting_trials,
     prepared_oils,
 };
-pub use scores::{Coverage, Reliability, Scores, Trial, coverage, reliability};
+pub use scores::{Coverage, Reliability, ScoreSums, Scores, Trial, coverage, covered, reliability};
 
 pub use simulated::{Painting, PaintingPlan};
 pub use swatches::{

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use calibrate::fit::Watch;
 use calibrate::observation::BelowSurface;
-use calibrate::{FilmModel, FitOptions, FittingError, PigmentId, PreparedFit, Readings};
+use calibrate::{FitOptions, FittingError, PreparedFit, Readings};
 use pigment::library::PigmentLibrary;
 
 use crate::accuracy::scores::Trial;
@@ -57,25 +57,6 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
         &FitOptions { below_surface, ..FitOptions::default() },
         Watch::default(),
     )
-}
-
-/// One half of the readings, ready to be fitted: all films of one pigment, and every second mixture, from
-/// mixture `half` (0 or 1) on.
-#[must_use]
-pub fn half_of(prepared: &PreparedFit, half: usize) -> PreparedFit {
-    let mixtures: Vec<&str> = (prepared.set.swatches.iter())
-        .filter(|swatch| swatch.shares.iter().filter(|share| **share > 0.0).count() > 1)
-        .map(|swatch| swatch.sample.as_str())
-        .collect();
-    let out: Vec<&str> = mixtures.iter().copied().skip(1 - half % 2).step_by(2).collect();
-    let mut part = prepared.clone();
-    part.set = prepared.set.retaining(|swatch| !out.contains(&swatch.sample.as_str()));
-    if let FilmModel::Relative { reference, .. } = &mut part.model {
-        let white = &prepared.set.pigments[reference.index()];
-        let place = part.set.pigments.iter().position(|name| name == white);
-        *reference = PigmentId(place.unwrap_or(reference.index()));
-    }
-    part
 }
 
 /// Trials of simulated paintings of several seeds.

@@ -17,6 +17,9 @@ pub struct Trial {
     pub sd: Vec<f64>,
     /// Chi-square per degree of freedom; NaN if the method tells none.
     pub chi2: f64,
+    /// Least true share that counts as present. A trace, smaller than that, is neither right nor wrong to
+    /// tell; 0 if there are no traces.
+    pub least: f64,
 }
 
 impl Trial {
@@ -37,6 +40,17 @@ impl Trial {
             probability,
             sd: list(&maps.share_sd),
             chi2: f64::from(maps.chi2[index]),
+            least: 0.0,
+        }
+    }
+
+    /// Whether pigment `index` is present; `None` for a trace.
+    #[must_use]
+    pub fn is_there(&self, index: usize) -> Option<bool> {
+        match self.truth[index] {
+            share if share > 0.0 && share >= self.least => Some(true),
+            share if share > 0.0 => None,
+            _ => Some(false),
         }
     }
 
@@ -64,6 +78,7 @@ impl Trial {
             probability: Vec::new(),
             sd: Vec::new(),
             chi2: self.chi2,
+            least: self.least,
         }
     }
 }
@@ -83,24 +98,9 @@ impl Scores {
     /// Figures of `trials`.
     #[must_use]
     pub fn of<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Self {
-        let (mut right, mut told, mut there, mut error, mut count) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        for trial in trials {
-            count += 1.0;
-            for ((&truth, &share), &present) in
-                trial.truth.iter().zip(&trial.told).zip(&trial.present)
-            {
-                there += f64::from(u8::from(truth > 0.0));
-                told += f64::from(u8::from(present));
-                right += f64::from(u8::from(present && truth > 0.0));
-                error += 0.5 * (truth - share).abs();
-            }
-        }
-        let part = |value: f64, of: f64| if of > 0.0 { value / of } else { 0.0 };
-        Self {
-            precision: part(right, told),
-            recall: part(right, there),
-            share_error: part(error, count),
-        }
+        let mut sums = ScoreSums::default();
+        trials.into_iter().for_each(|trial| sums.add(trial));
+        sums.scores()
     }
 
     /// Harmonic mean of precision and recall.
@@ -115,6 +115,47 @@ impl std::fmt::Display for Scores {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { precision, recall, share_error } = self;
         write!(f, "{precision:.3} {recall:.3} {share_error:.3}")
+    }
+}
+
+/// Sums over trials, which may come one after another.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ScoreSums {
+    /// Number of trials.
+    pub count: f64,
+    /// Pigments that are told to be present and are.
+    pub right: f64,
+    /// Pigments that are told to be present, traces left out.
+    pub told: f64,
+    /// Pigments that are present.
+    pub there: f64,
+    /// Sum of half the absolute errors of the shares.
+    pub error: f64,
+}
+
+impl ScoreSums {
+    /// Adds a trial.
+    pub fn add(&mut self, trial: &Trial) {
+        self.count += 1.0;
+        for (index, (&truth, &share)) in trial.truth.iter().zip(&trial.told).enumerate() {
+            self.error += 0.5 * (truth - share).abs();
+            let Some(is_there) = trial.is_there(index) else { continue };
+            let told = trial.present[index];
+            self.there += f64::from(u8::from(is_there));
+            self.told += f64::from(u8::from(told));
+            self.right += f64::from(u8::from(told && is_there));
+        }
+    }
+
+    /// Figures of all trials so far.
+    #[must_use]
+    pub fn scores(&self) -> Scores {
+        let part = |value: f64, of: f64| if of > 0.0 { value / of } else { 0.0 };
+        Scores {
+            precision: part(self.right, self.told),
+            recall: part(self.right, self.there),
+            share_error: part(self.error, self.count),
+        }
     }
 }
 
@@ -141,11 +182,13 @@ pub fn reliability<'a>(
         let (from, to) = (ends[index], ends.get(index + 1).copied().unwrap_or(f64::INFINITY));
         let (mut count, mut told, mut is_true) = (0, 0.0, 0.0);
         for trial in trials.clone() {
-            for (&probability, &truth) in trial.probability.iter().zip(&trial.truth) {
-                if (from..to).contains(&probability) {
+            for (index, &probability) in trial.probability.iter().enumerate() {
+                if let (Some(is_there), true) =
+                    (trial.is_there(index), (from..to).contains(&probability))
+                {
                     count += 1;
                     told += probability;
-                    is_true += f64::from(u8::from(truth > 0.0));
+                    is_true += f64::from(u8::from(is_there));
                 }
             }
         }
@@ -168,14 +211,22 @@ pub struct Coverage {
 /// because their share is 1 by definition.
 #[must_use]
 pub fn coverage<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Coverage {
-    let (mut count, mut within) = (0, 0.0);
+    let (mut count, mut within) = (0, 0);
     for trial in trials {
-        let alone = trial.present.iter().filter(|is| **is).count() < 2;
-        for index in (0..trial.sd.len()).filter(|&index| trial.present[index] && !alone) {
-            count += 1;
-            let error = (trial.truth[index] - trial.told[index]).abs();
-            within += f64::from(u8::from(error <= trial.sd[index]));
-        }
+        let (more, inside) = covered(trial);
+        count += more;
+        within += inside;
     }
-    Coverage { count, within: within / (count as f64).max(1.0) }
+    Coverage { count, within: within as f64 / (count as f64).max(1.0) }
+}
+
+/// Number of shares of one trial that [`coverage`] counts, and of those within one standard deviation.
+#[must_use]
+pub fn covered(trial: &Trial) -> (usize, usize) {
+    let alone = trial.present.iter().filter(|is| **is).count() < 2;
+    let counted = (0..trial.sd.len()).filter(|&index| trial.present[index] && !alone);
+    let is_within =
+        |&index: &usize| (trial.truth[index] - trial.told[index]).abs() <= trial.sd[index];
+    let counted: Vec<usize> = counted.collect();
+    (counted.len(), counted.iter().filter(|index| is_within(index)).count())
 }

@@ -82,7 +82,7 @@ impl SwatchTrials {
             let truth = named.list(true_shares(sample));
             let present = told.iter().map(|share| *share > least).collect();
             let (probability, sd) = (Vec::new(), Vec::new());
-            Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN })
+            Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN, least: 0.0 })
         };
         let pigments: Vec<Trial> = samples.iter().filter_map(trial).collect();
         let groups = pigments.iter().map(|t| t.joined(&named.group_of, named.count)).collect();
@@ -151,6 +151,7 @@ pub fn swatch_trials(
             probability: list(&plain.probability),
             sd: list(&plain.sd),
             chi2: plain.chi2,
+            least: 0.0,
         };
         let joined = Mapper::new(library, &nm, &own(groups))?;
         let maps = joined.search(&spectrum)?;
@@ -172,6 +173,7 @@ pub fn swatch_trials(
             probability: by_group(&plain.probability),
             sd: by_group(&plain.sd),
             chi2: plain.chi2,
+            least: 0.0,
         };
         Ok((pigments, groups))
     };

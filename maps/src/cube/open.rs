@@ -153,7 +153,7 @@ fn open_folder(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> 
         return zarr_cube::open(path, options);
     }
     if [".zarray", ".zgroup"].iter().any(|name| path.join(name).is_file()) {
-        let way_out = "open it in Python with xarray and save it with zarr_format=3";
+        let way_out = "copy it in Python: xarray.open_zarr(\"OLD\").drop_encoding().to_zarr(\"NEW\", zarr_format=3)";
         return Err(CubeError::format(path, "is Zarr of format 2", way_out));
     }
     if stack::is_stack(path, options) {

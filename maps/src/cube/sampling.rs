@@ -28,8 +28,15 @@ pub struct SpreadPixels {
 fn steps(rows: usize, columns: usize, about: usize) -> (usize, usize) {
     let ratio = (rows as f64 * columns as f64 / about.max(1) as f64).max(1.0);
     let down = (ratio.sqrt().round() as usize).clamp(1, rows.max(1));
-    let across = ((ratio / down as f64).round() as usize).clamp(1, columns.max(1));
-    (down, across)
+    let across = (ratio / down as f64).round() as usize;
+    match across > columns {
+        // A narrow scan has no columns to leave out: its rows lie farther apart.
+        true => (
+            ((ratio / columns.max(1) as f64).round() as usize).clamp(1, rows.max(1)),
+            columns.max(1),
+        ),
+        false => (down, across.max(1)),
+    }
 }
 
 impl Cube {
@@ -92,9 +99,14 @@ mod tests {
 
     #[test]
     fn steps_meet_about_the_wanted_number_of_pixels() {
-        for (rows, columns, about) in
-            [(5, 7, 100), (1, 90_000, 20_000), (900, 900, 20_000), (36_000, 44_000, 20_000)]
-        {
+        for (rows, columns, about) in [
+            (5, 7, 100),
+            (1, 90_000, 20_000),
+            (90_000_000, 1, 20_000),
+            (4_000_000, 10, 20_000),
+            (900, 900, 20_000),
+            (36_000, 44_000, 20_000),
+        ] {
             let (down, across) = steps(rows, columns, about);
             let count = |length: usize, step: usize| (step / 2..length).step_by(step).count();
             let met = count(rows, down) * count(columns, across);

@@ -44,7 +44,8 @@ pub(crate) fn wavelengths_of(path: &Path) -> Result<Vec<f64>, CubeError> {
         None => row.iter().copied().rev().find(|value| value.is_finite()).unwrap_or(f64::NAN),
     };
     let values: Vec<f64> = match &rows[..] {
-        [list] if column.is_none() => list.clone(),
+        // Units and words between the numbers are passed over.
+        [list] if column.is_none() => list.iter().copied().filter(|nm| nm.is_finite()).collect(),
         rows => rows.iter().map(of_row).collect(),
     };
     if values.is_empty() {
@@ -97,6 +98,7 @@ mod tests {
             "450\n500.5\n",
             "450, 500.5",
             "450 500.5\n",
+            "450 nm, 500.5 nm\n",
             "wavelength_nm\n450\n500.5",
             "band,wavelength\n1,450\n2,500.5\n",
             "wavelength,fwhm\n450,9\n500.5,9\n",

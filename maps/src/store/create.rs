@@ -209,7 +209,7 @@ fn own_names() -> BTreeSet<String> {
 }
 
 /// Names of everything in a folder.
-fn entries(folder: &Path) -> Result<BTreeSet<String>, StoreError> {
+pub(crate) fn entries(folder: &Path) -> Result<BTreeSet<String>, StoreError> {
     let reading = |reason| FileError::reading(folder, reason);
     let mut names = BTreeSet::new();
     for entry in std::fs::read_dir(folder).map_err(reading)? {
@@ -230,12 +230,12 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_whole(path, bytes)
 }
 
-fn text(document: &Value) -> Vec<u8> {
+pub(crate) fn text(document: &Value) -> Vec<u8> {
     format!("{document:#}\n").into_bytes()
 }
 
 /// Texts as the codec `vlen-utf8` stores them.
-fn names(names: &[String]) -> Vec<u8> {
+pub(crate) fn names(names: &[String]) -> Vec<u8> {
     let length = |length: usize| u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes();
     let mut bytes = length(names.len()).to_vec();
     for name in names {

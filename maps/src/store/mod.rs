@@ -18,6 +18,7 @@ mod shard_writer;
 mod stored;
 
 pub use about::MapsAbout;
+pub(crate) use create::{GROUP, entries, names, text, write};
 pub use create::{MapStore, StoreMode};
 pub use error::StoreError;
 pub use shard_writer::ShardWriter;

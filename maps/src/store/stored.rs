@@ -15,6 +15,11 @@ use crate::numbers::{ByteOrder, NumberType};
 use crate::pixel_maps::{BlockMaps, Mask};
 use crate::zarr::{ChunkError, ZarrArray};
 
+/// Most shards of maps, 4 Tpixel: a description takes no memory that no file backs.
+const MOST_SHARDS: usize = 1 << 20;
+/// Pixels along each side of a shard.
+const SIDE: usize = 2048;
+
 /// Finished maps on the disk.
 #[derive(Debug)]
 pub struct StoredMaps {
@@ -66,7 +71,21 @@ impl StoredMaps {
                     array.name()
                 )));
             }
+            let chain = &opened.about.chain;
+            let is_own = chain.transpose.is_none()
+                && chain.byte_order == ByteOrder::Little
+                && opened.about.chunk.get(2).is_none_or(|each| *each == pigments.len());
+            if !is_own {
+                let name = array.name();
+                let problem = format!("`{name}` is stored in another order than maps are");
+                return Err(damaged(problem));
+            }
             arrays.push((array, opened));
+        }
+        let count = rows.len().div_ceil(SIDE).saturating_mul(columns.len().div_ceil(SIDE));
+        if count > MOST_SHARDS {
+            let problem = format!("describes {count} shards, more than {MOST_SHARDS}");
+            return Err(damaged(problem));
         }
         let shards = Tiles::new(rows.len(), columns.len()).shards((rows.start, columns.start));
         let missing = shards

@@ -66,18 +66,22 @@ impl ZarrArray {
     pub(crate) fn chunk(&self, at: &[usize]) -> Result<Option<Vec<u8>>, ChunkError> {
         let Some((counts, at_end)) = &self.about.shard else {
             let file = self.file(at);
-            let stored = match std::fs::read(&file) {
-                Ok(stored) => stored,
-                Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-                Err(error) => return Err(ChunkError::Io(file, error)),
+            let mut stored = Vec::new();
+            let opened = File::open(&file);
+            // One byte more than fits, so that a wrong file takes no memory.
+            let most = self.most_stored() as u64 + 1;
+            return match opened.and_then(|opened| opened.take(most).read_to_end(&mut stored)) {
+                Ok(_) => self.unpacked(file, stored),
+                Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+                Err(error) => Err(ChunkError::Io(file, error)),
             };
-            return self.unpacked(file, stored);
         };
         let shard: Vec<usize> = at.iter().zip(counts).map(|(at, count)| at / count).collect();
         let file = self.file(&shard);
         let inside = at.iter().zip(counts).fold(0, |sum, (at, count)| sum * count + at % count);
         let chunks = counts.iter().product();
-        match stored_in_shard(&file, chunks, *at_end, inside) {
+        let most = self.most_stored() as u64;
+        match stored_in_shard(&file, (chunks, most), *at_end, inside) {
             Ok(Some(Ok(stored))) => self.unpacked(file, stored),
             Ok(Some(Err(fault))) => Err(ChunkError::Fault(file, fault)),
             Ok(None) => Ok(None),
@@ -86,7 +90,16 @@ impl ZarrArray {
         }
     }
 
+    fn most_stored(&self) -> usize {
+        self.about.chain.most_stored(self.chunk_bytes())
+    }
+
     fn unpacked(&self, file: PathBuf, stored: Vec<u8>) -> Result<Option<Vec<u8>>, ChunkError> {
+        let most = self.most_stored();
+        if stored.len() > most {
+            let problem = format!("a chunk has more than {most} stored bytes");
+            return Err(ChunkError::Fault(file, ZarrFault::damaged(problem)));
+        }
         let unpacked = self.about.chain.unpack(stored, self.chunk_bytes());
         unpacked.map(Some).map_err(|fault| ChunkError::Fault(file, fault))
     }
@@ -94,8 +107,13 @@ impl ZarrArray {
 
 type Stored = Option<Result<Vec<u8>, ZarrFault>>;
 
-/// Stored bytes of the chunk `inside` a shard.
-fn stored_in_shard(file: &Path, chunks: usize, at_end: bool, inside: usize) -> io::Result<Stored> {
+/// Stored bytes of the chunk `inside` a shard of `chunks` chunks, of at most `most` bytes each.
+fn stored_in_shard(
+    file: &Path,
+    (chunks, most): (usize, u64),
+    at_end: bool,
+    inside: usize,
+) -> io::Result<Stored> {
     let mut opened = File::open(file)?;
     let length = opened.metadata()?.len();
     let size = index_bytes(chunks) as u64;
@@ -119,5 +137,46 @@ fn stored_in_shard(file: &Path, chunks: usize, at_end: bool, inside: usize) -> i
         let problem = format!("its index names bytes {start} to {start} + {bytes} of {length}");
         return Ok(Some(Err(ZarrFault::damaged(problem))));
     }
+    if bytes > most {
+        let problem = format!("its index gives a chunk {bytes} bytes, expected at most {most}");
+        return Ok(Some(Err(ZarrFault::damaged(problem))));
+    }
     read(start, bytes).map(|stored| Some(Ok(stored)))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn an_index_decides_no_memory() {
+        let folder = tempfile::tempdir().unwrap();
+        let index = json!([{"name": "bytes", "configuration": {"endian": "little"}}, "crc32c"]);
+        let settings = json!({"chunk_shape": [4], "codecs": ["bytes"], "index_codecs": index});
+        let array = ZarrArray::new(
+            folder.path(),
+            &json!({
+                "shape": [8], "data_type": "uint8",
+                "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": [8]}},
+                "codecs": [{"name": "sharding_indexed", "configuration": settings}],
+            }),
+        )
+        .unwrap();
+        std::fs::create_dir(folder.path().join("c")).unwrap();
+        let mut file = File::create(folder.path().join("c/0")).unwrap();
+        file.write_all(&[1, 2, 3, 4]).unwrap();
+        // The second chunk has half a terabyte by its index, and the file has it.
+        file.set_len(1 << 40).unwrap();
+        file.seek(SeekFrom::End(0)).unwrap();
+        let places = [0_u64, 4, 8, 1 << 39].map(u64::to_le_bytes).concat();
+        file.write_all(&places).unwrap();
+        file.write_all(&crc32c::crc32c(&places).to_le_bytes()).unwrap();
+        assert_eq!(array.chunk(&[0]).unwrap(), Some(vec![1, 2, 3, 4]));
+        let Err(ChunkError::Fault(path, fault)) = array.chunk(&[1]) else { panic!("it is read") };
+        assert!(path.ends_with("c/0") && fault.problem.contains("expected at most 4"), "{fault:?}");
+    }
 }

@@ -71,6 +71,11 @@ impl Chain {
         }
     }
 
+    /// Most bytes that a stored chunk of `expected` bytes can have: packing may make noise larger.
+    pub(crate) fn most_stored(&self, expected: usize) -> usize {
+        self.steps.iter().fold(expected, |most, _| most.saturating_add(most / 8 + 4096))
+    }
+
     /// Unpacks a stored chunk of `expected` bytes.
     pub(crate) fn unpack(&self, stored: Vec<u8>, expected: usize) -> Result<Vec<u8>, ZarrFault> {
         let mut bytes = stored;

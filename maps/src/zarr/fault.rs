@@ -7,9 +7,9 @@ pub(crate) struct ZarrFault {
     pub(crate) way_out: &'static str,
 }
 
-/// Advice for arrays of a kind that is not read.
+/// Advice for arrays of a kind that is not read. Without `drop_encoding` xarray would pack the copy as the original.
 const SAVE_AGAIN: &str =
-    "save the array with xarray: to_zarr(path, zarr_format=3), without settings for packing";
+    "copy it in Python: xarray.open_zarr(\"OLD\").drop_encoding().to_zarr(\"NEW\", zarr_format=3)";
 /// Advice for arrays that are damaged.
 const COPY_AGAIN: &str = "copy or write the array again";
 

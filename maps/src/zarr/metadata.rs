@@ -9,6 +9,9 @@ use crate::numbers::NumberType;
 /// Most bytes of an unpacked chunk: a chunk is held in memory as a whole.
 const MOST_CHUNK_BYTES: usize = 1 << 29;
 
+/// Most chunks of a shard, whose index is read as a whole.
+const MOST_CHUNKS: usize = 1 << 24;
+
 /// Description of an array of numbers.
 #[derive(Debug, Clone)]
 pub(crate) struct ArrayMetadata {
@@ -86,7 +89,14 @@ impl ArrayMetadata {
                     let problem = format!("has shards of {outer:?} and chunks of {inner:?}");
                     return Err(ZarrFault::unread(problem));
                 }
-                let counts = outer.iter().zip(&inner).map(|(outer, inner)| outer / inner).collect();
+                let counts: Vec<usize> =
+                    outer.iter().zip(&inner).map(|(outer, inner)| outer / inner).collect();
+                let chunks = counts.iter().try_fold(1_usize, |all, count| all.checked_mul(*count));
+                if chunks.is_none_or(|chunks| chunks > MOST_CHUNKS) {
+                    let problem =
+                        format!("has {counts:?} chunks in a shard, more than {MOST_CHUNKS}");
+                    return Err(ZarrFault::unread(problem));
+                }
                 (inner, chain, Some((counts, at_end)))
             }
             _ => (outer, Chain::of(codecs, axes)?, None),
@@ -140,4 +150,32 @@ fn check_index(settings: &Value) -> Result<bool, ZarrFault> {
         return Err(ZarrFault::unread(format!("has shards with an index packed by {names:?}")));
     }
     Ok(settings["index_location"] != "start")
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn sharded(outer: &[u64], inner: &[u64]) -> Result<ArrayMetadata, ZarrFault> {
+        let index = json!([{"name": "bytes", "configuration": {"endian": "little"}}, "crc32c"]);
+        let settings = json!({"chunk_shape": inner, "codecs": ["bytes"], "index_codecs": index});
+        ArrayMetadata::of(&json!({
+            "shape": [9, 9, 9],
+            "data_type": "uint8",
+            "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": outer}},
+            "codecs": [{"name": "sharding_indexed", "configuration": settings}],
+        }))
+    }
+
+    #[test]
+    fn shards_of_too_many_chunks_are_refused() {
+        let array = sharded(&[8, 8, 4], &[4, 8, 4]).unwrap();
+        assert_eq!(array.shard, Some((vec![2, 1, 1], true)));
+        for outer in [[1 << 33, 1 << 33, 1], [1 << 25, 1, 1]] {
+            let fault = sharded(&outer, &[1, 1, 1]).unwrap_err();
+            assert!(fault.problem.contains("chunks in a shard"), "{fault:?}");
+        }
+    }
 }

@@ -9,6 +9,7 @@ use exr::prelude::{
 };
 use maps::cube::{Cube, CubeOptions, CubeScale};
 use tiff::encoder::{self, TiffEncoder, colortype};
+use tiff::tags::ExtraSamples;
 
 use crate::written::{BANDS, LINES, SAMPLES, check, refused, value};
 
@@ -184,4 +185,115 @@ fn spectral_exr_files_are_read() {
     std::fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
     let (found, _) = refused(&path, &CubeOptions::default());
     assert!(found.contains("painting.exr"), "{found}");
+}
+
+/// Pages of two bands each, whose numbers stand beside each other in a pixel.
+fn write_chunky(path: &Path) {
+    let mut encoder = TiffEncoder::new(File::create(path).unwrap()).unwrap();
+    encoder = encoder.with_compression(encoder::Compression::Lzw);
+    for first in [0, 2] {
+        let pair = [plane(first), plane(first + 1)];
+        let pixels = pair[0].iter().zip(&pair[1]).flat_map(|(a, b)| [*a, *b]);
+        let mut image =
+            encoder.new_image::<colortype::Gray16>(SAMPLES as u32, LINES as u32).unwrap();
+        image.extra_samples(&[ExtraSamples::Unspecified]).unwrap();
+        image.rows_per_strip(2).unwrap();
+        image.write_data(&pixels.collect::<Vec<u16>>()).unwrap();
+    }
+}
+
+/// A page of all bands in tiles of 16 x 16 pixels, band after band or side by side.
+fn tiled(is_planar: bool) -> Vec<u8> {
+    const SIDE: usize = 16;
+    let number = |band: usize, line: usize, sample: usize| match line < LINES && sample < SAMPLES {
+        true => u16::from(value(line, sample, band)) * 100,
+        false => 9999,
+    };
+    let places = || (0..SIDE).flat_map(|line| (0..SIDE).map(move |sample| (line, sample)));
+    let tiles: Vec<Vec<u16>> = match is_planar {
+        true => {
+            (0..BANDS).map(|band| places().map(|(l, s)| number(band, l, s)).collect()).collect()
+        }
+        false => {
+            let pixel = |(l, s)| (0..BANDS).map(move |band| number(band, l, s));
+            vec![places().flat_map(pixel).collect()]
+        }
+    };
+    let mut bytes = b"II*\0\0\0\0\0".to_vec();
+    let sizes: Vec<u32> = tiles.iter().map(|tile| tile.len() as u32 * 2).collect();
+    let offsets: Vec<u32> = tiles
+        .iter()
+        .map(|tile| {
+            let at = bytes.len() as u32;
+            bytes.extend(tile.iter().flat_map(|number| number.to_le_bytes()));
+            at
+        })
+        .collect();
+    let place = |bytes: &mut Vec<u8>, values: &[u32]| match values {
+        [one] => *one,
+        several => {
+            let at = bytes.len() as u32;
+            bytes.extend(several.iter().flat_map(|value| value.to_le_bytes()));
+            at
+        }
+    };
+    let (offsets_at, sizes_at) = (place(&mut bytes, &offsets), place(&mut bytes, &sizes));
+    let shorts = |bytes: &mut Vec<u8>, value: u16, count: usize| {
+        let at = bytes.len() as u32;
+        bytes.extend((0..count).flat_map(|_| value.to_le_bytes()));
+        at
+    };
+    let bits_at = shorts(&mut bytes, 16, BANDS);
+    let extra_at = shorts(&mut bytes, 0, BANDS);
+    let count = tiles.len() as u32;
+    let (short, long) = (3_u16, 4_u16);
+    let planar = if is_planar { 2 } else { 1 };
+    let entries: [(u16, u16, u32, u32); 12] = [
+        (256, long, 1, SAMPLES as u32),
+        (257, long, 1, LINES as u32),
+        (258, short, BANDS as u32, bits_at),
+        (259, short, 1, 1),
+        (262, short, 1, 1),
+        (277, short, 1, BANDS as u32),
+        (284, short, 1, planar),
+        (322, long, 1, SIDE as u32),
+        (323, long, 1, SIDE as u32),
+        (324, long, count, offsets_at),
+        (325, long, count, sizes_at),
+        (338, short, BANDS as u32 - 1, extra_at),
+    ];
+    let directory = bytes.len() as u32;
+    bytes[4..8].copy_from_slice(&directory.to_le_bytes());
+    bytes.extend((entries.len() as u16).to_le_bytes());
+    for (tag, kind, count, value) in entries {
+        bytes.extend(tag.to_le_bytes());
+        bytes.extend(kind.to_le_bytes());
+        bytes.extend(count.to_le_bytes());
+        bytes.extend(value.to_le_bytes());
+    }
+    bytes.extend([0; 4]);
+    bytes
+}
+
+#[test]
+fn values_of_a_pixel_are_bands() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scan.tif");
+    write_chunky(&path);
+    let (found, hint) = refused(&path, &by_20000());
+    assert!(found.contains("has 4 bands") && hint.contains("a band"), "{found}: {hint}");
+    std::fs::write(folder.path().join("scan.txt"), LIST).unwrap();
+    check(&Cube::open_with(&path, &by_20000()).unwrap(), 1.0 / 200.0, "two bands a page");
+    for is_planar in [true, false] {
+        std::fs::write(&path, tiled(is_planar)).unwrap();
+        check(&Cube::open_with(&path, &by_20000()).unwrap(), 1.0 / 200.0, "tiles");
+    }
+    std::fs::write(folder.path().join("scan.txt"), "400\n500\n").unwrap();
+    let (found, _) = refused(&path, &by_20000());
+    assert!(found.ends_with("scan.txt: has 2 wavelengths, the stack 4 bands"), "{found}");
+    // A folder holds one picture a file.
+    std::fs::write(folder.path().join("wavelengths.txt"), "400\n").unwrap();
+    let (found, hint) = refused(folder.path(), &by_20000());
+    assert!(found.ends_with("has 4 values a pixel, expected one picture a file"), "{found}");
+    assert!(hint.contains("the file itself"), "{hint}");
 }

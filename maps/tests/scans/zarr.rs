@@ -148,9 +148,17 @@ fn arrays_of_other_kinds_are_refused() {
             "more than 512 MB",
         ),
         ("wavelength", "attributes", json!({"units": "um"}), "these look like nm"),
+        // Descriptions that no file backs take no memory.
+        ("reflectance", "shape", json!([5, 7, huge]), "expected at most 65536 bands"),
+        ("reflectance", "shape", json!([5, huge, 4]), "numbers in a row"),
+        ("reflectance", "shape", json!([huge, 7, 4]), "rows of 7 pixels"),
+        ("wavelength", "shape", json!([huge]), "wavelengths, the cube 4 bands"),
     ] {
-        let (found, _) = refused_array(array, key, changed);
+        let (found, hint) = refused_array(array, key, changed);
         assert!(found.contains(words), "{words}: {found}");
+        // The copy must not be packed as the original was.
+        let is_packing = words.contains("blosc");
+        assert!(!is_packing || hint.contains("drop_encoding().to_zarr("), "{hint}");
     }
     let folder = tempfile::tempdir().unwrap();
     write_group(folder.path(), [0, 1, 2], None);
@@ -188,4 +196,9 @@ fn damaged_chunks_are_named() {
     let (found, hint) = told(&cube.read_rows(2..3).unwrap_err());
     assert!(found.ends_with("c/1/0/0: a chunk has 10 bytes of numbers, expected 72"), "{found}");
     assert!(hint.contains("again"), "{hint}");
+    // A chunk of a terabyte, which is not read.
+    let chunk = std::fs::File::create(folder.path().join("reflectance/c/1/0/0")).unwrap();
+    chunk.set_len(1 << 40).unwrap();
+    let (found, _) = told(&cube.read_rows(2..3).unwrap_err());
+    assert!(found.ends_with("c/1/0/0: a chunk has more than 72 stored bytes"), "{found}");
 }

@@ -21,7 +21,12 @@ mod input;
 
 mod whole;
 
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+mod pieces;
+
 pub use input::{STANDARD_INPUT, is_standard_input, is_there};
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+pub use pieces::FileInPieces;
 pub use replace::sync_folder;
 pub use signals::end_cleanly_on_signals;
 pub use temporary::abandon_writes;

@@ -27,19 +27,45 @@ pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 }
 
 fn replace_named(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let (target, folder) = target(path)?;
-    let before = regular_file(&target)?;
-    clean(&folder);
-    let mut temporary = Temporary::new(&folder)?;
-    let file = temporary.file()?;
-    file.write_all(bytes)?;
-    file.sync_all()?;
-    if let Some(before) = before {
-        file.set_permissions(before.permissions())?;
+    let mut replacement = Replacement::begin(path)?;
+    replacement.write(bytes)?;
+    replacement.finish()
+}
+
+/// A file that is being written to a temporary file beside its target.
+#[derive(Debug)]
+pub(super) struct Replacement {
+    temporary: Temporary,
+    target: PathBuf,
+    folder: PathBuf,
+    before: Option<std::fs::Metadata>,
+}
+
+impl Replacement {
+    /// Opens a temporary file in the folder of `path`.
+    pub(super) fn begin(path: &Path) -> io::Result<Self> {
+        let (target, folder) = target(path)?;
+        let before = regular_file(&target)?;
+        clean(&folder);
+        Ok(Self { temporary: Temporary::new(&folder)?, target, folder, before })
     }
-    temporary.persist(&target)?;
-    sync_folder(&folder);
-    Ok(())
+
+    /// Adds `bytes` at the end.
+    pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.temporary.file()?.write_all(bytes)
+    }
+
+    /// Flushes the file to the disk and renames it to the target.
+    pub(super) fn finish(mut self) -> io::Result<()> {
+        let file = self.temporary.file()?;
+        file.sync_all()?;
+        if let Some(before) = self.before {
+            file.set_permissions(before.permissions())?;
+        }
+        self.temporary.persist(&self.target)?;
+        sync_folder(&self.folder);
+        Ok(())
+    }
 }
 
 /// Resolves symbolic links in `path`. Returns the target and the folder that contains it.
@@ -61,7 +87,7 @@ fn regular_file(target: &Path) -> io::Result<Option<std::fs::Metadata>> {
 
 /// An error without the name of a temporary file, which the crate `tempfile` adds: nobody chose
 /// that name, and the file is gone.
-fn unnamed(error: io::Error) -> io::Error {
+pub(super) fn unnamed(error: io::Error) -> io::Error {
     let text = error.to_string();
     match text.split_once(" at path ") {
         Some((reason, path)) if path.contains(PREFIX) => io::Error::new(error.kind(), reason),

@@ -8,11 +8,14 @@ mod told;
 
 mod page;
 
+mod truth;
+
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
 use maps::pictures::Overview;
+use maps::truth::{Truth, compare};
 use maps::{Book, Region, Spot, StoreMode, StoredMaps, SurveyedScan};
 
 use crate::console::Console;
@@ -61,14 +64,21 @@ pub(crate) struct Map {
     /// as 120,40 or 120..124,40..44; may be repeated
     #[arg(long, value_name = "ROWS,COLUMNS")]
     spot: Vec<String>,
+    /// Compare the maps with the truth that `impasto simulate-scan` wrote: precision and recall of presence, error of
+    /// the shares, by the kind of paint and its tone
+    #[arg(long, value_name = "FOLDER", requires = "output")]
+    truth: Option<PathBuf>,
+    /// Share from which a pigment counts as present in the truth; of smaller ones nothing is expected
+    #[arg(long, value_name = "0.05", requires = "truth", default_value = "0.05")]
+    least_share: f64,
     #[command(flatten)]
     reading: ScanOptions,
     #[command(flatten)]
     pigments: PigmentOptions,
-    /// Print JSON: palette, groups, pixels, spots, and of maps their hashes and settings
+    /// Print JSON: palette, groups, pixels, spots, truth, and of maps their hashes and settings
     #[arg(long)]
     json: bool,
-    /// Print the palette as CSV
+    /// Print the palette as CSV; with --truth the figures by kind of paint
     #[arg(long, conflicts_with = "json")]
     csv: bool,
 }
@@ -80,6 +90,13 @@ impl Map {
         let folder = |path: &PathBuf| OutputFolder::open(path, &inputs);
         let pictures = self.pictures.as_ref().map(folder).transpose()?;
         let spots = self.spot.iter().map(|text| spot(text)).collect::<Result<Vec<Region>>>()?;
+        let truth = self.truth.as_ref().map(Truth::open).transpose()?;
+        if !(0.0..1.0).contains(&self.least_share) {
+            return Err(Failure::usage(
+                format!("--least-share takes 0 to below 1, found `{}`", self.least_share),
+                "try --least-share 0.05",
+            ));
+        }
         let library = chosen(self.library.as_deref(), console)?.library;
         let cube = self.reading.cube(&self.scan)?;
         for remark in cube.remarks() {
@@ -103,15 +120,15 @@ impl Map {
             spectra::file::write_whole(path, scan.book().to_json()?.as_bytes())?;
             console.wrote(path)?;
         }
-        let mapped = match &self.output {
-            None => None,
-            Some(output) => {
-                self.map(&scan, output, console)?;
-                let maps = StoredMaps::open(output)?;
-                console.wrote(output)?;
-                Some(Overview::of(&maps, PICTURE)?)
-            }
-        };
+        let (mut mapped, mut compared) = (None, None);
+        if let Some(output) = &self.output {
+            self.map(&scan, output, console)?;
+            let maps = StoredMaps::open(output)?;
+            console.wrote(output)?;
+            mapped = Some(Overview::of(&maps, PICTURE)?);
+            let compare = |truth| compare(&maps, truth, self.least_share);
+            compared = truth.as_ref().map(compare).transpose()?;
+        }
         let spots = spots.into_iter().map(|region| Ok(scan.spot(&library, region)?));
         let spots = spots.collect::<Result<Vec<Spot>>>()?;
         if let (Some(folder), Some(overview)) = (pictures, &mapped) {
@@ -119,12 +136,20 @@ impl Map {
             folder.told(console)?;
         }
         if self.csv {
-            return console.csv_rows(&scan.palette_json(mapped.as_ref()));
+            return console.csv_rows(&match &compared {
+                Some(compared) => truth::rows(compared),
+                None => scan.palette_json(mapped.as_ref()),
+            });
         }
         if self.json {
-            return console.json(&scan.to_json(mapped.as_ref(), &spots));
+            let mut json = scan.to_json(mapped.as_ref(), &spots);
+            json["truth"] = compared.as_ref().map(truth::json).into();
+            return console.json(&json);
         }
         told::print(&scan, mapped.as_ref(), console)?;
+        if let Some(compared) = &compared {
+            truth::print(compared, console)?;
+        }
         told::print_spots(&spots, console)?;
         if self.output.is_none() {
             console.remark("Wrote no maps; give --output maps.zarr to map every pixel")?;

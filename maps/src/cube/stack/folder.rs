@@ -67,7 +67,12 @@ fn plane_of(path: &Path) -> Result<Plane, CubeError> {
         let problem = "has several pages, expected one picture a file";
         return Err(CubeError::format(path, problem, "open the file itself, not its folder"));
     }
-    tiff_pages::plane(&mut pages, path, "the picture")
+    let plane = tiff_pages::plane(&mut pages, path, "the picture")?;
+    if plane.bands > 1 {
+        let problem = format!("has {} values a pixel, expected one picture a file", plane.bands);
+        return Err(CubeError::format(path, problem, "open the file itself, not its folder"));
+    }
+    Ok(plane)
 }
 
 /// Opens the pictures of a folder, in the order of their names.

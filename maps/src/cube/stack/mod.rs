@@ -1,4 +1,5 @@
-//! Stacks of pictures: one picture a wavelength, in files of their own or as pages of one TIFF file.
+//! Stacks of pictures: one picture a wavelength, in files of their own, or as pages and values of pixels
+//! of one TIFF file.
 
 mod plane;
 

@@ -10,6 +10,8 @@ use crate::numbers::NumberType;
 pub(crate) struct Plane {
     pub(crate) samples: usize,
     pub(crate) lines: usize,
+    /// Numbers of a pixel.
+    pub(crate) bands: usize,
     pub(crate) number_type: NumberType,
 }
 
@@ -20,7 +22,11 @@ impl Plane {
             return Ok(());
         }
         let words = |plane: Self| {
-            format!("{} x {} pixels of {:?}", plane.samples, plane.lines, plane.number_type)
+            let bands = match plane.bands {
+                1 => String::new(),
+                bands => format!("{bands} "),
+            };
+            format!("{} x {} pixels of {bands}{:?}", plane.samples, plane.lines, plane.number_type)
         };
         let problem =
             format!("{place} has {}, the first picture of the stack {}", words(self), words(first));

@@ -1,4 +1,4 @@
-//! TIFF files: the pages of one file, or one page as a picture of a stack.
+//! TIFF files: the pages of one file with one or several bands each, or one page as a picture of a stack.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use tiff::ColorType;
 use tiff::TiffError;
 use tiff::decoder::{Decoder, DecodingResult};
+use tiff::tags::{PlanarConfiguration, Tag};
 
 use super::plane::{Plane, not_gray};
 use crate::cube::error::CubeError;
@@ -17,8 +18,8 @@ use crate::cube::spool::Spool;
 use crate::cube::wavelength_file::wavelengths_of;
 use crate::numbers::NumberType;
 
-/// Most pages of a file, so that a file whose pages form a circle ends.
-const MOST_PAGES: usize = 65_536;
+/// Most bands of a file, so that a file whose pages form a circle ends.
+const MOST_BANDS: usize = 65_536;
 
 /// Whether a file begins as TIFF or BigTIFF.
 pub(crate) fn is_tiff(start: &[u8]) -> bool {
@@ -47,9 +48,11 @@ pub(crate) fn pages(path: &Path) -> Result<Pages, CubeError> {
 /// Size and numbers of the page that the decoder stands on.
 pub(crate) fn plane(pages: &mut Pages, path: &Path, place: &str) -> Result<Plane, CubeError> {
     let colors = pages.colortype().map_err(|error| fault(path, error))?;
-    if !matches!(colors, ColorType::Gray(_)) {
-        return Err(not_gray(path, place, colors));
-    }
+    let bands = match colors {
+        ColorType::Gray(_) => 1,
+        ColorType::Multiband { num_samples, .. } => usize::from(num_samples),
+        _ => return Err(not_gray(path, place, colors)),
+    };
     let (width, height) = pages.dimensions().map_err(|error| fault(path, error))?;
     if width == 0 || height == 0 {
         return Err(CubeError::format(path, format!("{place} has no pixels"), "export it again"));
@@ -57,10 +60,17 @@ pub(crate) fn plane(pages: &mut Pages, path: &Path, place: &str) -> Result<Plane
     // The first part tells the type of the numbers.
     let first = pages.read_chunk(0).map_err(|error| fault(path, error))?;
     let (number_type, _) = bytes_of(first);
-    Ok(Plane { samples: width as usize, lines: height as usize, number_type })
+    Ok(Plane { samples: width as usize, lines: height as usize, bands, number_type })
 }
 
-/// Unpacks the page that the decoder stands on, part after part, as the band `band`.
+/// Whether each band of the page has parts of its own, those of the first band first.
+fn has_parts_of_bands(pages: &mut Pages, path: &Path) -> Result<bool, CubeError> {
+    let order = pages.find_tag_unsigned::<u16>(Tag::PlanarConfiguration);
+    let order = order.map_err(|error| fault(path, error))?;
+    Ok(order == Some(PlanarConfiguration::Planar.to_u16()))
+}
+
+/// Unpacks the page that the decoder stands on, part after part, as `band` and those that follow.
 pub(crate) fn unpack(
     pages: &mut Pages,
     path: &Path,
@@ -73,18 +83,36 @@ pub(crate) fn unpack(
     let columns = plane.samples.div_ceil(across.max(1));
     let parts = columns * plane.lines.div_ceil(down.max(1));
     let number = plane.number_type.bytes();
-    for part in 0..parts {
-        let index = u32::try_from(part).unwrap_or(u32::MAX);
+    // Bands that lie side by side in a part, and rounds of parts.
+    let (beside, rounds) = match has_parts_of_bands(pages, path)? {
+        true => (1, plane.bands),
+        false => (plane.bands, 1),
+    };
+    for (round, part) in (0..rounds).flat_map(|round| (0..parts).map(move |part| (round, part))) {
+        let index = u32::try_from(round * parts + part).unwrap_or(u32::MAX);
         let (width, height) = pages.chunk_data_dimensions(index);
         let (width, height) = (width as usize, height as usize);
         let (found, bytes) = bytes_of(pages.read_chunk(index).map_err(|error| fault(path, error))?);
-        if found != plane.number_type || bytes.len() != width * height * number {
-            let problem = format!("part {part} of page {} has another size", band + 1);
+        let row_bytes = width * beside * number;
+        if found != plane.number_type || bytes.len() != row_bytes * height {
+            let problem =
+                format!("part {} of the page of band {} has another size", index, band + 1);
             return Err(CubeError::data(path, problem, "export it again"));
         }
         let (line, sample) = (part / columns * down, part % columns * across);
-        for (row, bytes) in bytes.chunks_exact(width * number).enumerate() {
-            spool.write((line + row, sample, band), bytes)?;
+        // Parts at the lower edge may hold rows beyond it.
+        let rows = bytes.chunks_exact(row_bytes).take(plane.lines.saturating_sub(line));
+        for (row, bytes) in rows.enumerate() {
+            if beside == 1 {
+                spool.write((line + row, sample, band + round), bytes)?;
+                continue;
+            }
+            let pixel = beside * number;
+            for of_pixel in 0..beside {
+                let numbers = bytes.chunks_exact(pixel).map(|pixel| &pixel[of_pixel * number..]);
+                let numbers: Vec<u8> = numbers.flat_map(|rest| &rest[..number]).copied().collect();
+                spool.write((line + row, sample, band + of_pixel), &numbers)?;
+            }
         }
     }
     Ok(())
@@ -119,38 +147,47 @@ fn list_beside(path: &Path) -> Option<PathBuf> {
     named.into_iter().chain(common).find(|place| place.is_file())
 }
 
-/// Opens a TIFF file with a page a wavelength. The wavelengths are those of the settings or of a
-/// list beside the file.
+/// Opens a TIFF file with a page a wavelength, or with several values a pixel in its pages: those of the first page
+/// come first. The wavelengths are those of the settings or of a list beside the file.
 pub(crate) fn open_pages(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     let mut decoder = pages(path)?;
     let first = plane(&mut decoder, path, "page 1")?;
-    let mut bands = 1;
+    let mut count = 1;
     while decoder.more_images() {
-        decoder.next_image().map_err(|error| fault(path, error))?;
-        bands += 1;
-        let place = format!("page {bands}");
-        plane(&mut decoder, path, &place)?.check_like(first, path, &place)?;
-        if bands == MOST_PAGES {
-            let problem = format!("has more than {MOST_PAGES} pages");
+        if count * first.bands >= MOST_BANDS {
+            let problem = format!("has more than {MOST_BANDS} bands in its pages");
             return Err(CubeError::format(path, problem, "export a page a wavelength"));
         }
+        decoder.next_image().map_err(|error| fault(path, error))?;
+        count += 1;
+        let place = format!("page {count}");
+        plane(&mut decoder, path, &place)?.check_like(first, path, &place)?;
     }
+    let bands = count * first.bands;
+    let (each, has) = match first.bands {
+        1 => ("a page", format!("{count} pages")),
+        _ => ("a band", format!("{bands} bands")),
+    };
     let nm = match (&options.wavelengths, list_beside(path)) {
         (Some(_), _) => None,
         (None, Some(list)) => {
             let nm = wavelengths_of(&list)?;
             if nm.len() != bands {
-                let problem = format!("has {} wavelengths, the stack {bands} pages", nm.len());
-                return Err(CubeError::format(&list, problem, "give one wavelength a page"));
+                let problem = format!("has {} wavelengths, the stack {has}", nm.len());
+                return Err(CubeError::format(
+                    &list,
+                    problem,
+                    format!("give one wavelength {each}"),
+                ));
             }
             Some(nm)
         }
         (None, None) => {
             return Err(CubeError::format(
                 path,
-                format!("has {bands} pages, but no list of their wavelengths is beside it"),
+                format!("has {has}, but no list of their wavelengths is beside it"),
                 format!(
-                    "add {} with one wavelength in nm a page, or give [wavelengths=FILE]",
+                    "add {} with one wavelength in nm {each}, or give [wavelengths=FILE]",
                     path.with_extension("txt").display()
                 ),
             ));
@@ -158,10 +195,12 @@ pub(crate) fn open_pages(path: &Path, options: &CubeOptions) -> Result<Opened, C
     };
     let size = (first.lines, first.samples, bands);
     let scratch = options.scratch.as_deref();
-    let mut spool = Spool::new(scratch, size, first.number_type, Interleave::Bsq)?;
-    for band in 0..bands {
-        decoder.seek_to_image(band).map_err(|error| fault(path, error))?;
-        unpack(&mut decoder, path, first, band, &mut spool)?;
+    // Bands of one part are written beside each other.
+    let interleave = if first.bands > 1 { Interleave::Bil } else { Interleave::Bsq };
+    let mut spool = Spool::new(scratch, size, first.number_type, interleave)?;
+    for page in 0..count {
+        decoder.seek_to_image(page).map_err(|error| fault(path, error))?;
+        unpack(&mut decoder, path, first, page * first.bands, &mut spool)?;
     }
     Ok(Opened {
         path: path.to_owned(),

@@ -17,6 +17,11 @@ const BAND_AXES: [&str; 6] = ["wavelength", "wavelengths", "wl", "lambda", "band
 /// Names of the axis of the rows.
 const ROW_AXES: [&str; 5] = ["y", "row", "rows", "line", "lines"];
 
+/// Most bands of a scan, and most numbers of one of its rows, which is held in memory: a description takes no
+/// memory that no file backs.
+const MOST_BANDS: usize = 65_536;
+const MOST_ROW: usize = 1 << 28;
+
 fn fault_at(path: &Path) -> impl Fn(ZarrFault) -> CubeError {
     |fault| CubeError::format(path, fault.problem, fault.way_out)
 }
@@ -111,14 +116,30 @@ fn axes(array: &ZarrArray) -> Result<[usize; 3], CubeError> {
     })
 }
 
-/// All numbers of an array of one axis.
-fn coordinate(folder: &Path) -> Result<(Vec<f64>, Option<String>), CubeError> {
+/// Refuses a cube that no camera makes.
+fn check_size(array: &ZarrArray, [lines, samples, bands]: [usize; 3]) -> Result<(), CubeError> {
+    let row = samples.checked_mul(bands);
+    if bands <= MOST_BANDS && row.is_some_and(|row| row <= MOST_ROW) && lines <= u32::MAX as usize {
+        return Ok(());
+    }
+    let problem = format!(
+        "has {lines} rows of {samples} pixels of {bands} bands, expected at most {MOST_BANDS} bands and {MOST_ROW} numbers in a row"
+    );
+    Err(CubeError::format(&array.folder, problem, "save the scan in parts of fewer columns"))
+}
+
+/// All numbers of an array of one axis, which has `bands` numbers.
+fn coordinate(folder: &Path, bands: usize) -> Result<(Vec<f64>, Option<String>), CubeError> {
     let array = ZarrArray::new(folder, &document(folder)?).map_err(fault_at(folder))?;
     let about = &array.about;
     let [length] = about.shape[..] else {
         let problem = format!("has {} axes, expected one", about.shape.len());
         return Err(CubeError::format(folder, problem, "save wavelengths as a coordinate"));
     };
+    if length != bands {
+        let problem = format!("has {length} wavelengths, the cube {bands} bands");
+        return Err(CubeError::format(folder, problem, "save one wavelength a band"));
+    }
     let mut values = Vec::new();
     for at in 0..length.div_ceil(about.chunk[0]) {
         match array.chunk(&[at]).map_err(chunk_error)? {
@@ -163,20 +184,17 @@ pub(crate) fn open(folder: &Path, options: &CubeOptions) -> Result<Opened, CubeE
     let array = ZarrArray::new(&place, &about).map_err(fault_at(&place))?;
     let axes = axes(&array)?;
     let [lines, samples, bands] = axes.map(|axis| array.about.shape[axis]);
+    check_size(&array, [lines, samples, bands])?;
     let mut remarks = Vec::new();
     let name = &array.about.dimensions[axes[2]];
     let beside = place.parent().unwrap_or(&place).join(name);
     let mut nm = None;
     if is_zarr(&beside) && options.wavelengths.is_none() {
-        let (values, unit) = coordinate(&beside)?;
+        let (values, unit) = coordinate(&beside, bands)?;
         let found = Wavelengths::of(&values, unit.as_deref()).map_err(|problem| {
             let way_out = "save wavelengths in nm, with the attribute units = nm";
             CubeError::format(&beside, format!("the coordinate {problem}"), way_out)
         })?;
-        if found.nm.len() != bands {
-            let problem = format!("has {} wavelengths, the cube {bands} bands", found.nm.len());
-            return Err(CubeError::format(&beside, problem, "save one wavelength a band"));
-        }
         remarks.extend(found.remark);
         nm = Some(found.nm);
     }

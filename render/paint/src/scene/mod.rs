@@ -12,4 +12,4 @@ mod spectral;
 pub use appearance::{Appearance, scene};
 pub use fine_picture::{PixelsPerCell, PixelsPerCellError, fine_picture};
 pub use picture::{picture, picture_of_lowest};
-pub use spectral::{SpectralDocument, SpectralStack};
+pub use spectral::{SeenPaint, SpectralDocument, SpectralStack};

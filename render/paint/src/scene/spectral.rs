@@ -1,5 +1,5 @@
 //! Reflectance of every cell by wavelength in f64: the reference for the eight
-//! wavelengths of the engine, used for spectral files and the eyedropper.
+//! wavelengths of the engine, used for spectral files and the eyedropper; and which paint is seen.
 
 use pigment::PigmentId;
 use pigment::quadrature::EffectiveQuadrature;
@@ -104,6 +104,40 @@ impl SpectralStack {
         }
         internal.into_iter().map(|r| self.surface.measured_from_internal(r)).collect()
     }
+
+    /// Part of the ground, then of each layer, in what is seen of a column of paint: sum 1.
+    ///
+    /// A film hides the part of the contrast between a white and a black below it that is lost, at each
+    /// wavelength; all wavelengths count alike. What it does not hide is left to the films below it.
+    pub fn seen(&self, pigments: impl IntoIterator<Item = [u32; SLOTS]>) -> Vec<f64> {
+        let columns: Vec<[f64; SLOTS]> =
+            pigments.into_iter().map(|amounts| amounts.map(f64::from)).collect();
+        let mut parts = vec![0.0; columns.len() + 1];
+        let mut rest = vec![1.0; self.count()];
+        for (index, (amounts, optics)) in columns.iter().zip(&self.optics).enumerate().rev() {
+            for (rest, optics) in rest.iter_mut().zip(optics) {
+                let sum = |part: usize| amounts.iter().zip(optics).map(|(a, o)| a * o[part]).sum();
+                let film = Film::new(sum(0), sum(1), 1.0);
+                let passed = *rest * (film.over(1.0) - film.over(0.0)).clamp(0.0, 1.0);
+                parts[index + 1] += *rest - passed;
+                *rest = passed;
+            }
+        }
+        parts[0] = rest.iter().sum();
+        let count = self.count().max(1) as f64;
+        parts.into_iter().map(|part| part / count).collect()
+    }
+}
+
+/// Which paint shows at a cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeenPaint {
+    /// Part of the ground, 0 where the paint hides it.
+    pub ground: f64,
+    /// Part of each layer, lowest first, the wet layer last. With the ground they sum to 1.
+    pub layers: Vec<f64>,
+    /// Part of each pigment of the library. With the ground they sum to 1.
+    pub pigments: Vec<f64>,
 }
 
 /// A document whose reflectance can be computed cell by cell.
@@ -147,6 +181,28 @@ impl<'a> SpectralDocument<'a> {
     #[must_use]
     pub fn measured_reflectance(&self, x: usize, y: usize) -> Vec<f64> {
         self.stack.measured_reflectance(self.layers.iter().map(|layer| layer.pigments[(x, y)]))
+    }
+
+    /// Paint that shows at the cell in column `x` and row `y`: each layer by what it hides of those below
+    /// (see [`SpectralStack::seen`]), each pigment by its part of the layer's paint, by volume.
+    #[must_use]
+    pub fn seen(&self, x: usize, y: usize) -> SeenPaint {
+        let parts = self.stack.seen(self.layers.iter().map(|layer| layer.pigments[(x, y)]));
+        let mut pigments = vec![0.0; self.document.library.pigments.len()];
+        let dry = self.document.dry.iter().map(|layer| &layer.slots);
+        let slots = dry.chain([&self.document.slots]);
+        for ((layer, slots), part) in self.layers.iter().zip(slots).zip(&parts[1..]) {
+            let amounts = layer.pigments[(x, y)];
+            let all: f64 = amounts.iter().map(|&amount| f64::from(amount)).sum();
+            for (amount, pigment) in amounts.iter().zip(slots) {
+                if let Some(pigment) = pigment
+                    && *amount > 0
+                {
+                    pigments[pigment.index()] += part * f64::from(*amount) / all;
+                }
+            }
+        }
+        SeenPaint { ground: parts[0], layers: parts[1..].to_vec(), pigments }
     }
 
     /// Measured reflectance of all cells as 32-bit planes, one per wavelength. Rows are

@@ -1,0 +1,147 @@
+//! Rows of a scene as the camera tells them, with the paint that is really there.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use rayon::prelude::*;
+use spectra::Grid;
+use spectra::optics::Surface;
+
+use super::bands::CameraBands;
+use super::blur::Blur;
+use super::sensor::Sensor;
+use super::settings::{CameraError, CameraSettings};
+use super::surface_variation::SurfaceVariation;
+
+/// A scene whose exact spectra are known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scene {
+    /// Number of rows.
+    pub lines: usize,
+    /// Number of columns.
+    pub samples: usize,
+    /// Wavelengths of its spectra.
+    pub grid: Grid,
+    /// Surface of its paint.
+    pub surface: Surface,
+}
+
+/// Rows of a simulated scan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulatedRows {
+    /// Reflectances as the camera tells them, those of all bands of one pixel after another.
+    pub told: Vec<f32>,
+    /// Mean over the bands of the reflectance of each pixel, blurred, without drift and noise.
+    pub mean: Vec<f32>,
+}
+
+/// A simulated camera before a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Camera {
+    scene: Scene,
+    settings: CameraSettings,
+    bands: CameraBands,
+    blur: Blur,
+    sensor: Sensor,
+    variation: SurfaceVariation,
+}
+
+impl Camera {
+    /// Sets up the camera.
+    ///
+    /// # Errors
+    /// [`CameraError`] if a setting is out of its range, or the spectra of the scene are out of those that the
+    /// camera sees.
+    pub fn new(scene: Scene, settings: &CameraSettings) -> Result<Self, CameraError> {
+        settings.check()?;
+        if scene.lines == 0 || scene.samples == 0 {
+            let Scene { lines, samples, .. } = scene;
+            return Err(CameraError::Size { lines, samples });
+        }
+        let CameraSettings { shot_noise, read_noise, drift, seed, .. } = *settings;
+        Ok(Self {
+            scene,
+            settings: *settings,
+            bands: CameraBands::new(scene.grid, settings.bands)?,
+            blur: Blur::new(settings.blur_px),
+            sensor: Sensor { shot_noise, read_noise, drift, seed },
+            variation: SurfaceVariation {
+                surface: scene.surface,
+                relative: settings.surface,
+                seed,
+            },
+        })
+    }
+
+    /// The scene before the camera.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Settings of the camera.
+    #[must_use]
+    pub fn settings(&self) -> &CameraSettings {
+        &self.settings
+    }
+
+    /// Wavelengths of the bands in nm, rising.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.bands.nm
+    }
+
+    /// Rows as the camera tells them. `exact(line)` gives the measured reflectances of a row of the scene, those of
+    /// all its wavelengths of one pixel after another; it is called for the rows and for those that the blur
+    /// brings in.
+    #[must_use]
+    pub fn rows(
+        &self,
+        rows: Range<usize>,
+        exact: &(dyn Fn(usize) -> Vec<f64> + Sync),
+    ) -> SimulatedRows {
+        let Scene { lines, samples, grid, .. } = self.scene;
+        let count = grid.count();
+        let blurred = self.blurred(rows.clone(), &|line| {
+            let mut values = exact(line);
+            let factors = self.variation.factors(line, samples);
+            for (pixel, factor) in values.chunks_exact_mut(count).zip(factors) {
+                self.variation.exchange(pixel, factor);
+            }
+            values
+        });
+        let each: Vec<(Vec<f32>, Vec<f32>)> = (blurred.par_iter().zip(rows))
+            .map(|(values, line)| {
+                let pixels = values.chunks_exact(count);
+                let seen: Vec<f64> = pixels.flat_map(|pixel| self.bands.values(pixel)).collect();
+                let bands = self.bands.nm.len();
+                let mean = |pixel: &[f64]| (pixel.iter().sum::<f64>() / bands as f64) as f32;
+                let means = seen.chunks_exact(bands).map(mean).collect();
+                (self.sensor.told(&seen, line, lines), means)
+            })
+            .collect();
+        let (mut told, mut mean) = (Vec::new(), Vec::new());
+        for (values, means) in each {
+            told.extend(values);
+            mean.extend(means);
+        }
+        SimulatedRows { told, mean }
+    }
+
+    /// Rows of any numbers of the scene, blurred as the camera blurs light. `of(line)` gives the numbers of a
+    /// row, those of one pixel after another.
+    #[must_use]
+    pub fn blurred(
+        &self,
+        rows: Range<usize>,
+        of: &(dyn Fn(usize) -> Vec<f64> + Sync),
+    ) -> Vec<Vec<f64>> {
+        let Scene { lines, samples, .. } = self.scene;
+        let needed = self.blur.needed(&rows, lines);
+        let known: BTreeMap<usize, Vec<f64>> =
+            needed.into_par_iter().map(|line| (line, of(line))).collect();
+        let nothing: &[f64] = &[];
+        let line = |line| known.get(&line).map_or(nothing, Vec::as_slice);
+        rows.into_par_iter().map(|at| self.blur.line(at, (lines, samples), line)).collect()
+    }
+}

@@ -1,0 +1,209 @@
+//! Simulated scans: their truth, their bytes, and how near the maps of one come to it.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use maps::cube::envi::WRITTEN_SCALE;
+use maps::truth::{PaintClass, Truth};
+use serde_json::Value;
+use suite::oils::library;
+use suite::program::{Run, impasto, repository};
+
+use crate::painted::{bare, dried, lay, patches, with_clear_viridian, written};
+
+fn simulate(painting: &Path, scan: &Path, more: &[&str]) -> Run {
+    let [painting, scan] = [painting, scan].map(|path| path.display().to_string());
+    impasto(&[&["simulate-scan", &painting, "-o", &scan], more].concat())
+}
+
+/// Options of a camera that changes nothing.
+const CLEAR: [&str; 10] =
+    ["--blur", "0", "--shot-noise", "0", "--read-noise", "0", "--drift", "0", "--surface", "0"];
+
+#[test]
+fn truth_is_what_is_known_by_hand() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut document = bare(16, 6, with_clear_viridian());
+    lay(&mut document.wet, (12..16, 0..6), &[("Lead White", 4.0)]);
+    let mut document = dried(document);
+    lay(&mut document.wet, (4..8, 0..6), &[("Lead White", 3.0), ("Vermilion", 1.0)]);
+    // K d = 0.01 mm x 50 x 1, so that exp(-2 K d) of the contrast below remains.
+    let hidden = 1.0 - (-1.0f64).exp();
+    lay(&mut document.wet, (8..16, 0..6), &[("Viridian", 0.01)]);
+    let painting = written(&document, folder.path());
+    let scan = folder.path().join("scan.hdr");
+    let run = simulate(&painting, &scan, &CLEAR);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let truth = Truth::open(folder.path().join("scan-truth.zarr")).unwrap();
+    assert_eq!((truth.lines(), truth.samples()), (6, 16));
+    let rows = truth.block(0).unwrap();
+    let place = |name: &str| truth.pigments().iter().position(|known| known == name).unwrap();
+    let order = ["Lead White", "Vermilion", "Viridian"].map(place);
+    for (sample, class, ground, shares) in [
+        (1, PaintClass::Bare, 1.0, [0.0; 3]),
+        (5, PaintClass::Hiding, 0.0, [0.75, 0.25, 0.0]),
+        (9, PaintClass::Thin, 1.0 - hidden, [0.0, 0.0, 1.0]),
+        (13, PaintClass::Glaze, 0.0, [1.0 - hidden, 0.0, hidden]),
+    ] {
+        let at = 3 * 16 + sample;
+        assert_eq!(rows.class[at], class, "column {sample}");
+        assert!((f64::from(rows.ground[at]) - ground).abs() < 1e-3, "{}", rows.ground[at]);
+        for (place, expected) in order.iter().zip(shares) {
+            let found = f64::from(rows.share[at * truth.pigments().len() + place]);
+            assert!((found - expected).abs() < 1e-3, "column {sample}: {found}, not {expected}");
+        }
+    }
+    // Without blur, noise and drift the scan holds the exact spectra.
+    let cube = maps::Cube::open(&scan).unwrap();
+    let block = cube.read_rows(0..6).unwrap();
+    let mixture = document
+        .library
+        .mix(document.library.recipe([("Lead White", 0.75), ("Vermilion", 0.25)]).unwrap());
+    let exact = mixture.unwrap().hiding(document.library.saunderson);
+    for (found, exact) in block.pixel(2 * 16 + 6).iter().zip(&exact) {
+        let apart = (f64::from(*found) - exact).abs();
+        assert!(apart < 0.6 / f64::from(WRITTEN_SCALE), "{found}, not {exact}");
+    }
+}
+
+#[test]
+fn blur_makes_edges_and_joins_the_truth_as_it_joins_light() {
+    let folder = tempfile::tempdir().unwrap();
+    let painting = written(&patches(), folder.path());
+    let scan = folder.path().join("scan.hdr");
+    let run = simulate(&painting, &scan, &["--json"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    let classes = &run.json()["classes"];
+    let count = |class: &str| classes[class].as_u64().unwrap();
+    assert_eq!(count("hiding") + count("edge"), 64 * 48, "{classes}");
+    assert!(count("edge") > 300 && count("hiding") > 1500, "{classes}");
+    let truth = Truth::open(folder.path().join("scan-truth.zarr")).unwrap();
+    let rows = truth.block(0).unwrap();
+    let viridian = truth.pigments().iter().position(|name| name == "Viridian").unwrap();
+    let share = |at: usize| rows.share[at * rows.pigments + viridian];
+    // From a patch with 30 % of it to one with none, and half as much at the edge between both.
+    let edge = f32::midpoint(share(8 * 64 + 47), share(8 * 64 + 48));
+    assert!((share(8 * 64 + 40) - 0.3).abs() < 1e-3 && (edge - 0.15).abs() < 1e-3, "{edge}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let painting = written(&patches(), folder.path());
+    let bytes = |name: &str, more: &[&str]| {
+        let run = simulate(&painting, &folder.path().join(format!("{name}.hdr")), more);
+        assert_eq!(run.status, 0, "{}", run.err);
+        let chunk = folder.path().join(format!("{name}-truth.zarr/share/c/0/0/0"));
+        [folder.path().join(format!("{name}.bil")), chunk].map(|path| std::fs::read(path).unwrap())
+    };
+    let first = bytes("first", &[]);
+    assert_eq!(first[0].len(), 64 * 48 * 31 * 2);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    assert_eq!(pool.install(|| bytes("second", &[])), first);
+    let header = std::fs::read_to_string(folder.path().join("first.hdr")).unwrap();
+    assert!(header.contains("seed 1") && header.contains("blur 1.5"), "{header}");
+    let other = bytes("third", &["--seed", "2"]);
+    assert!(other[0] != first[0] && other[1] == first[1], "the truth is that of the painting");
+    // A second run replaces the files of the first.
+    assert_eq!(bytes("third", &[]), first);
+}
+
+/// Figure of a kind of pixels.
+fn figure(json: &Value, kind: &str, figure: &str) -> f64 {
+    let rows = json["truth"]["kinds"].as_array().unwrap();
+    let row = rows.iter().find(|row| row["kind"] == kind).unwrap();
+    row[figure].as_f64().unwrap()
+}
+
+#[test]
+fn maps_of_a_simulated_scan_are_near_its_truth() {
+    let folder = tempfile::tempdir().unwrap();
+    let painting = written(&patches(), folder.path());
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    for bands in ["31", "204"] {
+        let scan = folder.path().join("scan.hdr");
+        assert_eq!(simulate(&painting, &scan, &["--bands", bands]).status, 0);
+        let out = path(&format!("maps-{bands}"));
+        let truth = path("scan-truth.zarr");
+        let run = impasto(&["map", &path("scan.hdr"), "-o", &out, "--truth", &truth, "--json"]);
+        assert_eq!(run.status, 0, "{}", run.err);
+        let json = run.json();
+        for (kind, precision, recall, error) in [
+            ("hiding, light", 0.8, 0.9, 0.06),
+            ("hiding, middle", 0.9, 0.9, 0.1),
+            ("hiding, dark", 0.75, 0.85, 0.25),
+        ] {
+            let [p, r, e] =
+                ["precision", "recall", "share_error"].map(|name| figure(&json, kind, name));
+            assert!(p > precision && r > recall && e < error, "{bands}, {kind}: {p} {r} {e}");
+        }
+        assert!(figure(&json, "hiding, light", "chi2_risen") < 0.2, "{}", json["truth"]);
+    }
+}
+
+#[test]
+fn halves_of_the_mixtures_have_none_in_common() {
+    let readings = repository("measurements/van-gogh-oils.csv");
+    let samples = |more: &[&str]| -> BTreeSet<String> {
+        let usual =
+            ["fit", &readings, "--method", "weighted", "--below-surface", "floor", "--json"];
+        let run = impasto(&[&usual, more].concat());
+        assert_eq!(run.status, 0, "{}", run.err);
+        let rows = run.json()["per_sample"].as_array().unwrap().clone();
+        rows.iter().map(|row| row["sample"].as_str().unwrap().to_owned()).collect()
+    };
+    let [all, first, second] = [&[][..], &["--half", "0"], &["--half", "1"]].map(samples);
+    let both: BTreeSet<String> = first.intersection(&second).cloned().collect();
+    assert_eq!(first.union(&second).count(), all.len());
+    assert!(both.len() < 20, "films of one pigment alone are in both: {both:?}");
+    assert!(first.len().abs_diff(second.len()) < 4, "{} and {}", first.len(), second.len());
+    let run = impasto(&["fit", &readings, "--half", "2"]);
+    assert!(run.status == 2 && run.err.contains("--half"), "{}", run.err);
+}
+
+#[test]
+fn what_cannot_be_simulated_or_compared_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let painting = written(&patches(), folder.path());
+    let scan = folder.path().join("scan.hdr");
+    for (more, word) in [
+        (&["--bands", "1"][..], "2 to 2000"),
+        (&["--blur", "21"], "0 to 20"),
+        (&["--shot-noise", "2"], "--shot-noise"),
+        (&["--surface", "nan"], "0 to 1"),
+    ] {
+        let run = simulate(&painting, &scan, more);
+        assert!(run.status == 2 && run.err.contains(word), "{more:?}: {}", run.err);
+    }
+    let other = folder.path().join("notes");
+    std::fs::create_dir(&other).unwrap();
+    std::fs::write(other.join("mine.txt"), "kept").unwrap();
+    let run = simulate(&painting, &scan, &["--truth", &other.display().to_string()]);
+    assert!(run.status == 2 && run.err.contains("holds files"), "{}", run.err);
+    assert!(other.join("mine.txt").exists() && !scan.exists(), "nothing was written");
+    let run = simulate(&painting, &folder.path().join("scan.png"), &[]);
+    assert!(run.status == 2 && run.err.contains(".hdr"), "{}", run.err);
+    let empty = folder.path().join("empty");
+    std::fs::create_dir(&empty).unwrap();
+    let unpainted = written(&bare(4, 4, library()), &empty);
+    let run = simulate(&unpainted, &scan, &[]);
+    assert!(run.status == 1 && run.err.contains("no paint"), "{}", run.err);
+    // Truth of a smaller scan.
+    let small = folder.path().join("small");
+    std::fs::create_dir(&small).unwrap();
+    let mut document = bare(4, 4, library());
+    lay(&mut document.wet, (0..4, 0..4), &[("Lead White", 1.0)]);
+    assert_eq!(simulate(&written(&document, &small), &small.join("scan.hdr"), &[]).status, 0);
+    assert_eq!(simulate(&painting, &scan, &[]).status, 0);
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let maps = |truth: &str, out: &str| {
+        impasto(&["map", &path("scan.hdr"), "-o", &path(out), "--truth", &path(truth)])
+    };
+    let run = maps("small/scan-truth.zarr", "maps-1");
+    assert!(run.status == 2 && run.err.contains("4 x 4"), "{}", run.err);
+    let run = maps("notes", "maps-2");
+    assert!(run.status == 2 && !folder.path().join("maps-2").exists(), "{}", run.err);
+    std::fs::remove_file(folder.path().join("scan-truth.zarr/class/c/0/0")).unwrap();
+    let run = maps("scan-truth.zarr", "maps-3");
+    assert!(run.status == 1 && run.err.contains("is missing"), "{}", run.err);
+}
