@@ -18,18 +18,27 @@ pub enum Mask {
     Saturated = 4,
     /// A band lies outside the range of reflectances.
     OutOfRange = 5,
+    /// No mixture of the library explains the pixel. Its chi-square and residual are told, and nothing else.
+    OutOfGamut = 6,
 }
 
 impl Mask {
     /// Every mask in the order of its number.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Mapped,
         Self::Ignored,
         Self::NotFinite,
         Self::TooDark,
         Self::Saturated,
         Self::OutOfRange,
+        Self::OutOfGamut,
     ];
+
+    /// Tells whether the pixel was compared with mixtures, so that it has a chi-square.
+    #[must_use]
+    pub const fn is_compared(self) -> bool {
+        matches!(self, Self::Mapped | Self::OutOfGamut)
+    }
 
     /// Returns the number that files store.
     #[must_use]
@@ -53,6 +62,7 @@ impl Mask {
             Self::TooDark => "too dark",
             Self::Saturated => "saturated",
             Self::OutOfRange => "out of range",
+            Self::OutOfGamut => "out of gamut",
         }
     }
 }
@@ -60,7 +70,8 @@ impl Mask {
 /// Maps of the pixels of one block, in the order of the block's pixels: row after row.
 ///
 /// The vectors `share`, `share_sd` and `presence` hold `pigments` numbers a pixel, the others one.
-/// A pixel that is not mapped holds NaN in every number and an empty `second`.
+/// A pixel that is not mapped holds NaN in every number and an empty `second`, but for the chi-square and the
+/// residual of one that is out of gamut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockMaps {
     /// Number of pigments or groups of pigments.
@@ -130,7 +141,7 @@ mod tests {
             assert_eq!(mask.code(), code, "{}", mask.name());
             assert_eq!(Mask::from_code(code), Some(mask), "{}", mask.name());
         }
-        assert_eq!(Mask::from_code(6), None, "no mask has the number 6");
+        assert_eq!(Mask::from_code(7), None, "no mask has the number 7");
     }
 
     #[test]

@@ -39,7 +39,7 @@ pub struct Spot {
     pub mapped_nm: Vec<f64>,
     /// Reflectance of the mapped mixture, of its single pigments.
     pub mapped: Vec<f64>,
-    /// Pigments and groups with a share, the greatest first.
+    /// Pigments and groups with a share, the greatest first; none where the spectrum is out of gamut.
     pub pigments: Vec<SpotPigment>,
     /// Chi-square per degree of freedom.
     pub chi2: f64,
@@ -66,7 +66,7 @@ impl SurveyedScan {
         measured.iter_mut().for_each(|sum| *sum /= pixels as f64);
         let mean: Vec<f32> = measured.iter().map(|value| *value as f32).collect();
         let maps = self.map_pixels(&mean)?;
-        if maps.mask[0] != Mask::Mapped {
+        if !maps.mask[0].is_compared() {
             return Err(SpotError::NothingMapped { region });
         }
         let columns = self.mapper().columns();

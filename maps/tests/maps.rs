@@ -91,8 +91,8 @@ fn no_pixel_panics_and_bad_ones_are_masked() {
         (-3.0, Mask::OutOfRange),
         (0.031, Mask::Mapped),
         (0.5, Mask::Mapped),
-        (1.0, Mask::Mapped),
-        (1.4, Mask::Mapped),
+        (1.0, Mask::OutOfGamut),
+        (1.4, Mask::OutOfGamut),
     ];
     let mut pixels: Vec<f32> = bad.iter().flat_map(|(value, _)| [*value; 31]).collect();
     // One dead band spoils its pixel alone.
@@ -104,12 +104,14 @@ fn no_pixel_panics_and_bad_ones_are_masked() {
     for maps in [mapper.map_block(&book, &pixels).unwrap(), mapper.search(&pixels).unwrap()] {
         let expected = bad.iter().map(|(_, mask)| *mask);
         let expected: Vec<Mask> =
-            expected.chain([Mask::NotFinite, Mask::Mapped, Mask::Mapped]).collect();
+            expected.chain([Mask::NotFinite, Mask::Mapped, Mask::OutOfGamut]).collect();
         assert_eq!(maps.mask, expected);
         let of = |index: usize| &maps.share[index * maps.pigments..(index + 1) * maps.pigments];
         assert!(of(0).iter().all(|share| share.is_nan()), "no numbers where there is no map");
-        assert!(of(9).iter().all(|share| share.is_finite()), "white");
+        assert!(of(8).iter().all(|share| share.is_finite()), "grey");
+        // A pixel that no mixture explains tells how badly, and no pigments.
         assert!(maps.chi2[13] > 10.0 * maps.chi2[12], "{:?}", &maps.chi2[12..]);
+        assert!(maps.rms[13] > 0.1 && of(13).iter().all(|share| share.is_nan()), "{:?}", of(13));
     }
     let masks = [Mask::Saturated, Mask::Mapped];
     let opened = mapper.open_book(&book).unwrap();
@@ -251,6 +253,10 @@ fn few_pigments_and_few_bands_suffice() {
     assert!((maps.share[1] - 0.3).abs() < 0.03, "{:?}", maps.share);
     let palette = vec!["Viridian".to_owned()];
     let one = Mapper::new(&oils, &nm, &MapSettings { palette, ..settings() }).unwrap();
+    assert_eq!(one.search(&nm.map(at)).unwrap().mask, [Mask::OutOfGamut], "it holds white too");
+    let pure = oils.mix(oils.recipe([("Viridian", 1.0)]).unwrap()).unwrap();
+    let pure = pure.hiding(oils.saunderson);
+    let at = |nm: f64| pure[((nm - 400.0) / 10.0) as usize] as f32;
     assert_eq!(one.search(&nm.map(at)).unwrap().share, [1.0]);
 }
 

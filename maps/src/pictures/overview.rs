@@ -22,9 +22,9 @@ pub struct Overview {
     pub share: Vec<Vec<f32>>,
     /// Mean probability of each pigment.
     pub presence: Vec<Vec<f32>>,
-    /// Mean chi-square of each square.
+    /// Mean chi-square of each square, also of pixels out of gamut.
     pub chi2: Vec<f32>,
-    /// Mean residual of each square.
+    /// Mean residual of each square, also of pixels out of gamut.
     pub rms: Vec<f32>,
     /// Mean share of each pigment over all mapped pixels.
     pub mean_share: Vec<f64>,
@@ -40,7 +40,10 @@ struct Sums {
     presence: Vec<Vec<f64>>,
     chi2: Vec<f64>,
     rms: Vec<f64>,
+    /// Mapped pixels of each square.
     counts: Vec<u32>,
+    /// Pixels of each square that have a chi-square.
+    compared: Vec<u32>,
 }
 
 impl Overview {
@@ -60,6 +63,7 @@ impl Overview {
             chi2: field(),
             rms: field(),
             counts: vec![0; width * height],
+            compared: vec![0; width * height],
         };
         let mut pixels = PixelCounts::default();
         let mut present = vec![0_u64; count];
@@ -69,14 +73,18 @@ impl Overview {
             let block = maps.read(start..end, columns.clone())?;
             pixels.add(&block.mask);
             for (pixel, mask) in block.mask.iter().enumerate() {
-                if *mask != Mask::Mapped {
+                if !mask.is_compared() {
                     continue;
                 }
                 let row = start - rows.start + pixel / columns.len();
                 let square = row / step * width + pixel % columns.len() / step;
-                sums.counts[square] += 1;
+                sums.compared[square] += 1;
                 sums.chi2[square] += f64::from(block.chi2[pixel]);
                 sums.rms[square] += f64::from(block.rms[pixel]);
+                if *mask != Mask::Mapped {
+                    continue;
+                }
+                sums.counts[square] += 1;
                 for (pigment, present) in present.iter_mut().enumerate() {
                     let at = pixel * count + pigment;
                     sums.share[pigment][square] += f64::from(block.share[at]);
@@ -87,11 +95,12 @@ impl Overview {
             start = end;
         }
         let mapped = pixels.of(Mask::Mapped);
-        let means = |field: &Vec<f64>| -> Vec<f32> {
-            let pairs = field.iter().zip(&sums.counts);
+        let means_of = |field: &Vec<f64>, counts: &[u32]| -> Vec<f32> {
+            let pairs = field.iter().zip(counts);
             // No pixel gives 0 / 0, which is NaN.
             pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
         };
+        let means = |field: &Vec<f64>| means_of(field, &sums.counts);
         let of_all = |field: &Vec<f64>| field.iter().sum::<f64>() / mapped.max(1) as f64;
         Ok(Self {
             step,
@@ -102,8 +111,8 @@ impl Overview {
             present: present.into_iter().map(|n| n as f64 / mapped.max(1) as f64).collect(),
             share: sums.share.iter().map(means).collect(),
             presence: sums.presence.iter().map(means).collect(),
-            chi2: means(&sums.chi2),
-            rms: means(&sums.rms),
+            chi2: means_of(&sums.chi2, &sums.compared),
+            rms: means_of(&sums.rms, &sums.compared),
             pixels,
         })
     }

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from impasto.spectrum import Floats
 
-MASKS = ("mapped", "ignored", "not finite", "too dark", "saturated", "out of range")
+MASKS = ("mapped", "ignored", "not finite", "too dark", "saturated", "out of range", "out of gamut")
 """Names of the numbers of a mask."""
 
 
