@@ -145,7 +145,8 @@ fn maps_of_a_simulated_scan_are_near_its_truth() {
 fn halves_of_the_mixtures_have_none_in_common() {
     let readings = repository("measurements/van-gogh-oils.csv");
     let samples = |more: &[&str]| -> BTreeSet<String> {
-        let usual = ["fit", &readings, "--method", "weighted", "--below-surface", "floor", "--json"];
+        let usual =
+            ["fit", &readings, "--method", "weighted", "--below-surface", "floor", "--json"];
         let run = impasto(&[&usual, more].concat());
         assert_eq!(run.status, 0, "{}", run.err);
         let rows = run.json()["per_sample"].as_array().unwrap().clone();
