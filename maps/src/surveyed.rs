@@ -161,7 +161,8 @@ impl SurveyedScan {
                 name.is_some_and(|name| column.pigments.contains(name))
             };
             let sets = self.book.sets.iter().filter(|set| set.pigments.iter().any(holds));
-            sets.map(|set| f64::from(set.part)).sum()
+            // A sum of nothing would be -0.
+            sets.fold(0.0, |sum, set| sum + f64::from(set.part))
         };
         let columns = self.mapper.columns().iter();
         let mut found: Vec<FoundColumn> =

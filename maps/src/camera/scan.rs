@@ -145,3 +145,66 @@ impl Camera {
         rows.into_par_iter().map(|at| self.blur.line(at, (lines, samples), line)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use spectra::optics::Specular;
+
+    use super::*;
+
+    fn scene() -> Scene {
+        Scene {
+            lines: 11,
+            samples: 7,
+            grid: Grid::from_range(400.0, 700.0, 10.0).unwrap(),
+            surface: Surface::of_most_paints(Specular::Included),
+        }
+    }
+
+    /// Spectra that differ from pixel to pixel, above k1.
+    fn exact(line: usize) -> Vec<f64> {
+        (0..7 * 31).map(|at| 0.05 + ((line * 57 + at * 13) % 89) as f64 / 100.0).collect()
+    }
+
+    #[test]
+    fn rows_are_the_same_in_blocks_of_any_size() {
+        let camera = Camera::new(scene(), &CameraSettings::default()).unwrap();
+        let whole = camera.rows(0..11, &exact);
+        assert_eq!((whole.told.len(), whole.mean.len()), (11 * 7 * 31, 11 * 7));
+        for size in [1, 4] {
+            let blocks = (0..11).step_by(size).map(|start| start..(start + size).min(11));
+            let blocks: Vec<SimulatedRows> = blocks.map(|rows| camera.rows(rows, &exact)).collect();
+            let told: Vec<f32> = blocks.iter().flat_map(|block| block.told.clone()).collect();
+            let mean: Vec<f32> = blocks.iter().flat_map(|block| block.mean.clone()).collect();
+            assert_eq!(SimulatedRows { told, mean }, whole, "blocks of {size} rows");
+        }
+    }
+
+    #[test]
+    fn an_even_scene_stays_even_but_for_drift() {
+        let quiet = CameraSettings {
+            shot_noise: 0.0,
+            read_noise: 0.0,
+            surface: 0.0,
+            bands: 50,
+            ..CameraSettings::default()
+        };
+        let camera = Camera::new(scene(), &quiet).unwrap();
+        let rows = camera.rows(0..11, &|_| vec![0.5; 7 * 31]);
+        for (line, told) in rows.told.chunks_exact(7 * 50).enumerate() {
+            let expected = 0.5 * (1.0 + 0.01 * line as f32 / 10.0);
+            assert!(told.iter().all(|value| (value - expected).abs() < 1e-6), "line {line}");
+        }
+        assert!(rows.mean.iter().all(|mean| (mean - 0.5).abs() < 1e-6), "without drift");
+    }
+
+    #[test]
+    fn what_the_camera_cannot_take_is_told() {
+        let wrong = CameraSettings { blur_px: f64::NAN, ..CameraSettings::default() };
+        let error = Camera::new(scene(), &wrong).unwrap_err();
+        assert_eq!(error.to_string(), "blur of the camera must be 0 to 20, found `NaN`");
+        let none = Scene { samples: 0, ..scene() };
+        let error = Camera::new(none, &CameraSettings::default()).unwrap_err();
+        assert_eq!(error, CameraError::Size { lines: 11, samples: 0 });
+    }
+}

@@ -262,6 +262,11 @@ fn tiled(is_planar: bool) -> Vec<u8> {
         (325, long, count, sizes_at),
         (338, short, BANDS as u32 - 1, extra_at),
     ];
+    with_directory(bytes, &entries)
+}
+
+/// A TIFF file of one page: its tags with type, count and value.
+fn with_directory(mut bytes: Vec<u8>, entries: &[(u16, u16, u32, u32)]) -> Vec<u8> {
     let directory = bytes.len() as u32;
     bytes[4..8].copy_from_slice(&directory.to_le_bytes());
     bytes.extend((entries.len() as u16).to_le_bytes());
@@ -273,6 +278,28 @@ fn tiled(is_planar: bool) -> Vec<u8> {
     }
     bytes.extend([0; 4]);
     bytes
+}
+
+#[test]
+fn strips_that_are_too_large_are_told() {
+    let (short, long, side) = (3_u16, 4_u16, 20_000_u32);
+    let entries = [
+        (256, long, 1, side),
+        (257, long, 1, side),
+        (258, short, 1, 16),
+        (259, short, 1, 1),
+        (262, short, 1, 1),
+        (273, long, 1, 8),
+        (277, short, 1, 1),
+        (278, long, 1, side),
+        (279, long, 1, side * side * 2),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scan.tif");
+    std::fs::write(&path, with_directory(b"II*\0\0\0\0\0".to_vec(), &entries)).unwrap();
+    std::fs::write(folder.path().join("scan.txt"), "400\n").unwrap();
+    let (found, hint) = refused(&path, &by_20000());
+    assert!(found.contains("more than 256 MB") && hint.contains("rowsperstrip"), "{found}: {hint}");
 }
 
 #[test]

@@ -59,6 +59,7 @@ fn a_library_that_is_exact_tells_whites_apart() {
     let scan = written(folder.path(), 6, 1.0);
     let json = map(&scan, &["--model-error", "0.02", "--json"]).json();
     assert_eq!(json["groups"], serde_json::json!({}), "{json}");
+    assert!(!json.to_string().contains("-0.0"), "a part of nothing is 0: {json}");
     assert!((figure(&json, "Lead White", "survey_part") - 0.5).abs() < 0.05, "{json}");
     let wrong = map(&scan, &["--model-error", "7"]);
     assert!(wrong.status != 0 && wrong.err.contains("0.001 to 1"), "{}", wrong.err);

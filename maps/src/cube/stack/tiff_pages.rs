@@ -31,6 +31,11 @@ type Pages = Decoder<BufReader<File>>;
 fn fault(path: &Path, error: TiffError) -> CubeError {
     match error {
         TiffError::IoError(reason) => CubeError::unpacking(path, reason),
+        TiffError::LimitsExceeded => CubeError::data(
+            path,
+            "has strips or tiles of more than 256 MB, or more than 100,000 of them",
+            "save it in strips of a few rows: tifffile.imwrite(.., rowsperstrip=16)",
+        ),
         other => CubeError::data(
             path,
             format!("cannot be unpacked: {other}"),
