@@ -199,7 +199,7 @@ def test_a_killed_client_is_followed_by_another(
         with distributed.Client(cluster) as client:
             im.pigment_map(cube, oils, out, survey=survey, resume=True, client=client)
     assert digest(out) == digest(tmp_path / "one.zarr")
-    assert not list(tmp_path.glob("*.survey.json*")), "the file of the survey is removed"
+    assert not list(tmp_path.glob("*.job.json*")), "the file of the job is removed"
 
 
 def test_a_killed_run_is_resumed(wide: Path, oils: im.Library, tmp_path: Path) -> None:
