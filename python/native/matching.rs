@@ -5,8 +5,8 @@ use std::sync::Arc;
 use calibrate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::matching::{
-    ColorTarget, MatchOptions, Metric, PriceList, 
-    RequiredName, SearchControl, SpectrumWeights, Thickness, ViewingCondition,
+    ColorTarget, MatchOptions, Metric, PriceList, RequiredName, SearchControl, SpectrumWeights,
+    Thickness, ViewingCondition,
 };
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;

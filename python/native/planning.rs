@@ -1,8 +1,8 @@
 //! Plans of swatches.
 
+use calibrate::PigmentLibrary;
 use calibrate::fit::ExpectedNoise;
 use calibrate::plan::{MeasurementForm, PlanOptions, plan_until};
-use calibrate::PigmentLibrary;
 use pyo3::prelude::*;
 
 use crate::arrays::{GridNumbers, grid};

@@ -63,8 +63,7 @@ pub(crate) fn quadrature(
             "moments" => Quadrature::moments(&viewing, nodes)?,
             _ => Quadrature::library(&viewing, &library, nodes)?,
         };
-        let error =
-            || rule.error(&MixtureSet::random(&library, &weights, mixtures, seed));
+        let error = || rule.error(&MixtureSet::random(&library, &weights, mixtures, seed));
         Ok(rule.to_json((mixtures > 0).then(error)))
     })?;
     let done: Result<Value, QuadratureOrGrid> = done;

@@ -190,10 +190,7 @@ impl<F: Forward> Objective<'_, F> {
     pub(super) fn descend(&self, unknowns: &mut Vec<f64>, iterations: usize, relative: f64) {
         let mut damping: f64 = FIRST_DAMPING;
         let mut local = self.local(unknowns);
-        for _ in 0..iterations {
-            if self.watch.is_cancelled() {
-                break;
-            }
+        for _ in (0..iterations).take_while(|_| !self.watch.is_cancelled()) {
             let Some((trial, cost)) = self.improved(unknowns, &local, &mut damping) else { break };
             let decrease = local.cost - cost;
             *unknowns = trial;

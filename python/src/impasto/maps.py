@@ -183,29 +183,30 @@ def _on_workers(
 ) -> None:
     from distributed import as_completed
 
-    book = found.to_json()
-    # By a file and not by the scheduler, which forgets data with the worker that holds it.
-    file = path.with_name(path.name + ".survey.json")
-    if not file.exists() or file.read_text() != book:
-        part = file.with_name(file.name + ".part")
-        part.write_text(book)
-        part.replace(file)
     job = json.dumps(
         {
             "cube": os.path.abspath(found.cube.path),
             "options": found.cube._options,
             "library": found.library.to_json(),
             "settings": found._settings,
-            "book": os.path.abspath(file),
-            "book_sha256": hashlib.sha256(book.encode()).hexdigest(),
+            "book": found.to_json(),
             "out": os.path.abspath(path),
         }
     )
+    # By a file and not by the scheduler, which forgets data with the worker that holds it, and would copy
+    # the library and the survey with every task.
+    file = Path(os.path.abspath(path.with_name(path.name + ".job.json")))
+    if not file.exists() or file.read_text() != job:
+        part = file.with_name(file.name + ".part")
+        part.write_text(job)
+        part.replace(file)
+    sha256 = hashlib.sha256(job.encode()).hexdigest()
     waiting = [place for place, done in enumerate(finished) if not done]
     total, done = len(finished), len(finished) - len(waiting)
 
     def submit(place: int) -> Any:
-        return client.submit(_map_shard, job, place, pure=False, key=f"impasto-{path.name}-{place}")
+        key = f"impasto-{path.name}-{place}"
+        return client.submit(_map_shard, os.fspath(file), sha256, place, pure=False, key=key)
 
     cores: Any = client.ncores()
     workers = max(1, sum(cores.values()))
@@ -222,19 +223,19 @@ def _on_workers(
     file.unlink(missing_ok=True)
 
 
-def _map_shard(job: str, place: int) -> int:
-    """Maps one shard on a worker."""
-    survey, out = _prepared(job)
+def _map_shard(job: str, sha256: str, place: int) -> int:
+    """Maps one shard on a worker; `job` is the path of a file."""
+    survey, out = _prepared(job, sha256)
     return survey._native.map_shard(out, place)
 
 
 @lru_cache(maxsize=2)
-def _prepared(job: str) -> tuple[Survey, str]:
+def _prepared(job: str, sha256: str) -> tuple[Survey, str]:
     """The survey of a job, prepared once for a worker."""
-    told = json.loads(job)
-    book = Path(told["book"]).read_text()
-    if hashlib.sha256(book.encode()).hexdigest() != told["book_sha256"]:
-        raise Error(f"{told['book']}: is not the survey of this run", "run the survey again")
+    text = Path(job).read_text()
+    if hashlib.sha256(text.encode()).hexdigest() != sha256:
+        raise Error(f"{job}: is not the job of this run", "start the run again with resume=True")
+    told = json.loads(text)
     cube = Cube.open(told["cube"], **told["options"])
     settings = dict(told["settings"])
     region = settings.pop("region")
@@ -246,4 +247,4 @@ def _prepared(job: str) -> tuple[Survey, str]:
     if residuals is not None:
         settings["residuals"] = Residuals.from_json(residuals)
     library = Library.from_json(told["library"])
-    return survey(cube, library, region=region, book=book, **settings), told["out"]
+    return survey(cube, library, region=region, book=told["book"], **settings), told["out"]
