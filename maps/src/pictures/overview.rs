@@ -4,8 +4,9 @@ use crate::blocks::PixelCounts;
 use crate::pixel_maps::Mask;
 use crate::store::{StoreError, StoredMaps};
 
-/// Rows that are read at once.
+/// Rows and columns that are read at once, so that wide scans take no more memory than others.
 const ROWS: usize = 256;
+const COLUMNS: usize = 2048;
 
 /// Means of maps over squares of pixels. Values are NaN where no pixel of a square is mapped.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,32 +68,34 @@ impl Overview {
         };
         let mut pixels = PixelCounts::default();
         let mut present = vec![0_u64; count];
-        let mut start = rows.start;
-        while start < rows.end {
+        for start in rows.clone().step_by(ROWS) {
             let end = (start + ROWS).min(rows.end);
-            let block = maps.read(start..end, columns.clone())?;
-            pixels.add(&block.mask);
-            for (pixel, mask) in block.mask.iter().enumerate() {
-                if !mask.is_compared() {
-                    continue;
-                }
-                let row = start - rows.start + pixel / columns.len();
-                let square = row / step * width + pixel % columns.len() / step;
-                sums.compared[square] += 1;
-                sums.chi2[square] += f64::from(block.chi2[pixel]);
-                sums.rms[square] += f64::from(block.rms[pixel]);
-                if *mask != Mask::Mapped {
-                    continue;
-                }
-                sums.counts[square] += 1;
-                for (pigment, present) in present.iter_mut().enumerate() {
-                    let at = pixel * count + pigment;
-                    sums.share[pigment][square] += f64::from(block.share[at]);
-                    sums.presence[pigment][square] += f64::from(block.presence[at]);
-                    *present += u64::from(block.presence[at] > 0.5);
+            for left in columns.clone().step_by(COLUMNS) {
+                let across = left..(left + COLUMNS).min(columns.end);
+                let block = maps.read(start..end, across.clone())?;
+                pixels.add(&block.mask);
+                for (pixel, mask) in block.mask.iter().enumerate() {
+                    if !mask.is_compared() {
+                        continue;
+                    }
+                    let row = start - rows.start + pixel / across.len();
+                    let column = left - columns.start + pixel % across.len();
+                    let square = row / step * width + column / step;
+                    sums.compared[square] += 1;
+                    sums.chi2[square] += f64::from(block.chi2[pixel]);
+                    sums.rms[square] += f64::from(block.rms[pixel]);
+                    if *mask != Mask::Mapped {
+                        continue;
+                    }
+                    sums.counts[square] += 1;
+                    for (pigment, present) in present.iter_mut().enumerate() {
+                        let at = pixel * count + pigment;
+                        sums.share[pigment][square] += f64::from(block.share[at]);
+                        sums.presence[pigment][square] += f64::from(block.presence[at]);
+                        *present += u64::from(block.presence[at] > 0.5);
+                    }
                 }
             }
-            start = end;
         }
         let mapped = pixels.of(Mask::Mapped);
         let means_of = |field: &Vec<f64>, counts: &[u32]| -> Vec<f32> {

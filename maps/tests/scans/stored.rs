@@ -151,6 +151,31 @@ fn an_overview_holds_the_means_of_squares() {
 }
 
 #[test]
+fn wide_maps_are_drawn_piece_by_piece() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut about = about(3, 5000, 2);
+    about.columns = 7..5007;
+    let store = MapStore::create(folder.path().join("wide"), &about, StoreMode::New).unwrap();
+    for shard in store.shards() {
+        let mut writer = store.writer(shard);
+        writer.add(0..3, &maps_of(shard.rows.clone(), shard.columns.clone(), 2)).unwrap();
+        writer.finish().unwrap();
+    }
+    let maps = StoredMaps::open(store.path()).unwrap();
+    let overview = Overview::of(&maps, 1000).unwrap();
+    assert_eq!((overview.step, overview.width, overview.height), (5, 1000, 1));
+    assert_eq!(overview.pixels.all(), 15_000);
+    let all = maps.read(0..3, 7..5007).unwrap();
+    for square in [0, 409, 410, 999] {
+        let pixels = (0..3).flat_map(|row| (0..5).map(move |at| row * 5000 + square * 5 + at));
+        let mapped: Vec<usize> = pixels.filter(|at| all.mask[*at] == Mask::Mapped).collect();
+        let sum: f32 = mapped.iter().map(|at| all.rms[*at]).sum();
+        let mean = sum / mapped.len() as f32;
+        assert!((overview.rms[square] - mean).abs() < 1e-5, "square {square}: {mean}");
+    }
+}
+
+#[test]
 fn squares_without_a_mapped_pixel_have_no_value() {
     let folder = tempfile::tempdir().unwrap();
     let store = MapStore::create(folder.path().join("a"), &about(4, 4, 1), StoreMode::New).unwrap();
