@@ -1,8 +1,7 @@
 """What Dask costs a map, and how it scales: `python benches/dask_scaling.py [WORKERS..]`.
 
-Prints the overhead of a task against a loop over the same shards in one process, and the time of one map in one
-process and on each number of workers (default: 1 and 2), of one thread each. Needs the extra `maps`. The
-machine should have nothing else to do.
+Prints the time of a task that has nothing to do, and that of one map in one process and on each number of
+workers (default: 1 and 2), of one thread each. Needs the extra `maps`, and a machine that does nothing else.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ from impasto import maps
 
 SHARD = 2048
 """Rows and columns of a shard."""
-ROUNDS = 3
+ROUNDS = 4
 """Measurements of which the least counts."""
 
 
@@ -60,14 +59,28 @@ class Run:
         self.count += 1
         return self.folder / f"maps-{self.shards}-{self.count}.zarr"
 
-    def loop(self) -> float:
-        """Seconds of a plain loop over the shards."""
-        out = os.fspath(self.out())
+    def alone(self) -> float:
+        """Seconds in this process."""
+        out = self.out()
         start = time.perf_counter()
-        self.survey._native.begin(out, False)
-        for place in range(self.shards):
-            self.survey._native.map_shard(out, place)
+        im.pigment_map(self.cube, self.oils, out, survey=self.survey)
         return time.perf_counter() - start
+
+    def finished(self, client: Client | None) -> float:
+        """Seconds a shard of going once more through finished maps, where only the way there takes time."""
+        out = self.out()
+        im.pigment_map(self.cube, self.oils, out, survey=self.survey)
+
+        def again() -> float:
+            start = time.perf_counter()
+            if client is None:
+                for place in range(self.shards):
+                    self.survey._native.map_shard(os.fspath(out), place)
+            else:
+                maps._on_workers(self.survey, out, [False] * self.shards, client, None)
+            return time.perf_counter() - start
+
+        return least(again) / self.shards
 
     def tasks(self, client: Client) -> float:
         """Seconds on the workers of a client."""
@@ -81,14 +94,15 @@ def least(measured: Callable[[], float]) -> float:
     return min(measured() for _ in range(ROUNDS))
 
 
-def on_workers(count: int, run: Run, warm: Run) -> float:
+def on_workers(count: int, warm: Run, work: Callable[[Client], float]) -> float:
+    """What `work` measures on a cluster whose workers have mapped before."""
     with (
         LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None) as cluster,
         Client(cluster) as client,
     ):
         # Workers import the package and prepare a survey when their first task comes.
         warm.tasks(client)
-        return least(lambda: run.tasks(client))
+        return work(client)
 
 
 def main() -> None:
@@ -96,18 +110,15 @@ def main() -> None:
     oils = im.Library.van_gogh_oils()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        small = Run(oils, folder, 1, 200)
-        large = Run(oils, folder, 32, 24)
-        loop = least(small.loop)
-        tasks = on_workers(1, small, small)
-        overhead = 1e3 * (tasks - loop) / small.shards
-        print(f"{small.shards} shards of one row: loop {loop:.2f} s, one worker {tasks:.2f} s")
-        print(f"overhead: {overhead:.2f} ms a task, with {maps.TASKS_A_WORKER} tasks waiting a worker")
-        alone = least(large.loop)
+        small, large = Run(oils, folder, 1, 100), Run(oils, folder, 16, 16)
+        loop = 1e3 * small.finished(None)
+        task = 1e3 * on_workers(1, small, small.finished)
+        print(f"a finished shard: {loop:.2f} ms in a loop, {task:.2f} ms as a task of one worker")
+        alone = least(large.alone)
         print(f"{large.pixels} pixels in {large.shards} shards: one process {alone:.2f} s")
         first = None
         for count in workers:
-            seconds = on_workers(count, large, small)
+            seconds = on_workers(count, small, lambda client: least(lambda: large.tasks(client)))
             first = first or seconds * count
             print(
                 f"{count} workers: {seconds:.2f} s, {large.pixels / seconds / count:.0f} pixels/s a worker, "
