@@ -145,8 +145,8 @@ impl PreparedFit {
         Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
     }
 
-    /// Validates like [`validate`], with these readings and fit options. `watch` is told
-    /// the stages of the first fit and [`FitStage::LeftOut`](crate::fit::FitStage::LeftOut) after each mixture, and may end the work.
+    /// Validates like [`validate`], with these readings and fit options. `watch` is told the stages of the
+    /// first fit and [`FitStage::LeftOut`] after each mixture, and may end the work.
     ///
     /// # Errors
     /// [`FittingError`] if a name is unknown, a fit fails or is ended, or no mixture can be left out.

@@ -15,6 +15,7 @@ __all__ = [
     "Library",
     "Light",
     "Readings",
+    "Residuals",
     "Survey",
     "Validation",
     "__version__",
@@ -135,6 +136,7 @@ class Validation:
     def errors(self) -> str: ...
     def text(self) -> str: ...
 
+@final
 class Residuals:
     @staticmethod
     def open(path: str) -> Residuals: ...
