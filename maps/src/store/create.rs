@@ -272,15 +272,7 @@ fn documents(about: &MapsAbout, tiles: Tiles) -> Vec<(String, Value)> {
     ] {
         let mut attributes = Map::new();
         attributes.insert("long_name".to_owned(), json!(words));
-        let document = ArrayDocument {
-            shape: &[length],
-            data_type,
-            outer: &[length],
-            inner: None,
-            fill: if data_type == "string" { json!("") } else { json!(0) },
-            dimensions: &[name],
-            attributes,
-        };
+        let document = ArrayDocument::coordinate(&name, &length, data_type, attributes);
         documents.push((name.to_owned(), document.json()));
     }
     documents

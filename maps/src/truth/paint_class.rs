@@ -53,16 +53,16 @@ impl PaintClass {
         }
     }
 
-    /// Class of a pixel of which the part `ground` shows the ground, and the paint of whose foremost layer has the part
-    /// `foremost` of all paint. `apart` is half the sum of the absolute differences between its own shares and the
-    /// blurred ones.
+    /// Class of a pixel. `ground` is the part of it that shows the ground, `greatest` the part of the paint
+    /// seen that belongs to one layer, the one seen most. `apart` is half the sum of the absolute
+    /// differences between its own shares and the blurred ones.
     #[must_use]
-    pub fn of(ground: f64, foremost: f64, apart: f64) -> Self {
-        match (ground, foremost, apart) {
+    pub fn of(ground: f64, greatest: f64, apart: f64) -> Self {
+        match (ground, greatest, apart) {
             (ground, ..) if ground >= BARE => Self::Bare,
             (ground, ..) if ground >= THIN => Self::Thin,
             (_, _, apart) if apart > EDGE => Self::Edge,
-            (_, foremost, _) if foremost < ALONE => Self::Glaze,
+            (_, greatest, _) if greatest < ALONE => Self::Glaze,
             _ => Self::Hiding,
         }
     }

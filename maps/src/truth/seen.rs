@@ -63,8 +63,8 @@ pub fn truth_rows(
                 let ground = seen[count - 1];
                 let layers = &seen[parts.pigments..count - 1];
                 let paint: f64 = layers.iter().sum();
-                let foremost = layers.iter().copied().fold(0.0, f64::max) / paint.max(1e-12);
-                truth.class.push(PaintClass::of(ground, foremost, apart));
+                let greatest = layers.iter().copied().fold(0.0, f64::max) / paint.max(1e-12);
+                truth.class.push(PaintClass::of(ground, greatest, apart));
                 truth.ground.push(ground as f32);
                 truth.share.extend(shares.iter().map(|share| *share as f32));
             }

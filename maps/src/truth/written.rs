@@ -180,15 +180,7 @@ impl TruthWriter {
         for (name, length, data_type) in
             [("y", *lines, "int64"), ("x", *samples, "int64"), ("pigment", count, "string")]
         {
-            let document = ArrayDocument {
-                shape: &[length],
-                data_type,
-                outer: &[length],
-                inner: None,
-                fill: if data_type == "string" { json!("") } else { json!(0) },
-                dimensions: &[name],
-                attributes: Map::new(),
-            };
+            let document = ArrayDocument::coordinate(&name, &length, data_type, Map::new());
             documents.push((name.to_owned(), document.json()));
         }
         documents

@@ -19,7 +19,26 @@ pub(crate) struct ArrayDocument<'d> {
     pub(crate) attributes: Map<String, Value>,
 }
 
-impl ArrayDocument<'_> {
+impl<'d> ArrayDocument<'d> {
+    /// The array of the places along the dimension `name`, in one chunk.
+    pub(crate) fn coordinate(
+        name: &'d &'d str,
+        length: &'d usize,
+        data_type: &'d str,
+        attributes: Map<String, Value>,
+    ) -> Self {
+        let length = std::slice::from_ref(length);
+        Self {
+            shape: length,
+            data_type,
+            outer: length,
+            inner: None,
+            fill: if data_type == "string" { json!("") } else { json!(0) },
+            dimensions: std::slice::from_ref(name),
+            attributes,
+        }
+    }
+
     /// The `zarr.json` of the array.
     pub(crate) fn json(&self) -> Value {
         let bytes = match self.data_type {

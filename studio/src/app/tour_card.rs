@@ -93,7 +93,7 @@ impl Studio {
             let place = places::rect(context, Part::Tab(tab.name()))?;
             let canvas = self.canvas.rect();
             let left = canvas.right() - GAP;
-            // Beside a tab low in the window it would hide the tubes.
+            // Beside a tab low in the window the card would hide the tubes.
             if place.top() > canvas.center().y {
                 return Some((place, Pos2::new(left, canvas.bottom() - GAP), Align2::RIGHT_BOTTOM));
             }

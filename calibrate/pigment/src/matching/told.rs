@@ -11,9 +11,9 @@ use crate::illuminant_change::IlluminantChange;
 use crate::library::AmountKind;
 
 impl RecipeSearch<'_> {
-    /// What was found for one target: the target's name, Lab by light, `hex` and `in_gamut`; `reached`,
+    /// The result for one target as JSON: the target's name, Lab by light, `hex` and `in_gamut`; `reached`,
     /// `nearest`, `beyond_measured`, measure and tolerance; `recipes` and `by_cie1976`, each as
-    /// [`Self::recipe_json`]. `grams` is the mass of the mixture, where amounts are wanted.
+    /// [`Self::recipe_json`]. With `grams`, the mass of the mixture, recipes tell amounts.
     #[must_use]
     pub fn to_json(&self, matched: &RecipeMatches, grams: Option<f64>) -> Value {
         let list = |recipes: &[RecipeMatch]| -> Vec<Value> {

@@ -51,7 +51,7 @@ impl KeptQuadratures {
             kept.push(used);
             return Ok(quadrature);
         }
-        // Not held while all cores fit: a thread that waits for them may take up work that asks too.
+        // The fit runs without the lock: a thread that waits in it may take up work that needs the lock.
         drop(kept);
         let quadrature = fit()?;
         let mut kept = lock();
