@@ -74,6 +74,7 @@ impl Studio {
         } else {
             self.panels.reference.hide();
         }
+        self.draw_crop_bar(ui);
         let area = ui.available_rect_before_wrap();
         let painting = self.painting.clone();
         let lights = painting.as_ref().and_then(|painting| lights_of(painting));
@@ -116,17 +117,32 @@ impl Studio {
         self.crop.is_some() || self.panels.reference.takes_pointer()
     }
 
-    /// Draws what lies over the canvas: the reference picture and the crop.
+    /// Draws what lies over the canvas: the reference picture and the frame of a crop.
     fn draw_over(&mut self, ui: &Ui, response: &Response) {
         let Some(cell_mm) = self.painting.as_ref().map(|painting| painting.cell_mm) else { return };
         self.panels.reference.show_over(ui, &self.canvas, response, cell_mm);
-        if let Some(crop) = &mut self.crop
-            && let Some(answer) = crop.show(ui, &self.canvas, response, cell_mm)
-        {
+        let answer = self.crop.as_mut().and_then(|crop| crop.show(ui, &self.canvas, response));
+        self.carry_out(answer);
+    }
+
+    /// Draws the bar of a crop above the canvas, which yields to it.
+    fn draw_crop_bar(&mut self, ui: &mut Ui) {
+        let Some(cell_mm) = self.painting.as_ref().map(|painting| painting.cell_mm) else { return };
+        let Some(crop) = &mut self.crop else { return };
+        let bar = Panel::top("crop bar").frame(Frame::new().inner_margin(Margin::symmetric(10, 6)));
+        let answer = bar.show_separator_line(false).show(ui, |ui| {
+            fill_rect(ui.painter(), ui.clip_rect(), theme::colors(ui.ctx()).panel);
+            crop.bar(ui, cell_mm)
+        });
+        self.carry_out(answer.inner);
+    }
+
+    fn carry_out(&mut self, answer: Option<CropAnswer>) {
+        if answer.is_some() {
             self.crop = None;
-            if let CropAnswer::Crop(rect) = answer {
-                self.requests.push(Request::File(FileRequest::Crop(rect)));
-            }
+        }
+        if let Some(CropAnswer::Crop(rect)) = answer {
+            self.requests.push(Request::File(FileRequest::Crop(rect)));
         }
     }
 

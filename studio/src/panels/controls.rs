@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use eframe::egui::{
     Align, Button, Color32, CornerRadius, Layout, Painter, Rect, Response, Role, Sense, Slider,
-    Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+    Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
 };
 
 use crate::language::tr;
@@ -79,6 +79,18 @@ pub(super) fn named_button(
         .on_hover_text(tip)
         .on_disabled_hover_text(disabled_reason.unwrap_or_default())
         .clicked()
+}
+
+/// Whether buttons of these names fit side by side into the width that is left.
+pub(super) fn buttons_fit(ui: &Ui, names: &[&str]) -> bool {
+    let font = TextStyle::Button.resolve(ui.style());
+    let width = |name: &&str| {
+        let text =
+            ui.painter().layout_no_wrap((*name).to_owned(), font.clone(), Color32::PLACEHOLDER);
+        (text.size().x + 2.0 * ui.spacing().button_padding.x).max(theme::target(ui))
+    };
+    let gaps = names.len().saturating_sub(1) as f32 * ui.spacing().item_spacing.x;
+    names.iter().map(width).sum::<f32>() + gaps <= ui.available_width()
 }
 
 /// A button as high as a line of text, or high enough to be touched.

@@ -8,6 +8,7 @@ use render::paint::strokes::{Action, Squeeze, SurfaceId};
 use session::Command;
 use session::volumes::Subject;
 use studio::app::Tab;
+use studio::panels::Mode;
 use studio::theme::{self, ThemeChoice, contrast};
 
 use super::harness::Window;
@@ -111,6 +112,9 @@ fn the_brush_panel_is_whole_in_a_window_of_a_thousand_points() {
                 let rect = window.harness().get_by_label(label).rect();
                 assert!(rect.bottom() <= bottom, "{label} of {look:?} in {size}: {rect}");
             }
+            let tops =
+                ["Wipe", "Wash"].map(|name| window.harness().get_by_label(name).rect().top());
+            assert_eq!(tops[0], tops[1], "a button stands alone: {look:?} in {size}");
             let names = seen(&mut window);
             let knife = names.iter().find(|text| text.words == "knife").unwrap();
             assert!(knife.is_whole(), "{knife:?}");
@@ -134,6 +138,17 @@ fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
             window.save(&format!("whole-tip-{key:?}"));
             assert!(tip.bottom() < below.top(), "{look:?} {key:?}: {tip} {below}");
         }
+        // Settings of a tool take the place of the numbers of the film.
+        window.click("Load brush");
+        for mode in [Mode::Blend, Mode::Scrape, Mode::Erase] {
+            window.studio_mut().tools.mode = mode;
+            window.settle();
+            let tip = window.harness().get_by_label("Marks of the tip").rect();
+            let below = window.harness().get_by_label("Fold Light").rect();
+            window.save(&format!("whole-tip-{mode:?}"));
+            assert!(tip.bottom() < below.top(), "{look:?} {mode:?}: {tip} {below}");
+        }
+        window.studio_mut().tools.mode = Mode::Paint;
     }
 }
 

@@ -100,6 +100,11 @@ fn a_crop_is_framed_with_handles_and_applied_with_enter() {
     window.click("Edit");
     window.harness().get_by_label_contains("Crop...").click();
     window.settle();
+    let canvas = window.studio().canvas.rect();
+    for name in ["Crop", "Cancel", "Shape of the crop"] {
+        let rect = window.harness().get_by_label(name).rect();
+        assert!(rect.bottom() <= canvas.top(), "{name} covers the picture: {rect} {canvas}");
+    }
     let handle = window.harness().get_by_label("Crop right").rect().center();
     let to = window.point(SurfaceId::Canvas, 20.0, 10.0);
     window.pen_stroke(&[handle, handle.lerp(to, 0.5), to]);

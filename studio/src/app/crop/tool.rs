@@ -1,9 +1,8 @@
 //! Draws the crop over the canvas, and lets it be dragged.
 
 use eframe::egui::{
-    Align2, Area, Button, Color32, ComboBox, Context, CursorIcon, Frame, Id, Key, Modifiers, Order,
-    PointerButton, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, StrokeKind, Ui,
-    Vec2, WidgetInfo, vec2,
+    Button, Color32, ComboBox, Context, CursorIcon, Id, Key, Modifiers, PointerButton, Pos2, Rect,
+    Response, RichText, Role, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 use render::tile;
 
@@ -11,9 +10,6 @@ use super::frame::{CropFrame, HANDLES};
 use crate::language::{tr, tr_format};
 use crate::theme;
 use crate::view::{Placement, SurfaceView};
-
-/// Size of the bar in points.
-const BAR: Vec2 = vec2(420.0, 56.0);
 
 /// Side of a handle as it is drawn, in points. In touch mode it is pressed in a larger square.
 const HANDLE: f32 = 14.0;
@@ -53,22 +49,17 @@ impl CropTool {
         self.frame.cells(self.cells)
     }
 
-    /// Draws the frame over `canvas`, whose `response` moves it, and the bar above it. Cells are
-    /// `cell_mm` wide.
+    /// Draws the frame over `canvas`, whose `response` moves it. Enter and Escape decide.
     pub fn show(
         &mut self,
         ui: &Ui,
         canvas: &SurfaceView,
         response: &Response,
-        cell_mm: f64,
     ) -> Option<CropAnswer> {
         let placement = canvas.placement();
         self.drag(ui, response, &placement);
         self.draw(ui, canvas.rect(), &placement);
-        let margin = theme::target(ui).max(HANDLE);
-        let at = self.bar_place(canvas.rect(), &placement, margin);
-        let answer = self.bar(ui.ctx(), at, cell_mm);
-        answer.or_else(|| self.keys(ui.ctx()))
+        self.keys(ui.ctx())
     }
 
     fn keys(&self, context: &Context) -> Option<CropAnswer> {
@@ -142,49 +133,31 @@ impl CropTool {
         }
     }
 
-    /// Middle of the bar: where it is `margin` points from all handles, if there is such a place.
-    fn bar_place(&self, area: Rect, placement: &Placement, margin: f32) -> Pos2 {
-        let handles = HANDLES.map(|(handle, _)| placement.point(self.frame.place(handle)));
-        let [top, bottom] = [area.center_top(), area.center_bottom()];
-        let places = [0.07, 0.93, 0.25, 0.75].map(|share| top.lerp(bottom, share));
-        let free = |place: &&Pos2| {
-            let bar = Rect::from_center_size(**place, BAR).expand(margin);
-            !handles.iter().any(|handle| bar.contains(*handle))
-        };
-        places.iter().find(free).copied().unwrap_or(area.center())
-    }
-
-    /// The size that stays, its shape, and the buttons.
-    fn bar(&mut self, context: &Context, at: Pos2, cell_mm: f64) -> Option<CropAnswer> {
+    /// Draws the size that stays, its shape, and the buttons. Cells are `cell_mm` wide.
+    pub fn bar(&mut self, ui: &mut Ui, cell_mm: f64) -> Option<CropAnswer> {
         let mut answer = None;
         let rect = self.rect();
         let mm = |cells: usize| cells as f64 * cell_mm;
-        let bar = Area::new(Id::unique("crop bar")).order(Order::Middle);
-        bar.pivot(Align2::CENTER_CENTER).fixed_pos(at).show(context, |ui| {
-            Frame::popup(ui.style()).show(ui, |ui| {
-                ui.horizontal(|ui| {
-                    let (width, height) = (mm(rect.width), mm(rect.height));
-                    ui.label(RichText::new(format!("{width:.1} x {height:.1} mm")).strong());
-                    ui.weak(tr_format!(
-                        "{width} x {height} cells",
-                        width = rect.width,
-                        height = rect.height
-                    ));
-                    self.shapes(ui);
-                    let crop = ui.add_enabled(self.changes(), Button::new(tr("Crop")));
-                    if crop.on_hover_text(tr("Cuts off what is dark (Enter)")).clicked() {
-                        answer = Some(CropAnswer::Crop(rect));
-                    }
-                    let leave = ui.button(tr("Cancel"));
-                    if leave.on_hover_text(tr("Leaves the painting as it is (Esc)")).clicked() {
-                        answer = Some(CropAnswer::Leave);
-                    }
-                });
-                let note =
-                    tr("Undo ends at a crop, and the brushes are clean after it; the palette \
+        ui.horizontal_wrapped(|ui| {
+            let (width, height) = (mm(rect.width), mm(rect.height));
+            ui.label(RichText::new(format!("{width:.1} x {height:.1} mm")).strong());
+            ui.weak(tr_format!(
+                "{width} x {height} cells",
+                width = rect.width,
+                height = rect.height
+            ));
+            self.shapes(ui);
+            let crop = ui.add_enabled(self.changes(), Button::new(tr("Crop")));
+            if crop.on_hover_text(tr("Cuts off what is dark (Enter)")).clicked() {
+                answer = Some(CropAnswer::Crop(rect));
+            }
+            let leave = ui.button(tr("Cancel"));
+            if leave.on_hover_text(tr("Leaves the painting as it is (Esc)")).clicked() {
+                answer = Some(CropAnswer::Leave);
+            }
+            let note = tr("Undo ends at a crop, and the brushes are clean after it; the palette \
                             keeps its paint.");
-                ui.label(RichText::new(note).weak().small());
-            });
+            ui.label(RichText::new(note).weak().small());
         });
         answer
     }

@@ -26,7 +26,11 @@ impl Volumes {
             }
             let moves = self.shown_at.is_some_and(|at| at.elapsed() < Duration::from_secs(1));
             let rate = if moves { self.frames.rate().frames_a_second } else { 0.0 };
-            ui.label(small(&tr_format!("{rate:.0} pictures/s", rate)))
+            let rate = match rate.round() {
+                1.0 => tr("1 picture/s").to_owned(),
+                _ => tr_format!("{rate:.0} pictures/s", rate),
+            };
+            ui.label(small(&rate))
                 .on_hover_text(tr("Pictures drawn in the last second; none while the scene rests"));
             ui.label(small(&paint_text(state)))
                 .on_hover_text(tr("Paint poured, on the surfaces, taken up, and left in the tubes"));

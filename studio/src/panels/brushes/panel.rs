@@ -13,7 +13,7 @@ use super::tip::TipPreview;
 use super::tool;
 use crate::keymap::hint;
 use crate::language::{tr, tr_format};
-use crate::panels::controls::{button, button_background, item, percent, slider};
+use crate::panels::controls::{button, button_background, buttons_fit, item, percent, slider};
 use crate::panels::{PanelContext, tubes};
 use crate::theme;
 
@@ -41,7 +41,7 @@ impl Brushes {
     /// Draws the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
         self.list.synchronize(cx);
-        if swatch::show(ui, selected(cx)) {
+        if swatch::show(ui, selected(cx), !tool::has_settings(cx.tools.mode)) {
             keep_mixture(cx);
         }
         tool::show(ui, cx);
@@ -245,41 +245,52 @@ impl Brushes {
         percent(ui, tr("Medium"), tip, &mut cx.tools.vehicle, 0.0..=100.0);
         let tip = tr("Share of its paint that wiping leaves on the brush");
         percent(ui, tr("Wipe to"), tip, &mut cx.tools.wipe_keep, 0.0..=100.0);
-        ui.horizontal_wrapped(|ui| {
+        ui.scope(|ui| {
             if theme::is_touch(ui.ctx()) {
                 ui.spacing_mut().button_padding.x = 8.0;
             }
-            let slot = cx.tools.tube;
-            let held = cx.painting.slots.get(slot).copied().flatten();
-            let empty = held.is_none().then_some(tr("no tube is selected"));
-            let name = held.map_or("", |pigment| cx.painting.library[pigment].name.as_str());
-            let tip = tr_format!("Adds paint of the selected tube to the brush: {name}", name);
-            if button(ui, tr("Load from tube"), &tip, none.or(empty)) {
-                tubes::load(cx, slot);
-            }
-            let tip = tr("Adds clear medium without pigment to the brush");
-            if button(ui, tr("Medium only"), tip, none) {
-                load_medium(cx);
-            }
-            let clean = (!is_loaded(cx)).then_some(tr("the brush is clean"));
-            let [wipe_key, wash_key] = ["wipe", "wash"].map(|name| hint(ui.ctx(), name));
-            if button(
-                ui,
-                tr("Wipe"),
-                &tr_format!("Removes paint with a rag{wipe_key}", wipe_key),
-                none.or(clean),
-            ) {
-                wipe(cx);
-            }
-            if button(
-                ui,
-                tr("Wash"),
-                &tr_format!("Removes all paint{wash_key}", wash_key),
-                none.or(clean),
-            ) {
-                wash(cx);
+            let names = [tr("Load from tube"), tr("Medium only"), tr("Wipe"), tr("Wash")];
+            if buttons_fit(ui, &names) {
+                ui.horizontal(|ui| {
+                    load_buttons(ui, cx, none);
+                    clean_buttons(ui, cx, none);
+                });
+            } else {
+                // In pairs, so that no button stands alone.
+                ui.horizontal_wrapped(|ui| load_buttons(ui, cx, none));
+                ui.horizontal_wrapped(|ui| clean_buttons(ui, cx, none));
             }
         });
+    }
+}
+
+/// Draws the buttons that load the selected brush; `none` says why there is no brush.
+fn load_buttons(ui: &mut Ui, cx: &mut PanelContext<'_>, none: Option<&str>) {
+    let slot = cx.tools.tube;
+    let held = cx.painting.slots.get(slot).copied().flatten();
+    let empty = held.is_none().then_some(tr("no tube is selected"));
+    let name = held.map_or("", |pigment| cx.painting.library[pigment].name.as_str());
+    let tip = tr_format!("Adds paint of the selected tube to the brush: {name}", name);
+    if button(ui, tr("Load from tube"), &tip, none.or(empty)) {
+        tubes::load(cx, slot);
+    }
+    let tip = tr("Adds clear medium without pigment to the brush");
+    if button(ui, tr("Medium only"), tip, none) {
+        load_medium(cx);
+    }
+}
+
+/// Draws the buttons that clean the selected brush; `none` says why there is no brush.
+fn clean_buttons(ui: &mut Ui, cx: &mut PanelContext<'_>, none: Option<&str>) {
+    let clean = (!is_loaded(cx)).then_some(tr("the brush is clean"));
+    let [wipe_key, wash_key] = ["wipe", "wash"].map(|name| hint(ui.ctx(), name));
+    let tip = tr_format!("Removes paint with a rag{wipe_key}", wipe_key);
+    if button(ui, tr("Wipe"), &tip, none.or(clean)) {
+        wipe(cx);
+    }
+    let tip = tr_format!("Removes all paint{wash_key}", wash_key);
+    if button(ui, tr("Wash"), &tip, none.or(clean)) {
+        wash(cx);
     }
 }
 

@@ -17,9 +17,9 @@ const HEIGHT: f32 = 50.0;
 const EDGE: f32 = 7.0;
 
 /// Draws the paint of a brush: at the left as a film that hides, at the right as the film that it
-/// lays now, over the ground and over a black and white card. Returns whether the mixture is to be
-/// kept.
-pub(super) fn show(ui: &mut Ui, brush: Option<&BrushState>) -> bool {
+/// lays now, over the ground and over a black and white card; and its colour in numbers. With
+/// `film` also how thick it is, and a button. Returns whether the mixture is to be kept.
+pub(super) fn show(ui: &mut Ui, brush: Option<&BrushState>, film: bool) -> bool {
     let swatch = brush.and_then(|brush| brush.swatch.as_deref());
     let size = vec2(ui.available_width(), HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
@@ -32,7 +32,12 @@ pub(super) fn show(ui: &mut Ui, brush: Option<&BrushState>) -> bool {
     ui.painter().rect_stroke(rect, CornerRadius::ZERO, line, StrokeKind::Inside);
     let (Some(swatch), Some(brush)) = (swatch, brush) else { return false };
     tip(response, swatch);
-    numbers(ui, swatch, brush)
+    ui.scope(|ui| {
+        // Nothing is clicked in this line: it is only as high as its text.
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.horizontal(|ui| color(ui, swatch));
+    });
+    film && film_line(ui, swatch, brush)
 }
 
 fn films(ui: &Ui, rect: Rect, swatch: &BrushSwatch) {
@@ -77,19 +82,14 @@ fn tip(response: Response, swatch: &BrushSwatch) {
          {black}; over a white card, {white}. Their bare edges show above and below.", film = lab(swatch.opaque), ground = lab(swatch.over_ground), black = lab(swatch.over_cards[0]), white = lab(swatch.over_cards[1])));
 }
 
-/// The numbers below the swatch; returns whether the mixture is to be kept.
-fn numbers(ui: &mut Ui, swatch: &BrushSwatch, brush: &BrushState) -> bool {
+/// Thickness and medium of the film; returns whether the mixture is to be kept.
+fn film_line(ui: &mut Ui, swatch: &BrushSwatch, brush: &BrushState) -> bool {
     let thickness = millimetres(swatch.thickness_mm);
     let medium = tr_format!(
         "{thickness} at the tip, {vehicle:.0} % medium",
         thickness,
         vehicle = 100.0 * brush.vehicle
     );
-    ui.scope(|ui| {
-        // Nothing is clicked in this line: it is only as high as its text.
-        ui.spacing_mut().interact_size.y = 0.0;
-        ui.horizontal(|ui| color(ui, swatch));
-    });
     let line = ui.horizontal(|ui| {
         let words = ui.weak(medium);
         words

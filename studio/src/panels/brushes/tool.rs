@@ -7,26 +7,33 @@ use crate::language::{tr, tr_format};
 use crate::panels::controls::{button, percent, slider};
 use crate::panels::{Mode, PanelContext};
 
+/// Whether a tool has settings. Their heads are clean: they neither lay nor keep the brush's paint.
+pub(super) fn has_settings(mode: Mode) -> bool {
+    matches!(mode, Mode::Blend | Mode::Erase | Mode::Scrape | Mode::Mask)
+}
+
 /// Draws the settings of the tool in use, if it has some.
 pub(super) fn show(ui: &mut Ui, cx: &mut PanelContext<'_>) {
     match cx.tools.mode {
         Mode::Blend => {
             let tip = tr("How much blending mixes and moves the wet paint");
-            percent(ui, tr("Strength"), tip, &mut cx.tools.blend_strength, 1.0..=100.0);
-            ui.weak(tr("The head is clean; the paint of the brush stays on it"));
+            let note = tr("The head is clean; the paint of the brush stays on it");
+            let tip = format!("{tip}.\n{note}.");
+            percent(ui, tr("Strength"), &tip, &mut cx.tools.blend_strength, 1.0..=100.0);
         }
         Mode::Erase => {
             let tip = tr("How much of the wet paint a rag takes; pressure takes more");
-            percent(ui, tr("Strength"), tip, &mut cx.tools.erase_strength, 1.0..=100.0);
-            ui.weak(tr("Dry layers stay as they are"));
+            let tip = format!("{tip}.\n{note}.", note = tr("Dry layers stay as they are"));
+            percent(ui, tr("Strength"), &tip, &mut cx.tools.erase_strength, 1.0..=100.0);
         }
         Mode::Scrape => {
             let height = Slider::new(&mut cx.tools.scrape_mm, 0.0..=2.0).suffix(" mm");
             let tip =
                 tr("Height of the blade over the ground: 0 scrapes down to it, and so does full \
                  pressure");
-            slider(ui, tr("Height"), tip, height.max_decimals(2).step_by(0.01));
-            ui.weak(tr("Paint stays in the valleys of the ground"));
+            let note = tr("Paint stays in the valleys of the ground");
+            let tip = format!("{tip}.\n{note}.");
+            slider(ui, tr("Height"), &tip, height.max_decimals(2).step_by(0.01));
         }
         Mode::Mask => mask(ui, cx),
         _ => {}
