@@ -11,7 +11,7 @@ const measurements = resolve(root, "measurements");
 const oils = resolve(measurements, "van-gogh-oils.csv");
 const shipped = "van-gogh-oils.pigments.json";
 
-let server, browser, context, page, folder, faults, requests;
+let server, browser, context, page, folder, faults, requests, origin;
 
 before(async () => {
   server = await served("calibration");
@@ -33,11 +33,12 @@ beforeEach(async () => {
   page.on("pageerror", (error) => faults.push(String(error)));
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   context.on("request", (request) => requests.push(request.url()));
+  origin = new URL("/", server.address).href;
   await page.goto(server.address);
 });
 
 afterEach(async () => {
-  const strangers = requests.filter((url) => !/^(blob|data|about):/.test(url) && !url.startsWith(new URL("/", server.address).href));
+  const strangers = requests.filter((url) => !/^(blob|data|about):/.test(url) && !url.startsWith(origin));
   assert.deepEqual(strangers, [], "the page asks its own host alone");
   assert.deepEqual(faults, [], "nothing is wrong in the browser's console");
   await context.close();
@@ -72,6 +73,12 @@ function same(found, wanted) {
   const [a, b] = [found.split("\n"), wanted.split("\n")];
   const at = a.findIndex((line, place) => line !== b[place]);
   assert.fail(`line ${at + 1} is ${String(a[at]).slice(0, 120)}, wanted ${String(b[at]).slice(0, 120)}`);
+}
+
+// Numbers that agree but for the last digits: powers and exponentials of two systems differ there.
+function near(found, wanted, within = 1e-9) {
+  assert.equal(found.length, wanted.length);
+  for (const [place, value] of found.entries()) assert.ok(Math.abs(value - wanted[place]) <= within, `${place}: ${value}, wanted ${wanted[place]}`);
 }
 
 async function useOils() {
@@ -132,15 +139,15 @@ test("mixtures have the program's colours and spectra, hiding and over black and
   const told = (...words) => JSON.parse(program(measurements, "mix", shipped, ...recipe, ...words, "--json"));
   const hiding = told();
   await page.locator("#mix-told", { hasText: hiding.hex }).waitFor();
-  assert.deepEqual(await values(curve("#mix-chart", "reflectance")), hiding.reflectance);
+  near(await values(curve("#mix-chart", "reflectance")), hiding.reflectance);
   await page.locator("#mix-film").selectOption("film");
   await page.getByLabel("Light", { exact: true }).fill("A");
   await page.getByLabel("Light", { exact: true }).press("Tab");
   const [white, black] = ["white", "black"].map((over) => told("--thickness", "1", "--over", over, "--illuminant", "A"));
   await page.locator("#mix-told", { hasText: `Over white: ${white.hex}` }).waitFor();
   assert.match(await page.locator("#mix-told").innerText(), new RegExp(`Over black: ${black.hex}`));
-  assert.deepEqual(await values(curve("#mix-chart", "over white")), white.reflectance);
-  assert.deepEqual(await values(curve("#mix-chart", "over black")), black.reflectance);
+  near(await values(curve("#mix-chart", "over white")), white.reflectance);
+  near(await values(curve("#mix-chart", "over black")), black.reflectance);
   await page.getByRole("slider", { name: "Thickness" }).press("End");
   await page.locator("#mix-thickness-told", { hasText: "31.6" }).waitFor();
 });
@@ -165,7 +172,7 @@ test("recipes for a typed colour, a swatch file and readings are the program's",
   await page.getByLabel("Pigments at most").fill("3");
   await page.getByRole("button", { name: "Find recipes" }).click();
   await check(wanted("#4a7d8c", "--at-most", "3"));
-  assert.deepEqual(await values(curve("#recipes-chart", "recipe 1")), wanted("#4a7d8c", "--at-most", "3").recipes[0].reflectance);
+  near(await values(curve("#recipes-chart", "recipe 1")), wanted("#4a7d8c", "--at-most", "3").recipes[0].reflectance);
   await page.getByLabel("Whole parts, at most").fill("12");
   await page.getByLabel("Colour", { exact: true }).fill("52,-10.5,8");
   await page.getByRole("button", { name: "Find recipes" }).click();
@@ -226,6 +233,7 @@ test("bad input is refused as the program refuses it, in the words of the page",
   assert.ok(await page.locator("#fit-start").isDisabled());
 
   await page.locator("#library-file").setInputFiles({ name: "no.json", mimeType: "application/json", buffer: Buffer.from("{}") });
+  await page.locator("#notice strong", { hasText: "no.json" }).waitFor();
   assert.match(await notice().innerText(), /no\.json.*\n?.*format/);
 
   await page.locator("#fit-options summary").click();
@@ -270,7 +278,7 @@ test("the report is drawn inside the page, and long work can be cancelled", asyn
   await page.getByRole("button", { name: "Draw the report" }).click();
   const frame = page.frameLocator("#report-frame");
   await frame.locator("figure svg").first().waitFor();
-  assert.equal(await frame.locator("h1").innerText(), "van-gogh-oils.csv");
+  assert.equal(await frame.locator("h1").innerText(), "van-gogh-oils");
   assert.ok((await frame.locator("figure").count()) > 8);
   const report = await saved(page.getByRole("button", { name: "Download the report" }));
   assert.match(report.text, /<a download="[a-z-]+\.csv" href="data:text\/csv/);
@@ -325,7 +333,7 @@ test("all is reached by keys, and every control has a name", async () => {
   await page.locator("#mix-chart svg[aria-label*='0.5 Viridian']").waitFor();
   await page.locator("#mix-chart svg").focus();
   await page.keyboard.press("Home");
-  await page.locator("#mix-chart p", { hasText: /^380 nm: reflectance 0\.\d+/ }).waitFor();
+  await page.locator("#mix-chart p", { hasText: /^400 nm: reflectance 0\.\d+/ }).waitFor();
   const nameless = await page.evaluate(() => {
     const controls = [...document.querySelectorAll("button, input, select, summary, canvas, iframe, [tabindex='0'], svg")];
     const named = (one) => one.labels?.length || one.ariaLabel || one.getAttribute("aria-labelledby") || one.title || one.textContent.trim();

@@ -3,7 +3,7 @@
 import { element } from "./page.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const [WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM] = [560, 300, 46, 12, 26, 36];
+const [LEFT, RIGHT, TOP, BOTTOM] = [46, 18, 26, 36];
 
 function shape(name, attributes, text) {
   const made = document.createElementNS(SVG, name);
@@ -24,6 +24,8 @@ const short = (value) => String(Number(value.toPrecision(4)));
 // A chart of `series` ({ name, values, color, dash }) over `nm`. `most` is the top of the axis, or null. With
 // `logarithmic`, the axis has decades.
 export function chart({ title, unit, nm, series, most = null, logarithmic = false }) {
+  // Letters keep their size on a phone.
+  const [WIDTH, HEIGHT] = innerWidth < 560 ? [366, 250] : [560, 300];
   const svg = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "chart", role: "img", tabindex: "0" });
   const all = series.flatMap((one) => one.values);
   const [first, last] = [nm[0], nm[nm.length - 1]];
@@ -67,7 +69,7 @@ export function chart({ title, unit, nm, series, most = null, logarithmic = fals
   }
   const told = element("p", { className: "fine" }, "Point at the chart, or press the arrow keys in it, to read a value.");
   told.setAttribute("role", "status");
-  reading(svg, { nm, series, x, told });
+  reading(svg, { nm, series, x, told, size: [WIDTH, HEIGHT] });
   const ends = series.map((one) => {
     const peak = one.values.indexOf(Math.max(...one.values));
     return `${one.name}: ${short(Math.min(...one.values))} to ${short(one.values[peak])}, greatest at ${nm[peak]} nm`;
@@ -77,8 +79,8 @@ export function chart({ title, unit, nm, series, most = null, logarithmic = fals
 }
 
 // A line that the pointer or the arrow keys move along the curves.
-function reading(svg, { nm, series, x, told }) {
-  const cursor = shape("line", { class: "cursor", y1: TOP, y2: HEIGHT - BOTTOM, x1: -10, x2: -10 });
+function reading(svg, { nm, series, x, told, size: [width, height] }) {
+  const cursor = shape("line", { class: "cursor", y1: TOP, y2: height - BOTTOM, x1: -10, x2: -10 });
   svg.append(cursor);
   let at = Math.floor(nm.length / 2);
   const show = (index) => {
@@ -89,7 +91,7 @@ function reading(svg, { nm, series, x, told }) {
   };
   svg.addEventListener("pointermove", (event) => {
     const box = svg.getBoundingClientRect();
-    const value = ((event.clientX - box.left) / box.width) * WIDTH;
+    const value = ((event.clientX - box.left) / box.width) * width;
     const distances = nm.map((one) => Math.abs(x(one) - value));
     show(distances.indexOf(Math.min(...distances)));
   });

@@ -2,10 +2,14 @@
 
 import { chart } from "./chart.js";
 import { $, clearNotice, download, element, fits, names, number, remarkList, takesDrops, takesFiles } from "./page.js";
-import { long, onChange, quick, refuse, shelf, useFitted, viewing, work } from "./shelf.js";
+import { long, onChange, quick, refuse, shelf, useFitted, useReadings, viewing, work } from "./shelf.js";
 import { say, select } from "./tabs.js";
 
 let files = [];
+// Ends when the files are read, with the options as they are.
+let reading = Promise.resolve();
+// Options that change how files are read.
+const READING = ["o-percent", "o-format", "o-pigments", "o-recipes", "o-transmittance"];
 
 export function startFit() {
   takesDrops($("readings-drop"), take);
@@ -13,7 +17,7 @@ export function startFit() {
   $("readings-sample").addEventListener("click", sample);
   $("fit-start").addEventListener("click", fit);
   $("curves-pigment").addEventListener("change", showCurves);
-  $("fit-options").addEventListener("change", () => { if (files.length) read(); });
+  for (const id of READING) $(id).addEventListener("change", () => { if (files.length) read(); });
   $("fit-options").addEventListener("toggle", listFormats);
   onChange(showCurves);
 }
@@ -58,10 +62,15 @@ function readingOptions() {
   };
 }
 
-async function read() {
+function read() {
+  reading = reading.then(readFiles);
+  return reading;
+}
+
+async function readFiles() {
   $("fit-start").disabled = true;
   $("readings-told").replaceChildren();
-  shelf.readings = null;
+  useReadings(null);
   const recipes = $("o-recipes").files[0] ?? null;
   if (recipes && !fits([recipes])) return;
   const told = await work("reading", () => {
@@ -69,7 +78,7 @@ async function read() {
     return long.make("readings", "read", [files, recipes, options]);
   });
   if (!told) return;
-  shelf.readings = told;
+  useReadings(told);
   const count = `${told.samples.length} samples, ${told.readings} readings, ${told.pigments.length} pigments`;
   $("readings-told").replaceChildren(element("p", {}, count), ...remarkList(told.remarks));
   $("fit-start").disabled = false;
@@ -98,6 +107,9 @@ function fitOptions() {
 }
 
 async function fit() {
+  // A field that is left by pressing the button may have changed how the files are read.
+  await reading;
+  if (!shelf.readings) return;
   const done = await work("fitting", async (stage) => {
     const options = JSON.stringify(fitOptions());
     const begun = performance.now();

@@ -65,6 +65,12 @@ function tell() {
   for (const listener of listeners) listener();
 }
 
+// Takes readings that were read, or `null` where there are none any more.
+export function useReadings(told) {
+  shelf.readings = told;
+  if (shelf.about) for (const listener of listeners) listener();
+}
+
 // Takes a changed light or observer over.
 export async function changeViewing() {
   clearNotice();

@@ -41,7 +41,10 @@ const CONTROLS: [(&str, &str); 24] = [
 pub(crate) fn hint_text(hint: &Hint) -> String {
     hint.with_settings(|name, value| {
         let control = CONTROLS.iter().find(|(setting, _)| *setting == name);
-        match (control, value.filter(|value| !value.starts_with("FILE") && *value != "NAME")) {
+        // A word in capitals stands for what the user writes.
+        let is_word = |value: &str| !value.chars().any(|c| c.is_ascii_lowercase() || c == '"');
+        let is_number = |value: &str| value.parse::<f64>().is_ok();
+        match (control, value.filter(|value| !is_word(value) || is_number(value))) {
             (Some((_, control)), None) => (*control).to_owned(),
             (Some((_, control)), Some(value)) => {
                 format!("{control}: {}", value.trim_matches('"'))

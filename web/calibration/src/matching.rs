@@ -5,7 +5,6 @@ use calibrate::matching::{
 };
 use calibrate::Backing;
 use serde::Deserialize;
-use serde_json::json;
 use wasm_bindgen::prelude::*;
 
 use crate::failure::{Result, Told, options, setting};
@@ -64,7 +63,7 @@ impl Library {
         let found = search.recipes_with_control(target, &SearchControl::default()).told()?;
         let found = found.ok_or_else(|| setting("the search was ended", "start it again"))?;
         let mut told = search.to_json(&found, None);
-        told["remarks"] = json!(remarks(search.remarks.iter().chain(&found.remarks)));
+        told["remarks"] = remarks(&found.remarks);
         Ok(told.to_string())
     }
 }
