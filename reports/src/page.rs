@@ -129,9 +129,8 @@ fn contents(sections: &[Section]) -> String {
 fn figure_html(figure: &Figure, number: usize, links: Links) -> String {
     let Figure { name, title, caption, command, svg, .. } = figure;
     let [title, caption] = [title, caption].map(|text| escaped(text));
-    let beside = |ending: &str| {
-        format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase())
-    };
+    let beside =
+        |ending: &str| format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase());
     let files = match links {
         Links::Beside => ["svg", "png", "csv"].map(beside).join(" "),
         Links::Within => format!(

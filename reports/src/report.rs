@@ -219,6 +219,36 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_page_alone_holds_the_numbers_of_every_figure() {
+        let library = calibrate::PigmentLibrary::van_gogh_oils();
+        let viewing = spectra::Viewing::default();
+        let subject = Subject::of_library(&library, &viewing, "test").unwrap();
+        let page = page_alone(&subject, &|| ());
+        let figures: Vec<Figure> = drawn(&subject, &|| ())
+            .iter()
+            .flat_map(Section::figures)
+            .cloned()
+            .collect();
+        assert!(figures.len() > 5, "{} figures", figures.len());
+        let numbers = "href=\"data:text/csv;charset=utf-8,";
+        assert_eq!(page.matches(numbers).count(), figures.len());
+        assert!(!page.contains("href=\"figures/"), "a link to a file that is not there");
+        let decoded = |text: &str| {
+            let mut parts = text.split('%');
+            let mut bytes = parts.next().unwrap().as_bytes().to_vec();
+            for part in parts {
+                bytes.push(u8::from_str_radix(&part[..2], 16).unwrap());
+                bytes.extend_from_slice(part[2..].as_bytes());
+            }
+            String::from_utf8(bytes).unwrap()
+        };
+        for (figure, link) in figures.iter().zip(page.split(numbers).skip(1)) {
+            let told = decoded(link.split('"').next().unwrap());
+            assert_eq!(told, figure.data.csv(), "{}", figure.name);
+        }
+    }
+
+    #[test]
     fn results_from_all_cores_keep_the_order_of_the_items() {
         let items: Vec<u64> = (0..40).collect();
         let squares: Vec<u64> = items.iter().map(|i| i * i).collect();

@@ -121,7 +121,7 @@ test("options of the fit are those of the program, and charts show the library's
   const library = await saved(page.getByRole("button", { name: "Download", exact: true }));
   same(library.text, readFileSync(file, "utf8"));
   const pigments = JSON.parse(library.text).pigments;
-  await page.getByLabel("Pigment", { exact: true }).selectOption("Cobalt Blue");
+  await page.locator("#curves-pigment").selectOption("Cobalt Blue");
   await page.locator('#curves-chart svg[aria-label^="K and S of Cobalt Blue"]').waitFor();
   const blue = pigments.find((pigment) => pigment.name === "Cobalt Blue");
   assert.deepEqual(await values(curve("#curves-chart", "K")), blue.absorption);
@@ -184,9 +184,9 @@ test("recipes for a typed colour, a swatch file and readings are the program's",
   await page.getByRole("button", { name: "Find recipes" }).click();
   await check({ ...wanted("#28783c", "--at-most", "3"), target: "Leaf" });
   await drop("#target-drop", [{ name: "van-gogh-oils.csv", bytes: readFileSync(oils) }]);
-  await page.locator("#targets label", { hasText: /^01B$/ }).click();
+  await page.locator("#targets label", { hasText: /^01B on white$/ }).click();
   await page.getByRole("button", { name: "Find recipes" }).click();
-  await check({ ...wanted("van-gogh-oils.csv#01B", "--at-most", "3"), target: "01B" });
+  await check({ ...wanted("van-gogh-oils.csv#01B", "--at-most", "3"), target: "01B on white" });
   await page.getByRole("button", { name: "Mix this" }).first().click();
   await page.locator("#mix #mix-chart svg").waitFor();
 });

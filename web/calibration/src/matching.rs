@@ -1,9 +1,7 @@
 //! Recipes for target colours.
 
-use calibrate::matching::{
-    MatchOptions, RequiredName, SearchControl, Thickness, ViewingCondition,
-};
 use calibrate::Backing;
+use calibrate::matching::{MatchOptions, RequiredName, SearchControl, Thickness, ViewingCondition};
 use serde::Deserialize;
 use wasm_bindgen::prelude::*;
 

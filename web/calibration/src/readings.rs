@@ -60,7 +60,8 @@ impl Readings {
         options: &str,
     ) -> Result<Readings> {
         let options = Options::read(options)?;
-        let mut readings = calibrate::Readings::from_files(&files(names, contents), &options).told()?;
+        let mut readings =
+            calibrate::Readings::from_files(&files(names, contents), &options).told()?;
         if let Some((name, bytes)) = recipes_name.zip(recipes) {
             let pigments = options.pigments.as_deref();
             readings = readings.with_recipes_from(&name, &bytes, pigments).told()?;
@@ -90,7 +91,10 @@ impl Readings {
 }
 
 /// Names and contents of files.
-pub(crate) fn files(names: &Array<JsString>, contents: &Array<Uint8Array>) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn files(
+    names: &Array<JsString>,
+    contents: &Array<Uint8Array>,
+) -> Vec<(String, Vec<u8>)> {
     let names = names.iter().map(String::from);
     names.zip(contents.iter().map(|bytes| bytes.to_vec())).collect()
 }

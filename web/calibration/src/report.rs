@@ -69,8 +69,8 @@ fn drawn(mut subject: Subject<'_>) -> Result<String> {
     subject.quadratures = QuadratureTrial::all(subject.viewing, subject.library, &COUNTS).told()?;
     let done = AtomicUsize::new(0);
     let step = || {
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            told::stage(&format!("figures, {done} of {STEPS} sections"));
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        told::stage(&format!("figures, {done} of {STEPS} sections"));
     };
     Ok(page_alone(&subject, &step))
 }

@@ -65,7 +65,8 @@ impl Targets {
         if targets.is_empty() {
             return Err(setting("the swatch file holds no colour", "choose a file with colours"));
         }
-        let told = format!("left out {}, which define no colour", spectra::counted(inks, "CMYK ink"));
+        let told =
+            format!("left out {}, which define no colour", spectra::counted(inks, "CMYK ink"));
         let remarks = match inks {
             0 => json!([]),
             _ => json!([{ "warning": true, "text": told, "hint": null }]),
@@ -75,14 +76,16 @@ impl Targets {
 
     fn of_readings(file: &str, bytes: &[u8]) -> Result<Self> {
         let options = ReadingOptions::default();
-        let readings = calibrate::Readings::spectra_from_files(&[(file, bytes)], &options).told()?;
+        let readings =
+            calibrate::Readings::spectra_from_files(&[(file, bytes)], &options).told()?;
         let mut averaged = readings.table.averaged();
         if averaged.spectra.iter().any(|spectrum| spectrum.film == Film::Paint) {
             averaged.spectra.retain(|spectrum| spectrum.film == Film::Paint);
         }
         let (mut targets, mut hex) = (Vec::new(), Vec::new());
         for spectrum in averaged.spectra {
-            let measured = Spectrum::<Reflectance>::new(averaged.grid, spectrum.reflectance).told()?;
+            let measured =
+                Spectrum::<Reflectance>::new(averaged.grid, spectrum.reflectance).told()?;
             hex.push(Viewing::default().color(&measured).told()?.hex());
             targets.push(ColorTarget::measured(spectrum.name, measured));
         }
