@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
 import { launched, pictures, program, root, served } from "./browser.mjs";
+import { apart, utf16, workbook } from "./files.mjs";
 
 const measurements = resolve(root, "measurements");
 const oils = resolve(measurements, "van-gogh-oils.csv");
@@ -126,6 +127,33 @@ test("options of the fit are those of the program, and charts show the library's
   const blue = pigments.find((pigment) => pigment.name === "Cobalt Blue");
   assert.deepEqual(await values(curve("#curves-chart", "K")), blue.absorption);
   assert.deepEqual(await values(curve("#curves-chart", "S")), blue.scattering);
+});
+
+test("a workbook, UTF-16, and CGATS with recipes apart give the program's libraries", async () => {
+  const csv = readFileSync(oils, "utf8");
+  const { cgats, recipes } = apart(csv);
+  const cases = [
+    { name: "oils.xlsx", bytes: workbook(csv) },
+    { name: "wide.csv", bytes: utf16(csv) },
+    { name: "oils.ti3", bytes: cgats, recipes },
+  ];
+  for (const { name, bytes, recipes: apart } of cases) {
+    writeFileSync(join(folder, name), bytes);
+    const more = apart ? ["--recipes", "recipes.csv"] : [];
+    if (apart) {
+      writeFileSync(join(folder, "recipes.csv"), apart);
+      await page.locator("#fit-options summary").click();
+      await page.locator("#o-recipes").setInputFiles(join(folder, "recipes.csv"));
+    }
+    program(folder, "fit", name, ...more, "--method", "weighted", "-o", "other.json");
+    await page.locator("#o-method").evaluate((list) => { list.value = "weighted"; });
+    await drop("#readings-drop", [{ name, bytes }]);
+    await page.locator("#readings-told", { hasText: "336 readings" }).waitFor();
+    await page.locator("#fit-start:enabled").click();
+    await page.locator("#fit-result").waitFor();
+    const library = await saved(page.getByRole("button", { name: "Download library" }));
+    same(library.text, readFileSync(join(folder, "other.json"), "utf8"));
+  }
 });
 
 test("mixtures have the program's colours and spectra, hiding and over black and white", async () => {
