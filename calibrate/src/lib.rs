@@ -41,6 +41,8 @@ pub mod measurement;
 
 pub mod swatch;
 
+mod reading_options;
+
 mod readings_error;
 
 pub mod readings;

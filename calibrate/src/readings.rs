@@ -10,58 +10,13 @@ use spectra::referencing::{OpenedReferences, ReferenceFiles, ReferenceFilesError
 
 use crate::measurement::{
     LargeCsv, LargeCsvChoice, LargeCsvError, MeasurementError, MeasurementTable, Recipes,
-    RecordChoice, Scale, ScaleChoice, begins_with_samples, is_measurement_csv,
+    RecordChoice, Scale, begins_with_samples, is_measurement_csv,
 };
+pub use crate::reading_options::{ReadingFormat, ReadingOptions};
 use crate::readings_error::ReadingsError;
 use crate::swatch::SwatchSet;
 use pigment::library::Input;
 use pigment::remark::Remark;
-
-/// Format of a measurement file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ReadingFormat {
-    /// The measurement CSV: columns `sample`, `film`, `backing`, one for each pigment, wavelengths.
-    Csv,
-    /// A file as an instrument writes it.
-    Instrument(Format),
-}
-
-impl ReadingFormat {
-    /// Name of the CSV among the formats.
-    pub const CSV_NAME: &'static str = "csv";
-
-    /// Names of all formats.
-    pub fn names() -> impl Iterator<Item = &'static str> {
-        std::iter::once(Self::CSV_NAME).chain(Format::ALL.into_iter().map(Format::name))
-    }
-
-    /// The format with this name; `None` for an unknown name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        if name == Self::CSV_NAME {
-            return Some(Self::Csv);
-        }
-        Format::named(name).map(Self::Instrument)
-    }
-}
-
-/// Options of [`Readings::open_all`]. The defaults read every file as it describes itself.
-#[derive(Debug, Clone, Default)]
-pub struct ReadingOptions {
-    /// Format of the files. Default: detected from the content of each.
-    pub format: Option<ReadingFormat>,
-    /// Percent or fraction. Default: what the file states, else what its largest value suggests.
-    pub scale: ScaleChoice,
-    /// Headings of the columns that are pigments. Default: every column of a CSV that is not known as
-    /// something else and holds amounts.
-    pub pigments: Option<Vec<String>>,
-    /// Whether transmittance counts as reflectance, for spectrometers that measured in transmission
-    /// mode over a white tile. Counts and powers of lamps never do.
-    pub transmittance_is_reflectance: bool,
-    /// White, dark and tile with which counts are converted to reflectances. Default: the files hold
-    /// reflectances.
-    pub references: Option<ReferenceFiles>,
-}
 
 /// Readings of one or more measurement files. A sheet of a workbook is given as `FILE.xlsx#SHEET`.
 ///
@@ -113,6 +68,29 @@ impl Readings {
         Self::open_files(paths, options, true)
     }
 
+    /// Reads measurement files of any known format from memory: name and content of each. The name is told in
+    /// errors, and may end in `#SHEET`. White, dark and tile of the options are files on the disk.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn from_files<N: AsRef<str>, B: AsRef<[u8]>>(
+        files: &[(N, B)],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        Self::of_files(files, options, false)
+    }
+
+    /// Reads the spectra of files in memory, as [`Readings::open_spectra`] does from the disk.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn spectra_from_files<N: AsRef<str>, B: AsRef<[u8]>>(
+        files: &[(N, B)],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        Self::of_files(files, options, true)
+    }
+
     /// Reads the measurement CSV in `bytes`, the content of `file`.
     ///
     /// # Errors
@@ -150,16 +128,29 @@ impl Readings {
     /// # Errors
     /// [`ReadingsError::Recipes`] with the row.
     pub fn with_recipes_of(
-        mut self,
+        self,
         path: impl AsRef<Path>,
         pigments: Option<&[String]>,
     ) -> Result<Self, ReadingsError> {
         let (file, bytes) = content(path.as_ref())?;
-        let recipes = Recipes::from_csv(&file, &bytes, pigments)?;
+        self.with_recipes_from(&file, &bytes, pigments)
+    }
+
+    /// Adds the recipes of the CSV file in `bytes`, the content of `file`, like [`Readings::with_recipes_of`].
+    ///
+    /// # Errors
+    /// [`ReadingsError::Recipes`] with the row.
+    pub fn with_recipes_from(
+        mut self,
+        file: &str,
+        bytes: &[u8],
+        pigments: Option<&[String]>,
+    ) -> Result<Self, ReadingsError> {
+        let recipes = Recipes::from_csv(file, bytes, pigments)?;
         self.table.remarks.clear();
         self.table = recipes.joined_to(self.table)?;
         self.remarks.extend(self.table.remarks.iter().map(Remark::warning));
-        self.inputs.push(Input::new(file, &bytes));
+        self.inputs.push(Input::new(file, bytes));
         Ok(self)
     }
 
@@ -182,36 +173,81 @@ impl Readings {
         SwatchSet::from_table(&self.table)
     }
 
+    fn of_files<N: AsRef<str>, B: AsRef<[u8]>>(
+        files: &[(N, B)],
+        options: &ReadingOptions,
+        spectra_only: bool,
+    ) -> Result<Self, ReadingsError> {
+        let references = options.references.as_ref().map(References::open).transpose()?;
+        let mut found = Found::default();
+        for (file, bytes) in files {
+            let (file, bytes) = (file.as_ref(), bytes.as_ref());
+            found.add(of_bytes(file, bytes, options, references.as_ref(), spectra_only)?);
+        }
+        found.joined(references.as_ref())
+    }
+
     fn open_files<P: AsRef<Path>>(
         paths: &[P],
         options: &ReadingOptions,
         spectra_only: bool,
     ) -> Result<Self, ReadingsError> {
         let references = options.references.as_ref().map(References::open).transpose()?;
-        let (mut tables, mut inputs, mut remarks) = (Vec::new(), Vec::new(), Vec::new());
-        remarks.extend(references.iter().flat_map(References::remark));
+        let mut found = Found::default();
         for path in paths {
-            if let Some((table, input, of_file)) = large_csv(path.as_ref(), options, spectra_only)?
-            {
-                tables.push(table);
-                inputs.push(input);
-                remarks.extend(of_file);
+            if let Some(large) = large_csv(path.as_ref(), options, spectra_only)? {
+                found.add(large);
                 continue;
             }
             let (file, bytes) = content(path.as_ref())?;
-            inputs.push(Input::new(&file, &bytes));
-            let of_file = match instrument_file(&file, &bytes, options.format)? {
-                Some(spectra) => instrument_table(&file, spectra, options, references.as_ref())?,
-                None if references.is_some() => return Err(ReadingsError::CsvOfCounts { file }),
-                None => csv_table(&file, &bytes, options, spectra_only)?,
-            };
-            tables.push(of_file.0);
-            remarks.extend(of_file.1);
+            found.add(of_bytes(&file, &bytes, options, references.as_ref(), spectra_only)?);
         }
-        let files = references.iter().flat_map(|references| &references.opened.files);
-        inputs.extend(files.map(|(file, bytes)| Input::new(file, bytes)));
-        Ok(Self { table: MeasurementTable::joined(tables)?, inputs, remarks })
+        found.joined(references.as_ref())
     }
+}
+
+/// Table, input and remarks of one file.
+type OfFile = (MeasurementTable, Input, Vec<Remark>);
+
+/// What was read of the files so far.
+#[derive(Default)]
+struct Found {
+    tables: Vec<MeasurementTable>,
+    inputs: Vec<Input>,
+    remarks: Vec<Remark>,
+}
+
+impl Found {
+    fn add(&mut self, (table, input, remarks): OfFile) {
+        self.tables.push(table);
+        self.inputs.push(input);
+        self.remarks.extend(remarks);
+    }
+
+    fn joined(mut self, references: Option<&References>) -> Result<Readings, ReadingsError> {
+        self.remarks.splice(0..0, references.and_then(References::remark));
+        let files = references.iter().flat_map(|references| &references.opened.files);
+        self.inputs.extend(files.map(|(file, bytes)| Input::new(file, bytes)));
+        let table = MeasurementTable::joined(self.tables)?;
+        Ok(Readings { table, inputs: self.inputs, remarks: self.remarks })
+    }
+}
+
+fn of_bytes(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadingOptions,
+    references: Option<&References>,
+    spectra_only: bool,
+) -> Result<OfFile, ReadingsError> {
+    let (table, remarks) = match instrument_file(file, bytes, options.format)? {
+        Some(spectra) => instrument_table(file, spectra, options, references)?,
+        None if references.is_some() => {
+            return Err(ReadingsError::CsvOfCounts { file: file.to_owned() });
+        }
+        None => csv_table(file, bytes, options, spectra_only)?,
+    };
+    Ok((table, Input::new(file, bytes), remarks))
 }
 
 /// Opened files of white, dark and tile.
@@ -309,7 +345,7 @@ fn large_csv(
     path: &Path,
     options: &ReadingOptions,
     spectra_only: bool,
-) -> Result<Option<(MeasurementTable, Input, Vec<Remark>)>, ReadingsError> {
+) -> Result<Option<OfFile>, ReadingsError> {
     let is_csv = options.format.is_none_or(|format| format == ReadingFormat::Csv);
     if !is_csv || options.references.is_some() {
         return Ok(None);

@@ -69,6 +69,7 @@ mod names;
 
 mod chart;
 
+#[cfg(feature = "pictures")]
 pub mod picture;
 
 pub mod table;
@@ -95,6 +96,9 @@ mod palette;
 
 mod report;
 
+#[cfg(feature = "pictures")]
 pub use picture::PictureError;
-pub use report::{Report, STEPS, absences};
+#[cfg(feature = "pictures")]
+pub use report::Report;
+pub use report::{STEPS, absences, page_alone};
 pub use subject::Subject;

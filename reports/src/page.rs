@@ -30,9 +30,18 @@ pub struct Warning {
     pub recipes: Vec<(String, String)>,
 }
 
-/// Renders the page. Its links to `figures/NAME.svg`, `.png` and `.csv` are relative.
+/// Where the links below a figure lead.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Links {
+    /// To the files `figures/NAME.svg`, `.png` and `.csv` beside the page.
+    Beside,
+    /// To its numbers as CSV, within the page.
+    Within,
+}
+
+/// Renders the page.
 #[must_use]
-pub fn html(head: &Head, sections: &[Section]) -> String {
+pub fn html(head: &Head, sections: &[Section], links: Links) -> String {
     let title = escaped(&head.title);
     let style = style(sections);
     let mut out = format!(
@@ -73,7 +82,7 @@ pub fn html(head: &Head, sections: &[Section]) -> String {
             match part {
                 Part::Figure(figure) => {
                     number += 1;
-                    out += &figure_html(figure, number);
+                    out += &figure_html(figure, number, links);
                 }
                 Part::Table(title, table) => out += &table_html(title, table),
             }
@@ -117,18 +126,41 @@ fn contents(sections: &[Section]) -> String {
     out + "</ol>\n</nav>\n"
 }
 
-fn figure_html(figure: &Figure, number: usize) -> String {
+fn figure_html(figure: &Figure, number: usize, links: Links) -> String {
     let Figure { name, title, caption, command, svg, .. } = figure;
     let [title, caption] = [title, caption].map(|text| escaped(text));
-    let files = ["svg", "png", "csv"]
-        .map(|ending| format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase()));
+    let beside =
+        |ending: &str| format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase());
+    let files = match links {
+        Links::Beside => ["svg", "png", "csv"].map(beside).join(" "),
+        Links::Within => format!(
+            "<a download=\"{name}.csv\" href=\"data:text/csv;charset=utf-8,{}\">CSV</a>",
+            percent_encoded(&figure.data.csv())
+        ),
+    };
     format!(
         "<figure id=\"{name}\">\n<div class=\"drawing\" tabindex=\"0\">\n{svg}</div>\n\
          <figcaption><b>Figure {number}. {title}.</b> {caption}\n\
          <div class=\"made\">{}</div>\n{}</figcaption>\n</figure>\n",
-        files.join(" "),
+        files,
         command_html(command)
     )
+}
+
+/// `text` as the data of a URL.
+fn percent_encoded(text: &str) -> String {
+    let mut encoded = String::with_capacity(text.len());
+    for byte in text.bytes() {
+        match byte {
+            b'0'..=b'9' | b'A'..=b'Z' | b'a'..=b'z' | b'-' | b'.' | b'_' | b',' => {
+                encoded.push(char::from(byte));
+            }
+            _ => {
+                let _ = write!(encoded, "%{byte:02X}");
+            }
+        }
+    }
+    encoded
 }
 
 fn table_html(title: &str, table: &Table) -> String {

@@ -8,8 +8,10 @@ use calibrate::evaluate::Summary;
 use calibrate::validation::Validation;
 use spectra::name_list;
 
+#[cfg(feature = "pictures")]
 use crate::figure::Figure;
-use crate::page::{self, Head, Warning};
+use crate::page::{self, Head, Links, Warning};
+#[cfg(feature = "pictures")]
 use crate::picture::{PictureError, png};
 use crate::subject::{Section, Subject};
 
@@ -31,10 +33,11 @@ const SECTIONS: [Drawer; 11] = [
     crate::light::section,
 ];
 
-/// Number of times that [`Report::draw`] calls `step`.
+/// Number of times that [`Report::draw`] and [`page_alone`] call `step`.
 pub const STEPS: usize = SECTIONS.len();
 
 /// A finished report.
+#[cfg(feature = "pictures")]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
     /// Title, facts and warnings above the sections.
@@ -124,6 +127,28 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
     resampled.into_iter().chain(absent).collect()
 }
 
+/// Draws all sections of `subject` as one HTML page, whose figures carry their numbers within: for a
+/// program without files. `step` is called [`STEPS`] times, after each section.
+///
+/// # Panics
+/// If a drawing thread panics.
+#[must_use]
+pub fn page_alone(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> String {
+    page::html(&head(subject), &drawn(subject, step), Links::Within)
+}
+
+/// The sections that are not empty.
+fn drawn(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> Vec<Section> {
+    let mut sections = on_all_cores(&SECTIONS, |section| {
+        let section = section(subject);
+        step();
+        section
+    });
+    sections.retain(|section| !section.is_empty());
+    sections
+}
+
+#[cfg(feature = "pictures")]
 impl Report {
     /// Draws all sections of `subject` on all cores. `step` is called [`STEPS`] times, after each
     /// section, for a display of progress.
@@ -134,12 +159,7 @@ impl Report {
     /// # Panics
     /// If a drawing thread panics.
     pub fn draw(subject: &Subject<'_>, step: &(dyn Fn() + Sync)) -> Result<Self, PictureError> {
-        let mut sections = on_all_cores(&SECTIONS, |section| {
-            let section = section(subject);
-            step();
-            section
-        });
-        sections.retain(|section| !section.is_empty());
+        let sections = drawn(subject, step);
         let figures: Vec<&Figure> = sections.iter().flat_map(Section::figures).collect();
         let pictures = on_all_cores(&figures, |figure| png(&figure.svg));
         let pictures = pictures.into_iter().collect::<Result<_, _>>()?;
@@ -162,7 +182,7 @@ impl Report {
             files.push((path("png"), picture.clone()));
             files.push((path("csv"), figure.data.csv().into_bytes()));
         }
-        let page = page::html(&self.head, &self.sections);
+        let page = page::html(&self.head, &self.sections, Links::Beside);
         files.push(("report.html".to_owned(), page.into_bytes()));
         files
     }
@@ -173,6 +193,10 @@ fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) ->
     let next = AtomicUsize::new(0);
     let made = Mutex::new(Vec::new());
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    // A browser has no threads.
+    if cores == 1 {
+        return items.iter().map(work).collect();
+    }
     std::thread::scope(|scope| {
         for _ in 0..cores.min(items.len()) {
             scope.spawn(|| {
@@ -193,6 +217,36 @@ fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_page_alone_holds_the_numbers_of_every_figure() {
+        let library = calibrate::PigmentLibrary::van_gogh_oils();
+        let viewing = spectra::Viewing::default();
+        let subject = Subject::of_library(&library, &viewing, "test").unwrap();
+        let page = page_alone(&subject, &|| ());
+        let figures: Vec<Figure> = drawn(&subject, &|| ())
+            .iter()
+            .flat_map(Section::figures)
+            .cloned()
+            .collect();
+        assert!(figures.len() > 5, "{} figures", figures.len());
+        let numbers = "href=\"data:text/csv;charset=utf-8,";
+        assert_eq!(page.matches(numbers).count(), figures.len());
+        assert!(!page.contains("href=\"figures/"), "a link to a file that is not there");
+        let decoded = |text: &str| {
+            let mut parts = text.split('%');
+            let mut bytes = parts.next().unwrap().as_bytes().to_vec();
+            for part in parts {
+                bytes.push(u8::from_str_radix(&part[..2], 16).unwrap());
+                bytes.extend_from_slice(part[2..].as_bytes());
+            }
+            String::from_utf8(bytes).unwrap()
+        };
+        for (figure, link) in figures.iter().zip(page.split(numbers).skip(1)) {
+            let told = decoded(link.split('"').next().unwrap());
+            assert_eq!(told, figure.data.csv(), "{}", figure.name);
+        }
+    }
 
     #[test]
     fn results_from_all_cores_keep_the_order_of_the_items() {

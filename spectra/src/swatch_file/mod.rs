@@ -21,8 +21,11 @@ mod ase;
 
 mod aco;
 
+mod known;
+
 pub use aco::{read_aco, write_aco};
 pub use ase::{read_ase, write_ase};
 pub use entries::{SwatchColor, SwatchEntry, SwatchFile, d50_white};
 pub use error::SwatchFileError;
 pub use gpl::{read_gpl, write_gpl};
+pub use known::read_swatch_file;

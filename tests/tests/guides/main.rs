@@ -14,7 +14,7 @@ use suite::guides::{Command, commands};
 use suite::program::{impasto, repository};
 
 /// Pages, in the order in which a reader meets them.
-const PAGES: [&str; 10] = [
+const PAGES: [&str; 11] = [
     "README.md",
     "docs/guide/command-line.md",
     "docs/guide/fitting.md",
@@ -24,12 +24,22 @@ const PAGES: [&str; 10] = [
     "docs/guide/watercolor.md",
     "docs/guide/painterly.md",
     "docs/guide/volumes.md",
+    "docs/guide/browser.md",
     "docs/guide/figures.md",
 ];
 
 /// Programs whose commands are not run here: those of Rust have tests of their own, the studio needs a
-/// display, the package of Python is tested with it, and folders are the reader's.
-const OTHERS: [&str; 5] = ["cargo", "IMPASTO_TURNTABLE=1", "impasto-studio", "mkdir", "pip"];
+/// display, the package of Python and the pages in `web` are tested with them, and folders are the reader's.
+const OTHERS: [&str; 8] = [
+    "cargo",
+    "IMPASTO_TURNTABLE=1",
+    "impasto-studio",
+    "mkdir",
+    "pip",
+    "rustup",
+    "web/build",
+    "web/serve",
+];
 
 /// Verbs, words that the command holds, and options that make its work small.
 const SMALL: [(&str, &[&str], &[&str]); 8] = [

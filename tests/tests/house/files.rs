@@ -15,7 +15,9 @@ pub(crate) fn files_below(folder: &str) -> Vec<String> {
         for entry in std::fs::read_dir(&folder).unwrap() {
             let path = entry.unwrap().path();
             let name = path.file_name().unwrap().to_str().unwrap();
-            if name.starts_with('.') || ["target", "out", "__pycache__"].contains(&name) {
+            if name.starts_with('.')
+                || ["target", "out", "__pycache__", "node_modules"].contains(&name)
+            {
                 continue;
             }
             if path.is_dir() {

@@ -1,6 +1,7 @@
 //! Formats of instruments: every fixture is recognized and gives the known values, with the reader
 //! and with `impasto color`.
 
+use calibrate::{ReadingOptions, Readings, ReadingsError};
 use spectra::instrument::{Format, MeasuredQuantity, MeasuredSpectrum, Role, Unit, read};
 use suite::near::assert_near;
 use suite::program::{Run, impasto};
@@ -174,4 +175,21 @@ fn a_jaz_file_holds_its_own_white_and_dark() {
     let run =
         impasto(&["color", &columns, "--white", &slate, "--dark", "0", "--tile", "0.3", "--json"]);
     assert_eq!((run.json()[0]["sample"].as_str(), lab(&run).len()), (Some("Madder"), 3));
+}
+
+#[test]
+fn files_in_memory_give_the_readings_of_files_on_the_disk() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in fixtures() {
+        let path = folder.path().join(&name);
+        std::fs::write(&path, &bytes).unwrap();
+        let path = path.to_str().unwrap();
+        let options = ReadingOptions::default();
+        let files = [(path, bytes)];
+        let told = |readings: Result<Readings, ReadingsError>| readings.map_err(|e| e.to_string());
+        let whole = told(Readings::open_all(&[path], &options));
+        assert_eq!(told(Readings::from_files(&files, &options)), whole, "{name}");
+        let spectra = told(Readings::open_spectra(&[path], &options));
+        assert_eq!(told(Readings::spectra_from_files(&files, &options)), spectra, "{name}");
+    }
 }

@@ -1,0 +1,67 @@
+// Puts the parts of the page together.
+
+import { saveLibrary, startFit, take } from "./fit.js";
+import { startLink } from "./link.js";
+import { startMix } from "./mix.js";
+import { $, clearNotice, fits, notice, takesDrops, takesFiles } from "./page.js";
+import { startPhotograph } from "./photograph.js";
+import { startRecipes } from "./recipes.js";
+import { startReport } from "./report.js";
+import { changeViewing, long, refuse, useLibrary, useShipped } from "./shelf.js";
+import { say, select, startTabs } from "./tabs.js";
+
+async function openLibrary(file) {
+  clearNotice();
+  if (!fits([file])) return;
+  try {
+    await useLibrary(file.name, new Uint8Array(await file.arrayBuffer()));
+    say(`${file.name} is the library`);
+    if (!$("fit").hidden) select("mix", false);
+  } catch (error) {
+    refuse(error);
+  }
+}
+
+function start() {
+  if (typeof WebAssembly !== "object" || typeof Worker !== "function") {
+    notice({ message: "this browser has no WebAssembly or no workers", hint: "use a current browser" });
+    return;
+  }
+  startTabs();
+  startFit();
+  startMix();
+  startRecipes();
+  startPhotograph();
+  startReport();
+  $("library-shipped").addEventListener("click", async () => {
+    clearNotice();
+    try {
+      await useShipped();
+      if (!$("fit").hidden) select("mix", false);
+      say("Van Gogh's oils are the library");
+    } catch (error) {
+      refuse(error);
+    }
+  });
+  takesFiles($("library-file"), ([file]) => openLibrary(file));
+  $("library-save").addEventListener("click", saveLibrary);
+  for (const id of ["light", "observer"]) $(id).addEventListener("change", changeViewing);
+  $("busy-cancel").addEventListener("click", () => {
+    long.stop();
+    say("Cancelled");
+  });
+  // A file that is dropped beside the fields is a library or readings, by its ending.
+  takesDrops(document.body, (files) => {
+    if (files.length === 1 && /\.json$/i.test(files[0].name)) return openLibrary(files[0]);
+    select("fit", false);
+    return take(files);
+  });
+  startLink();
+  // The same address then opens without a network.
+  navigator.serviceWorker?.register("service-worker.js").then(() => navigator.serviceWorker.ready).then(() => {
+    $("offline").textContent = ", and it works offline";
+    document.documentElement.dataset.offline = "ready";
+  }, () => {});
+}
+
+start();

@@ -1,0 +1,126 @@
+// The native part on a thread of its own: the page stays alive while it computes.
+
+import init, * as native from "./calibration.js";
+
+const module = new URL("calibration_bg.wasm", import.meta.url);
+const ready = init({ module_or_path: module }).then(() => native.begin());
+
+// Objects of the native part that later calls use.
+const held = { readings: null, library: null, targets: null };
+
+let current = 0;
+let defect = "";
+globalThis.impastoStage = (stage) => postMessage({ id: current, stage });
+globalThis.impastoDefect = (text) => { defect = text; };
+
+// Puts an object of the native part in place of the one before, whose memory is freed.
+function hold(name, value) {
+  held[name]?.free();
+  held[name] = value;
+}
+
+function libraryTold(viewing) {
+  return { about: JSON.parse(held.library.about(viewing)), json: held.library.json() };
+}
+
+async function contents(files) {
+  return Promise.all(files.map(async (file) => new Uint8Array(await file.arrayBuffer())));
+}
+
+const calls = {
+  async read(files, recipes, options) {
+    const bytes = await contents(files);
+    const extra = recipes ? (await contents([recipes]))[0] : undefined;
+    const names = files.map((file) => file.name);
+    hold("readings", new native.Readings(names, bytes, recipes?.name, extra, options));
+    return JSON.parse(held.readings.about());
+  },
+  forget_readings() {
+    hold("readings", null);
+  },
+  fit(options, viewing) {
+    const fit = new native.Fit(held.readings, options);
+    const errors = JSON.parse(fit.errors());
+    hold("library", fit.library());
+    fit.free();
+    return { errors, ...libraryTold(viewing) };
+  },
+  open(name, bytes, viewing) {
+    hold("library", new native.Library(name, bytes));
+    return libraryTold(viewing);
+  },
+  shipped(viewing) {
+    hold("library", native.Library.van_gogh_oils());
+    return libraryTold(viewing);
+  },
+  about(viewing) {
+    return JSON.parse(held.library.about(viewing));
+  },
+  curves(place) {
+    return JSON.parse(held.library.curves(place));
+  },
+  mix(mixtures) {
+    return mixtures.map((mixture) => JSON.parse(held.library.mix(JSON.stringify(mixture))));
+  },
+  typed(text) {
+    hold("targets", native.Targets.typed(text));
+    return JSON.parse(held.targets.about());
+  },
+  async of_file(file) {
+    hold("targets", native.Targets.of_file(file.name, (await contents([file]))[0]));
+    return JSON.parse(held.targets.about());
+  },
+  recipes(place, options) {
+    return JSON.parse(held.library.recipes(held.targets, place, options));
+  },
+  report(withReadings, validate, viewing) {
+    return withReadings
+      ? held.library.report_with(held.readings, validate, viewing)
+      : held.library.report(viewing);
+  },
+  formats() {
+    return JSON.parse(native.formats());
+  },
+};
+
+// A refusal of the libraries comes as JSON; anything else is a defect or a lack of memory.
+function failureOf(error) {
+  if (typeof error === "string") return JSON.parse(error);
+  const memory = error instanceof RangeError || /memory/i.test(`${defect}${error?.message}`);
+  if (memory) {
+    return {
+      message: "the browser has not enough memory for this", causes: [], fault: "memory",
+      hint: "give fewer or smaller files, or use the program impasto, which reads large files in pieces",
+    };
+  }
+  if (error instanceof WebAssembly.CompileError || (error instanceof TypeError && !defect)) {
+    return {
+      message: "the native part of the page does not start", causes: [error.message], fault: "defect",
+      hint: "load the page again; a browser older than 2023 may not know its WebAssembly",
+    };
+  }
+  if (error instanceof DOMException) {
+    return {
+      message: `a file cannot be read: ${error.message}`, causes: [], fault: "environment",
+      hint: "choose it again: it may have been moved or changed",
+    };
+  }
+  return {
+    message: "a defect of impasto", causes: [defect || String(error?.message ?? error)], fault: "defect",
+    hint: "please report it, with the files if you may",
+  };
+}
+
+// Calls are done one after another: objects are used by the calls that follow.
+let queue = Promise.resolve();
+onmessage = ({ data: { id, call, args } }) => {
+  queue = queue.then(async () => {
+    try {
+      await ready;
+      current = id;
+      postMessage({ id, result: await calls[call](...args) });
+    } catch (error) {
+      postMessage({ id, failure: failureOf(error) });
+    }
+  });
+};

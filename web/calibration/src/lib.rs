@@ -1,0 +1,30 @@
+//! The native part of the calibration page: the front doors of the libraries over names, bytes and JSON.
+//! The page itself is in `../page`.
+//!
+//! Every error reaches the page as JSON: `message`, `causes`, `hint`, `fault`.
+
+mod failure;
+
+mod remarks;
+
+mod told;
+
+mod viewing;
+
+mod readings;
+
+mod fitting;
+
+mod library;
+
+mod targets;
+
+mod matching;
+
+mod report;
+
+pub use fitting::Fit;
+pub use library::Library;
+pub use readings::{Readings, formats};
+pub use targets::Targets;
+pub use told::begin;

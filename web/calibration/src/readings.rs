@@ -1,0 +1,106 @@
+//! Readings of swatches from dropped files.
+
+use calibrate::measurement::{Film, Scale, ScaleChoice};
+use calibrate::{ReadingFormat, ReadingOptions};
+use js_sys::{Array, JsString, Uint8Array};
+use serde::Deserialize;
+use serde_json::json;
+use wasm_bindgen::prelude::*;
+
+use crate::failure::{Result, Told, options, setting};
+use crate::remarks::remarks;
+
+/// Options of reading, as the page passes them.
+#[derive(Debug, Deserialize)]
+struct Options {
+    format: Option<String>,
+    percent: Option<bool>,
+    transmittance: bool,
+    pigments: Option<Vec<String>>,
+}
+
+impl Options {
+    fn read(json: &str) -> Result<ReadingOptions> {
+        let Self { format, percent, transmittance, pigments } = options(json)?;
+        let format = format.map(|name| {
+            ReadingFormat::named(&name).ok_or_else(|| {
+                let known: Vec<&str> = ReadingFormat::names().collect();
+                let hint = format!("formats are {}", known.join(", "));
+                setting(&format!("unknown format `{name}`"), &hint)
+            })
+        });
+        Ok(ReadingOptions {
+            format: format.transpose()?,
+            scale: match percent {
+                None => ScaleChoice::ByFile,
+                Some(true) => ScaleChoice::Known(Scale::Percent),
+                Some(false) => ScaleChoice::Known(Scale::Fraction),
+            },
+            pigments,
+            transmittance_is_reflectance: transmittance,
+            references: None,
+        })
+    }
+}
+
+/// Readings of one or more files.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Readings(pub(crate) calibrate::Readings);
+
+#[wasm_bindgen]
+impl Readings {
+    /// Reads files by their names and contents, and a CSV of recipes where these stand in a file of their own.
+    #[wasm_bindgen(constructor)]
+    pub fn open(
+        names: &Array<JsString>,
+        contents: &Array<Uint8Array>,
+        recipes_name: Option<String>,
+        recipes: Option<Vec<u8>>,
+        options: &str,
+    ) -> Result<Readings> {
+        let options = Options::read(options)?;
+        let mut readings =
+            calibrate::Readings::from_files(&files(names, contents), &options).told()?;
+        if let Some((name, bytes)) = recipes_name.zip(recipes) {
+            let pigments = options.pigments.as_deref();
+            readings = readings.with_recipes_from(&name, &bytes, pigments).told()?;
+        }
+        let named = options.pigments.as_deref().unwrap_or_default();
+        readings.check_has_pigments(named).told()?;
+        Ok(Self(readings))
+    }
+
+    /// What was read, as JSON: pigments, grid, number of readings and of samples, files, remarks.
+    pub fn about(&self) -> String {
+        let table = &self.0.table;
+        let paint = table.readings.iter().filter(|reading| reading.film == Film::Paint);
+        let mut samples: Vec<&str> = paint.map(|reading| reading.sample.as_str()).collect();
+        samples.sort_unstable();
+        samples.dedup();
+        json!({
+            "pigments": table.pigments,
+            "grid": table.grid.to_string(),
+            "readings": table.readings.len(),
+            "samples": samples,
+            "inputs": self.0.inputs,
+            "remarks": remarks(&self.0.remarks),
+        })
+        .to_string()
+    }
+}
+
+/// Names and contents of files.
+pub(crate) fn files(
+    names: &Array<JsString>,
+    contents: &Array<Uint8Array>,
+) -> Vec<(String, Vec<u8>)> {
+    let names = names.iter().map(String::from);
+    names.zip(contents.iter().map(|bytes| bytes.to_vec())).collect()
+}
+
+/// Names of all formats, as JSON: for a list of choices.
+#[wasm_bindgen]
+pub fn formats() -> String {
+    json!(ReadingFormat::names().collect::<Vec<_>>()).to_string()
+}

@@ -1,0 +1,18 @@
+//! Remarks of the libraries as JSON.
+
+use calibrate::{Remark, RemarkKind};
+use serde_json::{Value, json};
+
+use crate::failure::hint_text;
+
+/// A list of `warning`, `text` and `hint` of each remark.
+pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Value {
+    let told = |remark: &Remark| {
+        json!({
+            "warning": remark.kind == RemarkKind::Warning,
+            "text": remark.text,
+            "hint": remark.hint.as_ref().map(hint_text),
+        })
+    };
+    remarks.into_iter().map(told).collect()
+}

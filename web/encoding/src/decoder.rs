@@ -1,0 +1,245 @@
+//! Decoding one character after another.
+
+use crate::encoding::Encoding;
+
+/// How bytes stand for characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Utf8,
+    Utf16Le,
+    Utf16Be,
+    Windows1252,
+    /// An encoding whose tables are not here.
+    Unknown,
+}
+
+/// Characters of the bytes 80 to 9F in Windows-1252 (WHATWG Encoding Standard, index windows-1252).
+const WINDOWS_1252: [u16; 32] = [
+    0x20ac, 0x81, 0x201a, 0x192, 0x201e, 0x2026, 0x2020, 0x2021, 0x2c6, 0x2030, 0x160, 0x2039,
+    0x152, 0x8d, 0x17d, 0x8f, 0x90, 0x2018, 0x2019, 0x201c, 0x201d, 0x2022, 0x2013, 0x2014, 0x2dc,
+    0x2122, 0x161, 0x203a, 0x153, 0x9d, 0x17e, 0x178,
+];
+
+/// What begins some bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Next {
+    /// A character, and its length in bytes.
+    Char(char, usize),
+    /// Bytes that stand for no character.
+    Malformed(usize),
+    /// The beginning of a character.
+    Incomplete,
+    /// No byte.
+    End,
+}
+
+/// The first character of `bytes`.
+pub(crate) fn next(kind: Kind, bytes: &[u8]) -> Next {
+    let Some(&first) = bytes.first() else { return Next::End };
+    match kind {
+        Kind::Utf8 => next_utf8(bytes),
+        Kind::Utf16Le => next_utf16(bytes, u16::from_le_bytes),
+        Kind::Utf16Be => next_utf16(bytes, u16::from_be_bytes),
+        Kind::Windows1252 => {
+            let high = first.checked_sub(0x80).and_then(|at| WINDOWS_1252.get(usize::from(at)));
+            let code = high.map_or(u32::from(first), |code| u32::from(*code));
+            Next::Char(char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER), 1)
+        }
+        Kind::Unknown => Next::Malformed(bytes.len()),
+    }
+}
+
+fn next_utf8(bytes: &[u8]) -> Next {
+    let start = &bytes[..bytes.len().min(4)];
+    let (valid, fault) = match std::str::from_utf8(start) {
+        Ok(text) => (text, None),
+        Err(error) => {
+            let valid = std::str::from_utf8(&start[..error.valid_up_to()]);
+            (valid.unwrap_or_default(), Some(error.error_len()))
+        }
+    };
+    match (valid.chars().next(), fault) {
+        (Some(first), _) => Next::Char(first, first.len_utf8()),
+        (None, Some(Some(length))) => Next::Malformed(length),
+        (None, _) => Next::Incomplete,
+    }
+}
+
+fn next_utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Next {
+    let at = |place: usize| bytes.get(place..place + 2).map(|pair| unit([pair[0], pair[1]]));
+    let Some(first) = at(0) else { return Next::Incomplete };
+    let is_high = (0xd800..0xdc00).contains(&first);
+    if is_high && at(2).is_none() {
+        return Next::Incomplete;
+    }
+    let units = [first, at(2).unwrap_or_default()];
+    match char::decode_utf16(units).next() {
+        Some(Ok(found)) => Next::Char(found, 2 * found.len_utf16()),
+        _ => Next::Malformed(2),
+    }
+}
+
+/// How a call of a [`Decoder`] ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DecoderResult {
+    /// All bytes were read.
+    InputEmpty,
+    /// The output has no room for the next character.
+    OutputFull,
+    /// Bytes that stand for no character: their number, and how many bytes were read behind them.
+    Malformed(u8, u8),
+}
+
+/// Decodes text that arrives in pieces.
+#[derive(Debug)]
+pub struct Decoder {
+    encoding: &'static Encoding,
+    /// The beginning of a character, read from an earlier piece.
+    begun: Vec<u8>,
+}
+
+impl Decoder {
+    pub(crate) fn new(encoding: &'static Encoding) -> Self {
+        Self { encoding, begun: Vec::new() }
+    }
+
+    /// The encoding.
+    #[must_use]
+    pub fn encoding(&self) -> &'static Encoding {
+        self.encoding
+    }
+
+    /// Bytes of UTF-8 that `length` bytes become at most; `None` where that overflows.
+    #[must_use]
+    pub fn max_utf8_buffer_length_without_replacement(&self, length: usize) -> Option<usize> {
+        length.checked_add(self.begun.len())?.checked_mul(3)?.checked_add(3)
+    }
+
+    /// Decodes `source` to the end of `text`, as far as its capacity goes. Returns how it ended and the
+    /// number of bytes read. `last` says that no more bytes follow.
+    pub fn decode_to_string_without_replacement(
+        &mut self,
+        source: &[u8],
+        text: &mut String,
+        last: bool,
+    ) -> (DecoderResult, usize) {
+        let room = text.capacity() - text.len();
+        self.decode(source, last, room, |found| text.push(found))
+    }
+
+    /// Decodes `source` to UTF-8 in `target`. Returns how it ended, and the numbers of bytes read and written.
+    /// `last` says that no more bytes follow.
+    pub fn decode_to_utf8_without_replacement(
+        &mut self,
+        source: &[u8],
+        target: &mut [u8],
+        last: bool,
+    ) -> (DecoderResult, usize, usize) {
+        let (room, mut written) = (target.len(), 0);
+        let (result, read) = self.decode(source, last, room, |found| {
+            written += found.encode_utf8(&mut target[written..]).len();
+        });
+        (result, read, written)
+    }
+
+    fn decode(
+        &mut self,
+        source: &[u8],
+        last: bool,
+        mut room: usize,
+        mut put: impl FnMut(char),
+    ) -> (DecoderResult, usize) {
+        let before = self.begun.len();
+        let bytes = [self.begun.as_slice(), source].concat();
+        let mut at = 0;
+        let result = loop {
+            match next(self.encoding.kind(), &bytes[at..]) {
+                Next::End => break DecoderResult::InputEmpty,
+                Next::Char(found, _) if found.len_utf8() > room => break DecoderResult::OutputFull,
+                Next::Char(found, length) => {
+                    put(found);
+                    room -= found.len_utf8();
+                    at += length;
+                }
+                Next::Malformed(length) => {
+                    at += length;
+                    break DecoderResult::Malformed(u8::try_from(length).unwrap_or(u8::MAX), 0);
+                }
+                Next::Incomplete if last => {
+                    let length = bytes.len() - at;
+                    at = bytes.len();
+                    break DecoderResult::Malformed(u8::try_from(length).unwrap_or(u8::MAX), 0);
+                }
+                Next::Incomplete => {
+                    self.begun = bytes[at..].to_vec();
+                    return (DecoderResult::InputEmpty, source.len());
+                }
+            }
+        };
+        // What was begun and is not yet read stays.
+        self.begun = bytes[at.min(before)..before].to_vec();
+        (result, at.max(before) - before)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Decoder, DecoderResult, Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
+
+    const TEXT: &str = "a\u{b0}\u{20ac}\u{1f3a8} z";
+
+    fn bytes(encoding: &'static Encoding) -> Vec<u8> {
+        match encoding.name() {
+            "UTF-8" => TEXT.as_bytes().to_vec(),
+            "UTF-16LE" => TEXT.encode_utf16().flat_map(u16::to_le_bytes).collect(),
+            _ => TEXT.encode_utf16().flat_map(u16::to_be_bytes).collect(),
+        }
+    }
+
+    #[test]
+    fn text_is_read_whole_and_in_pieces_of_any_size() {
+        for encoding in [UTF_8, UTF_16LE, UTF_16BE] {
+            let bytes = bytes(encoding);
+            assert_eq!(encoding.decode_without_bom_handling(&bytes), (TEXT.into(), false));
+            for size in 1..bytes.len() {
+                let mut decoder = Decoder::new(encoding);
+                let (mut found, mut target) = (Vec::new(), [0; 5]);
+                for piece in bytes.chunks(size) {
+                    let mut rest = piece;
+                    loop {
+                        let (result, read, written) =
+                            decoder.decode_to_utf8_without_replacement(rest, &mut target, false);
+                        found.extend_from_slice(&target[..written]);
+                        rest = &rest[read..];
+                        if result == DecoderResult::InputEmpty {
+                            break;
+                        }
+                        assert_eq!(result, DecoderResult::OutputFull, "{encoding:?} by {size}");
+                    }
+                }
+                assert_eq!(String::from_utf8(found).as_deref(), Ok(TEXT), "{encoding:?} by {size}");
+            }
+        }
+    }
+
+    #[test]
+    fn windows_1252_has_a_character_for_every_byte() {
+        let all: Vec<u8> = (0..=255).collect();
+        let (text, faulty) = WINDOWS_1252.decode_without_bom_handling(&all);
+        let found: Vec<char> = text.chars().collect();
+        assert_eq!((found.len(), faulty), (256, false));
+        assert_eq!((found[0x80], found[0x9f], found[0xb0]), ('\u{20ac}', '\u{178}', '\u{b0}'));
+    }
+
+    #[test]
+    fn faulty_bytes_are_replaced_or_refused() {
+        let (text, faulty) = UTF_8.decode_without_bom_handling(b"a\xffb\xe2\x82");
+        assert_eq!((&*text, faulty), ("a\u{fffd}b\u{fffd}", true));
+        let (text, faulty) = UTF_16LE.decode_without_bom_handling(b"a\x00\x00\xdcb\x00c");
+        assert_eq!((&*text, faulty), ("a\u{fffd}b\u{fffd}", true));
+        assert_eq!(UTF_8.decode_without_bom_handling_and_without_replacement(b"\xff"), None);
+        let cyrillic = Encoding::for_label(b"koi8-r").map(Encoding::name);
+        assert_eq!(cyrillic, Some("KOI8-R"));
+        assert_eq!(crate::KOI8_R.decode_without_bom_handling_and_without_replacement(b"a"), None);
+    }
+}
