@@ -116,8 +116,7 @@ pub struct Preferences {
 impl Default for Preferences {
     fn default() -> Self {
         Self {
-            // A page is closed without a question more easily than a window.
-            autosave_seconds: if cfg!(target_arch = "wasm32") { 12 } else { 20 },
+            autosave_seconds: 20,
             undo_mib: 512,
             backend: Backend::Auto,
             interface_scale: 1.0,

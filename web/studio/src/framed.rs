@@ -6,9 +6,11 @@ use eframe::egui::{Context, RawInput, Ui, Visuals};
 use eframe::{App, CreationContext, Frame, WebOptions};
 use js_sys::Function;
 use session::{WorkerOptions, initial_commands};
+use spectra::file::disk;
 use studio::app::{Parts, StartedWorker, Studio};
 use studio::files::{Files, Home, Preferences, Problem};
 use studio::pen::{Pen, PenSettings};
+use studio::theme::ThemeChoice;
 use wasm_bindgen::JsValue;
 
 /// Most memory for undo, in bytes: 192 MiB. A page has 4 GiB in all and cannot give any back.
@@ -49,7 +51,12 @@ impl Framed {
         }
         let home = Home::for_platform();
         let home = home.unwrap_or_else(|| Home::in_folder(std::path::Path::new("/data")));
-        let (preferences, problems) = Preferences::read(&home.preferences());
+        let (mut preferences, problems) = Preferences::read(&home.preferences());
+        if !disk::exists(&home.preferences()) {
+            preferences.theme = ThemeChoice::System;
+            // A page is closed without a question more easily than a window.
+            preferences.autosave_seconds = 12;
+        }
         let undo_bytes = (preferences.undo_mib << 20).min(MOST_UNDO_BYTES);
         let options = WorkerOptions { undo_bytes, ..WorkerOptions::default() };
         let worker = StartedWorker::new(options, initial_commands());
