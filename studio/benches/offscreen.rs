@@ -14,7 +14,7 @@ mod paintings;
 
 use std::error::Error;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{
     Context, Event, FullOutput, Modifiers, PointerButton, Pos2, TexturesDelta, UiBuilder, vec2,

@@ -9,7 +9,7 @@
 use std::error::Error;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use render::camera::Framing;
 use session::volumes::{

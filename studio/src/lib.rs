@@ -33,8 +33,10 @@ pub mod files;
 
 pub mod panels;
 
+#[cfg(not(target_arch = "wasm32"))]
 pub mod arguments;
 
 pub mod app;
 
+#[cfg(not(target_arch = "wasm32"))]
 pub mod window;

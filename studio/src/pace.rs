@@ -3,7 +3,7 @@
 //! A frame is drawn at once if the last one is older than that; so a pen that begins to paint waits
 //! for nothing. Input of the window system has frames of its own, which wait for the display.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Context, Id};
 
@@ -13,6 +13,7 @@ const USUAL_HZ: f64 = 60.0;
 /// Rates of displays that are believed, in hertz.
 const RATES_HZ: std::ops::RangeInclusive<f64> = 24.0..=500.0;
 
+#[cfg(not(target_arch = "wasm32"))]
 /// Time from one frame to the next while frames give way to the paint: 20 a second.
 const SLOT_BEHIND: Duration = Duration::from_millis(48);
 
@@ -30,6 +31,7 @@ struct Pace {
     woken: bool,
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 /// Sets the rate of the display, in thousandths of a hertz, if it is known.
 pub(crate) fn set_display(context: &Context, millihertz: Option<u32>) {
     change(context, |pace| pace.slot = slot_of(millihertz));
@@ -52,6 +54,7 @@ pub(crate) fn wake(context: &Context) {
     wake_at(context, Instant::now());
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 /// Time to wait before a frame that would begin `now`, so that a processor which draws and paints
 /// has 20 frames a second to draw. Called where input of the window system asks for frames, too.
 pub(crate) fn give_way(context: &Context, now: Instant) -> Duration {

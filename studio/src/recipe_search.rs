@@ -7,6 +7,7 @@ use pigment::library::PigmentLibrary;
 use pigment::matching::{
     MatchError, MatchRequest, RecipeMatch, SearchControl, Target, recipes_with_control,
 };
+use session::background;
 
 /// A target colour, and the pigments and limits of the search.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +52,7 @@ impl RecipeSearch {
         let control = Arc::new(SearchControl::default());
         let (sender, receiver) = channel();
         self.running = Some(Running { control: Arc::clone(&control), receiver });
-        std::thread::spawn(move || {
+        background::start(move || {
             let SearchRequest { library, target, limits } = &request;
             let recipes = recipes_with_control(library, target, limits, &control).transpose();
             if let Some(recipes) = recipes {
@@ -112,7 +113,7 @@ impl Drop for RecipeSearch {
 
 #[cfg(test)]
 mod tests {
-    use std::time::{Duration, Instant};
+    use web_time::{Duration, Instant};
 
     use pigment::evaluate::Viewing;
     use pigment::matching::{FilmKind, ViewingCondition, recipes};

@@ -7,6 +7,7 @@ use pigment::PigmentId;
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::palette::{Cards, ColorWheel, Palette, PaletteError, color_wheel};
+use session::background;
 
 /// Tubes and light of a wheel.
 #[derive(Debug, Clone)]
@@ -63,7 +64,7 @@ impl WheelMaker {
             let (sender, receiver) = channel();
             let wanted = request.clone();
             self.running = Some((request.clone(), receiver));
-            std::thread::spawn(move || {
+            background::start(move || {
                 let _ = sender.send(wanted.make());
                 drop(sender);
                 wake();

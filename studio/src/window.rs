@@ -1,7 +1,7 @@
 //! Opens the studio in a window of the operating system.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Context, IconData, RawInput, Ui, ViewportBuilder, vec2};
 use eframe::egui_wgpu::{SurfaceConfig, WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew, wgpu};

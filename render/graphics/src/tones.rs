@@ -68,7 +68,7 @@ impl ToneRamp {
     pub fn open(path: &Path) -> Result<Self, ToneRampError> {
         let rejected =
             |reason: String| ToneRampError::NoPicture { name: path.display().to_string(), reason };
-        let bytes = std::fs::read(path).map_err(|error| rejected(error.to_string()))?;
+        let bytes = spectra::file::disk::read(path).map_err(|error| rejected(error.to_string()))?;
         if is_cut_off_jpeg(&bytes) {
             return Err(rejected(CUT_OFF.to_owned()));
         }

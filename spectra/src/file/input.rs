@@ -17,7 +17,7 @@ pub fn is_standard_input(path: &Path) -> bool {
 /// Whether `path` can be read: a file that is there, or standard input.
 #[must_use]
 pub fn is_there(path: &Path) -> bool {
-    is_standard_input(path) || path.is_file()
+    is_standard_input(path) || super::disk::is_file(path)
 }
 
 /// All bytes of standard input, read once.

@@ -1,5 +1,10 @@
 //! Reading a whole file, and replacing a file atomically.
 
+#[cfg(any(test, all(target_family = "wasm", target_os = "unknown")))]
+mod memory;
+
+pub mod disk;
+
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 mod temporary;
 
@@ -7,13 +12,13 @@ mod temporary;
 mod replace;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
-mod unsupported;
+mod replace_in_memory;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
-use unsupported as replace;
+use replace_in_memory as replace;
 
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
-use unsupported as temporary;
+use replace_in_memory as temporary;
 
 mod signals;
 

@@ -85,7 +85,7 @@ impl Explain for FileError {
 pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     let bytes = match is_standard_input(path) {
         true => standard_input(),
-        false => std::fs::read(path),
+        false => super::disk::read(path),
     };
     bytes.map_err(|reason| error(path, FileAction::Read, reason))
 }
@@ -97,8 +97,8 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 /// left in the folder are removed.
 ///
 /// # Errors
-/// [`FileError`] with the path; also if `path` is a folder or a device, and always in a
-/// browser (wasm32-unknown-unknown), which has no files.
+/// [`FileError`] with the path; also if `path` is a folder or a device. In a browser
+/// (wasm32-unknown-unknown) files lie in memory ([`super::disk`]).
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     replace(path, bytes).map_err(|reason| error(path, FileAction::Write, reason))
 }

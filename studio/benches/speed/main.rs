@@ -28,7 +28,7 @@ mod process;
 
 use std::error::Error;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use process::Usage;
 use program::Program;

@@ -19,7 +19,7 @@ mod scene;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{Event, Vec2, vec2};
 use egui_kittest::kittest::Queryable;

@@ -8,7 +8,7 @@
 use std::error::Error;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, channel};
-use std::time::Instant;
+use web_time::Instant;
 
 use pigment::PigmentLibrary;
 use render::paint::pose::Sample;

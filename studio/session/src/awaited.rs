@@ -1,7 +1,7 @@
 //! A thread that is waited for when its owner is dropped.
 
 use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 /// Longest wait: a file that is being read may take longer, and nobody waits that long for a window to
 /// close.

@@ -13,7 +13,8 @@ pub(super) struct Backend {
 impl Backend {
     /// The backend that the painter chose.
     pub(super) fn new(choice: BackendChoice) -> Self {
-        Self { choice }
+        // The main thread of a page cannot wait for a device.
+        Self { choice: if cfg!(target_arch = "wasm32") { BackendChoice::Cpu } else { choice } }
     }
 
     /// Whether a graphics device may be used.

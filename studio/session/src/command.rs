@@ -1,6 +1,6 @@
 //! Commands of the front end.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use pigment::library::PigmentLibrary;
 use render::paint::document::{Document, Lighting};

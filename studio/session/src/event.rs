@@ -1,7 +1,7 @@
 //! Events that the worker sends to the front end.
 
 use std::sync::Arc;
-use std::time::Instant;
+use web_time::Instant;
 
 use render::layer::SLOTS;
 use render::paint::document::{Document, Slots};

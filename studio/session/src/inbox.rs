@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
-use std::time::Instant;
+use web_time::Instant;
 
 use render::paint::strokes::Action;
 
@@ -127,15 +127,26 @@ impl Inbox {
     }
 }
 
-/// How long to wait for a message.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wait {
+/// How long a worker may wait for commands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Wait {
     /// Not at all: there is work to do.
     None,
     /// Until this time at most.
     Until(Instant),
     /// Without a time limit.
     Forever,
+}
+
+impl Wait {
+    /// The wait until `then`; forever if it is `None`.
+    pub(crate) fn until(then: Option<Instant>) -> Self {
+        match then {
+            None => Self::Forever,
+            Some(then) if then <= Instant::now() => Self::None,
+            Some(then) => Self::Until(then),
+        }
+    }
 }
 
 /// Whether `new` replaces `waiting`: while a slider is dragged, only its last value counts.

@@ -44,6 +44,8 @@
 
 mod awaited;
 
+pub mod background;
+
 mod state;
 
 mod event;
@@ -120,6 +122,7 @@ pub use command::{Command, Origin, Pace, PenSample};
 pub use defaults::{blank_canvas, default_brushes, default_mixing_canvas, initial_commands};
 pub use event::{Event, HeadOnCanvas, KeptPainting, Picked, PickedLayer, Snapshot, TilePixels};
 pub use failure::FileFailure;
+pub use inbox::Wait;
 pub use state::{
     BrushState, BrushSwatch, FilmColor, HistoryShot, HistoryShots, LayerState, MaskState,
     PaintingState, Performance, Thumbnail,

@@ -1,7 +1,7 @@
 //! Performance of the worker: sub-steps per second and latency of samples.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use super::state::Performance;
 

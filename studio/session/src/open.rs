@@ -1,6 +1,6 @@
 //! Opening paintings, playing recordings, and recovering after a lost device.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use pigment::library::PigmentLibrary;
 use render::paint::session::SessionError;
@@ -218,7 +218,7 @@ mod tests {
         let send = |event| events.borrow_mut().push(event);
         let (_sender, receiver) = channel();
         let backend = Backend::new(BackendChoice::Cpu);
-        let mut worker = WorkerLoop::new(Inbox::new(receiver), backend, 1 << 24, &send);
+        let mut worker = WorkerLoop::new(Inbox::new(receiver), backend, 1 << 24, send);
         worker.open(blank_canvas(PigmentLibrary::van_gogh_oils(), 6.0, 5.0, 0.1));
         let heap = Action::Squeeze(Squeeze {
             on: SurfaceId::Canvas,

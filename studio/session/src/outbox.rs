@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use render::paint::painting::{Painting, PaintingError};
 use render::paint::session::PaintingSession;

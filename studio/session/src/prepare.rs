@@ -9,6 +9,7 @@ use render::paint::file::{self, PaintingFileError};
 use render::paint::painting::{Painting, PaintingError};
 use render::paint::session::{KeptSession, PaintingSession, SessionError};
 use render::paint::strokes::{KeptBrush, ScriptStartError, SideTable, StrokeScript};
+use spectra::file::disk;
 use spectra::hint::{Explain, Hint};
 
 use super::backend::Backend;
@@ -127,7 +128,7 @@ pub(super) fn prepare_script(
 
 /// Reads a painting, and the palette and the brushes saved with it if they are asked for.
 fn read(path: &str, with_table: bool) -> Result<(Document, Option<SideTable>), OpenError> {
-    let bytes = std::fs::read(path)
+    let bytes = disk::read(path)
         .map_err(|error| OpenError::Start { path: path.to_owned(), reason: error.to_string() })?;
     let table = if with_table { file::read_table(path, &bytes)? } else { None };
     Ok((file::read(path, &bytes)?, table))

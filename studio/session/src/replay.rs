@@ -1,6 +1,6 @@
 //! Playing a recording.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use render::paint::session::{PaintingSession, SessionError};
 use render::paint::strokes::{Action, SampleDecimals, Stroke, StrokeScript};

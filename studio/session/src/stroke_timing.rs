@@ -1,7 +1,7 @@
 //! Painting the open stroke in slices, and the latency of its samples.
 
 use std::collections::VecDeque;
-use std::time::Instant;
+use web_time::Instant;
 
 use render::paint::painting::OpenStroke;
 use render::paint::pose::Sample;

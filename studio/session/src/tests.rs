@@ -7,9 +7,13 @@ use std::time::Duration;
 use pigment::library::PigmentLibrary;
 use render::gpu::BackendChoice;
 use render::paint::brush::HeadShape;
-use render::paint::strokes::{Action, BrushSpec, MAX_NAMES, StrokeScript};
+use render::paint::pose::Sample;
+use render::paint::strokes::{
+    Action, BrushSpec, MAX_NAMES, SampleDecimals, Squeeze, StrokeScript, SurfaceId,
+};
+use web_time::Instant;
 
-use super::{Command, Event, Worker, WorkerOptions, blank_canvas};
+use super::{Command, Event, PenSample, Wait, Worker, WorkerOptions, blank_canvas};
 
 /// Events of a worker. A batch may go beyond the event that a test waits for; the rest is kept for
 /// the next wait.
@@ -94,4 +98,68 @@ fn a_recording_that_ends_early_is_reported_at_once_and_when_it_is_requested() {
     let texts = endings(&events.seen);
     assert_eq!(texts.len(), 2, "{texts:?}");
     assert!(texts[0].ends_with(&format!("a recording holds {MAX_NAMES} brushes")), "{texts:?}");
+}
+
+/// Commands that paint two strokes, undo one, and ask for the painting.
+fn two_strokes() -> Vec<Command> {
+    let mut commands =
+        vec![Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 30.0, 20.0, 0.2))];
+    for (number, y_mm) in [6.0, 12.0].into_iter().enumerate() {
+        let heap = Squeeze {
+            on: SurfaceId::Canvas,
+            recipe: [("Vermilion".to_owned(), 1.0)].into(),
+            vehicle: 0.1,
+            x_mm: 5.0,
+            y_mm,
+            volume_mm3: 6.0,
+        };
+        commands.push(Command::Apply(Action::Squeeze(heap)));
+        let (surface, decimals) = (SurfaceId::Canvas, SampleDecimals::PEN);
+        commands.push(Command::PenDown { surface, brush: "round".to_owned(), decimals });
+        for step in 0..40 {
+            let seconds = f64::from(step) / 100.0;
+            let sample = Sample::upright(seconds, 5.0 + 0.4 * f64::from(step), y_mm, 0.6);
+            commands.push(Command::PenMove(vec![PenSample { sample, arrived: Instant::now() }]));
+        }
+        commands.push(Command::PenUp);
+        commands.push(Command::Snapshot(number as u64));
+    }
+    commands.extend([Command::Undo, Command::Snapshot(2)]);
+    commands
+}
+
+#[test]
+fn a_worker_in_turns_paints_like_one_on_a_thread() {
+    let options = WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
+    let snapshot = |events: &mut Vec<Event>, found: Event| match found {
+        Event::Snapshot(snapshot) => events.push(Event::Snapshot(snapshot)),
+        Event::Message { failed: true, text, .. } => panic!("{text}"),
+        _ => {}
+    };
+    let (wake, woken) = channel();
+    let threaded = Worker::start(options, move || wake.send(()).unwrap_or_default());
+    two_strokes().into_iter().for_each(|command| threaded.ask(command));
+    let mut on_thread = Vec::new();
+    while on_thread.len() < 3 {
+        woken.recv_timeout(Duration::from_secs(60)).expect("the worker sends an event");
+        threaded.events().for_each(|event| snapshot(&mut on_thread, event));
+    }
+    let worker = Worker::in_turns(options, || {});
+    two_strokes().into_iter().for_each(|command| worker.ask(command));
+    let (mut in_turns, mut turns) = (Vec::new(), 0);
+    while in_turns.len() < 3 {
+        // A deadline that is over: one slice or command each turn.
+        worker.turn(Instant::now());
+        worker.events().for_each(|event| snapshot(&mut in_turns, event));
+        turns += 1;
+    }
+    assert!(turns > 10, "it works a little at a time: {turns} turns");
+    for pair in on_thread.iter().zip(&in_turns) {
+        let (Event::Snapshot(thread), Event::Snapshot(turn)) = pair else { panic!("snapshots") };
+        assert_eq!(thread.number, turn.number);
+        assert!(thread.canvas == turn.canvas, "snapshot {} differs", thread.number);
+        assert!(thread.canvas.wet.totals().iter().any(|&quanta| quanta > 0), "nothing was painted");
+    }
+    worker.ask(Command::Quit);
+    assert_eq!(worker.turn(Instant::now()), Wait::Forever);
 }

@@ -1,17 +1,20 @@
 //! The worker as the front end sees it.
 
+use std::cell::RefCell;
+use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use render::gpu::BackendChoice;
 use render::paint::painting::UNDO_BYTES;
 use spectra::hint::Hint;
+use web_time::Instant;
 
 use super::awaited::Awaited;
 use super::backend::Backend;
 use super::command::Command;
 use super::event::Event;
-use super::inbox::{Inbox, Input};
+use super::inbox::{Inbox, Input, Wait};
 use super::worker::WorkerLoop;
 
 /// Settings of a worker.
@@ -29,14 +32,31 @@ impl Default for WorkerOptions {
     }
 }
 
-/// Handle of the thread that owns the paint. Dropping it ends the thread and waits for that, at most five
-/// seconds.
+/// Handle of the worker that owns the paint. Dropping it ends its thread and waits for that, at most
+/// five seconds.
 #[derive(Debug)]
 pub struct Worker {
     // Dropped first, which tells the thread to end.
     inputs: Sender<Input>,
     events: Receiver<Event>,
-    _thread: Awaited,
+    works: Works,
+}
+
+/// Where the work is done.
+enum Works {
+    /// On a thread, which is waited for.
+    OnThread { _thread: Awaited },
+    /// In the turns that the front end gives; nothing after the command to quit.
+    InTurns(RefCell<Option<Box<WorkerLoop<'static>>>>),
+}
+
+impl fmt::Debug for Works {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::OnThread { .. } => "OnThread",
+            Self::InTurns(_) => "InTurns",
+        })
+    }
 }
 
 impl Worker {
@@ -60,7 +80,38 @@ impl Worker {
                 WorkerLoop::new(Inbox::new(receiver), backend, options.undo_bytes, &send).run();
             });
         });
-        Self { inputs, events, _thread: thread }
+        Self { inputs, events, works: Works::OnThread { _thread: thread } }
+    }
+
+    /// A worker without a thread, which works only while the front end calls [`Worker::turn`]: for a
+    /// page in a browser. `wake` is called after each event.
+    #[must_use]
+    pub fn in_turns(options: WorkerOptions, wake: impl Fn() + 'static) -> Self {
+        let (inputs, receiver) = channel();
+        let (sender, events) = channel();
+        let send = move |event| {
+            // Sending fails only if the front end has dropped the receiver.
+            let _ = sender.send(event);
+            wake();
+        };
+        let backend = Backend::new(options.backend);
+        let work = WorkerLoop::new(Inbox::new(receiver), backend, options.undo_bytes, send);
+        Self { inputs, events, works: Works::InTurns(RefCell::new(Some(Box::new(work)))) }
+    }
+
+    /// Lets a worker of [`Worker::in_turns`] work until `deadline`, or until it must wait; what it has
+    /// begun by then, at most a slice of 8 ms or one command, it finishes. Returns how long it
+    /// may wait for the next turn; [`Wait::Forever`] is until the next command. A worker on a thread
+    /// does nothing here.
+    pub fn turn(&self, deadline: Instant) -> Wait {
+        let Works::InTurns(work) = &self.works else { return Wait::Forever };
+        // A wake that calls back finds the worker at work.
+        let Ok(mut work) = work.try_borrow_mut() else { return Wait::Forever };
+        let wait = work.as_mut().and_then(|work| work.turn(deadline));
+        if wait.is_none() {
+            *work = None;
+        }
+        wait.unwrap_or(Wait::Forever)
     }
 
     /// Sends a command. Has no effect after the worker has ended.

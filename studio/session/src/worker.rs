@@ -1,6 +1,6 @@
 //! The loop of the worker thread: receives commands, paints for a moment, sends events.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use render::gpu::DeviceError;
 use render::paint::painting::PaintingError;
@@ -34,7 +34,7 @@ const REPLAY_SHOT_INTERVAL: Duration = Duration::from_millis(500);
 
 /// State of the worker thread.
 pub(super) struct WorkerLoop<'a> {
-    pub(super) send: &'a dyn Fn(Event),
+    pub(super) send: Box<dyn Fn(Event) + 'a>,
     pub(super) inbox: Inbox,
     pub(super) outbox: Outbox,
     pub(super) meter: Meter,
@@ -90,11 +90,11 @@ impl<'a> WorkerLoop<'a> {
         inbox: Inbox,
         backend: Backend,
         undo_bytes: u64,
-        send: &'a dyn Fn(Event),
+        send: impl Fn(Event) + 'a,
     ) -> Self {
         let now = Instant::now();
         Self {
-            send,
+            send: Box::new(send),
             inbox,
             outbox: Outbox::new(),
             meter: Meter::default(),
@@ -123,23 +123,44 @@ impl<'a> WorkerLoop<'a> {
         loop {
             self.inbox.receive(self.wait_time());
             if self.inbox.quit {
-                break;
+                return;
             }
-            self.outbox.confirm(std::mem::take(&mut self.inbox.confirmed));
-            if std::mem::take(&mut self.inbox.cancelled) {
-                self.cancel();
-            }
-            let result = self.work().and_then(|()| self.take_shot());
-            let result = result.and_then(|()| self.send_pictures());
-            if let Err(error) = result.and_then(|()| self.send_state()) {
-                self.report_failure(&error);
-            }
-            self.report_recording_stop();
-            self.send_performance();
+            self.step();
         }
     }
 
-    /// How long the thread may wait for commands until it has other work to do.
+    /// Works until `deadline`, or until it must wait: then it returns how long. A slice of painting or
+    /// one command that has begun is finished first. `None` after the command to quit.
+    pub(super) fn turn(&mut self, deadline: Instant) -> Option<Wait> {
+        loop {
+            self.inbox.receive(Wait::None);
+            if self.inbox.quit {
+                return None;
+            }
+            self.step();
+            let wait = self.wait_time();
+            if wait != Wait::None || Instant::now() >= deadline {
+                return Some(wait);
+            }
+        }
+    }
+
+    /// Executes a command or paints a slice, and sends what has changed.
+    fn step(&mut self) {
+        self.outbox.confirm(std::mem::take(&mut self.inbox.confirmed));
+        if std::mem::take(&mut self.inbox.cancelled) {
+            self.cancel();
+        }
+        let result = self.work().and_then(|()| self.take_shot());
+        let result = result.and_then(|()| self.send_pictures());
+        if let Err(error) = result.and_then(|()| self.send_state()) {
+            self.report_failure(&error);
+        }
+        self.report_recording_stop();
+        self.send_performance();
+    }
+
+    /// How long the worker may wait for commands until it has other work to do.
     fn wait_time(&self) -> Wait {
         let paints = self
             .open
@@ -188,9 +209,9 @@ impl<'a> WorkerLoop<'a> {
         let session = &mut open.prepared.session;
         if self.outbox.is_due(Instant::now()) && (self.picture_stale || self.outbox.is_behind()) {
             self.picture_stale = false;
-            self.outbox.send_changes(session, &mut self.meter, self.send)?;
+            self.outbox.send_changes(session, &mut self.meter, &*self.send)?;
             if let Some(head) = head_on_canvas(session) {
-                self.outbox.send_head(head, self.send);
+                self.outbox.send_head(head, &*self.send);
                 self.head_shown = true;
             }
         }

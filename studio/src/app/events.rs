@@ -1,7 +1,7 @@
 //! Handles the events of the worker.
 
 use std::sync::Arc;
-use std::time::Instant;
+use web_time::Instant;
 
 use render::paint::strokes::SurfaceId;
 

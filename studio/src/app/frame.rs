@@ -1,6 +1,6 @@
 //! One frame of the window: events, input, drawing and requests.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Context, Ui};
 
@@ -16,8 +16,19 @@ use crate::language::{speak, spoken, tr, tr_format};
 use crate::panels::{FileRequest, Request};
 use crate::pen::Device;
 use crate::{pace, theme, view};
+use session::Wait;
 
 impl Studio {
+    /// Lets the workers of a page, which have no threads, work until `deadline`. Returns how long they may
+    /// wait for the next turn.
+    pub fn turn(&self, deadline: Instant) -> Wait {
+        let wait = self.worker.turn(deadline);
+        match self.volumes.as_ref().map(|volumes| volumes.turn(deadline)) {
+            None => wait,
+            Some(other) => wait.min(other),
+        }
+    }
+
     /// Handles worker events and file tasks. Call before each frame, also while the
     /// window is hidden.
     pub fn logic(&mut self, context: &Context) {

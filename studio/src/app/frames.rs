@@ -1,7 +1,7 @@
 //! Measures the frame rate and the latency from pen sample to screen.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use crate::panels::figures::FrameRate;
 

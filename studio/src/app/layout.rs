@@ -1,6 +1,6 @@
 //! Lays out the window: menu bar, status line, toolbar, side panel and surfaces.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{CentralPanel, Frame, Margin, Panel, Ui};
 

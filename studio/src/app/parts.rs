@@ -23,11 +23,15 @@ impl StartedWorker {
     pub fn new(options: WorkerOptions, commands: Vec<Command>) -> Self {
         let window: Arc<OnceLock<Context>> = Arc::default();
         let wakes = Arc::clone(&window);
-        let worker = Worker::start(options, move || {
+        let wake = move || {
             if let Some(context) = wakes.get() {
                 pace::wake(context);
             }
-        });
+        };
+        #[cfg(not(target_arch = "wasm32"))]
+        let worker = Worker::start(options, wake);
+        #[cfg(target_arch = "wasm32")]
+        let worker = Worker::in_turns(options, wake);
         commands.into_iter().for_each(|command| worker.ask(command));
         Self { worker, window }
     }

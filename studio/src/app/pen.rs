@@ -1,6 +1,6 @@
 //! Passes the input of pen, mouse and touch on to the worker.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{Context, Order, Popup, RawInput, Ui};
 use render::paint::strokes::{SampleDecimals, StrokeTool, SurfaceId};

@@ -1,6 +1,6 @@
 //! The status line: message, view, canvas size, light and backend.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Align, Button, Context, Layout, RichText, Ui, vec2};
 

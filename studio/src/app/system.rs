@@ -1,8 +1,8 @@
 //! Connections of the window to the system: title, dropped files, performance log and
 //! closing.
 
-use std::path::Path;
-use std::time::{Duration, Instant};
+use std::path::{Path, PathBuf};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Align2, Context, FontId, Id, LayerId, Order, Rect, ViewportCommand};
 use render::picture_formats::has_picture_ending;
@@ -22,14 +22,39 @@ impl Studio {
     /// Prepares to close: stores the tool settings in the preferences, waits for files
     /// being written and stops the worker.
     pub fn finish(&mut self) {
+        self.keep_tools();
+        self.files.finish();
+        self.worker.ask(Command::Quit);
+    }
+
+    /// Stores the tool settings in the preferences.
+    pub fn keep_tools(&mut self) {
         let saved = &mut self.files.preferences.tools;
         saved.brush.clone_from(&self.tools.brush);
         saved.vehicle = self.tools.vehicle;
         saved.load_mm = self.tools.load_mm;
         saved.squeeze_mm3 = self.tools.squeeze_mm3;
         saved.dry_share = self.tools.dry_share;
-        self.files.finish();
-        self.worker.ask(Command::Quit);
+    }
+
+    /// Opens a file according to its kind, where it belongs: colours in the panel of colours, scenes in
+    /// their workspace, paintings, recordings and pictures at the easel.
+    pub fn open_path(&mut self, context: &Context, path: PathBuf) {
+        if Eyedropper::takes(&path) {
+            self.panels.eyedropper.open_swatches(&path);
+            self.panels.select(Tab::Color);
+            return;
+        }
+        let is_library = path.extension().is_some_and(|ending| ending == "json");
+        if let Some(volumes) = self.volumes.as_mut().filter(|_| self.shows_volumes && is_library) {
+            volumes.ask(VolumeCommand::Library(path));
+            return;
+        }
+        if let Some(subject) = self.scene_subject(&path) {
+            self.open_scene(context, subject);
+            return;
+        }
+        self.requests.push(Request::File(FileRequest::Open(Some(path))));
     }
 
     /// Opens files dropped on the window, and shows a hint while files hover over it.
@@ -39,23 +64,7 @@ impl Studio {
             (paths.collect::<Vec<_>>(), !input.raw.hovered_files.is_empty())
         });
         for path in dropped {
-            if Eyedropper::takes(&path) {
-                self.panels.eyedropper.open_swatches(&path);
-                self.panels.select(Tab::Color);
-                continue;
-            }
-            let is_library = path.extension().is_some_and(|ending| ending == "json");
-            if let Some(volumes) =
-                self.volumes.as_mut().filter(|_| self.shows_volumes && is_library)
-            {
-                volumes.ask(VolumeCommand::Library(path));
-                continue;
-            }
-            if let Some(subject) = self.scene_subject(&path) {
-                self.open_scene(context, subject);
-                continue;
-            }
-            self.requests.push(Request::File(FileRequest::Open(Some(path))));
+            self.open_path(context, path);
         }
         if hovering {
             let layer = LayerId::new(Order::Foreground, Id::unique("dropping"));

@@ -65,7 +65,7 @@ impl TwinStrokes {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Instant;
+    use web_time::Instant;
 
     use render::paint::pose::Sample;
 

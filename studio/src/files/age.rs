@@ -1,6 +1,6 @@
 //! Ages and file sizes in words.
 
-use std::time::{Duration, SystemTime};
+use web_time::{Duration, SystemTime};
 
 use crate::language::{tr, tr_format};
 

@@ -172,6 +172,28 @@ impl Files {
         }
     }
 
+    /// Endings, without points, of the files that a dialog asks for since the last call; empty if it
+    /// takes all. For a page, which asks with the browser's own dialog.
+    pub fn take_wanted(&mut self) -> Option<Vec<&'static str>> {
+        self.wanted.take()
+    }
+
+    /// Answers the topmost dialog with the file at `path`, if it asks for a file to open. Returns
+    /// whether it did.
+    pub fn choose(&mut self, path: &Path) -> bool {
+        let asks = |dialog: &OpenDialog| match dialog {
+            OpenDialog::Browser(browser, _) => !browser.is_saving(),
+            _ => false,
+        };
+        if !self.dialogs.last().is_some_and(asks) {
+            return false;
+        }
+        if let Some(OpenDialog::Browser(_, purpose)) = self.dialogs.pop() {
+            self.use_file(purpose, path.to_owned());
+        }
+        true
+    }
+
     fn delete_revision(&mut self, path: PathBuf) {
         match revisions::delete(&path) {
             Ok(()) => {
@@ -198,6 +220,10 @@ impl Files {
         let beside = beside.and_then(|path| path.parent());
         let folder = beside.or(self.preferences.last_folder.as_deref());
         let Preferences { recent, browser: look, .. } = &self.preferences;
+        if !options.saving {
+            let endings = options.filters.iter().flat_map(|filter| filter.endings);
+            self.wanted = Some(endings.copied().collect());
+        }
         let browser = Browser::new(options, folder, recent, *look, &self.ctx);
         self.dialogs.push(OpenDialog::Browser(Box::new(browser), purpose));
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::{Arc, PoisonError};
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use serde_json::{from_value, to_value};
 
@@ -57,10 +57,10 @@ impl Files {
             return;
         }
         let interval = Duration::from_secs(self.preferences.autosave_seconds);
-        match interval.checked_sub(self.last_autosave.elapsed()) {
+        match self.last_autosave.and_then(|last| interval.checked_sub(last.elapsed())) {
             Some(left) if !left.is_zero() => self.ctx.request_repaint_after(left),
             _ => {
-                self.last_autosave = Instant::now();
+                self.last_autosave = Some(Instant::now());
                 self.request_autosave();
             }
         }
@@ -97,7 +97,7 @@ impl Files {
     /// Starts deleting the autosaves. They are not needed once the painting is saved in a
     /// file or discarded.
     pub(super) fn clear_autosaves(&mut self) {
-        (self.last_autosave, self.autosaved_revision) = (Instant::now(), None);
+        (self.last_autosave, self.autosaved_revision) = (Some(Instant::now()), None);
         (self.recorded, self.autosaved_desk) = (0, None);
         let autosave = self.autosave.clone();
         self.start_job(JobKind::Background, tr("clearing autosaves").to_owned(), move |_| {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use spectra::file::disk;
 use spectra::file::write_whole;
 
 use super::browser::{BrowserOptions, Filter};
@@ -159,7 +160,7 @@ fn write_sets(before: &[StoredSet], now: &[StoredSet]) -> Result<(), JobError> {
         write_set(stored).map_err(Problem::from)?;
     }
     for gone in before.iter().filter(|old| !now.iter().any(|stored| stored.path == old.path)) {
-        std::fs::remove_file(&gone.path)
+        disk::remove_file(&gone.path)
             .map_err(|error| Problem::io(&gone.path, "deleted", &error))?;
     }
     Ok(())

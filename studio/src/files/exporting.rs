@@ -13,6 +13,7 @@ use render::paint::scene::{PixelsPerCell, fine_picture, picture, scene};
 use super::job::{JobError, Progress};
 use super::problem::Problem;
 use crate::language::tr;
+use spectra::file::disk;
 use spectra::file::write_whole;
 
 /// An export of a painting that the painter chose.
@@ -103,7 +104,7 @@ pub(crate) fn export(
             let maps = painting_maps(document);
             progress.report(0.3)?;
             let files = pigment_maps("painting", &maps, document.cell_mm).map_err(problem)?;
-            std::fs::create_dir_all(path).map_err(|error| Problem::io(path, "created", &error))?;
+            disk::create_dir_all(path).map_err(|error| Problem::io(path, "created", &error))?;
             let count = files.len() as f64;
             for (index, file) in files.into_iter().enumerate() {
                 progress.report(0.6 + 0.4 * index as f64 / count)?;

@@ -1,9 +1,9 @@
 //! A log of performance figures for measuring: one line of JSON per second.
 
-use std::fs::File;
+use spectra::file::disk::File;
 use std::io::Write;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use serde::Serialize;
 

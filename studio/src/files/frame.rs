@@ -2,7 +2,6 @@
 //! requests of menus and panels, and the end of the session.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use eframe::egui::{Context, Ui, ViewportCommand};
 
@@ -74,11 +73,11 @@ impl Files {
         if lost.is_some() {
             // The painting is not saved yet. This makes an autosave due now; the lost
             // session is deleted once that is written.
-            self.last_autosave = Instant::now() - Duration::from_secs(3600);
+            self.last_autosave = None;
             self.recovered = lost;
         } else if changed {
             // The autosaves of before stay until one holds the change.
-            self.last_autosave = Instant::now() - Duration::from_secs(3600);
+            self.last_autosave = None;
         } else {
             self.clear_autosaves();
         }

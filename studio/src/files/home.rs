@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+#[cfg(not(target_arch = "wasm32"))]
 use directories::ProjectDirs;
 
 /// The program's own folders. They need not exist yet.
@@ -17,10 +18,18 @@ impl Home {
     /// The usual folders of the platform, such as `~/.config/impasto` and
     /// `~/.local/share/impasto`; `None` if the system does not name the user's home folder.
     #[must_use]
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn for_platform() -> Option<Self> {
         let folders = ProjectDirs::from("", "", "impasto")?;
         let (settings, data) = (folders.config_dir(), folders.data_local_dir());
         Some(Self { settings: settings.to_owned(), data: data.to_owned() })
+    }
+
+    /// The folders of a page.
+    #[must_use]
+    #[cfg(target_arch = "wasm32")]
+    pub fn for_platform() -> Option<Self> {
+        Some(Self { settings: PathBuf::from("/settings"), data: PathBuf::from("/data") })
     }
 
     /// Keeps everything in one folder.

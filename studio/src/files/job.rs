@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 use super::problem::Problem;
+use session::background;
 
 /// The reason why a job has no result.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,7 +65,7 @@ impl<T: Send + 'static> Job<T> {
         let (sender, result) = channel();
         let progress = Progress::default();
         let reporter = progress.clone();
-        std::thread::spawn(move || {
+        background::start(move || {
             let _waking = OnDrop(Some(wake));
             // If the work panics, the channel is closed, and `poll` reports it.
             let result = work(&reporter);
@@ -110,6 +111,14 @@ impl<T: Send + 'static> Job<T> {
     /// # Errors
     /// The error of the work.
     pub(crate) fn wait(mut self) -> Result<T, JobError> {
+        // Where there are no threads, it is done here, after those before it.
+        loop {
+            match self.poll() {
+                Some(result) => return result,
+                None if background::next() => {}
+                None => break,
+            }
+        }
         match self.result.recv() {
             Ok(result) => result,
             Err(_) => self.poll().unwrap_or(Err(JobError::Cancelled)),
@@ -119,6 +128,10 @@ impl<T: Send + 'static> Job<T> {
 
 /// Runs `work` on one core, so that the others stay free for painting.
 pub(super) fn on_one_core<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    // Where there are no threads, there is only one core.
+    if cfg!(target_arch = "wasm32") {
+        return work();
+    }
     match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(pool) => pool.install(work),
         Err(_) => work(),

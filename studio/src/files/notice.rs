@@ -1,6 +1,6 @@
 //! A message that is shown over the window.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use super::problem::Problem;
 

@@ -1,6 +1,6 @@
 //! Shows messages, lost sessions and running jobs over the window.
 
-use std::time::{Duration, Instant, SystemTime};
+use web_time::{Duration, Instant, SystemTime};
 
 use eframe::egui::{
     Align, Align2, Area, Context, Frame, Id, Layout, Order, ProgressBar, RichText, Spinner, Ui,

@@ -1,6 +1,7 @@
 //! Reads files of any kind; the kind is detected from the content, not the name.
 
-use std::fs::File;
+use spectra::file::disk;
+use spectra::file::disk::File;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
@@ -113,7 +114,7 @@ const OPENABLE: &str = "open a painting (.exr), a pigment library or a recording
 fn kind(path: &Path) -> Result<(Kind, File, u64), Problem> {
     let unreadable = |error: std::io::Error| Problem::io(path, "read", &error);
     // Checked before opening it, because opening a pipe would wait for its other end.
-    let found = std::fs::metadata(path).map_err(unreadable)?;
+    let found = disk::metadata(path).map_err(unreadable)?;
     if !found.is_file() {
         let text = format!("{}: is not an ordinary file", path.display());
         return Err(Problem::new(text, OPENABLE));

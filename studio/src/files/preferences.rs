@@ -18,6 +18,7 @@ use crate::language::Language;
 use crate::pen::PenSettings;
 use crate::theme::{Look, ThemeChoice};
 use session::brushes::BrushOptions;
+use spectra::file::disk;
 use spectra::file::write_whole;
 
 /// Maximum number of recent files.
@@ -144,7 +145,7 @@ impl Preferences {
     /// file. If there is no file, they are the defaults without a problem.
     #[must_use]
     pub fn read(path: &Path) -> (Self, Vec<Problem>) {
-        let bytes = match std::fs::read(path) {
+        let bytes = match disk::read(path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 return (Self::default(), Vec::new());
@@ -211,8 +212,7 @@ impl Preferences {
     /// [`Problem`] if the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Problem> {
         if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder)
-                .map_err(|error| Problem::io(folder, "created", &error))?;
+            disk::create_dir_all(folder).map_err(|error| Problem::io(folder, "created", &error))?;
         }
         // JSON cannot hold a path that is not valid Unicode; such paths are left out.
         let mut written = self.clone();
@@ -255,7 +255,7 @@ fn within<T: PartialOrd>(value: T, least: T, most: T, default: T) -> T {
 /// Renames a file that is not JSON, and describes this as a problem.
 fn set_aside(path: &Path, error: &serde_json::Error) -> Problem {
     let aside = path.with_extension("broken.json");
-    let hint = match std::fs::rename(path, &aside) {
+    let hint = match disk::rename(path, &aside) {
         Ok(()) => format!("the defaults are used; the file was renamed to {}", aside.display()),
         Err(error) => format!("the defaults are used; the file cannot be renamed: {error}"),
     };

@@ -5,7 +5,7 @@
 //! between two saves.
 
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use web_time::SystemTime;
 
 use image::imageops::FilterType;
 use image::{ImageReader, Limits, RgbImage, RgbaImage};
@@ -15,6 +15,7 @@ use render::paint::scene::{picture, scene};
 
 use super::job::{JobError, Progress};
 use super::problem::Problem;
+use spectra::file::disk;
 use spectra::file::write_whole;
 
 /// Length of the longer side of a thumbnail, in pixels.
@@ -53,7 +54,7 @@ pub(super) fn keep(
     progress: &Progress,
 ) -> Result<PathBuf, JobError> {
     let folder = folder(path);
-    std::fs::create_dir_all(&folder).map_err(|error| Problem::io(&folder, "created", &error))?;
+    disk::create_dir_all(&folder).map_err(|error| Problem::io(&folder, "created", &error))?;
     let number = 1 + numbers(&folder)?.into_iter().map(|(number, _)| number).max().unwrap_or(0);
     let bytes =
         render::paint::file::write(document).map_err(|error| Problem::from_error(&error))?;
@@ -82,7 +83,7 @@ pub(super) fn list(path: &Path, progress: &Progress) -> Result<Vec<Revision>, Jo
     let mut revisions = Vec::with_capacity(found.len());
     for (number, path) in found {
         progress.report(0.0)?;
-        let Ok(file) = std::fs::metadata(&path) else { continue };
+        let Ok(file) = disk::metadata(&path) else { continue };
         let thumbnail = read_thumbnail(&path.with_extension("png"));
         let (bytes, kept) = (file.len(), file.modified().ok());
         revisions.push(Revision { number, path, bytes, kept, thumbnail });
@@ -100,10 +101,10 @@ pub(super) fn delete(path: &Path) -> Result<(), Problem> {
         let text = format!("{}: is not a revision", path.display());
         return Err(Problem::new(text, "delete it in a file manager"));
     }
-    std::fs::remove_file(path).map_err(|error| Problem::io(path, "deleted", &error))?;
-    let _ = std::fs::remove_file(path.with_extension("png"));
+    disk::remove_file(path).map_err(|error| Problem::io(path, "deleted", &error))?;
+    let _ = disk::remove_file(path.with_extension("png"));
     // Removes the folder if it is empty now.
-    let _ = path.parent().map(std::fs::remove_dir);
+    let _ = path.parent().map(disk::remove_dir);
     Ok(())
 }
 
@@ -114,7 +115,7 @@ fn number(path: &Path) -> Option<u32> {
 }
 
 fn numbers(folder: &Path) -> Result<Vec<(u32, PathBuf)>, Problem> {
-    let entries = match std::fs::read_dir(folder) {
+    let entries = match disk::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
         Err(error) => return Err(Problem::io(folder, "read", &error)),

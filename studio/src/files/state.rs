@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{Context, ViewportCommand};
 
@@ -62,7 +62,9 @@ pub struct Files {
     /// The session that the painting was recovered from, until it is saved again.
     pub(super) recovered: Option<LostSession>,
     pub(super) autosave: Arc<Mutex<Option<Autosave>>>,
-    pub(super) last_autosave: Instant,
+    pub(super) last_autosave: Option<Instant>,
+    /// Endings of the files that an open dialog asked for, until they are taken.
+    pub(super) wanted: Option<Vec<&'static str>>,
     pub(super) autosaved_revision: Option<u64>,
     /// Number of actions of the recording that the autosaves hold.
     pub(super) recorded: usize,
@@ -142,7 +144,8 @@ impl Files {
             lost_sessions,
             recovered: None,
             autosave: Arc::new(Mutex::new(autosave)),
-            last_autosave: Instant::now(),
+            last_autosave: Some(Instant::now()),
+            wanted: None,
             autosaved_revision: None,
             recorded: 0,
             desk: Desk::default(),

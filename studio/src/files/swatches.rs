@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use session::PaintingState;
 use session::swatches::{SwatchBook, SwatchChange};
+use spectra::file::disk;
 use spectra::swatch_file::SwatchFile;
 
 use super::job::JobError;
@@ -126,7 +127,7 @@ impl Files {
 
 fn write_own(path: &Path, book: &SwatchBook) -> Result<(), Problem> {
     if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| Problem::io(folder, "created", &error))?;
+        disk::create_dir_all(folder).map_err(|error| Problem::io(folder, "created", &error))?;
     }
     Ok(write_whole(path, book.to_json().as_bytes())?)
 }
@@ -134,7 +135,7 @@ fn write_own(path: &Path, book: &SwatchBook) -> Result<(), Problem> {
 /// Reads the list of the home folder. No file is an empty list; a file that cannot be read is put
 /// aside, so that it is not overwritten.
 fn read_own(path: &Path) -> (SwatchBook, Option<Problem>) {
-    if !path.exists() {
+    if !disk::exists(path) {
         return (SwatchBook::default(), None);
     }
     match read_swatches(path) {
@@ -142,7 +143,7 @@ fn read_own(path: &Path) -> (SwatchBook, Option<Problem>) {
         Ok(ReadSwatches::Colors(_)) => (SwatchBook::default(), None),
         Err(Problem { text, .. }) => {
             let aside = path.with_extension("broken.json");
-            let hint = match std::fs::rename(path, &aside) {
+            let hint = match disk::rename(path, &aside) {
                 Ok(()) => {
                     tr_format!(
                         "a new list is begun; the file was renamed to {aside}",

@@ -7,6 +7,7 @@ use pigment::library::PigmentLibrary;
 use render::light::Light;
 use render::paint::document::Document;
 use render::paint::strokes::{KeptBrush, StrokeScript};
+use spectra::file::disk;
 use spectra::file::write_whole;
 
 use super::exporting;
@@ -130,7 +131,7 @@ impl Files {
     /// Starts reading a file of any kind.
     pub(super) fn read(&mut self, path: PathBuf) {
         // Absolute, so that a later change of the working folder has no effect.
-        let path = std::path::absolute(&path).unwrap_or(path);
+        let path = disk::absolute(&path).unwrap_or(path);
         let label = tr_format!("reading {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |progress| {
             let opened = opened::read(&path, progress)?;

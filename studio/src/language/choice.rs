@@ -33,6 +33,12 @@ impl Language {
         Self::of_locales(["LC_ALL", "LC_MESSAGES", "LANG"].map(|name| std::env::var(name).ok()))
     }
 
+    /// The language of a name such as `de-AT`.
+    #[must_use]
+    pub fn of_name(name: &str) -> Self {
+        Self::of_locales([Some(name.to_owned()), None, None])
+    }
+
     /// The language of the first name that is not empty, such as `de_AT.UTF-8`.
     fn of_locales(names: [Option<String>; 3]) -> Self {
         let name = names.into_iter().flatten().find(|name| !name.is_empty());

@@ -1,6 +1,6 @@
 //! The revisions panel: numbered copies of the painting with thumbnails.
 
-use std::time::SystemTime;
+use web_time::SystemTime;
 
 use eframe::egui::{Align, Image, Layout, RichText, Ui, vec2};
 

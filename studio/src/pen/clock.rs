@@ -1,6 +1,6 @@
 //! Converts millisecond timestamps of a window system to [`Instant`]s of this program.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 /// A timestamp that maps to an instant further in the past than this belongs to another
 /// clock.

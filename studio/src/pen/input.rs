@@ -1,8 +1,9 @@
 //! Combines all input devices: turns their reports into strokes and hover events on the
 //! surfaces.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
+#[cfg(not(target_arch = "wasm32"))]
 use eframe::CreationContext;
 use eframe::egui::{self, Event, Modifiers, Pos2, RawInput};
 use render::paint::pose::Sample;
@@ -14,8 +15,11 @@ use super::pen_stroke::{PenStroke, brush_sample};
 use super::pointer::Pointer;
 use super::report::{Device, PointerState, Report, ReportKind};
 use super::settings::PenSettings;
+#[cfg(not(target_arch = "wasm32"))]
 use super::systems::Systems;
 use super::transform::PenTargets;
+#[cfg(target_arch = "wasm32")]
+use super::web::Systems;
 use session::PenSample;
 use session::brushes::BrushOptions;
 
@@ -106,6 +110,7 @@ impl Pen {
 
     /// Input for a window, with the styluses of its window system.
     #[must_use]
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn for_window(context: &CreationContext<'_>, settings: PenSettings) -> Self {
         Self { settings, systems: Systems::for_window(context), ..Self::default() }
     }

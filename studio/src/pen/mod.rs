@@ -9,6 +9,7 @@ mod transform;
 
 mod settings;
 
+#[cfg(not(target_arch = "wasm32"))]
 mod clock;
 
 mod speed;
@@ -28,6 +29,7 @@ mod x11;
 #[cfg(target_os = "linux")]
 mod wayland;
 
+#[cfg(not(target_arch = "wasm32"))]
 mod tablet;
 
 mod handling;
@@ -40,7 +42,10 @@ mod aids;
 
 mod pen_stroke;
 
+#[cfg(not(target_arch = "wasm32"))]
 mod systems;
+
+mod web;
 
 mod input;
 
@@ -67,3 +72,4 @@ pub use script::Script;
 pub use settings::{Grip, PenSettings};
 pub use test_field::{TestField, TestPoint};
 pub use transform::{PenTargets, SurfaceTransform};
+pub use web::{PagePens, PagePhase, PagePointer};

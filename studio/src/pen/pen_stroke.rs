@@ -1,6 +1,6 @@
 //! Turns the states of a pressed device into samples of a stroke.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Pos2, Vec2};
 use render::paint::pose::Sample;

@@ -1,6 +1,6 @@
 //! Reports of mice and fingers, made from egui's events.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Event, PointerButton, Pos2, TouchId, TouchPhase};
 

@@ -1,6 +1,6 @@
 //! Reports of input devices, before they become strokes.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::Pos2;
 

@@ -1,6 +1,6 @@
 //! A synthetic pen for tests and demonstrations: reports at given times.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use super::report::{Device, PointerState, Report, ReportKind};
 

@@ -1,6 +1,6 @@
 //! Tests of stabilised strokes, from reports of a device to samples.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Modifiers, Pos2, Rect, pos2, vec2};
 use render::paint::pose::Sample;

@@ -1,7 +1,7 @@
 //! Times of the events of mice, from the window system.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::Pos2;
 

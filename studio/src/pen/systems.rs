@@ -1,6 +1,6 @@
 //! Styluses of the window system: X11, Wayland or Windows, and the times of its mice.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::CreationContext;
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput};

@@ -1,7 +1,7 @@
 //! Styluses under Wayland and Windows, through octotablet.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::pos2;
 use octotablet::axis::Pose;

@@ -1,6 +1,6 @@
 //! Taps of several fingers at once.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Event, Pos2, TouchId, TouchPhase};
 

@@ -1,6 +1,6 @@
 //! A field in a window on which the pen draws as it would paint, to try its settings.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{Pos2, Rect, pos2};
 use render::paint::strokes::SurfaceId;

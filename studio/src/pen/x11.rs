@@ -5,7 +5,7 @@
 //! devices that move a pointer only the times of their events are read.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{Pos2, pos2};
 use x11rb::connection::Connection;

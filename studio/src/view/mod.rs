@@ -27,6 +27,6 @@ pub use meshes::draw_meshes;
 pub use outline::Outline;
 pub use picture::{DrawnPart, Picture};
 pub use quad::fill_rect;
-pub(crate) use quad::set_format;
+pub use quad::set_format;
 pub use surface::{DragMode, Split, SurfaceView};
 pub use transform::{Placement, ViewState};

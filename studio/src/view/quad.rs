@@ -21,7 +21,7 @@ fn format_id() -> Id {
 }
 
 /// Sets the format of the window's pixels. To be called before the first frame.
-pub(crate) fn set_format(context: &Context, format: TextureFormat) {
+pub fn set_format(context: &Context, format: TextureFormat) {
     context.data_mut(|data| data.insert_temp(format_id(), format));
 }
 

@@ -1,6 +1,6 @@
 //! Ruler, perspective and symmetry in the whole window, with a synthetic pen.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Key, Modifiers, Rect, Theme, vec2};
 use egui_kittest::kittest::Queryable;

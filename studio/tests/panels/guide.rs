@@ -118,7 +118,7 @@ fn the_sample_painting_opens_with_wet_and_dry_paint_and_nothing_to_save() {
     choose(&mut window, "File", "Sample painting");
     assert!(window.studio().files.has_dialog(), "unsaved changes are asked for");
     window.click("Discard");
-    let began = std::time::Instant::now();
+    let began = web_time::Instant::now();
     let title = |window: &Window| window.studio().painting().unwrap().title.clone();
     // The worker measures the layers when it has nothing else to do.
     let measured = |window: &Window| {

@@ -1,6 +1,6 @@
 //! Tests of pen input in the whole window.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Event, Key, Modifiers, Pos2};
 use image::RgbaImage;

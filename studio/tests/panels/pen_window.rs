@@ -1,6 +1,6 @@
 //! Tests of the window of the pen, and of stabilised strokes that are recorded.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::kittest::Queryable;

@@ -1,7 +1,7 @@
 //! Scenes and their files in the whole window: the File menu, the file dialog, and dropped files.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -1,6 +1,6 @@
 //! The workspace of scenes: the whole window with a real worker and a synthetic pen.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2,

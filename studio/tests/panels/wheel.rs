@@ -1,6 +1,6 @@
 //! Tests of the wheel panel.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::vec2;
 use egui_kittest::Harness;

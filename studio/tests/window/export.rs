@@ -1,7 +1,7 @@
 //! The engine's own export of a saved painting, compared with the screen.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use render::export::png8;
 use render::light::Light;

@@ -1,7 +1,7 @@
 //! Recovery of a painting after the program was killed.
 
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use web_time::SystemTime;
 
 use render::paint::document::Document;
 use studio::files::{Home, Preferences};

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
+use web_time::Instant;
 
 use render::gpu::BackendChoice;
 use render::paint::strokes::{Action, MaskChange, SampleDecimals, StrokeScript, SurfaceId};

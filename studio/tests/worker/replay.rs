@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 use render::gpu::BackendChoice;
 use render::paint::strokes::{Action, Load, StrokeScript, SurfaceId};

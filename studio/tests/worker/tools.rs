@@ -1,7 +1,7 @@
 //! Tools that work wet paint, masks, and their replay.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 use render::gpu::BackendChoice;
 use render::paint::strokes::{Action, MaskChange, SampleDecimals, StrokeTool, SurfaceId};

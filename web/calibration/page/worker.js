@@ -1,8 +1,8 @@
 // The native part on a thread of its own: the page stays alive while it computes.
 
-import init, * as native from "./calibration.js";
+import init, * as native from "./impasto_web_calibration.js";
 
-const module = new URL("calibration_bg.wasm", import.meta.url);
+const module = new URL("impasto_web_calibration_bg.wasm", import.meta.url);
 const ready = init({ module_or_path: module }).then(() => native.begin());
 
 // Objects of the native part that later calls use.

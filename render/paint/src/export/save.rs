@@ -130,7 +130,7 @@ pub fn save_files(folder: &Path, files: &[NamedFile]) -> Result<(), FileError> {
 }
 
 fn make_folder(folder: &Path) -> Result<(), FileError> {
-    std::fs::create_dir_all(folder).map_err(|reason| FileError {
+    spectra::file::disk::create_dir_all(folder).map_err(|reason| FileError {
         path: folder.to_owned(),
         action: FileAction::Write,
         reason: Arc::new(reason),

@@ -6,11 +6,12 @@
 //! counts. The recording lies beside them in a file that only grows. The file `lock` is locked
 //! while the program runs; the system unlocks it however the program ends.
 
-use std::fs::File;
+use spectra::file::disk;
+use spectra::file::disk::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{SystemTime, UNIX_EPOCH};
+use web_time::{SystemTime, UNIX_EPOCH};
 
 use render::paint::document::Document;
 use serde::{Deserialize, Serialize};
@@ -89,22 +90,22 @@ impl Autosave {
     /// [`FileFailure`] if the folder cannot be made or locked.
     pub fn begin(sessions: &Path) -> Result<Self, FileFailure> {
         let cannot = |error: std::io::Error| FileFailure::io(sessions, "used for autosave", &error);
-        std::fs::create_dir_all(sessions).map_err(cannot)?;
-        let process = std::process::id();
+        disk::create_dir_all(sessions).map_err(cannot)?;
+        let process = disk::process_number();
         for attempt in 0..1000 {
             let name = format!("{}-{process}-{attempt}", now());
             // Locked before it is renamed, so that no program takes it for a lost session.
             let hidden = sessions.join(format!(".{name}"));
             let folder = sessions.join(name);
-            if folder.exists() {
+            if disk::exists(&folder) {
                 continue;
             }
-            match std::fs::create_dir(&hidden) {
+            match disk::create_dir(&hidden) {
                 Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => continue,
                 made => made.map_err(cannot)?,
             }
             let lock = SessionLock::create(&hidden).map_err(cannot)?;
-            std::fs::rename(&hidden, &folder).map_err(cannot)?;
+            disk::rename(&hidden, &folder).map_err(cannot)?;
             return Ok(Self {
                 folder,
                 _lock: lock,
@@ -154,7 +155,7 @@ impl Autosave {
         let (work, brushes) = describe(recording, &painting.brushes, painting.mask.as_deref());
         let (canvas, palette) = (&painting.snapshot.canvas, &painting.snapshot.palette);
         let earlier = generation_folder(&folder, self.generation).join(PALETTE);
-        let unchanged = earlier.is_file() && self.palette.as_ref() == Some(palette);
+        let unchanged = disk::is_file(&earlier) && self.palette.as_ref() == Some(palette);
         let palette_file =
             if unchanged { Content::Unchanged(earlier) } else { Content::Bytes(bytes(palette)?) };
         let files = [
@@ -190,12 +191,12 @@ impl Autosave {
         before: &mut dyn FnMut() -> std::io::Result<()>,
     ) -> std::io::Result<()> {
         let partial = self.folder.join(PARTIAL);
-        if partial.exists() {
+        if disk::exists(&partial) {
             before()?;
-            std::fs::remove_dir_all(&partial)?;
+            disk::remove_dir_all(&partial)?;
         }
         before()?;
-        std::fs::create_dir(&partial)?;
+        disk::create_dir(&partial)?;
         for (name, content) in files {
             let path = partial.join(name);
             let bytes = match content {
@@ -203,8 +204,8 @@ impl Autosave {
                 Content::Unchanged(earlier) => {
                     before()?;
                     // Some file systems have no links.
-                    std::fs::hard_link(earlier, &path)
-                        .or_else(|_| std::fs::copy(earlier, &path).map(drop))?;
+                    disk::hard_link(earlier, &path)
+                        .or_else(|_| disk::copy(earlier, &path).map(drop))?;
                     continue;
                 }
             };
@@ -219,12 +220,12 @@ impl Autosave {
         let earlier = generations(&self.folder)?;
         self.generation = 1 + earlier.iter().copied().max().unwrap_or(self.generation);
         before()?;
-        std::fs::rename(&partial, generation_folder(&self.folder, self.generation))?;
+        disk::rename(&partial, generation_folder(&self.folder, self.generation))?;
         before()?;
         sync_folder(&self.folder);
         for number in earlier {
             before()?;
-            std::fs::remove_dir_all(generation_folder(&self.folder, number))?;
+            disk::remove_dir_all(generation_folder(&self.folder, number))?;
         }
         Ok(())
     }
@@ -269,7 +270,7 @@ impl LostSession {
     /// # Errors
     /// [`FileFailure`] if the folder cannot be read.
     pub fn all(sessions: &Path) -> Result<Vec<Self>, FileFailure> {
-        let entries = match std::fs::read_dir(sessions) {
+        let entries = match disk::read_dir(sessions) {
             Ok(entries) => entries,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
             Err(error) => return Err(FileFailure::io(sessions, "read", &error)),
@@ -278,7 +279,7 @@ impl LostSession {
         let mut folders: Vec<_> = folders
             .filter(|folder| {
                 let name = folder.file_name().and_then(|name| name.to_str());
-                folder.is_dir() && name.is_some_and(|name| !name.starts_with('.'))
+                disk::is_dir(folder) && name.is_some_and(|name| !name.starts_with('.'))
             })
             .collect();
         folders.sort();
@@ -297,7 +298,7 @@ impl LostSession {
             return None;
         }
         let description = |number: &u64| {
-            let bytes = std::fs::read(generation_folder(&folder, *number).join(META)).ok()?;
+            let bytes = disk::read(generation_folder(&folder, *number).join(META)).ok()?;
             Some((*number, serde_json::from_slice(&bytes).ok()?))
         };
         let (generation, meta) = numbers.iter().rev().find_map(description)?;
@@ -325,7 +326,7 @@ impl LostSession {
     pub fn work(&self) -> Result<Option<RecoveredWork>, FileFailure> {
         let folder = generation_folder(&self.folder, self.generation);
         let (path, brushes) = (folder.join(WORK), folder.join(BRUSHES));
-        if !path.exists() {
+        if !disk::exists(&path) {
             return Ok(None);
         }
         let read =
@@ -354,7 +355,7 @@ fn generation_folder(folder: &Path, number: u64) -> PathBuf {
 /// Numbers of the generations in `folder`, in increasing order.
 fn generations(folder: &Path) -> std::io::Result<Vec<u64>> {
     let mut numbers = Vec::new();
-    for entry in std::fs::read_dir(folder)? {
+    for entry in disk::read_dir(folder)? {
         let name = entry?.file_name();
         let number = name.to_str().and_then(|name| name.strip_prefix("generation-"));
         numbers.extend(number.and_then(|number| number.parse::<u64>().ok()));
@@ -368,18 +369,18 @@ fn generations(folder: &Path) -> std::io::Result<Vec<u64>> {
 fn clear(folder: &Path) -> std::io::Result<()> {
     let gone = folder.join(PARTIAL);
     for number in generations(folder)?.into_iter().rev() {
-        if gone.exists() {
-            std::fs::remove_dir_all(&gone)?;
+        if disk::exists(&gone) {
+            disk::remove_dir_all(&gone)?;
         }
-        std::fs::rename(generation_folder(folder, number), &gone)?;
+        disk::rename(generation_folder(folder, number), &gone)?;
     }
-    if gone.exists() { std::fs::remove_dir_all(&gone) } else { Ok(()) }
+    if disk::exists(&gone) { disk::remove_dir_all(&gone) } else { Ok(()) }
 }
 
 /// Removes the folder of a session. The lock file is removed last.
 fn remove(folder: &Path) {
     let _ = clear(folder);
-    let _ = std::fs::remove_dir_all(folder);
+    let _ = disk::remove_dir_all(folder);
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@
 //! so that what a crash left behind them does no harm, and an autosave writes only the actions
 //! since the last one.
 
-use std::fs::{File, OpenOptions};
+use spectra::file::disk;
+use spectra::file::disk::{File, OpenOptions};
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
@@ -124,11 +125,11 @@ impl RecordingFile {
 }
 
 fn remove_others(folder: &Path, kept: &[String]) -> std::io::Result<()> {
-    for entry in std::fs::read_dir(folder)? {
+    for entry in disk::read_dir(folder)? {
         let name = entry?.file_name().to_string_lossy().into_owned();
         let own = name.starts_with(NAME) || name.starts_with(START);
         if own && !kept.contains(&name) {
-            std::fs::remove_file(folder.join(&name))?;
+            disk::remove_file(folder.join(&name))?;
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! The lock by which programs know whether a session still runs.
 
-use std::fs::File;
+use spectra::file::disk::File;
 use std::path::Path;
 
 const LOCK: &str = "lock";

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use spectra::file::disk;
 use spectra::file::{read, write_whole};
 
 use super::error::BrushFileError;
@@ -21,7 +22,7 @@ pub struct StoredSet {
 /// which stay as they are. A folder that does not exist holds none.
 #[must_use]
 pub fn read_sets(folder: &Path) -> (Vec<StoredSet>, Vec<FileFailure>) {
-    let entries = match std::fs::read_dir(folder) {
+    let entries = match disk::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Default::default(),
         Err(error) => return (Vec::new(), vec![FileFailure::io(folder, "listed", &error)]),
@@ -56,8 +57,7 @@ pub fn read_set(path: &Path) -> Result<BrushSet, FileFailure> {
 /// [`FileFailure`] if folder or file cannot be written.
 pub fn write_set(stored: &StoredSet) -> Result<(), FileFailure> {
     if let Some(folder) = stored.path.parent() {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| FileFailure::io(folder, "created", &error))?;
+        disk::create_dir_all(folder).map_err(|error| FileFailure::io(folder, "created", &error))?;
     }
     write_whole(&stored.path, stored.set.to_json().as_bytes())
         .map_err(|error| FileFailure::explained(&error))
@@ -74,7 +74,7 @@ pub fn free_path(folder: &Path, name: &str, taken: &[StoredSet]) -> PathBuf {
     let stem = if stem.is_empty() { "brushes".to_owned() } else { stem };
     let mut path = folder.join(format!("{stem}.json"));
     let mut number = 2;
-    while path.exists() || taken.iter().any(|stored| stored.path == path) {
+    while disk::exists(&path) || taken.iter().any(|stored| stored.path == path) {
         path = folder.join(format!("{stem}-{number}.json"));
         number += 1;
     }

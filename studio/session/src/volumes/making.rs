@@ -1,25 +1,43 @@
-//! Something that is made on a thread of its own.
+//! Something that is made beside the window.
 
-use std::thread::{self, JoinHandle};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-/// Something that is made on a thread of its own.
+use crate::background;
+
+/// Something that is made beside the window.
 #[derive(Debug)]
-pub(super) struct Making<T>(JoinHandle<T>);
+pub(super) struct Making<T> {
+    receiver: Receiver<T>,
+    /// What was received before it was asked for; the inner `None` if the thread has panicked.
+    made: Option<Option<T>>,
+}
 
 impl<T: Send + 'static> Making<T> {
     /// Begins to make it.
     pub(super) fn begin(make: impl FnOnce() -> T + Send + 'static) -> Self {
-        Self(thread::spawn(make))
+        let (sender, receiver) = channel();
+        background::start(move || {
+            let _ = sender.send(make());
+        });
+        Self { receiver, made: None }
     }
 
     /// Whether it is made.
-    pub(super) fn is_ready(&self) -> bool {
-        self.0.is_finished()
+    pub(super) fn is_ready(&mut self) -> bool {
+        if self.made.is_none() {
+            self.made = match self.receiver.try_recv() {
+                Ok(made) => Some(Some(made)),
+                Err(TryRecvError::Empty) => None,
+                Err(TryRecvError::Disconnected) => Some(None),
+            };
+        }
+        self.made.is_some()
     }
 
     /// Waits for it. None if its thread has panicked.
-    pub(super) fn result(self) -> Option<T> {
-        self.0.join().ok()
+    pub(super) fn result(mut self) -> Option<T> {
+        while !self.is_ready() && background::next() {}
+        self.made.unwrap_or_else(|| self.receiver.recv().ok())
     }
 }
 
@@ -32,7 +50,7 @@ mod tests {
     #[test]
     fn it_is_ready_when_its_thread_has_ended() {
         let (send, receive) = channel::<u32>();
-        let making = Making::begin(move || receive.recv().unwrap() + 1);
+        let mut making = Making::begin(move || receive.recv().unwrap() + 1);
         assert!(!making.is_ready(), "it waits");
         send.send(4).unwrap();
         assert_eq!(making.result(), Some(5));

@@ -60,6 +60,8 @@ mod saving;
 
 mod animation;
 
+mod picture_share;
+
 mod worker;
 
 mod thread;

@@ -7,6 +7,7 @@ use render::mesh::Mesh;
 use render::picture::Photograph;
 use render::volumes::script::{self, Script, ScriptError};
 use render::watercolor::PhotographPainter;
+use spectra::file::disk;
 
 use super::materials::{Materials, fill_tubes};
 use super::subject::{SHAPE, Subject};
@@ -57,7 +58,7 @@ impl OpenedScene {
             Subject::Script(path) => {
                 let path = absolute(path);
                 let script = Script::open(&path).map_err(|error| FileFailure::explained(&error))?;
-                let text = std::fs::read_to_string(&path).unwrap_or_default();
+                let text = disk::read_to_string(&path).unwrap_or_default();
                 let folder = path.parent().unwrap_or(Path::new(""));
                 Self::of_script(script, (path.display().to_string(), text), folder)
             }
@@ -124,7 +125,7 @@ fn photograph(path: &Path) -> Result<Mesh, FileFailure> {
 }
 
 fn absolute(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+    disk::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! How many steps are due, so that the time of a scene runs as the clock does.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 /// Steps of a scene in a second.
 pub const STEPS_A_SECOND: u64 = 120;

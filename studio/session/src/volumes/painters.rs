@@ -122,10 +122,10 @@ impl Painters {
     /// # Errors
     /// [`FileFailure`] for settings or pigments that cannot be used.
     pub(super) fn take_made(&mut self) -> Result<bool, FileFailure> {
-        match &self.making {
-            Some((.., making)) if making.is_ready() => self.await_made().map(|()| true),
-            _ => Ok(false),
+        if self.making.as_mut().is_some_and(|(.., making)| making.is_ready()) {
+            return self.await_made().map(|()| true);
         }
+        Ok(false)
     }
 
     /// Waits for the painter that is being made.

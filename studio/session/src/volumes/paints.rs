@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use pigment::library::PigmentLibrary;
 use render::volumes::script::Script;
+use spectra::file::disk;
 use spectra::hint::Hint;
 
 use super::materials::{Materials, fill_tubes, light_for_script};
@@ -40,7 +41,7 @@ impl Scene {
             return Err(FileFailure { what, hint });
         }
         fill_tubes(&mut script, &library)?;
-        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let path = disk::absolute(path).unwrap_or_else(|_| path.to_owned());
         // Below the folder of the subject by its name there.
         let named = path.strip_prefix(&self.folder).unwrap_or(&path);
         script.library = Some(named.to_string_lossy().into_owned());

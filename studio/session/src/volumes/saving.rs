@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use render::volumes::script::Script;
+use spectra::file::disk;
 use spectra::file::write_whole;
 use spectra::hint::Hint;
 
@@ -42,16 +43,16 @@ impl SceneRecording {
 
 /// The folder that a file lies in.
 fn folder_of(path: &Path) -> Option<PathBuf> {
-    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    path.parent().and_then(|folder| folder.canonicalize().ok())
+    let path = disk::absolute(path).unwrap_or_else(|_| path.to_owned());
+    path.parent().and_then(|folder| disk::canonicalize(folder).ok())
 }
 
 /// Copies a library to `to`, unless it is there.
 fn copied(library: &Path, to: &Path) -> Result<(), FileFailure> {
     let read =
-        |path: &Path| std::fs::read(path).map_err(|error| FileFailure::io(path, "read", &error));
+        |path: &Path| disk::read(path).map_err(|error| FileFailure::io(path, "read", &error));
     let bytes = read(library)?;
-    if to.exists() {
+    if disk::exists(to) {
         if read(to)? == bytes {
             return Ok(());
         }

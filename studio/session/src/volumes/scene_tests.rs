@@ -1,6 +1,6 @@
 //! Scenes by hand against their scripts played.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use render::camera::Camera;
 use render::volumes::performance::{FirstView, Performance};

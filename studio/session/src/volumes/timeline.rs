@@ -1,7 +1,7 @@
 //! The recording played: the present moment, and snapshots to go back to.
 
 use std::collections::BTreeMap;
-use std::time::Instant;
+use web_time::Instant;
 
 use render::mesh::Mesh;
 use render::volumes::performance::{FirstView, Performance};

@@ -1,7 +1,7 @@
 //! The loop of the thread of a scene: carries out commands, lets time run, draws.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use render::camera::Camera;
 
@@ -10,9 +10,11 @@ use super::event::{ScenePicture, VolumeEvent};
 use super::inbox::Inbox;
 use super::pacer::{Pacer, STEPS_A_SECOND};
 use super::painters::{Quality, Sight};
+use super::picture_share::share_in_time;
 use super::scene::Scene;
 use super::state::{SceneState, SceneTime};
 use crate::failure::FileFailure;
+use crate::inbox::Wait;
 
 /// Most pictures that the front end may not have received yet.
 const MOST_UNCONFIRMED: usize = 2;
@@ -22,12 +24,6 @@ const STEPS_TIME: Duration = Duration::from_millis(25);
 
 /// Time for steps between two pictures while a moment is sought.
 const SEEK_TIME: Duration = Duration::from_millis(60);
-
-/// Time for a picture of a scene that moves. It is drawn smaller if it would take longer.
-const MOVING: Duration = Duration::from_millis(40);
-
-/// Smallest share of width and height at which moving scenes are drawn.
-const SMALLEST: f64 = 0.5;
 
 /// Time after the last change at which a picture is drawn with all samples.
 const REST: Duration = Duration::from_millis(160);
@@ -43,7 +39,7 @@ const STATE_INTERVAL: Duration = Duration::from_millis(50);
 
 /// State of the thread of a scene.
 pub(super) struct SceneLoop<'a> {
-    send: &'a dyn Fn(VolumeEvent),
+    send: Box<dyn Fn(VolumeEvent) + 'a>,
     inbox: Inbox,
     scene: Option<Scene>,
     camera: Option<Camera>,
@@ -64,9 +60,9 @@ pub(super) struct SceneLoop<'a> {
 }
 
 impl<'a> SceneLoop<'a> {
-    pub(super) fn new(inbox: Inbox, send: &'a dyn Fn(VolumeEvent)) -> Self {
+    pub(super) fn new(inbox: Inbox, send: impl Fn(VolumeEvent) + 'a) -> Self {
         Self {
-            send,
+            send: Box::new(send),
             inbox,
             scene: None,
             camera: None,
@@ -90,23 +86,44 @@ impl<'a> SceneLoop<'a> {
             if self.inbox.quit {
                 return;
             }
-            let confirmed = std::mem::take(&mut self.inbox.confirmed);
-            self.unconfirmed = self.unconfirmed.saturating_sub(confirmed);
-            while let Some(command) = self.inbox.next() {
-                let done = self.carry_out(command);
-                self.report(done);
-            }
-            let made = self.take_made();
-            self.report(made);
-            let advanced = self.advance();
-            if advanced.is_err() {
-                self.play(false);
-            }
-            self.report(advanced);
-            let drawn = self.draw();
-            self.report(drawn);
-            self.send_state();
+            self.step();
         }
+    }
+
+    /// Works until `deadline`, or until it must wait: then it returns how long. A step or a picture
+    /// that has begun is finished first. `None` after the command to quit.
+    pub(super) fn turn(&mut self, deadline: Instant) -> Option<Wait> {
+        loop {
+            self.inbox.receive_all();
+            if self.inbox.quit {
+                return None;
+            }
+            self.step();
+            let wait = Wait::until(self.wait_until());
+            if wait != Wait::None || Instant::now() >= deadline {
+                return Some(wait);
+            }
+        }
+    }
+
+    /// Carries out commands, takes the steps that are due, and draws.
+    fn step(&mut self) {
+        let confirmed = std::mem::take(&mut self.inbox.confirmed);
+        self.unconfirmed = self.unconfirmed.saturating_sub(confirmed);
+        while let Some(command) = self.inbox.next() {
+            let done = self.carry_out(command);
+            self.report(done);
+        }
+        let made = self.take_made();
+        self.report(made);
+        let advanced = self.advance();
+        if advanced.is_err() {
+            self.play(false);
+        }
+        self.report(advanced);
+        let drawn = self.draw();
+        self.report(drawn);
+        self.send_state();
     }
 
     /// Time until which the thread may wait for commands; `None` is without end.
@@ -356,27 +373,5 @@ impl<'a> SceneLoop<'a> {
             speed: if self.playing { self.pacer.speed(Instant::now()) } else { 0.0 },
         };
         Some(Arc::new(scene.state(time)))
-    }
-}
-
-/// Share of width and height, in eighths, at which a picture of `size` takes no longer than
-/// [`MOVING`], at least [`SMALLEST`].
-fn share_in_time([width, height]: [usize; 2], pixel_seconds: f64) -> f64 {
-    let whole = pixel_seconds * (width * height) as f64;
-    let share = (MOVING.as_secs_f64() / whole.max(1e-9)).sqrt();
-    ((8.0 * share).floor() / 8.0).clamp(SMALLEST, 1.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_moving_picture_is_as_large_as_there_is_time_for() {
-        let share = |milliseconds: f64| share_in_time([800, 500], 1e-3 * milliseconds / 4e5);
-        assert_eq!(
-            [0.0, 39.0, 41.0, 71.0, 170.0, 1e9].map(share),
-            [1.0, 1.0, 0.875, 0.75, 0.5, 0.5]
-        );
     }
 }

@@ -1,7 +1,7 @@
 //! Handles the events of the worker of scenes.
 
 use std::sync::Arc;
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::Context;
 use render::tile::Rect;

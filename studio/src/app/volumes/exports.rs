@@ -6,6 +6,7 @@ use std::sync::Arc;
 use render::export::PictureFormat;
 use render::light::Light;
 use render::paint::document::{Document, Lighting};
+use spectra::file::disk;
 use spectra::file::write_whole;
 
 use super::workspace::Volumes;
@@ -25,7 +26,7 @@ impl Volumes {
             SceneAnswer::Export(export, path) => self.export(export, path),
             SceneAnswer::Recover(lost) => {
                 let folder = lost.meta.path.clone().unwrap_or_default();
-                match std::fs::read_to_string(lost.script()) {
+                match disk::read_to_string(lost.script()) {
                     Ok(text) => {
                         self.open(Subject::Text { text, folder });
                         files.recovering_scene(lost);

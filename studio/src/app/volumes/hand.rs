@@ -1,6 +1,6 @@
 //! The hand in a scene: the pen uses the tool, the middle button and the wheel move the camera.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{Event, Modifiers, PointerButton, Popup, Response, Ui};
 use render::paint::strokes::SurfaceId;

@@ -1,6 +1,6 @@
 //! The status line of the workspace of scenes.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Align, Label, Layout, RichText, Ui};
 use session::volumes::SceneState;

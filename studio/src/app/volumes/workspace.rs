@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{Context, Pos2, Rect, vec2};
 use glam::Vec3;
@@ -17,6 +17,7 @@ use crate::panels::volumes::{
 };
 use crate::pen::Device;
 use crate::view::Picture;
+use session::Wait;
 use session::volumes::{
     Here, SHAPE, ScenePicture, SceneState, Subject, VolumeCommand, VolumeWorker,
 };
@@ -72,10 +73,15 @@ impl Volumes {
     #[must_use]
     pub fn new(context: &Context) -> Self {
         let woken = context.clone();
+        let wake = move || pace::wake(&woken);
+        #[cfg(not(target_arch = "wasm32"))]
+        let worker = VolumeWorker::start(wake);
+        #[cfg(target_arch = "wasm32")]
+        let worker = VolumeWorker::in_turns(wake);
         Self {
             tools: SceneTools::default(),
             orbit: Orbit::around([Vec3::NEG_ONE, Vec3::ONE], NOWHERE),
-            worker: VolumeWorker::start(move || pace::wake(&woken)),
+            worker,
             state: None,
             picture: None,
             rect: Rect::NOTHING,
@@ -91,6 +97,11 @@ impl Volumes {
             awaited: Vec::new(),
             last_request: 0,
         }
+    }
+
+    /// Lets the worker of a page work until `deadline`. Returns how long it may wait.
+    pub(crate) fn turn(&self, deadline: Instant) -> Wait {
+        self.worker.turn(deadline)
     }
 
     /// State of the scene as last reported; `None` before the first.

@@ -31,7 +31,7 @@ pub(super) fn arranged<'a>(
 
 #[cfg(test)]
 mod tests {
-    use std::time::{Duration, SystemTime};
+    use web_time::{Duration, SystemTime};
 
     use super::*;
 

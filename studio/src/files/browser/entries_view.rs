@@ -1,6 +1,6 @@
 //! The entries of the folder: a list of rows, or a grid of pictures.
 
-use std::time::SystemTime;
+use web_time::SystemTime;
 
 use eframe::egui::{
     Align2, Button, Color32, Image, Label, Rect, Response, RichText, Role, ScrollArea, Sense,

@@ -1,9 +1,10 @@
 //! Lists the files and folders of a folder.
 
 use std::path::Path;
-use std::time::SystemTime;
+use web_time::SystemTime;
 
 use render::picture_formats::ENDINGS;
+use spectra::file::disk;
 
 use crate::files::job::{JobError, Progress};
 use crate::files::problem::Problem;
@@ -67,7 +68,7 @@ pub(crate) const fn pictures_and<const ALL: usize>(others: &[&'static str]) -> [
 pub(super) fn entries(folder: &Path, progress: &Progress) -> Result<Vec<Entry>, JobError> {
     let unreadable = |error: std::io::Error| Problem::io(folder, "read", &error);
     let mut entries = Vec::new();
-    for entry in std::fs::read_dir(folder).map_err(unreadable)?.take(MAX_ENTRIES) {
+    for entry in disk::read_dir(folder).map_err(unreadable)?.take(MAX_ENTRIES) {
         progress.report(0.0)?;
         let Ok(entry) = entry else { continue };
         // A name that is not valid Unicode could not be typed or shown.
@@ -76,7 +77,7 @@ pub(super) fn entries(folder: &Path, progress: &Progress) -> Result<Vec<Entry>, 
             continue;
         }
         // Links are followed; a broken link is left out.
-        let Ok(found) = std::fs::metadata(entry.path()) else { continue };
+        let Ok(found) = disk::metadata(entry.path()) else { continue };
         let (bytes, changed) = (found.len(), found.modified().ok());
         entries.push(Entry { name, folder: found.is_dir(), bytes, changed });
     }

@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+#[cfg(not(target_arch = "wasm32"))]
 use directories::UserDirs;
 
 use crate::language::english;
+use spectra::file::disk;
 
 /// Most folders of recent files.
 const MOST_FOLDERS: usize = 6;
@@ -30,8 +32,26 @@ pub(super) struct PlaceFolder {
 
 /// The user's home folder, or the root folder if it is not known.
 #[must_use]
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) fn home_folder() -> PathBuf {
     UserDirs::new().map_or_else(|| PathBuf::from("/"), |dirs| dirs.home_dir().to_owned())
+}
+
+/// The folder of files that the painter opened or saved in this page.
+#[must_use]
+#[cfg(target_arch = "wasm32")]
+pub(super) fn home_folder() -> PathBuf {
+    PathBuf::from("/files")
+}
+
+/// The painter's folders for desktop, documents, pictures and downloads.
+fn own_folders() -> [Option<PathBuf>; 4] {
+    #[cfg(not(target_arch = "wasm32"))]
+    if let Some(dirs) = UserDirs::new() {
+        return [dirs.desktop_dir(), dirs.document_dir(), dirs.picture_dir(), dirs.download_dir()]
+            .map(|path| path.map(Path::to_owned));
+    }
+    [const { None }; 4]
 }
 
 /// The places that exist now. `lately` lists folders of the last file and of recent ones, the
@@ -40,18 +60,14 @@ pub(super) fn home_folder() -> PathBuf {
 pub(super) fn places(lately: &[PathBuf]) -> Vec<PlaceFolder> {
     let mut found = Vec::new();
     let home = home_folder();
-    let dirs = UserDirs::new();
-    let own = dirs.as_ref().map_or([None; 4], |dirs| {
-        [dirs.desktop_dir(), dirs.document_dir(), dirs.picture_dir(), dirs.download_dir()]
-    });
     add(&mut found, PlaceKind::Own, english("Home"), &home);
     for (name, path) in
         [english("Desktop"), english("Documents"), english("Pictures"), english("Downloads")]
             .into_iter()
-            .zip(own)
+            .zip(own_folders())
     {
         if let Some(path) = path {
-            add(&mut found, PlaceKind::Own, name, path);
+            add(&mut found, PlaceKind::Own, name, &path);
         }
     }
     let mut left = MOST_FOLDERS;
@@ -70,7 +86,7 @@ pub(super) fn places(lately: &[PathBuf]) -> Vec<PlaceFolder> {
 
 /// Adds a folder that exists and is not listed yet; returns whether it was added.
 fn add(found: &mut Vec<PlaceFolder>, kind: PlaceKind, name: &str, path: &Path) -> bool {
-    if !path.is_dir() || found.iter().any(|place| place.path == path) {
+    if !disk::is_dir(path) || found.iter().any(|place| place.path == path) {
         return false;
     }
     found.push(PlaceFolder { kind, name: name.to_owned(), path: path.to_owned() });
@@ -79,6 +95,9 @@ fn add(found: &mut Vec<PlaceFolder>, kind: PlaceKind, name: &str, path: &Path) -
 
 /// Drives where the system shows them: letters, or folders that they are mounted in.
 fn drives(home: &Path) -> Vec<PathBuf> {
+    if cfg!(target_arch = "wasm32") {
+        return Vec::new();
+    }
     if cfg!(windows) {
         return ('A'..='Z').map(|letter| PathBuf::from(format!("{letter}:\\"))).collect();
     }
@@ -90,7 +109,7 @@ fn drives(home: &Path) -> Vec<PathBuf> {
     ];
     let mut drives = vec![PathBuf::from("/")];
     for base in bases {
-        let Ok(entries) = std::fs::read_dir(base) else { continue };
+        let Ok(entries) = disk::read_dir(base) else { continue };
         let mut mounted: Vec<_> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
         mounted.sort();
         drives.extend(mounted);

@@ -21,6 +21,12 @@ const WIDTH: f32 = 860.0;
 const HEIGHT: f32 = 440.0;
 
 impl Browser {
+    /// Whether it asks where to save.
+    #[must_use]
+    pub(crate) fn is_saving(&self) -> bool {
+        self.options.saving
+    }
+
     /// Shows the dialog above everything else. Returns the painter's answer, after which
     /// the caller closes the dialog.
     pub(crate) fn show(&mut self, ctx: &Context, thumbnails: &mut Thumbnails) -> Option<Answer> {

@@ -9,6 +9,7 @@ use crate::files::browser_look::BrowserLook;
 use crate::files::job::{Job, JobError};
 use crate::files::problem::Problem;
 use crate::language::tr;
+use spectra::file::disk;
 
 /// Title, filters and purpose of a file browser.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -95,7 +96,7 @@ impl Browser {
         let woken = wake.clone();
         let finding_places =
             Job::start("places", move || woken.request_repaint(), move |_| Ok(places(&lately)));
-        let folder = folder.filter(|folder| folder.is_dir()).map(Path::to_owned);
+        let folder = folder.filter(|folder| disk::is_dir(folder)).map(Path::to_owned);
         let filter = options.filters.first().copied().unwrap_or(Filter::ALL);
         let passes = |path: &&PathBuf| path.to_str().is_some_and(|path| filter.passes(path));
         let mut browser = Self {
@@ -226,7 +227,7 @@ impl Browser {
     /// Opens the folder that was typed, or chooses the file.
     pub(crate) fn enter_typed(&mut self) -> Option<Answer> {
         let typed = self.folder.join(self.typed_folder.trim());
-        if typed.is_file() && !self.options.saving {
+        if disk::is_file(&typed) && !self.options.saving {
             return Some(Answer::File(typed));
         }
         self.go(typed);
@@ -242,7 +243,7 @@ impl Browser {
             return None;
         }
         let path = with_ending(self.folder.join(name), self.options.ending, self.options.others);
-        if path.exists() && self.replacing.as_ref() != Some(&path) {
+        if disk::exists(&path) && self.replacing.as_ref() != Some(&path) {
             self.replacing = Some(path);
             return None;
         }
@@ -254,7 +255,7 @@ impl Browser {
         let name = self.name.trim();
         let name = name.split('.').next().unwrap_or(name);
         let folder = self.folder.join(if name.is_empty() { tr("New folder") } else { name });
-        match std::fs::create_dir(&folder) {
+        match disk::create_dir(&folder) {
             Ok(()) => self.go(folder),
             Err(error) => self.problem = Some(Problem::io(&folder, "created", &error)),
         }

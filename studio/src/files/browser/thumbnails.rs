@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use web_time::SystemTime;
 
 use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use render::picture_formats::has_picture_ending;

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use eframe::egui::{Align2, DragValue, Key, Ui, vec2};
+use spectra::file::disk;
 use spectra::swatch_file::{SwatchFile, SwatchFileError, read_aco, read_ase, read_gpl};
 
 use super::super::context::PanelContext;
@@ -191,7 +192,7 @@ fn colors(path: &Path) -> Result<SwatchFile, String> {
     let name = path.display().to_string();
     let reader = reader(path)
         .ok_or_else(|| tr_format!("{name}: expected a .gpl, .ase or .aco file", name))?;
-    let bytes = std::fs::read(path).map_err(|error| format!("{name}: {error}"))?;
+    let bytes = disk::read(path).map_err(|error| format!("{name}: {error}"))?;
     reader(&name, &bytes).map_err(|error| error.to_string())
 }
 

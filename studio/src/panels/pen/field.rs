@@ -1,6 +1,6 @@
 //! The field on which the pen is tried.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use eframe::egui::{
     Align2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,

@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use eframe::egui::ColorImage;
 use render::paint::file::MEMORY_LIMIT;
 use render::photograph::Picture as Linear;
+use session::background;
 use spectra::color::RgbSpace;
 
 use crate::files::{ReadPicture, on_screen, read_picture};
@@ -110,7 +111,7 @@ impl PendingPicture {
     pub(super) fn start(path: &Path, wake: impl FnOnce() + Send + 'static) -> Self {
         let (sender, receiver) = channel();
         let path = path.to_owned();
-        std::thread::spawn(move || {
+        background::start(move || {
             let _ = sender.send(Picture::open(&path));
             wake();
         });

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use egui_kittest::{Harness, kittest::Queryable};
 use pigment::library::PigmentLibrary;

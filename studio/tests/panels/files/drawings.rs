@@ -1,7 +1,7 @@
 //! Marks and guides on the reference picture are saved, opened, and asked for before they are lost.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Key, Modifiers, Pos2, ViewportCommand, ViewportEvent, ViewportId, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -2,7 +2,7 @@
 //! followed.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{Key, Modifiers};
 use pigment::library::PigmentLibrary;

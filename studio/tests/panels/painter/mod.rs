@@ -1,7 +1,7 @@
 //! Tests of tube, brush, layer and history panels with a real worker.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use eframe::egui::{UiBuilder, Vec2, accesskit::Role, pos2, vec2};
 use egui_kittest::Harness;

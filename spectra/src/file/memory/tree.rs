@@ -1,0 +1,177 @@
+//! The tree of folders and files.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use web_time::SystemTime;
+
+use super::Change;
+
+/// What lies at a path.
+#[derive(Debug, Clone)]
+pub(super) enum Node {
+    /// A folder.
+    Folder,
+    /// A file with its content.
+    File(Arc<Vec<u8>>),
+}
+
+/// Folders and files by their paths from the root on. The root itself is always there.
+#[derive(Debug)]
+pub(super) struct Tree {
+    nodes: BTreeMap<PathBuf, (Node, SystemTime)>,
+    /// Paths of files that have changed.
+    changed: BTreeSet<PathBuf>,
+}
+
+/// `path` from the root on, without `.` and `..`.
+pub(in crate::file) fn from_root(path: &Path) -> PathBuf {
+    let mut found = PathBuf::from("/");
+    for part in path.components() {
+        match part {
+            Component::Normal(name) => found.push(name),
+            Component::ParentDir => drop(found.pop()),
+            Component::Prefix(_) | Component::RootDir | Component::CurDir => {}
+        }
+    }
+    found
+}
+
+impl Tree {
+    pub(super) const fn new() -> Self {
+        Self { nodes: BTreeMap::new(), changed: BTreeSet::new() }
+    }
+
+    /// What lies at `path`, and since when.
+    pub(super) fn find(&self, path: &Path) -> io::Result<(Node, SystemTime)> {
+        let path = from_root(path);
+        if path == Path::new("/") {
+            return Ok((Node::Folder, SystemTime::UNIX_EPOCH));
+        }
+        self.nodes.get(&path).cloned().ok_or_else(|| io::ErrorKind::NotFound.into())
+    }
+
+    /// Content of a file.
+    pub(super) fn file(&self, path: &Path) -> io::Result<Arc<Vec<u8>>> {
+        match self.find(path)?.0 {
+            Node::File(bytes) => Ok(bytes),
+            Node::Folder => Err(io::ErrorKind::IsADirectory.into()),
+        }
+    }
+
+    fn is_folder(&self, path: &Path) -> io::Result<()> {
+        match self.find(path)?.0 {
+            Node::Folder => Ok(()),
+            Node::File(_) => Err(io::ErrorKind::NotADirectory.into()),
+        }
+    }
+
+    /// Writes a file whose folder is there.
+    pub(super) fn put(&mut self, path: &Path, bytes: Arc<Vec<u8>>) -> io::Result<()> {
+        let path = from_root(path);
+        let folder = path.parent().ok_or(io::ErrorKind::IsADirectory)?;
+        self.is_folder(folder)?;
+        if self.is_folder(&path).is_ok() {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        self.nodes.insert(path.clone(), (Node::File(bytes), SystemTime::now()));
+        self.changed.insert(path);
+        Ok(())
+    }
+
+    /// Makes a folder in one that is there.
+    pub(super) fn make_folder(&mut self, path: &Path) -> io::Result<()> {
+        let path = from_root(path);
+        if self.find(&path).is_ok() {
+            return Err(io::ErrorKind::AlreadyExists.into());
+        }
+        self.is_folder(path.parent().unwrap_or(Path::new("/")))?;
+        self.nodes.insert(path, (Node::Folder, SystemTime::now()));
+        Ok(())
+    }
+
+    /// Makes a folder and those above it.
+    pub(super) fn make_folders(&mut self, path: &Path) -> io::Result<()> {
+        let path = from_root(path);
+        let above: Vec<PathBuf> = path.ancestors().map(Path::to_owned).collect();
+        for folder in above.iter().rev() {
+            match self.find(folder) {
+                Ok((Node::Folder, _)) => {}
+                Ok((Node::File(_), _)) => return Err(io::ErrorKind::NotADirectory.into()),
+                Err(_) => self.make_folder(folder)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Paths directly in a folder.
+    pub(super) fn entries(&self, path: &Path) -> io::Result<Vec<PathBuf>> {
+        self.is_folder(path)?;
+        let path = from_root(path);
+        let inside = self.nodes.keys().filter(|found| found.parent() == Some(&path));
+        Ok(inside.cloned().collect())
+    }
+
+    pub(super) fn remove_file(&mut self, path: &Path) -> io::Result<()> {
+        self.file(path)?;
+        let path = from_root(path);
+        self.nodes.remove(&path);
+        self.changed.insert(path);
+        Ok(())
+    }
+
+    /// Removes a folder with all below it.
+    pub(super) fn remove_folder(&mut self, path: &Path) -> io::Result<()> {
+        self.is_folder(path)?;
+        for path in self.below(&from_root(path)) {
+            if let Some((Node::File(_), _)) = self.nodes.remove(&path) {
+                self.changed.insert(path);
+            }
+        }
+        Ok(())
+    }
+
+    /// A path that is there, with all below it.
+    fn below(&self, path: &Path) -> Vec<PathBuf> {
+        self.nodes.keys().filter(|found| found.starts_with(path)).cloned().collect()
+    }
+
+    pub(super) fn rename(&mut self, from: &Path, to: &Path) -> io::Result<()> {
+        let (from, to) = (from_root(from), from_root(to));
+        let (node, _) = self.find(&from)?;
+        self.is_folder(to.parent().ok_or(io::ErrorKind::AlreadyExists)?)?;
+        match (node, self.find(&to)) {
+            (Node::File(bytes), _) => {
+                self.put(&to, bytes)?;
+                if from != to {
+                    self.remove_file(&from)?;
+                }
+            }
+            (Node::Folder, Ok(_)) => return Err(io::ErrorKind::AlreadyExists.into()),
+            (Node::Folder, Err(_)) if to.starts_with(&from) => {
+                return Err(io::ErrorKind::InvalidInput.into());
+            }
+            (Node::Folder, Err(_)) => {
+                for path in self.below(&from) {
+                    let Some(found) = self.nodes.remove(&path) else { continue };
+                    let rest = path.strip_prefix(&from).unwrap_or(Path::new(""));
+                    // Joining nothing would add a slash.
+                    let path_then = if rest == Path::new("") { to.clone() } else { to.join(rest) };
+                    if matches!(found.0, Node::File(_)) {
+                        self.changed.extend([path, path_then.clone()]);
+                    }
+                    self.nodes.insert(path_then, found);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Files that have changed since the last call.
+    pub(super) fn take_changes(&mut self) -> Vec<Change> {
+        let changed = std::mem::take(&mut self.changed);
+        changed.into_iter().map(|path| (path.clone(), self.file(&path).ok())).collect()
+    }
+}

@@ -1,0 +1,24 @@
+//! The operations of `replace` on the files of a page, which lie in memory.
+
+use std::io;
+use std::path::Path;
+
+use super::disk;
+
+/// Does nothing: what is written is in the file at once.
+pub fn sync_folder(_: &Path) {}
+
+/// Does nothing: no write is interrupted.
+pub fn abandon_writes() {}
+
+pub(super) fn check(path: &Path) -> io::Result<()> {
+    match path.parent() {
+        Some(folder) if disk::is_dir(folder) && !disk::is_dir(path) => Ok(()),
+        Some(folder) if disk::is_dir(folder) => Err(io::ErrorKind::IsADirectory.into()),
+        _ => Err(io::ErrorKind::NotFound.into()),
+    }
+}
+
+pub(super) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    disk::write(path, bytes)
+}

@@ -1,0 +1,204 @@
+//! The studio in a page: what the scripts of the page call.
+//!
+//! The panels and the session are those of the program. The page gives what a machine has and a
+//! browser has not: turns for the worker instead of a thread ([`Page::turn`]), files
+//! ([`Page::put`], [`Page::changes`]) and styluses ([`Page::pen`]).
+
+mod framed;
+
+mod told;
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use eframe::WebRunner;
+use eframe::egui::pos2;
+use js_sys::{Array, Function, Uint8Array};
+use spectra::file::disk;
+use studio::files::Problem;
+use studio::language::{Language, set_system, tr};
+use studio::pen::{PagePens, PagePhase, PagePointer};
+use wasm_bindgen::prelude::*;
+use web_sys::HtmlCanvasElement;
+use web_time::{Duration, Instant};
+
+use framed::Framed;
+
+/// Folder of the files that were opened and saved; the page offers those for download.
+const FILES: &str = "/files";
+
+/// Largest painting that a page takes, in bytes: 512 MiB. Read, it takes several times as much of the
+/// 4 GiB that a page has.
+const MOST_PAINTING_BYTES: f64 = 536_870_912.0;
+
+/// Largest other file that a page takes, in bytes: 256 MiB, as in the program.
+const MOST_BYTES: f64 = 268_435_456.0;
+
+/// The studio in a page.
+#[wasm_bindgen]
+pub struct Page {
+    runner: WebRunner,
+    pens: RefCell<PagePens>,
+    /// Changes of files that were not asked for yet.
+    changes: RefCell<Vec<disk::Change>>,
+}
+
+#[wasm_bindgen]
+impl Page {
+    /// A page in the language of this name, such as `de-AT`.
+    #[wasm_bindgen(constructor)]
+    pub fn new(language: &str) -> Self {
+        set_system(Language::of_name(language));
+        let _ = disk::create_dir_all(FILES);
+        Self { runner: WebRunner::new(), pens: RefCell::default(), changes: RefCell::default() }
+    }
+
+    /// Puts a file on the disk of the page, without telling it as a change.
+    ///
+    /// # Errors
+    /// If a file is in the way of its folder.
+    pub fn put(&self, path: &str, bytes: Vec<u8>) -> Result<(), JsError> {
+        self.changes.borrow_mut().extend(disk::take_changes());
+        if let Some(folder) = Path::new(path).parent() {
+            disk::create_dir_all(folder)?;
+        }
+        disk::write(path, bytes)?;
+        disk::take_changes();
+        Ok(())
+    }
+
+    /// Opens the studio in a canvas. `frame_done` is called after each frame.
+    ///
+    /// # Errors
+    /// If the browser can draw neither with WebGPU nor with WebGL 2.
+    pub async fn start(
+        &self,
+        canvas: HtmlCanvasElement,
+        frame_done: Function,
+    ) -> Result<(), JsValue> {
+        let create: eframe::AppCreator<'static> =
+            Box::new(move |creation| Ok(Box::new(Framed::new(creation, frame_done))));
+        self.runner.start(canvas, framed::options(), create).await
+    }
+
+    /// Lets the workers work for `budget_ms`. Returns the time until the next turn in ms: 0 for at
+    /// once, and -1 if there is nothing to do until the next frame.
+    pub fn turn(&self, budget_ms: f64) -> f64 {
+        let Some(framed) = self.runner.app_mut::<Framed>() else { return -1.0 };
+        let deadline = Instant::now() + Duration::from_secs_f64(budget_ms.max(0.0) / 1000.0);
+        let wait = framed.studio.turn(deadline);
+        drop(framed);
+        // Work that may ask for the window, with the window free.
+        if session::background::next() {
+            return 0.0;
+        }
+        match wait {
+            session::Wait::None => 0.0,
+            session::Wait::Until(then) => {
+                1000.0 * then.saturating_duration_since(Instant::now()).as_secs_f64()
+            }
+            session::Wait::Forever => -1.0,
+        }
+    }
+
+    /// Files that have changed since the last call, each as its path and its content or null.
+    pub fn changes(&self) -> Array {
+        let mut changes = std::mem::take(&self.changes);
+        changes.extend(disk::take_changes());
+        let told = changes.into_iter().map(|(path, bytes)| {
+            let bytes = bytes.map_or(JsValue::NULL, |bytes| Uint8Array::from(&bytes[..]).into());
+            Array::of2(&path.display().to_string().into(), &bytes)
+        });
+        told.collect()
+    }
+
+    /// Whether the page takes a file of this name and size; if not, the painter is told why. To be
+    /// asked before the file is read.
+    pub fn takes(&self, name: &str, bytes: f64) -> bool {
+        let is_painting = name.to_ascii_lowercase().ends_with(".exr");
+        let most = if is_painting { MOST_PAINTING_BYTES } else { MOST_BYTES };
+        if bytes <= most {
+            return true;
+        }
+        let text = format!("{name}: a page takes files of at most {most} bytes, found `{bytes}`");
+        self.report(text, tr("open it in the program impasto-studio").to_owned());
+        false
+    }
+
+    /// Opens a file: as the answer of the dialog that asked for one, or according to its kind.
+    ///
+    /// # Errors
+    /// If it has no name.
+    pub fn open(&self, name: &str, bytes: Vec<u8>) -> Result<(), JsError> {
+        let name = Path::new(name).file_name().ok_or_else(|| JsError::new("no name"))?;
+        let path: PathBuf = Path::new(FILES).join(name);
+        self.put(&path.display().to_string(), bytes)?;
+        if let Some(mut framed) = self.runner.app_mut::<Framed>() {
+            framed.open(path);
+        }
+        Ok(())
+    }
+
+    /// Endings of files that a dialog asks for since the last call, separated by commas; empty for all
+    /// files, undefined if none asks.
+    pub fn wanted(&self) -> Option<String> {
+        let mut framed = self.runner.app_mut::<Framed>()?;
+        let endings = framed.studio.files.take_wanted()?;
+        let endings: Vec<String> = endings.iter().map(|ending| format!(".{ending}")).collect();
+        Some(endings.join(","))
+    }
+
+    /// Shows a problem with a hint.
+    pub fn report(&self, text: String, hint: String) {
+        if let Some(mut framed) = self.runner.app_mut::<Framed>() {
+            framed.report(Problem { text, hint: Some(hint).filter(|hint| !hint.is_empty()) });
+        }
+    }
+
+    /// Takes a pointer event of a stylus. `phase` is 0 down, 1 move, 2 up, 3 gone; `numbers` are
+    /// x and y in CSS pixels of the canvas, pressure, tiltX, tiltY, twist, buttons, and the age of
+    /// the event in ms.
+    pub fn pen(&self, phase: u8, numbers: &[f64]) {
+        let phase = match phase {
+            0 => PagePhase::Down,
+            1 => PagePhase::Move,
+            2 => PagePhase::Up,
+            _ => PagePhase::Gone,
+        };
+        let &[x, y, pressure, tilt_x, tilt_y, twist_deg, buttons, age_ms] = numbers else { return };
+        let Some(mut framed) = self.runner.app_mut::<Framed>() else { return };
+        let zoom = f64::from(framed.zoom());
+        let now = Instant::now();
+        let age = Duration::from_secs_f64(age_ms.clamp(0.0, 1000.0) / 1000.0);
+        let event = PagePointer {
+            phase,
+            at: pos2((x / zoom) as f32, (y / zoom) as f32),
+            pressure,
+            tilt_deg: (tilt_x, tilt_y),
+            twist_deg,
+            buttons: buttons as u16,
+            arrived: now.checked_sub(age).unwrap_or(now),
+        };
+        let mut pens = self.pens.borrow_mut();
+        for report in pens.reports(&event) {
+            framed.studio.pen.feed(report);
+        }
+        if let Some(text) = pens.take_notice() {
+            framed.report(Problem { text, hint: None });
+        }
+        framed.wake();
+    }
+
+    /// Keeps what the page would forget: to be called when it is hidden.
+    pub fn leave(&self) {
+        if let Some(mut framed) = self.runner.app_mut::<Framed>() {
+            framed.studio.keep_tools();
+        }
+    }
+
+    /// State of the page as JSON, for its tests and figures.
+    pub fn inspect(&self) -> String {
+        let framed = self.runner.app_mut::<Framed>();
+        framed.map_or_else(|| "null".to_owned(), |framed| told::told(&framed))
+    }
+}

@@ -1,0 +1,27 @@
+//! What the tests of the page and its figures read.
+
+use serde_json::json;
+
+use crate::framed::Framed;
+
+/// State of the page as JSON.
+pub(crate) fn told(framed: &Framed) -> String {
+    let studio = &framed.studio;
+    let figures = studio.figures();
+    let painting = studio.painting();
+    json!({
+        "frames": framed.frames,
+        "graphics": framed.graphics,
+        "revision": painting.map(|state| state.revision),
+        "stroke_open": painting.map(|state| state.stroke_open),
+        "notices": studio.files.notices().collect::<Vec<_>>(),
+        "dialog": studio.files.has_dialog(),
+        "title": studio.files.title(),
+        "message": studio.message().map(|message| message.text.clone()),
+        "substeps_per_second": figures.substeps_per_second,
+        "waiting_substeps": figures.waiting_substeps,
+        "mean_latency_ms": figures.mean_latency_ms,
+        "max_latency_ms": figures.max_latency_ms,
+    })
+    .to_string()
+}
