@@ -1,6 +1,10 @@
 //! Reading a whole file, and replacing a file atomically.
 
 #[cfg(any(test, all(target_family = "wasm", target_os = "unknown")))]
+#[cfg_attr(
+    not(target_family = "wasm"),
+    allow(dead_code, unreachable_pub, unused_imports, reason = "tests alone use a part of it")
+)]
 mod memory;
 
 pub mod disk;

@@ -7,6 +7,8 @@
 //!
 //! The tests of the studio in a browser compare what was painted there.
 
+#![expect(clippy::print_stdout, reason = "an example prints what it did")]
+
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::mpsc::channel;

@@ -36,7 +36,7 @@ pub struct Metadata {
     modified: SystemTime,
 }
 
-#[expect(clippy::len_without_is_empty, reason = "the calls of std::fs::Metadata")]
+#[allow(clippy::len_without_is_empty, reason = "the calls of std::fs::Metadata")]
 impl Metadata {
     /// Whether it is a file.
     #[must_use]
