@@ -124,7 +124,7 @@ fn two_strokes() -> Vec<Command> {
         commands.push(Command::PenUp);
         commands.push(Command::Snapshot(number as u64));
     }
-    commands.extend([Command::Undo, Command::Snapshot(2)]);
+    commands.extend([Command::GoTo(3), Command::Snapshot(2)]);
     commands
 }
 
