@@ -25,6 +25,7 @@ pub(crate) fn told(framed: &Framed) -> String {
         "revision": painting.map(|state| state.revision),
         "stroke_open": painting.map(|state| state.stroke_open),
         "notices": studio.files.notices().collect::<Vec<_>>(),
+        "lost": studio.files.lost(),
         "dialog": studio.files.has_dialog(),
         "title": studio.files.title(),
         "message": studio.message().map(|message| message.text.clone()),
