@@ -1,7 +1,7 @@
 //! Which vector instructions of WebAssembly the crate `pulp` uses.
 //!
 //! `exr` turns on `pulp`'s use of relaxed SIMD, whose results differ between machines. Here the answer is
-//! that it is never used, so that paint stays the same to the last bit. The instructions are
+//! that it is never used. The instructions are
 //! still in the module, because `pulp` keeps the answer in memory: a browser without them
 //! refuses to load it.
 
