@@ -222,6 +222,12 @@ impl Files {
         self.painting.as_ref().is_some_and(changed)
     }
 
+    /// Number of autosaves of programs that were killed, which are offered.
+    #[must_use]
+    pub fn lost(&self) -> usize {
+        self.lost_sessions.len()
+    }
+
     /// Whether a dialog is open, which takes all key presses.
     #[must_use]
     pub fn has_dialog(&self) -> bool {

@@ -1,8 +1,9 @@
 //! Which vector instructions of WebAssembly the crate `pulp` uses.
 //!
-//! `exr` turns on `pulp`'s use of relaxed SIMD. Browsers without these instructions refuse a module
-//! that contains them, used or not. Here the answer is a constant, so that the compiler leaves them
-//! out.
+//! `exr` turns on `pulp`'s use of relaxed SIMD, whose results differ between machines. Here the answer is
+//! that it is never used. The instructions are
+//! still in the module, because `pulp` keeps the answer in memory: a browser without them
+//! refuses to load it.
 
 /// Does nothing: the module is compiled with these instructions.
 pub fn enable_simd128() {}

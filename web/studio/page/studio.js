@@ -145,7 +145,7 @@ function listenToPens(page) {
 
 async function start() {
   const begun = performance.now();
-  const [, storage, canDraw] = await Promise.all([
+  const [wasm, storage, canDraw] = await Promise.all([
     init(),
     Storage.open().catch((error) => {
       console.warn("the browser's storage cannot be used", error);
@@ -193,6 +193,7 @@ async function start() {
       "save the painting often: it is downloaded");
   }
   window.impasto.page = page;
+  window.impasto.memory = wasm.memory;
   window.impasto.inspect = () => JSON.parse(page.inspect());
   window.impasto.openFiles = (files) => open(page, files);
 }

@@ -103,7 +103,7 @@ impl Page {
 
     /// Files that have changed since the last call, each as its path and its content or null.
     pub fn changes(&self) -> Array {
-        let mut changes = std::mem::take(&self.changes);
+        let mut changes = self.changes.take();
         changes.extend(disk::take_changes());
         let told = changes.into_iter().map(|(path, bytes)| {
             let bytes = bytes.map_or(JsValue::NULL, |bytes| Uint8Array::from(&bytes[..]).into());

@@ -9,12 +9,23 @@ pub(crate) fn told(framed: &Framed) -> String {
     let studio = &framed.studio;
     let figures = studio.figures();
     let painting = studio.painting();
+    let placement = studio.canvas.placement();
+    let place = |cell: [f64; 2]| {
+        let point = placement.point(cell) * framed.zoom();
+        [point.x, point.y]
+    };
+    let (width, height) = studio.canvas.cells();
     json!({
+        // Corners of the canvas in CSS pixels, and its size in cells.
+        "corners": [place([0.0, 0.0]), place([width as f64, height as f64])],
+        "cells": [width, height],
+        "cell_mm": painting.map(|state| state.cell_mm),
         "frames": framed.frames,
         "graphics": framed.graphics,
         "revision": painting.map(|state| state.revision),
         "stroke_open": painting.map(|state| state.stroke_open),
         "notices": studio.files.notices().collect::<Vec<_>>(),
+        "lost": studio.files.lost(),
         "dialog": studio.files.has_dialog(),
         "title": studio.files.title(),
         "message": studio.message().map(|message| message.text.clone()),

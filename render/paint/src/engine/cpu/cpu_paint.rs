@@ -62,8 +62,12 @@ impl CpuPaint {
     pub(crate) fn name(&self) -> String {
         let threads = rayon::current_num_threads();
         let threads = if threads == 1 { "1 thread".into() } else { format!("{threads} threads") };
-        let wide = !matches!(pulp::Arch::new(), pulp::Arch::Scalar);
-        format!("the processor, {threads}{}", if wide { ", AVX2" } else { "" })
+        let vectors = match pulp::Arch::new() {
+            pulp::Arch::Scalar => "",
+            _ if cfg!(target_arch = "wasm32") => ", SIMD128",
+            _ => ", AVX2",
+        };
+        format!("the processor, {threads}{vectors}")
     }
 
     pub(crate) fn bounds(&self) -> Rect {
