@@ -27,7 +27,7 @@ pub(crate) enum Next {
     Malformed(usize),
     /// The beginning of a character.
     Incomplete,
-    /// No byte.
+    /// No byte is left.
     End,
 }
 

@@ -27,7 +27,7 @@ impl Decoder {
         Self { encoding, begun: Vec::new() }
     }
 
-    /// The encoding.
+    /// Encoding of the text.
     #[must_use]
     pub fn encoding(&self) -> &'static Encoding {
         self.encoding
