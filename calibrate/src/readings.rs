@@ -209,7 +209,7 @@ impl Readings {
 /// Table, input and remarks of one file.
 type OfFile = (MeasurementTable, Input, Vec<Remark>);
 
-/// What was read of the files so far.
+/// Tables, inputs and remarks of the files so far.
 #[derive(Default)]
 struct Found {
     tables: Vec<MeasurementTable>,

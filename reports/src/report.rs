@@ -224,11 +224,8 @@ mod tests {
         let viewing = spectra::Viewing::default();
         let subject = Subject::of_library(&library, &viewing, "test").unwrap();
         let page = page_alone(&subject, &|| ());
-        let figures: Vec<Figure> = drawn(&subject, &|| ())
-            .iter()
-            .flat_map(Section::figures)
-            .cloned()
-            .collect();
+        let figures: Vec<Figure> =
+            drawn(&subject, &|| ()).iter().flat_map(Section::figures).cloned().collect();
         assert!(figures.len() > 5, "{} figures", figures.len());
         let numbers = "href=\"data:text/csv;charset=utf-8,";
         assert_eq!(page.matches(numbers).count(), figures.len());

@@ -317,15 +317,18 @@ test("after one visit the page works without a network", async () => {
   await page.locator("html[data-offline=ready]").waitFor({ state: "attached" });
   await context.setOffline(true);
   server.end();
-  await page.reload();
-  await page.getByRole("button", { name: "Try readings of Van Gogh's oils" }).click();
-  await page.locator("#fit-start:enabled").click();
-  await page.locator("#fit-result").waitFor();
-  const library = await saved(page.getByRole("button", { name: "Download library" }));
-  const file = join(folder, "offline.json");
-  program(measurements, "fit", "van-gogh-oils.csv", "-o", file);
-  same(library.text, readFileSync(file, "utf8"));
-  server = await served("calibration");
+  try {
+    await page.reload();
+    await page.getByRole("button", { name: "Try readings of Van Gogh's oils" }).click();
+    await page.locator("#fit-start:enabled").click();
+    await page.locator("#fit-result").waitFor();
+    const library = await saved(page.getByRole("button", { name: "Download library" }));
+    const file = join(folder, "offline.json");
+    program(measurements, "fit", "van-gogh-oils.csv", "-o", file);
+    same(library.text, readFileSync(file, "utf8"));
+  } finally {
+    server = await served("calibration");
+  }
 });
 
 test("a link holds the library and the mixture", async () => {

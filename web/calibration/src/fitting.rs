@@ -116,7 +116,7 @@ impl Fit {
         Value::Object(errors).to_string()
     }
 
-    /// The library.
+    /// The library, with the evidence of its fit.
     pub fn library(&self) -> Library {
         Library(self.0.library.clone())
     }

@@ -13,9 +13,9 @@ mod viewing;
 
 mod readings;
 
-mod fitting;
-
 mod library;
+
+mod fitting;
 
 mod targets;
 

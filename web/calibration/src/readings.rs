@@ -71,7 +71,7 @@ impl Readings {
         Ok(Self(readings))
     }
 
-    /// What was read, as JSON: pigments, grid, number of readings and of samples, files, remarks.
+    /// The readings as JSON: pigments, grid, number of readings and of samples, files, remarks.
     pub fn about(&self) -> String {
         let table = &self.0.table;
         let paint = table.readings.iter().filter(|reading| reading.film == Film::Paint);

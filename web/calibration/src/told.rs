@@ -1,4 +1,4 @@
-//! What the page hears while a call runs: stages, and defects.
+//! Stages and defects, which the page hears while a call runs.
 
 use wasm_bindgen::prelude::*;
 

@@ -2,8 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::decoder::{Decoder, Kind, Next, next};
-use crate::names::{LABELS, UTF_8, UTF_16BE, UTF_16LE};
+use crate::characters::{Kind, Next, next};
 
 /// An encoding of text, one for each name of the web.
 #[derive(Debug, PartialEq, Eq)]
@@ -27,46 +26,10 @@ impl Encoding {
         self.name
     }
 
-    /// The encoding that a file calls `label`; `None` for an unknown one.
-    #[must_use]
-    pub fn for_label(label: &[u8]) -> Option<&'static Self> {
-        let label = label.trim_ascii();
-        let known = LABELS.iter().find(|known| known.name().as_bytes().eq_ignore_ascii_case(label));
-        let short = || label.eq_ignore_ascii_case(b"utf8").then_some(UTF_8);
-        let plain = || label.eq_ignore_ascii_case(b"utf-16").then_some(UTF_16LE);
-        known.copied().or_else(short).or_else(plain)
-    }
-
-    /// The encoding that a byte order mark tells, and the mark's length.
-    #[must_use]
-    pub fn for_bom(bytes: &[u8]) -> Option<(&'static Self, usize)> {
-        match bytes {
-            [0xef, 0xbb, 0xbf, ..] => Some((UTF_8, 3)),
-            [0xff, 0xfe, ..] => Some((UTF_16LE, 2)),
-            [0xfe, 0xff, ..] => Some((UTF_16BE, 2)),
-            _ => None,
-        }
-    }
-
     /// Whether each byte is a character.
     #[must_use]
     pub fn is_single_byte(&'static self) -> bool {
         self.kind == Kind::Windows1252
-    }
-
-    /// A decoder of pieces.
-    #[must_use]
-    pub fn new_decoder_without_bom_handling(&'static self) -> Decoder {
-        Decoder::new(self)
-    }
-
-    /// Decodes a whole text, in the encoding that its mark tells if it has one. Returns also the encoding, and
-    /// whether characters were replaced.
-    #[must_use]
-    pub fn decode<'a>(&'static self, bytes: &'a [u8]) -> (Cow<'a, str>, &'static Self, bool) {
-        let (encoding, mark) = Self::for_bom(bytes).unwrap_or((self, 0));
-        let (text, replaced) = encoding.decode_without_bom_handling(&bytes[mark..]);
-        (text, encoding, replaced)
     }
 
     /// Decodes a whole text. Bytes that stand for no character become U+FFFD; returns whether there are any.

@@ -1,6 +1,6 @@
 //! Every name of the WHATWG Encoding Standard.
 
-use crate::decoder::Kind;
+use crate::characters::Kind;
 use crate::encoding::Encoding;
 
 /// Encodings by their names: `constant, place: name, kind`.
