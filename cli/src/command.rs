@@ -136,7 +136,8 @@ fn grouped(command: &Command) -> String {
     for (title, names) in groups.chain([("More", others)]).filter(|(_, names)| !names.is_empty()) {
         text += &format!("{title}:\n");
         for name in names {
-            text += &about(name).map_or_else(String::new, |about| format!("  {name:width$}  {about}\n"));
+            text += &about(name)
+                .map_or_else(String::new, |about| format!("  {name:width$}  {about}\n"));
         }
         text.push('\n');
     }

@@ -20,12 +20,15 @@ const FRONT_PX: f32 = 0.75;
 /// Crinkle of the rim, as a share of the radius. Chosen by eye.
 const CRINKLE: f32 = 0.34;
 
-/// Radius of the circle in the noise that the large lobes of a front are taken from: eight of them
+/// Radius of the circle in the noise that the large lobes of a front are taken from: six of them
 /// lie around a bloom. Chosen by eye.
-const AROUND: f32 = 1.3;
+const AROUND: f32 = 0.9;
 
 /// Lobes for the width of a bloom, and cosine and sine of the turn of their noise.
 const TURNED: [(f32, [f32; 2]); 2] = [(9.0, [0.8, 0.6]), (21.0, [0.28, 0.96])];
+
+/// Length and width of a bloom, as shares of its diameter. Chosen by eye.
+const OVAL: [f32; 2] = [1.2, 0.84];
 
 /// How much paler a bloom is inside its rim, at most. Chosen by eye.
 const PALE: f32 = 0.3;
@@ -42,6 +45,8 @@ struct Bloom {
     radius: f32,
     /// Where the lobes of its front are taken from the noise.
     lobes: f32,
+    /// Cosine and sine of the direction in which it is longer.
+    along: [f32; 2],
     /// The wash that it falls into.
     color: [f32; 3],
 }
@@ -67,7 +72,9 @@ pub fn back_runs(wash: &Field<[f32; 4]>, settings: &BackRunSettings) -> Field<f3
                 let last = (width as f32 / size).floor() as i64 + 1;
                 (-1..=last).filter_map(move |column| bloom(wash, settings, size, [column, row]))
             })
-            .filter(|bloom| (bloom.y - y).abs() < bloom.radius * (1.0 + CRINKLE + 4.0 * RIM))
+            .filter(|bloom| {
+                (bloom.y - y).abs() < OVAL[0] * bloom.radius * (1.0 + CRINKLE + 4.0 * RIM)
+            })
             .collect();
         if blooms.is_empty() {
             return;
@@ -76,8 +83,10 @@ pub fn back_runs(wash: &Field<[f32; 4]>, settings: &BackRunSettings) -> Field<f3
             let x = column as f32;
             // 0 in the middle of the nearest bloom, 1 on its rim.
             let distances = blooms.iter().map(|bloom| {
-                let distance = (bloom.x - x).hypot(bloom.y - y) / bloom.radius;
-                (distance, bloom)
+                let (dx, dy, [cos, sin]) = (x - bloom.x, y - bloom.y, bloom.along);
+                let [long, wide] = OVAL;
+                let distance = ((cos * dx + sin * dy) / long).hypot((cos * dy - sin * dx) / wide);
+                (distance / bloom.radius, bloom)
             });
             let Some((nearest, bloom)) = distances.min_by(|a, b| a.0.total_cmp(&b.0)) else {
                 continue;
@@ -125,7 +134,7 @@ fn bloom(
     // Each cell has its own random stream.
     let cell = (((column + 0x8000) as u64) << 20) | (row + 0x8000) as u64;
     let mut random = random(settings.seed, (1 << 40) | cell);
-    let [share, x, y, radius, lobes]: [f32; 5] = std::array::from_fn(|_| random.random());
+    let [share, x, y, radius, lobes, turn]: [f32; 6] = std::array::from_fn(|_| random.random());
     let x = (column as f32 + 0.2 + 0.6 * x) * size;
     let y = (row as f32 + 0.2 + 0.6 * y) * size;
     let on_sheet = x >= 0.0 && y >= 0.0 && x < wash.width() as f32 && y < wash.height() as f32;
@@ -133,8 +142,10 @@ fn bloom(
         return None;
     }
     let [r, g, b, covered] = wash[(x as usize, y as usize)];
-    let radius = size * (0.22 + 0.26 * radius);
-    (covered > 0.5).then_some(Bloom { x, y, radius, lobes: 500.0 * lobes, color: [r, g, b] })
+    let radius = size * (0.2 + 0.22 * radius);
+    let (sin, cos) = (std::f32::consts::PI * turn).sin_cos();
+    let (lobes, along) = (500.0 * lobes, [cos, sin]);
+    (covered > 0.5).then_some(Bloom { x, y, radius, lobes, along, color: [r, g, b] })
 }
 
 #[cfg(test)]
@@ -142,9 +153,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_front_of_a_bloom_is_round_on_the_whole_and_ragged_in_detail() {
+    fn the_front_of_a_bloom_is_oval_on_the_whole_and_ragged_in_detail() {
         let wash = Field::filled(400, 400, [0.4, 0.4, 0.6, 1.0]);
-        let [mut fronts, mut sectors] = [Vec::new(), Vec::new()];
+        let (mut fronts, mut sectors) = (Vec::new(), Vec::new());
         for seed in 0..12 {
             let settings =
                 BackRunSettings { seed, size_px: 200.0, share: 1.0, ..BackRunSettings::default() };
@@ -173,9 +184,10 @@ mod tests {
             let squares: f32 = values.iter().map(|value| (value - mean).powi(2)).sum();
             (squares / values.len() as f32).sqrt()
         };
-        let ragged = fronts.iter().map(|own| spread(own)).sum::<f32>() / fronts.len() as f32;
+        let ragged =
+            fronts.iter().map(|own: &Vec<f32>| spread(own)).sum::<f32>() / fronts.len() as f32;
         let uneven = spread(&sectors);
         assert!(ragged > 0.07, "fronts vary by {ragged} of the radius");
-        assert!(uneven < 0.09, "quarters of fronts vary by {uneven} of the radius");
+        assert!(uneven < 0.2, "quarters of fronts vary by {uneven} of the radius");
     }
 }
