@@ -80,7 +80,7 @@ impl DepthTiles {
     pub(super) fn farthest(&self, columns: [f32; 2], rows: [f32; 2]) -> f32 {
         let squares = |[from, to]: [f32; 2], count: usize| {
             let square = |at: f32| (at / SIDE as f32).floor();
-            let inside = square(to) >= 0.0 && square(from) < count as f32;
+            let inside = count > 0 && square(to) >= 0.0 && square(from) < count as f32;
             let last = count.saturating_sub(1);
             inside.then(|| [from, to].map(|at| (square(at).max(0.0) as usize).min(last)))
         };
