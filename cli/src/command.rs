@@ -130,11 +130,14 @@ fn grouped(command: &Command) -> String {
     let others: Vec<&str> =
         others.map(Command::get_name).filter(|name| !named.contains(name)).collect();
     let groups = GROUPS.iter().map(|(title, names)| (*title, names.to_vec()));
+    let widest = GROUPS.iter().flat_map(|(_, names)| names.iter()).map(|name| name.len()).max();
+    let width = widest.unwrap_or_default();
     let mut text = String::new();
     for (title, names) in groups.chain([("More", others)]).filter(|(_, names)| !names.is_empty()) {
         text += &format!("{title}:\n");
         for name in names {
-            text += &about(name).map_or_else(String::new, |about| format!("  {name:11} {about}\n"));
+            text += &about(name)
+                .map_or_else(String::new, |about| format!("  {name:width$}  {about}\n"));
         }
         text.push('\n');
     }

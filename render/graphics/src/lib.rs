@@ -38,6 +38,8 @@ pub mod field;
 
 pub mod lanes;
 
+mod smoothstep;
+
 pub mod blur;
 
 pub mod encoding;
@@ -80,3 +82,4 @@ pub mod export;
 
 pub use blur::blurred;
 pub use kernels::kernels;
+pub use smoothstep::smoothstep;

@@ -12,8 +12,6 @@
 
 mod settings;
 
-mod smoothstep;
-
 mod wash;
 
 mod abstraction;

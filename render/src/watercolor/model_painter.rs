@@ -13,7 +13,7 @@ use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{
     AnchoredNoise, FeatureNoise, Features, Hierarchy, Particles, Projection, depths, draw_anchored,
-    draw_splats, repeating_noise,
+    repeating_noise,
 };
 use graphics::compute::{ColorImage, Compute, GreyImage};
 use graphics::distant_light::DistantLight;
@@ -329,10 +329,7 @@ impl Noise {
                 Ok(Some([draw(0)?, draw(1)?]))
             }
             Self::Features { features, noises } => {
-                let mut draw = |i: usize| {
-                    let splats = features[i].splats(projection, noises[i]);
-                    draw_splats(compute, depth, &splats)
-                };
+                let mut draw = |i: usize| features[i].draw(compute, depth, projection, noises[i]);
                 Ok(Some([draw(0)?, draw(1)?]))
             }
         }

@@ -10,7 +10,7 @@
 use glam::{Mat4, Vec3};
 use rayon::prelude::*;
 
-use super::shadow_map::{ShadowMap, ShadowView};
+use super::shadow_map::{GRAZING, OFFSET_PX, ShadowMap, ShadowView};
 use graphics::camera::Camera;
 use graphics::compute::{ColorImage, Compute, GpuCompute, Image, Plane};
 use graphics::distant_light::DistantLight;
@@ -109,18 +109,18 @@ fn shade_toon_on_cpu(
         if toon.samples == 1 {
             for (pixel, fragment) in row.iter_mut().zip(visible.row(y, 0, width)) {
                 if fragment.triangle != NO_TRIANGLE {
-                    *pixel = shader.color(*fragment).extend(1.0).into();
+                    *pixel = shader.color(*fragment, &mut None).extend(1.0).into();
                 }
             }
             return;
         }
         for (x, pixel) in row.iter_mut().enumerate() {
-            let mut sum = glam::Vec4::ZERO;
+            let (mut sum, mut last) = (glam::Vec4::ZERO, None);
             for line in 0..toon.samples {
                 let y = y * toon.samples + line;
                 for fragment in visible.row(y, x * toon.samples, toon.samples) {
                     if fragment.triangle != NO_TRIANGLE {
-                        sum += shader.color(*fragment).extend(1.0);
+                        sum += shader.color(*fragment, &mut last).extend(1.0);
                     }
                 }
             }
@@ -143,16 +143,14 @@ struct Shader<'a> {
     shadows: Option<(ShadowView, &'a VisibilityBuffer)>,
 }
 
-/// Cosine of the light below which shadows fade, since light that grazes a surface gives it little
-/// anyway. About 14 degrees; chosen by eye.
-const GRAZING: f32 = 0.25;
-/// Offset along the normal, and tolerance of distance, of a point in a shadow map, in its
-/// pixels: a surface must not cast shadows on itself.
-const OFFSET_PX: f32 = 1.5;
+/// The share of light that reached the last triangle that was shaded.
+type LastLit = Option<(u32, f32)>;
 
 impl Shader<'_> {
+    /// The colour of a sample. The samples of a pixel that show one triangle share the light that
+    /// reaches the first of them, which `last` keeps.
     #[inline]
-    fn color(&self, fragment: Fragment) -> Vec3 {
+    fn color(&self, fragment: Fragment, last: &mut LastLit) -> Vec3 {
         let point = SurfacePoint::new(self.mesh, fragment);
         let normal = point.normal(self.eye);
         let mut cosine = normal.dot(self.light);
@@ -160,7 +158,11 @@ impl Shader<'_> {
         if cosine > 0.0
             && let Some((view, map)) = &self.shadows
         {
-            let lit = lit(view, map, point.position() + normal * (OFFSET_PX * view.pixel));
+            let lit = match *last {
+                Some((triangle, lit)) if triangle == fragment.triangle => lit,
+                _ => view.lit(map, point.position(), normal, cosine),
+            };
+            *last = Some((fragment.triangle, lit));
             // Where light grazes, a coarse mesh would shadow the rounder surface that its normals tell.
             let shadow = self.toon.shadow * (1.0 - lit) * (cosine / GRAZING).min(1.0);
             cosine *= 1.0 - shadow;
@@ -170,29 +172,6 @@ impl Shader<'_> {
         let excess = (self.toon.strength * (0.5 - grey)).max(-1.0);
         (albedo * (Vec3::ONE - (Vec3::ONE - albedo) * excess)).clamp(Vec3::ZERO, Vec3::ONE)
     }
-}
-
-/// The share of light, 0 to 1, that reaches a place: four pixels of the map, interpolated.
-fn lit(view: &ShadowView, map: &VisibilityBuffer, place: Vec3) -> f32 {
-    let clip = view.clip_from_model * place.extend(1.0);
-    let side = map.width() as f32;
-    let x = (clip.x / clip.w + 1.0) / 2.0 * side - 0.5;
-    let y = (1.0 - clip.y / clip.w) / 2.0 * side - 0.5;
-    if !(x >= 0.0 && y >= 0.0 && x < side - 1.0 && y < side - 1.0) {
-        return 1.0;
-    }
-    let [near, far] = view.planes;
-    let distance = clip.w - OFFSET_PX * view.pixel;
-    let (left, top) = (x as usize, y as usize);
-    let free = |column: usize, row: usize| {
-        let depth = map[(left + column, top + row)].depth;
-        let first = near * far / (far - depth * (far - near));
-        if depth < 1.0 && first < distance { 0.0 } else { 1.0 }
-    };
-    let (a, b) = (x - x.floor(), y - y.floor());
-    let above = free(0, 0) + (free(1, 0) - free(0, 0)) * a;
-    let below = free(0, 1) + (free(1, 1) - free(0, 1)) * a;
-    above + (below - above) * b
 }
 
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -213,6 +192,10 @@ struct ToonParams {
     light_view: [f32; 4],
     /// Colour of cast shadows.
     shadow_color: [f32; 4],
+    /// To the right in the shadow map, in model coordinates, and half the width of a border.
+    light_right: [f32; 4],
+    /// Upwards in the shadow map, and the width of its pixel in the unit of the model.
+    light_up: [f32; 4],
     greys: [[f32; 4]; TONES / 4],
 }
 
@@ -230,6 +213,8 @@ pub(super) static TOON: Kernel = Kernel {
         light_clip,
         light_view,
         shadow_color,
+        light_right,
+        light_up,
         greys
     }),
     structs: &[Vertex::LAYOUT, PackedMaterial::LAYOUT, Fragment::LAYOUT],
@@ -269,6 +254,8 @@ fn shade_toon_on_gpu(
         light_clip: clip.to_cols_array_2d(),
         light_view: [near, far, offset, offset],
         shadow_color: [red, green, blue, 0.0],
+        light_right: view.map_or([0.0; 4], |view| view.axes[0].extend(view.soft as f32).into()),
+        light_up: view.map_or([0.0; 4], |view| view.axes[1].extend(view.pixel).into()),
         greys: bytemuck::cast(*toon.tones.greys()),
     };
     let color = gpu.plane(width, height)?;

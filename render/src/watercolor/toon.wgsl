@@ -17,6 +17,10 @@ struct ToonParams {
     // Near and far plane of the light, offset and tolerance.
     light_view: vec4<f32>,
     shadow_color: vec4<f32>,
+    // To the right in the shadow map, and half the width of a border in its pixels.
+    light_right: vec4<f32>,
+    // Upwards in the shadow map, and the width of its pixel.
+    light_up: vec4<f32>,
     greys: array<vec4<f32>, 64>,
 }
 
@@ -95,32 +99,69 @@ fn grey(cosine: f32) -> f32 {
     return low + (high - low) * (at - f32(below));
 }
 
-// 0 if the map shows a surface before `distance` in a pixel, otherwise 1.
-fn free(column: u32, row: u32, distance: f32) -> f32 {
-    let depth = shadows[row * params.side + column].depth;
-    let near = params.light_view.x;
-    let far = params.light_view.y;
-    let first = near * far / (far - depth * (far - near));
-    return select(1.0, 0.0, depth < 1.0 && first < distance);
+// 0 if the map shows a surface before `depth` in a pixel, otherwise 1.
+fn free(column: u32, row: u32, depth: f32) -> f32 {
+    let first = shadows[row * params.side + column].depth;
+    return select(1.0, 0.0, first < 1.0 && first < depth);
 }
 
-fn lit(place: vec3<f32>) -> f32 {
+// The weight of a pixel at `at` from `first` to `last`.
+fn share(at: u32, first: u32, last: u32, part: f32) -> f32 {
+    return select(select(1.0, part, at == last), 1.0 - part, at == first);
+}
+
+fn lit(own: vec3<f32>, normal: vec3<f32>, cosine: f32) -> f32 {
+    let place = own + normal * params.light_view.z;
     let clip = params.light_clip[0] * place.x + params.light_clip[1] * place.y
         + params.light_clip[2] * place.z + params.light_clip[3];
     let side = f32(params.side);
+    let soft = params.light_right.w;
     let x = (clip.x / clip.w + 1.0) / 2.0 * side - 0.5;
     let y = (1.0 - clip.y / clip.w) / 2.0 * side - 0.5;
-    if !(x >= 0.0 && y >= 0.0 && x < side - 1.0 && y < side - 1.0) {
+    if !(x >= soft && y >= soft && x < side - 1.0 - soft && y < side - 1.0 - soft) {
         return 1.0;
     }
-    let distance = clip.w - params.light_view.w;
     let left = u32(x);
     let top = u32(y);
-    let above = mix(free(left, top, distance), free(left + 1u, top, distance), x - floor(x));
-    let below = mix(free(left, top + 1u, distance), free(left + 1u, top + 1u, distance),
-        x - floor(x));
-    return mix(above, below, y - floor(y));
+    let near = params.light_view.x;
+    let far = params.light_view.y;
+    let distance = clip.w - params.light_view.w;
+    let scale = near * far / (far - near);
+    let depth = far / (far - near) - scale / distance;
+    let lean = scale / (distance * distance) * params.light_up.w / max(cosine, GRAZING);
+    let slope = lean * vec2(dot(normal, params.light_right.xyz), -dot(normal, params.light_up.xyz));
+    let around = u32(soft);
+    let first = left - around;
+    let last = left + around + 1u;
+    let upper = top - around;
+    let lower = top + around + 1u;
+    var columns = array(first, left, last);
+    var rows = array(upper, top, lower);
+    var count = 0.0;
+    for (var j = 0; j < 3; j++) {
+        for (var i = 0; i < 3; i++) {
+            let offset = vec2(f32(columns[i]) - x, f32(rows[j]) - y);
+            count += free(columns[i], rows[j], depth + dot(slope, offset));
+        }
+    }
+    if count == 0.0 || count == 9.0 {
+        return count / 9.0;
+    }
+    var sum = 0.0;
+    for (var row = upper; row <= lower; row++) {
+        for (var column = first; column <= last; column++) {
+            let offset = vec2(f32(column) - x, f32(row) - y);
+            sum += share(column, first, last, x - f32(left)) * share(row, upper, lower, y - f32(top))
+                * free(column, row, depth + dot(slope, offset));
+        }
+    }
+    return sum / ((2.0 * soft + 1.0) * (2.0 * soft + 1.0));
 }
+
+// The triangle that was shaded last, and the share of light that reached it: samples of a pixel
+// that show one triangle share it.
+var<private> last_triangle: u32 = 0xffffffffu;
+var<private> last_lit: f32 = 1.0;
 
 fn toon(at: Fragment) -> vec3<f32> {
     let triangle = triangles[at.triangle];
@@ -143,9 +184,12 @@ fn toon(at: Fragment) -> vec3<f32> {
     }
     var cosine = dot(normal, params.light);
     if cosine > 0.0 && params.side > 0u {
-        let place = between(at, a.position, b.position, c.position);
-        let share = lit(place + normal * params.light_view.z);
-        let shadow = params.shadow * (1.0 - share) * min(cosine / GRAZING, 1.0);
+        if last_triangle != at.triangle {
+            let place = between(at, a.position, b.position, c.position);
+            last_lit = lit(place, normal, cosine);
+            last_triangle = at.triangle;
+        }
+        let shadow = params.shadow * (1.0 - last_lit) * min(cosine / GRAZING, 1.0);
         cosine *= 1.0 - shadow;
         albedo *= mix(vec3(1.0), params.shadow_color.xyz, shadow);
     }

@@ -1,10 +1,13 @@
 //! Features of noise, drawn as splats.
 
+use super::depth_tiles::DepthTiles;
 use super::features::{Feature, Features};
 use super::octaves::{FeatureNoise, Octaves};
 use super::projection::Projection;
 use super::selection::{Density, InSight};
-use super::splat::Splat;
+use super::splat::{Splat, draw_splats, draw_splats_on_tiles};
+use crate::compute::{Compute, GreyImage};
+use crate::gpu::DeviceError;
 
 impl Features {
     /// The features of `noise` to draw in a projection, hidden ones included. Their order
@@ -14,7 +17,49 @@ impl Features {
         let octaves = Octaves::new(noise);
         let (end, margin_px) = (octaves.end(), octaves.largest_px());
         let in_sight = InSight::new(projection, Density::Screen, end, margin_px);
-        self.selected(&in_sight, |feature, splats| draw(projection, &octaves, feature, splats))
+        self.selected(&in_sight, |feature, splats| {
+            splats.extend(projected(projection, &octaves, feature).into_iter().flatten());
+        })
+    }
+
+    /// Draws `noise` on the surfaces that a projection shows at `depth`: [`draw_splats`] of
+    /// [`Self::splats`]. On the processor, features that those surfaces hide are left out early.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    ///
+    /// # Panics
+    /// If another form of [`Compute`] made `depth`.
+    pub fn draw(
+        &self,
+        compute: &mut Compute,
+        depth: &GreyImage,
+        projection: &Projection,
+        noise: FeatureNoise,
+    ) -> Result<GreyImage, DeviceError> {
+        if let Compute::Gpu(_) = compute {
+            return draw_splats(compute, depth, &self.splats(projection, noise));
+        }
+        let depth = depth.host();
+        let surfaces = DepthTiles::new(depth);
+        let splats = self.unhidden_splats(projection, noise, &surfaces);
+        Ok(draw_splats_on_tiles(depth, &surfaces, &splats).into())
+    }
+
+    /// The features of `noise` to draw in a projection, most of those without that `surfaces` hide.
+    fn unhidden_splats(
+        &self,
+        projection: &Projection,
+        noise: FeatureNoise,
+        surfaces: &DepthTiles,
+    ) -> Vec<Splat> {
+        let octaves = Octaves::new(noise);
+        let (end, margin_px) = (octaves.end(), octaves.largest_px());
+        let in_sight = InSight::new(projection, Density::Screen, end, margin_px);
+        self.selected(&in_sight.before(surfaces, &octaves), |feature, splats| {
+            let drawn = projected(projection, &octaves, feature).into_iter().flatten();
+            splats.extend(drawn.filter(|splat| !splat.is_behind(surfaces)));
+        })
     }
 }
 
@@ -23,8 +68,13 @@ fn sign(feature: &Feature) -> f32 {
     if feature.unit(4) < 0.5 { 1.0 } else { -1.0 }
 }
 
-fn draw(projection: &Projection, octaves: &Octaves, feature: &Feature, splats: &mut Vec<Splat>) {
-    let Some(at) = projection.project(feature.position) else { return };
+/// A feature as it is drawn: in one octave, or in two while it fades from one to the next.
+fn projected(
+    projection: &Projection,
+    octaves: &Octaves,
+    feature: &Feature,
+) -> Option<impl Iterator<Item = Splat>> {
+    let at = projection.project(feature.position)?;
     let towards = feature.normal.dot(feature.position - projection.camera.eye);
     // Pixels that one unit of area covers here.
     let focal = projection.focal_px / at.distance;
@@ -32,28 +82,25 @@ fn draw(projection: &Projection, octaves: &Octaves, feature: &Feature, splats: &
     let rank = feature.priority / pixels;
     // The comparison is false for features seen edge-on, whose rank is NaN or infinite.
     if !(rank < octaves.end() && at.depth <= 1.0) {
-        return;
+        return None;
     }
     let [slope_x, slope_y] = projection.slope(feature.normal, towards);
+    let (size, sign) = ([projection.width, projection.height], sign(feature));
     let near = |at: f32, size: usize, r: f32| at > -r && at < size as f32 + r;
-    for [radius, amplitude] in octaves.parts(rank) {
-        if !near(at.x, projection.width, radius) || !near(at.y, projection.height, radius) {
-            continue;
-        }
+    let seen = move |radius: f32| near(at.x, size[0], radius) && near(at.y, size[1], radius);
+    let parts = octaves.parts(rank).filter(move |[radius, _]| seen(*radius));
+    let (scale, away) = (projection.depth_scale(), projection.focal_px * at.distance);
+    Some(parts.map(move |[radius, amplitude]| Splat {
+        x: at.x,
+        y: at.y,
+        narrowness: 1.0 / radius,
+        amplitude: amplitude * sign,
+        depth: at.depth,
+        slope_x,
+        slope_y,
         // Allows for one pixel, and for the curvature of the surface within the radius.
-        let slack =
-            projection.depth_scale() * (1.0 + radius / 4.0) / (projection.focal_px * at.distance);
-        splats.push(Splat {
-            x: at.x,
-            y: at.y,
-            narrowness: 1.0 / radius,
-            amplitude: amplitude * sign(feature),
-            depth: at.depth,
-            slope_x,
-            slope_y,
-            tightness: 1.0 / slack,
-        });
-    }
+        tightness: 1.0 / (scale * (1.0 + radius / 4.0) / away),
+    }))
 }
 
 #[cfg(test)]
@@ -64,8 +111,10 @@ mod tests {
 
     use super::*;
     use crate::camera::Camera;
+    use crate::coherence::depths::depth_field;
     use crate::coherence::hierarchy::Hierarchy;
     use crate::mesh::Mesh;
+    use crate::surface::visible;
 
     fn features(mesh: &Mesh) -> Features {
         Features::new(Arc::new(Hierarchy::new(mesh)), 7)
@@ -101,6 +150,47 @@ mod tests {
         let mean = densities.iter().sum::<f32>() / densities.len() as f32;
         let even = densities.iter().all(|density| (density / mean - 1.0).abs() < 0.12);
         assert!(even, "{densities:?}");
+    }
+
+    #[test]
+    fn hidden_features_are_left_out_and_the_noise_stays() {
+        let noises = [
+            FeatureNoise { largest_px: 30.0, octaves: 3, persistence: 0.6, coverage: 3.0 },
+            FeatureNoise { largest_px: 4.0, octaves: 2, persistence: 0.8, coverage: 3.0 },
+        ];
+        for (mesh, eye) in [
+            (Mesh::torus_knot(6000), Vec3::new(0.5, 0.3, 1.6)),
+            (Mesh::sphere(900), Vec3::new(0.0, 0.4, 3.0)),
+        ] {
+            let camera = Camera {
+                eye,
+                target: Vec3::ZERO,
+                up: Vec3::Y,
+                field_of_view_deg: 50.0,
+                near: 0.05,
+                far: 8.0,
+            };
+            let (width, height) = (203, 150);
+            let projection = Projection::new(&camera, width, height);
+            let depth = depth_field(&visible(&mesh, &camera, width, height));
+            let surfaces = DepthTiles::new(&depth);
+            let features = features(&mesh);
+            for noise in noises {
+                let all = features.splats(&projection, noise);
+                let some = features.unhidden_splats(&projection, noise, &surfaces);
+                assert!(some.len() < all.len() * 3 / 4, "{} of {}", some.len(), all.len());
+                // They are some of all, in their order.
+                let mut rest = all.iter();
+                assert!(some.iter().all(|splat| rest.any(|other| other == splat)));
+                let compute = &mut Compute::cpu();
+                let image = depth.clone().into();
+                let plain = draw_splats(compute, &image, &all).unwrap();
+                let drawn = features.draw(compute, &image, &projection, noise).unwrap();
+                let pairs = plain.host().values().iter().zip(drawn.host().values());
+                let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+                assert!(worst < 1e-3, "{noise:?}: {worst}");
+            }
+        }
     }
 
     #[test]

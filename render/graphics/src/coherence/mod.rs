@@ -10,6 +10,8 @@ mod projection;
 
 mod depths;
 
+mod depth_tiles;
+
 mod random;
 
 mod hierarchy;

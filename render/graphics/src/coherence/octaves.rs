@@ -102,12 +102,22 @@ impl Octaves {
         self.each[0][0]
     }
 
+    /// Radius of the largest features of this rank and above, in pixels.
+    pub(super) fn largest_from(&self, rank: f32) -> f32 {
+        self.each[self.first_of(rank).1.min(self.each.len() - 1)][0]
+    }
+
+    /// The logarithm of a rank, and the first octave that its features may belong to.
+    fn first_of(&self, rank: f32) -> (f32, usize) {
+        let level = (rank / self.first).log2() / 2.0;
+        (level, (level + 0.5).floor().max(0.0) as usize)
+    }
+
     /// Radius in pixels and amplitude with which a feature of this rank is drawn: once, or
     /// twice while it fades from one octave to the next.
     pub(super) fn parts(&self, rank: f32) -> impl Iterator<Item = [f32; 2]> {
-        let level = (rank / self.first).log2() / 2.0;
         // A feature belongs to two octaves at most.
-        let nearest = (level + 0.5).floor().max(0.0) as usize;
+        let (level, nearest) = self.first_of(rank);
         let near = nearest.min(self.each.len())..(nearest + 2).min(self.each.len());
         near.filter_map(move |octave| {
             let [radius, amplitude] = self.each[octave];

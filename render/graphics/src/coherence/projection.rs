@@ -163,6 +163,12 @@ impl Projection {
         near * far / (far - near)
     }
 
+    /// Depth at a distance in front of the eye, above 0.
+    pub(super) fn depth_at(&self, distance: f32) -> f32 {
+        let Camera { near, far, .. } = self.camera;
+        far / (far - near) - self.depth_scale() / distance
+    }
+
     /// How much depth grows per pixel to the right and downwards on a plane with this
     /// `normal`; `towards` is the dot product of the normal and a vector from the eye to
     /// the plane.

@@ -3,8 +3,10 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
+use super::depth_tiles::DepthTiles;
 use super::features::{Feature, Features, Half};
 use super::hierarchy::Face;
+use super::octaves::Octaves;
 use super::projection::Projection;
 
 /// Triangles are halved at most this often; f32 cannot represent smaller ones.
@@ -30,6 +32,12 @@ pub(super) trait Select: Sync {
     /// The highest priority that is needed within a sphere; `None` if nothing in it is. With a
     /// `normal`, all of it lies on the plane through the centre with this normal.
     fn needed(&self, center: Vec3, radius: f32, normal: Option<Vec3>) -> Option<f32>;
+
+    /// Whether nothing in a sphere is needed, since surfaces before it hide it. `share` is the area
+    /// within the sphere times the highest priority that is needed there.
+    fn hidden(&self, _center: Vec3, _radius: f32, _share: f64) -> bool {
+        false
+    }
 }
 
 /// Selects the features that one projection needs.
@@ -45,6 +53,8 @@ pub(super) struct InSight<'a> {
     sides: [Vec3; 4],
     /// How far beyond these planes features may lie, in the unit of the model.
     beyond: f32,
+    /// The surfaces that hide others, and the octaves of the features.
+    surfaces: Option<(&'a DepthTiles, &'a Octaves)>,
 }
 
 /// Selects all features below a priority.
@@ -69,7 +79,13 @@ impl<'a> InSight<'a> {
         let [across, down] = [slope(projection.width), slope(projection.height)];
         let side = |axis: Vec3, slope: f32| (forward * slope - axis).normalize_or_zero();
         let sides = [side(right, across), side(-right, across), side(up, down), side(-up, down)];
-        Self { projection, density, end, forward, sides, beyond }
+        Self { projection, density, end, forward, sides, beyond, surfaces: None }
+    }
+
+    /// Without most of the features that `surfaces` hide. Ranks are those of `octaves`.
+    pub(super) fn before(mut self, surfaces: &'a DepthTiles, octaves: &'a Octaves) -> Self {
+        self.surfaces = Some((surfaces, octaves));
+        self
     }
 }
 
@@ -98,6 +114,32 @@ impl Select for InSight<'_> {
             Density::Facing => self.end * (projection.focal_px / nearest).powi(2),
             Density::Surface { px_per_unit } => self.end * px_per_unit * px_per_unit,
         })
+    }
+
+    fn hidden(&self, center: Vec3, radius: f32, share: f64) -> bool {
+        let (Some((surfaces, octaves)), projection) = (self.surfaces, self.projection) else {
+            return false;
+        };
+        let to = center - projection.camera.eye;
+        let along = to.dot(self.forward);
+        let nearest = along - radius;
+        // No feature of an area has a lower priority than one feature on all of it.
+        let reach = octaves.largest_from((f64::from(self.end) / share) as f32);
+        // A feature shows up to twice its tolerance before its surface, and its plane may lean
+        // towards the eye.
+        let ahead = nearest - nearest / projection.focal_px * (2.0 + 1.5 * reach);
+        if ahead <= projection.camera.near {
+            return false;
+        }
+        let [right, up] = projection.axes();
+        let limits = |slope: f32, size: usize| {
+            let middle = size as f32 / 2.0 + projection.focal_px * slope;
+            let around = projection.focal_px * radius * (1.0 + slope.abs()) / nearest + reach;
+            [middle - around, middle + around]
+        };
+        let columns = limits(to.dot(right) / along, projection.width);
+        let rows = limits(-to.dot(up) / along, projection.height);
+        projection.depth_at(ahead) > surfaces.farthest(columns, rows)
     }
 }
 
@@ -146,8 +188,7 @@ impl Features {
         while index < end {
             let patch = &self.hierarchy.patches[index];
             // The centre of a patch is that of its box, which lies on no plane of its faces.
-            let needed = select.needed(patch.center, patch.radius, None);
-            if needed.is_none_or(|needed| f64::from(needed) * patch.area <= 1.0) {
+            if !wanted(select, patch.center, patch.radius, None, patch.area) {
                 index = patch.end;
                 continue;
             }
@@ -163,6 +204,18 @@ impl Features {
     }
 }
 
+/// Whether features of an `area` within a sphere, and of its parts, are selected.
+fn wanted(
+    select: &impl Select,
+    center: Vec3,
+    radius: f32,
+    normal: Option<Vec3>,
+    area: f64,
+) -> bool {
+    let share = select.needed(center, radius, normal).map(|needed| f64::from(needed) * area);
+    share.is_some_and(|share| share > 1.0 && !select.hidden(center, radius, share))
+}
+
 fn halve(
     select: &impl Select,
     half: Half,
@@ -174,8 +227,7 @@ fn halve(
     let center = (a + b + c) / 3.0;
     let radius = [a, b, c].map(|at| at.distance_squared(center)).into_iter();
     let radius = radius.fold(0.0, f32::max).sqrt();
-    let needed = select.needed(center, radius, Some(face.normal));
-    if half.depth > MAX_HALVINGS || needed.is_none_or(|needed| f64::from(needed) * area <= 1.0) {
+    if half.depth > MAX_HALVINGS || !wanted(select, center, radius, Some(face.normal), area) {
         return;
     }
     let halves = half.halves();

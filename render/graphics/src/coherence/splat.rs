@@ -5,12 +5,16 @@
 //! threads. A feature adds only to pixels at the depth of its own surface: hidden surfaces
 //! never show through, and a surface that comes into sight has its features already.
 
+use std::ops::Range;
+
 use pulp::Simd;
 use rayon::prelude::*;
 
+use super::depth_tiles::{DepthTiles, SIDE};
 use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane};
 use crate::field::Field;
-use crate::gpu::{DeviceError, GROUP, Kernel, Storage, layout};
+use crate::gpu::{DeviceError, Kernel, Storage, layout};
+use crate::lanes::{greater, lesser};
 
 /// A feature of noise, projected to the picture.
 #[derive(Debug, Clone, Copy, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -51,81 +55,181 @@ pub fn draw_splats(
     splats: &[Splat],
 ) -> Result<GreyImage, DeviceError> {
     match compute {
-        Compute::Cpu => Ok(draw_splats_on_cpu(depth.host(), splats).into()),
+        Compute::Cpu => {
+            let depth = depth.host();
+            Ok(draw_splats_on_tiles(depth, &DepthTiles::new(depth), splats).into())
+        }
         Compute::Gpu(gpu) => draw_splats_on_gpu(gpu, depth.plane(), splats).map(Image::from),
     }
 }
 
-/// Width and height of a square of pixels that gathers from one list.
-const SIDE: usize = GROUP as usize;
-
 type Square = [[f32; SIDE]; SIDE];
 
-/// For each square of pixels the features that reach it, in the order of the features.
+/// Pixels of a row or column of a square.
+const PLACES: [f32; SIDE] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+
+/// Tolerance beyond which a feature adds nothing, with what rounding may add.
+const REACH: f32 = 2.001;
+
+impl Splat {
+    /// Whether `surfaces` hide it from every pixel.
+    pub(super) fn is_behind(&self, surfaces: &DepthTiles) -> bool {
+        let radius = 1.0 / self.narrowness;
+        let leaning = radius * self.slope_x.hypot(self.slope_y);
+        let nearest = self.depth - leaning - REACH / self.tightness;
+        let limits = |at: f32| [at - radius, at + radius];
+        nearest > surfaces.farthest(limits(self.x), limits(self.y))
+    }
+
+    /// Whether it may add to a pixel of the square with this first pixel and these depths.
+    #[inline]
+    fn reaches(&self, [column, row]: [usize; 2], [low, high]: [f32; 2]) -> bool {
+        let radius = 1.0 / self.narrowness;
+        // Where it and the pixels of the square overlap, to both sides of its centre.
+        let overlap = |first: usize, at: f32| {
+            let (low, high) = (first as f32 + 0.5 - at, (first + SIDE) as f32 - 0.5 - at);
+            [low.max(-radius), high.min(radius)]
+        };
+        let ([left, right], [above, below]) = (overlap(column, self.x), overlap(row, self.y));
+        if left > right || above > below {
+            return false;
+        }
+        let middle =
+            self.depth + 0.5 * (self.slope_x * (left + right) + self.slope_y * (above + below));
+        let around =
+            0.5 * (self.slope_x.abs() * (right - left) + self.slope_y.abs() * (below - above));
+        let off = (middle - high).max(low - middle) - around;
+        // True for a depth that is not a number, which a pixel ignores.
+        !(off * self.tightness >= REACH)
+    }
+
+    /// The squares, out of `count`, that it may touch in a row or column of them.
+    fn squares(&self, at: f32, count: usize) -> Range<usize> {
+        let radius = 1.0 / self.narrowness;
+        let square = |at: f32| (at / SIDE as f32).floor() as i64;
+        let last = (square(at + radius) + 1).clamp(0, count as i64) as usize;
+        (square(at - radius).max(0) as usize).min(last)..last
+    }
+}
+
+/// For each of some numbered places the features that touch it, in the order of the features.
+#[derive(Debug, Clone, PartialEq, Default)]
 struct Lists {
-    /// Number of squares in a row.
-    across: usize,
-    /// Index in `splats` at which the list of each square begins, then the end of the last.
+    /// Index in `splats` at which the list of each place begins, then the end of the last.
     starts: Vec<u32>,
     /// Indices of features, list after list.
     splats: Vec<u32>,
 }
 
 impl Lists {
-    fn new(width: usize, height: usize, splats: &[Splat]) -> Self {
-        let (across, down) = (width.div_ceil(SIDE), height.div_ceil(SIDE));
-        let range = |at: f32, radius: f32, count: usize| {
-            let square = |at: f32| (at / SIDE as f32).floor() as i64;
-            let last = (square(at + radius) + 1).clamp(0, count as i64) as usize;
-            (square(at - radius).max(0) as usize).min(last)..last
-        };
-        let squares = |splat: &Splat| {
-            let radius = 1.0 / splat.narrowness;
-            let columns = range(splat.x, radius, across);
-            let rows = range(splat.y, radius, down);
-            rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
-        };
-        let mut starts = vec![0u32; across * down + 1];
-        for square in splats.iter().flat_map(squares) {
-            starts[square + 1] += 1;
+    /// Lists of `pairs` of a place, below `places`, and a feature.
+    fn new(places: usize, pairs: &[[u32; 2]]) -> Self {
+        let mut starts = vec![0u32; places + 1];
+        for [place, _] in pairs {
+            starts[*place as usize + 1] += 1;
         }
-        for square in 0..across * down {
-            starts[square + 1] += starts[square];
+        for place in 0..places {
+            starts[place + 1] += starts[place];
         }
-        let mut lists = vec![0; starts[across * down] as usize];
-        let mut next = starts.clone();
-        for (splat, number) in splats.iter().zip(0..) {
-            for square in squares(splat) {
-                lists[next[square] as usize] = number;
-                next[square] += 1;
-            }
+        let (mut next, mut splats) = (starts.clone(), vec![0; pairs.len()]);
+        for [place, splat] in pairs {
+            let next = &mut next[*place as usize];
+            splats[*next as usize] = *splat;
+            *next += 1;
         }
-        Self { across, starts, splats: lists }
+        Self { starts, splats }
     }
 
-    fn of(&self, square: usize) -> &[u32] {
-        &self.splats[self.starts[square] as usize..self.starts[square + 1] as usize]
+    fn of(&self, place: usize) -> &[u32] {
+        &self.splats[self.starts[place] as usize..self.starts[place + 1] as usize]
     }
 }
 
-fn draw_splats_on_cpu(depth: &Field<f32>, splats: &[Splat]) -> Field<f32> {
+/// Features by bands, which are rows of squares.
+struct Bands<'a> {
+    splats: &'a [Splat],
+    /// Number of squares in a band.
+    across: usize,
+    /// Features that touch each band.
+    lists: Lists,
+}
+
+impl<'a> Bands<'a> {
+    fn new(width: usize, height: usize, splats: &'a [Splat]) -> Self {
+        let down = height.div_ceil(SIDE);
+        let bands = splats.par_iter().zip(0u32..splats.len() as u32).flat_map_iter(|(splat, i)| {
+            splat.squares(splat.y, down).map(move |band| [band as u32, i])
+        });
+        let pairs: Vec<_> = bands.collect();
+        Self { splats, across: width.div_ceil(SIDE), lists: Lists::new(down, &pairs) }
+    }
+
+    /// For each square of a band the features that touch it; with `surfaces`, without those
+    /// that are hidden there.
+    fn squares(&self, band: usize, surfaces: Option<&DepthTiles>) -> Lists {
+        let ranges: Option<Vec<_>> = surfaces
+            .map(|surfaces| (0..self.across).map(|column| surfaces.range(column, band)).collect());
+        let mut pairs = Vec::new();
+        for &index in self.lists.of(band) {
+            let splat = &self.splats[index as usize];
+            let mut squares = splat.squares(splat.x, self.across);
+            match &ranges {
+                None => pairs.extend(squares.map(|square| [square as u32, index])),
+                Some(ranges) => pairs.extend(
+                    squares
+                        .by_ref()
+                        .filter(|&square| {
+                            let at = [square * SIDE, band * SIDE];
+                            ranges[square].is_some_and(|range| splat.reaches(at, range))
+                        })
+                        .map(|square| [square as u32, index]),
+                ),
+            }
+        }
+        Lists::new(self.across, &pairs)
+    }
+
+    /// The features that touch each square, band after band.
+    fn all(&self) -> Lists {
+        let down = self.lists.starts.len() - 1;
+        let bands: Vec<_> =
+            (0..down).into_par_iter().map(|band| self.squares(band, None)).collect();
+        let mut all = Lists { starts: vec![0], splats: Vec::new() };
+        for band in &bands {
+            let before = all.splats.len() as u32;
+            all.starts.extend(band.starts[1..].iter().map(|start| before + start));
+            all.splats.extend_from_slice(&band.splats);
+        }
+        all
+    }
+}
+
+/// [`draw_splats`] on the processor; `surfaces` are those of `depth`.
+pub(super) fn draw_splats_on_tiles(
+    depth: &Field<f32>,
+    surfaces: &DepthTiles,
+    splats: &[Splat],
+) -> Field<f32> {
     let (width, height) = (depth.width(), depth.height());
     let mut sums = Field::filled(width, height, 0.5);
-    let lists = Lists::new(width, height, splats);
-    let bands = sums.values_mut().par_chunks_mut((SIDE * width).max(1)).enumerate();
-    bands.for_each(|(band, rows)| {
-        for square in 0..lists.across {
+    let bands = Bands::new(width, height, splats);
+    let rows = sums.values_mut().par_chunks_mut((SIDE * width).max(1)).enumerate();
+    rows.for_each(|(band, rows)| {
+        let lists = bands.squares(band, Some(surfaces));
+        for square in 0..bands.across {
+            let list = lists.of(square);
+            if list.is_empty() {
+                continue;
+            }
             let (x, y) = (square * SIDE, band * SIDE);
             let columns = SIDE.min(width - x);
             let mut depths = [[1.0; SIDE]; SIDE];
             for (row, depths) in depths.iter_mut().enumerate().take(height - y) {
                 depths[..columns].copy_from_slice(depth.row(y + row, x, columns));
             }
-            let Some(range) = depth_range(&depths) else { continue };
-            let list = lists.of(band * lists.across + square);
             let first = [x as f32 + 0.5, y as f32 + 0.5];
             let mut sum = [[0.0; SIDE]; SIDE];
-            let gather = Gather { list, splats, first, depths: &depths, range, sum: &mut sum };
+            let gather = Gather { list, splats, first, depths: &depths, sum: &mut sum };
             pulp::Arch::new().dispatch(gather);
             for ((row, sum), depths) in rows.chunks_mut(width).zip(&sum).zip(&depths) {
                 let row = row[x..x + columns].iter_mut().zip(sum).zip(depths);
@@ -138,20 +242,12 @@ fn draw_splats_on_cpu(depth: &Field<f32>, splats: &[Splat]) -> Field<f32> {
     sums
 }
 
-/// Least and greatest depth of the pixels that show something. `None` if none does.
-fn depth_range(depths: &Square) -> Option<[f32; 2]> {
-    let seen = depths.iter().flatten().copied().filter(|&depth| depth < 1.0);
-    let range = seen.fold([1.0, 0.0], |[low, high]: [f32; 2], at| [low.min(at), high.max(at)]);
-    (range[0] < 1.0).then_some(range)
-}
-
 struct Gather<'a> {
     list: &'a [u32],
     splats: &'a [Splat],
     /// Centre of the first pixel.
     first: [f32; 2],
     depths: &'a Square,
-    range: [f32; 2],
     sum: &'a mut Square,
 }
 
@@ -160,38 +256,30 @@ impl pulp::WithSimd for Gather<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { list, splats, first, depths, range, sum } = self;
-        const HALF: f32 = (SIDE - 1) as f32 / 2.0;
+        let Self { list, splats, first, depths, sum } = self;
         for &index in list {
             let splat = splats[index as usize];
             let (left, above) = (first[0] - splat.x, first[1] - splat.y);
-            // Most hidden features are hidden for the whole square.
-            let middle =
-                splat.depth + splat.slope_x * (left + HALF) + splat.slope_y * (above + HALF);
-            let off = (middle - range[1]).max(range[0] - middle)
-                - HALF * (splat.slope_x.abs() + splat.slope_y.abs());
-            if off * splat.tightness >= 2.0 {
-                continue;
-            }
-            for (row, (sums, depths)) in sum.iter_mut().zip(depths).enumerate() {
-                let down = above + row as f32;
+            for ((down, sums), depths) in PLACES.iter().zip(sum.iter_mut()).zip(depths) {
+                let down = above + down;
                 let squared = down * down * splat.narrowness * splat.narrowness;
                 if squared >= 1.0 {
                     continue;
                 }
                 let own = splat.depth + splat.slope_y * down;
-                for (column, (sum, depth)) in sums.iter_mut().zip(depths).enumerate() {
-                    let right = left + column as f32;
+                // A copy, and a loop over numbers, which compilers vectorise.
+                let mut row = *sums;
+                for column in 0..SIDE {
+                    let right = left + PLACES[column];
                     let away = right * splat.narrowness;
                     let away = (away * away + squared).sqrt();
                     let t = if away < 1.0 { 1.0 - away } else { 0.0 };
-                    let off = (own + splat.slope_x * right - depth).abs();
-                    let share = 2.0 - off * splat.tightness;
-                    let share = if share < 1.0 { share } else { 1.0 };
-                    let share = if share > 0.0 { share } else { 0.0 };
+                    let off = (own + splat.slope_x * right - depths[column]).abs();
+                    let share = lesser(2.0 - off * splat.tightness, 1.0);
                     let bump = t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-                    *sum += splat.amplitude * share * bump;
+                    row[column] += splat.amplitude * greater(share, 0.0) * bump;
                 }
+                *sums = row;
             }
         }
     }
@@ -223,7 +311,7 @@ fn draw_splats_on_gpu(
     splats: &[Splat],
 ) -> Result<Plane<f32>, DeviceError> {
     let (width, height) = depth.size();
-    let lists = Lists::new(width, height, splats);
+    let lists = Bands::new(width, height, splats).all();
     let sums = gpu.plane(width, height)?;
     // Rounded up, so that the features of the next frame fit the same memory.
     let capacity = splats.len().max(1).next_power_of_two();

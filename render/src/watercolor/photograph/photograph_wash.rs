@@ -7,8 +7,8 @@ use super::enlarge::Enlarged;
 use super::margin::Margin;
 use super::wet::{mixed, running};
 use crate::watercolor::settings::Settings;
-use crate::watercolor::smoothstep::smoothstep;
 use graphics::field::Field;
+use graphics::smoothstep;
 
 /// The wash in `width` x `height` pixels. `original` and `flat` are the photograph and its flat
 /// colours in the size of abstraction, at most this one; `abstraction` are the settings for that

@@ -8,11 +8,11 @@ use rayon::prelude::*;
 
 use crate::watercolor::effects::edges_on_cpu;
 use crate::watercolor::settings::WetSettings;
-use crate::watercolor::smoothstep::smoothstep;
 use crate::watercolor::textures::Quantiles;
 use graphics::blur::blurred;
 use graphics::field::Field;
 use graphics::noise::{Hills, random};
+use graphics::smoothstep;
 
 /// Standard deviation of the blur before outlines of the photograph are looked for, as a share
 /// of [`WetSettings::tone_px`].

@@ -8,6 +8,7 @@ use super::links::Links;
 use super::settings::{Along, Line};
 use crate::mesh::shape_tensor::{PlaceShape, ShapeTensor};
 use crate::mesh::tangent_plane::TangentPlane;
+use crate::smoothstep;
 
 /// Difference of both curvatures, relative to the greater one, from which a direction begins to
 /// count, and from which it counts fully: below, the shape of the triangles decides it.
@@ -135,12 +136,6 @@ fn axis_along(
     let most = lengths.iter().fold(0.0_f64, |most, &length| most.max(length));
     let found = lengths.iter().position(|&length| length >= AXIS_SHARE * most);
     axes[found.unwrap_or(0)]
-}
-
-/// Smoothstep: 0 below the first value, 1 above the second.
-fn smoothstep([low, high]: [f64; 2], at: f64) -> f64 {
-    let t = ((at - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
 }
 
 #[cfg(test)]

@@ -6,8 +6,9 @@ use glam::{Quat, Vec3};
 
 use super::grid::GridSize;
 use super::sphere::unit_sphere;
-use super::sweep::{lathe, mix_colors, smoothstep, tube};
+use super::sweep::{lathe, mix_colors, tube};
 use crate::mesh::model::{Material, Mesh, Texture};
+use crate::smoothstep;
 
 const CLOTH: u32 = 0;
 const GLAZE: u32 = 1;
@@ -77,7 +78,7 @@ fn add_cloth(mesh: &mut Mesh, triangles: usize) {
         let angle = uv.x * TAU;
         let along = CLOTH_RADIUS * uv.y;
         let hanging = (along - TABLE_RADIUS).max(0.0);
-        let folds = smoothstep(0.0, 0.9, hanging);
+        let folds = smoothstep([0.0, 0.9], hanging);
         let fold = (7.0 * angle + 0.8 * (2.0 * angle).sin()).sin() + 0.4 * (11.0 * angle).sin();
         // Around the edge of the table, then straight down.
         let bend = (hanging / 0.35).min(1.5);
@@ -122,22 +123,23 @@ fn add_jug(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     mesh.add_grid(GridSize::for_triangles(triangles * 3 / 4, 1.2), GLAZE, |uv| {
         let position = body(uv);
         let beside = (uv.x * TAU).sin().atan2((uv.x * TAU).cos());
-        let out = 0.2 * (-(beside * beside) / 0.1).exp() * smoothstep(1.45, 1.86, position.y);
+        let out = 0.2 * (-(beside * beside) / 0.1).exp() * smoothstep([1.45, 1.86], position.y);
         let (sin, cos) = (uv.x * TAU).sin_cos();
         at + spout * (position + Vec3::new(out * sin, 0.3 * out, out * cos))
     });
     let handle = [[-0.38, 1.66], [-0.72, 1.72], [-0.92, 1.40], [-0.84, 0.95], [-0.58, 0.70]];
     let points = handle.map(|[z, y]| Vec3::new(z, y, 0.0));
     // Both ends lie inside the body.
-    let thickness = |v: f32| (0.085 - 0.02 * v) * smoothstep(0.0, 0.04, v.min(1.0 - v));
+    let thickness = |v: f32| (0.085 - 0.02 * v) * smoothstep([0.0, 0.04], v.min(1.0 - v));
     let handle = tube(&points, thickness);
     let turn = spout * Quat::from_rotation_y(-TAU / 4.0);
     mesh.add_grid(GridSize::for_triangles(triangles / 4, 0.5), GLAZE, |uv| at + turn * handle(uv));
     mesh.tint(first, |position| {
         // The foot is bare clay; a band stays pale.
-        let band = smoothstep(0.84, 0.88, position.y) * (1.0 - smoothstep(1.08, 1.12, position.y));
+        let band =
+            smoothstep([0.84, 0.88], position.y) * (1.0 - smoothstep([1.08, 1.12], position.y));
         let glazed = mix_colors([0.36, 0.54, 0.68], [0.84, 0.86, 0.84], band);
-        mix_colors([0.68, 0.47, 0.35], glazed, smoothstep(0.10, 0.16, position.y))
+        mix_colors([0.68, 0.47, 0.35], glazed, smoothstep([0.10, 0.16], position.y))
     });
 }
 
@@ -159,17 +161,18 @@ fn add_pear(mesh: &mut Mesh, triangles: usize, at: Vec3, pose: Quat, size: f32) 
     mesh.add_grid(GridSize::for_triangles(triangles * 9 / 10, 1.1), FRUIT, |uv| {
         let position = body(uv);
         // The neck leans sideways.
-        let lean = 0.09 * smoothstep(0.5, 1.1, position.y);
+        let lean = 0.09 * smoothstep([0.5, 1.1], position.y);
         placed(position + Vec3::new(lean, 0.0, 0.4 * lean))
     });
     let turned_back = pose.inverse();
     mesh.tint(first, |position| {
         let own = turned_back * (position - at) / size;
-        let ripe = mix_colors([0.58, 0.64, 0.24], [0.90, 0.76, 0.30], smoothstep(0.0, 0.9, own.y));
-        mix_colors(ripe, [0.80, 0.40, 0.24], 0.75 * smoothstep(0.05, 0.42, own.x + 0.3 * own.z))
+        let ripe =
+            mix_colors([0.58, 0.64, 0.24], [0.90, 0.76, 0.30], smoothstep([0.0, 0.9], own.y));
+        mix_colors(ripe, [0.80, 0.40, 0.24], 0.75 * smoothstep([0.05, 0.42], own.x + 0.3 * own.z))
     });
     let stem = [[0.08, 1.06, 0.03], [0.10, 1.22, 0.04], [0.16, 1.36, 0.06]].map(Vec3::from);
-    let stem = tube(&stem, |v| 0.03 * smoothstep(0.0, 0.1, v.min(1.0 - v)));
+    let stem = tube(&stem, |v| 0.03 * smoothstep([0.0, 0.1], v.min(1.0 - v)));
     mesh.add_grid(GridSize::for_triangles(triangles / 10, 0.5), WOOD, |uv| placed(stem(uv)));
 }
 
@@ -189,7 +192,11 @@ fn add_lemon(mesh: &mut Mesh, triangles: usize, at: Vec3) {
     let pose = Quat::from_rotation_y(0.8) * Quat::from_rotation_z(1.5);
     mesh.add_grid(GridSize::for_triangles(triangles, 1.3), FRUIT, |uv| at + pose * body(uv));
     mesh.tint(first, |position| {
-        mix_colors([0.80, 0.72, 0.22], [0.96, 0.86, 0.30], smoothstep(-0.2, 0.2, position.y - at.y))
+        mix_colors(
+            [0.80, 0.72, 0.22],
+            [0.96, 0.86, 0.30],
+            smoothstep([-0.2, 0.2], position.y - at.y),
+        )
     });
 }
 
@@ -201,6 +208,10 @@ fn add_orange(mesh: &mut Mesh, triangles: usize, at: Vec3) {
         at + ball * (0.43 - 0.05 * (-(ball.x * ball.x + ball.z * ball.z) / 0.02).exp())
     });
     mesh.tint(first, |position| {
-        mix_colors([0.86, 0.44, 0.16], [0.93, 0.58, 0.20], smoothstep(-0.4, 0.4, position.y - at.y))
+        mix_colors(
+            [0.86, 0.44, 0.16],
+            [0.93, 0.58, 0.20],
+            smoothstep([-0.4, 0.4], position.y - at.y),
+        )
     });
 }

@@ -45,12 +45,6 @@ pub(super) fn tube(points: &[Vec3], thickness: impl Fn(f32) -> f32) -> impl Fn(V
     }
 }
 
-/// Smoothstep: 0 below `low`, 1 above `high`.
-pub(super) fn smoothstep(low: f32, high: f32, at: f32) -> f32 {
-    let t = ((at - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
 /// Linear blend of two colours.
 pub(super) fn mix_colors(from: [f32; 3], to: [f32; 3], share: f32) -> [f32; 3] {
     [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * share)

@@ -8,8 +8,9 @@ use rand_chacha::ChaCha8Rng;
 
 use super::grid::GridSize;
 use super::sphere::unit_sphere;
-use super::sweep::{lathe, mix_colors, smoothstep};
+use super::sweep::{lathe, mix_colors};
 use crate::mesh::model::{Material, Mesh};
+use crate::smoothstep;
 
 const LAND: u32 = 0;
 const WALLS: [u32; 3] = [1, 2, 3];
@@ -95,7 +96,7 @@ fn height([x, z]: [f32; 2]) -> f32 {
     let distance = x.hypot(z);
     let hill = 2.3 * (-(distance / 4.6).powi(2)).exp();
     let waves = 0.35 * (0.55 * x + 1.0).sin() * (0.6 * z - 0.4).cos() + 0.14 * (1.3 * x - z).sin();
-    hill + waves * smoothstep(1.5, 5.0, distance)
+    hill + waves * smoothstep([1.5, 5.0], distance)
 }
 
 fn on_land(angle: f32, distance: f32) -> Vec3 {
@@ -110,7 +111,7 @@ fn on_path(position: Vec3) -> f32 {
     let middle = 0.35 + 0.5 * (0.55 * distance).sin();
     let away = position.x.atan2(position.z) - middle;
     let across = distance * (away - TAU * (away / TAU).round()).abs();
-    (1.0 - smoothstep(0.15, 0.42, across)) * smoothstep(0.9, 1.2, distance)
+    (1.0 - smoothstep([0.15, 0.42], across)) * smoothstep([0.9, 1.2], distance)
 }
 
 fn add_land(mesh: &mut Mesh, triangles: usize) {
@@ -123,7 +124,7 @@ fn add_land(mesh: &mut Mesh, triangles: usize) {
     mesh.tint(first, |position| {
         let meadow = (0.9 * position.x + 0.4).sin() * (0.7 * position.z).cos();
         let green = mix_colors([0.56, 0.66, 0.36], [0.76, 0.76, 0.44], 0.5 + 0.5 * meadow);
-        let fields = smoothstep(5.0, 6.0, position.x - 0.4 * position.z);
+        let fields = smoothstep([5.0, 6.0], position.x - 0.4 * position.z);
         let sown = mix_colors(green, [0.84, 0.74, 0.44], 0.8 * fields);
         mix_colors(sown, [0.88, 0.80, 0.66], on_path(position))
     });
@@ -235,7 +236,7 @@ fn add_tree(mesh: &mut Mesh, triangles: usize, at: Vec3, height: f32, slim: bool
         false => mix_colors([0.38, 0.52, 0.26], [0.62, 0.62, 0.28], own),
     };
     mesh.tint(first, |position| {
-        let light = smoothstep(middle.y - tall, middle.y + tall, position.y);
+        let light = smoothstep([middle.y - tall, middle.y + tall], position.y);
         mix_colors(leaf.map(|value| 0.85 * value), leaf, light)
     });
     let trunk = lathe(&[[0.0, 0.6], [0.05, 0.5], [0.055, 0.2], [0.09, -0.1], [0.0, -0.1]]);
