@@ -2,6 +2,7 @@
 
 use pigment::library::PigmentLibrary;
 use pigment::palette::scattering_per_mm;
+use sha2::{Digest, Sha256};
 
 use crate::ground::Ground;
 use crate::layer::Layer;
@@ -167,6 +168,24 @@ impl Document {
             && self.lighting == canvas.lighting
             && self.medium == canvas.medium
             && self.cell_mm == canvas.cell_mm
+    }
+
+    /// SHA-256 of the ground's heights and of all amounts of paint, wet and dry, as 64 hexadecimal digits. Two
+    /// paintings with equal digests hold the same paint to the last quantum.
+    #[must_use]
+    pub fn digest_of_paint(&self) -> String {
+        let mut digest = Sha256::new();
+        for height in self.ground.height.values() {
+            digest.update(height.to_le_bytes());
+        }
+        for layer in self.dry.iter().map(|dry| &dry.paint).chain([&self.wet]) {
+            for (pigments, vehicle) in layer.pigments.values().iter().zip(layer.vehicle.values()) {
+                for amount in pigments.iter().chain([vehicle]) {
+                    digest.update(amount.to_le_bytes());
+                }
+            }
+        }
+        digest.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
     /// Adds a dry layer on top, with an identity of its own.

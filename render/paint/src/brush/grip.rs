@@ -52,7 +52,7 @@ impl Grip {
         let (column, x) = whole_and_part(pose.x);
         let (row, y) = whole_and_part(pose.y);
         let mut handle = handle(pose.tilt_x_deg, pose.tilt_y_deg, FARTHEST_LEAN_DEG);
-        let (sin, cos) = (pose.twist_deg % 360.0).to_radians().sin_cos();
+        let (sin, cos) = libm::sincos((pose.twist_deg % 360.0).to_radians());
         let across = Vector::new(cos as f32, sin as f32, 0.0);
         if of.spines > 1 {
             handle = handle.across(across).unit_or(Vector::UP);
@@ -61,7 +61,7 @@ impl Grip {
         let mut axis = handle;
         if of.rigid {
             let angle = BLADE_DEG.0 + (BLADE_DEG.1 - BLADE_DEG.0) * pressure;
-            let (sin, cos) = angle.to_radians().sin_cos();
+            let (sin, cos) = libm::sincos(angle.to_radians());
             let level = Vector::UP.cross(broad);
             let side = if handle.dot(level) < -OTHER_SIDE { -1.0 } else { 1.0 };
             axis = level * (side * cos as f32) + Vector::UP * sin as f32;
@@ -94,18 +94,18 @@ fn whole_and_part(cells: f64) -> (i64, f32) {
 /// Direction of a handle with these tilts, the first seen from the front, the second from the
 /// side, limited to `farthest_deg` degrees from upright.
 fn handle(tilt_x_deg: f64, tilt_y_deg: f64, farthest_deg: f64) -> Vector {
-    let (sin_x, cos_x) = tilt_x_deg.clamp(-90.0, 90.0).to_radians().sin_cos();
-    let (sin_y, cos_y) = tilt_y_deg.clamp(-90.0, 90.0).to_radians().sin_cos();
+    let (sin_x, cos_x) = libm::sincos(tilt_x_deg.clamp(-90.0, 90.0).to_radians());
+    let (sin_y, cos_y) = libm::sincos(tilt_y_deg.clamp(-90.0, 90.0).to_radians());
     // Proportional to (tan x, tan y, 1), but finite at 90 degrees. If both tilts are 90
     // degrees, the handle lies between the x and y axes.
     let (mut x, mut y) = (sin_x * cos_y, sin_y * cos_x);
     let z = cos_x * cos_y;
-    if x.hypot(y) + z < 1e-9 {
+    if libm::hypot(x, y) + z < 1e-9 {
         (x, y) = (sin_x, sin_y);
     }
     let level = (x * x + y * y).sqrt();
-    let lean = level.atan2(z).min(farthest_deg.to_radians());
-    let (sin, cos) = lean.sin_cos();
+    let lean = libm::atan2(level, z).min(farthest_deg.to_radians());
+    let (sin, cos) = libm::sincos(lean);
     if level == 0.0 {
         return Vector::UP;
     }

@@ -267,7 +267,7 @@ impl Head {
     fn travelled(&self, pose: &Pose) -> f64 {
         let Some(last) = self.last else { return 0.0 };
         let turned = (pose.twist_deg - last.twist_deg).to_radians().abs();
-        (pose.x - last.x).hypot(pose.y - last.y) + 0.5 * f64::from(self.spines.width) * turned
+        libm::hypot(pose.x - last.x, pose.y - last.y) + 0.5 * f64::from(self.spines.width) * turned
     }
 
     /// Fills the touches of `out`.

@@ -40,9 +40,9 @@ impl Net {
     pub(super) fn new(spines: &Spines) -> Self {
         let columns = columns(spines.of.spines);
         let step = std::f32::consts::TAU / AROUND_ONE as f32;
-        let inside = (2.0 + step.cos()) / 3.0;
+        let inside = (2.0 + libm::cosf(step)) / 3.0;
         let circle = std::array::from_fn(|i| {
-            let (sin, cos) = (step * i as f32).sin_cos();
+            let (sin, cos) = libm::sincosf(step * i as f32);
             (cos / inside, sin / inside)
         });
         Self {

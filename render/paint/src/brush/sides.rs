@@ -41,7 +41,7 @@ pub(super) struct Extent {
 impl Extent {
     /// An empty extent around `pen`, which moved by `moved` cells; `None` if it hardly moved.
     pub(super) fn new(pen: (f32, f32), (x, y): (f32, f32)) -> Option<Self> {
-        let length = x.hypot(y);
+        let length = libm::hypotf(x, y);
         let across = (-y / length, x / length);
         (length >= 0.2).then_some(Self { pen, across, low: f32::INFINITY, high: f32::NEG_INFINITY })
     }

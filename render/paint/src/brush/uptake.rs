@@ -79,7 +79,7 @@ fn uptake(of: &Proportions) -> &'static Uptake {
 /// Share of a difference that is gone after `distance_mm` if it falls to 1/e over `fall_mm`, in
 /// parts of 65536.
 pub(super) fn share(distance_mm: f64, fall_mm: f64) -> u32 {
-    ((1.0 - (-distance_mm / fall_mm).exp()) * 65536.0) as u32
+    ((1.0 - libm::exp(-distance_mm / fall_mm)) * 65536.0) as u32
 }
 
 /// Rates of a head at `pressure` (0 to 1) in a sub-step of one cell of `cell_mm` mm.

@@ -47,7 +47,7 @@ impl MotionConstants {
     #[must_use]
     pub fn new(cell_mm: f64, stiffness: f64) -> Self {
         let parts = |share: f64| (share * 65536.0).round() as u32;
-        let slope = FLATTEST * (STEEPEST / FLATTEST).powf(stiffness.clamp(0.0, 1.0));
+        let slope = FLATTEST * libm::pow(STEEPEST / FLATTEST, stiffness.clamp(0.0, 1.0));
         Self {
             push_share: parts((PUSH_MM / cell_mm).min(0.125)),
             squeeze_share: parts(1.0),

@@ -39,7 +39,7 @@ impl Heap {
     /// A heap of `volume` quanta, at most `most` quanta high.
     fn new(middle: (f64, f64), volume: f64, most: f64) -> Self {
         let quanta = f64::from(QUANTA_PER_CELL);
-        let natural = (volume / quanta / (FULLNESS * STEEPNESS)).cbrt();
+        let natural = libm::cbrt(volume / quanta / (FULLNESS * STEEPNESS));
         let radius = if natural * STEEPNESS * quanta > most {
             (volume / (FULLNESS * most)).sqrt()
         } else {

@@ -102,7 +102,7 @@ pub(super) fn turned(a: &Pose, b: &Pose, reach: f64) -> f64 {
 }
 
 fn distance(a: (f64, f64), b: (f64, f64)) -> f64 {
-    (a.0 - b.0).hypot(a.1 - b.1)
+    libm::hypot(a.0 - b.0, a.1 - b.1)
 }
 
 /// `a` mirrored at `b`.
