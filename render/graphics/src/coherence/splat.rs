@@ -99,8 +99,9 @@ impl Splat {
         let around =
             0.5 * (self.slope_x.abs() * (right - left) + self.slope_y.abs() * (below - above));
         let off = (middle - high).max(low - middle) - around;
-        // True for a depth that is not a number, which a pixel ignores.
-        !(off * self.tightness >= REACH)
+        let is_far = off * self.tightness >= REACH;
+        // Near also for a depth that is not a number, which a pixel ignores.
+        !is_far
     }
 
     /// The squares, out of `count`, that it may touch in a row or column of them.
