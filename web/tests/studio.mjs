@@ -1,52 +1,32 @@
-// A browser, a server for the built page, and the acts that tests of the studio share.
+// The acts that tests and figures of the studio share.
 
-import { createServer } from "node:http";
-import { readFile } from "node:fs/promises";
-import { extname, join } from "node:path";
-import { chromium } from "playwright-core";
-
-const KINDS = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm" };
+import { launched, served } from "./browser.mjs";
 
 /** Flags by which Chromium draws WebGPU without a graphics card. */
-export const FLAGS = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan",
+const FLAGS = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan",
   "--use-vulkan=swiftshader", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-  "--ignore-gpu-blocklist", "--disable-gpu-sandbox", "--no-sandbox"];
+  "--ignore-gpu-blocklist", "--disable-gpu-sandbox"];
 
-/** Serves a folder on this machine. */
-export async function serve(folder) {
-  const server = createServer(async (request, response) => {
-    const path = new URL(request.url, "http://localhost").pathname;
-    const name = path === "/" ? "index.html" : path.slice(1);
-    try {
-      const content = await readFile(join(folder, name));
-      response.writeHead(200, { "content-type": KINDS[extname(name)] ?? "application/octet-stream" });
-      response.end(content);
-    } catch {
-      response.writeHead(404).end();
-    }
-  });
-  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  return { url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
-}
+/** Serves the studio on this machine. */
+export const serve = () => served("studio");
 
 /** Starts Chromium. */
-export function launch(options = {}) {
-  const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
-  return chromium.launch({ executablePath, headless: true, args: FLAGS, ...options });
-}
+export const launch = () => launched(FLAGS);
 
-/** Opens the studio and waits for its first painting. Errors of the page end the test. */
-export async function openStudio(context, url) {
+/** Opens the studio and waits for its first painting. `faults` takes what goes wrong in the page. */
+export async function openStudio(context, url, faults = []) {
   const page = await context.newPage();
-  page.on("pageerror", (error) => { console.error("page error:", error.message); process.exitCode = 1; });
-  page.on("console", (message) => {
-    if (message.type() === "error") console.error("console:", message.text());
-  });
+  page.on("pageerror", (error) => faults.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   const begun = Date.now();
   await page.goto(url);
-  await page.waitForFunction(() => window.impasto?.inspect?.()?.revision != null, null, { timeout: 60_000 });
+  await opened(page);
   return { page, startMs: Date.now() - begun };
 }
+
+/** Waits until a painting is open. */
+export const opened = (page) =>
+  page.waitForFunction(() => window.impasto?.inspect?.()?.revision != null, null, { timeout: 60_000 });
 
 export const inspect = (page) => page.evaluate(() => window.impasto.inspect());
 

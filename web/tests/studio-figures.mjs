@@ -1,16 +1,16 @@
 // Figures of the studio in Chromium: how fast it opens and paints, and what memory it takes.
 //
-//   node web/studio/tests/figures.mjs PAGE
+//   web/build studio && node web/tests/studio-figures.mjs
 //
 // The window has 1280 x 800 pixels, the canvas 1920 x 1080 cells. The round brush, 60 cells wide, paints
 // at 95 mm/s, once by a pen's events every 5 ms.
 
-import { inspect, launch, openStudio, penStroke, rest, serve } from "./browser.mjs";
+import { inspect, launch, openStudio, penStroke, rest, serve } from "./studio.mjs";
 
-const server = await serve(process.argv[2]);
+const server = await serve();
 const browser = await launch();
 const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
-const { page, startMs } = await openStudio(context, server.url);
+const { page, startMs } = await openStudio(context, server.address);
 const begin = await inspect(page);
 const firstFrame = await page.evaluate(() => window.impasto.firstFrame);
 const paint = await page.evaluate(() => performance.getEntriesByType("paint").map((entry) => [entry.name, entry.startTime]));
@@ -57,4 +57,4 @@ await cdp.send("Performance.enable");
 const wasm = await page.evaluate(() => window.impasto.memory?.buffer.byteLength);
 console.log({ wasmMemoryMB: wasm / 1e6 });
 await browser.close();
-server.close();
+server.end();

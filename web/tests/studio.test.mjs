@@ -1,0 +1,88 @@
+// The studio in a browser: paints with a pen, undoes, saves, is reloaded and offers what was not saved. The program
+// shows the painting under another light.
+
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { pictures } from "./browser.mjs";
+import { inspect, launch, openStudio, opened, penStroke, rest, serve } from "./studio.mjs";
+
+const size = { width: 1280, height: 800 };
+let server, browser, folder;
+
+before(async () => {
+  server = await serve();
+  browser = await launch();
+  folder = mkdtempSync(join(tmpdir(), "impasto-studio-"));
+});
+
+after(async () => {
+  await browser?.close();
+  server?.end();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** A wavy stroke of a pen whose pressure changes, `y` px below the top. */
+const wave = (y, count = 60) => Array.from({ length: count }, (_, at) =>
+  [330 + 6 * at, y + 30 * Math.sin(at / 6), 0.25 + 0.6 * Math.abs(Math.sin(at / 9))]);
+
+/** Does `act`, which downloads a file, and keeps the file as `name`. */
+async function saved(page, act, name) {
+  const download = page.waitForEvent("download", { timeout: 120_000 });
+  await act();
+  const path = join(folder, name);
+  await (await download).saveAs(path);
+  return path;
+}
+
+const shown = (page, name) => page.screenshot({ path: resolve(pictures, `studio-${name}.png`) });
+
+test("a pen paints with pressure, undo takes a stroke back, and a reload loses nothing", async () => {
+  const context = await browser.newContext({ viewport: size, colorScheme: "light" });
+  const faults = [];
+  const { page } = await openStudio(context, server.address, faults);
+  await page.keyboard.press("Escape");
+  const bare = await inspect(page);
+  await penStroke(page, wave(250));
+  await rest(page);
+  const one = await inspect(page);
+  assert.ok(one.revision > bare.revision, "the stroke has changed the painting");
+  await penStroke(page, wave(400));
+  await rest(page);
+  const two = await inspect(page);
+  assert.ok(two.revision > one.revision, "and so has the second");
+  await page.keyboard.press("Control+z");
+  await page.waitForFunction((before) => window.impasto.inspect().revision > before, two.revision);
+  await rest(page);
+  await shown(page, "light");
+  const painting = await saved(page, async () => {
+    await page.keyboard.press("Control+s");
+    await page.waitForFunction(() => window.impasto.inspect().dialog);
+    await page.waitForTimeout(300);
+    await page.keyboard.press("Enter");
+  }, "pen.exr");
+  const words = ["relight", painting, "--illuminant", "A", "-o", join(folder, "pen.png")];
+  const told = spawnSync(process.env.IMPASTO, words, { encoding: "utf8" });
+  assert.equal(told.status, 0, told.stderr);
+  // Painted on, and left without saving.
+  await penStroke(page, wave(520));
+  await rest(page);
+  await page.waitForTimeout(16_000);
+  await page.reload();
+  await opened(page);
+  const again = await inspect(page);
+  await shown(page, "recovered");
+  assert.ok(again.notices.length > 0, "the autosave is offered");
+  assert.deepEqual(faults, [], "nothing is wrong in the browser's console");
+  await context.close();
+});
+
+test("the page is dark where the system is", async () => {
+  const context = await browser.newContext({ viewport: size, colorScheme: "dark" });
+  const { page } = await openStudio(context, server.address);
+  await shown(page, "dark");
+  await context.close();
+});
