@@ -146,7 +146,7 @@ function listenToPens(page) {
 async function start() {
   const begun = performance.now();
   const [wasm, storage, canDraw] = await Promise.all([
-    init(),
+    init({ module_or_path: new URL("impasto_web_studio_bg.wasm", import.meta.url) }),
     Storage.open().catch((error) => {
       console.warn("the browser's storage cannot be used", error);
       return null;
