@@ -14,7 +14,7 @@ use suite::guides::{Command, commands};
 use suite::program::{impasto, repository};
 
 /// Pages, in the order in which a reader meets them.
-const PAGES: [&str; 11] = [
+const PAGES: [&str; 12] = [
     "README.md",
     "docs/guide/command-line.md",
     "docs/guide/fitting.md",
@@ -25,6 +25,7 @@ const PAGES: [&str; 11] = [
     "docs/guide/painterly.md",
     "docs/guide/volumes.md",
     "docs/guide/browser.md",
+    "docs/guide/browser-studio.md",
     "docs/guide/figures.md",
 ];
 

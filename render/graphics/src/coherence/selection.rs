@@ -12,7 +12,7 @@ use super::projection::Projection;
 /// Triangles are halved at most this often; f32 cannot represent smaller ones.
 const MAX_HALVINGS: u32 = 40;
 
-/// What the rank of a feature refers to.
+/// The quantity that the rank of a feature refers to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Density {
     /// Features per pixel of the picture: their density there stays as the model moves away.
@@ -43,7 +43,7 @@ pub(super) trait Select: Sync {
 /// Selects the features that one projection needs.
 pub(super) struct InSight<'a> {
     pub(super) projection: &'a Projection,
-    /// What ranks refer to.
+    /// The quantity that ranks refer to.
     pub(super) density: Density,
     /// Features of this rank and above are not needed.
     pub(super) end: f32,

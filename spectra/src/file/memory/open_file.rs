@@ -7,8 +7,8 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::tree::from_root;
-use super::{Metadata, metadata, tree};
+use super::metadata::{Metadata, metadata};
+use super::tree::{from_root, tree};
 
 /// Paths that are locked.
 static LOCKED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());

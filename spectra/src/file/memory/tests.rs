@@ -1,5 +1,9 @@
 use std::io::{Read, Seek, SeekFrom, Write};
 
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
 use super::*;
 
 fn kind<T>(result: io::Result<T>) -> Option<io::ErrorKind> {

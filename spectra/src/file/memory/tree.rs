@@ -3,13 +3,21 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use web_time::SystemTime;
 
-use super::Change;
+/// A file that has changed: its path, and its content or `None` if it is gone.
+pub type Change = (PathBuf, Option<Arc<Vec<u8>>>);
 
-/// What lies at a path.
+static TREE: Mutex<Tree> = Mutex::new(Tree::new());
+
+/// The tree of this process.
+pub(super) fn tree() -> MutexGuard<'static, Tree> {
+    TREE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A file or a folder.
 #[derive(Debug, Clone)]
 pub(super) enum Node {
     /// A folder.
@@ -27,7 +35,7 @@ pub(super) struct Tree {
 }
 
 /// `path` from the root on, without `.` and `..`.
-pub(in crate::file) fn from_root(path: &Path) -> PathBuf {
+pub(crate) fn from_root(path: &Path) -> PathBuf {
     let mut found = PathBuf::from("/");
     for part in path.components() {
         match part {

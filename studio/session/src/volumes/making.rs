@@ -8,7 +8,7 @@ use crate::background;
 #[derive(Debug)]
 pub(super) struct Making<T> {
     receiver: Receiver<T>,
-    /// What was received before it was asked for; the inner `None` if the thread has panicked.
+    /// The value, once it was received; the inner `None` if the thread has panicked.
     made: Option<Option<T>>,
 }
 
