@@ -12,7 +12,7 @@ mod open_file;
 mod calls;
 
 pub use calls::*;
-pub use metadata::{Metadata, metadata};
+pub use metadata::metadata;
 pub use open_file::{File, OpenOptions};
 pub use tree::Change;
 pub(super) use tree::from_root;
