@@ -82,6 +82,8 @@ mod meter;
 
 mod inbox;
 
+mod works;
+
 mod outbox;
 
 mod prepare;

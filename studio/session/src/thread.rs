@@ -1,7 +1,5 @@
 //! The worker as the front end sees it.
 
-use std::cell::RefCell;
-use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -16,6 +14,7 @@ use super::command::Command;
 use super::event::Event;
 use super::inbox::{Inbox, Input, Wait};
 use super::worker::WorkerLoop;
+use super::works::Works;
 
 /// Settings of a worker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,24 +38,7 @@ pub struct Worker {
     // Dropped first, which tells the thread to end.
     inputs: Sender<Input>,
     events: Receiver<Event>,
-    works: Works,
-}
-
-/// Where the work is done.
-enum Works {
-    /// On a thread, which is waited for.
-    OnThread { _thread: Awaited },
-    /// In the turns that the front end gives; nothing after the command to quit.
-    InTurns(RefCell<Option<Box<WorkerLoop<'static>>>>),
-}
-
-impl fmt::Debug for Works {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::OnThread { .. } => "OnThread",
-            Self::InTurns(_) => "InTurns",
-        })
-    }
+    works: Works<WorkerLoop<'static>>,
 }
 
 impl Worker {
@@ -96,7 +78,7 @@ impl Worker {
         };
         let backend = Backend::new(options.backend);
         let work = WorkerLoop::new(Inbox::new(receiver), backend, options.undo_bytes, send);
-        Self { inputs, events, works: Works::InTurns(RefCell::new(Some(Box::new(work)))) }
+        Self { inputs, events, works: Works::in_turns(work) }
     }
 
     /// Lets a worker of [`Worker::in_turns`] work until `deadline`, or until it must wait; what it has
@@ -104,14 +86,7 @@ impl Worker {
     /// may wait for the next turn; [`Wait::Forever`] is until the next command. A worker on a thread
     /// does nothing here.
     pub fn turn(&self, deadline: Instant) -> Wait {
-        let Works::InTurns(work) = &self.works else { return Wait::Forever };
-        // A wake that calls back finds the worker at work.
-        let Ok(mut work) = work.try_borrow_mut() else { return Wait::Forever };
-        let wait = work.as_mut().and_then(|work| work.turn(deadline));
-        if wait.is_none() {
-            *work = None;
-        }
-        wait.unwrap_or(Wait::Forever)
+        self.works.turn(|work| work.turn(deadline))
     }
 
     /// Sends a command. Has no effect after the worker has ended.

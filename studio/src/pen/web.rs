@@ -30,7 +30,7 @@ const BARREL: u16 = 2;
 /// Bit of `buttons` for the eraser end.
 const ERASER: u16 = 32;
 
-/// What a pointer event says.
+/// Kind of a pointer event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PagePhase {
     /// The stylus touches.
@@ -46,7 +46,7 @@ pub enum PagePhase {
 /// A pointer event of a stylus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PagePointer {
-    /// What it says.
+    /// Kind of the event.
     pub phase: PagePhase,
     /// Position in points of the window.
     pub at: Pos2,

@@ -1,4 +1,4 @@
-//! What the tests of the page and its figures read.
+//! State of the page for its tests and figures.
 
 use serde_json::json;
 

@@ -27,7 +27,7 @@ pub enum Density {
     },
 }
 
-/// Selects features.
+/// Selects the features of a noise.
 pub(super) trait Select: Sync {
     /// The highest priority that is needed within a sphere; `None` if nothing in it is. With a
     /// `normal`, all of it lies on the plane through the centre with this normal.

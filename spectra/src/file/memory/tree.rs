@@ -20,7 +20,7 @@ pub(super) fn tree() -> MutexGuard<'static, Tree> {
 /// A file or a folder.
 #[derive(Debug, Clone)]
 pub(super) enum Node {
-    /// A folder.
+    /// A folder, which may be empty.
     Folder,
     /// A file with its content.
     File(Arc<Vec<u8>>),
@@ -52,7 +52,7 @@ impl Tree {
         Self { nodes: BTreeMap::new(), changed: BTreeSet::new() }
     }
 
-    /// What lies at `path`, and since when.
+    /// The file or folder at `path`, and the time of its last change.
     pub(super) fn find(&self, path: &Path) -> io::Result<(Node, SystemTime)> {
         let path = from_root(path);
         if path == Path::new("/") {

@@ -1,7 +1,5 @@
 //! The worker of scenes as the front end sees it.
 
-use std::cell::RefCell;
-use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
@@ -14,6 +12,7 @@ use super::inbox::{Inbox, Input};
 use super::worker::SceneLoop;
 use crate::awaited::Awaited;
 use crate::inbox::Wait;
+use crate::works::Works;
 
 /// Handle of the worker that owns a scene. Dropping it ends its thread and waits for that, at most
 /// five seconds.
@@ -21,24 +20,7 @@ use crate::inbox::Wait;
 pub struct VolumeWorker {
     inputs: Sender<Input>,
     events: Receiver<VolumeEvent>,
-    works: Works,
-}
-
-/// Where the work is done.
-enum Works {
-    /// On a thread, which is waited for.
-    OnThread { _thread: Awaited },
-    /// In the turns that the front end gives; nothing after the command to quit.
-    InTurns(RefCell<Option<Box<SceneLoop<'static>>>>),
-}
-
-impl fmt::Debug for Works {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::OnThread { .. } => "OnThread",
-            Self::InTurns(_) => "InTurns",
-        })
-    }
+    works: Works<SceneLoop<'static>>,
 }
 
 impl VolumeWorker {
@@ -77,20 +59,14 @@ impl VolumeWorker {
             wake();
         };
         let work = SceneLoop::new(Inbox::new(receiver), send);
-        Self { inputs, events, works: Works::InTurns(RefCell::new(Some(Box::new(work)))) }
+        Self { inputs, events, works: Works::in_turns(work) }
     }
 
     /// Lets a worker of [`VolumeWorker::in_turns`] work until `deadline`, or until it must wait; a step
     /// or a picture that it has begun by then it finishes. Returns how long it may wait for the
     /// next turn; [`Wait::Forever`] is until the next command. A worker on a thread does nothing here.
     pub fn turn(&self, deadline: Instant) -> Wait {
-        let Works::InTurns(work) = &self.works else { return Wait::Forever };
-        let Ok(mut work) = work.try_borrow_mut() else { return Wait::Forever };
-        let wait = work.as_mut().and_then(|work| work.turn(deadline));
-        if wait.is_none() {
-            *work = None;
-        }
-        wait.unwrap_or(Wait::Forever)
+        self.works.turn(|work| work.turn(deadline))
     }
 
     /// Sends a command. Has no effect after the worker has ended.

@@ -36,7 +36,7 @@ pub struct CpuPaint {
     /// Dry layers, lowest first.
     pub(super) dry: Vec<SparseLayer>,
     saved_tiles: Vec<Option<SavedTile>>,
-    /// By [`View`].
+    /// One for each [`View`], by its number.
     views: [RenderedView; 2],
     runner: SubStepRunner,
 }
