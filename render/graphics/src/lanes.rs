@@ -1,9 +1,40 @@
 //! Arithmetic in f32 that the compiler vectorises.
 //!
-//! All functions are inlined into a closure that [`pulp::Arch`] runs with the widest vector
-//! instructions of the machine. The type parameter `S` stands for these instructions.
+//! [`vectorized`] runs work with the widest vector instructions of the machine. The other functions
+//! are inlined into such work. The type parameter `S` stands for the instructions.
 
-use pulp::Simd;
+use pulp::{Simd, WithSimd};
+
+/// Runs `work`, compiled with the widest vector instructions that this machine has.
+#[cfg(not(target_arch = "wasm32"))]
+#[inline(always)]
+pub fn vectorized<W: WithSimd>(work: W) -> W::Output {
+    pulp::Arch::new().dispatch(work)
+}
+
+/// Runs `work`, compiled with vectors of 128 bits if the module is.
+///
+/// [`pulp::Arch`] would add a version with relaxed instructions. Their results differ between
+/// machines, engines without them refuse the module, and one function with them lets the compiler
+/// use them in all of it.
+#[cfg(target_arch = "wasm32")]
+#[inline(always)]
+pub fn vectorized<W: WithSimd>(work: W) -> W::Output {
+    match pulp::wasm::Simd128::try_new() {
+        Some(vectors) => Simd::vectorize(vectors, work),
+        None => Simd::vectorize(pulp::Scalar::new(), work),
+    }
+}
+
+/// Name of the vector instructions that [`vectorized`] uses; none on a machine without.
+#[must_use]
+pub fn vector_instructions() -> Option<&'static str> {
+    if cfg!(target_arch = "wasm32") {
+        cfg!(target_feature = "simd128").then_some("SIMD128")
+    } else {
+        (!matches!(pulp::Arch::new(), pulp::Arch::Scalar)).then_some("AVX2")
+    }
+}
 
 /// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once; else two
 /// operations, because a fused one would be a slow library call.

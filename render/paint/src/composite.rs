@@ -44,7 +44,7 @@ pub fn composite_row(layer: &LayerOptics, pigments: &[[u32; SLOTS]], backing: &m
     }
     if count > 0 {
         let slots = &slots[..count];
-        pulp::Arch::new().dispatch(CompositeRow { layer, slots, pigments, backing });
+        graphics::lanes::vectorized(CompositeRow { layer, slots, pigments, backing });
     }
 }
 

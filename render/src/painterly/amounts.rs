@@ -41,7 +41,7 @@ pub(super) fn amounts(
             let square = Square::new(depth, x, y);
             let (tones, furrow) = (divide.tones, 1.0 - overlap.ridges);
             let squarings = overlap.sharpness.max(1).ilog2();
-            pulp::Arch::new().dispatch(Gather {
+            graphics::lanes::vectorized(Gather {
                 square: &square,
                 list,
                 splats,
@@ -57,7 +57,7 @@ pub(super) fn amounts(
                 if surface.any() {
                     let square = &square;
                     let sum = Sum { square, splats, tones, furrow, paint, surface, sums };
-                    pulp::Arch::new().dispatch(sum);
+                    graphics::lanes::vectorized(sum);
                 }
             }
             let columns = SIDE.min(width - x);

@@ -86,7 +86,7 @@ fn painted_on_cpu(
             let (square, textured) = (&square, true);
             let gather =
                 Gather { square, list, splats, tones, squarings, furrow, colored, textured, into };
-            pulp::Arch::new().dispatch(gather);
+            graphics::lanes::vectorized(gather);
             if !gathered.on.any() && !gathered.before.any() {
                 continue;
             }

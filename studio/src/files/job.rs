@@ -127,15 +127,18 @@ impl<T: Send + 'static> Job<T> {
 }
 
 /// Runs `work` on one core, so that the others stay free for painting.
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) fn on_one_core<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    // Where there are no threads, there is only one core.
-    if cfg!(target_arch = "wasm32") {
-        return work();
-    }
     match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(pool) => pool.install(work),
         Err(_) => work(),
     }
+}
+
+/// Runs `work`: a page has one core.
+#[cfg(target_arch = "wasm32")]
+pub(super) fn on_one_core<T>(work: impl FnOnce() -> T) -> T {
+    work()
 }
 
 /// Calls a function when dropped, also while a panic unwinds.

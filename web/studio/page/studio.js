@@ -1,6 +1,5 @@
 // The page around the studio: starts it, gives its worker turns, passes pens and files on.
 
-import init, { Page } from "./impasto_web_studio.js";
 import { Storage } from "./storage.js";
 
 const canvas = document.getElementById("studio");
@@ -16,12 +15,20 @@ function show(text) {
   document.getElementById("text").textContent = text;
 }
 
-/** Whether the browser can draw with WebGPU or WebGL 2. */
-async function draws() {
+/** What the browser can draw with: the folder of the module for it, null if there is none. */
+async function drawing() {
   try {
-    if (navigator.gpu && (await navigator.gpu.requestAdapter())) return true;
+    if (navigator.gpu && (await navigator.gpu.requestAdapter())) return "webgpu";
   } catch { /* WebGL 2 may still do. */ }
-  return document.createElement("canvas").getContext("webgl2") !== null;
+  return document.createElement("canvas").getContext("webgl2") && "webgl";
+}
+
+/** Loads the module of a folder: its class Page and its memory. */
+async function load(folder) {
+  const module = await import(`./${folder}/impasto_web_studio.js`);
+  const file = new URL(`${folder}/impasto_web_studio_bg.wasm`, import.meta.url);
+  const { memory } = await module.default({ module_or_path: file });
+  return { Page: module.Page, memory };
 }
 
 /** Lets the worker work between frames, as long as it has something to do. */
@@ -145,19 +152,17 @@ function listenToPens(page) {
 
 async function start() {
   const begun = performance.now();
-  const [wasm, storage, canDraw] = await Promise.all([
-    init({ module_or_path: new URL("impasto_web_studio_bg.wasm", import.meta.url) }),
-    Storage.open().catch((error) => {
-      console.warn("the browser's storage cannot be used", error);
-      return null;
-    }),
-    draws(),
-  ]);
-  if (!canDraw) {
+  const opening = Storage.open().catch((error) => {
+    console.warn("the browser's storage cannot be used", error);
+    return null;
+  });
+  const folder = await drawing();
+  if (!folder) {
     show("This browser has neither WebGPU nor WebGL 2, one of which the studio draws with. " +
       "Turn on hardware acceleration in its settings, or use a newer browser.");
     return;
   }
+  const [{ Page, memory }, storage] = await Promise.all([load(folder), opening]);
   const page = new Page(navigator.language);
   for (const [path, content] of storage?.taken ?? []) page.put(path, content);
   const keep = keepFiles(page, storage);
@@ -193,7 +198,7 @@ async function start() {
       "save the painting often: it is downloaded");
   }
   window.impasto.page = page;
-  window.impasto.memory = wasm.memory;
+  window.impasto.memory = memory;
   window.impasto.inspect = () => JSON.parse(page.inspect());
   window.impasto.openFiles = (files) => open(page, files);
 }

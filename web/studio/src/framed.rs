@@ -13,6 +13,8 @@ use studio::pen::{Pen, PenSettings};
 use studio::theme::ThemeChoice;
 use wasm_bindgen::JsValue;
 
+use crate::page_fonts::page_fonts;
+
 /// Most memory for undo, in bytes: 192 MiB. A page has 4 GiB in all and cannot give any back.
 const MOST_UNDO_BYTES: u64 = 192 << 20;
 
@@ -43,6 +45,7 @@ pub(crate) fn options() -> WebOptions {
 impl Framed {
     pub(crate) fn new(creation: &CreationContext<'_>, frame_done: Function) -> Self {
         let context = creation.egui_ctx.clone();
+        context.set_fonts(page_fonts());
         let mut graphics = "none".to_owned();
         if let Some(drawn) = &creation.wgpu_render_state {
             studio::view::set_format(&context, drawn.target_format);

@@ -4,6 +4,8 @@
 //! browser has not: turns for the worker instead of a thread ([`Page::turn`]), files
 //! ([`Page::put`], [`Page::changes`]) and styluses ([`Page::pen`]).
 
+mod page_fonts;
+
 mod framed;
 
 mod told;

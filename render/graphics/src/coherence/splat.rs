@@ -231,7 +231,7 @@ pub(super) fn draw_splats_on_tiles(
             let first = [x as f32 + 0.5, y as f32 + 0.5];
             let mut sum = [[0.0; SIDE]; SIDE];
             let gather = Gather { list, splats, first, depths: &depths, sum: &mut sum };
-            pulp::Arch::new().dispatch(gather);
+            crate::lanes::vectorized(gather);
             for ((row, sum), depths) in rows.chunks_mut(width).zip(&sum).zip(&depths) {
                 let row = row[x..x + columns].iter_mut().zip(sum).zip(depths);
                 for ((value, sum), _) in row.filter(|(_, depth)| **depth < 1.0) {

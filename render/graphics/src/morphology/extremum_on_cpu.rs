@@ -176,7 +176,7 @@ fn run<const MAXIMUM: bool>(tile: &Tile, cells: &mut [f32]) {
         }
     }
 
-    pulp::Arch::new().dispatch(Run::<MAXIMUM>(tile, cells));
+    crate::lanes::vectorized(Run::<MAXIMUM>(tile, cells));
 }
 
 /// Applies one gather of `COUNT` pixels to the first `last` numbers.

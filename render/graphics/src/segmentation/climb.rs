@@ -39,7 +39,7 @@ pub(super) fn modes(planes: &LuvPlanes, bandwidth: Bandwidth, meeting: f32) -> F
             .map(|left| {
                 let size = ((width - left).min(TILE), (height - band * TILE).min(TILE));
                 let corner = (left, band * TILE);
-                pulp::Arch::new().dispatch(Tile { planes, bandwidth, meeting, corner, size })
+                crate::lanes::vectorized(Tile { planes, bandwidth, meeting, corner, size })
             })
             .collect();
         for (left, tile) in (0..width).step_by(TILE).zip(tiles) {

@@ -254,7 +254,7 @@ impl Head {
             // Its edge stays where it is; the blade does not sweep over the paint.
             self.net.rest();
         }
-        pulp::Arch::new().dispatch(Touching { head: self, grip: &grip, view, bounds, out });
+        graphics::lanes::vectorized(Touching { head: self, grip: &grip, view, bounds, out });
         out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
         out.rates.drag = (f64::from(out.rates.drag) * (2.0 * self.travelled(pose)).min(1.0)) as u32;
         out.wicking = wicking(self.spines.of, self.sub_step, self.paint_grid().1, self.cell_mm);

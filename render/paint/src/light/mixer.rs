@@ -64,7 +64,7 @@ impl Mixer {
     /// If `shares` and `out` differ in length.
     pub fn mix_into(&self, shares: &[f32], out: &mut [[f32; 3]]) {
         assert_eq!(shares.len(), out.len(), "one colour for each share");
-        pulp::Arch::new().dispatch(MixInto { mixer: self, shares, out });
+        graphics::lanes::vectorized(MixInto { mixer: self, shares, out });
     }
 
     /// Linear sRGB of a block of mixtures, one array per channel.

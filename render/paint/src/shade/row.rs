@@ -43,7 +43,7 @@ pub fn shade_row(
 /// If the slices differ in length.
 pub fn color_row(scene: &Scene, internal: &[[f32; NODES]], out: &mut [[f32; 4]]) {
     assert_eq!(internal.len(), out.len(), "each cell needs a colour");
-    pulp::Arch::new().dispatch(Color { scene, internal, out });
+    graphics::lanes::vectorized(Color { scene, internal, out });
 }
 
 /// Adds relief and gloss to `out`, the linear sRGB of a row of level cells; see [`shade_row`].
@@ -68,7 +68,7 @@ pub fn relieve_row(
         let from = block * BLOCK;
         let mut seen = Seen::default();
         let light = Relief { lamp: &lamp, tops, first: (x + from, y), count: out.len() };
-        pulp::Arch::new().dispatch(Shade { light, seen: &mut seen, out });
+        graphics::lanes::vectorized(Shade { light, seen: &mut seen, out });
         for (i, (material, out)) in materials[from..].iter().zip(out).enumerate() {
             let mirrored = lamp.mirrored(seen.n_dot_h[i], seen.lamp[i], *material as usize);
             if mirrored > 0.0 {

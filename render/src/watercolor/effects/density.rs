@@ -82,11 +82,11 @@ fn apply_density_on_cpu(
     color.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, colors)| {
         let mask = mask.map(|mask| mask.row(y, 0, width));
         if overall != 1.0 {
-            pulp::Arch::new().dispatch(EvenRow { colors, excess: overall - 1.0 });
+            graphics::lanes::vectorized(EvenRow { colors, excess: overall - 1.0 });
         }
         for &(texture, strength, pivot) in &layers {
             let texture = texture.row(y, 0, width);
-            pulp::Arch::new().dispatch(Row { colors, texture, mask, strength, pivot });
+            graphics::lanes::vectorized(Row { colors, texture, mask, strength, pivot });
         }
     });
     color

@@ -61,7 +61,7 @@ pub(in crate::watercolor) fn edges_on_cpu(color: &Field<[f32; 4]>, width_px: f32
     let bands = edges.values_mut().par_chunks_mut(width * BAND).enumerate();
     bands.for_each_init(Scratch::default, |scratch, (band, edges)| {
         let band = Band { color, half: &half, first: band * BAND, scratch, edges };
-        pulp::Arch::new().dispatch(band);
+        graphics::lanes::vectorized(band);
     });
     edges
 }

@@ -66,7 +66,7 @@ fn shade_paper_on_cpu(
         let here = heights.row(y, 0, width);
         let above = heights.row(y.saturating_sub(1), 0, width);
         let below = heights.row((y + 1).min(height - 1), 0, width);
-        pulp::Arch::new().dispatch(Row { shading, here, above, below, colors });
+        graphics::lanes::vectorized(Row { shading, here, above, below, colors });
     });
     color
 }

@@ -86,7 +86,7 @@ fn wobble_on_cpu(
                 let y = top + row;
                 here[1..=width].copy_from_slice(heights.row(y, 0, width));
                 (here[0], here[width + 1]) = (here[1], here[width]);
-                pulp::Arch::new().dispatch(Row { source, heights, here, px_per_slope, y, out });
+                graphics::lanes::vectorized(Row { source, heights, here, px_per_slope, y, out });
             },
         );
     }

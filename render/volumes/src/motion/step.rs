@@ -60,7 +60,7 @@ pub(super) fn advance_volume(volume: &mut Volume, conditions: Conditions, scratc
             particles: &mut volume.particles,
             scratch,
         };
-        still = pulp::Arch::new().dispatch(step);
+        still = graphics::lanes::vectorized(step);
         if !acting.regions.is_empty() {
             let least = NEAREST * volume.radius;
             keep_inside(&acting.regions, volume.center, least, &mut volume.particles);

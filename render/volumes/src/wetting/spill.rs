@@ -198,7 +198,7 @@ impl Spilling {
         let births = each(blocks, |(block, next)| {
             let first = block * BLOCK;
             let gathering = Gathering { graph, paint, volumes, shares, accepted, first, next };
-            pulp::Arch::new().dispatch(gathering)
+            graphics::lanes::vectorized(gathering)
         });
         births.concat()
     }

@@ -17,6 +17,7 @@ use crate::mask::Mask;
 use crate::motion::MotionConstants;
 use crate::optics::Scene;
 use graphics::field::Field;
+use graphics::lanes::vector_instructions;
 use graphics::tile::{Rect, Tile, TileSet};
 
 /// The paint of one painting in the machine's memory; used through
@@ -62,12 +63,10 @@ impl CpuPaint {
     pub(crate) fn name(&self) -> String {
         let threads = rayon::current_num_threads();
         let threads = if threads == 1 { "1 thread".into() } else { format!("{threads} threads") };
-        let vectors = match pulp::Arch::new() {
-            pulp::Arch::Scalar => "",
-            _ if cfg!(target_arch = "wasm32") => ", SIMD128",
-            _ => ", AVX2",
-        };
-        format!("the processor, {threads}{vectors}")
+        match vector_instructions() {
+            Some(vectors) => format!("the processor, {threads}, {vectors}"),
+            None => format!("the processor, {threads}"),
+        }
     }
 
     pub(crate) fn bounds(&self) -> Rect {

@@ -1,6 +1,6 @@
 //! Runs sub-steps in order, each on a number of threads that suits its contact's size.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use super::band::Band;
 use super::below::Below;
@@ -11,6 +11,7 @@ use super::step::SubStep;
 use super::wick::Wick;
 use crate::contact::{Contact, Wicking};
 use crate::motion::MotionConstants;
+use graphics::lanes::vectorized;
 use graphics::tile::Rect;
 
 /// Minimum number of cells of a contact's reach per thread: a contact of 26 x 26 cells
@@ -57,15 +58,14 @@ impl SubStepRunner {
             let cells = rect.width * rect.height;
             assert_eq!(touches.len(), cells, "a contact over {rect:?} has a touch per cell");
         }
-        let arch = Arch::new();
         let mut all = || {
             for contact in contacts {
                 if contact.wicking.share > 0 {
                     let (wick, wicking) = (&mut self.wick, contact.wicking);
-                    arch.dispatch(ApplyWick { wick, wicking, head });
+                    vectorized(ApplyWick { wick, wicking, head });
                 }
                 if !contact.rect.is_empty() {
-                    self.sub_step(arch, motion, contact, below, wet, head);
+                    self.sub_step(motion, contact, below, wet, head);
                 }
             }
         };
@@ -79,7 +79,6 @@ impl SubStepRunner {
 
     fn sub_step(
         &mut self,
-        arch: Arch,
         motion: &MotionConstants,
         contact: &Contact,
         below: Below<'_>,
@@ -96,21 +95,21 @@ impl SubStepRunner {
             band.begin(edge(i)..edge(i + 1), reach, head.cells.volume().len());
         }
         let penetration = &mut self.penetration;
-        arch.dispatch(MeasurePenetration { penetration, motion, contact, reach, below, wet, head });
+        vectorized(MeasurePenetration { penetration, motion, contact, reach, below, wet, head });
         let step = SubStep { motion, contact, bounds, reach, penetration, head };
         let mut rows = wet.rows(reach.y, reach.height);
         on_each_band(bands, &mut rows, &|band, rows| {
-            arch.dispatch(Advect { band, step, rows });
+            vectorized(Advect { band, step, rows });
         });
         for i in 1..count {
             let (above, below) = bands.split_at_mut(i);
             above[i - 1].exchange_border_rows(&mut below[0]);
         }
         on_each_band(bands, &mut rows, &|band, rows| {
-            arch.dispatch(AddInflowAndTransfer { band, step, rows });
+            vectorized(AddInflowAndTransfer { band, step, rows });
         });
         for band in bands {
-            arch.dispatch(AddBrushGains { band, head });
+            vectorized(AddBrushGains { band, head });
         }
     }
 }

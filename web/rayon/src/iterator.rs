@@ -1,0 +1,207 @@
+//! What can be done with the items of an iterator.
+
+use std::cmp::Ordering;
+use std::iter;
+
+/// Items, one after the other, with the methods of a parallel iterator.
+#[derive(Debug, Clone)]
+pub struct Serial<I>(pub(crate) I);
+
+impl<I: Iterator> IntoIterator for Serial<I> {
+    type Item = I::Item;
+    type IntoIter = I;
+
+    fn into_iter(self) -> I {
+        self.0
+    }
+}
+
+/// An iterator whose items might be handled by several threads. The methods are those of [`Iterator`],
+/// but for the ones that are described.
+pub trait ParallelIterator: IntoIterator + Sized {
+    /// See [`Iterator::map`].
+    fn map<R, F: FnMut(Self::Item) -> R>(self, map: F) -> Serial<iter::Map<Self::IntoIter, F>> {
+        Serial(self.into_iter().map(map))
+    }
+
+    /// Maps with a state that a thread would make once.
+    fn map_init<T, R>(
+        self,
+        init: impl Fn() -> T,
+        map: impl Fn(&mut T, Self::Item) -> R,
+    ) -> Serial<impl Iterator<Item = R>> {
+        let mut state = init();
+        Serial(self.into_iter().map(move |item| map(&mut state, item)))
+    }
+
+    /// See [`Iterator::filter`].
+    fn filter<F: FnMut(&Self::Item) -> bool>(
+        self,
+        keep: F,
+    ) -> Serial<iter::Filter<Self::IntoIter, F>> {
+        Serial(self.into_iter().filter(keep))
+    }
+
+    /// See [`Iterator::filter_map`].
+    fn filter_map<R, F: FnMut(Self::Item) -> Option<R>>(
+        self,
+        map: F,
+    ) -> Serial<iter::FilterMap<Self::IntoIter, F>> {
+        Serial(self.into_iter().filter_map(map))
+    }
+
+    /// See [`Iterator::flat_map`].
+    fn flat_map<R: IntoIterator, F: FnMut(Self::Item) -> R>(
+        self,
+        map: F,
+    ) -> Serial<iter::FlatMap<Self::IntoIter, R, F>> {
+        Serial(self.into_iter().flat_map(map))
+    }
+
+    /// See [`Iterator::flat_map`].
+    fn flat_map_iter<R: IntoIterator, F: FnMut(Self::Item) -> R>(
+        self,
+        map: F,
+    ) -> Serial<iter::FlatMap<Self::IntoIter, R, F>> {
+        self.flat_map(map)
+    }
+
+    /// See [`Iterator::flatten`].
+    fn flatten(self) -> Serial<iter::Flatten<Self::IntoIter>>
+    where
+        Self::Item: IntoIterator,
+    {
+        Serial(self.into_iter().flatten())
+    }
+
+    /// See [`Iterator::for_each`].
+    fn for_each(self, act: impl FnMut(Self::Item)) {
+        self.into_iter().for_each(act);
+    }
+
+    /// Acts with a state that a thread would make once.
+    fn for_each_init<T>(self, init: impl Fn() -> T, act: impl Fn(&mut T, Self::Item)) {
+        let mut state = init();
+        self.into_iter().for_each(|item| act(&mut state, item));
+    }
+
+    /// Acts until the first error, which is returned.
+    ///
+    /// # Errors
+    /// That of `act`.
+    fn try_for_each<E>(self, act: impl FnMut(Self::Item) -> Result<(), E>) -> Result<(), E> {
+        self.into_iter().try_for_each(act)
+    }
+
+    /// Joins all items, beginning with that of `identity`.
+    fn reduce(
+        self,
+        identity: impl Fn() -> Self::Item,
+        join: impl FnMut(Self::Item, Self::Item) -> Self::Item,
+    ) -> Self::Item {
+        self.into_iter().fold(identity(), join)
+    }
+
+    /// Joins all items; none if there is no item.
+    fn reduce_with(
+        self,
+        join: impl FnMut(Self::Item, Self::Item) -> Self::Item,
+    ) -> Option<Self::Item> {
+        self.into_iter().reduce(join)
+    }
+
+    /// See [`Iterator::collect`].
+    fn collect<C: FromIterator<Self::Item>>(self) -> C {
+        self.into_iter().collect()
+    }
+
+    /// See [`Iterator::unzip`].
+    fn unzip<A, B, FromA, FromB>(self) -> (FromA, FromB)
+    where
+        Self: IntoIterator<Item = (A, B)>,
+        FromA: Default + Extend<A>,
+        FromB: Default + Extend<B>,
+    {
+        self.into_iter().unzip()
+    }
+
+    /// See [`Iterator::sum`].
+    fn sum<S: iter::Sum<Self::Item>>(self) -> S {
+        self.into_iter().sum()
+    }
+
+    /// See [`Iterator::count`].
+    fn count(self) -> usize {
+        self.into_iter().count()
+    }
+
+    /// See [`Iterator::max`].
+    fn max(self) -> Option<Self::Item>
+    where
+        Self::Item: Ord,
+    {
+        self.into_iter().max()
+    }
+
+    /// See [`Iterator::min_by`].
+    fn min_by(
+        self,
+        compare: impl FnMut(&Self::Item, &Self::Item) -> Ordering,
+    ) -> Option<Self::Item> {
+        self.into_iter().min_by(compare)
+    }
+
+    /// See [`Iterator::all`].
+    fn all(self, holds: impl FnMut(Self::Item) -> bool) -> bool {
+        self.into_iter().all(holds)
+    }
+
+    /// See [`Iterator::any`].
+    fn any(self, holds: impl FnMut(Self::Item) -> bool) -> bool {
+        self.into_iter().any(holds)
+    }
+}
+
+impl<I: Iterator> ParallelIterator for Serial<I> {}
+
+/// An iterator that knows how many items it has.
+pub trait IndexedParallelIterator: ParallelIterator {
+    /// Returns itself: there are no parts that would be too short.
+    #[must_use]
+    fn with_min_len(self, _: usize) -> Self {
+        self
+    }
+
+    /// See [`Iterator::enumerate`].
+    fn enumerate(self) -> Serial<iter::Enumerate<Self::IntoIter>> {
+        Serial(self.into_iter().enumerate())
+    }
+
+    /// See [`Iterator::skip`].
+    fn skip(self, count: usize) -> Serial<iter::Skip<Self::IntoIter>> {
+        Serial(self.into_iter().skip(count))
+    }
+
+    /// See [`Iterator::take`].
+    fn take(self, count: usize) -> Serial<iter::Take<Self::IntoIter>> {
+        Serial(self.into_iter().take(count))
+    }
+
+    /// See [`Iterator::step_by`].
+    fn step_by(self, step: usize) -> Serial<iter::StepBy<Self::IntoIter>> {
+        Serial(self.into_iter().step_by(step))
+    }
+
+    /// See [`Iterator::zip`].
+    fn zip<Z: IntoIterator>(self, other: Z) -> Serial<iter::Zip<Self::IntoIter, Z::IntoIter>> {
+        Serial(self.into_iter().zip(other))
+    }
+
+    /// Puts the items into a list, in the place of what it held.
+    fn collect_into_vec(self, list: &mut Vec<Self::Item>) {
+        list.clear();
+        list.extend(self);
+    }
+}
+
+impl<I: Iterator> IndexedParallelIterator for Serial<I> {}
