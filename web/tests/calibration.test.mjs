@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
 import { launched, pictures, program, root, served } from "./browser.mjs";
+import { dropped, same, savedBy } from "./calibration.mjs";
 import { apart, utf16, workbook } from "./files.mjs";
 
 const measurements = resolve(root, "measurements");
@@ -45,36 +46,11 @@ afterEach(async () => {
   await context.close();
 });
 
-// Drops files on `target`, as a hand does.
-async function drop(target, files) {
-  const transfer = await page.evaluateHandle((given) => {
-    const data = new DataTransfer();
-    for (const { name, base64 } of given) {
-      const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-      data.items.add(new File([bytes], name));
-    }
-    return data;
-  }, files.map(({ name, bytes }) => ({ name, base64: Buffer.from(bytes).toString("base64") })));
-  await page.dispatchEvent(target, "dragover", { dataTransfer: transfer });
-  await page.dispatchEvent(target, "drop", { dataTransfer: transfer });
-}
-
-async function saved(button) {
-  const [download] = await Promise.all([page.waitForEvent("download"), button.click()]);
-  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
-}
-
+const drop = (target, files) => dropped(page, target, files);
+const saved = (button) => savedBy(page, button);
 const notice = () => page.locator("#notice");
 const curve = (chart, name) => page.locator(`${chart} polyline[data-name="${name}"]`);
 const values = async (line) => (await line.getAttribute("data-values")).split(" ").map(Number);
-
-// Equal texts; tells the first line that differs, not thousands.
-function same(found, wanted) {
-  if (found === wanted) return;
-  const [a, b] = [found.split("\n"), wanted.split("\n")];
-  const at = a.findIndex((line, place) => line !== b[place]);
-  assert.fail(`line ${at + 1} is ${String(a[at]).slice(0, 120)}, wanted ${String(b[at]).slice(0, 120)}`);
-}
 
 // Numbers that agree but for the last digits: powers and exponentials of two systems differ there.
 function near(found, wanted, within = 1e-9) {

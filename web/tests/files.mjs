@@ -1,4 +1,4 @@
-// The readings of the oils as other files: a workbook, UTF-16, and CGATS with recipes apart.
+// The readings of the oils as other files: a workbook, UTF-16, CGATS with recipes apart, and raw counts.
 
 import { crc32, deflateRawSync } from "node:zlib";
 
@@ -81,4 +81,34 @@ export function apart(csv) {
   const cgats = `CGATS.17\nBEGIN_DATA_FORMAT\n${fields}\nEND_DATA_FORMAT\nNUMBER_OF_SETS ${rows.length}\nBEGIN_DATA\n${sets.join("\n")}\nEND_DATA\n`;
   const recipes = [`reading,${quoted(head.slice(0, first))}`, ...rows.map((row, at) => `reading ${at + 1},${quoted(row.slice(0, first))}`)];
   return { cgats, recipes: `${recipes.join("\n")}\n` };
+}
+
+// The readings of the mixtures of some pigments as a spectrometer counts them, a file each, with their recipes, the
+// readings of white and dark, and the reflectance of the white as a file.
+export function counts(csv, pigments) {
+  const [head, ...rows] = rowsOf(csv);
+  const first = head.indexOf("400");
+  const nm = head.slice(first).map(Number);
+  const own = [...head.keys()].filter((at) => at < 3 || pigments.includes(head[at]));
+  const amounts = [...head.keys()].filter((at) => at >= 3 && at < first);
+  // Bare grounds have the sample's name and no amounts.
+  const painted = rows.filter((row) => row[1] === "paint" && amounts.every((at) => !Number(row[at]) || own.includes(at)));
+  const samples = new Set(painted.map(([sample]) => sample));
+  const [dark, tile] = [210, 0.98];
+  const white = (at) => 30_000 + 40 * at;
+  const lines = (values) => values.map((value, at) => `${nm[at]} ${value}\n`).join("");
+  const files = rows.filter(([sample]) => samples.has(sample)).map((row, at) => ({
+    name: `reading-${at + 1}.txt`, row,
+    bytes: lines(row.slice(first).map((percent, at) => (dark + ((white(at) - dark) * percent) / 100 / tile).toFixed(3))),
+  }));
+  const quoted = (cells) => cells.map((cell) => `"${cell}"`).join(",");
+  const recipes = [`reading,${quoted(own.map((at) => head[at]))}`,
+    ...files.map(({ name, row }) => `${name.replace(".txt", "")},${quoted(own.map((at) => row[at]))}`)];
+  return {
+    files, tile, recipes: `${recipes.join("\n")}\n`,
+    references: {
+      "white.txt": lines(nm.map((_, at) => white(at))), "dark.txt": lines(nm.map(() => dark)),
+      "tile.csv": `nm,reflectance\n${nm.map((value) => `${value},${tile}`).join("\n")}\n`,
+    },
+  };
 }

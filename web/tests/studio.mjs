@@ -1,5 +1,6 @@
 // The acts that tests and figures of the studio share.
 
+import { join } from "node:path";
 import { launched, served } from "./browser.mjs";
 
 /** Flags by which Chromium draws WebGPU without a graphics card. */
@@ -10,8 +11,8 @@ const FLAGS = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--
 /** Serves the studio on this machine. */
 export const serve = () => served("studio");
 
-/** Starts Chromium. */
-export const launch = () => launched(FLAGS);
+/** Starts Chromium, with other flags than those that draw WebGPU, if given. */
+export const launch = (flags = FLAGS) => launched(flags);
 
 /** Opens the studio and waits for its first painting. `faults` takes what goes wrong in the page. */
 export async function openStudio(context, url, faults = []) {
@@ -62,4 +63,103 @@ export function penStroke(page, points, { everyMs = 5, tilt = [20, 10] } = {}) {
     });
     send("pointerup", [...points.at(-1).slice(0, 2), 0], 0);
   }, { points, everyMs, tilt });
+}
+
+/**
+ * A stylus that the browser itself reports, as it does one of the system. `stroke` takes points
+ * [x, y, pressure, tiltX, tiltY, twist].
+ */
+export async function stylus(page) {
+  const cdp = await page.context().newCDPSession(page);
+  const send = (type, [x, y, force, tiltX = 0, tiltY = 0, twist = 0], buttons) =>
+    cdp.send("Input.dispatchMouseEvent", {
+      type, x, y, force, tiltX, tiltY, twist, buttons, clickCount: 1, pointerType: "pen",
+      button: type === "mouseMoved" ? "none" : "left",
+    });
+  return {
+    async stroke(points) {
+      await send("mousePressed", points[0], 1);
+      for (const point of points.slice(1)) await send("mouseMoved", point, 1);
+      await send("mouseReleased", points.at(-1), 0);
+    },
+  };
+}
+
+/** Fingers: `touch(type, points)` with `touchStart`, `touchMove` and `touchEnd`; points are [x, y]. */
+export async function fingers(page) {
+  const cdp = await page.context().newCDPSession(page);
+  return (type, points = []) =>
+    cdp.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+}
+
+/** Places of entries in the File menu of the window of 1280 x 800 pixels. */
+const FILE_MENU = { sample: 97, saveRecording: 253 };
+
+/** Chooses an entry of the File menu. */
+export async function fromFileMenu(page, entry) {
+  await page.mouse.click(18, 13);
+  await page.waitForTimeout(300);
+  await page.mouse.click(60, FILE_MENU[entry]);
+}
+
+/** Places of entries in the View menu of that window. */
+const VIEW_MENU = { dark: 475, touch: 567 };
+
+/** Chooses an entry of the View menu, until `condition` of the state holds: a slow page may miss a click. */
+export async function fromViewMenu(page, entry, condition) {
+  for (let trial = 0; trial < 4 && !condition(await inspect(page)); trial++) {
+    await page.mouse.click(85, 13);
+    await page.waitForTimeout(600);
+    await page.mouse.click(140, VIEW_MENU[entry]);
+    await page.waitForTimeout(600);
+    await page.keyboard.press("Escape");
+    await page.waitForTimeout(300);
+  }
+  if (!condition(await inspect(page))) throw new Error(`${entry} of the View menu was not chosen`);
+}
+
+/** Waits until a dialog is open, and has been drawn. */
+export async function dialog(page) {
+  await page.waitForFunction(() => window.impasto.inspect()?.dialog, null, { timeout: 60_000 });
+  await page.waitForTimeout(400);
+}
+
+/** Does `act`, which downloads a file, and keeps it in `folder`. Returns its path. */
+export async function downloaded(page, folder, act) {
+  const download = page.waitForEvent("download", { timeout: 120_000 });
+  await act();
+  const path = join(folder, (await download).suggestedFilename());
+  await (await download).saveAs(path);
+  return path;
+}
+
+/** Saves the painting or the recording under the name that the dialog proposes. */
+export const confirmed = (page, folder, open) => downloaded(page, folder, async () => {
+  await open();
+  await dialog(page);
+  await page.keyboard.press("Enter");
+});
+
+/** Waits until the state of the page fulfils `condition`, a function of it and `value`. */
+export async function until(page, condition, value = null, timeout = 30_000) {
+  const text = `(value) => { const state = window.impasto.inspect(); return state !== null && (${condition})(state, value); }`;
+  await page.waitForFunction(new Function("value", `return (${text})(value)`), value, { timeout, polling: 100 });
+}
+
+/** Writes preferences to the browser's storage, as the page keeps them, before the studio is opened. */
+export async function prepared(context, url, preferences) {
+  const page = await context.newPage();
+  await page.route("**/favicon.ico", (route) => route.abort());
+  // A page of the same host that does nothing.
+  await page.goto(new URL("studio.css", url).href);
+  await page.evaluate(async (text) => {
+    let folder = await navigator.storage.getDirectory();
+    for (const name of ["impasto-studio", "settings"]) folder = await folder.getDirectoryHandle(name, { create: true });
+    for (const [name, content] of [["f0", text], ["list.json", '{"next":1,"files":{"/settings/preferences.json":"f0"}}']]) {
+      const writable = await (await folder.getFileHandle(name, { create: true })).createWritable();
+      await writable.write(content);
+      await writable.close();
+    }
+  }, JSON.stringify(preferences));
+  await page.close();
 }

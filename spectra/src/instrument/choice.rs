@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::measured::{MeasuredSpectrum, Role};
+use crate::file::disk::is_file;
 use crate::hint::{Explain, Hint};
 
 /// Maximum number of names listed in an error.
@@ -13,7 +14,7 @@ const LISTED: usize = 8;
 #[must_use]
 pub fn split_file_and_name(text: &str) -> (&str, Option<&str>) {
     match text.rsplit_once('#') {
-        Some((file, name)) if !Path::new(text).is_file() => (file, Some(name)),
+        Some((file, name)) if !is_file(Path::new(text)) => (file, Some(name)),
         _ => (text, None),
     }
 }

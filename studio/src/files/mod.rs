@@ -5,6 +5,8 @@ mod problem;
 
 mod age;
 
+mod page_problem;
+
 mod drawing;
 
 mod desk;
@@ -103,6 +105,7 @@ pub use new_canvas::{CanvasPreset, KeptCanvases, LengthUnit, NewCanvas};
 pub use notice::StatusNote;
 pub(crate) use notices::bottom_of_notices;
 pub use own_brushes::BrushSets;
+pub use page_problem::PageProblem;
 pub(crate) use picture_file::{ReadPicture, on_screen, read_picture};
 pub use preferences::{Backend, Preferences, ToolPreferences};
 pub use problem::Problem;

@@ -179,6 +179,12 @@ impl Files {
         self.notices.iter().filter(|notice| notice.until.is_none()).map(|it| it.text.as_str())
     }
 
+    /// Hints of these messages, for those that have one.
+    pub fn hints(&self) -> impl Iterator<Item = &str> {
+        let staying = self.notices.iter().filter(|notice| notice.until.is_none());
+        staying.filter_map(|notice| notice.hint.as_deref())
+    }
+
     /// Content of the file that the painting was opened from; `None` for one begun bare.
     #[must_use]
     pub fn opened_content(&self) -> Option<&[u8]> {

@@ -58,9 +58,11 @@ impl Pointer {
     pub(super) fn reports(&mut self, events: &[Event], now: Instant) -> Vec<Report> {
         let mut reports = Vec::new();
         self.tapped = None;
-        for event in events {
+        for (at, event) in events.iter().enumerate() {
             self.tapped = self.taps.read(event, now).or(self.tapped);
-            self.read_event(event, now, &mut reports);
+            if !is_of_touch(event, events.get(at + 1)) {
+                self.read_event(event, now, &mut reports);
+            }
         }
         let from = self.last_frame.unwrap_or(now);
         let from = from.max(now.checked_sub(FRAME).unwrap_or(now)).min(now);
@@ -194,6 +196,18 @@ impl Pointer {
     }
 }
 
+/// Whether egui made a press of the touch that begins after it: in a page it comes first, so that the
+/// finger would begin a stroke as a mouse.
+fn is_of_touch(event: &Event, next: Option<&Event>) -> bool {
+    match (event, next) {
+        (
+            Event::PointerButton { pos, pressed: true, .. },
+            Some(Event::Touch { phase: TouchPhase::Start, pos: touched, .. }),
+        ) => pos == touched,
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use eframe::egui::{Modifiers, TouchDeviceId, pos2};
@@ -280,6 +294,22 @@ mod tests {
         // A tap is a short press at one place.
         assert_eq!(frame(300, &down), "");
         assert_eq!(frame(310, &[touch(1, TouchPhase::End, 0.0)]), "PR");
+    }
+
+    #[test]
+    fn a_finger_in_a_page_is_no_mouse() {
+        let start = Instant::now();
+        let at = |ms| start + Duration::from_millis(ms);
+        let mut pointer = Pointer::default();
+        let press = [button(true), touch(1, TouchPhase::Start, 1.0)];
+        assert_eq!(letters(&pointer.reports(&press, at(0))), "");
+        let moved = [Event::PointerMoved(pos2(20.0, 0.0)), touch(1, TouchPhase::Move, 20.0)];
+        assert_eq!(letters(&pointer.reports(&moved, at(10))), "PM");
+        let lifted = [button(false), Event::PointerGone, touch(1, TouchPhase::End, 20.0)];
+        assert_eq!(letters(&pointer.reports(&lifted, at(20))), "R");
+        // A mouse elsewhere stays one.
+        let both = [button(true), touch(2, TouchPhase::Start, 50.0)];
+        assert_eq!(letters(&pointer.reports(&both, at(30))), "p");
     }
 
     #[test]

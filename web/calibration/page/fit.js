@@ -1,6 +1,7 @@
 // Readings to a library: files, options, the fit and its errors.
 
 import { chart } from "./chart.js";
+import { COUNTS, references } from "./counts.js";
 import { $, clearNotice, download, element, fits, names, number, remarkList, takesDrops, takesFiles } from "./page.js";
 import { long, onChange, quick, refuse, shelf, useFitted, useReadings, viewing, work } from "./shelf.js";
 import { say, select } from "./tabs.js";
@@ -9,7 +10,7 @@ let files = [];
 // Ends when the files are read, with the options as they are.
 let reading = Promise.resolve();
 // Options that change how files are read.
-const READING = ["o-percent", "o-format", "o-pigments", "o-recipes", "o-transmittance"];
+const READING = ["o-percent", "o-format", "o-pigments", "o-recipes", "o-transmittance", ...COUNTS];
 
 export function startFit() {
   takesDrops($("readings-drop"), take);
@@ -68,20 +69,26 @@ function read() {
 }
 
 async function readFiles() {
-  $("fit-start").disabled = true;
+  // "Fit" stays as it is meanwhile: it may be the press on it that ends the change of a field, and waits.
+  const told = await readFilesTold();
+  $("fit-start").disabled = !told;
+}
+
+async function readFilesTold() {
   $("readings-told").replaceChildren();
   useReadings(null);
   const recipes = $("o-recipes").files[0] ?? null;
-  if (recipes && !fits([recipes])) return;
+  if (recipes && !fits([recipes])) return null;
   const told = await work("reading", () => {
-    const options = JSON.stringify(readingOptions());
-    return long.make("readings", "read", [files, recipes, options]);
+    const { given, named } = references();
+    const options = JSON.stringify({ ...readingOptions(), references: named });
+    return long.make("readings", "read", [files, recipes, given, options]);
   });
-  if (!told) return;
+  if (!told) return null;
   useReadings(told);
   const count = `${told.samples.length} samples, ${told.readings} readings, ${told.pigments.length} pigments`;
   $("readings-told").replaceChildren(element("p", {}, count), ...remarkList(told.remarks));
-  $("fit-start").disabled = false;
+  return told;
 }
 
 function surface() {

@@ -28,11 +28,11 @@ async function contents(files) {
 }
 
 const calls = {
-  async read(files, recipes, options) {
-    const bytes = await contents(files);
+  async read(files, recipes, references, options) {
+    const [bytes, given] = [await contents(files), await contents(references)];
     const extra = recipes ? (await contents([recipes]))[0] : undefined;
-    const names = files.map((file) => file.name);
-    hold("readings", new native.Readings(names, bytes, recipes?.name, extra, options));
+    const names = (list) => list.map((file) => file.name);
+    hold("readings", new native.Readings(names(files), bytes, recipes?.name, extra, names(references), given, options));
     return JSON.parse(held.readings.about());
   },
   forget_readings() {

@@ -10,7 +10,7 @@ use wasm_bindgen::JsValue;
 pub(crate) type Result<T> = std::result::Result<T, JsValue>;
 
 /// Where the page has each setting that hints name. Others are options of the program alone.
-const CONTROLS: [(&str, &str); 24] = [
+const CONTROLS: [(&str, &str); 29] = [
     ("reference", "\"White\""),
     ("percent", "\"Readings are in\": percent"),
     ("fraction", "\"Readings are in\": fractions"),
@@ -25,6 +25,11 @@ const CONTROLS: [(&str, &str); 24] = [
     ("exclude", "\"Samples to leave out\""),
     ("amounts", "\"Amounts\""),
     ("method", "\"Method\""),
+    ("white_reading", "\"White reading\""),
+    ("dark_reading", "\"Dark readings\""),
+    ("tile", "\"Reflectance of the white\""),
+    ("full_scale", "\"Largest count\""),
+    ("least_light", "\"Least light\""),
     ("illuminant", "\"Light\""),
     ("observer", "\"Observer\""),
     ("thickness", "\"Thickness\""),
@@ -40,6 +45,9 @@ const CONTROLS: [(&str, &str); 24] = [
 /// A hint that names the controls of the page.
 pub(crate) fn hint_text(hint: &Hint) -> String {
     hint.with_settings(|name, value| {
+        if (name, value) == ("dark_reading", Some("0")) {
+            return "\"Dark is subtracted already\"".to_owned();
+        }
         let control = CONTROLS.iter().find(|(setting, _)| *setting == name);
         // A word in capitals stands for what the user writes.
         let is_word = |value: &str| !value.chars().any(|c| c.is_ascii_lowercase() || c == '"');

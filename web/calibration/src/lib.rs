@@ -11,6 +11,10 @@ mod told;
 
 mod viewing;
 
+mod files;
+
+mod counts;
+
 mod readings;
 
 mod library;

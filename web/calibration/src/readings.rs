@@ -7,7 +7,9 @@ use serde::Deserialize;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
+use crate::counts::{GivenFiles, References};
 use crate::failure::{Result, Told, options, setting};
+use crate::files::files;
 use crate::remarks::remarks;
 
 /// Options of reading, as the page passes them.
@@ -17,11 +19,12 @@ struct Options {
     percent: Option<bool>,
     transmittance: bool,
     pigments: Option<Vec<String>>,
+    references: Option<References>,
 }
 
 impl Options {
     fn read(json: &str) -> Result<ReadingOptions> {
-        let Self { format, percent, transmittance, pigments } = options(json)?;
+        let Self { format, percent, transmittance, pigments, references } = options(json)?;
         let format = format.map(|name| {
             ReadingFormat::named(&name).ok_or_else(|| {
                 let known: Vec<&str> = ReadingFormat::names().collect();
@@ -38,7 +41,7 @@ impl Options {
             },
             pigments,
             transmittance_is_reflectance: transmittance,
-            references: None,
+            references: references.map(References::files),
         })
     }
 }
@@ -51,17 +54,22 @@ pub struct Readings(pub(crate) calibrate::Readings);
 #[wasm_bindgen]
 impl Readings {
     /// Reads files by their names and contents, and a CSV of recipes where these stand in a file of their own.
+    /// `given` are the files that the references of the options name, for readings of raw counts.
     #[wasm_bindgen(constructor)]
     pub fn open(
         names: &Array<JsString>,
         contents: &Array<Uint8Array>,
         recipes_name: Option<String>,
         recipes: Option<Vec<u8>>,
+        given_names: &Array<JsString>,
+        given_contents: &Array<Uint8Array>,
         options: &str,
     ) -> Result<Readings> {
         let options = Options::read(options)?;
-        let mut readings =
-            calibrate::Readings::from_files(&files(names, contents), &options).told()?;
+        let given = GivenFiles::put(files(given_names, given_contents))?;
+        let read = calibrate::Readings::from_files(&files(names, contents), &options);
+        drop(given);
+        let mut readings = read.told()?;
         if let Some((name, bytes)) = recipes_name.zip(recipes) {
             let pigments = options.pigments.as_deref();
             readings = readings.with_recipes_from(&name, &bytes, pigments).told()?;
@@ -88,15 +96,6 @@ impl Readings {
         })
         .to_string()
     }
-}
-
-/// Names and contents of files.
-pub(crate) fn files(
-    names: &Array<JsString>,
-    contents: &Array<Uint8Array>,
-) -> Vec<(String, Vec<u8>)> {
-    let names = names.iter().map(String::from);
-    names.zip(contents.iter().map(|bytes| bytes.to_vec())).collect()
 }
 
 /// Names of all formats, as JSON: for a list of choices.

@@ -6,23 +6,36 @@
 
 const LIST = "list.json";
 
-/** One store. */
+/** What `does` finds, or `undefined` if it is not there. */
+async function found(does) {
+  try {
+    return await does();
+  } catch (error) {
+    if (error.name !== "NotFoundError") throw error;
+    return undefined;
+  }
+}
+
+/** One store. Its folder is made by the first write: a full storage can still be read. */
 class Store {
-  constructor(folder, list) {
-    this.folder = folder;
-    this.list = list;
+  constructor(name) {
+    this.name = name;
+    this.folder = undefined;
+    this.list = { next: 0, files: {} };
   }
 
   static async open(root, name) {
-    const folder = await root.getDirectoryHandle(name, { create: true });
-    let list = { next: 0, files: {} };
-    try {
-      const file = await (await folder.getFileHandle(LIST)).getFile();
-      list = JSON.parse(await file.text());
-    } catch (error) {
-      if (error.name !== "NotFoundError" && !(error instanceof SyntaxError)) throw error;
+    const store = new Store(name);
+    store.folder = root && (await found(() => root.getDirectoryHandle(name)));
+    const list = store.folder && (await found(() => store.folder.getFileHandle(LIST)));
+    if (list) {
+      try {
+        store.list = JSON.parse(await (await list.getFile()).text());
+      } catch (error) {
+        if (!(error instanceof SyntaxError)) throw error;
+      }
     }
-    return new Store(folder, list);
+    return store;
   }
 
   /** Path and content of every file. One that cannot be read is left out. */
@@ -46,8 +59,9 @@ class Store {
     await writable.close();
   }
 
-  /** Applies changes, each a path with its content or null. */
-  async apply(changes) {
+  /** Applies changes, each a path with its content or null. The store lies in the folder `root`. */
+  async apply(root, changes) {
+    this.folder ??= await root.getDirectoryHandle(this.name, { create: true });
     const next = { next: this.list.next, files: { ...this.list.files } };
     const gone = [];
     const made = [];
@@ -85,48 +99,82 @@ function hold(name) {
   });
 }
 
+/** The folder of the studio in the browser's storage. */
+async function studioFolder(create) {
+  const top = await navigator.storage.getDirectory();
+  return top.getDirectoryHandle("impasto-studio", { create });
+}
+
 /**
  * The storage of the page: settings, which all pages share, and the autosaves of this page. `taken`
  * are the files to begin with, among them the autosaves of pages that have ended.
  */
 export class Storage {
   static async open() {
-    const top = await navigator.storage.getDirectory();
-    const root = await top.getDirectoryHandle("impasto-studio", { create: true });
+    if (!("createWritable" in FileSystemFileHandle.prototype)) {
+      throw new Error("this browser cannot write files of its storage");
+    }
     const storage = new Storage();
-    storage.root = root;
-    storage.settings = await Store.open(root, "settings");
-    storage.taken = await storage.settings.read();
+    storage.name = `page-${Date.now()}-${Math.floor(Math.random() * 1e6)}`;
+    await hold(`impasto-studio-${storage.name}`);
+    storage.root = await found(() => studioFolder(false));
+    storage.data = new Store(storage.name);
+    storage.taken = await (await Store.open(storage.root, "settings")).read();
+    // Files that were adopted and do not lie under the new name yet, and the stores that hold them.
+    storage.owed = [];
     storage.ended = [];
-    const own = `page-${Date.now()}-${Math.floor(Math.random() * 1e6)}`;
-    await hold(`impasto-studio-${own}`);
     const names = [];
-    for await (const name of root.keys()) if (name.startsWith("page-")) names.push(name);
-    const adopted = [];
+    for await (const name of storage.root?.keys() ?? []) if (name.startsWith("page-")) names.push(name);
     for (const name of names.sort()) {
-      if (!(await hold(`impasto-studio-${name}`))) continue;
-      const store = await Store.open(root, name);
-      adopted.push(...(await store.read()));
+      if (name === storage.name || !(await hold(`impasto-studio-${name}`))) continue;
+      const store = await Store.open(storage.root, name);
+      storage.owed.push(...(await store.read()));
       storage.ended.push(name);
     }
-    storage.data = await Store.open(root, own);
-    // What is adopted is written under the new name before the old one is removed.
-    if (adopted.length > 0) await storage.data.apply(adopted);
-    for (const name of storage.ended) {
-      await root.removeEntry(name, { recursive: true }).catch(() => {});
-    }
-    storage.taken.push(...adopted);
+    storage.taken.push(...storage.owed);
     // Asked without a question where the browser allows that; refused, it may clear the storage.
     storage.lasts = (await navigator.storage.persist?.().catch(() => false)) ?? false;
     return storage;
   }
 
-  /** Keeps the changes of settings and autosaves. */
-  async apply(changes) {
+  /**
+   * Keeps the changes of settings and autosaves. If the storage was cleared, keeps the files that `all`
+   * returns instead; returns whether it was.
+   */
+  async apply(changes, all) {
+    try {
+      await this.#write(changes);
+      return false;
+    } catch (error) {
+      if (error.name !== "NotFoundError") throw error;
+    }
+    this.root = undefined;
+    this.data = new Store(this.name);
+    this.owed = [];
+    await this.#write(all());
+    return true;
+  }
+
+  async #write(changes) {
     const below = (folder) => changes.filter(([path]) => path.startsWith(`${folder}/`));
     const settings = below("/settings");
-    const data = below("/data");
-    if (data.length > 0) await this.data.apply(data);
-    if (settings.length > 0) await this.settings.apply(settings);
+    const changed = new Set(changes.map(([path]) => path));
+    const data = [...this.owed.filter(([path]) => !changed.has(path)), ...below("/data")];
+    this.root ??= await studioFolder(true);
+    if (settings.length > 0) await this.#writeSettings(settings);
+    if (data.length > 0) await this.data.apply(this.root, data);
+    this.owed = [];
+    // What was adopted lies under the new name now.
+    for (const name of this.ended.splice(0)) {
+      await this.root.removeEntry(name, { recursive: true }).catch(() => {});
+    }
+  }
+
+  /** Keeps settings. Another page may have changed the list of them since: it is read again. */
+  async #writeSettings(changes) {
+    await navigator.locks.request("impasto-studio-settings", async () => {
+      const store = await Store.open(this.root, "settings");
+      await store.apply(this.root, changes);
+    });
   }
 }

@@ -1,6 +1,7 @@
 // The page around the studio: starts it, gives its worker turns, passes pens and files on.
 
 import { Storage } from "./storage.js";
+import { said } from "./words.js";
 
 const canvas = document.getElementById("studio");
 const message = document.getElementById("message");
@@ -8,11 +9,26 @@ const message = document.getElementById("message");
 /** Longest turn of the worker between two frames, in ms. */
 const TURN_MS = 8;
 
-/** Shows a text in place of the studio. */
-function show(text) {
+/** Shows a text in place of the studio; with a button that loads the page again, if that may help. */
+function show(text, again = false) {
   message.hidden = false;
   document.getElementById("loading").hidden = true;
   document.getElementById("text").textContent = text;
+  const button = document.getElementById("again");
+  button.hidden = !again;
+  button.textContent = said("Load again");
+  button.onclick = () => location.reload();
+  if (again) button.focus();
+}
+
+/** Tells that the studio has ended where an error of the module ends it. */
+function watchForItsEnd() {
+  const seen = (error) => {
+    if (!(error instanceof WebAssembly.RuntimeError)) return;
+    show(said("The studio has ended by an error in it. What was autosaved is offered when the page is loaded again."), true);
+  };
+  window.addEventListener("error", (event) => seen(event.error));
+  window.addEventListener("unhandledrejection", (event) => seen(event.reason));
 }
 
 /** What the browser can draw with: the folder of the module for it, null if there is none. */
@@ -55,29 +71,36 @@ function giveTurns(page, afterTurn) {
   return ask;
 }
 
+/** Time until a write to the browser's storage that failed is tried again, in ms. */
+const RETRY_MS = 5000;
+
 /** Keeps changes in the browser's storage, one batch after the other, and offers saved files. */
 function keepFiles(page, storage) {
   let waiting = new Map();
+  // Adopted files are written at once.
+  let owes = storage !== null && storage.owed.length > 0;
   let busy = false;
   let told = false;
   const write = async () => {
-    if (busy || waiting.size === 0) return;
+    if (busy || (waiting.size === 0 && !owes)) return;
     busy = true;
     const batch = waiting;
     waiting = new Map();
     try {
-      await storage.apply([...batch]);
+      const cleared = await storage.apply([...batch], () => page.kept());
+      owes = false;
       told = false;
+      if (cleared) page.storage_problem("cleared", "");
     } catch (error) {
       // What is newer stays.
       waiting = new Map([...batch, ...waiting]);
       if (!told) {
         told = true;
-        const full = error.name === "QuotaExceededError";
-        const text = full ? "the browser's storage is full" : `the browser's storage: ${error.message}`;
-        page.report(`the autosave cannot be kept: ${text}`, "save the painting: it is downloaded");
+        console.warn("the browser's storage cannot be written", error);
+        const kind = error.name === "QuotaExceededError" ? "full" : "failed";
+        page.storage_problem(kind, String(error.message ?? error));
       }
-      await new Promise((resolve) => setTimeout(resolve, 5000));
+      await new Promise((resolve) => setTimeout(resolve, RETRY_MS));
     }
     busy = false;
     write();
@@ -112,7 +135,7 @@ async function open(page, files) {
     try {
       page.open(file.name, new Uint8Array(await file.arrayBuffer()));
     } catch (error) {
-      page.report(`${file.name}: cannot be read: ${error.message ?? error}`, "choose it again");
+      page.unreadable(file.name, String(error.message ?? error));
     }
   }
 }
@@ -147,6 +170,14 @@ function listenToPens(page) {
       if (isPen(event)) page.pen(3, numbers(event, performance.now()));
     }, options);
   }
+  // Fingers reach the studio as touches. Their pointer events would begin a stroke as a mouse before.
+  for (const name of ["pointerdown", "pointerup"]) {
+    window.addEventListener(name, (event) => {
+      if (event.pointerType !== "touch" || event.target !== canvas) return;
+      event.stopImmediatePropagation();
+      if (document.activeElement === document.body) canvas.focus({ preventScroll: true });
+    }, options);
+  }
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 }
 
@@ -158,8 +189,7 @@ async function start() {
   });
   const folder = await drawing();
   if (!folder) {
-    show("This browser has neither WebGPU nor WebGL 2, one of which the studio draws with. " +
-      "Turn on hardware acceleration in its settings, or use a newer browser.");
+    show(said("This browser has neither WebGPU nor WebGL 2, one of which the studio draws with. Turn on hardware acceleration in its settings, or use a newer browser."));
     return;
   }
   const [{ Page, memory }, storage] = await Promise.all([load(folder), opening]);
@@ -183,7 +213,9 @@ async function start() {
       if (wanted === undefined) return;
       chooser.value = "";
       chooser.accept = wanted;
-      chooser.click();
+      // A browser opens its dialog only soon after a key or a press: a slow frame may come too late.
+      if (navigator.userActivation?.isActive ?? true) chooser.click();
+      else window.addEventListener("pointerup", () => chooser.click(), { once: true, capture: true });
     });
   });
   listenToPens(page);
@@ -194,8 +226,7 @@ async function start() {
     keep();
   });
   if (!storage) {
-    page.report("this browser keeps no autosaves: it denies its storage to this page",
-      "save the painting often: it is downloaded");
+    page.storage_problem("denied", "");
   }
   window.impasto.page = page;
   window.impasto.memory = memory;
@@ -204,7 +235,13 @@ async function start() {
 }
 
 window.impasto = {};
+document.getElementById("text").textContent = said("The studio is loading.");
+watchForItsEnd();
 start().catch((error) => {
   console.error(error);
-  show(`The studio cannot start: ${error.message ?? error}`);
+  if (error instanceof WebAssembly.CompileError) {
+    show(said("This browser does not know the instructions that the studio is made of (WebAssembly with SIMD). Use a newer browser."));
+  } else {
+    show(`${said("The studio cannot start")}: ${error.message ?? error}`, true);
+  }
 });

@@ -17,8 +17,8 @@ use eframe::WebRunner;
 use eframe::egui::pos2;
 use js_sys::{Array, Function, Uint8Array};
 use spectra::file::disk;
-use studio::files::Problem;
-use studio::language::{Language, set_system, tr};
+use studio::files::{PageProblem, Problem};
+use studio::language::{Language, set_system};
 use studio::pen::{PagePens, PagePhase, PagePointer};
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
@@ -29,12 +29,15 @@ use framed::Framed;
 /// Folder of the files that were opened and saved; the page offers those for download.
 const FILES: &str = "/files";
 
+/// Folders whose files should outlive the page: preferences and autosaves.
+const KEPT: [&str; 2] = ["/settings", "/data"];
+
 /// Largest painting that a page takes, in bytes: 512 MiB. Read, it takes several times as much of the
 /// 4 GiB that a page has.
-const MOST_PAINTING_BYTES: f64 = 536_870_912.0;
+const MOST_PAINTING_BYTES: u64 = 512 << 20;
 
 /// Largest other file that a page takes, in bytes: 256 MiB, as in the program.
-const MOST_BYTES: f64 = 268_435_456.0;
+const MOST_BYTES: u64 = 256 << 20;
 
 /// The studio in a page.
 #[wasm_bindgen]
@@ -114,17 +117,30 @@ impl Page {
         told.collect()
     }
 
+    /// Every file that should outlive the page, each as its path and its content: for a storage that has
+    /// lost them.
+    pub fn kept(&self) -> Array {
+        let mut kept = Vec::new();
+        KEPT.iter().for_each(|folder| files_below(Path::new(folder), &mut kept));
+        let told = kept.into_iter().filter_map(|path| {
+            let bytes = disk::read(&path).ok()?;
+            let bytes = Uint8Array::from(&bytes[..]).into();
+            Some(Array::of2(&path.display().to_string().into(), &bytes))
+        });
+        told.collect()
+    }
+
     /// Whether the page takes a file of this name and size; if not, the painter is told why. To be
     /// asked before the file is read.
     pub fn takes(&self, name: &str, bytes: f64) -> bool {
         let is_painting = name.to_ascii_lowercase().ends_with(".exr");
         let most = if is_painting { MOST_PAINTING_BYTES } else { MOST_BYTES };
-        if bytes <= most {
-            return true;
+        // A number of JavaScript: whole, and exact up to 8 PiB.
+        let bytes = bytes as u64;
+        if bytes > most {
+            self.report(PageProblem::TooLarge { name: name.to_owned(), bytes, most }.into());
         }
-        let text = format!("{name}: a page takes files of at most {most} bytes, found `{bytes}`");
-        self.report(text, tr("open it in the program impasto-studio").to_owned());
-        false
+        bytes <= most
     }
 
     /// Opens a file: as the answer of the dialog that asked for one, or according to its kind.
@@ -150,11 +166,21 @@ impl Page {
         Some(endings.join(","))
     }
 
-    /// Shows a problem with a hint.
-    pub fn report(&self, text: String, hint: String) {
-        if let Some(mut framed) = self.runner.app_mut::<Framed>() {
-            framed.report(Problem { text, hint: Some(hint).filter(|hint| !hint.is_empty()) });
-        }
+    /// Tells the painter that the browser cannot read the file `name`.
+    pub fn unreadable(&self, name: String, reason: String) {
+        self.report(PageProblem::Unreadable { name, reason }.into());
+    }
+
+    /// Tells the painter of a problem of the browser's storage: `denied`, `full`, `cleared`, or another one,
+    /// for which `reason` stands in the browser's words.
+    pub fn storage_problem(&self, kind: &str, reason: String) {
+        let problem = match kind {
+            "denied" => PageProblem::StorageDenied,
+            "full" => PageProblem::StorageFull,
+            "cleared" => PageProblem::StorageCleared,
+            _ => PageProblem::StorageFailed(reason),
+        };
+        self.report(problem.into());
     }
 
     /// Takes a pointer event of a stylus. `phase` is 0 down, 1 move, 2 up, 3 gone; `numbers` are
@@ -202,5 +228,22 @@ impl Page {
     pub fn inspect(&self) -> String {
         let framed = self.runner.app_mut::<Framed>();
         framed.map_or_else(|| "null".to_owned(), |framed| told::told(&framed))
+    }
+}
+
+impl Page {
+    /// Shows a problem, once the studio is open.
+    fn report(&self, problem: Problem) {
+        if let Some(mut framed) = self.runner.app_mut::<Framed>() {
+            framed.report(problem);
+        }
+    }
+}
+
+/// Adds the files in a folder and below it.
+fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = disk::read_dir(folder) else { return };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        if disk::is_dir(&path) { files_below(&path, found) } else { found.push(path) }
     }
 }
