@@ -36,11 +36,13 @@ pub fn vector_instructions() -> Option<&'static str> {
     }
 }
 
-/// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once; else two
-/// operations, because a fused one would be a slow library call.
+/// `a * b + c`. If `S` has vectors, this is one fused instruction that rounds once; else, and in
+/// WebAssembly, two operations, because a fused one would be a slow library call.
 #[inline(always)]
 pub fn multiply_add<S: Simd>(a: f32, b: f32, c: f32) -> f32 {
-    if const { size_of::<S::f32s>() > size_of::<f32>() } { a.mul_add(b, c) } else { a * b + c }
+    let has_fused =
+        cfg!(not(target_arch = "wasm32")) && const { size_of::<S::f32s>() > size_of::<f32>() };
+    if has_fused { a.mul_add(b, c) } else { a * b + c }
 }
 
 /// The greater of two numbers; `b` if one is NaN. One instruction, unlike [`f32::max`].
