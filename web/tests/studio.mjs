@@ -103,7 +103,7 @@ export async function fromFileMenu(page, entry) {
 }
 
 /** Places of entries in the View menu of that window. */
-const VIEW_MENU = { dark: 475, touch: 567 };
+const VIEW_MENU = { dark: 475, light: 502, touch: 567 };
 
 /** Chooses an entry of the View menu, until `condition` of the state holds: a slow page may miss a click. */
 export async function fromViewMenu(page, entry, condition) {
