@@ -2,7 +2,7 @@
 // preferences and autosaves outlive a reload.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 import { fromViewMenu, inspect, launch, openStudio, opened, prepared, rest, serve, stylus, until } from "./studio.mjs";
 
 let server, browser, origin;
@@ -11,6 +11,11 @@ before(async () => {
   server = await serve();
   origin = new URL(server.address).origin;
   browser = await launch();
+});
+
+// Also of a test that failed.
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
 });
 
 after(async () => {
