@@ -72,9 +72,15 @@ test("raw counts give the program's library, byte for byte, with the tile as a n
   await choose("White reading", "white.txt");
   await choose("Dark readings", "dark.txt");
   await page.getByLabel("Reflectance of the white", { exact: true }).fill(String(given.tile));
+  await page.getByLabel("Reflectance of the white", { exact: true }).press("Tab");
   await dropped(page, "#readings-drop", given.files);
   await reads(names.length);
   const words = ["--recipes", "recipes.csv", "--method", "weighted", "--white-reading", "white.txt", "--dark-reading", "dark.txt"];
+  assert.ok(await page.locator("#readings-told li").first().isHidden(), "a remark on each file is folded");
+  await page.locator("#readings-told summary").click();
+  assert.equal(await page.locator("#readings-told li").count(), names.length);
+  assert.ok(await page.locator("#readings-told li").first().isVisible());
+  await page.locator("#readings-told summary").click();
   program(folder, "fit", ...names, ...words, "--tile", String(given.tile), "-o", "number.json");
   same(await library(), readFileSync(join(folder, "number.json"), "utf8"));
   await page.screenshot({ path: resolve(pictures, "calibration-counts.png"), fullPage: true });

@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 import { closeSync, ftruncateSync, mkdtempSync, openSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 import { program, root } from "./browser.mjs";
-import { dialog, downloaded, inspect, launch, openStudio, rest, serve, stylus, until } from "./studio.mjs";
+import { confirmed, dialog, inspect, launch, openStudio, rest, serve, stylus, until } from "./studio.mjs";
 
 let server, browser, folder;
 const size = { width: 1280, height: 800 };
@@ -15,6 +15,11 @@ before(async () => {
   server = await serve();
   browser = await launch();
   folder = mkdtempSync(join(tmpdir(), "impasto-files-"));
+});
+
+// Also of a test that failed.
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
 });
 
 after(async () => {
@@ -56,13 +61,7 @@ test("a painting that is dropped on the page is opened, and exported as the prog
   await until(page, (state) => state.title === "study");
   assert.deepEqual((await inspect(page)).cells, [120, 80]);
   assert.equal(page.url(), server.address, "the browser itself did not open it");
-  const png = await downloaded(page, folder, async () => {
-    await page.keyboard.press("Control+e");
-    await dialog(page);
-    await page.keyboard.press("Enter");
-    await page.waitForTimeout(600);
-    await page.keyboard.press("Enter");
-  });
+  const png = await confirmed(page, folder, () => page.keyboard.press("Control+e"));
   program(folder, "relight", "study.exr", "-o", "native.png");
   assert.ok(readFileSync(png).equals(readFileSync(join(folder, "native.png"))), "the same PNG, byte for byte");
   assert.deepEqual(faults, []);

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 import { pictures, program } from "./browser.mjs";
 import { confirmed, fromFileMenu, inspect, launch, openStudio, rest, serve, stylus, until } from "./studio.mjs";
 
@@ -14,6 +14,11 @@ before(async () => {
   server = await serve();
   browser = await launch();
   folder = mkdtempSync(join(tmpdir(), "impasto-paint-"));
+});
+
+// Also of a test that failed.
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
 });
 
 after(async () => {

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 import { pictures } from "./browser.mjs";
 import { inspect, launch, openStudio, penStroke, rest, serve } from "./studio.mjs";
 
@@ -14,6 +14,11 @@ before(async () => { server = await serve(); });
 after(async () => {
   for (const browser of browsers) await browser.close();
   server?.end();
+});
+
+// Also of a test that failed.
+afterEach(async () => {
+  for (const context of browsers.flatMap((browser) => browser.contexts())) await context.close();
 });
 
 async function browserWith(flags) {

@@ -2,7 +2,7 @@
 // preferences and autosaves outlive a reload.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 import { fromViewMenu, inspect, launch, openStudio, opened, prepared, rest, serve, stylus, until } from "./studio.mjs";
 
 let server, browser, origin;
@@ -11,6 +11,11 @@ before(async () => {
   server = await serve();
   origin = new URL(server.address).origin;
   browser = await launch();
+});
+
+// Also of a test that failed.
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
 });
 
 after(async () => {
@@ -174,12 +179,15 @@ test("two pages keep each other's settings", async () => {
     for (let trial = 0; trial < 60 && !(await kept(page)).includes(name); trial++) await page.waitForTimeout(250);
     assert.ok((await kept(page)).includes(name), `${name}: ${await kept(page)}`);
   };
-  // "Keep" in the panel Brush of one page, then another theme in the other.
+  // Another theme in one page, "Keep" of the panel Brush in the other, another theme in the first again.
+  await two.bringToFront();
+  await fromViewMenu(two, "dark", (state) => state.theme === "dark");
+  await holds(two, "/settings/preferences.json");
   await one.bringToFront();
   await one.mouse.click(1244, 146);
   await holds(one, "/settings/swatches.json");
   await two.bringToFront();
-  await fromViewMenu(two, "dark", (state) => state.theme === "dark");
+  await fromViewMenu(two, "light", (state) => state.theme === "light");
   await two.waitForTimeout(3000);
   await holds(two, "/settings/preferences.json");
   assert.ok((await kept(two)).includes("/settings/swatches.json"), "the mixture of the other page is kept");

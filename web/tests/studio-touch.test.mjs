@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 import { pictures } from "./browser.mjs";
 import { fingers, inspect, launch, openStudio, rest, serve } from "./studio.mjs";
 
@@ -11,6 +11,11 @@ let server, browser;
 before(async () => {
   server = await serve();
   browser = await launch();
+});
+
+// Also of a test that failed.
+afterEach(async () => {
+  for (const context of browser.contexts()) await context.close();
 });
 
 after(async () => {

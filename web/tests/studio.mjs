@@ -103,7 +103,7 @@ export async function fromFileMenu(page, entry) {
 }
 
 /** Places of entries in the View menu of that window. */
-const VIEW_MENU = { dark: 475, touch: 567 };
+const VIEW_MENU = { dark: 475, light: 502, touch: 567 };
 
 /** Chooses an entry of the View menu, until `condition` of the state holds: a slow page may miss a click. */
 export async function fromViewMenu(page, entry, condition) {
@@ -133,11 +133,21 @@ export async function downloaded(page, folder, act) {
   return path;
 }
 
-/** Saves the painting or the recording under the name that the dialog proposes. */
+/** Presses Enter in each dialog until none is open: a slow page may open the next one late. */
+export async function confirm(page) {
+  for (let trial = 0; trial < 40; trial++) {
+    await page.keyboard.press("Enter");
+    await page.waitForTimeout(700);
+    if (!(await inspect(page))?.dialog) return;
+  }
+  throw new Error("a dialog stays open");
+}
+
+/** Saves under the names that the dialogs propose, the first of which `open` opens. Returns the path of the download. */
 export const confirmed = (page, folder, open) => downloaded(page, folder, async () => {
   await open();
   await dialog(page);
-  await page.keyboard.press("Enter");
+  await confirm(page);
 });
 
 /** Waits until the state of the page fulfils `condition`, a function of it and `value`. */

@@ -29,15 +29,21 @@ export function clearNotice() {
   $("notice").replaceChildren();
 }
 
+// Notes that are shown at once; more of them are folded.
+const MOST_NOTES = 8;
+
 // A list of remarks; warnings come first.
 export function remarkList(remarks) {
-  const sorted = [...remarks].sort((a, b) => b.warning - a.warning);
-  const items = sorted.map(({ warning, text, hint }) => {
+  const list = (remarks) => element("ul", {}, ...remarks.map(({ warning, text, hint }) => {
     const item = element("li", { className: warning ? "warning" : "" }, warning ? `Warning: ${text}` : text);
     if (hint) item.append(element("br"), element("small", {}, hint));
     return item;
-  });
-  return items.length ? [element("ul", {}, ...items)] : [];
+  }));
+  const warnings = remarks.filter(({ warning }) => warning);
+  const notes = remarks.filter(({ warning }) => !warning);
+  if (notes.length <= MOST_NOTES) return remarks.length ? [list([...warnings, ...notes])] : [];
+  const folded = element("details", {}, element("summary", {}, `${notes.length} remarks`), list(notes));
+  return warnings.length ? [list(warnings), folded] : [folded];
 }
 
 // Bytes of files that are read at once at most. A table takes several times its file's size while it is read,
