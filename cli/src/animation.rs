@@ -40,8 +40,6 @@ pub(crate) struct Recording {
     sequence: Sequence,
     /// Number of frames.
     frames: usize,
-    /// Width and height in pixels.
-    size: (usize, usize),
 }
 
 impl AnimationOptions {
@@ -131,7 +129,7 @@ impl Animation {
         let (settings, (width, height)) = (digest.text(), size);
         let sequence =
             Sequence::open(&self.frames, SequenceSettings { settings, frames, width, height })?;
-        Ok(Recording { animation: self, sequence, frames, size })
+        Ok(Recording { animation: self, sequence, frames })
     }
 }
 
@@ -143,21 +141,19 @@ impl Recording {
         console: &mut Console<'_>,
         mut picture: impl FnMut(usize) -> Result<Frame>,
     ) -> Result<usize> {
-        let Self { animation, mut sequence, frames, size } = self;
-        let remaining = sequence.remaining().to_vec();
-        let bar = Progress::new(remaining.len(), "painting", console.shows_progress());
-        for &index in &remaining {
-            sequence.write_frame(index, &picture(index)?)?;
+        let Self { animation, mut sequence, frames } = self;
+        let remaining = sequence.remaining().len();
+        let bar = Progress::new(remaining, "painting", console.shows_progress());
+        sequence.write_frames(|index| -> Result<Frame> {
+            let picture = picture(index)?;
             bar.step();
-        }
+            Ok(picture)
+        })?;
         bar.done();
         console.wrote(&animation.frames)?;
         if let Some((output, format)) = animation.file {
-            let encoded = format.encode::<Failure, _>((size, frames), (animation.rate, 1), || {
-                sequence.frames().map(|frame| frame.map_err(Failure::from))
-            });
-            output.write(encoded?, console)?;
+            output.write(format.encode(&sequence, (animation.rate, 1))?, console)?;
         }
-        Ok(frames - remaining.len())
+        Ok(frames - remaining)
     }
 }

@@ -8,6 +8,7 @@ use render::mesh::{Mesh, SampleModel};
 use render::picture::Photograph;
 use render::picture_formats::begins_like_picture;
 use render::watercolor::PhotographPainter;
+use spectra::did_you_mean;
 use spectra::file::{is_standard_input, read};
 
 use crate::failure::{Failure, Result};
@@ -77,10 +78,11 @@ impl SubjectOptions {
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
             let Some(shape) = SampleModel::from_name(name) else {
-                let names = SampleModel::ALL.map(SampleModel::name).join(", ");
+                let names = SampleModel::ALL.map(SampleModel::name);
+                let similar = did_you_mean(name, names).map_or_else(String::new, |s| s + " ");
                 return Err(Failure::usage(
                     format!("unknown shape `{name}`"),
-                    format!("shapes are {names}"),
+                    format!("{similar}shapes are {}", names.join(", ")),
                 ));
             };
             return self.mesh(shape.mesh(TRIANGLES), Vec::new());

@@ -1,7 +1,7 @@
 //! `impasto light`: colour temperature and colour rendering of lamps.
 
 use clap::Args;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use spectra::{
     ColorRendering, Grid, Illuminant, Interpolation, Observer, TristimulusWeights, light_from_text,
 };
@@ -101,18 +101,22 @@ impl Described {
 
     /// Figures with a column for each special index and hue.
     fn row(&self) -> Value {
-        let mut row = self.json();
-        if let Some(row) = row.as_object_mut() {
-            row.remove("samples");
-            for (key, prefix) in [("special", "R"), ("hue_bins", "Rf_hue_")] {
-                let values = row.remove(key);
-                let values = values.as_ref().and_then(Value::as_array).into_iter().flatten();
-                for (number, value) in (1..).zip(values) {
-                    row.insert(format!("{prefix}{number}"), value.clone());
+        let (figures, mut row) = (self.json(), Map::new());
+        for (key, value) in figures.as_object().into_iter().flatten() {
+            let prefix = match key.as_str() {
+                "samples" => continue,
+                "special" => "R",
+                "hue_bins" => "Rf_hue_",
+                _ => {
+                    row.insert(key.clone(), value.clone());
+                    continue;
                 }
+            };
+            for (number, value) in (1..).zip(value.as_array().into_iter().flatten()) {
+                row.insert(format!("{prefix}{number}"), value.clone());
             }
         }
-        row
+        Value::Object(row)
     }
 
     /// Prints R1 to R14 and the fidelity by hue.

@@ -2,7 +2,7 @@
 //! noise, all effects, and readback.
 
 use divan::Bencher;
-use render::camera::{Camera, Framing};
+use render::camera::{Camera, CameraPath, Framing};
 use render::compute::Compute;
 use render::gpu::BackendChoice;
 use render::mesh::Mesh;
@@ -65,4 +65,38 @@ fn particles_on_cpu(bencher: Bencher<'_, '_>, triangles: usize) {
 #[divan::bench(args = [60_000], sample_count = 20)]
 fn particles_on_gpu(bencher: Bencher<'_, '_>, triangles: usize) {
     on_gpu(bencher, triangles, CoherenceMethod::Particles);
+}
+
+/// From the edge of the table into the still life, so that single fruits fill the picture.
+const NEAR: &str = "
+frames = 20
+[[keyframe]]
+eye = [0.9, 1.2, 2.2]
+target = [0.0, 0.6, 0.0]
+[[keyframe]]
+eye = [1.6, 1.3, 1.6]
+target = [0.0, 0.6, 0.0]
+";
+
+/// A camera that passes near a still life, 1000 x 750 pixels, as `impasto watercolor
+/// shape:still-life --camera` paints it: 4 samples a pixel, cast shadows, and noise that stays on
+/// its object.
+fn near(bencher: Bencher<'_, '_>, compute: Compute) {
+    let mesh = Mesh::still_life(40_000);
+    let cameras = CameraPath::from_text("near", NEAR).unwrap().cameras(mesh.bounds());
+    let mut painter = ModelPainter::new(compute, mesh, &Settings::default(), (1000, 750)).unwrap();
+    let mut along = cameras.iter().cycle();
+    bencher.bench_local(|| painter.paint(along.next().unwrap()).unwrap());
+}
+
+#[divan::bench(sample_count = 20)]
+fn near_on_cpu(bencher: Bencher<'_, '_>) {
+    near(bencher, Compute::cpu());
+}
+
+#[divan::bench(sample_count = 20)]
+fn near_on_gpu(bencher: Bencher<'_, '_>) {
+    if let Ok(compute) = Compute::choose(BackendChoice::Gpu) {
+        near(bencher, compute);
+    }
 }

@@ -20,6 +20,9 @@ mod shadow_map;
 
 mod toon;
 
+#[cfg(test)]
+mod shadow_tests;
+
 mod textures;
 
 mod effects;

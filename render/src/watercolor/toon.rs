@@ -7,7 +7,7 @@
 //! thick paint, light is thin paint, and white stays white. Where another surface stands
 //! between the light and a point, the diffuse term is that of the shade.
 
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::shadow_map::{GRAZING, OFFSET_PX, ShadowMap, ShadowView};
@@ -17,8 +17,8 @@ use graphics::distant_light::DistantLight;
 use graphics::field::Field;
 use graphics::gpu::{DeviceError, Kernel, Storage, layout};
 use graphics::surface::{
-    DeviceModel, Fragment, Model, NO_TRIANGLE, PackedMaterial, PackedMesh, SurfacePoint, Vertex,
-    VisibilityBuffer,
+    DeviceModel, FourPoints, Fragment, Model, NO_TRIANGLE, PackedMaterial, PackedMesh,
+    SurfacePoint, Vertex, VisibilityBuffer, dot_products,
 };
 use graphics::tones::{TONES, ToneRamp};
 
@@ -114,8 +114,21 @@ fn shade_toon_on_cpu(
             }
             return;
         }
+        let lines = match toon.samples {
+            2 => {
+                let line = |line: usize| visible.row(2 * y + line, 0, 2 * width).as_chunks().0;
+                [line(0), line(1)]
+            }
+            _ => [&[][..]; 2],
+        };
         for (x, pixel) in row.iter_mut().enumerate() {
-            let (mut sum, mut last) = (glam::Vec4::ZERO, None);
+            if let [Some([a, b]), Some([c, d])] = lines.map(|line| line.get(x))
+                && let Some(points) = FourPoints::new(mesh, [*a, *b, *c, *d])
+            {
+                *pixel = shader.mean_color(&points).extend(1.0).into();
+                continue;
+            }
+            let (mut sum, mut last) = (Vec4::ZERO, None);
             for line in 0..toon.samples {
                 let y = y * toon.samples + line;
                 for fragment in visible.row(y, x * toon.samples, toon.samples) {
@@ -171,6 +184,39 @@ impl Shader<'_> {
         let grey = self.toon.tones.grey(cosine);
         let excess = (self.toon.strength * (0.5 - grey)).max(-1.0);
         (albedo * (Vec3::ONE - (Vec3::ONE - albedo) * excess)).clamp(Vec3::ZERO, Vec3::ONE)
+    }
+}
+
+impl Shader<'_> {
+    /// The mean of [`Self::color`] over the four samples of a pixel, bit for bit.
+    #[inline]
+    fn mean_color(&self, points: &FourPoints<'_>) -> Vec3 {
+        let normals = points.normals(self.eye);
+        let mut cosines = dot_products(normals, self.light.to_array().map(Vec4::splat));
+        let mut albedo = points.albedo();
+        if let Some((view, map)) = &self.shadows
+            && let Some(first) = cosines.to_array().iter().position(|&cosine| cosine > 0.0)
+        {
+            let normal = Vec3::from(normals.map(|axis| axis[first]));
+            let lit = view.lit(map, points.point(first).position(), normal, cosines[first]);
+            if lit < 1.0 {
+                let grazing = (cosines / GRAZING).min(Vec4::ONE);
+                let shadow = Vec4::splat(self.toon.shadow * (1.0 - lit)) * grazing;
+                let shadow = Vec4::select(cosines.cmpgt(Vec4::ZERO), shadow, Vec4::ZERO);
+                cosines *= Vec4::ONE - shadow;
+                for (channel, shade) in albedo.iter_mut().zip(self.toon.shadow_color) {
+                    *channel *= Vec4::ONE + shadow * (shade - 1.0);
+                }
+            }
+        }
+        let greys = Vec4::from_array(cosines.to_array().map(|at| self.toon.tones.grey(at)));
+        let excess = (self.toon.strength * (Vec4::splat(0.5) - greys)).max(Vec4::splat(-1.0));
+        let mean = |own: Vec4| {
+            let color = own * (Vec4::ONE - (Vec4::ONE - own) * excess);
+            let [a, b, c, d] = color.clamp(Vec4::ZERO, Vec4::ONE).to_array();
+            (a + b + c + d) / 4.0
+        };
+        Vec3::from(albedo.map(mean))
     }
 }
 
@@ -265,4 +311,52 @@ fn shade_toon_on_gpu(
     let buffers = [vertices, triangles, materials, texels, visible.buffer(), map, color.buffer()];
     gpu.dispatch(&TOON, &params, &buffers, (width, height));
     Ok(color)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use graphics::mesh::{GridSize, Mesh};
+
+    #[test]
+    fn four_samples_at_once_are_shaded_as_one_by_one() {
+        // A ball over a floor, which lies partly in its shadow.
+        let mut mesh = Mesh::sphere(400);
+        mesh.colors.fill([0.8, 0.6, 0.9]);
+        let first = mesh.positions.len();
+        mesh.add_grid(GridSize { columns: 7, rows: 7 }, 0, |at| {
+            Vec3::new(9.0 * at.x - 4.5, -1.4, 9.0 * at.y - 4.5)
+        });
+        mesh.normals[first..].fill([0.0, 1.0, 0.0]);
+        let camera = Camera::framing(mesh.bounds(), 15.0, 50.0, 30.0);
+        let toon = Toon {
+            light: DistantLight::WithModel(Vec3::new(1.0, 1.2, 0.2)),
+            shadow: 0.8,
+            shadow_color: [0.7, 0.75, 0.9],
+            samples: 2,
+            ..Toon::default()
+        };
+        let compute = &mut Compute::cpu();
+        let mut model = Model::new(compute, PackedMesh::new(&mesh)).unwrap();
+        let light = toon.light.direction(&camera);
+        let map = ShadowMap::new(compute, &mut model, light, (Vec3::ZERO, 7.0), 128).unwrap();
+        let visible = model.visible(compute, &camera, 320, 240).unwrap();
+        let seen = visible.host();
+        let mesh = model.host().mesh();
+        for shadows in [None, Some((map.view(), map.fragments.host()))] {
+            let shader = Shader { mesh, eye: camera.eye, light, toon: &toon, shadows };
+            let (mut fours, mut shaded) = (0, 0);
+            for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (2 * x, 2 * y))) {
+                let at = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)].map(|at| seen[at]);
+                let Some(points) = FourPoints::new(mesh, at) else { continue };
+                let (mut sum, mut last) = (Vec3::ZERO, None);
+                at.iter().for_each(|fragment| sum += shader.color(*fragment, &mut last));
+                let bits = |color: Vec3| color.to_array().map(f32::to_bits);
+                assert_eq!(bits(shader.mean_color(&points)), bits(sum / 4.0), "{x} {y}");
+                fours += 1;
+                shaded += usize::from(last.is_some_and(|(_, lit)| lit < 1.0));
+            }
+            assert!(fours > 3000 && (shaded > 100) == shadows.is_some(), "{fours} {shaded}");
+        }
+    }
 }

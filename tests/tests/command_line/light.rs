@@ -43,8 +43,10 @@ fn the_table_has_the_figures_of_a_lamp_and_all_samples_on_demand() {
     assert!(all.lines().all(|line| line.chars().count() <= 100), "{all}");
     let csv = impasto(&["light", "FL11", "--csv"]).out;
     let heading = csv.lines().next().unwrap();
-    assert!(heading.starts_with("light,kelvin,duv,x,y,ra,"), "{heading}");
-    assert!(heading.contains(",R14,") && heading.ends_with("Rf_hue_16"), "{heading}");
+    assert!(heading.starts_with("light,kelvin,duv,x,y,ra,R1,R2,"), "{heading}");
+    assert!(heading.contains(",R13,R14,distance_from_reference,"), "{heading}");
+    assert!(heading.contains(",rf,rg,Rf_hue_1,Rf_hue_2,"), "{heading}");
+    assert!(heading.ends_with("Rf_hue_16"), "{heading}");
 }
 
 #[test]

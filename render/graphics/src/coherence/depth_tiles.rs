@@ -78,11 +78,11 @@ impl DepthTiles {
     /// A depth that no surface between these pixels exceeds: what lies behind it is hidden.
     /// Columns and rows are distances from the left and upper edge in pixels.
     pub(super) fn farthest(&self, columns: [f32; 2], rows: [f32; 2]) -> f32 {
-        let squares = |[from, to]: [f32; 2], count: usize| {
-            let square = |at: f32| (at / SIDE as f32).floor();
-            let inside = count > 0 && square(to) >= 0.0 && square(from) < count as f32;
+        let squares = |limits: [f32; 2], count: usize| {
+            let [from, to] = limits.map(|at| at / SIDE as f32);
+            let inside = count > 0 && to >= 0.0 && from < count as f32;
             let last = count.saturating_sub(1);
-            inside.then(|| [from, to].map(|at| (square(at).max(0.0) as usize).min(last)))
+            inside.then(|| [from, to].map(|at| (at as usize).min(last)))
         };
         let Some(finest) = self.levels.first() else { return BARE };
         let (Some([left, right]), Some([top, bottom])) =

@@ -110,7 +110,7 @@ impl Octaves {
     /// The logarithm of a rank, and the first octave that its features may belong to.
     fn first_of(&self, rank: f32) -> (f32, usize) {
         let level = (rank / self.first).log2() / 2.0;
-        (level, (level + 0.5).floor().max(0.0) as usize)
+        (level, (level + 0.5) as usize)
     }
 
     /// Radius in pixels and amplitude with which a feature of this rank is drawn: once, or

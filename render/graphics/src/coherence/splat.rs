@@ -107,9 +107,9 @@ impl Splat {
     /// The squares, out of `count`, that it may touch in a row or column of them.
     fn squares(&self, at: f32, count: usize) -> Range<usize> {
         let radius = 1.0 / self.narrowness;
-        let square = |at: f32| (at / SIDE as f32).floor() as i64;
-        let last = (square(at + radius) + 1).clamp(0, count as i64) as usize;
-        (square(at - radius).max(0) as usize).min(last)..last
+        let [from, to] = [at - radius, at + radius].map(|at| at / SIDE as f32);
+        let last = if to >= 0.0 { (to as usize).saturating_add(1).min(count) } else { 0 };
+        (from as usize).min(last)..last
     }
 }
 

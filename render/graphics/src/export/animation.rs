@@ -3,9 +3,11 @@
 use std::borrow::Cow;
 use std::io::Write;
 
+use png::chunk::{ChunkType, IDAT, fcTL, fdAT};
 use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent, Writer};
 
 use super::color_table::{COLORS, ColorTable};
+use super::compressed::CompressedFrame;
 use super::frame::{Frame, FrameError, FrameRate, check_size, encoder_failed};
 
 /// Writer of an endlessly repeating GIF. Frame durations are rounded to whole hundredths
@@ -62,7 +64,7 @@ impl<'a, W: Write> Gif<'a, W> {
     /// # Errors
     /// [`FrameError::Differs`] for another size, [`FrameError::Encoder`].
     pub fn push_held(&mut self, frame: &Frame, durations: usize) -> Result<(), FrameError> {
-        check_same(self.size, frame)?;
+        check_same(self.size, [frame.width(), frame.height()])?;
         let indices = frame.values().iter().map(|&pixel| self.table.index(pixel));
         if self.shown.is_empty() {
             self.shown.extend(indices);
@@ -109,7 +111,12 @@ pub struct Apng<W: Write> {
     count: usize,
     /// Durations of a frame so far.
     elapsed: usize,
+    /// Chunks of frames so far: they are numbered.
+    chunks: u32,
 }
+
+/// Most bytes of pixels in a chunk. The format allows nearly twice as many.
+const CHUNK_BYTES: usize = 1 << 30;
 
 /// Durations of an APNG are stored in whole milliseconds.
 const PARTS_PER_SECOND: u16 = 1000;
@@ -138,7 +145,8 @@ impl<W: Write> Apng<W> {
             encoder.write_header()
         };
         let writer = begin().map_err(|error| encoder_failed("APNG", &error))?;
-        Ok(Self { writer, rate, size: [width, height], wanted: frames, count: 0, elapsed: 0 })
+        let size = [width, height];
+        Ok(Self { writer, rate, size, wanted: frames, count: 0, elapsed: 0, chunks: 0 })
     }
 
     /// Appends a frame.
@@ -147,7 +155,8 @@ impl<W: Write> Apng<W> {
     /// [`FrameError::Differs`] for another size, [`FrameError::Count`] for one frame too
     /// many, [`FrameError::Encoder`].
     pub fn push(&mut self, frame: &Frame) -> Result<(), FrameError> {
-        self.push_held(frame, 1)
+        check_same(self.size, [frame.width(), frame.height()])?;
+        self.push_held(&CompressedFrame::new(frame)?, 1)
     }
 
     /// Appends a frame that is shown for `durations` durations of a frame, 65 seconds at most.
@@ -155,18 +164,41 @@ impl<W: Write> Apng<W> {
     /// # Errors
     /// [`FrameError::Differs`] for another size, [`FrameError::Count`] for one frame too
     /// many, [`FrameError::Encoder`].
-    pub fn push_held(&mut self, frame: &Frame, durations: usize) -> Result<(), FrameError> {
-        check_same(self.size, frame)?;
+    pub fn push_held(
+        &mut self,
+        frame: &CompressedFrame,
+        durations: usize,
+    ) -> Result<(), FrameError> {
+        check_same(self.size, [frame.width(), frame.height()])?;
         if self.count == self.wanted {
             return Err(FrameError::Count { wanted: self.wanted, found: self.count + 1 });
         }
         let delay = self.rate.duration(self.elapsed, durations, f64::from(PARTS_PER_SECOND));
+        // Width, height, place, duration, then how the frame replaces the one before.
+        let [width, height] = self.size.map(|size| size as u32);
+        let mut control = [width, height, 0, 0].map(u32::to_be_bytes).as_flattened().to_vec();
+        control.extend([delay, PARTS_PER_SECOND].map(u16::to_be_bytes).as_flattened());
+        control.extend([0, 0]);
+        self.numbered(fcTL, &control)?;
+        for part in frame.zlib().chunks(CHUNK_BYTES) {
+            match self.count {
+                0 => self.chunk(IDAT, part)?,
+                _ => self.numbered(fdAT, part)?,
+            }
+        }
         (self.count, self.elapsed) = (self.count + 1, self.elapsed + durations);
-        let pixels = frame.values().as_flattened();
-        let written = self
-            .writer
-            .set_frame_delay(delay, PARTS_PER_SECOND)
-            .and_then(|()| self.writer.write_image_data(pixels));
+        Ok(())
+    }
+
+    /// Writes a chunk that begins with its number.
+    fn numbered(&mut self, name: ChunkType, content: &[u8]) -> Result<(), FrameError> {
+        let content = [&self.chunks.to_be_bytes(), content].concat();
+        self.chunks += 1;
+        self.chunk(name, &content)
+    }
+
+    fn chunk(&mut self, name: ChunkType, content: &[u8]) -> Result<(), FrameError> {
+        let written = self.writer.write_chunk(name, content);
         written.map_err(|error| encoder_failed("APNG", &error))
     }
 
@@ -182,8 +214,7 @@ impl<W: Write> Apng<W> {
     }
 }
 
-fn check_same(wanted: [usize; 2], frame: &Frame) -> Result<(), FrameError> {
-    let found = [frame.width(), frame.height()];
+fn check_same(wanted: [usize; 2], found: [usize; 2]) -> Result<(), FrameError> {
     if wanted == found { Ok(()) } else { Err(FrameError::Differs { wanted, found }) }
 }
 

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use super::animation::{Apng, Gif};
 use super::color_table::ColorTable;
-use super::frame::{Frame, FrameError, FrameRate};
+use super::frame::FrameRate;
+use super::sequence::{Sequence, SequenceSettings};
+use super::sequence_error::SequenceError;
 
 /// File format of an animation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -26,37 +28,32 @@ impl AnimationFormat {
         }
     }
 
-    /// Encodes `count` frames of `size` (width and height) pixels at `rate`. The last one is shown
-    /// for `last` durations of a frame, at least one. `frames` starts anew at the first frame each
-    /// time it is called: a GIF needs two passes.
+    /// Joins all frames of a folder at `rate`. The last one is shown for `last` durations of a
+    /// frame, at least one.
     ///
     /// # Errors
-    /// An error of `frames`, or [`FrameError`] for no frame, for another number or size of frames
-    /// than announced, and if the encoder fails.
-    pub fn encode<E, I>(
+    /// [`SequenceError`] if a frame cannot be read, the format allows no such frames, or the
+    /// encoder fails.
+    pub fn encode(
         self,
-        (size, count): ((usize, usize), usize),
+        sequence: &Sequence,
         (rate, last): (FrameRate, usize),
-        frames: impl Fn() -> I,
-    ) -> Result<Vec<u8>, E>
-    where
-        E: From<FrameError>,
-        I: Iterator<Item = Result<Frame, E>>,
-    {
-        let durations = |index: usize| if index + 1 == count { last.max(1) } else { 1 };
+    ) -> Result<Vec<u8>, SequenceError> {
+        let SequenceSettings { frames, width, height, .. } = *sequence.settings();
+        let durations = |index: usize| if index + 1 == frames { last.max(1) } else { 1 };
         match self {
             Self::Gif => {
-                let table = ColorTable::of(frames())?;
-                let mut gif = Gif::new(Vec::new(), size, rate, &table)?;
-                for (index, frame) in frames().enumerate() {
+                let table = ColorTable::of(sequence.frames())?;
+                let mut gif = Gif::new(Vec::new(), (width, height), rate, &table)?;
+                for (index, frame) in sequence.frames().enumerate() {
                     gif.push_held(&frame?, durations(index))?;
                 }
                 Ok(gif.finish()?)
             }
             Self::Apng => {
                 let mut bytes = Vec::new();
-                let mut apng = Apng::new(&mut bytes, size, rate, count)?;
-                for (index, frame) in frames().enumerate() {
+                let mut apng = Apng::new(&mut bytes, (width, height), rate, frames)?;
+                for (index, frame) in sequence.compressed().enumerate() {
                     apng.push_held(&frame?, durations(index))?;
                 }
                 apng.finish()?;
@@ -77,12 +74,16 @@ mod tests {
     use super::*;
     use crate::field::Field;
 
-    fn frames() -> impl Iterator<Item = Result<Frame, FrameError>> {
-        (0..4).map(|index| Ok(Field::filled(6, 5, [40 * index, 90, 200])))
-    }
-
     fn encoded(format: AnimationFormat, last: usize) -> Vec<u8> {
-        format.encode(((6, 5), 4), (FrameRate::new(10.0).unwrap(), last), frames).unwrap()
+        let folder = tempfile::tempdir().unwrap();
+        let settings =
+            SequenceSettings { settings: "a".to_owned(), frames: 4, width: 6, height: 5 };
+        let mut sequence = Sequence::open(folder.path(), settings).unwrap();
+        for index in 0..4 {
+            let frame = Field::filled(6, 5, [40 * index as u8, 90, 200]);
+            sequence.write_frame(index, &frame).unwrap();
+        }
+        format.encode(&sequence, (FrameRate::new(10.0).unwrap(), last)).unwrap()
     }
 
     /// Durations of the frames in ms.

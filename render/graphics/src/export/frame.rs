@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, Seek};
 
-use png::{BitDepth, ColorType, Decoder, Encoder, SrgbRenderingIntent};
+use png::{BitDepth, ColorType, Compression, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
 use spectra::counted;
 use spectra::hint::{Explain, Fault, Hint};
@@ -135,6 +135,8 @@ pub fn frame_png(frame: &Frame) -> Result<Vec<u8>, FrameError> {
     let mut encoder = Encoder::new(&mut bytes, frame.width() as u32, frame.height() as u32);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
+    // Files of painted frames are an eighth larger, and ready in a fifth of the time.
+    encoder.set_compression(Compression::Fast);
     encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
     let written = encoder.write_header().and_then(|mut writer| {
         writer.write_image_data(frame.values().as_flattened())?;

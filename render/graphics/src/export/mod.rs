@@ -26,17 +26,22 @@ mod picture_file;
 
 mod frame;
 
+mod compressed;
+
 mod color_table;
 
 mod animation;
 
-mod animation_file;
+mod sequence_error;
 
 mod sequence;
+
+mod animation_file;
 
 pub use animation::{Apng, Gif};
 pub use animation_file::AnimationFormat;
 pub use color_table::ColorTable;
+pub use compressed::CompressedFrame;
 pub use error::{ExportError, check_cell, check_size};
 pub use exr_part::{ExrPart, exr_file, exr_parts};
 pub use frame::{Frame, FrameError, FrameRate, frame_of, frame_png, read_frame};
@@ -46,6 +51,7 @@ pub use picture_file::{OutsideGamut, PictureFile, PictureFormat, picture_file};
 pub use ply::ply;
 pub use png::{Png, grey16, png8, png16, rgba16};
 pub use reduced::{reduced, reduced_size};
-pub use sequence::{Sequence, SequenceError, SequenceSettings};
+pub use sequence::{Sequence, SequenceSettings};
+pub use sequence_error::SequenceError;
 pub use srgb_samples::{Srgb16, srgb8, srgb16};
 pub use tiff16::{Tiff, tiff16};

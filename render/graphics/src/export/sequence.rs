@@ -6,16 +6,16 @@
 //! never mixes two animations.
 
 use std::fs::{self, File};
-use std::io::{BufReader, ErrorKind};
+use std::io::{BufReader, Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use spectra::file::{FileError, write_whole};
-use spectra::hint::{Explain, Fault, Hint};
+use spectra::file::write_whole;
 
+use super::compressed::CompressedFrame;
 use super::frame::{Frame, FrameError, frame_png, read_frame};
+use super::sequence_error::{MANIFEST, SequenceError};
 
-const MANIFEST: &str = "animation.json";
 const FORMAT: &str = "impasto-animation";
 const VERSION: u32 = 1;
 /// Most frames of a sequence: ten hours at 25 frames per second.
@@ -42,62 +42,6 @@ struct Manifest {
     version: u32,
     #[serde(rename = "shots")]
     settings: SequenceSettings,
-}
-
-/// A folder of frames cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum SequenceError {
-    /// A frame or the manifest cannot be written.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// A file or folder cannot be read or changed.
-    #[error("{}: {source}", .path.display())]
-    Io {
-        /// Path of the file or folder.
-        path: PathBuf,
-        /// Reason given by the system.
-        source: std::io::Error,
-    },
-    /// The folder holds frames but no manifest that says what they belong to.
-    #[error("{}: the folder holds frames but no {MANIFEST}", .path.display())]
-    Foreign {
-        /// Path of the first such frame.
-        path: PathBuf,
-    },
-    /// `animation.json` is not a manifest of this version.
-    #[error("{}: {reason}", .path.display())]
-    Manifest {
-        /// Path of the manifest.
-        path: PathBuf,
-        /// Reason why it is rejected.
-        reason: String,
-    },
-    /// A frame cannot be encoded or decoded.
-    #[error("{}: {source}", .path.display())]
-    Frame {
-        /// Path of the frame.
-        path: PathBuf,
-        /// Error of the encoder or decoder.
-        source: FrameError,
-    },
-}
-
-impl Explain for SequenceError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::File(_) | Self::Io { .. } => "is the folder writable, and is there room?",
-            Self::Foreign { .. } => "name an empty folder, or move the frames away",
-            Self::Manifest { .. } => "name an empty folder, or remove this one",
-            Self::Frame { source, .. } => return source.hint(),
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Frame { source, .. } => source.fault(),
-            _ => Fault::Environment,
-        }
-    }
 }
 
 /// A folder of frames, and the frames that are still missing.
@@ -165,6 +109,41 @@ impl Sequence {
         Ok(())
     }
 
+    /// Makes the frames that remain by `picture`, in order, and writes them. Each is compressed
+    /// and written while the next one is made.
+    ///
+    /// # Errors
+    /// An error of `picture`, after the frames before it were written, or that of
+    /// [`Self::write_frame`].
+    pub fn write_frames<E: From<SequenceError>>(
+        &mut self,
+        mut picture: impl FnMut(usize) -> Result<Frame, E>,
+    ) -> Result<(), E> {
+        let mut made: Option<(usize, Frame)> = None;
+        for index in self.remaining.clone() {
+            let (mut written, before) = (Ok(()), made.take());
+            let (sequence, result) = (&mut *self, &mut written);
+            let next = rayon::in_place_scope(|scope| {
+                if let Some((index, frame)) = before {
+                    scope.spawn(move |_| *result = sequence.write_frame(index, &frame));
+                }
+                picture(index)
+            });
+            written?;
+            made = Some((index, next?));
+        }
+        if let Some((index, frame)) = made {
+            self.write_frame(index, &frame)?;
+        }
+        Ok(())
+    }
+
+    /// What the frames belong to, and their number and size.
+    #[must_use]
+    pub fn settings(&self) -> &SequenceSettings {
+        &self.settings
+    }
+
     /// Reads all frames in order, one at a time.
     pub fn frames(&self) -> impl Iterator<Item = Result<Frame, SequenceError>> {
         (0..self.settings.frames).map(|index| {
@@ -173,6 +152,18 @@ impl Sequence {
             let frame = read_frame(BufReader::new(file));
             let checked = frame.and_then(|frame| self.check_size(&frame).map(|()| frame));
             checked.map_err(|source| SequenceError::Frame { path, source })
+        })
+    }
+
+    /// Reads all frames in order, one at a time, without unpacking those that
+    /// [`Self::write_frame`] wrote.
+    pub fn compressed(&self) -> impl Iterator<Item = Result<CompressedFrame, SequenceError>> {
+        (0..self.settings.frames).map(|index| {
+            let path = self.path(index);
+            let bytes = fs::read(&path).map_err(at(&path))?;
+            let unpacked = || CompressedFrame::new(&read_frame(Cursor::new(&bytes))?);
+            let frame = CompressedFrame::from_png(&bytes).map_or_else(unpacked, Ok);
+            frame.map_err(|source| SequenceError::Frame { path, source })
         })
     }
 
@@ -243,6 +234,8 @@ fn remove(path: &Path) -> Result<(), SequenceError> {
 
 #[cfg(test)]
 mod tests {
+    use spectra::hint::Explain;
+
     use super::*;
     use crate::field::Field;
 
@@ -323,6 +316,35 @@ mod tests {
         fs::write(folder.path().join(MANIFEST), newer).unwrap();
         let error = Sequence::open(folder.path(), settings("a")).unwrap_err();
         assert!(error.to_string().contains("`impasto-animation 2`"), "{error}");
+    }
+
+    #[test]
+    fn frames_are_written_while_the_next_are_made_and_up_to_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut sequence = Sequence::open(folder.path(), settings("a")).unwrap();
+        let fail = FrameError::Rate { found: 0.0 };
+        let made = sequence.write_frames(|index| match index {
+            2 => Err(SequenceError::Animation(fail.clone())),
+            _ => Ok(frame(index as u8)),
+        });
+        assert!(matches!(made, Err(SequenceError::Animation(_))), "{made:?}");
+        assert_eq!(sequence.remaining(), [2]);
+        let mut asked = Vec::new();
+        let made: Result<(), SequenceError> = sequence.write_frames(|index| {
+            asked.push(index);
+            Ok(frame(index as u8))
+        });
+        made.unwrap();
+        assert_eq!((asked, sequence.remaining()), (vec![2], &[][..]));
+        let all: Vec<Frame> = sequence.frames().map(Result::unwrap).collect();
+        assert_eq!(all, [frame(0), frame(1), frame(2)]);
+        let wanted = all.iter().map(|frame| CompressedFrame::new(frame).unwrap());
+        assert!(sequence.compressed().map(Result::unwrap).eq(wanted));
+        fs::remove_file(sequence.path(1)).unwrap();
+        let mut again = Sequence::open(folder.path(), settings("a")).unwrap();
+        let small: Result<(), SequenceError> =
+            again.write_frames(|_| Ok(Field::filled(1, 1, [0; 3])));
+        assert!(small.unwrap_err().to_string().contains("frame-0002.png"));
     }
 
     #[test]

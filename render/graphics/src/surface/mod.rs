@@ -18,11 +18,14 @@ mod raster;
 
 mod surface_point;
 
+mod four_points;
+
 mod model;
 
 mod inside;
 
 pub use bands::Sides;
+pub use four_points::{FourPoints, FourVectors, dot_products};
 pub use inside::{
     ADD_STENCIL, ClosedSurfaces, Count, Crossing, CrossingSum, Crossings, GATED_FACES, Gates,
     InsideCounter, STENCIL_FACES, WEIGHED_FACES, WeighedCount,

@@ -48,6 +48,40 @@ impl<'a> SurfacePoint<'a> {
         }
     }
 
+    /// Points of one triangle: that of the first fragment.
+    #[inline]
+    pub(super) fn on_one_triangle<const N: usize>(
+        mesh: &'a PackedMesh,
+        fragments: [Fragment; N],
+    ) -> [Self; N] {
+        match fragments.first() {
+            Some(&first) => {
+                let point = Self::new(mesh, first);
+                fragments.map(|fragment| Self { fragment, ..point })
+            }
+            None => fragments.map(|fragment| Self::new(mesh, fragment)),
+        }
+    }
+
+    /// The corners of its triangle.
+    #[inline]
+    pub(super) fn corners(&self) -> [&'a Vertex; 3] {
+        self.corners
+    }
+
+    /// The material of its triangle.
+    #[inline]
+    pub(super) fn material(&self) -> &'a PackedMaterial {
+        self.material
+    }
+
+    /// Whether the outer side of its triangle faces away from `eye`.
+    #[inline]
+    pub(super) fn faces_away(&self, eye: Vec3) -> bool {
+        let [a, b, c] = self.corners.map(|corner| Vec3::from(corner.position));
+        (b - a).cross(c - a).dot(eye - a) < 0.0
+    }
+
     /// Position in the unit of the model.
     #[must_use]
     #[inline]
@@ -60,12 +94,10 @@ impl<'a> SurfacePoint<'a> {
     #[must_use]
     #[inline]
     pub fn normal(&self, eye: Vec3) -> Vec3 {
-        let [a, b, c] = self.corners.map(|corner| Vec3::from(corner.position));
-        let faces_away = (b - a).cross(c - a).dot(eye - a) < 0.0;
         let normal = between(self.fragment, self.corners.map(|corner| corner.normal.into()));
         let length = normal.length();
         let normal = if length > 0.0 { normal / length } else { Vec3::ZERO };
-        if faces_away { -normal } else { normal }
+        if self.faces_away(eye) { -normal } else { normal }
     }
 
     /// The colour of the surface without light, encoded sRGB in 0..1: the colours of

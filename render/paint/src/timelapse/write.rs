@@ -78,11 +78,7 @@ impl Timelapse<'_> {
         }
         if let Some((path, format)) = &files.animation {
             let held = files.rate.frames_in(files.hold_seconds);
-            let size = ((width, height), frames);
-            let bytes = format.encode(size, (files.rate, held), || {
-                sequence.frames().map(|frame| frame.map_err(TimelapseError::from))
-            })?;
-            write_whole(path, &bytes)?;
+            write_whole(path, &format.encode(&sequence, (files.rate, held))?)?;
             if !files.keep_frames {
                 sequence.remove()?;
             }

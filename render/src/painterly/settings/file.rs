@@ -199,3 +199,15 @@ impl Explain for SettingsError {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_name_is_told_with_the_one_that_is_meant() {
+        let hint = |name: &str| name.parse::<Preset>().unwrap_err().hint().unwrap().to_string();
+        assert_eq!(hint("hatchng"), "did you mean hatching?");
+        assert!(hint("xyz").starts_with("presets are "), "{}", hint("xyz"));
+    }
+}

@@ -131,8 +131,8 @@ fn reduced(color: &Field<[f32; 4]>, heights: &Field<f32>, px_per_slope: f32) -> 
         let x = (column as f32 + 0.5) * per_cell - 0.5 + px_per_slope * across;
         let y = (row as f32 + 0.5) * per_cell - 0.5 + px_per_slope * down;
         let (x, y) = (x.clamp(0.0, end), y.clamp(0.0, bottom));
-        let (a, b) = (x - x.floor(), y - y.floor());
-        let (x, y) = (x as usize, y as usize);
+        let (place, x, y) = ([x, y], x as usize, y as usize);
+        let (a, b) = (place[0] - x as f32, place[1] - y as f32);
         let (far_x, far_y) = ((x + 1).min(width - 1), (y + 1).min(height - 1));
         let corners = [(x, y), (far_x, y), (x, far_y), (far_x, far_y)];
         let shares = [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b];

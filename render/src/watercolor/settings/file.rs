@@ -199,3 +199,19 @@ impl Explain for SettingsError {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_name_is_told_with_the_one_that_is_meant() {
+        let hint = |name: &str| name.parse::<Preset>().unwrap_err().hint().unwrap().to_string();
+        assert_eq!(hint("portrit"), "did you mean portrait?");
+        assert!(hint("xyz").starts_with("presets are "), "{}", hint("xyz"));
+        let unknown = Settings::from_toml("a.toml", "[edges]\nstrenght = 1").unwrap_err();
+        assert_eq!(unknown.hint().unwrap().to_string(), "did you mean strength?");
+        let unlike = Settings::from_toml("a.toml", "[edges]\nmoon = 1").unwrap_err();
+        assert!(!unlike.hint().unwrap().to_string().contains("did you mean"), "{unlike}");
+    }
+}

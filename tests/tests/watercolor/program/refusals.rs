@@ -58,6 +58,13 @@ fn subjects_that_cannot_be_read() {
             "shapes are still-life, village",
         ),
         (
+            &"shape:still-lfe".to_owned(),
+            &[],
+            2,
+            "unknown shape `still-lfe`",
+            "did you mean still-life? shapes are",
+        ),
+        (
             &photo,
             &["--turntable", "4"],
             2,
