@@ -104,8 +104,8 @@ fn a_signal_that_was_ignored_at_the_start_stays_ignored() {
 fn a_killed_run_is_cleaned_up_by_the_next_write() {
     let folder = tempfile::tempdir().unwrap();
     let (script, file) = (endless(folder.path()), folder.path().join("saved.exr"));
-    // Killed until a temporary file is left.
-    for moment in 0..200 {
+    // Killed as soon as a temporary file is seen, until one is left.
+    for _ in 0..50 {
         let mut child = Command::new(env!("CARGO_BIN_EXE_impasto"))
             .args(["paint", &script, "--backend", "cpu"])
             .stdout(Stdio::null())
@@ -113,7 +113,9 @@ fn a_killed_run_is_cleaned_up_by_the_next_write() {
             .spawn()
             .unwrap();
         saved(&mut child, &file);
-        std::thread::sleep(Duration::from_millis(moment));
+        while temporary(folder.path()).is_empty() {
+            assert!(child.try_wait().unwrap().is_none(), "it ended before it was killed");
+        }
         child.kill().unwrap();
         child.wait().unwrap();
         if !temporary(folder.path()).is_empty() {

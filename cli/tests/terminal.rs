@@ -13,7 +13,7 @@ fn slow(folder: &Path) -> String {
     let actions = vec![stroke; 16].join(", ");
     let text = format!(
         r#"{{"format": "strokes", "version": 1, "title": "Slow",
-        "canvas": {{"width_mm": 60, "height_mm": 40, "cell_mm": 0.1}},
+        "canvas": {{"width_mm": 60, "height_mm": 40, "cell_mm": 0.125}},
         "palette": {{"W": "Lead White"}}, "brushes": {{"flat": {{"shape": "flat", "size_mm": 9}}}},
         "actions": [{{"load": {{"brush": "flat", "recipe": {{"W": 1}}, "amount_mm": 0.3}}}}, {actions}]}}"#
     );

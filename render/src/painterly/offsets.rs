@@ -183,16 +183,21 @@ impl Matching<'_> {
             .filter_map(|&other| Some((other as usize, placed[other as usize]?)))
             .collect();
         let probes = self.probes(index, &beside, greys);
-        let cost = |start: &Start| -> f32 {
+        // A sum of squares only grows: above the least cost so far the rest does not matter.
+        let cost = |start: &Start, least: f32| -> f32 {
             let offset = start.at(widths_per_unit);
-            let squares = probes
-                .iter()
-                .map(|probe| probe.weight * (greys.at(offset + probe.place) - probe.grey).powi(2));
-            squares.sum()
+            let mut sum = 0.0;
+            for probe in &probes {
+                sum += probe.weight * (greys.at(offset + probe.place) - probe.grey).powi(2);
+                if sum >= least {
+                    break;
+                }
+            }
+            sum
         };
         let mut best = (f32::INFINITY, own.start, false);
         let mut offer = |start: Start, continues: bool| {
-            let cost = cost(&start);
+            let cost = cost(&start, best.0);
             if cost < best.0 {
                 best = (cost, start, continues);
             }

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-use crate::harness::has_adapter;
+use crate::harness::{has_adapter, keep};
 use eframe::egui::{Ui, Vec2, pos2, vec2};
 use egui_kittest::Harness;
 use image::RgbaImage;
@@ -209,7 +209,7 @@ fn the_hole_of_the_palette_shows_the_surround() {
     let hole = surface.placement().point([700.0 - 0.24 * 530.0, 530.0 - 0.24 * 530.0]);
     assert_eq!(surface.position(hole), None);
     let Some(picture) = picture else { return };
-    picture.save(concat!(env!("CARGO_TARGET_TMPDIR"), "/palette.png")).unwrap();
+    keep(&picture, "palette");
     let grey = theme::SURROUND.r();
     for at in [hole, surface.placement().point([6.0, 6.0])] {
         assert_eq!(pixel(&picture, at.x as u32, at.y as u32), [grey, grey, grey, 255], "{at}");

@@ -1,6 +1,5 @@
 //! A test painting as a worker would report it, and a window with a single panel.
 
-use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use eframe::egui::{self, Pos2, Rect, Ui, Vec2};
@@ -22,7 +21,7 @@ use spectra::color::Lab;
 use studio::panels::{PanelContext, Request, Tools};
 use studio::theme;
 
-use super::harness::has_adapter;
+use super::harness::{has_adapter, keep};
 
 /// Pigments in the slots; the last slot is empty.
 pub(crate) const PIGMENTS: [&str; 7] = [
@@ -224,8 +223,7 @@ pub(crate) fn assert_requests<P>(harness: &mut Harness<'_, Fixture<P>>, wanted: 
     assert_eq!(format!("{requests:#?}"), format!("{wanted:#?}"), "requests differ");
 }
 
-/// Renders the window and saves the picture below `target/tmp`; `None` without a
-/// graphics adapter.
+/// Renders the window and keeps the picture; `None` without a graphics adapter.
 pub(crate) fn picture<P>(
     harness: &mut Harness<'_, Fixture<P>>,
     name: &str,
@@ -234,8 +232,6 @@ pub(crate) fn picture<P>(
         return None;
     }
     let image = harness.render().unwrap();
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("panels");
-    std::fs::create_dir_all(&folder).unwrap();
-    image.save(folder.join(format!("{name}.png"))).unwrap();
+    keep(&image, &format!("panel-{name}"));
     Some(image)
 }

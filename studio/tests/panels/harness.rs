@@ -221,11 +221,17 @@ impl Window {
         has_adapter().then(|| self.harness.render().expect("the window is drawn"))
     }
 
-    /// Renders the window into `target/tmp/NAME.png` if there is an adapter.
+    /// Renders the window for a person to look at, if pictures are kept ([`keep`]).
+    pub(crate) fn show(&mut self, name: &str) {
+        if are_pictures_kept() {
+            self.save(name);
+        }
+    }
+
+    /// Renders the window if there is an adapter, and keeps the picture.
     pub(crate) fn save(&mut self, name: &str) {
         if let Some(picture) = self.picture() {
-            let path = folder().join(format!("{name}.png"));
-            picture.save(&path).expect("a picture can be written below target");
+            keep(&picture, name);
         }
     }
 
@@ -269,6 +275,19 @@ pub(crate) fn has_adapter() -> bool {
         let _ = writeln!(std::io::stderr(), "no graphics adapter: not tested");
     }
     device.is_some()
+}
+
+/// Whether pictures are to be kept: whether the environment variable `IMPASTO_PICTURES` is set.
+fn are_pictures_kept() -> bool {
+    std::env::var_os("IMPASTO_PICTURES").is_some()
+}
+
+/// Writes `target/tmp/NAME.png` if pictures are to be kept.
+pub(crate) fn keep(picture: &RgbaImage, name: &str) {
+    if are_pictures_kept() {
+        let path = folder().join(format!("{name}.png"));
+        picture.save(&path).expect("a picture can be written below target");
+    }
 }
 
 /// An event of the primary mouse button.

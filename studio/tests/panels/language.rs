@@ -250,7 +250,7 @@ fn no_german_text_is_cut_in_any_size() {
             // The small window in the dark, the larger ones in the light.
             let save = |window: &mut Window, name: &str| {
                 if look.1 == (size.x > 1300.0) {
-                    window.save(name);
+                    window.show(name);
                 }
             };
             for mode in [Mode::Blend, Mode::Scrape, Mode::Erase, Mode::Mask, Mode::Paint] {
@@ -311,7 +311,7 @@ fn no_german_text_of_a_dialog_is_cut() {
     for (at, (menu, entry)) in DIALOGS.into_iter().enumerate() {
         window.harness().get_all_by_label(menu).next().unwrap().click();
         window.harness().run_steps(3);
-        let (before, _) = (cut(&mut window), window.save(&format!("german-menu-{menu}")));
+        let (before, _) = (cut(&mut window), window.show(&format!("german-menu-{menu}")));
         assert!(before.is_empty(), "{menu}: {before:#?}");
         // Left of a control of the panels that has this name.
         let named = window.harness().get_all_by_label(entry);
@@ -320,7 +320,7 @@ fn no_german_text_of_a_dialog_is_cut() {
         window.harness().run_steps(3);
         window.settle();
         check(&mut window, entry);
-        window.save(&format!("german-dialog-{at}"));
+        window.show(&format!("german-dialog-{at}"));
         assert_is_whole(&mut window, vec2(1280.0, 800.0), entry);
         window.key(Modifiers::NONE, Key::Escape);
     }
@@ -336,7 +336,7 @@ fn no_german_text_of_a_scene_is_cut() {
         window.harness().get_all_by_label(tab).last().unwrap().click();
         window.harness().run_ok();
         check(&mut window, tab);
-        window.save(&format!("german-scene-{tab}"));
+        window.show(&format!("german-scene-{tab}"));
         assert_is_whole(&mut window, vec2(1280.0, 800.0), tab);
     }
 }

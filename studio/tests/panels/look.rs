@@ -74,7 +74,7 @@ fn no_text_of_the_window_is_cut_in_any_size_theme_or_panel() {
                 assert!(beyond.is_empty(), "{size} {look:?} {tab:?}: {beyond:#?}");
             }
             show(&mut window, Tab::Brush);
-            window.save(&format!("look-{}-{:?}-{}", size.x, look.0, look.1));
+            window.show(&format!("look-{}-{:?}-{}", size.x, look.0, look.1));
         }
     }
 }
@@ -107,7 +107,7 @@ fn the_brush_panel_is_whole_in_a_window_of_a_thousand_points() {
             let heads = ["Fold Light", "Unfold Light"];
             let top = |name| Some(window.harness().query_by_label(name)?.rect().top());
             let bottom = heads.into_iter().find_map(top).unwrap();
-            window.save(&format!("brush-panel-{look:?}-{}", size.y));
+            window.show(&format!("brush-panel-{look:?}-{}", size.y));
             for label in labels {
                 let rect = window.harness().get_by_label(label).rect();
                 assert!(rect.bottom() <= bottom, "{label} of {look:?} in {size}: {rect}");
@@ -135,7 +135,7 @@ fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
             window.settle();
             let [tip, below] = ["Marks of the tip", "Fold Light"]
                 .map(|label| window.harness().get_by_label(label).rect());
-            window.save(&format!("whole-tip-{key:?}"));
+            window.show(&format!("whole-tip-{key:?}"));
             assert!(tip.bottom() < below.top(), "{look:?} {key:?}: {tip} {below}");
         }
         // Settings of a tool take the place of the numbers of the film.
@@ -145,7 +145,7 @@ fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
             window.settle();
             let tip = window.harness().get_by_label("Marks of the tip").rect();
             let below = window.harness().get_by_label("Fold Light").rect();
-            window.save(&format!("whole-tip-{mode:?}"));
+            window.show(&format!("whole-tip-{mode:?}"));
             assert!(tip.bottom() < below.top(), "{look:?} {mode:?}: {tip} {below}");
         }
         window.studio_mut().tools.mode = Mode::Paint;
@@ -263,7 +263,7 @@ fn everything_that_is_touched_is_44_points_wide_and_high() {
         assert!(window.harness().query_by_label(entry).is_some(), "{opener} is open");
         let small = small(&mut window);
         assert!(small.is_empty(), "{opener}: {small:#?}");
-        window.save(&format!("touch-{opener}"));
+        window.show(&format!("touch-{opener}"));
         window.key(Modifiers::NONE, Key::Escape);
     }
 }
@@ -329,7 +329,7 @@ fn nothing_is_cut_at_any_scale_of_any_screen() {
                 show(&mut window, tab);
                 let cut = cut(&mut window);
                 let scaled = format!("scale-{}-{preferred}-{tab:?}", pixels.x);
-                window.save(&scaled);
+                window.show(&scaled);
                 assert!(cut.is_empty(), "{pixels} at {preferred}, {tab:?}: {cut:#?}");
             }
             show(&mut window, Tab::Brush);

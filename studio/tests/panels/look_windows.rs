@@ -47,7 +47,7 @@ fn no_text_of_a_window_over_the_canvas_is_cut_in_any_look() {
         set_look(&mut window, look);
         for over in OVER {
             open(&mut window, over);
-            window.save(&format!("over-{}-{look:?}", over.0));
+            window.show(&format!("over-{}-{look:?}", over.0));
             let cut = cut(&mut window);
             assert!(cut.is_empty(), "{} {look:?}: {cut:#?}", over.0);
             close(&mut window, over);

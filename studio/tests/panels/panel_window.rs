@@ -1,8 +1,5 @@
 //! A window with one panel and a fixed painting.
 
-use std::io::Write;
-use std::path::PathBuf;
-
 use eframe::egui::{Frame, Margin, Pos2, Ui, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -12,7 +9,7 @@ use studio::panels::{FileRequest, PanelContext, Request, Tools};
 use studio::theme;
 
 use super::fixture::painting;
-use super::harness::has_adapter;
+use super::harness::{has_adapter, keep};
 
 /// A panel with its context and its requests.
 pub(crate) struct PanelState<P> {
@@ -115,15 +112,13 @@ impl<P> PanelWindow<P> {
         requests.collect()
     }
 
-    /// Renders the panel into `target/tmp/NAME.png` if there is an adapter.
+    /// Renders the panel if there is an adapter, and keeps the picture.
     pub(crate) fn save(&mut self, name: &str) {
         if !has_adapter() {
             return;
         }
         let picture = self.harness.render().expect("the panel is drawn");
-        let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.png"));
-        picture.save(&path).expect("a picture can be written below target");
-        let _ = writeln!(std::io::stderr(), "{}", path.display());
+        keep(&picture, name);
     }
 }
 

@@ -47,6 +47,11 @@ pub(crate) fn prepare(folder: &Path, page: &str) {
     std::fs::write(folder.join("recipes.csv"), RECIPES).unwrap();
 }
 
+/// The text of the style `dabs` on few and large cells; any other text as it is.
+pub(crate) fn small_style(text: &str) -> String {
+    text.replace("side_cells = 300", "side_cells = 64").replace("cell_mm = 0.18", "cell_mm = 0.36")
+}
+
 /// A style of small dabs, and a map of three tones.
 fn brushwork(folder: &Path) {
     let run = |arguments: &[&str]| {
@@ -54,9 +59,9 @@ fn brushwork(folder: &Path) {
         assert_eq!(run.status, 0, "{arguments:?}: {}", run.err);
         run.out
     };
-    let style = run(&["artmap", "paint", "--show-style", "dabs"])
-        .replace("side_cells = 300", "side_cells = 64")
-        .replace("cell_mm = 0.18", "cell_mm = 0.36");
+    let shown = run(&["artmap", "paint", "--show-style", "dabs"]);
+    let style = small_style(&shown);
+    assert!(style != shown, "the style has another size: {shown}");
     std::fs::write(folder.join(STYLE), style).unwrap();
     run(&["artmap", "paint", "--style", STYLE, "--tones", "3", "-o", "small.exr"]);
     run(&["artmap", "build", "small.exr", "--size", "64", "-o", MAP]);

@@ -103,7 +103,7 @@ fn run(page: &str, command: &Command) {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).unwrap();
         }
-        std::fs::write(path, run.out).unwrap();
+        std::fs::write(path, files::small_style(&run.out)).unwrap();
     }
     for pair in command.words.windows(2) {
         let file = Path::new(&pair[1]);

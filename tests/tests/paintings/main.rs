@@ -44,10 +44,12 @@ fn painted(script: &StrokeScript) -> (ReplayReport, PaintingSession) {
     (report, session)
 }
 
-/// A copy of `script` with only its first `actions` actions.
+/// A copy of `script` with only its first `actions` actions, on cells of twice the size. At their own size the
+/// tests of the pages play them too.
 fn begun(script: &StrokeScript, actions: usize) -> StrokeScript {
     let mut begun = script.clone();
     begun.actions.truncate(actions);
+    begun.canvas.cell_mm *= 2.0;
     begun
 }
 

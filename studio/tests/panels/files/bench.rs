@@ -22,6 +22,8 @@ use studio::panels::revisions;
 use studio::panels::{PanelContext, Request, Tools};
 use studio::theme;
 
+use crate::harness::keep;
+
 /// Paints a few strokes with the engine.
 pub(super) fn painted(title: &str) -> Document {
     let Origin::Blank { mut script, library } =
@@ -321,15 +323,11 @@ pub(super) fn type_name(window: &mut Window, name: &str) {
     window.step();
 }
 
-/// Saves a picture of the window below `target/tmp` if the environment variable `IMPASTO_PICTURES`
-/// is set.
+/// Renders the window if the environment variable `IMPASTO_PICTURES` is set, and keeps the picture.
 pub(super) fn picture(window: &mut Window, name: &str) {
-    if std::env::var_os("IMPASTO_PICTURES").is_none() {
-        return;
+    if std::env::var_os("IMPASTO_PICTURES").is_some() {
+        keep(&window.render().unwrap(), &format!("files-{name}"));
     }
-    let picture = window.render().unwrap();
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    picture.save(folder.join(format!("files-{name}.png"))).unwrap();
 }
 
 /// Reads a painting file.

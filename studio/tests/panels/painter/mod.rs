@@ -20,7 +20,7 @@ use studio::panels::tubes::{Tubes, squeeze};
 use studio::panels::{PanelContext, Request, Tools};
 use studio::theme;
 
-use super::harness::has_adapter;
+use super::harness::{has_adapter, keep};
 
 mod tests;
 
@@ -236,9 +236,7 @@ impl Painter {
     fn save(&mut self, name: &str) {
         if has_adapter() {
             let image = self.harness.render().unwrap();
-            let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("panels");
-            std::fs::create_dir_all(&folder).unwrap();
-            image.save(folder.join(format!("{name}.png"))).unwrap();
+            keep(&image, &format!("panel-{name}"));
         }
     }
 }

@@ -4,11 +4,24 @@ mod models;
 
 mod pictures;
 
+use std::sync::OnceLock;
+
 use suite::program::{Run, impasto};
 use tempfile::TempDir;
 
-/// A folder with the map `m.exr` of three tones painted in small dabs.
+/// A folder with the map `m.exr` of three tones painted in small dabs, its samples `s.exr` and `style.toml`.
 pub(super) fn folder() -> TempDir {
+    // Painted once for all tests.
+    static FILES: OnceLock<[(&str, Vec<u8>); 3]> = OnceLock::new();
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes) in FILES.get_or_init(painted) {
+        std::fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    folder
+}
+
+/// Paints the samples and builds the map.
+fn painted() -> [(&'static str, Vec<u8>); 3] {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str| path(&folder, name);
     let run = |arguments: &[&str]| {
@@ -24,7 +37,7 @@ pub(super) fn folder() -> TempDir {
     let (style, samples, map) = (file("style.toml"), file("s.exr"), file("m.exr"));
     run(&["artmap", "paint", "--style", &style, "--tones", "3", "--output", &samples]);
     run(&["artmap", "build", &samples, "--size", "64", "--output", &map]);
-    folder
+    ["style.toml", "s.exr", "m.exr"].map(|name| (name, std::fs::read(file(name)).unwrap()))
 }
 
 fn path(folder: &TempDir, name: &str) -> String {

@@ -32,10 +32,10 @@ fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// A fixture with up to seven edits that change, remove or repeat bytes.
+/// A fixture with up to seven edits that change, remove, insert or repeat bytes.
 fn mutated() -> impl Strategy<Value = Vec<u8>> {
     let name = prop_oneof![Just("conditions.cxf"), Just("lamp.spdx"), Just("sekonic.csv")];
-    let edit = (any::<prop::sample::Index>(), 0_u8..4, any::<u8>(), 1_usize..60);
+    let edit = (any::<prop::sample::Index>(), 0_u8..5, any::<u8>(), 1_usize..60);
     (name, proptest::collection::vec(edit, 1..8)).prop_map(|(name, edits)| {
         let mut bytes = fixture(name);
         for (index, kind, byte, length) in edits {
@@ -49,6 +49,8 @@ fn mutated() -> impl Strategy<Value = Vec<u8>> {
                 // Digits and markup characters reach more code than arbitrary bytes.
                 1 => bytes[at] = b"0123456789.-+eE<>&;,/\"' \n"[usize::from(byte) % 25],
                 2 => drop(bytes.drain(at..end)),
+                // No finite number.
+                3 => bytes.splice(at..at, *b"1e999").for_each(drop),
                 _ => bytes.splice(at..at, bytes[at..end].to_vec()).for_each(drop),
             }
         }

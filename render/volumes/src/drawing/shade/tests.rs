@@ -147,7 +147,9 @@ fn popping(mesh: &Mesh, look: &DrawingLook, steps: usize) -> f64 {
     let cameras = framing.fit_turntable(&mesh.positions, 60);
     let [mut moved, mut still] = [Popping::default(); 2];
     let mut frame = |number: usize| {
-        let (_, visible) = scene.shade(&cameras[number], size, look);
+        let Scene { compute, model, .. } = &mut scene;
+        let visible = model.visible(compute, &cameras[number], size.0, size.1).unwrap();
+        let visible = compute.download(&visible).unwrap();
         let picture = scene.grey(&cameras[number], size, look);
         let grey = picture.values().iter().map(|pixel| pixel[0]).collect();
         let projection = Projection::new(&cameras[number], size.0, size.1);
