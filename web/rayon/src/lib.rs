@@ -19,4 +19,4 @@ pub mod prelude {
     };
 }
 
-pub use threads::{Scope, current_num_threads, join, scope};
+pub use threads::{Scope, current_num_threads, in_place_scope, join, scope};

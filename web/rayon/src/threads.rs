@@ -18,6 +18,11 @@ pub fn scope<'scope, R>(work: impl FnOnce(&Scope<'scope>) -> R) -> R {
     work(&Scope { tasks: PhantomData })
 }
 
+/// Calls `work` as [`scope`] does.
+pub fn in_place_scope<'scope, R>(work: impl FnOnce(&Scope<'scope>) -> R) -> R {
+    scope(work)
+}
+
 /// Runs tasks when they are given.
 #[derive(Debug)]
 pub struct Scope<'scope> {
