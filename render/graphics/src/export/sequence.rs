@@ -138,7 +138,7 @@ impl Sequence {
         Ok(())
     }
 
-    /// What the frames belong to, and their number and size.
+    /// The settings that the frames belong to, with their number and size.
     #[must_use]
     pub fn settings(&self) -> &SequenceSettings {
         &self.settings

@@ -47,7 +47,7 @@ impl<'a> FourPoints<'a> {
         &self.points[index]
     }
 
-    /// As [`SurfacePoint::normal`] of each.
+    /// The [`SurfacePoint::normal`] of each point.
     #[must_use]
     #[inline]
     pub fn normals(&self, eye: Vec3) -> FourVectors {
@@ -62,7 +62,7 @@ impl<'a> FourPoints<'a> {
         if self.points[0].faces_away(eye) { normal.map(|axis| -axis) } else { normal }
     }
 
-    /// As [`SurfacePoint::albedo`] of each.
+    /// The [`SurfacePoint::albedo`] of each point.
     #[must_use]
     #[inline]
     pub fn albedo(&self) -> FourVectors {
