@@ -19,7 +19,7 @@ impl<I: Iterator> IntoIterator for Serial<I> {
 /// An iterator whose items might be handled by several threads. The methods are those of [`Iterator`],
 /// but for the ones that are described.
 pub trait ParallelIterator: IntoIterator + Sized {
-    /// See [`Iterator::map`].
+    /// Does the work of [`Iterator::map`].
     fn map<R, F: FnMut(Self::Item) -> R>(self, map: F) -> Serial<iter::Map<Self::IntoIter, F>> {
         Serial(self.into_iter().map(map))
     }
@@ -34,7 +34,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         Serial(self.into_iter().map(move |item| map(&mut state, item)))
     }
 
-    /// See [`Iterator::filter`].
+    /// Does the work of [`Iterator::filter`].
     fn filter<F: FnMut(&Self::Item) -> bool>(
         self,
         keep: F,
@@ -42,7 +42,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         Serial(self.into_iter().filter(keep))
     }
 
-    /// See [`Iterator::filter_map`].
+    /// Does the work of [`Iterator::filter_map`].
     fn filter_map<R, F: FnMut(Self::Item) -> Option<R>>(
         self,
         map: F,
@@ -50,7 +50,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         Serial(self.into_iter().filter_map(map))
     }
 
-    /// See [`Iterator::flat_map`].
+    /// Does the work of [`Iterator::flat_map`].
     fn flat_map<R: IntoIterator, F: FnMut(Self::Item) -> R>(
         self,
         map: F,
@@ -58,7 +58,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         Serial(self.into_iter().flat_map(map))
     }
 
-    /// See [`Iterator::flat_map`].
+    /// Does the work of [`Iterator::flat_map`].
     fn flat_map_iter<R: IntoIterator, F: FnMut(Self::Item) -> R>(
         self,
         map: F,
@@ -66,7 +66,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.flat_map(map)
     }
 
-    /// See [`Iterator::flatten`].
+    /// Does the work of [`Iterator::flatten`].
     fn flatten(self) -> Serial<iter::Flatten<Self::IntoIter>>
     where
         Self::Item: IntoIterator,
@@ -74,7 +74,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         Serial(self.into_iter().flatten())
     }
 
-    /// See [`Iterator::for_each`].
+    /// Does the work of [`Iterator::for_each`].
     fn for_each(self, act: impl FnMut(Self::Item)) {
         self.into_iter().for_each(act);
     }
@@ -110,12 +110,12 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().reduce(join)
     }
 
-    /// See [`Iterator::collect`].
+    /// Does the work of [`Iterator::collect`].
     fn collect<C: FromIterator<Self::Item>>(self) -> C {
         self.into_iter().collect()
     }
 
-    /// See [`Iterator::unzip`].
+    /// Does the work of [`Iterator::unzip`].
     fn unzip<A, B, FromA, FromB>(self) -> (FromA, FromB)
     where
         Self: IntoIterator<Item = (A, B)>,
@@ -125,17 +125,17 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().unzip()
     }
 
-    /// See [`Iterator::sum`].
+    /// Does the work of [`Iterator::sum`].
     fn sum<S: iter::Sum<Self::Item>>(self) -> S {
         self.into_iter().sum()
     }
 
-    /// See [`Iterator::count`].
+    /// Does the work of [`Iterator::count`].
     fn count(self) -> usize {
         self.into_iter().count()
     }
 
-    /// See [`Iterator::max`].
+    /// Does the work of [`Iterator::max`].
     fn max(self) -> Option<Self::Item>
     where
         Self::Item: Ord,
@@ -143,7 +143,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().max()
     }
 
-    /// See [`Iterator::min_by`].
+    /// Does the work of [`Iterator::min_by`].
     fn min_by(
         self,
         compare: impl FnMut(&Self::Item, &Self::Item) -> Ordering,
@@ -151,12 +151,12 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().min_by(compare)
     }
 
-    /// See [`Iterator::all`].
+    /// Does the work of [`Iterator::all`].
     fn all(self, holds: impl FnMut(Self::Item) -> bool) -> bool {
         self.into_iter().all(holds)
     }
 
-    /// See [`Iterator::any`].
+    /// Does the work of [`Iterator::any`].
     fn any(self, holds: impl FnMut(Self::Item) -> bool) -> bool {
         self.into_iter().any(holds)
     }
@@ -172,27 +172,27 @@ pub trait IndexedParallelIterator: ParallelIterator {
         self
     }
 
-    /// See [`Iterator::enumerate`].
+    /// Does the work of [`Iterator::enumerate`].
     fn enumerate(self) -> Serial<iter::Enumerate<Self::IntoIter>> {
         Serial(self.into_iter().enumerate())
     }
 
-    /// See [`Iterator::skip`].
+    /// Does the work of [`Iterator::skip`].
     fn skip(self, count: usize) -> Serial<iter::Skip<Self::IntoIter>> {
         Serial(self.into_iter().skip(count))
     }
 
-    /// See [`Iterator::take`].
+    /// Does the work of [`Iterator::take`].
     fn take(self, count: usize) -> Serial<iter::Take<Self::IntoIter>> {
         Serial(self.into_iter().take(count))
     }
 
-    /// See [`Iterator::step_by`].
+    /// Does the work of [`Iterator::step_by`].
     fn step_by(self, step: usize) -> Serial<iter::StepBy<Self::IntoIter>> {
         Serial(self.into_iter().step_by(step))
     }
 
-    /// See [`Iterator::zip`].
+    /// Does the work of [`Iterator::zip`].
     fn zip<Z: IntoIterator>(self, other: Z) -> Serial<iter::Zip<Self::IntoIter, Z::IntoIter>> {
         Serial(self.into_iter().zip(other))
     }

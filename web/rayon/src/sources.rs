@@ -6,7 +6,7 @@ use crate::iterator::Serial;
 
 /// What gives its items away.
 pub trait IntoParallelIterator: IntoIterator + Sized {
-    /// See [`IntoIterator::into_iter`].
+    /// Does the work of [`IntoIterator::into_iter`].
     fn into_par_iter(self) -> Serial<Self::IntoIter> {
         Serial(self.into_iter())
     }
@@ -19,7 +19,7 @@ pub trait IntoParallelRefIterator<'data> {
     /// Iterator over references.
     type Iter;
 
-    /// See [`slice::iter`].
+    /// Does the work of [`slice::iter`].
     fn par_iter(&'data self) -> Serial<Self::Iter>;
 }
 
@@ -39,7 +39,7 @@ pub trait IntoParallelRefMutIterator<'data> {
     /// Iterator over references.
     type Iter;
 
-    /// See [`slice::iter_mut`].
+    /// Does the work of [`slice::iter_mut`].
     fn par_iter_mut(&'data mut self) -> Serial<Self::Iter>;
 }
 
@@ -56,7 +56,7 @@ where
 
 /// Parts of a list.
 pub trait ParallelSlice<T> {
-    /// See [`slice::chunks`].
+    /// Does the work of [`slice::chunks`].
     fn par_chunks(&self, length: usize) -> Serial<Chunks<'_, T>>;
 }
 
@@ -68,21 +68,21 @@ impl<T> ParallelSlice<T> for [T] {
 
 /// Parts of a list that can be changed, and its order.
 pub trait ParallelSliceMut<T> {
-    /// See [`slice::chunks_mut`].
+    /// Does the work of [`slice::chunks_mut`].
     fn par_chunks_mut(&mut self, length: usize) -> Serial<ChunksMut<'_, T>>;
 
-    /// See [`slice::chunks_exact_mut`].
+    /// Does the work of [`slice::chunks_exact_mut`].
     fn par_chunks_exact_mut(&mut self, length: usize) -> Serial<ChunksExactMut<'_, T>>;
 
-    /// See [`slice::sort_unstable`].
+    /// Does the work of [`slice::sort_unstable`].
     fn par_sort_unstable(&mut self)
     where
         T: Ord;
 
-    /// See [`slice::sort_unstable_by`].
+    /// Does the work of [`slice::sort_unstable_by`].
     fn par_sort_unstable_by(&mut self, compare: impl FnMut(&T, &T) -> std::cmp::Ordering);
 
-    /// See [`slice::sort_unstable_by_key`].
+    /// Does the work of [`slice::sort_unstable_by_key`].
     fn par_sort_unstable_by_key<K: Ord>(&mut self, key: impl FnMut(&T) -> K);
 }
 
@@ -113,7 +113,7 @@ impl<T> ParallelSliceMut<T> for [T] {
 
 /// Lists that take the items of an iterator.
 pub trait ParallelExtend<T> {
-    /// See [`Extend::extend`].
+    /// Does the work of [`Extend::extend`].
     fn par_extend(&mut self, items: impl IntoIterator<Item = T>);
 }
 

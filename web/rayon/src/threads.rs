@@ -30,7 +30,7 @@ pub struct Scope<'scope> {
 }
 
 impl<'scope> Scope<'scope> {
-    /// Runs `task`.
+    /// Runs `task` at once.
     pub fn spawn(&self, task: impl FnOnce(&Scope<'scope>) + 'scope) {
         task(self);
     }
