@@ -38,7 +38,13 @@ async function seen(page) {
   await page.mouse.move(640, 5);
   await page.waitForTimeout(400);
   const clip = { x: 95, y: 55, width: 840, height: 400 };
-  return (await page.screenshot({ clip })).toString("base64");
+  // The last parts of the picture may come after the paint rests.
+  for (let last, tries = 0; ; tries++) {
+    const shot = (await page.screenshot({ clip })).toString("base64");
+    if (shot === last || tries === 20) return shot;
+    last = shot;
+    await page.waitForTimeout(300);
+  }
 }
 
 test("strokes with pressure, tilt and rotation, undo, redo and light: the program replays them to the bit", async () => {
