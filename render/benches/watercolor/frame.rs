@@ -82,7 +82,7 @@ target = [0.0, 0.6, 0.0]
 /// shape:still-life --camera` paints it: 4 samples a pixel, cast shadows, and noise that stays on
 /// its object.
 fn near(bencher: Bencher<'_, '_>, compute: Compute) {
-    let mesh = Mesh::still_life(40_000);
+    let mesh = Mesh::still_life(60_000);
     let cameras = CameraPath::from_text("near", NEAR).unwrap().cameras(mesh.bounds());
     let mut painter = ModelPainter::new(compute, mesh, &Settings::default(), (1000, 750)).unwrap();
     let mut along = cameras.iter().cycle();
