@@ -1,4 +1,4 @@
-//! What can be done with the items of an iterator.
+//! The methods of an iterator whose items are handled one after the other.
 
 use std::cmp::Ordering;
 use std::iter;

@@ -4,7 +4,7 @@ use std::slice::{Chunks, ChunksExactMut, ChunksMut};
 
 use crate::iterator::Serial;
 
-/// What gives its items away.
+/// A collection that hands over its items by value.
 pub trait IntoParallelIterator: IntoIterator + Sized {
     /// Does the work of [`IntoIterator::into_iter`].
     fn into_par_iter(self) -> Serial<Self::IntoIter> {
@@ -14,7 +14,7 @@ pub trait IntoParallelIterator: IntoIterator + Sized {
 
 impl<T: IntoIterator> IntoParallelIterator for T {}
 
-/// What shows its items.
+/// A collection whose items are read by reference.
 pub trait IntoParallelRefIterator<'data> {
     /// Iterator over references.
     type Iter;
@@ -34,7 +34,7 @@ where
     }
 }
 
-/// What lends its items to be changed.
+/// A collection whose items are changed in place.
 pub trait IntoParallelRefMutIterator<'data> {
     /// Iterator over references.
     type Iter;

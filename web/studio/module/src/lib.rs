@@ -1,6 +1,6 @@
 //! The module of the studio's page: all of the crate beside it.
 //!
-//! The last crate of a module decides how hard the linker optimises, and this one asks for speed; a crate
-//! with code of its own would have all of that code optimised for speed too, at three times its size.
+//! The optimisation level of this last crate decides whether the linker makes vectors of loops, so it is
+//! compiled for speed. The page's own code is in the crate beside it, which is compiled for size.
 
 pub use page::Page;
