@@ -54,11 +54,13 @@ impl Layers {
         self.entries.iter().any(|entry| !entry.current)
     }
 
-    /// Computes the first summary that is outdated.
+    /// Computes the first summary that is outdated. Layers may have come or gone since the last
+    /// update, as states are sent less often than paint changes.
     ///
     /// # Errors
     /// [`PaintingError`] if the device was lost.
     pub(super) fn summarize_next(&mut self, painting: &mut Painting) -> Result<(), PaintingError> {
+        self.update(painting);
         let outdated = self.entries.iter().position(|entry| !entry.current);
         let Some(index) = outdated else { return Ok(()) };
         let (bounds, cell_mm) = (painting.bounds(), painting.cell_mm());
@@ -103,5 +105,40 @@ fn blank(dry: &DryLayerState) -> LayerState {
         max_mm: 0.0,
         coverage: 0.0,
         thumbnail: Arc::new(Thumbnail { width: 1, height: 1, pixels: vec![[0; 4]] }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use pigment::library::PigmentLibrary;
+    use render::gpu::BackendChoice;
+    use render::paint::strokes::{Action, Squeeze, SurfaceId};
+
+    use super::super::backend::Backend;
+    use super::super::defaults::blank_canvas;
+    use super::super::prepare::prepare;
+    use super::*;
+
+    #[test]
+    fn a_layer_that_is_undone_before_its_summary_is_not_asked_for() {
+        let origin = blank_canvas(PigmentLibrary::van_gogh_oils(), 4.0, 3.0, 0.1);
+        let backend = &mut Backend::new(BackendChoice::Cpu);
+        let mut session = prepare(origin, backend, 1 << 24).unwrap().session;
+        let heap = Squeeze {
+            on: SurfaceId::Canvas,
+            recipe: [("Vermilion".to_owned(), 1.0)].into(),
+            vehicle: 0.0,
+            x_mm: 2.0,
+            y_mm: 1.5,
+            volume_mm3: 0.5,
+        };
+        session.apply(&Action::Squeeze(heap)).unwrap();
+        session.apply(&Action::Dry { fraction: 1.0 }).unwrap();
+        let mut layers = Layers::default();
+        layers.update(session.canvas());
+        assert!(layers.is_behind());
+        session.apply(&Action::Undo {}).unwrap();
+        layers.summarize_next(session.canvas_mut()).unwrap();
+        assert!(!layers.is_behind() && layers.entries.is_empty());
     }
 }
