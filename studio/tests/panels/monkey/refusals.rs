@@ -1,7 +1,7 @@
 //! Messages with which the program refuses what cannot be done, rightly.
 
 /// Parts of these messages.
-const REFUSALS: [&str; 15] = [
+const REFUSALS: [&str; 17] = [
     "is too high for more",
     "is piled as high as it can be",
     "mm more at most, found",
@@ -18,6 +18,10 @@ const REFUSALS: [&str; 15] = [
     "is not a valid file name",
     // A brush that is made larger just after a change of the palette asks for the paint that it had.
     "recipe: pigments of the palette",
+    // The panel shows a layer until the undo that was asked for before is done.
+    "there is no layer ",
+    // Marks of samples that are dropped on the window are no scene.
+    "format takes \"paint-volumes\"",
 ];
 
 /// Whether a message is a refusal.
