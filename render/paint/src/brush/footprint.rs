@@ -6,6 +6,7 @@ use super::locks::Lock;
 use super::net::Point;
 use super::surface::LimitSurface;
 use crate::contact::{Contact, Touch};
+use graphics::lanes::{greater, lesser};
 use graphics::tile::Rect;
 
 /// The number 1 in fixed point with 16 fractional bits, the format of values interpolated
@@ -133,14 +134,15 @@ impl Footprint {
                     ];
                     let [a, b, c, d] = corners.map(|i| &surface.vertices[i]);
                     let looks = (d[0] - a[0]) * (c[1] - b[1]) - (d[1] - a[1]) * (c[0] - b[0]);
-                    if looks <= 0.0 || a[2].min(b[2]).min(c[2]).min(d[2]) >= ceiling {
+                    let lowest = lesser(lesser(a[2], b[2]), lesser(c[2], d[2]));
+                    if looks <= 0.0 || lowest >= ceiling {
                         continue;
                     }
                     for v in [a, b, c, d] {
-                        reach[0] = reach[0].min(v[0]);
-                        reach[1] = reach[1].min(v[1]);
-                        reach[2] = reach[2].max(v[0]);
-                        reach[3] = reach[3].max(v[1]);
+                        reach[0] = lesser(v[0], reach[0]);
+                        reach[1] = lesser(v[1], reach[1]);
+                        reach[2] = greater(v[0], reach[2]);
+                        reach[3] = greater(v[1], reach[3]);
                     }
                     self.facets.push(Facet {
                         corners: corners.map(|i| i as u32),
@@ -247,8 +249,8 @@ impl Canvas<'_> {
         if area <= 0.0 {
             return;
         }
-        let top = first_middle(a.y.min(b.y).min(c.y), self.height);
-        let bottom = first_middle(a.y.max(b.y).max(c.y), self.height);
+        let top = first_middle(lesser(lesser(a.y, b.y), c.y), self.height);
+        let bottom = first_middle(greater(greater(a.y, b.y), c.y), self.height);
         if top >= bottom {
             return;
         }
@@ -257,15 +259,15 @@ impl Canvas<'_> {
         let step = whole(&right);
         // The slopes of a sliver are inaccurate, so heights are clamped to those of its corners.
         let heights = [a, b, c].map(|corner| corner.values[HEIGHT]);
-        let lowest = min(min(heights[0], heights[1]), heights[2]);
-        let highest = max(max(heights[0], heights[1]), heights[2]);
+        let lowest = lesser(lesser(heights[0], heights[1]), heights[2]);
+        let highest = greater(greater(heights[0], heights[1]), heights[2]);
         for y in top..bottom {
             let middle = y as f32 + 0.5;
             let (mut from, mut to) = (0.0_f32, self.width as f32);
             for edge in &edges {
                 let x = edge.x + (middle - edge.y) * edge.slope;
-                from = if edge.side < 0.0 { max(from, x) } else { from };
-                to = if edge.side > 0.0 { min(to, x) } else { to };
+                from = if edge.side < 0.0 { greater(from, x) } else { from };
+                to = if edge.side > 0.0 { lesser(to, x) } else { to };
             }
             let (start, end) = (first_middle(from, self.width), first_middle(to, self.width));
             if start >= end {
@@ -279,7 +281,7 @@ impl Canvas<'_> {
             for i in 0..8 {
                 begin[i] += right[i] * x + down[i] * y_off;
             }
-            begin[HEIGHT] = min(max(begin[HEIGHT], lowest), highest);
+            begin[HEIGHT] = lesser(greater(begin[HEIGHT], lowest), highest);
             let row = &mut self.touches[y * self.width..][start..end];
             let mut at = whole(&begin);
             for touch in row {
@@ -336,7 +338,7 @@ impl Edge {
 /// First cell, up to `end`, whose centre is at `place` or beyond.
 #[inline(always)]
 fn first_middle(place: f32, end: usize) -> usize {
-    let cells = min(max(place - 0.5, 0.0), end as f32);
+    let cells = lesser(greater(place - 0.5, 0.0), end as f32);
     let near = nearest(cells);
     (near + i32::from((near as f32) < cells)) as usize
 }
@@ -358,15 +360,4 @@ fn nearest(value: f32) -> i32 {
     /// 1.5 * 2^52: near this number, neighbouring f64 values are 1 apart.
     const UNIT: f64 = 6_755_399_441_055_744.0;
     (f64::from(value) + UNIT).to_bits() as i32
-}
-
-/// `f32::max` without NaN handling, which costs time.
-#[inline(always)]
-fn max(a: f32, b: f32) -> f32 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn min(a: f32, b: f32) -> f32 {
-    if a < b { a } else { b }
 }

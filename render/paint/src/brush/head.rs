@@ -18,6 +18,7 @@ use super::vector::Vector;
 use crate::amount::QUANTA_PER_CELL;
 use crate::contact::{Contact, ExchangeRates, Wicking};
 use crate::pose::Pose;
+use graphics::lanes::{greater, lesser};
 use graphics::tile::Rect;
 use pulp::{Simd, WithSimd};
 
@@ -292,7 +293,7 @@ impl Head {
             #[inline(always)]
             |row, vertex| {
                 let relief = if plane { lowest } else { view.height(vertex[0], vertex[1]) };
-                let grasp = ((facets - row) as f32 * fade).min(1.0);
+                let grasp = lesser((facets - row) as f32 * fade, 1.0);
                 *vertex = finished(vertex, relief, grasp, pressed);
                 if let (Some(extent), true) = (&mut extent, vertex[2] < touching) {
                     extent.include(vertex[0], vertex[1]);
@@ -336,8 +337,8 @@ fn cells(surface: &LimitSurface) -> (usize, usize) {
 #[inline(always)]
 fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
     let &[x, y, z, _, dx, dy, dz, _] = vertex;
-    let height = z.max(relief);
-    let speed = (dx * dx + dy * dy + dz * dz).sqrt().max(pressed);
+    let height = greater(z, relief);
+    let speed = greater((dx * dx + dy * dy + dz * dz).sqrt(), pressed);
     let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
     let fixed = |cells: f32| (cells * 256.0).clamp(-32767.0, 32767.0) * 65536.0;
     [

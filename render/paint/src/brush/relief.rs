@@ -2,6 +2,7 @@
 
 use crate::amount::QUANTA_PER_CELL;
 use graphics::field::Field;
+use graphics::lanes::{greater, lesser};
 
 /// Number of cells of the canvas along x and y for each value of a relief.
 pub const BLOCK: usize = 8;
@@ -129,7 +130,7 @@ impl ReliefView<'_> {
         for row in within(rows, self.first.1, self.heights.height()) {
             let count = columns.end() - columns.start() + 1;
             for &height in self.heights.row(row, *columns.start(), count) {
-                found = (found.0.min(height), found.1.max(height));
+                found = (lesser(height, found.0), greater(height, found.1));
             }
         }
         found

@@ -11,6 +11,7 @@
 use std::ops::Range;
 
 use crate::contact::{Contact, Touch};
+use graphics::lanes::{greater, lesser};
 
 /// Increase of the coat at the sides (chosen by measured lips).
 const THICKER: f32 = 1.1;
@@ -55,8 +56,8 @@ impl Extent {
     #[inline(always)]
     pub(super) fn include(&mut self, x: f32, y: f32) {
         let at = self.at(x, y);
-        self.low = if at < self.low { at } else { self.low };
-        self.high = if at > self.high { at } else { self.high };
+        self.low = lesser(at, self.low);
+        self.high = greater(at, self.high);
     }
 }
 
@@ -93,15 +94,15 @@ impl Sides {
                 span.clone().zip(touches.get_mut(span.clone()).unwrap_or_default())
             {
                 let at = start + column as f32 * now.across.0;
-                let inside = (at - low).min(high - at);
+                let inside = lesser(at - low, high - at);
                 if inside >= reach || touch.height == Touch::NONE.height {
                     continue;
                 }
-                let near = 1.0 - (inside / reach).max(0.0);
+                let near = 1.0 - greater(inside / reach, 0.0);
                 let release = touch.release() as f32 * (1.0 + THICKER * near * near);
-                touch.set_release(release.min(127.0) as u32);
+                touch.set_release(lesser(release, 127.0) as u32);
                 if inside < 1.0 {
-                    touch.slow(inside.max(0.0));
+                    touch.slow(greater(inside, 0.0));
                 }
             }
         }

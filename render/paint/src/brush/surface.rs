@@ -5,6 +5,7 @@
 
 use super::b_spline::b_spline;
 use super::net::{Net, Point, ROWS};
+use graphics::lanes::lesser;
 
 /// Number of paint cells of a facet along the head and around it, if the head has enough cells.
 /// The head bends along its hair, so its facets are shorter there.
@@ -150,13 +151,13 @@ impl LimitSurface {
             // The lowest of four control points along, then the lowest of four of these around.
             for column in 0..self.columns {
                 let lowest = (0..4).map(|i| net.points[(span + i) * self.columns + column][2]);
-                self.line[column][2] = lowest.fold(f32::INFINITY, f32::min);
+                self.line[column][2] = lowest.fold(f32::INFINITY, lesser);
             }
             for column in 0..self.columns {
                 let around =
                     (0..4).map(|i| self.line[(column + self.columns - 1 + i) % self.columns][2]);
                 self.near[span * self.columns + column] =
-                    around.fold(f32::INFINITY, f32::min) < ceiling;
+                    around.fold(f32::INFINITY, lesser) < ceiling;
             }
         }
     }
