@@ -1,12 +1,13 @@
 //! A layer of paint: the amounts of eight pigments and of vehicle in every cell.
 
 use crate::amount::{share_of_256, share_of_65536};
+use crate::pigment_amounts;
 use graphics::field::Field;
 use graphics::tile::Rect;
 use pigment::PigmentId;
 
 /// Number of pigments that a layer can hold, each in a slot of its own.
-pub const SLOTS: usize = 8;
+pub const SLOTS: usize = pigment_amounts::COUNT;
 
 /// The pigments of a layer by slot.
 pub type Slots = [Option<PigmentId>; SLOTS];
@@ -26,92 +27,55 @@ impl Cell {
     #[inline(always)]
     #[must_use]
     pub fn volume(&self) -> u32 {
-        let mut volume = self.vehicle;
-        for amount in self.pigments {
-            volume += amount;
-        }
-        volume
+        self.vehicle + pigment_amounts::total(&self.pigments)
     }
 
     /// Computes `amount * share / 65536` of each amount, rounded down.
     #[inline(always)]
     #[must_use]
     pub fn share_of_65536(&self, share: u32) -> Self {
-        self.with(
-            self,
-            #[inline(always)]
-            |amount, _| share_of_65536(amount, share),
-        )
+        let vehicle = share_of_65536(self.vehicle, share);
+        Self { pigments: pigment_amounts::share(&self.pigments, share), vehicle }
     }
 
     /// Computes `amount * share / 256` of each amount, rounded down.
     #[inline(always)]
     #[must_use]
     pub fn share_of_256(&self, share: u32) -> Self {
-        self.with(
-            self,
-            #[inline(always)]
-            |amount, _| share_of_256(amount, share),
-        )
+        let pigments = self.pigments.map(|amount| share_of_256(amount, share));
+        Self { pigments, vehicle: share_of_256(self.vehicle, share) }
     }
 
     /// Adds `other`, amount by amount.
     #[inline(always)]
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
-        self.with(
-            other,
-            #[inline(always)]
-            |amount, other| amount + other,
-        )
+        let pigments = pigment_amounts::sum(&self.pigments, &other.pigments);
+        Self { pigments, vehicle: self.vehicle + other.vehicle }
     }
 
     /// Subtracts `part`, none of whose amounts exceeds this cell's.
     #[inline(always)]
     #[must_use]
     pub fn minus(&self, part: &Self) -> Self {
-        self.with(
-            part,
-            #[inline(always)]
-            |amount, part| amount - part,
-        )
+        let pigments = pigment_amounts::difference(&self.pigments, &part.pigments);
+        Self { pigments, vehicle: self.vehicle - part.vehicle }
     }
 
     /// Adds `other` modulo 2^32, for sums whose intermediate results may be negative.
     #[inline(always)]
     #[must_use]
     pub fn wrapping_plus(&self, other: &Self) -> Self {
-        self.with(
-            other,
-            #[inline(always)]
-            |amount, other| amount.wrapping_add(other),
-        )
+        let pigments = pigment_amounts::wrapping_sum(&self.pigments, &other.pigments);
+        Self { pigments, vehicle: self.vehicle.wrapping_add(other.vehicle) }
     }
 
     /// Subtracts `part` modulo 2^32.
     #[inline(always)]
     #[must_use]
     pub fn wrapping_minus(&self, part: &Self) -> Self {
-        self.with(
-            part,
-            #[inline(always)]
-            |amount, part| amount.wrapping_sub(part),
-        )
-    }
-
-    /// Applies `act` to each pair of amounts. Written as a loop, since the closures of
-    /// `map` and `from_fn` are not always inlined and then are not compiled for the
-    /// instruction set that the caller chose.
-    #[inline(always)]
-    fn with(&self, other: &Self, act: impl Fn(u32, u32) -> u32) -> Self {
-        let mut result = *self;
-        let mut i = 0;
-        while i < SLOTS {
-            result.pigments[i] = act(self.pigments[i], other.pigments[i]);
-            i += 1;
-        }
-        result.vehicle = act(self.vehicle, other.vehicle);
-        result
+        let pigments = pigment_amounts::wrapping_difference(&self.pigments, &part.pigments);
+        Self { pigments, vehicle: self.vehicle.wrapping_sub(part.vehicle) }
     }
 }
 

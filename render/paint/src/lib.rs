@@ -42,6 +42,8 @@
 
 pub mod amount;
 
+mod pigment_amounts;
+
 pub mod layer;
 
 pub mod dry_layer;
