@@ -32,11 +32,18 @@ pub const fn share_of_65536(amount: u32, share: u32) -> u32 {
 #[inline(always)]
 #[must_use]
 pub fn ratio_of_65536(part: u32, whole: u32) -> u32 {
-    // In the shaders, the product of `part` and 65536 must fit into 32 bits.
-    let exponent = (f64::from(part as i32).to_bits() >> 52) as i32 - 1023;
-    let excess = (exponent - 15).max(0);
-    let whole = (whole >> excess) + u32::from(excess > 0);
-    floor_of_quotient(f64::from((part >> excess) as i32) * 65536.0, whole)
+    /// Exponent of an f64, and the bits of 2^15 with an exponent twice the bias too high.
+    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+    const SHIFTED: u64 = (15 + 2 * 1023) << 52;
+    // In the shaders, the product of `part` and 65536 must fit into 32 bits, so both numbers lose
+    // the bits that `part` has above 16. Shifts of each lane by its own number are slow in some
+    // vectors, so this divides by the power of two, which is exact.
+    let size = f64::from((part | 1) as i32).to_bits() & EXPONENT;
+    let power = f64::from_bits(SHIFTED - size);
+    let (scale, more) = if power < 1.0 { (power, 1.0) } else { (1.0, 0.0) };
+    let part = (f64::from(part as i32) * scale).floor();
+    let whole = (f64::from(whole as i32) * scale).floor() + more;
+    floor_of_quotient(part * 65536.0, whole)
 }
 
 /// Computes `amount / count`, rounded down, for an `amount` up to [`MAX_COLUMN`] and a `count` of
@@ -44,17 +51,18 @@ pub fn ratio_of_65536(part: u32, whole: u32) -> u32 {
 #[inline(always)]
 #[must_use]
 pub fn quotient(amount: u32, count: u32) -> u32 {
-    floor_of_quotient(f64::from(amount as i32), count)
+    floor_of_quotient(f64::from(amount as i32), f64::from(count as i32))
 }
 
 /// Computes `part / whole`, rounded down, for whole numbers. Processors cannot divide vectors of
 /// whole numbers, so this divides in f64, which is exact here.
 #[inline(always)]
-fn floor_of_quotient(part: f64, whole: u32) -> u32 {
+fn floor_of_quotient(part: f64, whole: f64) -> u32 {
     /// 2^52: above this number, neighbouring f64 values are 1 apart. Adding it is faster than the
     /// range checks of `as`.
     const UNIT: f64 = 4_503_599_627_370_496.0;
-    ((part / f64::from(whole.max(1) as i32)).floor() + UNIT).to_bits() as u32
+    let whole = if whole > 1.0 { whole } else { 1.0 };
+    ((part / whole).floor() + UNIT).to_bits() as u32
 }
 
 /// Converts a height in mm to quanta, rounded to the nearest and clamped to 0 to
