@@ -245,6 +245,26 @@ fn a_survey_finds_the_palette_and_maps_know_it() {
 }
 
 #[test]
+fn a_scan_of_two_paints_keeps_their_pigments() {
+    let (oils, nm) = oils();
+    let film = |parts: &[(&str, f64)]| -> Vec<f32> {
+        let mixture = oils.mix(oils.recipe(parts.iter().copied()).unwrap()).unwrap();
+        mixture.hiding(oils.saunderson).iter().map(|r| *r as f32).collect()
+    };
+    let green = film(&[("Zinc White", 0.8), ("Viridian", 0.2)]);
+    let red = film(&[("Vermilion", 1.0)]);
+    let spectra = [green.repeat(20), red.repeat(20)].concat();
+    let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
+    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let place = |name: &str| mapper.pigments().iter().position(|known| known == name).unwrap();
+    for name in ["Viridian", "Vermilion"] {
+        assert!(book.palette[place(name)] > 0.9, "{name}: {:?}", book.palette);
+    }
+    let maps = mapper.map_block(&book, &spectra).unwrap();
+    assert!((maps.share[place("Viridian")] - 0.2).abs() < 0.02, "{:?}", &maps.share[..18]);
+}
+
+#[test]
 fn settings_out_of_range_are_refused() {
     let (oils, nm) = oils();
     let usual = MapSettings { group_alike: false, ..MapSettings::default() };

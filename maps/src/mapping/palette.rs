@@ -8,11 +8,13 @@ use std::collections::BTreeMap;
 use crate::search::engine::NEGLIGIBLE;
 use crate::search::set_fit::SetFit;
 
-/// Mean rise of the score without a pigment, in the two paints that need it most, from which it is more likely
-/// than not in the palette. One paint alone may be off by chance. Chosen of 4 to 18 on simulated paintings.
+/// Mean rise of the score without a pigment, in the paints that need it most, from which it is more likely than
+/// not in the palette. Chosen of 4 to 18 on simulated paintings.
 const NEEDED: f32 = 14.0;
-/// Paints that tell how much a pigment is needed.
+/// Paints that tell how much a pigment is needed: of many paints one alone may be off by chance.
 const PAINTS: usize = 2;
+/// Paints of a survey that are many.
+const MANY: usize = 16;
 
 /// Probability of each of `pigments` pigments to be in the palette. `found` holds the sets of each surveyed
 /// pixel, the best first, and `paints` a number for each pixel: pixels of one number are one paint, because
@@ -81,9 +83,10 @@ impl Survey {
                 }
             }
         }
+        let counted = if self.sizes.len() < MANY { 1 } else { PAINTS };
         let most = |mut rises: Vec<f32>| {
             rises.sort_by(|a, b| b.total_cmp(a));
-            rises.iter().take(PAINTS).sum::<f32>() / PAINTS as f32
+            rises.iter().take(counted).sum::<f32>() / counted as f32
         };
         rises.into_iter().map(most).collect()
     }
@@ -118,12 +121,17 @@ mod tests {
     fn one_paint_tells_as_much_as_its_mean_pixel() {
         let needed = pixel(&[(&[0, 1], 5.0), (&[0, 2], 40.0)]);
         let not = pixel(&[(&[0], 5.0)]);
-        let often = palette(&[needed.clone(), needed.clone(), needed.clone()], &[1, 1, 1], 3);
-        assert!(often[1] < 0.2, "three pixels of one paint: {often:?}");
-        let two = palette(&[needed.clone(), needed], &[1, 2], 3);
-        assert!(two[1] > 0.9, "two paints: {two:?}");
-        let seldom = palette(&[not.clone(), not.clone(), not], &[1, 1, 2], 3);
-        assert!(seldom[1] < 0.01 && seldom[0] > 0.9, "{seldom:?}");
+        let pixels = [needed.clone(), not.clone(), not.clone(), not.clone()];
+        let mixed = palette(&pixels, &[1, 1, 1, 1], 3);
+        assert!(mixed[1] < 0.1 && mixed[0] > 0.5, "one of four pixels of one paint: {mixed:?}");
+        let often = palette(&[needed.clone(), needed.clone(), not.clone()], &[1, 1, 2], 3);
+        assert!(often[1] > 0.9, "one of two paints: {often:?}");
+        // Of many paints two must need it.
+        let many = |needing: usize| {
+            let pixel = |paint| if paint < needing { needed.clone() } else { not.clone() };
+            palette(&(0..MANY).map(pixel).collect::<Vec<_>>(), &(0..MANY).collect::<Vec<_>>(), 3)
+        };
+        assert!(many(1)[1] < 0.2 && many(2)[1] > 0.9, "{:?} {:?}", many(1), many(2));
     }
 
     #[test]
