@@ -41,6 +41,7 @@ const EXAMPLES: [(&str, &[&str]); 34] = [
         &[
             "impasto map scan.hdr oils.json -o maps.zarr --pictures maps",
             "impasto map scan.hdr oils.json --residuals residuals.json -o maps.zarr",
+            "impasto map scan.hdr oils.json --ground 0..20,0..100 -o maps.zarr",
             "impasto map scan.hdr oils.json --palette \"Lead White\" --palette Ultramarine --json",
             "impasto map field.hdr oils.json -o maps.zarr --truth field-truth.zarr",
             "impasto map capture.hdr -o maps.zarr --white-reading white.hdr --dark-reading dark.hdr --resume",

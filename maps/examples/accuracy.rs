@@ -8,7 +8,9 @@
 //!    three of 10 % and more, with noise 0.003 and real K and S that are off by smooth 10 %; and of pigments fitted on one half of the readings,
 //!    mapped with a library fitted on the other half;
 //! 3. the probabilities and standard deviations that are told;
-//! 4. pixels with a pigment that the library lacks.
+//! 4. the same paintings for those who know the palette, or K and S, or both, and how much the spectra speak
+//!    for the true pigments where wrong ones were found;
+//! 5. pixels with a pigment that the library lacks.
 //!
 //! No scan of a painting is at hand: these are swatches and simulations only.
 
@@ -17,13 +19,19 @@
 use calibrate::Readings;
 use calibrate::fit::Watch;
 use maps::accuracy::{
-    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, Trial, choose_penalty, coverage,
-    light_palette, missing_pigment, oil_groups, painting_trials, prepared_oils, reliability,
-    residuals_of, swatch_trials,
+    Baseline, NamedGroups, PaintingPlan, Scores, SwatchTrials, Told, Trial, choose_penalty,
+    coverage, light_palette, missing_pigment, oil_groups, painting_trials, prepared_oils,
+    reliability, residuals_of, swatch_trials,
 };
 use maps::{MapSettings, Mapper, ModelError, USUAL_MODEL_ERROR};
 use pigment::PigmentLibrary;
 
+/// Seeds of the paintings.
+const SEEDS: std::ops::Range<u64> = 1001..1021;
+/// Noise of a sensor that hardly has any.
+const QUIET: f64 = 0.0005;
+/// Difference of chi-square that decides between two sets.
+const DECISIVE: f64 = 4.0;
 /// Ranges of told probabilities.
 const RANGES: [f64; 6] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9];
 
@@ -50,7 +58,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let exact = PaintingPlan { error: 0.0, ..plan.clone() };
     paintings("library from the other half", (&real, &known), &exact, &usual)?;
 
-    println!("\n4. A pigment that the library lacks, in 10 paintings");
+    limits(&oils, &plan, &stated)?;
+
+    println!("\n5. A pigment that the library lacks, in 10 paintings");
     let found = missing_pigment(&oils, &plan, 1..11, &stated)?;
     println!("  median chi-square without it {:.2}, with it {:.2}", found.chi2[0], found.chi2[1]);
     println!("  noticed by chi-square in {:.0} % of the pixels with it", 100.0 * found.noticed);
@@ -108,13 +118,46 @@ fn paintings(
     settings: &MapSettings,
 ) -> Result<(), Box<dyn std::error::Error>> {
     println!("\n2. 20 simulated paintings, {name}: groups");
-    let trials = painting_trials(libraries, plan, 1001..1021, settings)?;
+    let trials = painting_trials(libraries, plan, SEEDS, (settings, Told::Nothing))?;
     println!("  whole search      {}", Scores::of(&trials.searched));
     println!("  survey and map    {}", Scores::of(&trials.mapped));
-    println!("  search worse than the refined truth in {:.1} %", 100.0 * trials.worse);
+    println!("  search worse than the refined truth in {:.1} %", 100.0 * trials.worse());
     told(&trials.searched);
     println!("  after a survey:");
     told(&trials.mapped);
+    Ok(())
+}
+
+/// Prints how well the same paintings are mapped by who knows more than the library tells, and how much better
+/// the spectra speak for the true pigments than for wrong ones that were found.
+fn limits(
+    oils: &PigmentLibrary,
+    plan: &PaintingPlan,
+    settings: &MapSettings,
+) -> Result<(), maps::MapError> {
+    println!("\n4. What could be told of any eight: dark, middle, light paint");
+    let sure = MapSettings { model_error: Some(ModelError::Stated(0.003)), ..settings.clone() };
+    let quiet = MapSettings { sensor_noise: QUIET, ..sure.clone() };
+    let exact = PaintingPlan { error: 0.0, ..plan.clone() };
+    let noiseless = PaintingPlan { noise: QUIET, ..exact.clone() };
+    for (name, plan, settings, told) in [
+        ("as the maps are", plan, settings, Told::Nothing),
+        ("palette known", plan, settings, Told::Palette),
+        ("K and S known exactly", &exact, &sure, Told::Nothing),
+        ("K, S and palette known", &exact, &sure, Told::Palette),
+        ("the same, noise 0.0005", &noiseless, &quiet, Told::Palette),
+    ] {
+        let trials = painting_trials((oils, oils), plan, SEEDS, (settings, told))?;
+        let of_tone = |tone| Scores::of(trials.of_tone(tone));
+        println!("  {name:24} {} | {} | {}", of_tone(0), of_tone(1), of_tone(2));
+        let wrong = || trials.beside.iter().zip(&trials.tones).filter(|(b, _)| !b.is_right);
+        let dark = wrong().filter(|(_, tone)| **tone == 0);
+        let told = dark.clone().filter(|(beside, _)| beside.chi2 > DECISIVE).count();
+        let (count, pixels) = (dark.count(), trials.of_tone(0).count());
+        println!(
+            "    whole search: {count} of {pixels} dark pixels with a wrong set, in {told} of them chi-square of the true one lower by {DECISIVE} or more"
+        );
+    }
     Ok(())
 }
 

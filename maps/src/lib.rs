@@ -46,6 +46,7 @@ mod told;
 pub use blocks::map_cube;
 pub use cube::Cube;
 pub use films::bands;
+pub use films::ground::Ground;
 pub use films::noise::{LEAST_MIXTURES, ModelError, USUAL_MODEL_ERROR};
 pub use films::paints::Paints;
 pub use films::settings::{MapSettings, PigmentGroup};

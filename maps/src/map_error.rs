@@ -58,6 +58,12 @@ pub enum MapError {
         /// Name of the second group.
         second: String,
     },
+    /// The ground is no reflectance, or does not cover the bands of the scan.
+    #[error("the spectrum of the ground {problem}")]
+    Ground {
+        /// The fault, as a sentence part.
+        problem: String,
+    },
     /// A setting is out of its range.
     #[error("{name} must be {range}, found `{value}`")]
     Setting {
@@ -131,6 +137,9 @@ impl Explain for MapError {
             Self::Pigments { .. } => Some(Hint::new("name the pigments with [palette]")),
             Self::TwoGroups { .. } => Some(Hint::new("name each pigment in one [group]")),
             Self::Setting { .. } | Self::Book { .. } => None,
+            Self::Ground { .. } => Some(Hint::new(
+                "give reflectances from 0 to 1 at rising wavelengths that cover the scan, or a region of bare ground in the scan, as the [ground]",
+            )),
             Self::Length { .. } => {
                 Some(Hint::new("give the reflectances pixel after pixel, all bands of each"))
             }
@@ -152,6 +161,7 @@ impl Explain for MapError {
             Self::Name(_)
             | Self::Pigments { .. }
             | Self::TwoGroups { .. }
+            | Self::Ground { .. }
             | Self::Setting { .. } => Fault::Setting,
             Self::Cancelled(error) => error.fault(),
             _ => Fault::Input,

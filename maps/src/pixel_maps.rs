@@ -20,11 +20,13 @@ pub enum Mask {
     OutOfRange = 5,
     /// No mixture of the library explains the pixel. Its chi-square and residual are told, and nothing else.
     OutOfGamut = 6,
+    /// The pixel shows the bare ground.
+    Ground = 7,
 }
 
 impl Mask {
     /// Every mask in the order of its number.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Mapped,
         Self::Ignored,
         Self::NotFinite,
@@ -32,6 +34,7 @@ impl Mask {
         Self::Saturated,
         Self::OutOfRange,
         Self::OutOfGamut,
+        Self::Ground,
     ];
 
     /// Tells whether the pixel was compared with mixtures, so that it has a chi-square.
@@ -63,6 +66,7 @@ impl Mask {
             Self::Saturated => "saturated",
             Self::OutOfRange => "out of range",
             Self::OutOfGamut => "out of gamut",
+            Self::Ground => "bare ground",
         }
     }
 }
@@ -112,6 +116,45 @@ impl BlockMaps {
         }
     }
 
+    /// Maps that hold no pixel yet, with room for `pixels`.
+    pub(crate) fn with_capacity(pixels: usize, pigments: usize) -> Self {
+        let of_pigments = || Vec::with_capacity(pixels * pigments);
+        let of_pixels = || Vec::with_capacity(pixels);
+        Self {
+            pigments,
+            share: of_pigments(),
+            share_sd: of_pigments(),
+            presence: of_pigments(),
+            chi2: of_pixels(),
+            rms: of_pixels(),
+            second: Vec::with_capacity(pixels),
+            mask: Vec::with_capacity(pixels),
+        }
+    }
+
+    /// Adds a pixel that is not mapped.
+    pub(crate) fn push_masked(&mut self, mask: Mask, chi2: f64, rms: f64) {
+        let end = self.share.len() + self.pigments;
+        for values in [&mut self.share, &mut self.share_sd, &mut self.presence] {
+            values.resize(end, f32::NAN);
+        }
+        self.chi2.push(chi2 as f32);
+        self.rms.push(rms as f32);
+        self.second.push(0);
+        self.mask.push(mask);
+    }
+
+    /// Adds the pixels of `other`, which has as many pigments.
+    pub(crate) fn append(&mut self, other: Self) {
+        self.share.extend(other.share);
+        self.share_sd.extend(other.share_sd);
+        self.presence.extend(other.presence);
+        self.chi2.extend(other.chi2);
+        self.rms.extend(other.rms);
+        self.second.extend(other.second);
+        self.mask.extend(other.mask);
+    }
+
     /// Number of pixels.
     #[must_use]
     pub fn pixels(&self) -> usize {
@@ -141,7 +184,7 @@ mod tests {
             assert_eq!(mask.code(), code, "{}", mask.name());
             assert_eq!(Mask::from_code(code), Some(mask), "{}", mask.name());
         }
-        assert_eq!(Mask::from_code(7), None, "no mask has the number 7");
+        assert_eq!(Mask::from_code(8), None, "no mask has the number 8");
     }
 
     #[test]

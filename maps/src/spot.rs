@@ -5,7 +5,6 @@ use spectra::hint::{Explain, Fault, Hint};
 
 use crate::cube::CubeError;
 use crate::map_error::MapError;
-use crate::pixel_maps::Mask;
 use crate::surveyed::{Region, SurveyedScan};
 
 /// Share below which a pigment takes no part in the mapped mixture of a spot.
@@ -53,17 +52,10 @@ impl SurveyedScan {
     /// # Errors
     /// [`SpotError`] if the region is not within the scan, or none of its pixels can be mapped.
     pub fn spot(&self, library: &PigmentLibrary, region: Region) -> Result<Spot, SpotError> {
-        let block = self.cube().read(region.rows.clone(), region.columns.clone())?;
-        let mut measured = vec![0.0; block.bands];
-        let mut pixels = 0;
-        for (values, _) in block.iter().filter(|(_, mask)| *mask == Mask::Mapped) {
-            pixels += 1;
-            measured.iter_mut().zip(values).for_each(|(sum, value)| *sum += f64::from(*value));
-        }
+        let (pixels, measured) = self.cube().mean(region.rows.clone(), region.columns.clone())?;
         if pixels == 0 {
             return Err(SpotError::NothingMapped { region });
         }
-        measured.iter_mut().for_each(|sum| *sum /= pixels as f64);
         let mean: Vec<f32> = measured.iter().map(|value| *value as f32).collect();
         let maps = self.map_pixels(&mean)?;
         if !maps.mask[0].is_compared() {

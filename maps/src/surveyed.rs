@@ -11,6 +11,7 @@ use spectra::hint::{Explain, Fault, Hint};
 
 use crate::blocks::{MapOutcome, MapProgress, PixelCounts, RunError, map_cube, map_shard};
 use crate::cube::{Block, Cube, CubeError};
+use crate::films::ground::Ground;
 use crate::films::noise::ModelError;
 use crate::films::settings::MapSettings;
 use crate::map_error::MapError;
@@ -237,6 +238,23 @@ impl SurveyedScan {
     }
 }
 
+impl Region {
+    /// Mean reflectance of the pixels of this region of `cube`, as the ground of a map.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if the region does not lie within the scan, its pixels cannot be read, or none of them holds
+    /// a reflectance.
+    pub fn ground(&self, cube: &Cube) -> Result<Ground, SurveyError> {
+        let region = inside(cube, Some(self.clone()))?;
+        let (pixels, mean) = cube.mean(region.rows.clone(), region.columns.clone())?;
+        if pixels == 0 {
+            let problem = "has no pixel that holds a reflectance".to_owned();
+            return Err(MapError::Ground { problem }.into());
+        }
+        Ok(Ground::new(cube.wavelengths_nm().to_vec(), mean)?)
+    }
+}
+
 /// The cube with the bands within the library's wavelengths: others do not decide whether a pixel can be
 /// mapped.
 fn within(cube: Cube, library: &PigmentLibrary) -> Result<Cube, CubeError> {
@@ -279,6 +297,7 @@ fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
         "sensor_noise": settings.sensor_noise,
         "model_error": model_error,
         "penalty": settings.penalty,
+        "ground": settings.ground,
     });
     match all {
         Value::Object(map) => map,

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use calibrate::{Residuals, ResidualsError};
 use maps::accuracy::{Painting, PaintingPlan};
 use maps::pixel_maps::{BlockMaps, Mask};
-use maps::{Book, MapError, MapSettings, Mapper, ModelError, PigmentGroup};
+use maps::{Book, Ground, MapError, MapSettings, Mapper, ModelError, PigmentGroup};
 use pigment::PigmentLibrary;
 use spectra::hint::Explain;
 
@@ -158,7 +158,8 @@ fn books_survive_their_file_and_broken_ones_are_refused() {
     assert_eq!(bits(&mapper.map_block(&read, &spectra).unwrap()), bits(&whole));
     for (from, to) in [
         ("impasto-survey", "other"),
-        ("\"version\":2", "\"version\":1"),
+        ("\"version\":3", "\"version\":2"),
+        ("\"palette\":[", "\"palette\":[0.5,"),
         ("\"point\":[", "\"point\":[1.0,"),
         ("\"shares\":[", "\"shares\":[7.0,"),
     ] {
@@ -166,6 +167,101 @@ fn books_survive_their_file_and_broken_ones_are_refused() {
         assert!(matches!(Book::from_json(&broken), Err(MapError::Book { .. })), "{from}");
     }
     assert!(Book::from_json(&text[..100]).is_err(), "a part of a file");
+}
+
+/// A light linen, darker in the blue.
+fn linen(nm: &[f64]) -> Vec<f64> {
+    nm.iter().map(|nm| 0.35 + 0.2 * ((nm - 400.0) / 300.0).sqrt()).collect()
+}
+
+#[test]
+fn bare_ground_is_told_and_paint_is_not_taken_for_it() {
+    let (oils, nm) = oils();
+    let (mapper, mut spectra) = scan(300);
+    let ground = Ground::new(nm.clone(), linen(&nm)).unwrap();
+    let knows = MapSettings { ground: Some(ground), ..settings() };
+    let knows = Mapper::new(&oils, &nm, &knows).unwrap();
+    // Bare ground of other lightness and gloss, with the noise of the sensor.
+    for pixel in 0..40 {
+        let noise = |band: usize| 0.003 * ((pixel * 31 + band) as f64 * 12.9898).sin();
+        let factor = 1.0 + 0.03 * (pixel as f64).sin();
+        let gloss = 0.004 * (pixel as f64 * 0.7).cos();
+        let bare = linen(&nm).into_iter().enumerate();
+        spectra.extend(bare.map(|(band, r)| (r * factor + gloss + noise(band)) as f32));
+    }
+    let book = knows.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    assert_eq!(book.entries.len(), 300, "the ground is no part of the survey");
+    let maps = knows.map_block(&book, &spectra).unwrap();
+    let told = maps.mask.iter().map(|mask| *mask == Mask::Ground).collect::<Vec<bool>>();
+    assert_eq!(told.iter().filter(|ground| **ground).count(), 40, "{:?}", maps.mask);
+    assert!(told[300..].iter().all(|ground| *ground), "the last 40 pixels");
+    assert!(maps.share[300 * maps.pigments..].iter().all(|share| share.is_nan()), "no shares");
+    // Without the spectrum of the ground these pixels are mapped as paint.
+    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let maps = mapper.map_block(&book, &spectra).unwrap();
+    assert!(maps.mask.iter().all(|mask| *mask != Mask::Ground), "{:?}", maps.mask);
+    let error = knows.map_block(&book, &spectra).unwrap_err();
+    assert!(matches!(error, MapError::OtherBook { .. }), "{error}");
+    let short = Ground::new(nm[3..].to_vec(), linen(&nm[3..])).unwrap();
+    let short = MapSettings { ground: Some(short), ..settings() };
+    let error = Mapper::new(&oils, &nm, &short).unwrap_err();
+    assert!(error.to_string().contains("400 nm") && error.hint().is_some(), "{error}");
+}
+
+#[test]
+fn a_survey_finds_the_palette_and_maps_know_it() {
+    let (oils, nm) = oils();
+    let palette = maps::accuracy::light_palette();
+    let plan = PaintingPlan { pixels: 400, palette: palette.clone(), ..PaintingPlan::default() };
+    let painting = Painting::simulate(&oils, &oils, &plan);
+    let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
+    let book = mapper.survey(&painting.spectra, &|| ControlFlow::Continue(())).unwrap();
+    let inside = |name: &str| {
+        let place = mapper.pigments().iter().position(|known| known == name).unwrap();
+        book.palette[place]
+    };
+    // Whites and chrome yellows stand for each other.
+    for name in ["Minium", "Vermilion", "Viridian", "Emerald Green", "Cobalt Blue", "Ultramarine"] {
+        assert!(inside(name) > 0.9, "{name}: {}", inside(name));
+    }
+    let whites = ["Zinc White", "Lead White", "Barium Sulphate", "Calcium Carbonate"];
+    assert!(whites.into_iter().map(inside).fold(0.0, f32::max) > 0.9, "a white");
+    for name in ["Prussian Blue", "Bone Black", "Cochineal Lake"] {
+        assert!(inside(name) < 0.3, "{name}: {}", inside(name));
+    }
+    // The palette is a prior: other pigments are told seldom, but they are told.
+    let maps = mapper.map_block(&book, &painting.spectra).unwrap();
+    let wrong = |maps: &BlockMaps| {
+        let black = mapper.pigments().iter().position(|name| name == "Bone Black").unwrap();
+        maps.presence.chunks_exact(maps.pigments).filter(|p| p[black] > 0.5).count()
+    };
+    let without = mapper.search(&painting.spectra).unwrap();
+    assert!(wrong(&maps) < wrong(&without) || wrong(&without) == 0, "black where none is");
+    let black = oils.recipe([("Bone Black", 1.0)]).unwrap();
+    let black = oils.mix(black).unwrap().hiding(oils.saunderson);
+    let black: Vec<f32> = black.iter().map(|r| *r as f32).collect();
+    let told = mapper.map_block(&book, &black).unwrap();
+    assert_eq!(wrong(&told), 1, "a pixel of black alone: {:?}", told.presence);
+}
+
+#[test]
+fn a_scan_of_two_paints_keeps_their_pigments() {
+    let (oils, nm) = oils();
+    let film = |parts: &[(&str, f64)]| -> Vec<f32> {
+        let mixture = oils.mix(oils.recipe(parts.iter().copied()).unwrap()).unwrap();
+        mixture.hiding(oils.saunderson).iter().map(|r| *r as f32).collect()
+    };
+    let green = film(&[("Zinc White", 0.8), ("Viridian", 0.2)]);
+    let red = film(&[("Vermilion", 1.0)]);
+    let spectra = [green.repeat(20), red.repeat(20)].concat();
+    let mapper = Mapper::new(&oils, &nm, &settings()).unwrap();
+    let book = mapper.survey(&spectra, &|| ControlFlow::Continue(())).unwrap();
+    let place = |name: &str| mapper.pigments().iter().position(|known| known == name).unwrap();
+    for name in ["Viridian", "Vermilion"] {
+        assert!(book.palette[place(name)] > 0.9, "{name}: {:?}", book.palette);
+    }
+    let maps = mapper.map_block(&book, &spectra).unwrap();
+    assert!((maps.share[place("Viridian")] - 0.2).abs() < 0.02, "{:?}", &maps.share[..18]);
 }
 
 #[test]

@@ -3,7 +3,10 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use maps::{Book, MapSettings, ModelError, PigmentGroup, Region, StoreMode, SurveyedScan};
+use maps::{
+    Book, Ground, MapSettings, ModelError, PigmentGroup, Region, StoreMode, SurveyError,
+    SurveyedScan,
+};
 use pyo3::prelude::*;
 
 use crate::cube::Cube;
@@ -24,11 +27,26 @@ pub(crate) struct Settings {
     model_error: Option<f64>,
     residuals: Option<Py<Residuals>>,
     penalty: f64,
+    ground: Option<(Vec<f64>, Vec<f64>)>,
+    ground_region: Option<((usize, usize), (usize, usize))>,
     region: Option<((usize, usize), (usize, usize))>,
 }
 
 impl Settings {
-    fn settings(self, white_sd: Option<f64>) -> (MapSettings, Option<Region>) {
+    fn settings(
+        self,
+        cube: &maps::Cube,
+        white_sd: Option<f64>,
+    ) -> Result<(MapSettings, Option<Region>), SurveyError> {
+        let of_ends = |(rows, columns): ((usize, usize), (usize, usize))| Region {
+            rows: rows.0..rows.1,
+            columns: columns.0..columns.1,
+        };
+        let ground = match (self.ground, self.ground_region) {
+            (Some((nm, reflectance)), _) => Some(Ground::new(nm, reflectance)?),
+            (None, Some(ends)) => Some(of_ends(ends).ground(cube)?),
+            (None, None) => None,
+        };
         let usual = MapSettings::default();
         let group = |(name, pigments)| PigmentGroup { name, pigments };
         let residuals = self.residuals.map(|residuals| {
@@ -42,11 +60,9 @@ impl Settings {
             sensor_noise: self.noise.or(white_sd).unwrap_or(usual.sensor_noise),
             model_error: residuals.or(self.model_error.map(ModelError::Stated)),
             penalty: self.penalty,
+            ground,
         };
-        let region = self
-            .region
-            .map(|(rows, columns)| Region { rows: rows.0..rows.1, columns: columns.0..columns.1 });
-        (settings, region)
+        Ok((settings, self.region.map(of_ends)))
     }
 }
 
@@ -67,8 +83,9 @@ impl Survey {
         book: Option<String>,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let (settings, region) = settings.settings(cube.white_sd());
+        let white_sd = cube.white_sd();
         let cube = py.detach(|| cube.again()).raised(py, Exception::Reading)?;
+        let (settings, region) = settings.settings(&cube, white_sd).raised(py, Exception::Fit)?;
         let book = book.map(|text| Book::from_json(&text)).transpose();
         let book = book.raised(py, Exception::Reading)?;
         let library = library.0.clone();

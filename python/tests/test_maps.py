@@ -84,6 +84,28 @@ def test_a_scan_is_read_as_it_was_written(scan: tuple[Path, np.ndarray], oils: i
     assert np.array_equal(part, raw[3:5, 10:14])
 
 
+def test_bare_ground_is_told_by_the_mask(oils: im.Library, tmp_path: Path) -> None:
+    pytest.importorskip("zarr", reason="zarr 3 needs Python 3.11")
+    values, _ = painted(oils, 24, 48)
+    linen = 0.35 + 0.2 * np.sqrt((oils.wavelengths - 400) / 300)
+    noise = 0.002 * np.random.default_rng(3).standard_normal((8, 48, 31))
+    values[:8] = linen + noise
+    cube = im.Cube.open(envi(tmp_path / "scan.hdr", values, oils.wavelengths))
+    ground = im.cube.MASKS.index("bare ground")
+    for number, given in enumerate(
+        (im.Spectrum(oils.wavelengths, linen), (slice(0, 4), slice(10, 30)))
+    ):
+        out = tmp_path / f"maps-{number}.zarr"
+        mask = im.pigment_map(cube, oils, out, ground=given).to_xarray().mask.values
+        assert (mask[:8] == ground).all() and (mask[8:] == 0).all(), mask
+    with pytest.raises(im.Error, match="400 nm"):
+        im.survey(cube, oils, ground=im.Spectrum(oils.wavelengths[2:], linen[2:]))
+    with pytest.raises(im.Error, match="one spectrum"):
+        im.survey(cube, oils, ground=im.Spectrum(oils.wavelengths, [linen, linen]))
+    with pytest.raises(im.Error, match="rows"):
+        im.survey(cube, oils, ground=(slice(30, 40), slice(0, 5)))
+
+
 def test_header_and_data_that_disagree_are_told(scan: tuple[Path, np.ndarray], tmp_path: Path) -> None:
     header = scan[0].read_text().replace("lines = 32", "lines = 33")
     (tmp_path / "long.hdr").write_text(header)

@@ -16,12 +16,12 @@ mod oils;
 
 pub use baselines::{Baseline, Unmixed};
 pub use oils::{
-    Missing, PaintingTrials, light_palette, missing_pigment, oil_groups, painting_trials,
-    prepared_oils,
+    Missing, PaintingTrials, Told, light_palette, missing_pigment, oil_groups, painting_trials,
+    prepared_oils, tone,
 };
 pub use scores::{Coverage, Reliability, ScoreSums, Scores, Trial, coverage, covered, reliability};
 
-pub use simulated::{Painting, PaintingPlan};
+pub use simulated::{BesideTruth, Painting, PaintingPlan};
 pub use swatches::{
     Choice, NamedGroups, SwatchTrials, choose_penalty, residuals_of, swatch_trials,
 };

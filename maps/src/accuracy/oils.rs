@@ -10,7 +10,7 @@ use calibrate::{FitOptions, FittingError, PreparedFit, Readings};
 use pigment::library::PigmentLibrary;
 
 use crate::accuracy::scores::Trial;
-use crate::accuracy::simulated::{Painting, PaintingPlan};
+use crate::accuracy::simulated::{BesideTruth, Painting, PaintingPlan};
 use crate::films::settings::{MapSettings, PigmentGroup};
 use crate::map_error::MapError;
 use crate::mapping::mapper::Mapper;
@@ -60,18 +60,53 @@ pub fn prepared_oils(readings: &Readings) -> Result<PreparedFit, FittingError> {
 }
 
 /// Trials of simulated paintings of several seeds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct PaintingTrials {
     /// Trials of pixels that were searched whole.
     pub searched: Vec<Trial>,
     /// Trials of pixels that were mapped with a survey.
     pub mapped: Vec<Trial>,
+    /// Best set of each searched pixel beside its true pigments.
+    pub beside: Vec<BesideTruth>,
+    /// Tone of each pixel: 0 dark, 1 middle, 2 light.
+    pub tones: Vec<usize>,
+}
+
+impl PaintingTrials {
     /// Part of the pixels in which the search ended at a worse score than the true pigments have.
-    pub worse: f64,
+    #[must_use]
+    pub fn worse(&self) -> f64 {
+        let worse = self.beside.iter().filter(|beside| beside.is_worse).count();
+        worse as f64 / self.beside.len().max(1) as f64
+    }
+
+    /// Mapped trials of one tone.
+    pub fn of_tone(&self, tone: usize) -> impl Iterator<Item = &Trial> + Clone {
+        let pairs = self.mapped.iter().zip(&self.tones);
+        pairs.filter(move |(_, own)| **own == tone).map(|(trial, _)| trial)
+    }
+}
+
+/// Ends of dark and of middle paint, in mean reflectance.
+const TONES: [f32; 2] = [0.1, 0.3];
+
+/// Tone of a mean reflectance: 0 dark, below 0.1; 1 middle; 2 light, 0.3 or more.
+#[must_use]
+pub fn tone(mean_reflectance: f32) -> usize {
+    TONES.iter().filter(|end| mean_reflectance >= **end).count()
+}
+
+/// Knowledge of the pigments that a painting holds, beside the library.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Told {
+    /// No pigment of it is named.
+    Nothing,
+    /// All its pigments are named, and no others.
+    Palette,
 }
 
 /// Paints one painting of `plan` for each of `seeds` with the pigments of `real`, and maps it with the library
-/// `known` and `settings`.
+/// `known`, `settings`, and the palette of the painting if it is told.
 ///
 /// # Errors
 /// [`MapError`] if library and settings cannot be used.
@@ -79,20 +114,26 @@ pub fn painting_trials(
     (real, known): (&PigmentLibrary, &PigmentLibrary),
     plan: &PaintingPlan,
     seeds: std::ops::Range<u64>,
-    settings: &MapSettings,
+    (settings, told): (&MapSettings, Told),
 ) -> Result<PaintingTrials, MapError> {
     let nm: Vec<f64> = real.grid.wavelengths_nm().collect();
-    let mapper = Mapper::new(known, &nm, settings)?;
-    let (mut searched, mut mapped, mut worse) = (Vec::new(), Vec::new(), 0.0);
-    let count = (seeds.end - seeds.start).max(1) as f64;
+    let mut trials = PaintingTrials::default();
     for seed in seeds {
         let painting = Painting::simulate(real, known, &PaintingPlan { seed, ..plan.clone() });
-        searched.extend(painting.trials(&mapper, &mapper.search(&painting.spectra)?));
+        let palette = match told {
+            Told::Nothing => settings.palette.clone(),
+            Told::Palette => painting.pigments.clone(),
+        };
+        let mapper = Mapper::new(known, &nm, &MapSettings { palette, ..settings.clone() })?;
+        trials.searched.extend(painting.trials(&mapper, &mapper.search(&painting.spectra)?));
         let book = mapper.survey(&painting.spectra, &|| ControlFlow::Continue(()))?;
-        mapped.extend(painting.trials(&mapper, &mapper.map_block(&book, &painting.spectra)?));
-        worse += painting.search_worse_than_truth(&mapper)? / count;
+        let maps = mapper.map_block(&book, &painting.spectra)?;
+        trials.mapped.extend(painting.trials(&mapper, &maps));
+        trials.beside.extend(painting.beside_truth(&mapper)?);
+        let tones = (0..painting.truth.len()).map(|index| tone(painting.mean_reflectance(index)));
+        trials.tones.extend(tones);
     }
-    Ok(PaintingTrials { searched, mapped, worse })
+    Ok(trials)
 }
 
 /// Trials of pixels with one pigment that the library lacks.

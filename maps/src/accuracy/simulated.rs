@@ -10,7 +10,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::accuracy::scores::Trial;
 use crate::map_error::MapError;
-use crate::mapping::mapper::Mapper;
+use crate::mapping::mapper::{Gap, Mapper};
 use crate::pixel_maps::BlockMaps;
 
 /// Length in nm over which the simulated errors of K and S are alike.
@@ -58,6 +58,17 @@ impl Default for PaintingPlan {
             error: 0.1,
         }
     }
+}
+
+/// Best set of a whole search beside the true pigments of a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BesideTruth {
+    /// Whether its score is worse than that of the true pigments, which a wider search would have found.
+    pub is_worse: bool,
+    /// Whether it has the pigments or groups of the truth.
+    pub is_right: bool,
+    /// Its chi-square less that of the true pigments: the evidence for them in the spectrum.
+    pub chi2: f64,
 }
 
 /// Pixels with their truth.
@@ -120,6 +131,13 @@ impl Painting {
         Self { pigments: ids.iter().map(|&id| real[id].name.clone()).collect(), truth, spectra }
     }
 
+    /// Mean reflectance of pixel `index` over its bands.
+    #[must_use]
+    pub fn mean_reflectance(&self, index: usize) -> f32 {
+        let bands = self.spectra.len() / self.truth.len().max(1);
+        self.spectra[index * bands..(index + 1) * bands].iter().sum::<f32>() / bands as f32
+    }
+
     /// True shares of pixel `index` by the columns of `mapper`.
     #[must_use]
     pub fn truth_by_column(&self, mapper: &Mapper, index: usize) -> Vec<f64> {
@@ -140,19 +158,22 @@ impl Painting {
         (0..self.truth.len()).map(of).collect()
     }
 
-    /// Part of the pixels in which a whole search ends at a worse score than the true set of pigments has
-    /// after its shares are refined.
+    /// Compares the best set of a whole search of each pixel with its true pigments, whose shares are refined.
     ///
     /// # Errors
     /// [`MapError::Length`] if the library of `mapper` is on other wavelengths.
-    pub fn search_worse_than_truth(&self, mapper: &Mapper) -> Result<f64, MapError> {
+    pub fn beside_truth(&self, mapper: &Mapper) -> Result<Vec<BesideTruth>, MapError> {
         let true_sets = self.truth.iter().map(|shares| {
             let named = shares.iter().map(|&(place, share)| (self.pigments[place].as_str(), share));
             named.collect::<Vec<(&str, f64)>>()
         });
         let gaps = mapper.gaps_to_truth(&self.spectra, &true_sets.collect::<Vec<_>>())?;
-        let worse = gaps.iter().filter(|gap| **gap > EQUAL).count();
-        Ok(worse as f64 / gaps.len().max(1) as f64)
+        let of = |gap: Gap| BesideTruth {
+            is_worse: gap.score > EQUAL,
+            is_right: gap.is_right,
+            chi2: f64::from(gap.chi2),
+        };
+        Ok(gaps.into_iter().flatten().map(of).collect())
     }
 }
 

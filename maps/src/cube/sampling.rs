@@ -67,6 +67,27 @@ impl Cube {
         Ok(found)
     }
 
+    /// Number of the pixels of a rectangle that can be mapped, and their mean reflectance by band; 0 in every band
+    /// if there are none.
+    ///
+    /// # Errors
+    /// [`CubeError`] if the cube has no such pixels or cannot be read.
+    pub fn mean(
+        &self,
+        rows: Range<usize>,
+        columns: Range<usize>,
+    ) -> Result<(usize, Vec<f64>), CubeError> {
+        let block = self.read(rows, columns)?;
+        let mut mean = vec![0.0; block.bands];
+        let mut pixels = 0;
+        for (values, _) in block.iter().filter(|(_, mask)| *mask == Mask::Mapped) {
+            pixels += 1;
+            mean.iter_mut().zip(values).for_each(|(sum, value)| *sum += f64::from(*value));
+        }
+        mean.iter_mut().for_each(|sum| *sum /= f64::max(pixels as f64, 1.0));
+        Ok((pixels, mean))
+    }
+
     /// SHA-256, in hexadecimal digits, of the sizes, the wavelengths and the reflectances of about 4,000
     /// pixels: a sign by which another scan, or this one read in another way, is told apart without
     /// reading all of it.

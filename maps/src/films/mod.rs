@@ -6,6 +6,8 @@ pub(crate) mod paints;
 
 pub(crate) mod noise;
 
+pub(crate) mod ground;
+
 pub(crate) mod settings;
 
 pub(crate) mod vectors;

@@ -3,6 +3,7 @@
 use calibrate::{Residuals, ResidualsError};
 use pigment::PigmentLibrary;
 
+use super::ground::Ground;
 use super::noise::{LEAST_MIXTURES, ModelError, USUAL_MODEL_ERROR};
 use crate::map_error::MapError;
 
@@ -33,9 +34,11 @@ pub struct MapSettings {
     /// out of its fit, for any other 10 % of K and S, with which the measured Van Gogh oils are unmixed best of
     /// 5 to 70 %.
     pub model_error: Option<ModelError>,
-    /// Chi-square that one more pigment must save beyond the prior, by which mixtures of any number of
-    /// pigments are alike; 0 to 100. Default: 2.
+    /// Chi-square that a pigment must save beyond the prior, by which mixtures of any number of pigments are alike,
+    /// unless the survey finds it in the palette; 0 to 100. Default: 2.
     pub penalty: f64,
+    /// The bare ground, whose pixels are told and not mapped. Default: none, and bare ground is mapped as paint.
+    pub ground: Option<Ground>,
 }
 
 impl Default for MapSettings {
@@ -48,6 +51,7 @@ impl Default for MapSettings {
             sensor_noise: 0.003,
             model_error: None,
             penalty: 2.0,
+            ground: None,
         }
     }
 }

@@ -6,7 +6,7 @@ use sha2::{Digest, Sha256};
 use crate::map_error::MapError;
 
 /// Version of the file of a book.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// A set of pigments of an entry, with its shares.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -54,6 +54,8 @@ pub struct Book {
     pub pigments: Vec<String>,
     /// Sets that the survey found, the most frequent first.
     pub sets: Vec<SetFrequency>,
+    /// Probability of each pigment to be in the palette of the scan, 0 to 1.
+    pub palette: Vec<f32>,
     /// Chi-square that nineteen of twenty pixels of the survey do not exceed.
     pub usual_chi2: f32,
     /// Pixels of the survey.
@@ -69,6 +71,7 @@ impl Book {
             model_error,
             pigments,
             sets: Vec::new(),
+            palette: Vec::new(),
             usual_chi2: 0.0,
             entries: Vec::new(),
         }
@@ -110,6 +113,12 @@ impl Book {
         };
         if let Some(index) = book.entries.iter().position(|entry| !is_entry(entry)) {
             return Err(MapError::Book { reason: format!("entry {} is not valid", index + 1) });
+        }
+        let palette = &book.palette;
+        if palette.len() != book.pigments.len() || palette.iter().any(|p| !(0.0..=1.0).contains(p))
+        {
+            let reason = "its palette has not one probability a pigment".to_owned();
+            return Err(MapError::Book { reason });
         }
         if book.sets.iter().any(|set| !known(&set.pigments)) {
             return Err(MapError::Book { reason: "a set names an unknown pigment".to_owned() });

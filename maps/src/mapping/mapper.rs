@@ -10,6 +10,7 @@ use super::groups::{Column, Confusion, columns};
 use super::open_book::OpenBook;
 use super::prepared::{Folded, Prepared};
 use super::presence::Told;
+use super::strength::strength_sd;
 use super::survey::{survey, survey_step};
 use crate::films::bands::Bands;
 use crate::films::noise::ModelError;
@@ -71,7 +72,10 @@ impl Mapper {
     ) -> Result<Self, MapError> {
         settings.check()?;
         let model_error = settings.model_error_of(library)?;
-        let prepared = Prepared::new(library, wavelengths, settings, &model_error)?;
+        let mut prepared = Prepared::new(library, wavelengths, settings, &model_error)?;
+        if let ModelError::Residuals(residuals) = &model_error {
+            prepared.engine.strength_sd = strength_sd(&prepared, residuals);
+        }
         let alike = if settings.group_alike {
             alike(library, wavelengths, (settings, &model_error), &prepared)?
         } else {
@@ -189,7 +193,7 @@ impl Mapper {
         masks: &[Mask],
     ) -> Result<BlockMaps, MapError> {
         self.map_with(spectra, masks, |folded, scratch| {
-            book.find(&self.prepared.engine, folded, scratch);
+            book.find(folded, scratch);
         })
     }
 
@@ -210,7 +214,7 @@ impl Mapper {
         let engine = &self.prepared.engine;
         let Ok(folded) = self.prepared.fold(spectrum) else { return Ok(None) };
         let mut scratch = Scratch::new(&engine.films);
-        book.find(engine, &folded, &mut scratch);
+        book.find(&folded, &mut scratch);
         let Some(best) = scratch.found.first() else { return Ok(None) };
         let members = best.members.iter().zip(best.shares).take(usize::from(best.count));
         let name = |place: &u8| self.prepared.paints.names[usize::from(*place)].clone();
@@ -232,16 +236,18 @@ impl Mapper {
         })
     }
 
-    /// For each pixel, by how much the score of a whole search exceeds that of its true pigments with refined
-    /// shares; 0 or below where the search found a set that is as good or better. Pixels that cannot be mapped
-    /// and those with pigments that do not take part are passed over.
+    /// Compares the best set of a whole search with the true pigments of each pixel, their shares refined. `None` for
+    /// pixels that cannot be mapped and those with pigments that do not take part.
     pub(crate) fn gaps_to_truth(
         &self,
         spectra: &[f32],
         truth: &[Vec<(&str, f64)>],
-    ) -> Result<Vec<f32>, MapError> {
+    ) -> Result<Vec<Option<Gap>>, MapError> {
         let engine = &self.prepared.engine;
         let pixels: Vec<&[f32]> = self.pixels(spectra)?.collect();
+        let columns = |set: &SetFit| {
+            set.parts().fold(0u64, |bits, (member, _)| bits | 1 << self.column_of[member])
+        };
         let gap = |scratch: &mut Scratch, (pixel, parts): (&&[f32], &Vec<(&str, f64)>)| {
             let folded = self.prepared.fold(pixel).ok()?;
             let place = |(name, share): &(&str, f64)| {
@@ -252,10 +258,15 @@ impl Mapper {
             let nearest = engine.table.nearest(&folded.point);
             engine.search(&folded.pixel, nearest, scratch);
             let truth = engine.refined(&folded.pixel, set, TRUTH_STEPS);
-            Some(scratch.found.first()?.score - truth.score)
+            let found = scratch.found.first()?;
+            Some(Gap {
+                score: found.score - truth.score,
+                chi2: found.chi2 - truth.chi2,
+                is_right: columns(found) == columns(&truth),
+            })
         };
         let found = pixels.par_iter().zip(truth).map_init(|| Scratch::new(&engine.films), gap);
-        Ok(found.collect::<Vec<Option<f32>>>().into_iter().flatten().collect())
+        Ok(found.collect())
     }
 
     fn map_with(
@@ -273,7 +284,7 @@ impl Mapper {
             .map_init(
                 || (Scratch::new(&engine.films), Told::new(self.columns.len())),
                 |(scratch, told), (number, pixels)| {
-                    let mut maps = Empty::with(self.columns.len(), pixels.len());
+                    let mut maps = BlockMaps::with_capacity(pixels.len(), self.columns.len());
                     for (index, pixel) in pixels.iter().enumerate() {
                         let mask = masks.get(number * TOGETHER + index).copied();
                         let folded = match mask.unwrap_or(Mask::Mapped) {
@@ -286,28 +297,20 @@ impl Mapper {
                                 let (pixel, found) = (&folded.pixel, &scratch.found);
                                 told.sum(engine, pixel, found, &self.column_of);
                                 if told.chi2 > OUT_OF_GAMUT {
-                                    push_empty(&mut maps, Mask::OutOfGamut, told.chi2, told.rms);
+                                    maps.push_masked(Mask::OutOfGamut, told.chi2, told.rms);
                                 } else {
-                                    push(&mut maps, told);
+                                    told.push_to(&mut maps);
                                 }
                             }
-                            Err(mask) => push_empty(&mut maps, mask, f64::NAN, f64::NAN),
+                            Err(mask) => maps.push_masked(mask, f64::NAN, f64::NAN),
                         }
                     }
                     maps
                 },
             )
             .collect();
-        let mut maps = Empty::with(self.columns.len(), pixels.len());
-        for part in parts {
-            maps.share.extend(part.share);
-            maps.share_sd.extend(part.share_sd);
-            maps.presence.extend(part.presence);
-            maps.chi2.extend(part.chi2);
-            maps.rms.extend(part.rms);
-            maps.second.extend(part.second);
-            maps.mask.extend(part.mask);
-        }
+        let mut maps = BlockMaps::with_capacity(pixels.len(), self.columns.len());
+        parts.into_iter().for_each(|part| maps.append(part));
         Ok(maps)
     }
 
@@ -319,6 +322,17 @@ impl Mapper {
         }
         Ok(pixels)
     }
+}
+
+/// Best set of a search beside the true pigments of a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gap {
+    /// Score of the search less that of the true pigments; 0 or below where the search found what is as good.
+    pub(crate) score: f32,
+    /// Chi-square of the search less that of the true pigments.
+    pub(crate) chi2: f32,
+    /// Whether the search found the true columns.
+    pub(crate) is_right: bool,
 }
 
 /// Pigments that are alike within twice a stated error of the library, or within the errors of mixtures that
@@ -340,45 +354,6 @@ fn alike(
     Ok(Confusion::new(&twice.engine, &twice.paints).groups())
 }
 
-/// Makes maps that hold no pixel yet.
-struct Empty;
-
-impl Empty {
-    fn with(columns: usize, pixels: usize) -> BlockMaps {
-        BlockMaps {
-            pigments: columns,
-            share: Vec::with_capacity(columns * pixels),
-            share_sd: Vec::with_capacity(columns * pixels),
-            presence: Vec::with_capacity(columns * pixels),
-            chi2: Vec::with_capacity(pixels),
-            rms: Vec::with_capacity(pixels),
-            second: Vec::with_capacity(pixels),
-            mask: Vec::with_capacity(pixels),
-        }
-    }
-}
-
-fn push(maps: &mut BlockMaps, told: &Told) {
-    maps.share.extend(told.share.iter().map(|value| *value as f32));
-    maps.share_sd.extend(told.share_sd.iter().map(|value| *value as f32));
-    maps.presence.extend(told.presence.iter().map(|value| *value as f32));
-    maps.chi2.push(told.chi2 as f32);
-    maps.rms.push(told.rms as f32);
-    maps.second.push(told.second);
-    maps.mask.push(Mask::Mapped);
-}
-
-fn push_empty(maps: &mut BlockMaps, mask: Mask, chi2: f64, rms: f64) {
-    let end = maps.share.len() + maps.pigments;
-    for values in [&mut maps.share, &mut maps.share_sd, &mut maps.presence] {
-        values.resize(end, f32::NAN);
-    }
-    maps.chi2.push(chi2 as f32);
-    maps.rms.push(rms as f32);
-    maps.second.push(0);
-    maps.mask.push(mask);
-}
-
 /// SHA-256 of all that a map depends on, beside the pixels.
 fn identity(
     library: &PigmentLibrary,
@@ -389,8 +364,11 @@ fn identity(
     use std::fmt::Write as _;
     let mut text = library.to_json();
     // Settings that only join columns leave the book valid.
-    let MapSettings { at_most, palette, sensor_noise, penalty, .. } = settings;
+    let MapSettings { at_most, palette, sensor_noise, penalty, ground, .. } = settings;
     let _ = write!(text, "{wavelengths:?} {at_most} {palette:?} {sensor_noise:?} {penalty:?} ");
     let _ = write!(text, "{}", model_error.words());
+    if let Some(ground) = ground {
+        let _ = write!(text, "{ground:?}");
+    }
     Input::new("", text.as_bytes()).sha256
 }

@@ -6,7 +6,11 @@ pub(crate) mod prepared;
 
 pub(crate) mod book;
 
+mod palette;
+
 pub(crate) mod survey;
+
+mod strength;
 
 mod presence;
 

@@ -28,6 +28,8 @@ pub struct OpenBook {
     sets: Vec<SetFit>,
     chi2: Vec<f32>,
     usual_chi2: f32,
+    /// Search that knows the palette of the survey.
+    engine: Engine,
 }
 
 impl OpenBook {
@@ -60,6 +62,7 @@ impl OpenBook {
             sets,
             chi2: book.entries.iter().map(|entry| entry.chi2).collect(),
             usual_chi2: book.usual_chi2,
+            engine: prepared.engine.with_palette(&book.palette),
         })
     }
 
@@ -70,7 +73,8 @@ impl OpenBook {
 
     /// Finds the sets that explain a pixel, the best first, in `scratch.found`. Returns whether the
     /// book explained it.
-    pub(crate) fn find(&self, engine: &Engine, folded: &Folded, scratch: &mut Scratch) -> bool {
+    pub(crate) fn find(&self, folded: &Folded, scratch: &mut Scratch) -> bool {
+        let engine = &self.engine;
         let near = self.nearest.find::<NEIGHBOURS>(&folded.point);
         scratch.found.clear();
         let mut usual = self.usual_chi2;

@@ -4,6 +4,7 @@ use pigment::library::PigmentLibrary;
 
 use crate::films::bands::{Bands, MOST_BANDS};
 use crate::films::film::{Films, Pixel};
+use crate::films::ground::{BareGround, Ground};
 use crate::films::noise::{ModelError, Noise};
 use crate::films::paints::Paints;
 use crate::films::settings::MapSettings;
@@ -29,6 +30,7 @@ pub(crate) struct Prepared {
     /// Rows of the folded bands: ends in `terms`.
     ends: Vec<usize>,
     terms: Vec<(u32, f32)>,
+    ground: Option<BareGround>,
 }
 
 /// A pixel on the folded bands.
@@ -52,11 +54,14 @@ impl Prepared {
         let films = Films::new(&paints);
         let table = Table::new(&paints, &films, &noise);
         let engine = Engine {
+            of_pigment: vec![0.0; films.pigments],
+            penalty: settings.penalty,
+            strength_sd: 0.0,
             films,
             table,
             noise: WhiteningNoise::new(&noise),
             at_most: settings.at_most.min(paints.count()),
-            of_count: Engine::of_count(paints.count(), settings.penalty),
+            of_count: Engine::of_count(paints.count() as f64, settings.penalty),
             tail: noise.tail,
         };
         let (mut ends, mut terms, mut used) = (Vec::new(), Vec::new(), Vec::new());
@@ -67,7 +72,9 @@ impl Prepared {
         }
         used.sort_unstable();
         used.dedup();
-        Ok(Self { bands, paints, noise, engine, used, ends, terms })
+        let bare = |ground: &Ground| BareGround::new(ground, wavelengths, &bands, &noise.sensor);
+        let ground = settings.ground.as_ref().map(bare).transpose()?;
+        Ok(Self { bands, paints, noise, engine, used, ends, terms, ground })
     }
 
     /// Folds a pixel of the scan.
@@ -96,6 +103,9 @@ impl Prepared {
         let mean = folded.iter().sum::<f32>() / folded.len() as f32;
         if mean <= self.paints.surface.floor() as f32 {
             return Err(Mask::TooDark);
+        }
+        if self.ground.as_ref().is_some_and(|ground| ground.explains(folded)) {
+            return Err(Mask::Ground);
         }
         let point = self.engine.table.projection.of(folded);
         Ok(Folded { pixel: self.engine.films.pixel(&self.engine.noise, folded), point })

@@ -1,6 +1,7 @@
 //! Shares and probabilities of a pixel from all sets that were tried.
 
 use crate::films::film::Pixel;
+use crate::pixel_maps::{BlockMaps, Mask};
 use crate::search::engine::{Engine, NEGLIGIBLE};
 use crate::search::set_fit::SetFit;
 
@@ -30,10 +31,21 @@ impl Told {
         }
     }
 
+    /// Adds the numbers to `maps` as those of the next pixel.
+    pub(crate) fn push_to(&self, maps: &mut BlockMaps) {
+        maps.share.extend(self.share.iter().map(|value| *value as f32));
+        maps.share_sd.extend(self.share_sd.iter().map(|value| *value as f32));
+        maps.presence.extend(self.presence.iter().map(|value| *value as f32));
+        maps.chi2.push(self.chi2 as f32);
+        maps.rms.push(self.rms as f32);
+        maps.second.push(self.second);
+        maps.mask.push(Mask::Mapped);
+    }
+
     /// Sums up the sets `found`, the best first. `column_of` is the column of each pigment.
     ///
-    /// A set weighs exp(-score / 2). The shares are those of the best set; their variance is the curvature's,
-    /// plus the mean square by which other sets differ, each with its weight.
+    /// Sets count by [`Engine::weight`]. The shares are those of the best set; their variance is the curvature's,
+    /// that of the paints' strengths, and the mean square by which other sets differ, each with its weight.
     pub(crate) fn sum(
         &mut self,
         engine: &Engine,
@@ -56,7 +68,7 @@ impl Told {
         let mut total = 0.0;
         let mut shares = vec![0.0; self.share.len()];
         for set in found.iter().take_while(|set| set.score < best.score + NEGLIGIBLE) {
-            let weight = f64::from(-0.5 * (set.score - best.score)).exp();
+            let weight = Engine::weight(set.score - best.score);
             total += weight;
             let columns = bits(set);
             if self.second == 0 && columns != best_bits {
@@ -74,7 +86,15 @@ impl Told {
         let difference = best.difference(&engine.films, pixel);
         let excess = engine.excess(best.chi2);
         let covariance = best.covariance(&difference);
-        let mut variance = vec![0.0; self.share.len()];
+        // A share changes with the logarithm of a paint's strength by share x (own column - column's share).
+        let of_strength = |column: usize| -> f64 {
+            let slopes = best.parts().map(|(member, share)| {
+                let own = f64::from(u8::from(column_of[member] == column));
+                f64::from(share) * (own - self.share[column])
+            });
+            slopes.map(|slope| (engine.strength_sd * slope).powi(2)).sum()
+        };
+        let mut variance: Vec<f64> = (0..self.share.len()).map(of_strength).collect();
         for (i, (a, _)) in best.parts().enumerate() {
             for (j, (b, _)) in best.parts().enumerate() {
                 if column_of[a] == column_of[b] {

@@ -7,8 +7,9 @@ use rayon::prelude::*;
 use spectra::{Cancellation, Cancelled};
 
 use super::book::{Book, BookEntry, BookSet, SetFrequency};
+use super::palette::palette;
 use super::prepared::{Folded, Prepared};
-use crate::search::engine::Scratch;
+use crate::search::engine::{Engine, NEGLIGIBLE, Scratch};
 use crate::search::set_fit::SetFit;
 
 /// Pixels that a survey searches, about.
@@ -23,7 +24,8 @@ pub fn survey_step(pixels: usize) -> usize {
     (pixels / SURVEYED).max(1)
 }
 
-/// Searches the pixels of `folded` whole, and fills the empty `book`. `progress` is called after each pixel,
+/// Searches the pixels of `folded` whole, finds their palette, and fills the empty `book`. Pixels that are nearest
+/// to one film of the engine's table are one paint. `progress` is called after each pixel,
 /// from any thread; if it breaks, the survey ends.
 pub(crate) fn survey(
     prepared: &Prepared,
@@ -41,14 +43,26 @@ pub(crate) fn survey(
             ended.cancel();
         }
         let best = scratch.found.first().map_or(0.0, |set| set.score);
-        let near = scratch.found.iter().take_while(|set| set.score < best + KEPT_SCORE);
-        Ok(near.take(KEPT_SETS).copied().collect::<Vec<SetFit>>())
+        let near = scratch.found.iter().take_while(|set| set.score < best + NEGLIGIBLE);
+        Ok((place, near.copied().collect::<Vec<SetFit>>()))
     };
-    let found: Vec<Vec<SetFit>> = folded
+    let found: Vec<(usize, Vec<SetFit>)> = folded
         .par_iter()
         .map_init(|| Scratch::new(&engine.films), search)
         .collect::<Result<_, _>>()?;
     ended.check()?;
+    let (paints, mut found): (Vec<usize>, Vec<Vec<SetFit>>) = found.into_iter().unzip();
+    book.palette = palette(&found, &paints, engine.films.pigments);
+    let informed = engine.with_palette(&book.palette);
+    for sets in &mut found {
+        for set in sets.iter_mut() {
+            set.score += informed.prior(set) - engine.prior(set);
+        }
+        sets.sort_by(|a, b| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key())));
+        let best = sets.first().map_or(0.0, |set| set.score);
+        let near = sets.iter().take_while(|set| set.score < best + KEPT_SCORE).count();
+        sets.truncate(near.min(KEPT_SETS));
+    }
     book.usual_chi2 = usual(&found);
     let members = |key: u32| -> Vec<u8> {
         key.to_be_bytes().into_iter().filter(|member| *member != u8::MAX).collect()
@@ -88,7 +102,7 @@ fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
     let mut parts = BTreeMap::new();
     for sets in found {
         let Some(best) = sets.first() else { continue };
-        let weight = |set: &SetFit| f64::from(-0.5 * (set.score - best.score)).exp();
+        let weight = |set: &SetFit| Engine::weight(set.score - best.score);
         let total: f64 = sets.iter().map(weight).sum();
         for set in sets {
             *parts.entry(set.key()).or_insert(0.0) += weight(set) / total / found.len() as f64;

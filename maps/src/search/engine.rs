@@ -23,8 +23,13 @@ const SHORTLIST_PENALTY: f32 = 6.0;
 const FAR: f32 = 30.0;
 /// Chi-square of three pigments relative to that of the best pair from which they are passed over.
 const WORSE: f64 = 1.5;
-/// Scores above the best beyond which a set does not matter: its weight is below 1e-4.
+/// Scores above the best beyond which a set does not matter: its weight is below 2e-3.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
+/// Factor by which differences of scores count less than those of exact likelihoods: the errors of a library are
+/// known roughly, so that probabilities would promise too much. Chosen of 1 to 3 on simulated paintings.
+const TEMPERATURE: f64 = 1.5;
+/// Probability of a pigment that a survey needs nowhere.
+const LEAST_LIKELY: f32 = 0.05;
 
 /// All that a search needs, but the pixel.
 #[derive(Debug, Clone)]
@@ -35,6 +40,12 @@ pub(crate) struct Engine {
     pub(crate) at_most: usize,
     /// Additions to the score by number of pigments.
     pub(crate) of_count: [f32; 4],
+    /// Additions to the score by pigment: none, or what a survey knows of the palette.
+    pub(crate) of_pigment: Vec<f32>,
+    /// Chi-square that a pigment must save of which no survey says that it is in the palette.
+    pub(crate) penalty: f64,
+    /// Standard deviation of the logarithm of a paint's strength.
+    pub(crate) strength_sd: f64,
     /// Degrees of freedom of the residuals' distribution; infinite for a normal one.
     pub(crate) tail: f64,
 }
@@ -67,19 +78,49 @@ impl Scratch {
 impl Engine {
     /// -2 ln of the probability of a refined set, less a constant: its misfit, the part of all shares that
     /// agree with the pixel, and the prior: a set of any number of pigments is as likely as one of another, and
-    /// so is any set of one number. How often a survey found a set is no part of it. Pixels of one paint share
-    /// the errors of the library, so that they are no independent evidence; as a prior they made probabilities
-    /// between 0.5 and 0.9 too high by 0.2.
+    /// so is any set of one number, but for what a survey tells of the palette. How often it found a set is no
+    /// part of it: pixels of one paint share the errors of the library, so that they are no independent
+    /// evidence. As a prior they made probabilities between 0.5 and 0.9 too high by 0.2.
     pub(crate) fn score(&self, set: &SetFit, difference: &Difference) -> f32 {
         let exactness = difference.exactness(set.len(), self.excess(set.chi2)) as f32;
-        self.misfit(set.chi2) + exactness + self.of_count[set.len() - 1]
+        self.misfit(set.chi2) + exactness + self.prior(set)
     }
 
-    /// Additions to the score by number of pigments, for `pigments` of which up to four are mixed.
-    pub(crate) fn of_count(pigments: usize, penalty: f64) -> [f32; 4] {
+    /// Additions to the score of a set that do not depend on the pixel.
+    pub(crate) fn prior(&self, set: &SetFit) -> f32 {
+        self.of_count[set.len() - 1] + self.of_pigments(set)
+    }
+
+    fn of_pigments(&self, set: &SetFit) -> f32 {
+        set.parts().map(|(member, _)| self.of_pigment[member]).sum()
+    }
+
+    /// Weight of a set whose score is `above` that of the best one.
+    pub(crate) fn weight(above: f32) -> f64 {
+        (-0.5 / TEMPERATURE * f64::from(above)).exp()
+    }
+
+    /// The engine for a scan whose palette holds each pigment with these probabilities. Pigments outside it pay
+    /// for that and the penalty, and those inside it no penalty: it guards against pigments that are not there.
+    pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
+        let size: f64 = palette.iter().map(|p| f64::from(*p)).sum();
+        let cost = |&inside: &f32| {
+            let likely = LEAST_LIKELY + (1.0 - LEAST_LIKELY) * inside;
+            self.penalty as f32 * (1.0 - inside) - 2.0 * likely.ln()
+        };
+        Self {
+            of_count: Self::of_count(size, 0.0),
+            of_pigment: palette.iter().map(cost).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// Additions to the score by number of pigments, for `pigments` of which up to four are mixed, and each
+    /// of which must save `penalty`.
+    pub(crate) fn of_count(pigments: f64, penalty: f64) -> [f32; 4] {
         let mut sets = 1.0;
         std::array::from_fn(|size| {
-            sets *= pigments.saturating_sub(size).max(1) as f64 / (size + 1) as f64;
+            sets *= (pigments - size as f64).max(1.0) / (size + 1) as f64;
             (2.0 * sets.ln() + penalty * (size + 1) as f64) as f32
         })
     }
@@ -219,7 +260,7 @@ impl Engine {
         shortlist.clear();
         for set in by_size.iter().flatten() {
             let penalty = SHORTLIST_PENALTY * set.len() as f32;
-            let score = self.misfit(set.chi2) + penalty;
+            let score = self.misfit(set.chi2) + penalty + self.of_pigments(set);
             shortlist.push(SetFit { score, ..*set });
         }
         let order =
@@ -260,9 +301,22 @@ mod tests {
         let noise = Noise::new(&bands, 0.003, &ModelError::Stated(0.1));
         let films = Films::new(&paints);
         let table = Table::new(&paints, &films, &noise);
-        let of_count = Engine::of_count(paints.count(), 2.0);
+        let of_count = Engine::of_count(paints.count() as f64, 2.0);
         let (noise, tail) = (WhiteningNoise::new(&noise), noise.tail);
-        (Engine { films, table, noise, at_most, of_count, tail }, paints)
+        (
+            Engine {
+                of_pigment: vec![0.0; films.pigments],
+                penalty: 2.0,
+                strength_sd: 0.0,
+                films,
+                table,
+                noise,
+                at_most,
+                of_count,
+                tail,
+            },
+            paints,
+        )
     }
 
     fn found(engine: &Engine, paints: &Paints, truth: &[(usize, f64)]) -> Vec<SetFit> {

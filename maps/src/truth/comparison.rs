@@ -5,15 +5,12 @@ use serde_json::Value;
 use super::error::TruthError;
 use super::paint_class::PaintClass;
 use super::stored::Truth;
-use crate::accuracy::{ScoreSums, Scores, Trial, covered};
+use crate::accuracy::{ScoreSums, Scores, Trial, covered, tone};
 use crate::pixel_maps::Mask;
 use crate::store::StoredMaps;
 
 /// Chi-square per degree of freedom from which a pixel counts as not explained.
 pub const CHI2_RISEN: f64 = 2.0;
-
-/// Ends of dark and of middle pixels, in mean reflectance.
-const TONES: [f32; 2] = [0.1, 0.3];
 
 /// Figures of pixels of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -197,9 +194,4 @@ fn add_pigments(pigments: &mut [[f64; 3]], trial: &Trial) {
         *told += f64::from(u8::from(is_told));
         *right += f64::from(u8::from(is_told && is_there));
     }
-}
-
-/// Tone by the mean reflectance: 0 dark, 1 middle, 2 light.
-fn tone(mean: f32) -> usize {
-    TONES.iter().filter(|end| mean >= **end).count()
 }

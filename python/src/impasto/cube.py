@@ -16,7 +16,16 @@ if TYPE_CHECKING:
 
     from impasto.spectrum import Floats
 
-MASKS = ("mapped", "ignored", "not finite", "too dark", "saturated", "out of range", "out of gamut")
+MASKS = (
+    "mapped",
+    "ignored",
+    "not finite",
+    "too dark",
+    "saturated",
+    "out of range",
+    "out of gamut",
+    "bare ground",
+)
 """Names of the numbers of a mask."""
 
 

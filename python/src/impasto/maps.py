@@ -17,6 +17,7 @@ from impasto.display import listed, table
 from impasto.errors import Error
 from impasto.library import Library
 from impasto.residuals import Residuals
+from impasto.spectrum import Spectrum
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -100,6 +101,7 @@ def survey(
     model_error: float | None = None,
     residuals: Residuals | str | os.PathLike[str] | None = None,
     penalty: float = 2.0,
+    ground: Spectrum | tuple[slice, slice] | None = None,
     region: tuple[slice, slice] | None = None,
     book: str | None = None,
     progress: Callable[[str], object] | None = None,
@@ -111,7 +113,8 @@ def survey(
     deviation of a band as a fraction (default: that of the white reading, else 0.003). `residuals` are the
     errors of mixtures that the library had not seen, `validate(..).residuals` or their file, or `model_error`
     is the standard deviation of K and S relative to their values (default: the residuals of the oils that
-    ship, else 0.1). `region` is rows and columns. `book` takes the JSON of an earlier survey.
+    ship, else 0.1). `ground` is the bare ground, a spectrum or rows and columns of the scan that show it: its
+    pixels are told by the mask and not mapped. `region` is rows and columns. `book` takes the JSON of an earlier survey.
     """
     if residuals is not None and model_error is not None:
         raise Error("residuals and model_error exclude each other", "leave one of them out")
@@ -119,11 +122,9 @@ def survey(
         residuals = Residuals.load(residuals)
     if isinstance(palette, str):
         raise Error(f"palette is a list of names, found `{palette}`", f"try [{palette!r}]")
-    ends = None
-    if region is not None:
-        rows, columns = (part.indices(n)[:2] for part, n in zip(region, cube.shape))
-        ends = (rows, columns)
-    settings = {
+    if isinstance(ground, Spectrum) and len(ground) != 1:
+        raise Error(f"the ground is one spectrum, found {len(ground)}", "choose one: spectra[0]")
+    settings: dict[str, Any] = {
         "at_most": at_most,
         "palette": list(palette),
         "groups": [(name, list(names)) for name, names in (groups or {}).items()],
@@ -132,8 +133,14 @@ def survey(
         "model_error": model_error,
         "residuals": None if residuals is None else residuals._native,
         "penalty": penalty,
-        "region": ends,
+        "ground": None,
+        "ground_region": None,
+        "region": None if region is None else _ends(region, cube),
     }
+    if isinstance(ground, Spectrum):
+        settings["ground"] = (ground.wavelengths.tolist(), ground.rows[0].tolist())
+    elif ground is not None:
+        settings["ground_region"] = _ends(ground, cube)
     native = _native.Survey(cube._native, library._native, settings, book, progress)
     settings["residuals"] = None if residuals is None else residuals.to_json()
     return Survey(native, cube, library, settings)
@@ -141,6 +148,12 @@ def survey(
 
 # A parameter of `pigment_map` has the name of the function.
 _surveyed = survey
+
+
+def _ends(region: tuple[slice, slice], cube: Cube) -> tuple[tuple[int, int], tuple[int, int]]:
+    """First row and column of a region of a scan, and those after its last."""
+    rows, columns = (part.indices(n)[:2] for part, n in zip(region, cube.shape))
+    return rows, columns
 
 
 def pigment_map(
@@ -243,6 +256,11 @@ def _prepared(job: str, sha256: str) -> tuple[Survey, str]:
         rows, columns = region
         region = slice(*rows), slice(*columns)
     settings["groups"] = dict(settings["groups"])
+    ground, ends = settings.pop("ground"), settings.pop("ground_region")
+    if ground is not None:
+        settings["ground"] = Spectrum(*ground)
+    elif ends is not None:
+        settings["ground"] = slice(*ends[0]), slice(*ends[1])
     residuals = settings.pop("residuals")
     if residuals is not None:
         settings["residuals"] = Residuals.from_json(residuals)

@@ -142,6 +142,50 @@ fn maps_of_a_simulated_scan_are_near_its_truth() {
 }
 
 #[test]
+fn bare_ground_is_told_by_a_region_or_a_file_and_no_paint_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut document = bare(64, 48, library());
+    lay(&mut document.wet, (24..64, 0..24), &[("Lead White", 2.0), ("Viridian", 1.0)]);
+    lay(&mut document.wet, (24..64, 24..48), &[("Lead White", 3.0), ("Bone Black", 0.1)]);
+    let painting = written(&document, folder.path());
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    assert_eq!(simulate(&painting, &folder.path().join("scan.hdr"), &[]).status, 0);
+    let rows: Vec<String> = (0..31).map(|i| format!("{},0.6", 400 + 10 * i)).collect();
+    std::fs::write(path("ground.csv"), format!("nm,ground\n{}\n", rows.join("\n"))).unwrap();
+    for (name, ground) in [("region", "2..20,2..14".to_owned()), ("file", path("ground.csv"))] {
+        let (out, truth) = (path(name), path("scan-truth.zarr"));
+        let run = impasto(
+            &[
+                &["map", &path("scan.hdr"), "-o", &out, "--ground", &ground],
+                &["--truth", &truth, "--json"][..],
+            ]
+            .concat(),
+        );
+        assert_eq!(run.status, 0, "{name}: {}", run.err);
+        let json = run.json();
+        let mapped = |kind: &str| figure(&json, kind, "mapped");
+        assert!(mapped("bare") < 0.01, "{name}: {} of the ground is mapped", mapped("bare"));
+        assert!(mapped("hiding, light") > 0.99, "{name}: {}", mapped("hiding, light"));
+    }
+    let map = |ground: &str| impasto(&["map", &path("scan.hdr"), "--ground", ground]);
+    let run = map("40..60,0..4");
+    assert!(
+        run.status == 2 && run.err.contains("64 x 48") | run.err.contains("48 x 64"),
+        "{}",
+        run.err
+    );
+    let run = map(&path("no-such-file.csv"));
+    assert!(run.status != 0 && run.err.contains("no-such-file.csv"), "{}", run.err);
+    std::fs::write(path("short.csv"), "nm,ground\n500,0.5\n510,0.5\n520,0.5\n").unwrap();
+    let run = map(&path("short.csv"));
+    assert!(
+        run.status == 2 && run.err.contains("400 nm") && run.err.contains("--ground"),
+        "{}",
+        run.err
+    );
+}
+
+#[test]
 fn halves_of_the_mixtures_have_none_in_common() {
     let readings = repository("measurements/van-gogh-oils.csv");
     let samples = |more: &[&str]| -> BTreeSet<String> {

@@ -23,7 +23,7 @@ use crate::failure::{Failure, Result};
 use crate::library_choice::chosen;
 use crate::output::OutputFolder;
 use crate::progress::{Progress, Waiting};
-use pigment_options::PigmentOptions;
+use pigment_options::{PigmentOptions, rectangle};
 use scan_options::ScanOptions;
 
 /// Squares along the longer side of the pictures.
@@ -102,7 +102,7 @@ impl Map {
         for remark in cube.remarks() {
             console.remark(remark)?;
         }
-        let settings = self.pigments.settings(cube.white_sd(), &library)?;
+        let settings = self.pigments.settings(&cube, &library)?;
         let waiting = Waiting::new("surveying", console.shows_progress());
         let known = self.survey.as_ref().filter(|path| path.exists());
         let scan = match known {
@@ -182,14 +182,7 @@ impl Map {
 
 /// Parses `ROWS,COLUMNS`, each `FIRST..END`.
 fn region(text: &str) -> Result<Region> {
-    let range = |part: &str| {
-        let (first, end) = part.split_once("..")?;
-        Some(first.trim().parse().ok()?..end.trim().parse().ok()?)
-    };
-    let found = text
-        .split_once(',')
-        .and_then(|(rows, columns)| Some(Region { rows: range(rows)?, columns: range(columns)? }));
-    found.ok_or_else(|| {
+    rectangle(text).ok_or_else(|| {
         Failure::usage(
             format!("--region takes rows and columns, found `{text}`"),
             "try --region 0..512,100..300",

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use calibrate::remark::Remark;
 use calibrate::{PigmentLibrary, Residuals};
 use clap::Args;
-use maps::{MapSettings, ModelError, PigmentGroup, SurveyedScan};
+use maps::{Cube, Ground, MapSettings, ModelError, PigmentGroup, Region, SurveyedScan};
 
 use crate::failure::{Failure, Result};
 
@@ -37,21 +37,22 @@ pub(super) struct PigmentOptions {
     /// residuals]
     #[arg(long, value_name = "0.05", conflicts_with = "residuals")]
     model_error: Option<f64>,
-    /// Amount by which one more pigment must lower chi-square to be told [default: 2]
+    /// The bare ground, whose pixels are told as ground rather than mapped as paint: rows and columns of the scan,
+    /// such as 0..20,0..100, or a file with its reflectance
+    #[arg(long, value_name = "ROWS,COLUMNS|FILE")]
+    ground: Option<String>,
+    /// Amount by which a pigment that the survey does not find in the palette must lower chi-square to be told
+    /// [default: 2]
     #[arg(long, value_name = "N")]
     penalty: Option<f64>,
 }
 
 impl PigmentOptions {
-    /// Settings of a map of a scan whose white reading has these standard deviations by band, with `library`.
-    pub(super) fn settings(
-        &self,
-        white_sd: Option<&[f64]>,
-        library: &PigmentLibrary,
-    ) -> Result<MapSettings> {
+    /// Settings of a map of the scan `cube` with `library`.
+    pub(super) fn settings(&self, cube: &Cube, library: &PigmentLibrary) -> Result<MapSettings> {
         let usual = MapSettings::default();
         let groups = self.group.iter().map(|text| group(text)).collect::<Result<_>>()?;
-        let of_white = white_sd.filter(|sd| !sd.is_empty()).map(|sd| {
+        let of_white = cube.white_sd().filter(|sd| !sd.is_empty()).map(|sd| {
             let squares: f64 = sd.iter().map(|sd| sd * sd).sum();
             (squares / sd.len() as f64).sqrt().max(usual.sensor_noise)
         });
@@ -67,6 +68,7 @@ impl PigmentOptions {
             sensor_noise: self.noise.or(of_white).unwrap_or(usual.sensor_noise),
             penalty: self.penalty.unwrap_or(usual.penalty),
             model_error: residuals.transpose()?.or(stated),
+            ground: self.ground.as_deref().map(|text| ground(text, cube)).transpose()?,
         };
         if let (Err(error), Some(path)) = (settings.model_error_of(library), &self.residuals) {
             return Err(Failure::from(error).within(format!("{} cannot be used", path.display())));
@@ -85,6 +87,28 @@ impl PigmentOptions {
             )
         })
     }
+}
+
+/// The ground of a map: the mean of a region of the scan, or the reflectance in a file.
+fn ground(text: &str, cube: &Cube) -> Result<Ground> {
+    if let Some(region) = rectangle(text) {
+        return Ok(region.ground(cube)?);
+    }
+    let opened = spectra::read_spectrum(text)
+        .map_err(|error| Failure::from(error).within("--ground takes a region or a file"))?;
+    let reflectance = opened.spectrum.reflectance().map_err(Failure::from)?;
+    let nm = reflectance.grid().wavelengths_nm().collect();
+    Ok(Ground::new(nm, reflectance.values().to_vec())?)
+}
+
+/// Parses `ROWS,COLUMNS`, each `FIRST..END`; `None` for any other text.
+pub(super) fn rectangle(text: &str) -> Option<Region> {
+    let range = |part: &str| {
+        let (first, end) = part.split_once("..")?;
+        Some(first.trim().parse().ok()?..end.trim().parse().ok()?)
+    };
+    let (rows, columns) = text.split_once(',')?;
+    Some(Region { rows: range(rows)?, columns: range(columns)? })
 }
 
 /// Parses a group, `NAME=PIGMENT,..`.
