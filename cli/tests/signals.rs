@@ -3,6 +3,7 @@
 #![cfg(unix)]
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+use std::io::{BufRead, BufReader};
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -66,6 +67,27 @@ fn a_signal_leaves_no_temporary_file_and_is_the_status() {
         let bytes = std::fs::read(&file).unwrap();
         assert!(bytes.len() > 1000, "the file is whole");
     }
+}
+
+#[test]
+fn a_run_that_ends_before_its_first_write_makes_no_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let measured = |name: &str| format!("{}/../measurements/{name}", env!("CARGO_MANIFEST_DIR"));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_impasto"))
+        .args(["report", &measured("van-gogh-oils.pigments.json")])
+        .args([&measured("van-gogh-oils.csv"), "-o", out.to_str().unwrap()])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // It tells what it read, checks its folder, then refits and draws for a while.
+    let mut told = BufReader::new(child.stderr.take().unwrap());
+    told.read_line(&mut String::new()).unwrap();
+    std::thread::sleep(Duration::from_millis(50));
+    send(&child, "TERM");
+    assert_eq!(child.wait().unwrap().signal(), Some(15), "it ended before");
+    assert!(!out.exists(), "an empty folder is left");
 }
 
 #[test]

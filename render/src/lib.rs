@@ -50,6 +50,8 @@ pub mod export {
     pub use paint::export::*;
 }
 
+mod settings_text;
+
 pub mod photograph;
 
 pub mod watercolor;

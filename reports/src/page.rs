@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::figure::Figure;
-use crate::style::{Color, RESERVED, SERIES};
+use crate::style::{Color, PAPER, RESERVED, SERIES};
 use crate::subject::{Part, Section};
 use crate::svg::escaped;
 use crate::table::{Cell, Column, Table};
@@ -220,13 +220,18 @@ fn style(sections: &[Section]) -> String {
             "svg :not(rect)[fill=\"{from}\"]{{fill:{to}}}svg :not(rect)[stroke=\"{from}\"]{{stroke:{to}}}\n"
         );
     }
-    let [ink, faint, grid, paper] = RESERVED.map(|(light, dark)| (light.hex(), dark.hex()));
+    let root = |of: fn(&(Color, Color)) -> Color, link: &str| {
+        let [ink, faint, grid, paper] = RESERVED.each_ref().map(|pair| of(pair).hex());
+        format!(":root{{--ink:{ink};--faint:{faint};--grid:{grid};--paper:{paper};--link:{link}}}")
+    };
+    let (light, night) = (root(|pair| pair.0, "#0057A0"), root(|pair| pair.1, "#7FB8F0"));
+    let (paper, white) = (PAPER.hex(), Color([0xFF; 3]).hex());
     format!(
-        ":root{{--ink:{};--faint:{};--grid:{};--paper:{};--link:#0057A0}}\n{STYLE}\
+        "{light}\n{STYLE}\
+         @media print{{:root{{--paper:{white}}}\
+         svg [fill=\"{paper}\"]{{fill:{white}}}svg [stroke=\"{paper}\"]{{stroke:{white}}}}}\n\
          @media screen and (prefers-color-scheme:dark){{\n\
-         :root{{--ink:{};--faint:{};--grid:{};--paper:{};--link:#7FB8F0}}\n\
-         svg text{{stroke:var(--paper)}}\n{dark}}}\n",
-        ink.0, faint.0, grid.0, paper.0, ink.1, faint.1, grid.1, paper.1
+         {night}\nsvg text{{stroke:var(--paper)}}\n{dark}}}\n"
     )
 }
 
@@ -261,8 +266,9 @@ figcaption{max-width:960px;font-size:14px}
 code{font:12px/1.4 ui-monospace,Hack,monospace;overflow-wrap:anywhere}
 .table{overflow-x:auto;margin:18px 0}
 table{border-collapse:collapse;font-size:13.5px}
-caption{text-align:left;font-weight:600;padding-bottom:6px}
+caption{text-align:left;font-weight:600;padding-bottom:6px;white-space:nowrap}
 th,td{padding:2px 14px 2px 0;text-align:left;border-bottom:1px solid var(--grid);vertical-align:top}
+.n+:not(.n){padding-left:10px}
 td{overflow-wrap:anywhere}
 td:first-child{min-width:6em}
 td:nth-child(2):not(.n,.c){min-width:17em}
@@ -293,7 +299,7 @@ h2,h2~p,caption,thead,summary{break-after:avoid}
 p{orphans:3;widows:3}
 .made{display:none}
 .drawing{overflow:visible}
-.drawing svg{max-height:180mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+.drawing svg{max-height:200mm;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 body{font-size:10pt}
 table{font-size:8pt}
 th,td{padding:1px 9px 1px 0}

@@ -74,6 +74,8 @@ fn uv(light: &Illuminant) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hint::Explain;
+    use crate::light::light_from_text;
 
     /// Colour temperatures in K from tables T.6.1, T.8.1, T.9.1, T.10 and T.12 of CIE 15:2018.
     const PUBLISHED: &[(&str, f64)] = &[
@@ -102,6 +104,29 @@ mod tests {
         ("LED-V1", 2724.0),
         ("LED-V2", 4070.0),
     ];
+
+    /// Temperatures in K by which the trade sells lamps of viewing booths.
+    const SOLD: [(&str, f64); 9] = [
+        ("TL83", 3000.0),
+        ("TL84", 4000.0),
+        ("TL85", 5000.0),
+        ("U30", 3000.0),
+        ("U40", 4000.0),
+        ("U50", 5000.0),
+        ("CWF", 4150.0),
+        ("WWF", 3000.0),
+        ("Inca", 2856.0),
+    ];
+
+    #[test]
+    fn lamps_of_the_trade_are_taken_for_lights_of_their_temperature() {
+        for (lamp, sold) in SOLD {
+            let hint = light_from_text(lamp).unwrap_err().hint().unwrap().to_string();
+            let name = hint.strip_prefix("did you mean ").unwrap().split('?').next().unwrap();
+            let found = ColorTemperature::of(&Illuminant::named(name).unwrap()).unwrap().kelvin;
+            assert!((found - sold).abs() < 100.0, "{lamp} as {name}: {found} K for {sold}");
+        }
+    }
 
     #[test]
     fn temperatures_agree_with_the_tables_of_the_cie() {

@@ -65,16 +65,17 @@ pub enum LightError {
     Illuminant(#[from] IlluminantError),
 }
 
-/// Names of lights that trade and older tables use, with those of the CIE or temperatures: TL84, TL83
-/// and CWF are lamps of viewing booths.
-const OTHER_NAMES: [(&str, &str); 14] = [
+/// Names of lights that trade and older tables use, with those of the CIE or temperatures. TL84, TL83,
+/// CWF and the like are lamps of viewing booths; the lamp U35 has 3500 K, between FL12 and FL11.
+const OTHER_NAMES: [(&str, &str); 15] = [
     ("TL84", "FL11"),
     ("TL83", "FL12"),
     ("TL85", "FL10"),
     ("U30", "FL12"),
-    ("U35", "FL11"),
+    ("U40", "FL11"),
+    ("U50", "FL10"),
     ("CWF", "FL2"),
-    ("WWF", "FL3"),
+    ("WWF", "FL4"),
     ("INCA", "A"),
     ("INC", "A"),
     ("TUNGSTEN", "A"),
@@ -142,14 +143,23 @@ mod tests {
             ("F11", "did you mean FL11? use"),
             ("TL84", "did you mean FL11? use"),
             ("cwf", "did you mean FL2? use"),
+            ("LED-C3", "did you mean LED-B3 or "),
             ("6500", "did you mean 6500K or D6500K or D65? use"),
+            ("5000", "did you mean 5000K or D5000K? use"),
             ("3000", "did you mean 3000K? use"),
+            // Neither temperatures of lights nor names.
+            ("400", "use a name"),
+            ("30000", "use a name"),
             ("no/such/lamp.csv", "use a name"),
+            ("./LED-B3", "use a name"),
         ] {
             assert!(question(text).starts_with(wanted), "{text}: {}", question(text));
         }
-        for (_, name) in OTHER_NAMES {
+        // There is no FL13.
+        assert!(!question("F13").contains("FL13"), "{}", question("F13"));
+        for (other, name) in OTHER_NAMES {
             assert!(light_from_text(name).is_ok(), "{name}");
+            assert!(question(other).starts_with(&format!("did you mean {name}? ")), "{other}");
         }
     }
 }

@@ -143,6 +143,10 @@ mod tests {
                 "invalid value: integer `-3`, expected u32",
                 "invalid value: number `-3`, expected a whole number, 0 or more",
             ),
+            (
+                "invalid type: string \"on\", expected enum Paper",
+                "invalid type: text \"on\", expected one of its words",
+            ),
             ("expected\nnewline", "expected newline"),
         ] {
             assert_eq!(
@@ -159,6 +163,9 @@ mod tests {
         let told = ParserReason::of("unknown variant `rogh`, expected one of `rough`, `smooth`");
         assert_eq!(told.reason, "unknown word `rogh`");
         assert_eq!(told.hint.as_deref(), Some("did you mean rough?"));
-        assert_eq!(ParserReason::of("missing field `k`").reason, "the key `k` is missing");
+        assert_eq!(told.to_string(), "unknown word `rogh`; did you mean rough?");
+        let told = ParserReason::of("missing field `k`");
+        assert_eq!(told.to_string(), "the key `k` is missing; add a line `k` = ...");
+        assert_eq!(ParserReason::of("expected a newline").to_string(), "expected a newline");
     }
 }

@@ -63,6 +63,8 @@ mod tests {
         assert_eq!(similar_names("prusian blue", known), ["Prussian Blue"]);
         assert_eq!(similar_names("Viridan", known), ["Viridian"]);
         assert!(similar_names("Octarine", known).is_empty(), "no similar name");
+        let series = ["FL3.1", "FL3.2", "FL3.3", "FL3.4", "FL3"];
+        assert_eq!(similar_names("fl3.4", series), ["FL3.4", "FL3.1", "FL3.2"], "three at most");
         assert_eq!(edit_distance(&['a', 'b'], &['b', 'a', 'c']), 2);
     }
 }

@@ -1,32 +1,13 @@
 // Files in the page: dropped, chosen, refused, exported.
 
 import assert from "node:assert/strict";
-import { closeSync, ftruncateSync, mkdtempSync, openSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { closeSync, ftruncateSync, openSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { after, afterEach, before, test } from "node:test";
+import { test } from "node:test";
 import { program, root } from "./browser.mjs";
-import { confirmed, dialog, inspect, launch, openStudio, rest, serve, stylus, until } from "./studio.mjs";
+import { confirmed, dialog, inspect, openStudio, rest, setUp, stylus, until } from "./studio.mjs";
 
-let server, browser, folder;
-const size = { width: 1280, height: 800 };
-
-before(async () => {
-  server = await serve();
-  browser = await launch();
-  folder = mkdtempSync(join(tmpdir(), "impasto-files-"));
-});
-
-// Also of a test that failed.
-afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
-});
-
-after(async () => {
-  await browser?.close();
-  server?.end();
-  rmSync(folder, { recursive: true, force: true });
-});
+const stage = setUp();
 
 /** Drops files of this machine on the page, as a hand does. */
 async function drop(page, ...files) {
@@ -48,34 +29,34 @@ function painting() {
       { stroke: { brush: "big", samples: [[0, 4, 8, 0.6], [1, 20, 8, 0.6]] } },
     ],
   };
-  writeFileSync(join(folder, "study.json"), JSON.stringify(script));
-  program(folder, "paint", "study.json", "-o", "study.exr");
-  return join(folder, "study.exr");
+  writeFileSync(join(stage.folder, "study.json"), JSON.stringify(script));
+  program(stage.folder, "paint", "study.json", "-o", "study.exr");
+  return join(stage.folder, "study.exr");
 }
 
 test("a painting that is dropped on the page is opened, and exported as the program's PNG", async () => {
-  const context = await browser.newContext({ viewport: size, colorScheme: "light" });
+  const context = await stage.context({ colorScheme: "light" });
   const faults = [];
-  const { page } = await openStudio(context, server.address, faults);
+  const { page } = await openStudio(context, stage.server.address, faults);
   await drop(page, painting());
   await until(page, (state) => state.title === "study");
   assert.deepEqual((await inspect(page)).cells, [120, 80]);
-  assert.equal(page.url(), server.address, "the browser itself did not open it");
-  const png = await confirmed(page, folder, () => page.keyboard.press("Control+e"));
-  program(folder, "relight", "study.exr", "-o", "native.png");
-  assert.ok(readFileSync(png).equals(readFileSync(join(folder, "native.png"))), "the same PNG, byte for byte");
+  assert.equal(page.url(), stage.server.address, "the browser itself did not open it");
+  const png = await confirmed(page, stage.folder, () => page.keyboard.press("Control+e"));
+  program(stage.folder, "relight", "study.exr", "-o", "native.png");
+  assert.ok(readFileSync(png).equals(readFileSync(join(stage.folder, "native.png"))), "the same PNG, byte for byte");
   assert.deepEqual(faults, []);
   await context.close();
 });
 
 test("a library that is dropped on the page begins a painting with its pigments", async () => {
-  const context = await browser.newContext({ viewport: size });
+  const context = await stage.context();
   const faults = [];
-  const { page } = await openStudio(context, server.address, faults);
+  const { page } = await openStudio(context, stage.server.address, faults);
   const before = await inspect(page);
   const library = JSON.parse(readFileSync(resolve(root, "measurements/van-gogh-oils.pigments.json")));
-  writeFileSync(join(folder, "mine.json"), JSON.stringify({ ...library, title: "My oils" }));
-  await drop(page, join(folder, "mine.json"));
+  writeFileSync(join(stage.folder, "mine.json"), JSON.stringify({ ...library, title: "My oils" }));
+  await drop(page, join(stage.folder, "mine.json"));
   await until(page, (state) => state.pigments === "My oils");
   assert.notEqual(before.pigments, "My oils");
   assert.deepEqual((await inspect(page)).history, [0, 0], "a bare canvas");
@@ -84,13 +65,13 @@ test("a library that is dropped on the page begins a painting with its pigments"
 });
 
 test("bad files are refused with the way out, and painting goes on", async () => {
-  const context = await browser.newContext({ viewport: size });
+  const context = await stage.context();
   const faults = [];
-  const { page } = await openStudio(context, server.address, faults);
-  writeFileSync(join(folder, "cut.exr"), readFileSync(painting()).subarray(0, 3000));
-  writeFileSync(join(folder, "list.txt"), "a shopping list");
+  const { page } = await openStudio(context, stage.server.address, faults);
+  writeFileSync(join(stage.folder, "cut.exr"), readFileSync(painting()).subarray(0, 3000));
+  writeFileSync(join(stage.folder, "list.txt"), "a shopping list");
   for (const [name, part] of [["cut.exr", "cut.exr"], ["list.txt", "list.txt"]]) {
-    await drop(page, join(folder, name));
+    await drop(page, join(stage.folder, name));
     await until(page, (state, part) => state.notices.some((text) => text.includes(part)), part);
   }
   const { notices, hints } = await inspect(page);
@@ -106,7 +87,7 @@ test("bad files are refused with the way out, and painting goes on", async () =>
 });
 
 test("a file too large for the memory of a page is refused before it is read", async () => {
-  const context = await browser.newContext({ viewport: size });
+  const context = await stage.context();
   await context.addInitScript(() => {
     window.filesRead = 0;
     for (const name of ["arrayBuffer", "bytes", "text", "stream"]) {
@@ -114,12 +95,12 @@ test("a file too large for the memory of a page is refused before it is read", a
       if (reads) Blob.prototype[name] = function (...given) { window.filesRead += 1; return reads.apply(this, given); };
     }
   });
-  const { page } = await openStudio(context, server.address);
+  const { page } = await openStudio(context, stage.server.address);
   const sparse = (name, bytes) => {
-    const file = openSync(join(folder, name), "w");
+    const file = openSync(join(stage.folder, name), "w");
     ftruncateSync(file, bytes);
     closeSync(file);
-    return join(folder, name);
+    return join(stage.folder, name);
   };
   const before = await page.evaluate(() => window.filesRead);
   await drop(page, sparse("huge.exr", 513 * 2 ** 20));
@@ -138,9 +119,9 @@ test("a file too large for the memory of a page is refused before it is read", a
 });
 
 test("the browser's own dialog opens a file", async () => {
-  const context = await browser.newContext({ viewport: size });
+  const context = await stage.context();
   const faults = [];
-  const { page } = await openStudio(context, server.address, faults);
+  const { page } = await openStudio(context, stage.server.address, faults);
   const choosing = page.waitForEvent("filechooser", { timeout: 60_000 });
   await page.keyboard.press("Control+o");
   await dialog(page);

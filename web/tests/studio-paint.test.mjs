@@ -1,31 +1,13 @@
 // A stylus with pressure, tilt and rotation paints in the page; the program replays the recording to the same bits.
 
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { after, afterEach, before, test } from "node:test";
+import { test } from "node:test";
 import { pictures, program } from "./browser.mjs";
-import { confirmed, fromFileMenu, inspect, launch, openStudio, rest, serve, stylus, until } from "./studio.mjs";
+import { confirmed, fromFileMenu, inspect, openStudio, rest, setUp, stylus, until } from "./studio.mjs";
 
-let server, browser, folder;
-
-before(async () => {
-  server = await serve();
-  browser = await launch();
-  folder = mkdtempSync(join(tmpdir(), "impasto-paint-"));
-});
-
-// Also of a test that failed.
-afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
-});
-
-after(async () => {
-  await browser?.close();
-  server?.end();
-  rmSync(folder, { recursive: true, force: true });
-});
+const stage = setUp();
 
 /** A wavy stroke `y` px below the top, whose pressure, tilt and rotation change. */
 const wave = (y, phase) => Array.from({ length: 50 }, (_, at) => [
@@ -48,9 +30,9 @@ async function seen(page) {
 }
 
 test("strokes with pressure, tilt and rotation, undo, redo and light: the program replays them to the bit", async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "light" });
+  const context = await stage.context({ colorScheme: "light" });
   const faults = [];
-  const { page } = await openStudio(context, server.address, faults);
+  const { page } = await openStudio(context, stage.server.address, faults);
   // The first stroke ends the first steps.
   const pen = await stylus(page);
   await pen.stroke(wave(180, 0));
@@ -88,8 +70,8 @@ test("strokes with pressure, tilt and rotation, undo, redo and light: the progra
   assert.notEqual(await seen(page), daylight, "the light changes the picture");
   await page.screenshot({ path: resolve(pictures, "studio-lamp.png") });
 
-  const painting = await confirmed(page, folder, () => page.keyboard.press("Control+s"));
-  const recording = await confirmed(page, folder, () => fromFileMenu(page, "saveRecording"));
+  const painting = await confirmed(page, stage.folder, () => page.keyboard.press("Control+s"));
+  const recording = await confirmed(page, stage.folder, () => fromFileMenu(page, "saveRecording"));
   const script = JSON.parse(readFileSync(recording));
   const strokes = script.actions.flatMap((action) => action.stroke ?? []);
   assert.equal(strokes.length, 3, "the stroke that was undone is recorded as well");
@@ -99,17 +81,17 @@ test("strokes with pressure, tilt and rotation, undo, redo and light: the progra
     assert.ok(different.every((count) => count > 10), `samples have all that the stylus tells: ${different}`);
   }
   // Both files are written by the program from its own memory, so that bytes can be compared.
-  program(folder, "relight", painting, "-o", "page.exr");
-  program(folder, "paint", recording, "-o", "native.exr");
-  const [page_, native] = ["page.exr", "native.exr"].map((name) => readFileSync(join(folder, name)));
+  program(stage.folder, "relight", painting, "-o", "page.exr");
+  program(stage.folder, "paint", recording, "-o", "native.exr");
+  const [page_, native] = ["page.exr", "native.exr"].map((name) => readFileSync(join(stage.folder, name)));
   assert.ok(page_.equals(native), "the painting of the page is the one that the program replays, byte for byte");
   assert.deepEqual(faults, [], "nothing is wrong in the browser's console");
   await context.close();
 });
 
 test("a browser that reports the pressure 0.5 for every pen: it follows from the speed, and that is told once", async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "light" });
-  const { page } = await openStudio(context, server.address);
+  const context = await stage.context({ colorScheme: "light" });
+  const { page } = await openStudio(context, stage.server.address);
   const pen = await stylus(page);
   for (const y of [200, 300]) {
     // Ever faster, with the constant pressure and an upright pen.
@@ -119,7 +101,7 @@ test("a browser that reports the pressure 0.5 for every pen: it follows from the
   const told = "This browser reports no pressure of the pen: it follows from the speed, as with a mouse";
   assert.deepEqual((await inspect(page)).notices, [told], "told once");
   await page.screenshot({ path: resolve(pictures, "studio-no-pressure.png") });
-  const recording = await confirmed(page, folder, () => fromFileMenu(page, "saveRecording"));
+  const recording = await confirmed(page, stage.folder, () => fromFileMenu(page, "saveRecording"));
   const strokes = JSON.parse(readFileSync(recording)).actions.flatMap((action) => action.stroke ?? []);
   for (const { samples } of strokes) {
     const pressures = samples.map((sample) => sample[3]);

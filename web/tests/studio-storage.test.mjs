@@ -2,33 +2,18 @@
 // preferences and autosaves outlive a reload.
 
 import assert from "node:assert/strict";
-import { after, afterEach, before, test } from "node:test";
-import { fromViewMenu, inspect, launch, openStudio, opened, prepared, rest, serve, stylus, until } from "./studio.mjs";
+import { test } from "node:test";
+import { fromViewMenu, inspect, openStudio, opened, prepared, rest, setUp, stylus, until } from "./studio.mjs";
 
-let server, browser, origin;
-
-before(async () => {
-  server = await serve();
-  origin = new URL(server.address).origin;
-  browser = await launch();
-});
-
-// Also of a test that failed.
-afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
-});
-
-after(async () => {
-  await browser?.close();
-  server?.end();
-});
+const stage = setUp();
+const origin = () => new URL(stage.server.address).origin;
 
 const stroke = (y) => Array.from({ length: 30 }, (_, at) => [300 + 8 * at, y, 0.3 + 0.01 * at, 10, 10]);
 
 /** A page whose autosaves are 2 s apart, and its pen. */
 async function autosaving(context, faults) {
-  await prepared(context, server.address, { theme: "light", autosave_seconds: 2 });
-  const { page } = await openStudio(context, server.address, faults);
+  await prepared(context, stage.server.address, { theme: "light", autosave_seconds: 2 });
+  const { page } = await openStudio(context, stage.server.address, faults);
   return { page, pen: await stylus(page) };
 }
 
@@ -49,10 +34,10 @@ test("a storage that is denied or missing is told once, and painting goes on", a
     () => Object.defineProperty(navigator, "locks", { value: undefined }),
     () => { delete FileSystemFileHandle.prototype.createWritable; },
   ]) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+    const context = await stage.context();
     const faults = [];
     await context.addInitScript(denied);
-    const { page } = await openStudio(context, server.address, faults);
+    const { page } = await openStudio(context, stage.server.address, faults);
     await until(page, (state) => state.notices.length > 0);
     const pen = await stylus(page);
     await paint(page, pen, 300);
@@ -66,11 +51,11 @@ test("a storage that is denied or missing is told once, and painting goes on", a
 });
 
 test("a full storage is told once, painting goes on, and autosaves once there is room", async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const context = await stage.context();
   const faults = [];
   const { page, pen } = await autosaving(context, faults);
   const cdp = await context.newCDPSession(page);
-  await cdp.send("Storage.overrideQuotaForOrigin", { origin, quotaSize: 20_000 });
+  await cdp.send("Storage.overrideQuotaForOrigin", { origin: origin(), quotaSize: 20_000 });
   await paint(page, pen, 200);
   await until(page, (state) => state.notices.length > 0);
   const full = "No autosaves: the browser's storage is full";
@@ -81,7 +66,7 @@ test("a full storage is told once, painting goes on, and autosaves once there is
   await page.waitForTimeout(12_000);
   await paint(page, pen, 320);
   assert.deepEqual((await inspect(page)).notices, [full], "told once");
-  await cdp.send("Storage.overrideQuotaForOrigin", { origin });
+  await cdp.send("Storage.overrideQuotaForOrigin", { origin: origin() });
   await page.waitForTimeout(9000);
   await page.reload();
   await opened(page);
@@ -91,13 +76,13 @@ test("a full storage is told once, painting goes on, and autosaves once there is
 });
 
 test("a storage that is cleared while the page is open is told once and written anew", async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const context = await stage.context();
   const faults = [];
   const { page, pen } = await autosaving(context, faults);
   await paint(page, pen, 200);
   await page.waitForTimeout(5000);
   const cdp = await context.newCDPSession(page);
-  await cdp.send("Storage.clearDataForOrigin", { origin, storageTypes: "all" });
+  await cdp.send("Storage.clearDataForOrigin", { origin: origin(), storageTypes: "all" });
   await paint(page, pen, 280);
   await until(page, (state) => state.notices.length > 0);
   await paint(page, pen, 360);
@@ -119,17 +104,17 @@ test("a storage that is cleared while the page is open is told once and written 
 });
 
 test("autosaves of a page that ended are kept although the storage is full at the next start", async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  const context = await stage.context();
   const { page, pen } = await autosaving(context);
   await paint(page, pen, 200);
   await page.waitForTimeout(5000);
   const cdp = await context.newCDPSession(page);
   await page.goto("about:blank");
-  await cdp.send("Storage.overrideQuotaForOrigin", { origin, quotaSize: 20_000 });
-  await page.goto(server.address);
+  await cdp.send("Storage.overrideQuotaForOrigin", { origin: origin(), quotaSize: 20_000 });
+  await page.goto(stage.server.address);
   await opened(page);
   await until(page, (state) => state.lost === 1 && state.notices.some((text) => text.includes("full")));
-  await cdp.send("Storage.overrideQuotaForOrigin", { origin });
+  await cdp.send("Storage.overrideQuotaForOrigin", { origin: origin() });
   await page.reload();
   await opened(page);
   await until(page, (state) => state.lost === 1);
@@ -138,8 +123,8 @@ test("autosaves of a page that ended are kept although the storage is full at th
 });
 
 test("preferences outlive a reload, and hold for the next page", async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "light" });
-  const { page } = await openStudio(context, server.address);
+  const context = await stage.context({ colorScheme: "light" });
+  const { page } = await openStudio(context, stage.server.address);
   assert.equal((await inspect(page)).theme, "system");
   const grey = async (page) => {
     const png = await page.screenshot({ clip: { x: 300, y: 5, width: 40, height: 10 } });
@@ -162,14 +147,14 @@ test("preferences outlive a reload, and hold for the next page", async () => {
   const { theme, touch_targets: large } = await inspect(page);
   assert.deepEqual({ theme, large }, { theme: "dark", large: true });
   assert.equal(await grey(page), dark);
-  const { page: next } = await openStudio(context, server.address);
+  const { page: next } = await openStudio(context, stage.server.address);
   assert.equal((await inspect(next)).theme, "dark");
   await context.close();
 });
 
 test("two pages keep each other's settings", async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "light" });
-  const [{ page: one }, { page: two }] = [await openStudio(context, server.address), await openStudio(context, server.address)];
+  const context = await stage.context({ colorScheme: "light" });
+  const [{ page: one }, { page: two }] = [await openStudio(context, stage.server.address), await openStudio(context, stage.server.address)];
   const kept = (page) => page.evaluate(async () => {
     let folder = await navigator.storage.getDirectory();
     for (const name of ["impasto-studio", "settings"]) folder = await folder.getDirectoryHandle(name);

@@ -2,26 +2,11 @@
 
 import assert from "node:assert/strict";
 import { resolve } from "node:path";
-import { after, afterEach, before, test } from "node:test";
+import { test } from "node:test";
 import { pictures } from "./browser.mjs";
-import { fingers, inspect, launch, openStudio, rest, serve } from "./studio.mjs";
+import { fingers, inspect, openStudio, rest, setUp } from "./studio.mjs";
 
-let server, browser;
-
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-
-// Also of a test that failed.
-afterEach(async () => {
-  for (const context of browser.contexts()) await context.close();
-});
-
-after(async () => {
-  await browser?.close();
-  server?.end();
-});
+const stage = setUp();
 
 /** Where the canvas lies: its middle, its diagonal and the direction of that, in px and degrees. */
 function placed({ corners: [[left, top], [right, bottom]] }) {
@@ -49,9 +34,9 @@ const near = (found, wanted, by, what) =>
   assert.ok(Math.abs(found - wanted) <= by, `${what}: ${found} instead of ${wanted}`);
 
 test("one finger paints; two move, zoom and turn the view and paint nothing; taps undo and redo", async () => {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "light", hasTouch: true });
+  const context = await stage.context({ colorScheme: "light", hasTouch: true });
   const faults = [];
-  const { page } = await openStudio(context, server.address, faults);
+  const { page } = await openStudio(context, stage.server.address, faults);
   const touch = await fingers(page);
   await touch("touchStart", [[300, 200]]);
   for (let at = 1; at < 30; at++) {

@@ -1,6 +1,9 @@
 // The acts that tests and figures of the studio share.
 
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { after, afterEach, before } from "node:test";
 import { launched, served } from "./browser.mjs";
 
 /** Flags by which Chromium draws WebGPU without a graphics card. */
@@ -13,6 +16,30 @@ export const serve = () => served("studio");
 
 /** Starts Chromium, with other flags than those that draw WebGPU, if given. */
 export const launch = (flags = FLAGS) => launched(flags);
+
+/**
+ * Sets up a file of tests: `server`, `browser` and an empty `folder` are there from its first test until after its last,
+ * and `context` opens a window of the browser. Windows are closed after each test, also after one that failed.
+ */
+export function setUp() {
+  const stage = {
+    context: (options = {}) => stage.browser.newContext({ viewport: { width: 1280, height: 800 }, ...options }),
+  };
+  before(async () => {
+    stage.folder = mkdtempSync(join(tmpdir(), "impasto-studio-"));
+    stage.server = await serve();
+    stage.browser = await launch();
+  });
+  afterEach(async () => {
+    for (const context of stage.browser?.contexts() ?? []) await context.close();
+  });
+  after(async () => {
+    await stage.browser?.close();
+    stage.server?.end();
+    rmSync(stage.folder, { recursive: true, force: true });
+  });
+  return stage;
+}
 
 /** Opens the studio and waits for its first painting. `faults` takes what goes wrong in the page. */
 export async function openStudio(context, url, faults = []) {

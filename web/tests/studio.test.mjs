@@ -2,27 +2,13 @@
 // shows the painting under another light.
 
 import assert from "node:assert/strict";
-import { mkdtempSync, rmSync, statSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { statSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { pictures, program } from "./browser.mjs";
-import { inspect, launch, openStudio, opened, penStroke, rest, serve } from "./studio.mjs";
+import { inspect, openStudio, opened, penStroke, rest, setUp } from "./studio.mjs";
 
-const size = { width: 1280, height: 800 };
-let server, browser, folder;
-
-before(async () => {
-  server = await serve();
-  browser = await launch();
-  folder = mkdtempSync(join(tmpdir(), "impasto-studio-"));
-});
-
-after(async () => {
-  await browser?.close();
-  server?.end();
-  rmSync(folder, { recursive: true, force: true });
-});
+const stage = setUp();
 
 /** A wavy stroke of a pen whose pressure changes, `y` px below the top. */
 const wave = (y, count = 60) => Array.from({ length: count }, (_, at) =>
@@ -32,7 +18,7 @@ const wave = (y, count = 60) => Array.from({ length: count }, (_, at) =>
 async function saved(page, act, name) {
   const download = page.waitForEvent("download", { timeout: 120_000 });
   await act();
-  const path = join(folder, name);
+  const path = join(stage.folder, name);
   await (await download).saveAs(path);
   return path;
 }
@@ -40,9 +26,9 @@ async function saved(page, act, name) {
 const shown = (page, name) => page.screenshot({ path: resolve(pictures, `studio-${name}.png`) });
 
 test("a pen paints with pressure, undo takes a stroke back, and a reload loses nothing", async () => {
-  const context = await browser.newContext({ viewport: size, colorScheme: "light" });
+  const context = await stage.context({ colorScheme: "light" });
   const faults = [];
-  const { page } = await openStudio(context, server.address, faults);
+  const { page } = await openStudio(context, stage.server.address, faults);
   await page.keyboard.press("Escape");
   const bare = await inspect(page);
   await penStroke(page, wave(250));
@@ -63,8 +49,8 @@ test("a pen paints with pressure, undo takes a stroke back, and a reload loses n
     await page.waitForTimeout(300);
     await page.keyboard.press("Enter");
   }, "pen.exr");
-  program(folder, "relight", painting, "--illuminant", "A", "-o", "pen.png");
-  assert.ok(statSync(join(folder, "pen.png")).size > 10_000, "the program shows it under another light");
+  program(stage.folder, "relight", painting, "--illuminant", "A", "-o", "pen.png");
+  assert.ok(statSync(join(stage.folder, "pen.png")).size > 10_000, "the program shows it under another light");
   // Painted on, and left without saving.
   await penStroke(page, wave(520));
   await rest(page);
@@ -83,8 +69,8 @@ test("a pen paints with pressure, undo takes a stroke back, and a reload loses n
 });
 
 test("the page is dark where the system is", async () => {
-  const context = await browser.newContext({ viewport: size, colorScheme: "dark" });
-  const { page } = await openStudio(context, server.address);
+  const context = await stage.context({ colorScheme: "dark" });
+  const { page } = await openStudio(context, stage.server.address);
   await shown(page, "dark");
   await context.close();
 });

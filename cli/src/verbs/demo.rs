@@ -13,7 +13,7 @@ use spectra::optics::{Specular, Surface};
 use super::{fit_report, library};
 use crate::console::Console;
 use crate::failure::Result;
-use crate::output::{Output, create_folder};
+use crate::output::OutputFolder;
 
 const NAME: &str = "measurements/van-gogh-oils.csv";
 const OILS: &[u8] = include_bytes!("../../../measurements/van-gogh-oils.csv");
@@ -43,13 +43,16 @@ pub(crate) struct Demo {
 impl Demo {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let start = Instant::now();
-        create_folder(&self.output)?;
-        let path = self.output.join("van-gogh-oils.pigments.json");
-        let output = Output::open(&path, &[])?;
+        let folder = OutputFolder::open(&self.output, &[])?;
+        let name = "van-gogh-oils.pigments.json".to_owned();
+        folder.check([name.clone()])?;
+        let path = folder.file(&name);
         let viewing = Viewing::default();
         let fit = fit_oils()?;
         let library = &fit.library;
-        output.write(library.to_json(), console)?;
+        for output in folder.outputs([name])? {
+            output.write(library.to_json(), console)?;
+        }
         let seconds = start.elapsed().as_secs_f64();
         if self.csv {
             return console.csv_rows(&fit_report::rows(&fit.evidence().per_sample));

@@ -21,7 +21,7 @@ use crate::engine::EngineOptions;
 use crate::failure::{Context, Failure, Result};
 use crate::input::library;
 use crate::library_choice::{ChosenLibrary, quietly_chosen};
-use crate::output::{Output, create_folder};
+use crate::output::{Output, OutputFolder, create_folder};
 use crate::pictures::{Exports, gamut_remark};
 use crate::progress::Progress;
 use crate::timelapse::{TimelapseOptions, TimelapseReport};
@@ -263,10 +263,20 @@ fn check_saves(script: &StrokeScript, folder: &Path, inputs: &[PathBuf]) -> Resu
         if let Action::Save { path } = action
             && checked.insert(path)
         {
-            open_save(folder, path, inputs).context(|| format!("action {index} (save)"))?;
+            check_save(&folder.join(path), inputs).context(|| format!("action {index} (save)"))?;
         }
     }
     Ok(())
+}
+
+/// Checks that a file can be written, whose folder is made later.
+fn check_save(path: &Path, inputs: &[PathBuf]) -> Result<()> {
+    match (path.parent(), path.file_name().and_then(|name| name.to_str())) {
+        (Some(parent), Some(name)) if !parent.exists() && parent != Path::new("") => {
+            OutputFolder::open(parent, inputs)?.check([name.to_owned()])
+        }
+        _ => Output::open(path, inputs).map(drop),
+    }
 }
 
 /// Opens the file of a save action, with a path relative to the script's folder.

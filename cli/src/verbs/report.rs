@@ -17,7 +17,7 @@ use crate::console::Console;
 use crate::failure::{Failure, Result};
 use crate::input::{ViewingOptions, color_weights};
 use crate::library_choice::{ChosenLibrary, chosen, split};
-use crate::output::{Output, create_folder};
+use crate::output::{Output, OutputFolder};
 use crate::progress::Progress;
 use crate::readings::{ReadingOptions, measurements};
 
@@ -93,7 +93,7 @@ impl Report {
         let cards = measured.as_ref().map(|measured| measured.set.cards(&weights));
         let cards = cards.unwrap_or_else(|| Cards::standard(library.grid));
         let inputs = self.inputs(path);
-        let page = self.page(&inputs)?;
+        let figures = self.folders(&inputs)?;
 
         let measured = measured.filter(|_| !self.no_validation);
         let mixtures = measured.as_ref().map_or(0, |set| set.mixtures(&library));
@@ -120,7 +120,7 @@ impl Report {
         };
         let report = reports::Report::draw(&subject, &step)?;
         progress.done();
-        self.write(&report, page, &inputs, console)?;
+        self.write(&report, &figures, &inputs, console)?;
         self.print(&report, &subject, console)
     }
 
@@ -150,34 +150,30 @@ impl Report {
         files.chain(self.reading.files()).collect()
     }
 
-    /// Creates the folders and checks that the page can be written, before the slow part.
-    fn page(&self, inputs: &[PathBuf]) -> Result<Output> {
-        let figures = self.output.join("figures");
-        create_folder(&figures)?;
-        Output::open(&self.output.join(PAGE), inputs)
+    /// Checks, before the slow part, that the page and its figures can be written. Returns the folder
+    /// of the figures.
+    fn folders(&self, inputs: &[PathBuf]) -> Result<OutputFolder> {
+        OutputFolder::open(&self.output, inputs)?.check([PAGE.to_owned()])?;
+        OutputFolder::open(&self.output.join("figures"), inputs)
     }
 
     /// Writes the figures, then the page that shows them.
     fn write(
         &self,
         report: &reports::Report,
-        page: Output,
+        figures: &OutputFolder,
         inputs: &[PathBuf],
         console: &mut Console<'_>,
     ) -> Result<()> {
-        let mut outputs = Vec::new();
-        let mut page = Some(page);
-        for (path, content) in report.files() {
-            let output = match page.take_if(|_| path == PAGE) {
-                Some(page) => page,
-                None => Output::open(&self.output.join(&path), inputs)?,
-            };
-            outputs.push((output, content));
-        }
+        figures.make()?;
         // All files are opened first, so that nothing is written if one cannot be.
+        let mut outputs = Vec::new();
+        for (path, content) in report.files() {
+            outputs.push((Output::open(&self.output.join(&path), inputs)?, content));
+        }
         outputs.into_iter().try_for_each(|(output, content)| output.put(content))?;
         console.wrote(&self.output.join(PAGE))?;
-        console.wrote(&self.output.join("figures"))
+        figures.told(console)
     }
 
     /// Prints the errors and the paths of the report.

@@ -1,10 +1,10 @@
 //! Pass 3: sums divided by their weights, shown as pixels.
 
 use glam::{Vec3, Vec4};
+use graphics::smoothstep;
 
 use super::coloring::Coloring;
 use super::gather::{Gathered, LOST, Sums};
-use super::strokes::smooth;
 use super::tones::Tones;
 
 /// Cover below which the strokes of the lowest layer thin out.
@@ -67,7 +67,7 @@ impl Divide<'_> {
             false => {
                 let ridge = self.ridge(&gathered.on, row, column) - 0.5;
                 let on = cover(&gathered.on) * (1.0 + BRISTLES * ridge);
-                smooth(0.5 * self.thin, 1.5 * self.thin, on)
+                smoothstep([0.5 * self.thin, 1.5 * self.thin], on)
             }
         };
         let out = cover(&gathered.before);
@@ -75,7 +75,7 @@ impl Divide<'_> {
             // The ridges of a stroke reach further than its furrows.
             let out = out * (1.0 + BRISTLES * (self.ridge(&gathered.before, row, column) - 0.5));
             let start = OVERHANG[0] * (1.0 - self.overhang);
-            smooth(start, start + OVERHANG[1] - OVERHANG[0], out)
+            smoothstep([start, start + OVERHANG[1] - OVERHANG[0]], out)
         } else {
             0.0
         };

@@ -6,11 +6,12 @@
 
 use glam::Vec2;
 use graphics::coherence::{Density, Features, SeenFeature};
+use graphics::smoothstep;
 use rayon::prelude::*;
 
 use super::roots::{Root, Roots};
 use super::splat::StrokeSplat;
-use super::strokes::{Brushed, Sight, smooth};
+use super::strokes::{Brushed, Sight};
 use super::tones::Tones;
 
 /// Splats of a line per area of a splat, where the surface faces the eye; there are more towards
@@ -81,8 +82,8 @@ fn outline(
     let bend = back.dot(root.place.bend * back).abs();
     let silhouette = &sight.settings.silhouette;
     let most = most(bend, seen, sight);
-    let present = 1.0 - smooth(0.4 * end, end, seen.rank);
-    let share = present * (1.0 - smooth(0.5 * most, most, cosine));
+    let present = 1.0 - smoothstep([0.4 * end, end], seen.rank);
+    let share = present * (1.0 - smoothstep([0.5 * most, most], cosine));
     if share <= 0.0 {
         return None;
     }

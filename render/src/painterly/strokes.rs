@@ -5,6 +5,7 @@
 
 use glam::{Mat2, Vec2, Vec3};
 use graphics::coherence::{Density, Features, Projection, SeenFeature};
+use graphics::smoothstep;
 use rayon::prelude::*;
 
 use super::flow::{moved, twinkled};
@@ -108,11 +109,10 @@ fn splat(
     let [across, along] = [drawn(across), drawn(place.along)];
     let [full, end] = ranks(settings);
     let rank = seen.rank * style.size * style.size;
-    let present = place.detail * (1.0 - smooth(full, end, rank));
-    let drawn_out =
-        FORESHORTENED + (1.0 - FORESHORTENED) * smooth(LENGTH[0], LENGTH[1], along.length());
-    let weight = present * drawn_out * smooth(FACING[0], FACING[1], seen.facing.abs());
-    let cover = present * smooth(COVERING[0], COVERING[1], seen.facing.abs());
+    let present = place.detail * (1.0 - smoothstep([full, end], rank));
+    let drawn_out = FORESHORTENED + (1.0 - FORESHORTENED) * smoothstep(LENGTH, along.length());
+    let weight = present * drawn_out * smoothstep(FACING, seen.facing.abs());
+    let cover = present * smoothstep(COVERING, seen.facing.abs());
     if weight <= 0.0 {
         return None;
     }
@@ -240,10 +240,4 @@ fn calm_distance(own: f32, middle: f32) -> f32 {
     } else {
         middle
     }
-}
-
-/// Rises from 0 at `low` to 1 at `high`, with slope 0 at both ends.
-pub(super) fn smooth(low: f32, high: f32, at: f32) -> f32 {
-    let share = ((at - low) / (high - low)).clamp(0.0, 1.0);
-    share * share * (3.0 - 2.0 * share)
 }

@@ -221,6 +221,8 @@ fn dry_brush_reach(
     };
     // A step of contrast c, blurred by sigma, has a gradient of 0.8 c / sigma in its middle.
     let outline = outline_px / OUTLINE_SIGMAS / 0.8 / OUTLINE_CONTRAST;
+    // Water in the paint makes a dark of the subject paler; it stays a dark.
+    let darkest = darkest * (1.0 - (1.0 - darkest) * (settings.wash.density - 1.0)).max(0.0);
     DryBrushReach { threshold, softness, patches, outline, darkest }
 }
 
@@ -228,4 +230,20 @@ fn paper_shading(paper: &PaperTexture, settings: &Settings) -> PaperShading {
     let color = Rgb::from_hex(&settings.paper.color).unwrap_or(Rgb([1.0; 3]));
     let relief = paper.relief_per_slope(settings.paper.relief);
     PaperShading { color: color.0.map(|value| value as f32), relief }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn darks_stay_darks_for_the_dry_brush_however_wet_the_wash_is() {
+        let paper = PaperTexture::new(16, 16, &Settings::default().paper).unwrap();
+        for (density, wanted) in [(1.0, 0.25), (0.5, 0.343_75), (2.0, 0.0625)] {
+            let mut settings = Settings::default();
+            (settings.dry_brush.darkest, settings.wash.density) = (0.25, density);
+            let reach = dry_brush_reach(&paper, None, &settings);
+            assert!((reach.darkest - wanted).abs() < 1e-6, "{} for {wanted}", reach.darkest);
+        }
+    }
 }

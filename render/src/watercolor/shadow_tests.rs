@@ -96,3 +96,18 @@ fn light_comes_back_evenly_over_the_border_of_a_shadow() {
         assert!(even, "{side}: {means:?}");
     }
 }
+
+#[test]
+fn a_shadow_glazes_white_surfaces_and_leaves_colours_to_their_density() {
+    for (own, wanted) in [([1.0, 0.8, 0.4], [0.8, 0.64, 0.32]), ([0.9, 0.1, 0.0], [0.9, 0.1, 0.0])]
+    {
+        let mut mesh = ball_over_floor();
+        mesh.materials[0] = Material::plain(own);
+        let camera = Camera::framing(mesh.bounds(), 0.0, 65.0, 14.0);
+        let (picture, _) = shaded(&mesh, &camera, 512);
+        let seen = picture.values().iter().filter(|color| color[3] == 1.0);
+        let darkest = seen.min_by(|a, b| a[0].total_cmp(&b[0])).unwrap();
+        let near = darkest.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-3);
+        assert!(near, "{darkest:?} for {wanted:?}");
+    }
+}

@@ -179,7 +179,9 @@ impl Shader<'_> {
             // Where light grazes, a coarse mesh would shadow the rounder surface that its normals tell.
             let shadow = self.toon.shadow * (1.0 - lit) * (cosine / GRAZING).min(1.0);
             cosine *= 1.0 - shadow;
-            albedo *= Vec3::ONE + (Vec3::from(self.toon.shadow_color) - Vec3::ONE) * shadow;
+            // Density darkens colours by itself; the glaze is for what is white.
+            let glaze = shadow * albedo.min_element();
+            albedo *= Vec3::ONE + (Vec3::from(self.toon.shadow_color) - Vec3::ONE) * glaze;
         }
         let grey = self.toon.tones.grey(cosine);
         let excess = (self.toon.strength * (0.5 - grey)).max(-1.0);
@@ -204,8 +206,9 @@ impl Shader<'_> {
                 let shadow = Vec4::splat(self.toon.shadow * (1.0 - lit)) * grazing;
                 let shadow = Vec4::select(cosines.cmpgt(Vec4::ZERO), shadow, Vec4::ZERO);
                 cosines *= Vec4::ONE - shadow;
+                let glaze = shadow * albedo[0].min(albedo[1]).min(albedo[2]);
                 for (channel, shade) in albedo.iter_mut().zip(self.toon.shadow_color) {
-                    *channel *= Vec4::ONE + shadow * (shade - 1.0);
+                    *channel *= Vec4::ONE + glaze * (shade - 1.0);
                 }
             }
         }

@@ -191,7 +191,8 @@ fn toon(at: Fragment) -> vec3<f32> {
         }
         let shadow = params.shadow * (1.0 - last_lit) * min(cosine / GRAZING, 1.0);
         cosine *= 1.0 - shadow;
-        albedo *= mix(vec3(1.0), params.shadow_color.xyz, shadow);
+        let glaze = shadow * min(min(albedo.x, albedo.y), albedo.z);
+        albedo *= mix(vec3(1.0), params.shadow_color.xyz, glaze);
     }
     let excess = max(params.strength * (0.5 - grey(cosine)), -1.0);
     return clamp(albedo * (1.0 - (1.0 - albedo) * excess), vec3(0.0), vec3(1.0));

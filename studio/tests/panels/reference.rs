@@ -86,6 +86,23 @@ fn a_click_picks_the_color_shown_there() {
 }
 
 #[test]
+fn pictures_of_every_format_have_their_colors() {
+    // JPEG rounds.
+    for (name, off) in [("kind.tif", 0), ("kind.webp", 0), ("kind.jpg", 4)] {
+        let mut stage = stage(name);
+        for (field, (x, y)) in
+            FIELDS.iter().zip([(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)])
+        {
+            let place = at(&stage, x, y);
+            click(&mut stage, place);
+            let found = wanted(&mut stage).unwrap();
+            let near = found.iter().zip(field).all(|(a, b)| a.abs_diff(*b) <= off);
+            assert!(near, "{name}: {found:?} for {field:?}");
+        }
+    }
+}
+
+#[test]
 fn dragging_shows_the_color_and_picks_it_on_release() {
     let mut stage = stage("drag.png");
     let (from, to) = (at(&stage, 0.25, 0.25), at(&stage, 0.75, 0.75));

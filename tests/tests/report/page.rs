@@ -86,6 +86,18 @@ fn legends_of_bands_change_with_the_bands_in_the_dark() {
 }
 
 #[test]
+fn printed_paper_is_white_in_figures_too() {
+    let page = page();
+    let (paper, white) = (reports::style::PAPER.hex(), reports::style::Color([0xFF; 3]).hex());
+    let printed: Vec<&str> = page.split("@media print").skip(1).collect();
+    for rule in
+        [format!(":root{{--paper:{white}}}"), format!("svg [fill=\"{paper}\"]{{fill:{white}}}")]
+    {
+        assert!(printed.iter().any(|rules| rules.contains(&rule)), "{rule}");
+    }
+}
+
+#[test]
 fn in_the_dark_ink_and_lines_are_exchanged_but_patches_are_not() {
     let page = page();
     let dark = page.split("prefers-color-scheme:dark").nth(1).unwrap().split("</style>").next();

@@ -10,6 +10,7 @@ use toml::Spanned;
 
 use super::error::GuidesError;
 use super::lines::Guides;
+use crate::settings_text::line_of;
 
 /// The whole file, with the places of its points.
 #[derive(Deserialize)]
@@ -126,12 +127,6 @@ impl Guides {
     pub fn save(&self, path: &Path) -> Result<(), GuidesError> {
         Ok(write_whole(path, self.to_toml().as_bytes())?)
     }
-}
-
-/// The line, counted from 1, of the byte `place`.
-fn line_of(text: &str, place: usize) -> usize {
-    let before = &text.as_bytes()[..place.min(text.len())];
-    1 + before.iter().filter(|byte| **byte == b'\n').count()
 }
 
 /// Number, from 1, of the guide whose entry holds the byte `place`.

@@ -44,6 +44,8 @@ impl Settings {
 
 #[cfg(test)]
 mod tests {
+    use spectra::hint::Explain;
+
     use super::super::Preset;
 
     #[test]
@@ -80,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_name_the_line_of_the_text() {
+    fn errors_name_the_line_of_the_text_or_the_preset_that_is_meant() {
         let paper = Preset::Paper.settings();
         for (text, wanted) in [
             ("\nlight.wrap = 2", "mine, line 2: light.wrap takes 0 to 1, found `2`"),
@@ -92,5 +94,7 @@ mod tests {
             let error = paper.changed("mine", text).unwrap_err().to_string();
             assert!(error.starts_with(wanted), "{error}");
         }
+        let unknown = "hatchng".parse::<Preset>().unwrap_err();
+        assert_eq!(unknown.hint().unwrap().to_string(), "did you mean hatching?");
     }
 }

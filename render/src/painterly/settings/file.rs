@@ -5,10 +5,10 @@ use std::str::FromStr;
 
 use spectra::ParserReason;
 use spectra::hint::{Explain, Fault, Hint};
-use toml::de::{DeTable, DeValue};
 
 use super::preset::Preset;
 use super::whole::Settings;
+use crate::settings_text::{all_presets, line_of, line_of_value, way_to_preset};
 
 impl Preset {
     /// The settings of the preset.
@@ -67,7 +67,7 @@ impl Settings {
 
     /// Checks that all numbers are within their ranges and the sharpness is a power of two.
     fn check(&self, name: &str, text: &str) -> Result<(), SettingsError> {
-        let line = |key| line_of(text, start_of(text, key).unwrap_or(0));
+        let line = |key| line_of_value(text, key);
         if let Some(figure) = self.figures().into_iter().find(|figure| !figure.fits()) {
             return Err(SettingsError::Figure {
                 name: name.to_owned(),
@@ -88,24 +88,6 @@ impl Settings {
         }
         Ok(())
     }
-}
-
-/// The line, counted from 1, of a byte offset in `text`.
-fn line_of(text: &str, place: usize) -> usize {
-    let before = &text.as_bytes()[..place.min(text.len())];
-    1 + before.iter().filter(|byte| **byte == b'\n').count()
-}
-
-/// The byte offset at which the value of `group.key` starts.
-fn start_of(text: &str, key: &str) -> Option<usize> {
-    let table = DeTable::parse(text).ok()?;
-    let mut parts = key.split('.');
-    let mut value = table.get_ref().get(parts.next()?)?;
-    for part in parts {
-        let DeValue::Table(inner) = value.get_ref() else { return None };
-        value = inner.get(part)?;
-    }
-    Some(value.span().start)
 }
 
 /// Settings cannot be read.
@@ -168,16 +150,8 @@ pub enum SettingsError {
 impl Explain for SettingsError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::verbatim(match self {
-            Self::Preset { name } => {
-                let names = Preset::ALL.map(Preset::name);
-                spectra::did_you_mean(name, names).unwrap_or_else(|| {
-                    format!("presets are {}; a file of your own ends in .toml", names.join(", "))
-                })
-            }
-            Self::Unreadable { .. } => {
-                let names = Preset::ALL.map(Preset::name).join(", ");
-                format!("presets are {names}; a file of your own ends in .toml")
-            }
+            Self::Preset { name } => way_to_preset(name, &Preset::ALL.map(Preset::name)),
+            Self::Unreadable { .. } => all_presets(&Preset::ALL.map(Preset::name)),
             Self::Line { hint: Some(hint), .. } => hint.clone(),
             Self::Line { .. } => {
                 "start from a preset's file: there each key stands with its meaning".to_owned()
@@ -197,17 +171,5 @@ impl Explain for SettingsError {
             Self::Preset { .. } => Fault::Setting,
             _ => Fault::Input,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_misspelt_name_is_told_with_the_one_that_is_meant() {
-        let hint = |name: &str| name.parse::<Preset>().unwrap_err().hint().unwrap().to_string();
-        assert_eq!(hint("hatchng"), "did you mean hatching?");
-        assert!(hint("xyz").starts_with("presets are "), "{}", hint("xyz"));
     }
 }

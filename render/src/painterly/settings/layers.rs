@@ -1,5 +1,6 @@
 //! Settings of layers: large strokes below, smaller ones above where they are needed.
 
+use graphics::smoothstep;
 use serde::{Deserialize, Serialize};
 
 use super::figures::Figure;
@@ -40,8 +41,7 @@ impl LayerSettings {
         if passed <= 0.0 {
             return 1.0;
         }
-        let share = (amount / passed - 0.5).clamp(0.0, 1.0);
-        share * share * (3.0 - 2.0 * share)
+        smoothstep([0.5, 1.5], amount / passed)
     }
 }
 

@@ -107,8 +107,8 @@ pub struct DryBrushSettings {
     /// Distance in px from outlines at which the brush becomes dry, 0..=50; 0 lets it pass over
     /// them.
     pub outline_px: f32,
-    /// Mean of red, green and blue (encoded, 0..=1) up to which washes are laid wet; from twice
-    /// of it on the brush is as dry as elsewhere. 0 is no limit.
+    /// Mean of red, green and blue (encoded, 0..=1) up to which washes are laid wet, before water
+    /// makes them paler; from about twice of it on the brush is as dry as elsewhere. 0 is no limit.
     pub darkest: f32,
     /// Colour of the wash to which the dry brush is limited, `#rrggbb`. `None` is no limit.
     #[serde(rename = "colour", skip_serializing_if = "Option::is_none")]

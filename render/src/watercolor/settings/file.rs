@@ -6,10 +6,10 @@ use std::str::FromStr;
 use spectra::ParserReason;
 use spectra::color::Rgb;
 use spectra::hint::{Explain, Fault, Hint};
-use toml::de::{DeTable, DeValue};
 
 use super::preset::Preset;
 use super::whole::Settings;
+use crate::settings_text::{all_presets, line_of, line_of_value, way_to_preset};
 
 impl Preset {
     /// The settings of the preset.
@@ -60,7 +60,7 @@ impl Settings {
 
     /// Checks that all numbers are within their ranges and colours are written `#rrggbb`.
     fn check(&self, name: &str, text: &str) -> Result<(), SettingsError> {
-        let line = |key| line_of(text, start_of(text, key).unwrap_or(0));
+        let line = |key| line_of_value(text, key);
         if let Some(figure) = self.figures().into_iter().find(|figure| !figure.fits()) {
             return Err(SettingsError::Figure {
                 name: name.to_owned(),
@@ -86,24 +86,6 @@ impl Settings {
         }
         Ok(())
     }
-}
-
-/// The line, counted from 1, of a byte offset in `text`.
-fn line_of(text: &str, place: usize) -> usize {
-    let before = &text.as_bytes()[..place.min(text.len())];
-    1 + before.iter().filter(|byte| **byte == b'\n').count()
-}
-
-/// The byte offset at which the value of `group.key` starts.
-fn start_of(text: &str, key: &str) -> Option<usize> {
-    let table = DeTable::parse(text).ok()?;
-    let mut parts = key.split('.');
-    let mut value = table.get_ref().get(parts.next()?)?;
-    for part in parts {
-        let DeValue::Table(inner) = value.get_ref() else { return None };
-        value = inner.get(part)?;
-    }
-    Some(value.span().start)
 }
 
 /// Settings cannot be read.
@@ -168,16 +150,8 @@ pub enum SettingsError {
 impl Explain for SettingsError {
     fn hint(&self) -> Option<Hint> {
         Some(Hint::verbatim(match self {
-            Self::Preset { name } => {
-                let names = Preset::ALL.map(Preset::name);
-                spectra::did_you_mean(name, names).unwrap_or_else(|| {
-                    format!("presets are {}; a file of your own ends in .toml", names.join(", "))
-                })
-            }
-            Self::Unreadable { .. } => {
-                let names = Preset::ALL.map(Preset::name).join(", ");
-                format!("presets are {names}; a file of your own ends in .toml")
-            }
+            Self::Preset { name } => way_to_preset(name, &Preset::ALL.map(Preset::name)),
+            Self::Unreadable { .. } => all_presets(&Preset::ALL.map(Preset::name)),
             Self::Line { hint: Some(hint), .. } => hint.clone(),
             Self::Line { .. } => {
                 "start from a preset's file: there each key stands with its meaning".to_owned()
@@ -205,10 +179,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_misspelt_name_is_told_with_the_one_that_is_meant() {
-        let hint = |name: &str| name.parse::<Preset>().unwrap_err().hint().unwrap().to_string();
-        assert_eq!(hint("portrit"), "did you mean portrait?");
-        assert!(hint("xyz").starts_with("presets are "), "{}", hint("xyz"));
+    fn a_misspelt_preset_or_key_is_told_with_the_one_that_is_meant() {
+        let unknown = "portrit".parse::<Preset>().unwrap_err();
+        assert_eq!(unknown.hint().unwrap().to_string(), "did you mean portrait?");
         let unknown = Settings::from_toml("a.toml", "[edges]\nstrenght = 1").unwrap_err();
         assert_eq!(unknown.hint().unwrap().to_string(), "did you mean strength?");
         let unlike = Settings::from_toml("a.toml", "[edges]\nmoon = 1").unwrap_err();

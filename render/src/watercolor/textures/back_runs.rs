@@ -17,15 +17,21 @@ const FRONT: f32 = 0.02;
 /// Least width over which the rim begins, in pixels.
 const FRONT_PX: f32 = 0.75;
 
-/// Crinkle of the rim, as a share of the radius. Chosen by eye.
-const CRINKLE: f32 = 0.34;
+/// How far the front reaches outwards and inwards in lobes of three sizes: the radius of the circle in
+/// the noise that they are taken from (each unit of its length holds a lobe), and their height as a
+/// share of the radius of the bloom. Noise on a circle leaves the front in one piece. Chosen by eye.
+const LOBES: [(f32, f32); 3] = [(1.2, 0.20), (3.0, 0.18), (7.0, 0.08)];
 
-/// Radius of the circle in the noise that the large lobes of a front are taken from: six of them
-/// lie around a bloom. Chosen by eye.
-const AROUND: f32 = 0.9;
+/// Currents that bend the front: waves over the width of the largest bloom, and how far they carry
+/// it, as a share of the radius. Chosen by eye.
+const CURRENTS: (f32, f32) = (9.0, 0.17);
 
-/// Lobes for the width of a bloom, and cosine and sine of the turn of their noise.
-const TURNED: [(f32, [f32; 2]); 2] = [(9.0, [0.8, 0.6]), (21.0, [0.28, 0.96])];
+/// Distance from the middle that a front reaches at most, as a share of the radius.
+const REACH: f32 = 1.6;
+
+/// Darkness of the rim on black, as a share of that on white: a thick wash shows pigment that is
+/// added less. Chosen by eye.
+const ON_BLACK: f32 = 0.3;
 
 /// Length and width of a bloom, as shares of its diameter. Chosen by eye.
 const OVAL: [f32; 2] = [1.2, 0.84];
@@ -44,7 +50,7 @@ struct Bloom {
     y: f32,
     radius: f32,
     /// Where the lobes of its front are taken from the noise.
-    lobes: f32,
+    lobes: [f32; 2],
     /// Cosine and sine of the direction in which it is longer.
     along: [f32; 2],
     /// The wash that it falls into.
@@ -59,8 +65,7 @@ struct Bloom {
 pub fn back_runs(wash: &Field<[f32; 4]>, settings: &BackRunSettings) -> Field<f32> {
     let (width, height) = (wash.width(), wash.height());
     let size = settings.size_px.max(2.0);
-    let mut noise = random(settings.seed, 31);
-    let crinkles = [Hills::new(&mut noise), Hills::new(&mut noise), Hills::new(&mut noise)];
+    let front = Front::new(settings.seed, size);
     let mut field = Field::filled(width, height, 0.5);
     let bands = field.values_mut().par_chunks_mut(width.max(1)).enumerate();
     bands.for_each(|(line, row)| {
@@ -72,56 +77,89 @@ pub fn back_runs(wash: &Field<[f32; 4]>, settings: &BackRunSettings) -> Field<f3
                 let last = (width as f32 / size).floor() as i64 + 1;
                 (-1..=last).filter_map(move |column| bloom(wash, settings, size, [column, row]))
             })
-            .filter(|bloom| {
-                (bloom.y - y).abs() < OVAL[0] * bloom.radius * (1.0 + CRINKLE + 4.0 * RIM)
-            })
+            .filter(|bloom| (bloom.y - y).abs() < OVAL[0] * bloom.radius * REACH)
             .collect();
-        if blooms.is_empty() {
-            return;
-        }
         for (column, out) in row.iter_mut().enumerate() {
             let x = column as f32;
-            // 0 in the middle of the nearest bloom, 1 on its rim.
-            let distances = blooms.iter().map(|bloom| {
-                let (dx, dy, [cos, sin]) = (x - bloom.x, y - bloom.y, bloom.along);
-                let [long, wide] = OVAL;
-                let distance = ((cos * dx + sin * dy) / long).hypot((cos * dy - sin * dx) / wide);
-                (distance / bloom.radius, bloom)
-            });
-            let Some((nearest, bloom)) = distances.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            // Where blooms meet, the one that reaches farther is on top.
+            let reached = blooms.iter().filter_map(|bloom| Some((front.of(bloom, x, y)?, bloom)));
+            let Some((at, bloom)) = reached.max_by(|a, b| a.0.inside.total_cmp(&b.0.inside)) else {
                 continue;
             };
-            if nearest > 1.0 + CRINKLE + 4.0 * RIM {
-                continue;
-            }
             let [r, g, b, _] = wash[(column, line)];
-            let [r, g, b] = [r - bloom.color[0], g - bloom.color[1], b - bloom.color[2]];
-            let own = 1.0 - smoothstep(ONE_WASH, (r * r + g * g + b * b).sqrt());
-            // Lobes bulge outwards and meet in creases that point inwards. Large ones lie around
-            // the bloom; finer ones are turned, since noise shows the axes of its lattice.
-            let (dx, dy) = (x - bloom.x, y - bloom.y);
-            let away = dx.hypot(dy).max(1e-3);
-            let around = |by: f32| bloom.lobes + AROUND * by / away;
-            let bulge = |height: f32, finer: f32| (height.abs() - 0.25) * 2.0 / finer.sqrt();
-            let mut lobes = bulge(crinkles[0].at(around(dx), around(dy)), 4.0);
-            for (hills, (finer, [cos, sin])) in crinkles[1..].iter().zip(TURNED) {
-                let step = finer / size;
-                let [x, y] = [cos * x - sin * y, sin * x + cos * y];
-                lobes += bulge(hills.at(x * step, y * step), finer);
-            }
-            let inside = 1.0 - nearest + CRINKLE * lobes;
-            let front = FRONT.max(FRONT_PX / bloom.radius);
-            let rim = match inside {
-                inside if inside < 0.0 => (1.0 + inside / front).max(0.0),
+            let [red, green, blue] = bloom.color;
+            let away = (r - red).hypot(g - green).hypot(b - blue);
+            let own = 1.0 - smoothstep(ONE_WASH, away);
+            let width = FRONT.max(FRONT_PX / bloom.radius);
+            let rim = match at.inside {
+                inside if inside < 0.0 => (1.0 + inside / width).max(0.0),
                 inside => (-inside / RIM).exp(),
             };
-            let left = if inside > 0.0 { 1.0 - rim } else { 0.0 };
-            let middle = (1.0 - inside).clamp(0.0, 1.0).powi(2);
-            let pale = PALE * left * (0.4 + 0.6 * middle);
-            *out = (0.5 + own * (0.5 * rim - pale)).clamp(0.0, 1.0);
+            let left = if at.inside > 0.0 { 1.0 - rim } else { 0.0 };
+            let pale = PALE * left * (0.4 + 0.6 * at.distance.min(1.0).powi(2));
+            let dark = at.pigment * (ON_BLACK + (1.0 - ON_BLACK) * red.max(green).max(blue));
+            *out = (0.5 + own * (0.5 * dark * rim - pale)).clamp(0.0, 1.0);
         }
     });
     field
+}
+
+/// The fronts of all blooms.
+struct Front {
+    lobes: [Hills; 3],
+    currents: [Hills; 2],
+    /// Waves of the currents in a pixel.
+    waves: f32,
+}
+
+/// A place beside the front of a bloom.
+struct AtFront {
+    /// How far it lies inside the front, as a share of the radius; below 0 outside.
+    inside: f32,
+    /// Distance from the middle of the bloom, 1 on an even front.
+    distance: f32,
+    /// Pigment of the rim in this direction, 0 to 1.
+    pigment: f32,
+}
+
+impl Front {
+    fn new(seed: u64, size: f32) -> Self {
+        let mut noise = random(seed, 31);
+        Self {
+            lobes: std::array::from_fn(|_| Hills::new(&mut noise)),
+            currents: std::array::from_fn(|_| Hills::new(&mut noise)),
+            waves: CURRENTS.0 / size,
+        }
+    }
+
+    /// The place (`x`, `y`) beside the front of `bloom`, unless it is too far away.
+    fn of(&self, bloom: &Bloom, x: f32, y: f32) -> Option<AtFront> {
+        let oval = |x: f32, y: f32| {
+            let (dx, dy, [cos, sin]) = (x - bloom.x, y - bloom.y, bloom.along);
+            let scale = [OVAL[0] * bloom.radius, OVAL[1] * bloom.radius];
+            [(cos * dx + sin * dy) / scale[0], (cos * dy - sin * dx) / scale[1]]
+        };
+        let [along, across] = oval(x, y);
+        if along * along + across * across > REACH * REACH {
+            return None;
+        }
+        let current =
+            |hills: &Hills| CURRENTS.1 * bloom.radius * hills.at(x * self.waves, y * self.waves);
+        let [along, across] = oval(x + current(&self.currents[0]), y + current(&self.currents[1]));
+        let distance = along.hypot(across);
+        let unit = distance.max(1e-3);
+        let around = |hills: &Hills, radius: f32| {
+            let (x, y) = (bloom.lobes[0], bloom.lobes[1]);
+            hills.at(x + radius * along / unit, y + radius * across / unit)
+        };
+        // Lobes bulge outwards and meet in creases that point inwards.
+        let lobes = self.lobes.iter().zip(LOBES);
+        let lobes =
+            lobes.map(|(hills, (radius, height))| height * (around(hills, radius).abs() - 0.25));
+        let inside = 1.0 - distance + lobes.sum::<f32>();
+        let pigment = (0.75 + 0.7 * around(&self.lobes[2], 1.7)).clamp(0.2, 1.0);
+        Some(AtFront { inside, distance, pigment })
+    }
 }
 
 /// The bloom of a cell, if it has one and its water falls on paint.
@@ -144,7 +182,7 @@ fn bloom(
     let [r, g, b, covered] = wash[(x as usize, y as usize)];
     let radius = size * (0.2 + 0.22 * radius);
     let (sin, cos) = (std::f32::consts::PI * turn).sin_cos();
-    let (lobes, along) = (500.0 * lobes, [cos, sin]);
+    let (lobes, along) = ([500.0 * lobes, 310.0 * lobes], [cos, sin]);
     (covered > 0.5).then_some(Bloom { x, y, radius, lobes, along, color: [r, g, b] })
 }
 
@@ -152,17 +190,59 @@ fn bloom(
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_front_of_a_bloom_is_oval_on_the_whole_and_ragged_in_detail() {
-        // Only one cell is painted, so that there is one bloom.
-        let mut wash = Field::filled(600, 600, [0.4, 0.4, 0.6, 0.0]);
+    /// A sheet with paint in its middle cell only, so that there is at most one bloom.
+    fn one_cell(color: f32) -> Field<[f32; 4]> {
+        let mut wash = Field::filled(600, 600, [color, color, color, 0.0]);
         for (y, x) in (200..400).flat_map(|y| (200..400).map(move |x| (y, x))) {
             wash[(x, y)][3] = 1.0;
         }
+        wash
+    }
+
+    fn settings(seed: u64) -> BackRunSettings {
+        BackRunSettings { seed, size_px: 200.0, share: 1.0, ..BackRunSettings::default() }
+    }
+
+    #[test]
+    fn a_bloom_is_in_one_piece() {
+        let wash = one_cell(0.5);
+        for seed in 0..12 {
+            let Some(bloom) = bloom(&wash, &settings(seed), 200.0, [1, 1]) else { continue };
+            let mut field = back_runs(&wash, &settings(seed));
+            let pale = |field: &Field<f32>| field.values().iter().filter(|v| **v < 0.5).count();
+            let all = pale(&field);
+            // What can be reached from the middle is taken away.
+            let mut next = vec![(bloom.x as usize, bloom.y as usize)];
+            while let Some((x, y)) = next.pop() {
+                if field[(x, y)] < 0.5 {
+                    field[(x, y)] = 1.0;
+                    next.extend([(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]);
+                }
+            }
+            let apart = pale(&field);
+            assert!(
+                all > 3000 && 200 * apart < all,
+                "seed {seed}: {apart} of {all} pixels lie apart"
+            );
+        }
+    }
+
+    #[test]
+    fn the_rim_is_fainter_in_a_dark_wash() {
+        let darkest = |color| {
+            let field = back_runs(&one_cell(color), &settings(3));
+            field.values().iter().fold(0.0, |most: f32, value| most.max(value - 0.5))
+        };
+        let (dark, light) = (darkest(0.1), darkest(0.9));
+        assert!(light > 0.25 && (dark / light - 0.4).abs() < 0.02, "{dark} and {light}");
+    }
+
+    #[test]
+    fn the_front_of_a_bloom_is_oval_on_the_whole_and_ragged_in_detail() {
+        let wash = one_cell(0.5);
         let (mut fronts, mut sectors) = (Vec::new(), Vec::new());
         for seed in 0..12 {
-            let settings =
-                BackRunSettings { seed, size_px: 200.0, share: 1.0, ..BackRunSettings::default() };
+            let settings = settings(seed);
             let Some(bloom) = bloom(&wash, &settings, 200.0, [1, 1]) else { continue };
             let field = back_runs(&wash, &settings);
             // Distance at which the rim is darkest, as a share of the radius.
