@@ -25,8 +25,8 @@ enum MethodName {
     Moments,
     /// Nodes and weights fitted to mixtures of the library
     Library,
-    /// Nodes of `library`, with weights and with K and S of every pigment fitted to films of the library:
-    /// what painting computes with
+    /// Nodes, weights, and K and S of every pigment at the nodes fitted to films of the library: what
+    /// painting computes with
     Effective,
 }
 

@@ -51,6 +51,12 @@ impl Layer {
         self.reflectance + t * t * backing / (1.0 - self.reflectance * backing)
     }
 
+    /// The derivative of [`Layer::over`] with respect to `backing`.
+    #[must_use]
+    pub fn over_slope(self, backing: f64) -> f64 {
+        (self.transmittance / (1.0 - self.reflectance * backing)).powi(2)
+    }
+
     /// The reflectance of a film of unit thickness over `backing`, followed by its derivatives
     /// with respect to absorption and scattering.
     ///

@@ -328,9 +328,13 @@ fn quadrature_prints_its_keys_and_its_error_on_unseen_mixtures() {
     assert_eq!(other["nodes_nm"], rule["nodes_nm"], "the seed only selects the unseen mixtures");
     assert_ne!(other["error"], rule["error"]);
     let effective = json(&["quadrature", &library(), "--method", "effective", "--json"]);
-    assert_eq!(effective["nodes_nm"], rule["nodes_nm"]);
+    let nodes =
+        |rule: &Value| -> Vec<f64> { serde_json::from_value(rule["nodes_nm"].clone()).unwrap() };
+    for (moved, begun) in nodes(&effective).into_iter().zip(nodes(&rule)) {
+        assert!((moved - begun).abs() < 15.0 && moved != begun, "{moved} from {begun}");
+    }
     let of = |key: &str| effective[key]["mean"].as_f64().unwrap();
-    assert!(of("error") < 0.1 && of("error_over_grounds") < 0.15, "{effective}");
+    assert!(of("error") < 0.06 && of("error_over_grounds") < 0.12, "{effective}");
     assert!(of("error_over_grounds") > of("error"), "{effective}");
     assert_eq!(effective["pigments"][1]["name"], "Zinc White");
     assert_eq!(effective["pigments"][1]["absorption"].as_array().unwrap().len(), 8);

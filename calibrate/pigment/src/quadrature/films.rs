@@ -65,7 +65,7 @@ impl FilmSet {
         seed: u64,
     ) -> Self {
         let mut draw = Draw::new(library, seed, 2);
-        let films = (0..count).map(|_| (draw.shares(), None)).collect();
+        let films = (0..count).map(|_| draw.film(false)).collect();
         Self::of(library, weights, films)
     }
 
@@ -79,13 +79,7 @@ impl FilmSet {
         seed: u64,
     ) -> Self {
         let mut draw = Draw::new(library, seed, 3);
-        let films = (0..count)
-            .map(|_| {
-                let parts = draw.shares();
-                let thickness = draw.thickness(&parts);
-                (parts, Some((thickness, draw.ground())))
-            })
-            .collect();
+        let films = (0..count).map(|_| draw.film(true)).collect();
         Self::of(library, weights, films)
     }
 
@@ -114,6 +108,19 @@ impl FilmSet {
             };
             films.push((parts, over));
         }
+        Self::of(library, weights, films)
+    }
+
+    /// Films like those of the public draws, from other random streams: half of them hide, half lie over a
+    /// ground.
+    pub(super) fn candidates(
+        library: &PigmentLibrary,
+        weights: &TristimulusWeights,
+        count: usize,
+        seed: u64,
+    ) -> Self {
+        let mut draw = Draw::new(library, seed, 5);
+        let films = (0..count).map(|number| draw.film(number % 2 == 0)).collect();
         Self::of(library, weights, films)
     }
 
@@ -152,6 +159,16 @@ impl<'a> Draw<'a> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(stream);
         Self { library, random }
+    }
+
+    /// A film that lies over a ground, or hides it.
+    fn film(&mut self, over: bool) -> (Parts, Option<Over>) {
+        let parts = self.shares();
+        if !over {
+            return (parts, None);
+        }
+        let thickness = self.thickness(&parts);
+        (parts, Some((thickness, self.ground())))
     }
 
     /// One to four pigments with shares that sum to 1.

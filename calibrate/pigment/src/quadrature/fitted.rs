@@ -6,7 +6,7 @@ use spectra::color::{Lab, Matrix3, Xyz, ciede2000_metric};
 use spectra::optics::{infinite_film, infinite_film_from_ratio, infinite_film_slope};
 
 use super::mixtures::MixtureSet;
-use super::rule::{Quadrature, QuadratureFailure, on_line};
+use super::rule::{NODE_BAND_NM, Quadrature, QuadratureFailure, on_line};
 use crate::evaluate::Viewing;
 use crate::least_squares::{NormalEquations, Stop, minimise};
 use crate::library::PigmentLibrary;
@@ -17,8 +17,6 @@ const TRAINING: usize = 700;
 const TRAINING_SEED: u64 = 2004;
 /// Stopping rule of each fit.
 const STOP: Stop<'static> = Stop { iterations: 120, relative_decrease: 1e-6, cancellation: None };
-/// Limits of the nodes in nm: the band of the CIE's observers.
-const NODE_BAND_NM: [f64; 2] = [360.0, 830.0];
 /// Greatest size of every weight, positive or negative. The weights of a channel sum to about 100, so a good
 /// fit never reaches it.
 const LARGEST_WEIGHT: f64 = 1e3;

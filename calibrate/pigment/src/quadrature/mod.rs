@@ -10,8 +10,8 @@
 //! | `moments` | the nodes of `gauss` | exact for polynomials of degree n - 1 under each of x E, y E and z E |
 //! | `library` | fitted together with the weights to the mixtures of a pigment library | fitted |
 //!
-//! [`EffectiveQuadrature`] begins with `library` and fits, besides the weights, K and S of every pigment at
-//! the nodes. Painting computes with it.
+//! [`EffectiveQuadrature`] begins with `library` and fits, besides nodes and weights, K and S of every pigment
+//! at the nodes. Painting computes with it.
 
 mod gauss;
 
@@ -24,6 +24,8 @@ mod films;
 mod effective;
 
 mod fitted;
+
+mod effective_problem;
 
 mod effective_fit;
 

@@ -32,6 +32,9 @@ pub struct QuadratureError {
     pub max: f64,
 }
 
+/// Limits of fitted nodes in nm: the band of the CIE's observers.
+pub(super) const NODE_BAND_NM: [f64; 2] = [360.0, 830.0];
+
 /// Most nodes of a quadrature, about as many as a library has wavelengths. Chosen by eye.
 const MAX_NODES: usize = 32;
 

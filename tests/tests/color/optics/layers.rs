@@ -109,6 +109,10 @@ fn slopes_are_the_limit_of_difference_quotients() {
         };
         let by_k = quotient(&|h| Layer::new(k + h, s, 1.0).over(g), k);
         let by_s = quotient(&|h| Layer::new(k, s + h, 1.0).over(g), s);
+        let by_g = Layer::new(k, s, 1.0).over_slope(g);
+        // Backwards, because no backing reflects more than 1.
+        let wanted = -quotient(&|h| Layer::new(k, s, 1.0).over(g - h), 0.0);
+        assert!((by_g - wanted).abs() <= 1e-6 * (1.0 + wanted), "{by_g} for {wanted}: {film:?}");
         let size = 1.0 + s.powi(2);
         assert!((over_k - by_k).abs() <= 1e-6 * size, "dR/dK {over_k} for {by_k}: {film:?}");
         assert!((over_s - by_s).abs() <= 1e-6 * size, "dR/dS {over_s} for {by_s}: {film:?}");
