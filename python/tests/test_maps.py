@@ -16,6 +16,7 @@ import pytest
 from conftest import OILS_JSON
 
 import impasto as im
+from impasto.cube import MASKS
 
 PIGMENTS = ("Lead White", "Ultramarine", "Viridian", "Chrome Yellow", "Vermilion")
 
@@ -91,7 +92,7 @@ def test_bare_ground_is_told_by_the_mask(oils: im.Library, tmp_path: Path) -> No
     noise = 0.002 * np.random.default_rng(3).standard_normal((8, 48, 31))
     values[:8] = linen + noise
     cube = im.Cube.open(envi(tmp_path / "scan.hdr", values, oils.wavelengths))
-    ground = im.cube.MASKS.index("bare ground")
+    ground = MASKS.index("bare ground")
     for number, given in enumerate(
         (im.Spectrum(oils.wavelengths, linen), (slice(0, 4), slice(10, 30)))
     ):
