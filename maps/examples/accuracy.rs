@@ -128,8 +128,8 @@ fn paintings(
     Ok(())
 }
 
-/// Prints how well the same paintings are mapped by who knows more than the library tells, and how much better
-/// the spectra speak for the true pigments than for wrong ones that were found.
+/// Prints how well the same paintings are mapped when the palette, or K and S, are known exactly, and by how much
+/// chi-square favours the true pigments where wrong ones were found.
 fn limits(
     oils: &PigmentLibrary,
     plan: &PaintingPlan,

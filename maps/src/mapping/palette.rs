@@ -11,9 +11,10 @@ use crate::search::set_fit::SetFit;
 /// Mean rise of the score without a pigment, in the paints that need it most, from which it is more likely than
 /// not in the palette. Chosen of 4 to 18 on simulated paintings.
 const NEEDED: f32 = 14.0;
-/// Paints that tell how much a pigment is needed: of many paints one alone may be off by chance.
+/// Number of paints whose mean tells how much a pigment is needed, where a scan has many: one of many may be off
+/// by chance.
 const PAINTS: usize = 2;
-/// Paints of a survey that are many.
+/// Number of paints from which a scan has many.
 const MANY: usize = 16;
 
 /// Probability of each of `pigments` pigments to be in the palette. `found` holds the sets of each surveyed

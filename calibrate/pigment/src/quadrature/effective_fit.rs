@@ -13,12 +13,12 @@ use crate::library::PigmentLibrary;
 /// Films of the training set for each pigment, and at least.
 const FILMS_A_PIGMENT: usize = 120;
 const LEAST_FILMS: usize = 2000;
-/// Films for each pigment, and at least, of which the worst are added.
+/// Further films drawn for each pigment. Those whose colours the first fit keeps worst join the training.
 const CANDIDATES_A_PIGMENT: usize = 400;
 const LEAST_CANDIDATES: usize = 8000;
-/// Share of these that is added. Chosen by eye: from 1.5 to 3 % it does not matter.
+/// Share of the further films that joins the training. Any from 1.5 to 3 % does as well.
 const WORST: f64 = 0.02;
-/// Seed of both sets.
+/// Seed of the films of both fits.
 const SEED: u64 = 2004;
 /// Stopping rules of the two fits. A later step gains less than the choice of the films does.
 const FIRST_STOP: Stop<'static> =

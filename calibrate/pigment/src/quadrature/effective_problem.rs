@@ -174,7 +174,7 @@ impl Problem {
         [surface.measured_from_internal(internal), slope * over_k, slope * over_s, slope * over_nm]
     }
 
-    /// What [`Self::reflectance`] tells of film number `index` at each wavelength.
+    /// [`Self::reflectance`] of a film at each wavelength of the quadrature.
     fn at_nodes(&self, index: usize, found: &EffectiveQuadrature) -> Vec<[f64; 4]> {
         let film = &self.films.films[index];
         let [absorption, scattering] = found.mixed(&film.parts);
