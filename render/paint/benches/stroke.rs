@@ -102,6 +102,29 @@ fn stroke(bencher: Bencher<'_, '_>, head: usize) {
         .bench_local_values(|_| painting.borrow_mut().stroke(brush, &samples).expect("painted"));
 }
 
+/// A loaded flat of 25 mm, upright, over bare linen: the widest brush that the studio opens with.
+#[divan::bench(sample_count = 3, sample_size = 1)]
+fn wide_flat(bencher: Bencher<'_, '_>) {
+    let library = oils();
+    let ground = GroundSpec::default().build(2048, 512, CELL_MM, &library).expect("linen");
+    let slots: Slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
+    let (medium, lighting) = (Medium::default(), Lighting::default());
+    let document = Document::bare("", CELL_MM, ground, library, medium, slots, lighting);
+    let engine = PaintEngine::on_cpu(document.ground.height.clone());
+    let mut painting = Painting::open(document, engine, UNDO_BYTES).expect("a painting");
+    let brush = painting.add_brush(HeadShape::Flat, 25.0).expect("a brush");
+    painting.load(brush, &[1.0; SLOTS], 0.1, 0.2).expect("paint for it");
+    let samples =
+        [(0.0, 25.0), (1.0, 120.0)].map(|(seconds, x)| Sample::upright(seconds, x, 25.0, 0.7));
+    let report = painting.stroke(brush, &samples).expect("painted");
+    let painting = RefCell::new(painting);
+    bencher
+        .counter(ItemsCount::new(report.cells))
+        .counter(CyclesCount::new(report.substeps))
+        .with_inputs(|| painting.borrow_mut().undo().expect("undone"))
+        .bench_local_values(|_| painting.borrow_mut().stroke(brush, &samples).expect("painted"));
+}
+
 /// Changes the direction of the light only.
 #[divan::bench(args = [1024, 2048], sample_count = 5, sample_size = 1)]
 fn relight_from_another_side(bencher: Bencher<'_, '_>, side: usize) {
