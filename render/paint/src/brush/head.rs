@@ -3,24 +3,21 @@
 use std::ops::Range;
 
 use super::error::BrushError;
-use super::footprint::Footprint;
 use super::grip::Grip;
+use super::imprint::{Hold, Imprint};
 use super::locks::Locks;
 use super::mesh::HeadMesh;
-use super::net::{Net, Point, columns};
-use super::relief::{Relief, ReliefView};
+use super::net::{Net, columns};
+use super::relief::Relief;
 use super::shape::HeadShape;
-use super::sides::{Extent, Sides};
+use super::sides::Sides;
 use super::spines::Spines;
 use super::surface::LimitSurface;
 use super::uptake::{rates, rows_with_paint, wicking};
 use super::vector::Vector;
-use crate::amount::QUANTA_PER_CELL;
 use crate::contact::{Contact, ExchangeRates, Wicking};
 use crate::pose::Pose;
-use graphics::lanes::{greater, lesser};
 use graphics::tile::Rect;
-use pulp::{Simd, WithSimd};
 
 /// Range of the widths of heads, in mm.
 const SIZES_MM: std::ops::RangeInclusive<f64> = 0.2..=100.0;
@@ -31,17 +28,6 @@ const WIDEST: f64 = 2048.0;
 /// Minimum effective width of a head, in cells. A finer head could pass between cell centres
 /// and touch none.
 const NARROWEST: f32 = 1.5;
-
-/// Height above the highest relief nearby up to which the surface of the head is drawn, in mm.
-/// Wet paint above that height is not touched.
-const HIGHEST_PAINT_MM: f64 = 2.0;
-
-/// Distance from the tip in mm over which the hair loses its grasp of the paint, so that a
-/// film does not depend on where in a cell the tip ends.
-const TIP_MM: f64 = 0.8;
-
-/// Height over the crests in mm up to which hair counts as touching.
-const TOUCHING_MM: f32 = 0.1;
 
 /// Maximum distance in cells along x or y that a head is dragged in a sub-step; after a longer
 /// move it is set down anew.
@@ -55,11 +41,10 @@ pub struct Head {
     size_mm: f64,
     cell_mm: f64,
     pub(super) spines: Spines,
-    net: Net,
-    surface: LimitSurface,
-    footprint: Footprint,
-    locks: Locks,
-    sides: Sides,
+    pub(super) net: Net,
+    pub(super) imprint: Imprint,
+    pub(super) locks: Locks,
+    pub(super) sides: Sides,
     /// Number of sub-steps since the head was set down.
     sub_step: u32,
     /// Pose in the last sub-step.
@@ -97,7 +82,7 @@ impl Head {
             2.0 * width * (1.0 + of.thickness)
         };
         let surface = LimitSurface::new(columns(of.spines), perimeter, spines.length());
-        let (around, along) = cells(&surface);
+        let (around, along) = surface.cells();
         let hair = if of.gaps { tufts(&surface, of.spines) } else { Vec::new() };
         let area = f64::from(perimeter) * f64::from(spines.length());
         let column_mm = f64::from(perimeter) * cell_mm / around as f64;
@@ -107,13 +92,12 @@ impl Head {
             cell_mm,
             net: Net::new(&spines),
             spines,
-            footprint: Footprint::new(around, along, hair),
+            imprint: Imprint::new(surface, hair, cell_mm),
             locks: Locks::new(0, around, column_mm, (0.1 * of.recess, of.variation), cell_mm),
             sides: Sides::default(),
             sub_step: 0,
             last: None,
             paint_cell_area: area / (around * along) as f64,
-            surface,
             origin: None,
             hovering: None,
         })
@@ -148,7 +132,7 @@ impl Head {
     /// have more than about a million.
     #[must_use]
     pub fn paint_grid(&self) -> (usize, usize) {
-        cells(&self.surface)
+        self.imprint.paint_grid()
     }
 
     /// Rows of paint cells that hold the paint of a fresh load: all rows of hair, those at the edge
@@ -173,9 +157,14 @@ impl Head {
 
     /// Lifts the head off the canvas, which straightens it.
     pub fn lift(&mut self) {
+        self.straighten();
+        self.sides.lift();
+    }
+
+    /// Lifts the head, but leaves the sides of its contact, which follow once it is drawn.
+    fn straighten(&mut self) {
         (self.origin, self.hovering) = (None, None);
         self.locks.lift();
-        self.sides.lift();
         (self.sub_step, self.last) = (0, None);
     }
 
@@ -202,7 +191,12 @@ impl Head {
     /// opposite to `heading`, the direction of the stroke, unless that is (0, 0). At pressure 0 it
     /// stays lifted.
     pub fn set_down(&mut self, pose: &Pose, heading: (f64, f64), relief: &Relief) {
-        self.lift();
+        self.sides.lift();
+        self.lower(pose, heading, relief);
+    }
+
+    fn lower(&mut self, pose: &Pose, heading: (f64, f64), relief: &Relief) {
+        self.straighten();
         let Some(grip) = Grip::new(pose, self.spines.of) else { return };
         self.origin = Some(grip.origin);
         let view = relief.seen_from(grip.origin);
@@ -222,14 +216,34 @@ impl Head {
     /// The speed that governs transfer includes the surface's vertical motion and the change of
     /// pressure, so that a head that is pressed straight down leaves paint too.
     pub fn advance(&mut self, pose: &Pose, relief: &Relief, bounds: Rect, out: &mut Contact) {
+        let (lifted, hold) = self.bend(pose, relief, out);
+        if lifted {
+            self.sides.lift();
+        }
+        let Some(hold) = hold else { return };
+        self.imprint.evaluate(&self.net, &hold, relief);
+        let border = self.sides.follow(self.imprint.extent());
+        self.imprint.draw(&self.locks.columns, &hold, border, bounds, out);
+    }
+
+    /// Bends the head at `pose`: all of [`Head::advance`] but the touches of `out` and the sides of
+    /// the contact. Returns whether the head was lifted before, and how it is held now unless it
+    /// stays lifted.
+    pub(super) fn bend(
+        &mut self,
+        pose: &Pose,
+        relief: &Relief,
+        out: &mut Contact,
+    ) -> (bool, Option<Hold>) {
         out.rect = Rect::default();
         out.touches.clear();
         (out.rates, out.wicking) = (ExchangeRates::default(), Wicking::default());
         let Some(grip) = Grip::new(pose, self.spines.of) else {
-            self.lift();
-            return;
+            self.straighten();
+            return (true, None);
         };
         let view = relief.seen_from(grip.origin);
+        let mut lifted = false;
         match self.origin {
             None => {
                 self.spines.hang(&grip, Vector::ZERO, &view);
@@ -238,8 +252,9 @@ impl Head {
             }
             Some(origin) => {
                 let moved = (grip.origin.0 - origin.0, grip.origin.1 - origin.1);
-                if moved.0.abs().max(moved.1.abs()) > FARTHEST_DRAG {
-                    self.set_down(pose, (0.0, 0.0), relief);
+                lifted = moved.0.abs().max(moved.1.abs()) > FARTHEST_DRAG;
+                if lifted {
+                    self.lower(pose, (0.0, 0.0), relief);
                 } else {
                     let moved = Vector::new(moved.0 as f32, moved.1 as f32, 0.0);
                     self.spines.rebase(moved);
@@ -255,12 +270,19 @@ impl Head {
             // Its edge stays where it is; the blade does not sweep over the paint.
             self.net.rest();
         }
-        graphics::lanes::vectorized(Touching { head: self, grip: &grip, view, bounds, out });
+        let before = self.last.map_or(0.0, |last| last.pressure) as f32;
+        let hold = Hold {
+            grip,
+            moved: self.locks.follow(&grip),
+            pressed: (grip.pressure - before).abs() * self.spines.width,
+            reach: self.spines.width + grip.pressure * self.spines.length(),
+        };
         out.rates = rates(self.spines.of, grip.pressure, self.cell_mm, self.paint_cell_area);
         out.rates.drag = (f64::from(out.rates.drag) * (2.0 * self.travelled(pose)).min(1.0)) as u32;
         out.wicking = wicking(self.spines.of, self.sub_step, self.paint_grid().1, self.cell_mm);
         self.sub_step += 1;
         self.last = Some(*pose);
+        (lifted, Some(hold))
     }
 
     /// Way in cells of the sides of the head from the last sub-step to `pose`: 0 where it is pressed
@@ -270,87 +292,6 @@ impl Head {
         let turned = (pose.twist_deg - last.twist_deg).to_radians().abs();
         libm::hypot(pose.x - last.x, pose.y - last.y) + 0.5 * f64::from(self.spines.width) * turned
     }
-
-    /// Fills the touches of `out`.
-    #[inline(always)]
-    fn touch(&mut self, grip: &Grip, view: &ReliefView<'_>, bounds: Rect, out: &mut Contact) {
-        let reach = self.spines.width + grip.pressure * self.spines.length();
-        let (lowest, highest) = view.range(grip.tip, reach);
-        let ceiling = highest + (HIGHEST_PAINT_MM / self.cell_mm) as f32;
-        let plane = lowest == highest;
-        let moved = self.locks.follow(grip);
-        let mut extent = Extent::new(grip.tip, moved);
-        let touching = (highest + TOUCHING_MM / self.cell_mm as f32) * QUANTA_PER_CELL as f32;
-        let (facets, cells) = (self.surface.facets().1, self.surface.cells_of_facet().1);
-        let row_mm = cells as f64 * self.cell_mm;
-        let fade = (row_mm / TIP_MM) as f32;
-        // Cells by which the sides of the mark move as pressure changes.
-        let before = self.last.map_or(0.0, |last| last.pressure) as f32;
-        let pressed = (grip.pressure - before).abs() * self.spines.width;
-        self.surface.evaluate(
-            &self.net,
-            ceiling,
-            #[inline(always)]
-            |row, vertex| {
-                let relief = if plane { lowest } else { view.height(vertex[0], vertex[1]) };
-                let grasp = lesser((facets - row) as f32 * fade, 1.0);
-                *vertex = finished(vertex, relief, grasp, pressed);
-                if let (Some(extent), true) = (&mut extent, vertex[2] < touching) {
-                    extent.include(vertex[0], vertex[1]);
-                }
-            },
-        );
-        let ceiling = ceiling * QUANTA_PER_CELL as f32;
-        self.footprint.draw(&self.surface, &self.locks.columns, ceiling, grip.origin, bounds, out);
-        let spans = self.footprint.spans();
-        self.sides.apply((out, spans), extent, grip.origin, self.cell_mm as f32);
-    }
-}
-
-/// The work of a sub-step that pulp compiles once per instruction set.
-struct Touching<'a, 'b> {
-    head: &'a mut Head,
-    grip: &'a Grip,
-    view: ReliefView<'b>,
-    bounds: Rect,
-    out: &'a mut Contact,
-}
-
-impl WithSimd for Touching<'_, '_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        self.head.touch(self.grip, &self.view, self.bounds, self.out);
-    }
-}
-
-/// Number of paint cells of the head, around and along.
-fn cells(surface: &LimitSurface) -> (usize, usize) {
-    let (facets, cells) = (surface.facets(), surface.cells_of_facet());
-    (facets.0 * cells.0, facets.1 * cells.1)
-}
-
-/// A vertex of the footprint: position, height in quanta, velocity and speed weight (0 up to
-/// 0.2 cells per sub-step, full from 0.3, and at least that of a speed of `pressed`), both times
-/// `grasp`. Where the surface would be below the relief, it is raised to it.
-#[inline(always)]
-fn finished(vertex: &Point, relief: f32, grasp: f32, pressed: f32) -> Point {
-    let &[x, y, z, _, dx, dy, dz, _] = vertex;
-    let height = greater(z, relief);
-    let speed = greater((dx * dx + dy * dy + dz * dz).sqrt(), pressed);
-    let t = ((speed - 0.2) * 10.0).clamp(0.0, 1.0);
-    let fixed = |cells: f32| (cells * 256.0).clamp(-32767.0, 32767.0) * 65536.0;
-    [
-        x,
-        y,
-        height * QUANTA_PER_CELL as f32,
-        fixed(grasp * dx),
-        fixed(grasp * dy),
-        grasp * t * t * (3.0 - 2.0 * t) * (256.0 * 65536.0),
-        0.0,
-        0.0,
-    ]
 }
 
 /// Whether each facet of a fan has hair: all near the ferrule, only tufts around the spines near

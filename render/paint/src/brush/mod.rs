@@ -35,11 +35,15 @@ mod sides;
 
 mod footprint;
 
+mod imprint;
+
 mod head;
 
 mod tool;
 
 mod tool_contact;
+
+mod side_by_side;
 
 mod mark;
 
@@ -49,6 +53,7 @@ pub use mark::ContactMark;
 pub use mesh::HeadMesh;
 pub use relief::{BLOCK, Relief};
 pub use shape::{HeadShape, UnknownShape};
+pub(crate) use side_by_side::SideBySide;
 pub use tool::{StrokeTool, ToolError};
 
 #[cfg(test)]

@@ -67,33 +67,48 @@ impl Sides {
         self.extent = None;
     }
 
-    /// Thickens the coat near the sides of `contact`, whose extent is `now`, and slows the cells at
-    /// the very sides. Positions in it count from the cell `origin`. `spans` are the columns of its
-    /// rows that may have touches.
-    #[inline(always)]
-    pub(super) fn apply(
-        &mut self,
-        (contact, spans): (&mut Contact, &[Range<usize>]),
-        now: Option<Extent>,
-        origin: (i64, i64),
-        cell_mm: f32,
-    ) {
-        let Some(now) = now.filter(|now| now.low <= now.high) else { return };
+    /// Follows the extent `now` of a contact. Returns where its sides are; `None` if the head hardly
+    /// moved or does not touch.
+    pub(super) fn follow(&mut self, now: Option<Extent>) -> Option<Border> {
+        let now = now.filter(|now| now.low <= now.high)?;
         let (before_low, before_high) = self.extent.unwrap_or((now.low, now.high));
         let low = before_low + (now.low - before_low) * FOLLOWED;
         let high = before_high + (now.high - before_high) * FOLLOWED;
         self.extent = Some((low, high));
+        Some(Border { across: Extent { low, high, ..now } })
+    }
+}
+
+/// The sides of one contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Border {
+    across: Extent,
+}
+
+impl Border {
+    /// Thickens the coat near the sides of `contact`, and slows the cells at the very sides.
+    /// Positions in it count from the cell `origin`. `spans` are the columns of its rows that may
+    /// have touches.
+    #[inline(always)]
+    pub(super) fn shape(
+        &self,
+        (contact, spans): (&mut Contact, &[Range<usize>]),
+        origin: (i64, i64),
+        cell_mm: f32,
+    ) {
+        let across = &self.across;
+        let (low, high) = (across.low, across.high);
         let reach = (REACH_MM / cell_mm).min(0.25 * (high - low)).max(1.0);
         let left = (contact.rect.x as i64 - origin.0) as f32 + 0.5;
         let top = (contact.rect.y as i64 - origin.1) as f32 + 0.5;
         let width = contact.rect.width.max(1);
         let rows = contact.touches.chunks_exact_mut(width).zip(spans);
         for (row, (touches, span)) in rows.enumerate() {
-            let start = now.at(left, top + row as f32);
+            let start = across.at(left, top + row as f32);
             for (column, touch) in
                 span.clone().zip(touches.get_mut(span.clone()).unwrap_or_default())
             {
-                let at = start + column as f32 * now.across.0;
+                let at = start + column as f32 * across.across.0;
                 let inside = lesser(at - low, high - at);
                 if inside >= reach || touch.height == Touch::NONE.height {
                     continue;
@@ -130,7 +145,9 @@ mod tests {
             extent.iter_mut().for_each(|extent| extent.include(x, 21.5));
         }
         let whole = [0..40, 0..40, 0..40];
-        Sides::default().apply((&mut contact, &whole), extent, (0, 0), 0.1);
+        if let Some(border) = Sides::default().follow(extent) {
+            border.shape((&mut contact, &whole), (0, 0), 0.1);
+        }
         contact.touches[40..80].to_vec()
     }
 
@@ -166,7 +183,7 @@ mod tests {
             let mut extent = Extent::new((0.0, 0.0), (1.0, 0.0)).unwrap();
             extent.include(0.0, -half);
             extent.include(0.0, half);
-            sides.apply((&mut Contact::default(), &[]), Some(extent), (0, 0), 0.1);
+            sides.follow(Some(extent));
             sides.extent.unwrap().1
         };
         assert_eq!(reach(10.0), 10.0);

@@ -88,6 +88,12 @@ impl LimitSurface {
         (self.around.cells, self.along.cells)
     }
 
+    /// Number of paint cells of the head, around and along.
+    pub(super) fn cells(&self) -> (usize, usize) {
+        let (facets, cells) = (self.facets(), self.cells_of_facet());
+        (facets.0 * cells.0, facets.1 * cells.1)
+    }
+
     /// Whether a facet may reach below the ceiling of the last evaluation.
     #[inline]
     pub(super) fn is_near(&self, column: usize, row: usize) -> bool {

@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 
 use super::shape::NODES;
-use super::{BrushError, Head, HeadShape, Relief};
+use super::{BrushError, Head, HeadShape, Relief, SideBySide, StrokeTool};
 use crate::amount::QUANTA_PER_CELL;
 use crate::contact::Contact;
 use crate::contact::Touch;
@@ -343,4 +343,40 @@ fn heads_that_cannot_be_are_refused() {
     assert!(matches!(Head::new(HeadShape::Mop, 1.0, 0.0), Err(BrushError::Cell { .. })));
     assert!(matches!(Head::new(HeadShape::Mop, 90.0, 0.01), Err(BrushError::TooFine { .. })));
     assert!(Head::new(HeadShape::Rigger, 100.0, 0.1).is_ok());
+}
+
+#[test]
+fn sub_steps_drawn_side_by_side_are_those_drawn_one_after_another() {
+    let random = &mut rand_chacha::ChaCha8Rng::seed_from_u64(7);
+    let mut floor = graphics::field::Field::filled(320, 240, 0);
+    for height in floor.values_mut() {
+        *height = random.random_range(0..QUANTA_PER_CELL as i32 * 2);
+    }
+    let relief = Relief::from_floor(&floor, 0.1);
+    let blend = StrokeTool::Blend { strength: 0.7 };
+    for (shape, tool) in
+        HeadShape::ALL.into_iter().zip([StrokeTool::Paint, blend].into_iter().cycle())
+    {
+        // Lifted at times, and moved so far that it is set down anew.
+        let mut poses = Vec::new();
+        for step in 0..120 {
+            let pressure = if step % 37 == 20 { 0.0 } else { random.random_range(0.3..1.0) };
+            let far = if step > 60 { 100.0 } else { 0.0 };
+            let (x, y) = (60.0 + far + 0.8 * f64::from(step), 120.0 + 0.3 * f64::from(step % 40));
+            poses.push(Pose { x, y, pressure, twist_deg: 0.5 * f64::from(step), ..POSE });
+        }
+        let (mut one, mut other) = (head(shape), head(shape));
+        let (mut several, mut place) = (SideBySide::default(), 0);
+        while place < poses.len() {
+            let now = &poses[place..(place + random.random_range(1..6)).min(poses.len())];
+            let mut drawn = vec![nothing(); now.len()];
+            several.advance_as((&mut other, tool), now, &relief, BOUNDS, &mut drawn);
+            for (pose, drawn) in now.iter().zip(&drawn) {
+                let mut contact = nothing();
+                one.advance_as(tool, pose, &relief, BOUNDS, &mut contact);
+                assert_eq!(drawn, &contact, "{shape}, {pose:?}");
+            }
+            place += now.len();
+        }
+    }
 }

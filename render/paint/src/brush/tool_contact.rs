@@ -55,12 +55,24 @@ impl Head {
         out: &mut Contact,
     ) {
         self.advance(pose, relief, bounds, out);
+        self.use_as(tool, (pose, self.sub_step()), relief, out);
+    }
+
+    /// Makes the contact `out` of the sub-step at `pose` that of `tool`. `sub_steps` is the number
+    /// since the head was set down, this one included.
+    pub(super) fn use_as(
+        &self,
+        tool: StrokeTool,
+        (pose, sub_steps): (&Pose, u32),
+        relief: &Relief,
+        out: &mut Contact,
+    ) {
         let pressure = pose.pressure.clamp(0.0, 1.0);
         match tool {
             StrokeTool::Paint => {}
             StrokeTool::Blend { strength } => {
                 blend(out, strength, self.cell_mm(), self.paint_cell_area());
-                sway(out, self.paint_grid(), self.columns_swayed(strength));
+                sway(out, self.paint_grid(), self.columns_swayed(strength, sub_steps));
             }
             StrokeTool::Scrape { height_mm } => {
                 scrape(out, height_mm * (1.0 - pressure), relief);
@@ -69,9 +81,9 @@ impl Head {
         }
     }
 
-    /// Columns of paint cells by which the hair of a mop has swayed aside.
-    fn columns_swayed(&self, strength: f64) -> i32 {
-        let way_mm = f64::from(self.sub_step()) * self.cell_mm();
+    /// Columns of paint cells by which the hair of a mop has swayed aside after `sub_steps`.
+    fn columns_swayed(&self, strength: f64, sub_steps: u32) -> i32 {
+        let way_mm = f64::from(sub_steps) * self.cell_mm();
         let phase = (way_mm / SWAY_EVERY_MM).fract();
         let aside = 1.0 - 4.0 * (phase - 0.5).abs();
         (aside * strength * SWAY_MM / self.cell_mm()).round() as i32
