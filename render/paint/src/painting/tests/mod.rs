@@ -4,4 +4,6 @@ mod bench;
 
 mod masks;
 
+mod threads;
+
 mod tools;
