@@ -73,9 +73,10 @@ impl Studio {
 
     /// Whether the open stroke changes nothing but paint and head on the canvas.
     fn is_shown_between(&self, context: &Context) -> bool {
-        let one_light = self.painting.as_ref().is_some_and(|painting| {
-            painting.second_lighting.is_none() && painting.mask.is_none()
-        });
+        let one_light = self
+            .painting
+            .as_ref()
+            .is_some_and(|painting| painting.second_lighting.is_none() && painting.mask.is_none());
         let aided = self.aids.guide.is_some() || self.aids.symmetry.on;
         self.pen.stylus_on() == Some(SurfaceId::Canvas)
             && one_light

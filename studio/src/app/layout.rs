@@ -65,9 +65,8 @@ impl Studio {
             self.perform(intent, &context);
         }
         let covered = self.shows_sheet(&context);
-        CentralPanel::no_frame().show(ui, |ui| {
-            if covered { self.draw_sheet(ui) } else { self.draw_surfaces(ui) }
-        });
+        CentralPanel::no_frame()
+            .show(ui, |ui| if covered { self.draw_sheet(ui) } else { self.draw_surfaces(ui) });
         if covered {
             let events = context.input(|input| input.events.clone());
             self.update_pen(&context, &events, self.keys.mode(self.tools.mode));

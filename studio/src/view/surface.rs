@@ -196,12 +196,7 @@ impl SurfaceView {
 
     /// Draws a brush head over the surface, with the colour of its paint. Returns the rectangle that
     /// it covers.
-    pub fn show_head(
-        &self,
-        ui: &Ui,
-        over: &HeadOnCanvas,
-        paint: Option<[u8; 3]>,
-    ) -> Option<Rect> {
+    pub fn show_head(&self, ui: &Ui, over: &HeadOnCanvas, paint: Option<[u8; 3]>) -> Option<Rect> {
         let lines = self.head_lines(over, paint);
         lines.draw(&ui.painter_at(self.rect));
         lines.bounds()

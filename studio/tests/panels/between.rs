@@ -62,8 +62,14 @@ fn parts_between_frames_show_the_pixels_of_the_next_frame() {
         let parts = moved(&mut window, &context);
         assert!(parts.len() > 5, "{} parts", parts.len());
         for Between { patch, .. } in &parts {
-            let pixels = RgbaImage::from_raw(patch.width as u32, patch.height as u32, patch.rgba.clone());
-            image::imageops::replace(&mut shown, &pixels.unwrap(), patch.left as i64, patch.top as i64);
+            let pixels =
+                RgbaImage::from_raw(patch.width as u32, patch.height as u32, patch.rgba.clone());
+            image::imageops::replace(
+                &mut shown,
+                &pixels.unwrap(),
+                patch.left as i64,
+                patch.top as i64,
+            );
         }
         window.frame(Vec::new());
         let whole = window.picture().unwrap();
@@ -91,6 +97,10 @@ fn differ(a: &Rgba<u8>, b: &Rgba<u8>) -> u8 {
 #[test]
 fn a_part_has_the_whole_head_and_lies_within_the_canvas() {
     let (mut window, context) = in_stroke("between-head");
+    // The stroke leaves the view.
+    window.studio_mut().canvas.view.fitted = false;
+    window.studio_mut().canvas.view.zoom = 8.0;
+    window.frame(Vec::new());
     let view = window.studio().canvas.rect();
     for Between { patch, head } in moved(&mut window, &context) {
         let min = Pos2::new(patch.left as f32, patch.top as f32);

@@ -78,7 +78,15 @@ impl Framed {
         problems.into_iter().for_each(|problem| files.report(problem));
         let pen = Pen::new(PenSettings::default());
         let studio = Studio::new(&context, Parts { worker, pen, files, open: None, log: None });
-        Self { studio, context, down_since: None, frame_done, frames: 0, opened: Vec::new(), graphics }
+        Self {
+            studio,
+            context,
+            down_since: None,
+            frame_done,
+            frames: 0,
+            opened: Vec::new(),
+            graphics,
+        }
     }
 
     /// Points of the interface per CSS pixel.

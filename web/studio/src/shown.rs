@@ -20,8 +20,7 @@ pub(crate) fn shown(between: &Between, density: f32) -> Object {
     }
     set("pixels", &Uint8ClampedArray::from(&patch.rgba[..]));
     let lines = head.lines.iter().map(|(line, closed)| {
-        let flat: Vec<f32> =
-            line.iter().flat_map(|at| [at.x * density, at.y * density]).collect();
+        let flat: Vec<f32> = line.iter().flat_map(|at| [at.x * density, at.y * density]).collect();
         Array::of2(&Float32Array::from(&flat[..]), &(*closed).into())
     });
     set("lines", &lines.collect::<Array>());
