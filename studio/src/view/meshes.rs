@@ -20,6 +20,12 @@ use wgpu::{Buffer, BufferUsages, Device, IndexFormat, Queue, TextureFormat};
 use super::pipeline::{Pipelines, VERTEX_BYTES};
 use super::quad::{LazyTexture, QuadCanvas};
 
+/// Whether an adapter is the processor, by a driver in software.
+#[must_use]
+pub fn is_processor(adapter: &wgpu::Adapter) -> bool {
+    adapter.get_info().device_type == wgpu::DeviceType::Cpu
+}
+
 /// Draws all meshes of this context with the quads' shader from now on.
 pub fn draw_meshes(context: &Context) {
     context.add_plugin(MeshDrawer::default());

@@ -26,7 +26,7 @@ mod light_switch;
 
 pub use fills::quicken;
 pub use head::HeadLines;
-pub use meshes::draw_meshes;
+pub use meshes::{draw_meshes, is_processor};
 pub use outline::Outline;
 pub use patch::Patch;
 pub use picture::{DrawnPart, Picture};

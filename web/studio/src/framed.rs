@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use eframe::egui::{Context, RawInput, Ui, Visuals};
-use eframe::egui_wgpu::wgpu::DeviceType;
 use eframe::{App, CreationContext, Frame, WebOptions};
 use js_sys::Function;
 use session::{WorkerOptions, initial_commands};
@@ -58,7 +57,7 @@ impl Framed {
         if let Some(drawn) = &creation.wgpu_render_state {
             studio::view::set_format(&context, drawn.target_format);
             let info = drawn.adapter.get_info();
-            if info.device_type == DeviceType::Cpu {
+            if studio::view::is_processor(&drawn.adapter) {
                 studio::view::draw_meshes(&context);
             }
             graphics = format!("{:?}: {}", info.backend, info.name);
