@@ -23,12 +23,21 @@ const AT_ONCE: Duration = Duration::from_nanos(1);
 /// State of the pace in a context.
 #[derive(Debug, Clone, Copy)]
 struct Pace {
-    /// Time from one frame to the next.
+    /// Time from one picture of the display to the next.
     slot: Duration,
+    /// Least time from one frame to the next while something else shows what changes.
+    rare: Option<Duration>,
     /// Start of the last frame.
     last: Option<Instant>,
     /// Whether another thread asked for a frame since then.
     woken: bool,
+}
+
+impl Pace {
+    /// Time from one frame to the next.
+    fn between(&self) -> Duration {
+        self.rare.unwrap_or(self.slot)
+    }
 }
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -37,12 +46,18 @@ pub(crate) fn set_display(context: &Context, millihertz: Option<u32>) {
     change(context, |pace| pace.slot = slot_of(millihertz));
 }
 
+/// Sets the least time between two frames that are asked for here, while something else shows what
+/// changes; `None` for each picture of the display. Returns whether frames were rare before.
+pub(crate) fn set_rare(context: &Context, rare: Option<Duration>) -> bool {
+    change(context, |pace| std::mem::replace(&mut pace.rare, rare)).is_some()
+}
+
 /// Notes that a frame begins. If another thread asked for it, one more follows in the next slot, so
 /// that what takes two frames to lay out is shown.
 pub(crate) fn begin_frame(context: &Context, now: Instant) {
     let (woken, slot) = change(context, |pace| {
         pace.last = Some(now);
-        (std::mem::take(&mut pace.woken), pace.slot)
+        (std::mem::take(&mut pace.woken), pace.between())
     });
     if woken {
         context.request_repaint_after(slot);
@@ -64,14 +79,14 @@ pub(crate) fn give_way(context: &Context, now: Instant) -> Duration {
 fn wake_at(context: &Context, now: Instant) {
     let delay = change(context, |pace| {
         pace.woken = true;
-        delay(pace.last, now, pace.slot)
+        delay(pace.last, now, pace.between())
     });
     context.request_repaint_after(delay.max(AT_ONCE));
 }
 
 /// Asks for a frame in `soon`, but not before the next slot.
 pub(crate) fn frame_after(context: &Context, soon: Duration, now: Instant) {
-    let delay = change(context, |pace| delay(pace.last, now, pace.slot));
+    let delay = change(context, |pace| delay(pace.last, now, pace.between()));
     context.request_repaint_after(soon.max(delay).max(AT_ONCE));
 }
 
@@ -88,7 +103,7 @@ fn slot_of(millihertz: Option<u32>) -> Duration {
 
 fn change<T>(context: &Context, change: impl FnOnce(&mut Pace) -> T) -> T {
     context.data_mut(|data| {
-        let usual = || Pace { slot: slot_of(None), last: None, woken: false };
+        let usual = || Pace { slot: slot_of(None), rare: None, last: None, woken: false };
         change(data.get_temp_mut_or_insert_with(Id::unique("pace of frames"), usual))
     })
 }
@@ -166,6 +181,20 @@ mod tests {
         let (context, _) = paced(start);
         let waits = [0, 30, 48, 900].map(|ms| give_way(&context, start + ms * MS));
         assert_eq!(waits, [48 * MS, 18 * MS, Duration::ZERO, Duration::ZERO]);
+    }
+
+    #[test]
+    fn frames_are_rare_while_something_else_shows_what_changes() {
+        let start = Instant::now();
+        let (context, asked) = paced(start);
+        set_rare(&context, Some(250 * MS));
+        wake_at(&context, start + 5 * MS);
+        assert_eq!(asked(), [245 * MS]);
+        frame(&context, start + 250 * MS);
+        assert_eq!(asked(), [250 * MS]);
+        set_rare(&context, None);
+        wake_at(&context, start + 255 * MS);
+        assert_eq!(asked(), [15 * MS], "and at the display's pace again");
     }
 
     #[test]

@@ -37,7 +37,7 @@ pub fn run(start: Start) -> Result<(), Problem> {
             let mut draws_on_processor = false;
             if let Some(drawn) = &creation.wgpu_render_state {
                 view::set_format(context, drawn.target_format);
-                draws_on_processor = drawn.adapter.get_info().device_type == DeviceType::Cpu;
+                draws_on_processor = view::is_processor(&drawn.adapter);
                 if draws_on_processor {
                     view::draw_meshes(context);
                 }

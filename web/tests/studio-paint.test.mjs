@@ -89,6 +89,45 @@ test("strokes with pressure, tilt and rotation, undo, redo and light: the progra
   await context.close();
 });
 
+test("while a stylus paints, its stroke is shown between frames by a small part, and by frames when it ends", async () => {
+  const context = await stage.context({ colorScheme: "light" });
+  const faults = [];
+  const { page } = await openStudio(context, stage.server.address, faults);
+  await page.keyboard.press("Escape");
+  await page.waitForTimeout(1000);
+  const parts = await page.evaluate(async () => {
+    const canvas = document.getElementById("studio");
+    const part = document.getElementById("between");
+    const send = (type, x, pressure) => canvas.dispatchEvent(new PointerEvent(type, {
+      bubbles: true, cancelable: true, pointerType: "pen", pointerId: 7, isPrimary: true, clientX: x, clientY: 250,
+      pressure, button: type === "pointermove" ? -1 : 0, buttons: pressure > 0 ? 1 : 0,
+    }));
+    const frame = () => new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+    send("pointermove", 300, 0);
+    await frame();
+    send("pointerdown", 300, 0.6);
+    let seen = 0;
+    let box = null;
+    for (let x = 300; x < 600; x += 3) {
+      send("pointermove", x, 0.6);
+      await frame();
+      if (part.hidden) continue;
+      seen += 1;
+      box = part.getBoundingClientRect().toJSON();
+    }
+    send("pointerup", 600, 0);
+    return { seen, box };
+  });
+  assert.ok(parts.seen > 20, `it was seen ${parts.seen} times`);
+  assert.ok(parts.box.width <= 640 && parts.box.height <= 384, `it is small: ${JSON.stringify(parts.box)}`);
+  await rest(page);
+  await until(page, (state) => !state.stroke_open);
+  await page.waitForFunction(() => document.getElementById("between").hidden);
+  assert.ok((await inspect(page)).history[0] > 0);
+  assert.deepEqual(faults, [], "nothing is wrong in the browser's console");
+  await context.close();
+});
+
 test("a browser that reports the pressure 0.5 for every pen: it follows from the speed, and that is told once", async () => {
   const context = await stage.context({ colorScheme: "light" });
   const { page } = await openStudio(context, stage.server.address);

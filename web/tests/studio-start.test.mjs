@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { resolve } from "node:path";
 import { after, afterEach, before, test } from "node:test";
 import { pictures } from "./browser.mjs";
-import { inspect, launch, openStudio, penStroke, rest, serve } from "./studio.mjs";
+import { inspect, launch, openStudio, penStroke, prepared, rest, serve } from "./studio.mjs";
 
 let server;
 const browsers = [];
@@ -25,6 +25,21 @@ async function browserWith(flags) {
   const browser = await launch(flags);
   browsers.push(browser);
   return browser;
+}
+
+/** Waits until the browser's storage has an autosave of the page. */
+async function autosaved(page) {
+  const saved = () => page.evaluate(async () => {
+    const folder = await (await navigator.storage.getDirectory()).getDirectoryHandle("impasto-studio");
+    for await (const [name, handle] of folder) {
+      if (!name.startsWith("page-")) continue;
+      const list = await (await handle.getFileHandle("list.json")).getFile();
+      if (Object.keys(JSON.parse(await list.text()).files).some((path) => path.endsWith(".exr"))) return true;
+    }
+    return false;
+  }).catch(() => false);
+  for (let trial = 0; trial < 60 && !(await saved()); trial++) await page.waitForTimeout(500);
+  assert.ok(await saved(), "the painting is autosaved");
 }
 
 /** Opens the page, which does not start, and returns its text. */
@@ -89,17 +104,28 @@ test("a browser that does not know the module, and a module that is not there, a
   await context.close();
 });
 
-test("when the studio ends by an error the painter is told, and loads it again", async () => {
+test("when the studio ends by an error the painter is told, and the page loaded again offers the painting", async () => {
   const browser = await browserWith();
-  const context = await browser.newContext();
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 } });
+  await prepared(context, server.address, { theme: "light", autosave_seconds: 2 });
   const { page } = await openStudio(context, server.address);
+  await penStroke(page, Array.from({ length: 40 }, (_, at) => [350 + 8 * at, 250, 0.6]));
+  await rest(page);
+  await autosaved(page);
   assert.ok(await page.locator("#message").isHidden());
-  // An error as the module throws it when it ends.
-  await page.evaluate(() => setTimeout(() => { throw new WebAssembly.RuntimeError("unreachable"); }));
+  // No time ends so late: the module panics as it adds this turn to the time.
+  await page.evaluate(() => setTimeout(() => window.impasto.page.turn(Infinity)));
   await page.locator("#text", { hasText: "has ended by an error" }).waitFor();
+  assert.match(await page.locator("#text").innerText(), /What was autosaved is offered when the page is loaded again/);
+  await page.screenshot({ path: resolve(pictures, "studio-ended.png") });
   const again = page.getByRole("button", { name: "Load again" });
   assert.ok(await again.evaluate((button) => button === document.activeElement), "the keyboard reaches it");
   await again.click();
-  await page.waitForFunction(() => window.impasto.inspect?.()?.revision != null, null, { timeout: 60_000 });
+  await page.waitForFunction(() => window.impasto.inspect?.()?.lost === 1, null, { timeout: 60_000 });
+  // The button Recover of the offer, at the top of the canvas.
+  await page.mouse.click(786, 69);
+  await page.waitForFunction(() => window.impasto.inspect().lost === 0, null, { timeout: 60_000 });
+  await rest(page);
+  assert.ok((await inspect(page)).history[0] > 0, "the stroke is there again");
   await context.close();
 });

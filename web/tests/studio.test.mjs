@@ -74,3 +74,29 @@ test("the page is dark where the system is", async () => {
   await shown(page, "dark");
   await context.close();
 });
+
+test("a window as narrow as a phone shows the canvas, and the panels where they are asked for", async () => {
+  const context = await stage.context({ viewport: { width: 390, height: 844 }, colorScheme: "light" });
+  const { page } = await openStudio(context, stage.server.address);
+  await page.keyboard.press("Escape");
+  const { corners: [[left, top], [right, bottom]] } = await inspect(page);
+  assert.ok(right - left > 0.6 * 390, `the canvas is ${right - left} px wide`);
+  assert.ok(left >= 0 && right <= 390 && top >= 0 && bottom <= 844, "and within the window");
+  const seen = () => page.screenshot({ clip: { x: 60, y: 60, width: 320, height: 300 } });
+  const canvas = await seen();
+  await page.mouse.click(368, 13);
+  await page.waitForTimeout(1000);
+  assert.ok(!(await seen()).equals(canvas), "the panels cover the canvas");
+  await shown(page, "phone-panels");
+  const { revision } = await inspect(page);
+  await penStroke(page, Array.from({ length: 20 }, (_, at) => [left + 20 + 6 * at, (top + bottom) / 2, 0.6]));
+  await rest(page);
+  assert.equal((await inspect(page)).revision, revision, "nothing is painted through them");
+  await page.mouse.click(368, 13);
+  await page.waitForTimeout(1000);
+  await penStroke(page, Array.from({ length: 20 }, (_, at) => [left + 20 + 6 * at, (top + bottom) / 2, 0.6]));
+  await rest(page);
+  assert.ok((await inspect(page)).revision > revision, "the canvas is painted");
+  await shown(page, "phone");
+  await context.close();
+});

@@ -29,6 +29,9 @@ const SHORTEST_INTERVAL: Duration = Duration::from_micros(16_000);
 /// Maximum time between two renderings, if they take long.
 const LONGEST_INTERVAL: Duration = Duration::from_millis(33);
 
+/// Time between two renderings in times of one. In a page, painting has the same thread.
+const RENDERING_TIMES: u32 = if cfg!(target_arch = "wasm32") { 6 } else { 3 };
+
 /// Time between two renderings while the paint is behind the pen: 20 a second.
 const INTERVAL_BEHIND: Duration = Duration::from_millis(48);
 
@@ -195,7 +198,7 @@ impl Outbox {
                 meter.add_sample(now, arrived);
             }
         }
-        let interval = (3 * (now - start)).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL);
+        let interval = (RENDERING_TIMES * (now - start)).clamp(SHORTEST_INTERVAL, LONGEST_INTERVAL);
         self.next = start + if self.paint_is_behind { INTERVAL_BEHIND } else { interval };
         Ok(())
     }

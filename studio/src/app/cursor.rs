@@ -36,12 +36,9 @@ impl Studio {
     /// Draws the brush head: deformed as the worker reported it, or hovering above the
     /// surface. It has its colour where it `paints`.
     fn draw_head(&mut self, ui: &Ui, painting: &PaintingState, paints: bool) {
-        let paint = |name: &str| {
-            let brush = painting.brushes.iter().find(|brush| brush.name == name);
-            brush.and_then(|brush| brush.color.filter(|_| paints))
-        };
         if let Some(head) = &self.head {
-            self.view(head.surface).show_head(ui, head, paint(&self.tools.brush));
+            let shown = self.view(head.surface).show_head(ui, head, self.head_paint());
+            self.head_rect = shown;
             ui.ctx().set_cursor_icon(CursorIcon::None);
             return;
         }
@@ -55,9 +52,17 @@ impl Studio {
         }
         let head = self.hovering.as_mut().and_then(|held| held.over(hover));
         if let Some(head) = head {
-            self.view(hover.surface).show_head(ui, &head, paint(&hover.brush));
+            let paint = brush.color.filter(|_| paints);
+            self.head_rect = self.view(hover.surface).show_head(ui, &head, paint);
             ui.ctx().set_cursor_icon(CursorIcon::None);
         }
+    }
+
+    /// Colour of the paint on the brush that paints; `None` if it does not, or is bare.
+    pub(super) fn head_paint(&self) -> Option<[u8; 3]> {
+        let painting = self.painting.as_ref()?;
+        let brush = painting.brushes.iter().find(|brush| brush.name == self.tools.brush)?;
+        brush.color.filter(|_| self.keys.mode(self.tools.mode) == Mode::Paint)
     }
 
     /// Draws a line from a stabilised brush to its pen, dark with a light core, so that it shows on

@@ -32,6 +32,9 @@ impl Studio {
     /// Handles worker events and file tasks. Call before each frame, also while the
     /// window is hidden.
     pub fn logic(&mut self, context: &Context) {
+        if self.pen.stylus_on().is_none() {
+            pace::set_rare(context, None);
+        }
         pace::begin_frame(context, Instant::now());
         speak(self.files.preferences.language);
         self.handle_events();
@@ -173,7 +176,7 @@ impl Studio {
 
     /// Passes the queued requests on in order. File requests wait until a painting is
     /// open.
-    fn send_requests(&mut self) {
+    pub(super) fn send_requests(&mut self) {
         for request in std::mem::take(&mut self.requests) {
             match (request, &self.painting) {
                 (Request::Worker(command), _) => {

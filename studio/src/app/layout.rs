@@ -25,7 +25,8 @@ impl Studio {
         let mirror = self.canvas.view.mirror;
         let mut intent = None;
         if self.visible.panels {
-            let shown = (self.visible.panels, self.visible.palette, self.tools.figures);
+            let panels = self.shows_panels(&context);
+            let shown = (panels, self.visible.palette, self.tools.figures);
             let scene = self.volumes.is_some();
             let open = painting.is_some();
             let look = self.files.preferences.look();
@@ -56,12 +57,20 @@ impl Studio {
                     let state = toolbar::State { mode, mirror, history };
                     intent = intent.or(toolbar::show(ui, state));
                 });
-            self.draw_columns(ui);
+            if !theme::is_narrow(&context) {
+                self.draw_columns(ui);
+            }
         }
         if let Some(intent) = intent {
             self.perform(intent, &context);
         }
-        CentralPanel::no_frame().show(ui, |ui| self.draw_surfaces(ui));
+        let covered = self.shows_sheet(&context);
+        CentralPanel::no_frame()
+            .show(ui, |ui| if covered { self.draw_sheet(ui) } else { self.draw_surfaces(ui) });
+        if covered {
+            let events = context.input(|input| input.events.clone());
+            self.update_pen(&context, &events, self.keys.mode(self.tools.mode));
+        }
     }
 
     /// Draws the columns of panels at both sides.

@@ -67,7 +67,11 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
         }
         ui.with_layout(eframe::egui::Layout::right_to_left(eframe::egui::Align::Center), |ui| {
             ui.add_space(4.0);
-            ui.weak(title);
+            if !theme::is_narrow(ui.ctx()) {
+                ui.weak(title);
+            } else if ui.selectable_label(state.shown.0, tr("Panels")).clicked() {
+                clicked = Some(Intent::Panels);
+            }
         });
     });
     clicked

@@ -59,6 +59,8 @@ mod aids;
 
 mod quick_palette;
 
+mod narrow;
+
 mod perform;
 
 mod own;
@@ -81,6 +83,9 @@ mod system;
 
 mod frame;
 
+mod between;
+
+pub use between::Between;
 pub use crop::{CropAnswer, CropTool};
 pub use entries::entries;
 pub use frames::Frames;

@@ -2,7 +2,7 @@
 
 use web_time::Instant;
 
-use eframe::egui::{Context, Order, Popup, RawInput, Ui};
+use eframe::egui::{Context, Event, Order, Popup, RawInput};
 use render::paint::strokes::{SampleDecimals, StrokeTool, SurfaceId};
 
 use super::hover::Hover;
@@ -23,9 +23,9 @@ impl Studio {
         self.pen.read_systems(context, input);
     }
 
-    /// Processes the pointer events since the last frame, with the current placement of
-    /// the surfaces.
-    pub(super) fn update_pen(&mut self, ui: &Ui, mode: Mode) {
+    /// Processes egui's pointer events and what the pens reported since the last call, with the
+    /// current placement of the surfaces.
+    pub(super) fn update_pen(&mut self, context: &Context, events: &[Event], mode: Mode) {
         let now = Instant::now();
         let Some(painting) = self.painting.clone() else { return };
         let transforms: Vec<SurfaceTransform> = self
@@ -40,10 +40,10 @@ impl Studio {
                 })
             })
             .collect();
-        let context = ui.ctx();
         let blocked = !mode.moves_head()
             || self.quick.is_some()
             || self.is_framing()
+            || self.shows_sheet(context)
             || Popup::is_any_open(context)
             || context.memory(|memory| memory.top_modal_layer().is_some());
         let covered = |point| {
@@ -59,9 +59,9 @@ impl Studio {
         };
         let view = PenTargets { surfaces: &transforms, covered: &covered };
         // Copied, because `covered` queries the context while the events are processed.
-        let (input_events, modifiers) = ui.input(|input| (input.events.clone(), input.modifiers));
+        let modifiers = context.input(|input| input.modifiers);
         self.pen.guide = self.aids.leading();
-        let events = self.pen.process_frame(&input_events, modifiers, now, &view);
+        let events = self.pen.process_frame(events, modifiers, now, &view);
         events.into_iter().for_each(|event| self.handle_pen_event(event, context));
         if let Some(soon) = self.pen.repaint_after(Instant::now()) {
             pace::frame_after(context, soon, Instant::now());

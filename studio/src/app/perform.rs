@@ -96,7 +96,7 @@ impl Studio {
             Intent::TurnLeft => self.canvas.view.rotate(-TURN_DEG.to_radians()),
             Intent::TurnRight => self.canvas.view.rotate(TURN_DEG.to_radians()),
             Intent::Mirror => self.canvas.view.mirror ^= true,
-            Intent::Panels => self.visible.panels ^= true,
+            Intent::Panels => self.toggle_panels(context),
             Intent::Palette => self.visible.palette ^= true,
             Intent::Figures => self.tools.figures ^= true,
             Intent::FullScreen => {

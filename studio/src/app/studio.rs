@@ -70,6 +70,8 @@ pub struct Studio {
     pub(super) frames: Frames,
     pub(super) figures: Performance,
     pub(super) head: Option<Arc<HeadOnCanvas>>,
+    /// Rectangle that the head covered when it was drawn last, in points.
+    pub(super) head_rect: Option<Rect>,
     pub(super) hover: Option<Hover>,
     pub(super) hovering: Option<HoveringHead>,
     pub(super) quick: Option<QuickPalette>,
@@ -104,6 +106,8 @@ pub struct Studio {
 pub struct VisibleParts {
     /// Menu bar, toolbar and panels.
     pub panels: bool,
+    /// Sheet of panels over the canvas of a narrow window.
+    pub sheet: bool,
     /// Palette and tubes.
     pub palette: bool,
     /// Table of keys.
@@ -154,6 +158,7 @@ impl Studio {
             palette: SurfaceView::new("Palette", Outline::Palette, 10.0),
             visible: VisibleParts {
                 panels: true,
+                sheet: false,
                 palette: true,
                 keys: false,
                 first_steps,
@@ -180,6 +185,7 @@ impl Studio {
             frames: Frames::default(),
             figures: Performance::default(),
             head: None,
+            head_rect: None,
             hover: None,
             hovering: None,
             quick: None,

@@ -86,7 +86,8 @@ impl Studio {
             self.handle_tool(ui, SurfaceId::Canvas, &response, mode);
             self.draw_mask(ui, &response, mode);
         }
-        self.update_pen(ui, mode);
+        let events = ui.input(|input| input.events.clone());
+        self.update_pen(ui.ctx(), &events, mode);
         self.draw_first_steps(ui);
         if !self.is_framing() {
             self.draw_cursor(ui, mode);
@@ -102,7 +103,8 @@ impl Studio {
     /// window.
     fn palette_height(&self, ui: &Ui) -> f32 {
         let room = ui.available_height();
-        let lowest = if theme::is_touch(ui.ctx()) { TOUCH_PALETTE } else { LOWEST_PALETTE };
+        let large = theme::is_touch(ui.ctx()) && !theme::is_narrow(ui.ctx());
+        let lowest = if large { TOUCH_PALETTE } else { LOWEST_PALETTE };
         let usual = (0.3 * room).clamp(lowest, HIGHEST_PALETTE);
         let least = LOWEST_PALETTE.min(room);
         self.panels

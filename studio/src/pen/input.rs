@@ -146,6 +146,12 @@ impl Pen {
         self.stroke.as_ref()?.string_line()
     }
 
+    /// Surface of the open stroke of a stylus, if one is open.
+    #[must_use]
+    pub fn stylus_on(&self) -> Option<SurfaceId> {
+        self.stroke.as_ref().filter(|stroke| stroke.device.is_pen()).map(PenStroke::surface)
+    }
+
     /// Whether a stroke is open.
     #[must_use]
     pub fn is_down(&self) -> bool {

@@ -15,6 +15,9 @@ pub const PANEL_WIDTH: f32 = 284.0;
 /// Least width of a column of panels for touch, in points: eight buttons side by side.
 const TOUCH_PANEL_WIDTH: f32 = 384.0;
 
+/// Width of a window in points below which toolbar and a column of panels would be its half or more.
+const NARROW: f32 = 640.0;
+
 /// Least width and height of everything that is touched, in points: WCAG 2.2, criterion
 /// 2.5.5.
 pub const TOUCH_TARGET: f32 = 44.0;
@@ -62,6 +65,12 @@ pub fn apply_look(context: &Context, look: Look) {
 #[must_use]
 pub fn is_touch(context: &Context) -> bool {
     context.global_style().spacing.interact_size.y >= TOUCH_TARGET
+}
+
+/// Whether the window has no room for columns of panels beside the canvas, as on a phone.
+#[must_use]
+pub fn is_narrow(context: &Context) -> bool {
+    context.content_rect().width() < NARROW
 }
 
 /// Usual width of a column of panels, in points.

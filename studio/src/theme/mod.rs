@@ -16,7 +16,7 @@ pub use colors::{BOARD, BOARD_TEXT, Colors, DARK, LIGHT, SURROUND, colors};
 pub use contrast::contrast;
 pub(crate) use look::text_field;
 pub use look::{
-    Look, PANEL_WIDTH, TOUCH_TARGET, ThemeChoice, apply, apply_look, at_least, is_touch,
+    Look, PANEL_WIDTH, TOUCH_TARGET, ThemeChoice, apply, apply_look, at_least, is_narrow, is_touch,
     panel_width, target,
 };
 pub use scale::{scale_in_window, stepped_scale};

@@ -5,6 +5,8 @@
 //! handle is a line that begins outside; a dot of the paint on the brush is at its end. A head too
 //! small for an outline is a ring with four ticks.
 
+use std::f32::consts::TAU;
+
 use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
 use super::outline::offset_outwards;
@@ -29,62 +31,87 @@ const RING: (f32, f32) = (8.0, 13.0);
 /// Radius of the dot of paint, in points.
 const DOT: f32 = 4.0;
 
+/// Sides of the ring as a polygon.
+const RING_PARTS: usize = 40;
+
 /// Length of the handle, in half widths of the head (chosen by eye).
 const HANDLE: f32 = 9.0;
 
 /// A ring of vertices around the head: x, y and height, in cells.
 type Ring = Vec<[f32; 3]>;
 
-/// Draws a head over its surface, with a dot of its paint. A head with inconsistent vertex counts
-/// or values that are not finite is not drawn.
-pub(super) fn draw(
-    painter: &Painter,
-    placement: &Placement,
-    head: &HeadOnCanvas,
-    paint: Option<[u8; 3]>,
-) {
-    let Some(rings) = rings(head) else { return };
-    let screen = |place: [f32; 3]| placement.point([f64::from(place[0]), f64::from(place[1])]);
-    let around = hull(rings.iter().flatten().map(|place| screen(*place)).collect());
-    let size = Rect::from_points(&around).size();
-    let tip = screen(mean(&rings[rings.len() - 1]));
-    if around.len() < 3 || size.max_elem() < SMALL {
-        ring(painter, tip);
-        dot(painter, tip + vec2(1.0, 1.0) * RING.1, paint);
-        return;
-    }
-    let edge = offset_outwards(&around, GAP);
-    let end = screen(handle_end(&rings));
-    let root = screen(mean(&rings[0]));
-    let beyond = outside(&edge, root, end);
-    for (width, color) in WIDTHS.into_iter().zip([DARK, Color32::WHITE]) {
-        let stroke = Stroke::new(width, color);
-        painter.add(Shape::closed_line(edge.clone(), stroke));
-        if let Some(from) = beyond {
-            painter.line_segment([from, end], stroke);
-        }
-    }
-    let corner = Rect::from_points(&edge).right_bottom();
-    dot(painter, if beyond.is_some() { end } else { corner }, paint);
+/// The lines of a head in the window, in points.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HeadLines {
+    /// Lines, and whether each is closed. Each is drawn dark, then light ([`HeadLines::STROKES`]).
+    pub lines: Vec<(Vec<Pos2>, bool)>,
+    /// Middle and colour of the dot of paint.
+    pub dot: Option<(Pos2, [u8; 3])>,
 }
 
-/// Draws a ring around a place, with ticks that point to it.
-fn ring(painter: &Painter, tip: Pos2) {
-    for (width, color) in WIDTHS.into_iter().zip([DARK, Color32::WHITE]) {
-        let stroke = Stroke::new(width, color);
-        painter.circle_stroke(tip, RING.0, stroke);
-        for side in [Vec2::X, Vec2::Y, -Vec2::X, -Vec2::Y] {
-            painter.line_segment([tip + RING.0 * side, tip + RING.1 * side], stroke);
-        }
-    }
-}
+impl HeadLines {
+    /// Widths in points and colours of the strokes of a line, in the order in which they are drawn.
+    pub const STROKES: [(f32, Color32); 2] = [(WIDTHS[0], DARK), (WIDTHS[1], Color32::WHITE)];
 
-/// Draws a dot of the paint on the brush.
-fn dot(painter: &Painter, at: Pos2, paint: Option<[u8; 3]>) {
-    let Some([red, green, blue]) = paint else { return };
-    painter.circle_filled(at, DOT + 1.5, DARK);
-    let edge = Stroke::new(1.0, Color32::WHITE);
-    painter.circle(at, DOT, Color32::from_rgb(red, green, blue), edge);
+    /// Radii in points of the dark disc below the dot of paint, and of the dot.
+    pub const DOT: [f32; 2] = [DOT + 1.5, DOT];
+
+    /// The lines of a head over its surface. A head with inconsistent vertex counts or values that
+    /// are not finite has none.
+    pub(super) fn of(placement: &Placement, head: &HeadOnCanvas, paint: Option<[u8; 3]>) -> Self {
+        let Some(rings) = rings(head) else { return Self::default() };
+        let screen = |place: [f32; 3]| placement.point([f64::from(place[0]), f64::from(place[1])]);
+        let around = hull(rings.iter().flatten().map(|place| screen(*place)).collect());
+        let size = Rect::from_points(&around).size();
+        let tip = screen(mean(&rings[rings.len() - 1]));
+        if around.len() < 3 || size.max_elem() < SMALL {
+            return Self::ring(tip, paint);
+        }
+        let edge = offset_outwards(&around, GAP);
+        let end = screen(handle_end(&rings));
+        let root = screen(mean(&rings[0]));
+        let beyond = outside(&edge, root, end);
+        let corner = Rect::from_points(&edge).right_bottom();
+        let dot = paint.map(|paint| (if beyond.is_some() { end } else { corner }, paint));
+        let handle = beyond.map(|from| (vec![from, end], false));
+        Self { lines: [(edge, true)].into_iter().chain(handle).collect(), dot }
+    }
+
+    /// A ring around a place, with ticks that point to it.
+    fn ring(tip: Pos2, paint: Option<[u8; 3]>) -> Self {
+        let turn = |part: usize| Vec2::angled(TAU * part as f32 / RING_PARTS as f32);
+        let circle = (0..RING_PARTS).map(|part| tip + RING.0 * turn(part)).collect();
+        let sides = [Vec2::X, Vec2::Y, -Vec2::X, -Vec2::Y];
+        let ticks = sides.map(|side| (vec![tip + RING.0 * side, tip + RING.1 * side], false));
+        let dot = paint.map(|paint| (tip + vec2(1.0, 1.0) * RING.1, paint));
+        Self { lines: [(circle, true)].into_iter().chain(ticks).collect(), dot }
+    }
+
+    /// Rectangle of all that is drawn; `None` if there is nothing.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Rect> {
+        let all = self.lines.iter().flat_map(|(line, _)| line);
+        let all = all.chain(self.dot.as_ref().map(|(at, _)| at));
+        let bounds = all.fold(Rect::NOTHING, |bounds, at| bounds.union(Rect::from_pos(*at)));
+        bounds.is_finite().then(|| bounds.expand(DOT + 3.0))
+    }
+
+    /// Draws the lines.
+    pub(super) fn draw(&self, painter: &Painter) {
+        for (width, color) in Self::STROKES {
+            for (line, closed) in &self.lines {
+                let stroke = Stroke::new(width, color);
+                painter.add(match closed {
+                    true => Shape::closed_line(line.clone(), stroke),
+                    false => Shape::line(line.clone(), stroke),
+                });
+            }
+        }
+        let Some((at, [red, green, blue])) = self.dot else { return };
+        painter.circle_filled(at, Self::DOT[0], DARK);
+        let edge = Stroke::new(1.0, Color32::WHITE);
+        painter.circle(at, Self::DOT[1], Color32::from_rgb(red, green, blue), edge);
+    }
 }
 
 /// Splits the vertices into rings from ferrule to tip; `None` if the head is inconsistent.

@@ -20,6 +20,12 @@ use wgpu::{Buffer, BufferUsages, Device, IndexFormat, Queue, TextureFormat};
 use super::pipeline::{Pipelines, VERTEX_BYTES};
 use super::quad::{LazyTexture, QuadCanvas};
 
+/// Whether an adapter is the processor, by a driver in software.
+#[must_use]
+pub fn is_processor(adapter: &wgpu::Adapter) -> bool {
+    adapter.get_info().device_type == wgpu::DeviceType::Cpu
+}
+
 /// Draws all meshes of this context with the quads' shader from now on.
 pub fn draw_meshes(context: &Context) {
     context.add_plugin(MeshDrawer::default());
@@ -141,9 +147,14 @@ impl DrawMeshes {
         laid_out.collect()
     }
 
+    /// Indices into the vertices of all meshes: WebGL 2 counts from no other vertex than the first.
     fn indices(&self) -> Vec<[u8; 4]> {
-        let all = self.meshes.iter().flat_map(|clipped| &clipped.mesh.indices);
-        all.map(|index| index.to_ne_bytes()).collect()
+        let (mut base, mut all) = (0_u32, Vec::new());
+        for ClippedMesh { mesh, .. } in &self.meshes {
+            all.extend(mesh.indices.iter().map(|index| (base + index).to_ne_bytes()));
+            base += mesh.vertices.len() as u32;
+        }
+        all
     }
 }
 
@@ -192,17 +203,16 @@ impl CallbackTrait for DrawMeshes {
         pass.set_pipeline(&pipelines.blended);
         pass.set_vertex_buffer(0, vertices.slice(..));
         pass.set_index_buffer(indices.slice(..), IndexFormat::Uint32);
-        let (mut first, mut base) = (0_u32, 0_i32);
+        let mut first = 0_u32;
         for ClippedMesh { clip_rect, mesh, texture: (texture, smooth) } in &self.meshes {
             let range = first..first + mesh.indices.len() as u32;
-            let offset = base;
-            (first, base) = (range.end, base + mesh.vertices.len() as i32);
+            first = range.end;
             let [x, y, right, bottom] = pixels(*clip_rect, info.pixels_per_point, [width, height]);
             let Some(bind_group) = texture.bind_group(*smooth) else { continue };
             if right > x && bottom > y {
                 pass.set_scissor_rect(x, y, right - x, bottom - y);
                 pass.set_bind_group(0, &bind_group, &[]);
-                pass.draw_indexed(range, offset, 0..1);
+                pass.draw_indexed(range, 0, 0..1);
             }
         }
         let [x, y, right, bottom] = pixels(info.clip_rect, info.pixels_per_point, [width, height]);

@@ -77,6 +77,12 @@ impl MipLevels {
         }
     }
 
+    /// Columns of a level, and its cells row by row.
+    pub(super) fn cells(&self, level: usize) -> (usize, &[Color32]) {
+        let MipLevel { width, pixels, .. } = &self.levels[level];
+        (*width, pixels)
+    }
+
     /// Copies a rectangle of a level.
     pub(super) fn region(&self, level: usize, rect: Rect) -> ColorImage {
         let MipLevel { width, pixels, .. } = &self.levels[level];
@@ -96,6 +102,8 @@ pub(super) fn next_level_rect(rect: Rect) -> Rect {
 
 impl MipLevel {
     fn average(&mut self, below: &Self, changed: Rect) {
+        // Looked up once: each look asks whether the tables are made.
+        let (decoded, encoded) = (&*DECODED, &**ENCODED);
         for y in changed.y..changed.y + changed.height {
             for x in changed.x..changed.x + changed.width {
                 let mut sum = [0.0_f32; 3];
@@ -103,13 +111,13 @@ impl MipLevel {
                 for row in 2 * y..(2 * y + 2).min(below.height) {
                     for column in 2 * x..(2 * x + 2).min(below.width) {
                         let cell = below.pixels[row * below.width + column];
-                        sum[0] += DECODED[usize::from(cell.r())];
-                        sum[1] += DECODED[usize::from(cell.g())];
-                        sum[2] += DECODED[usize::from(cell.b())];
+                        sum[0] += decoded[usize::from(cell.r())];
+                        sum[1] += decoded[usize::from(cell.g())];
+                        sum[2] += decoded[usize::from(cell.b())];
                         cells += 1.0;
                     }
                 }
-                let [red, green, blue] = sum.map(|sum| encoded(sum / cells));
+                let [red, green, blue] = sum.map(|sum| encoded[step(sum / cells)]);
                 self.pixels[y * self.width + x] = Color32::from_rgb(red, green, blue);
             }
         }
@@ -131,9 +139,10 @@ static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
     (0..STEPS).map(|at| nearest(step(at))).collect()
 });
 
-fn encoded(linear: f32) -> u8 {
-    let step = (linear * (STEPS - 1) as f32).round() as usize;
-    ENCODED[step.min(STEPS - 1)]
+/// The nearest step of linear light.
+fn step(linear: f32) -> usize {
+    let step = (linear * (STEPS - 1) as f32 + 0.5) as usize;
+    step.min(STEPS - 1)
 }
 
 #[cfg(test)]

@@ -18,13 +18,17 @@ mod outline;
 
 mod head;
 
+mod patch;
+
 mod surface;
 
 mod light_switch;
 
 pub use fills::quicken;
-pub use meshes::draw_meshes;
+pub use head::HeadLines;
+pub use meshes::{draw_meshes, is_processor};
 pub use outline::Outline;
+pub use patch::Patch;
 pub use picture::{DrawnPart, Picture};
 pub use quad::fill_rect;
 pub use quad::set_format;

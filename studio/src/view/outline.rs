@@ -19,10 +19,10 @@ const CORNER: f64 = 0.2;
 const HOLE: (f64, f64) = (0.085, 0.24);
 
 /// Width of a surface's shadow, in points.
-const SHADOW: f32 = 6.0;
+pub(super) const SHADOW: f32 = 6.0;
 
 /// Colour of the shadow at the surface's edge.
-const SHADE: Color32 = Color32::from_gray(88);
+pub(super) const SHADE: Color32 = Color32::from_gray(88);
 
 /// The outline of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

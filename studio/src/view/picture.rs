@@ -48,6 +48,17 @@ pub struct Picture {
     levels: MipLevels,
     chunks: Vec<Vec<Chunk>>,
     uploaded: u64,
+    /// Cells that were written since they were last taken.
+    fresh: Option<Rect>,
+}
+
+/// How a picture is shown in a view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shown {
+    /// Level that is drawn.
+    pub(super) level: usize,
+    /// Whether its cells are interpolated.
+    pub(super) interpolate: bool,
 }
 
 impl std::fmt::Debug for Picture {
@@ -63,7 +74,7 @@ impl Picture {
     pub fn new(name: &'static str, cells: (usize, usize)) -> Self {
         let levels = MipLevels::new(cells.0, cells.1, theme::SURROUND);
         let chunks = (0..levels.count()).map(|level| chunks(levels.bounds(level))).collect();
-        Self { name, levels, chunks, uploaded: 0 }
+        Self { name, levels, chunks, uploaded: 0, fresh: None }
     }
 
     /// Columns and rows of cells.
@@ -77,6 +88,7 @@ impl Picture {
     pub fn write(&mut self, tile: &TilePixels) {
         self.levels.write(tile.rect, &tile.pixels);
         let mut changed = tile.rect.intersection(self.levels.bounds(0));
+        self.fresh = Some(self.fresh.map_or(changed, |fresh| union(fresh, changed)));
         for (level, chunks) in self.chunks.iter_mut().enumerate() {
             if level > 0 {
                 changed = next_level_rect(changed);
@@ -97,16 +109,32 @@ impl Picture {
         self.uploaded
     }
 
-    /// Draws the visible part of the picture, limited to `part`.
-    pub fn draw(&mut self, painter: &Painter, placement: &Placement, part: DrawnPart) {
-        let density = f64::from(painter.pixels_per_point());
+    /// How the picture is shown at a placement and a density in pixels per point.
+    pub(super) fn shown(&self, placement: &Placement, density: f64) -> Shown {
         let zoom = placement.scale() * density;
         // Chooses the level with one to two cells per pixel, or level 0.
         let finest = (1.0 / zoom).log2().floor().max(0.0) as usize;
         let level = finest.min(self.levels.count() - 1);
         let smooth = zoom < SQUARES && !placement.aligned;
         // A level that is shown reduced is always interpolated.
-        let interpolate = smooth || zoom < 1.0;
+        Shown { level, interpolate: smooth || zoom < 1.0 }
+    }
+
+    /// The rectangle of the cells that were written since the last call or drawing, if any were.
+    pub(super) fn take_fresh(&mut self) -> Option<Rect> {
+        self.fresh.take()
+    }
+
+    /// Mipmap levels of the picture.
+    pub(super) fn levels(&self) -> &MipLevels {
+        &self.levels
+    }
+
+    /// Draws the visible part of the picture, limited to `part`.
+    pub fn draw(&mut self, painter: &Painter, placement: &Placement, part: DrawnPart) {
+        self.fresh = None;
+        let density = f64::from(painter.pixels_per_point());
+        let Shown { level, interpolate } = self.shown(placement, density);
         let size = 1_usize << level;
         let (width, height) = self.cells();
         let (from, to) = match part {

@@ -5,8 +5,9 @@ use eframe::egui::{
     Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::head;
+use super::head::HeadLines;
 use super::outline::Outline;
+use super::patch::Patch;
 use super::picture::{DrawnPart, Picture};
 use super::transform::{Placement, ViewState};
 use crate::language::tr;
@@ -193,9 +194,37 @@ impl SurfaceView {
         response
     }
 
-    /// Draws a brush head over the surface, with the colour of its paint.
-    pub fn show_head(&self, ui: &Ui, over: &HeadOnCanvas, paint: Option<[u8; 3]>) {
-        head::draw(&ui.painter_at(self.rect), &self.placement(), over, paint);
+    /// Draws a brush head over the surface, with the colour of its paint. Returns the rectangle that
+    /// it covers.
+    pub fn show_head(&self, ui: &Ui, over: &HeadOnCanvas, paint: Option<[u8; 3]>) -> Option<Rect> {
+        let lines = self.head_lines(over, paint);
+        lines.draw(&ui.painter_at(self.rect));
+        lines.bounds()
+    }
+
+    /// The lines of a brush head over the surface, with the colour of its paint.
+    #[must_use]
+    pub fn head_lines(&self, over: &HeadOnCanvas, paint: Option<[u8; 3]>) -> HeadLines {
+        HeadLines::of(&self.placement(), over, paint)
+    }
+
+    /// The part of the window whose picture changed since it was last drawn or taken, in points.
+    pub fn take_fresh(&mut self) -> Option<Rect> {
+        let cells = self.first.take_fresh()?;
+        let (left, top) = (cells.x as f64, cells.y as f64);
+        let (right, bottom) = (left + cells.width as f64, top + cells.height as f64);
+        let placement = self.placement();
+        let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
+        let points = corners.map(|corner| placement.point(corner));
+        // Interpolated pixels reach into the cells beside them, at reduced levels some cells far.
+        let margin = 2.0 * (1.0 + placement.scale() as f32);
+        Some(Rect::from_points(&points).expand(margin))
+    }
+
+    /// Pixels of a rectangle of the window, given in points, as far as the surface is shown in it.
+    #[must_use]
+    pub fn patch(&self, rect: Rect) -> Patch {
+        Patch::of(&self.first, &self.placement(), rect.intersect(self.rect), self.density)
     }
 
     /// Applies drags, wheel and touch gestures to the view.

@@ -45,6 +45,10 @@ mod layers;
 
 mod layout;
 
+mod narrow;
+
+mod between;
+
 mod light;
 
 mod own_brushes;

@@ -1,5 +1,6 @@
 // The page around the studio: starts it, gives its worker turns, passes pens and files on.
 
+import { Overlay } from "./between.js";
 import { Storage } from "./storage.js";
 import { said } from "./words.js";
 
@@ -69,6 +70,28 @@ function giveTurns(page, afterTurn) {
   };
   channel.port1.onmessage = turn;
   return ask;
+}
+
+/** Shows strokes of a stylus between frames. `ask` is to be called when the stylus has moved, `afterFrame` after each frame. */
+function showStrokes(page) {
+  const overlay = new Overlay();
+  let asked = false;
+  let shows = false;
+  const show = () => {
+    asked = false;
+    const part = page.between();
+    shows = part !== undefined;
+    if (!shows) return;
+    overlay.show(part);
+    ask();
+  };
+  const ask = () => {
+    if (!asked) {
+      asked = true;
+      requestAnimationFrame(show);
+    }
+  };
+  return { ask, afterFrame: () => overlay.clear(), shows: () => shows };
 }
 
 /** Time until a write to the browser's storage that failed is tried again, in ms. */
@@ -141,7 +164,7 @@ async function open(page, files) {
 }
 
 /** Passes styluses on: every event that the browser has, also those between two frames. */
-function listenToPens(page) {
+function listenToPens(page, strokes, askTurn) {
   const numbers = (event, now) => {
     const box = canvas.getBoundingClientRect();
     const { clientX, clientY, pressure, tiltX, tiltY, twist, buttons, timeStamp } = event;
@@ -160,8 +183,14 @@ function listenToPens(page) {
     if (!isPen(event)) return;
     const all = event.getCoalescedEvents?.() ?? [];
     const now = performance.now();
-    for (const part of all.length > 0 ? all : [event]) page.pen(1, numbers(part, now));
+    let taken = false;
+    for (const part of all.length > 0 ? all : [event]) taken = page.pen(1, numbers(part, now));
+    if (!taken) return;
+    askTurn();
+    strokes.ask();
   }, options);
+  // The studio would draw a frame for each.
+  window.addEventListener("mousemove", (event) => strokes.shows() && event.stopImmediatePropagation(), options);
   canvas.addEventListener("pointerup", (event) => {
     if (isPen(event)) page.pen(2, numbers(event, performance.now()));
   }, options);
@@ -198,6 +227,7 @@ async function start() {
   const keep = keepFiles(page, storage);
   let first = true;
   const ask = giveTurns(page, keep);
+  const strokes = showStrokes(page);
   const chooser = document.createElement("input");
   chooser.type = "file";
   chooser.addEventListener("change", () => open(page, [...chooser.files]));
@@ -207,6 +237,7 @@ async function start() {
       message.hidden = true;
       window.impasto.firstFrame = performance.now() - begun;
     }
+    strokes.afterFrame();
     ask();
     queueMicrotask(() => {
       const wanted = page.wanted();
@@ -218,7 +249,7 @@ async function start() {
       else window.addEventListener("pointerup", () => chooser.click(), { once: true, capture: true });
     });
   });
-  listenToPens(page);
+  listenToPens(page, strokes, ask);
   window.addEventListener("drop", (event) => open(page, [...(event.dataTransfer?.files ?? [])]), true);
   document.addEventListener("visibilitychange", () => {
     if (!document.hidden) return;

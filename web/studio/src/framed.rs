@@ -7,23 +7,30 @@ use eframe::{App, CreationContext, Frame, WebOptions};
 use js_sys::Function;
 use session::{WorkerOptions, initial_commands};
 use spectra::file::disk;
-use studio::app::{Parts, StartedWorker, Studio};
+use studio::app::{Between, Parts, StartedWorker, Studio};
 use studio::files::{Files, Home, Preferences, Problem};
 use studio::pen::{Pen, PenSettings};
 use studio::theme::ThemeChoice;
 use wasm_bindgen::JsValue;
+use web_time::{Duration, Instant};
 
 use crate::page_fonts::page_fonts;
 
 /// Most memory for undo, in bytes: 192 MiB. A page has 4 GiB in all and cannot give any back.
 const MOST_UNDO_BYTES: u64 = 192 << 20;
 
+/// Time of a stroke after which other work no longer waits for its end: with the time between two
+/// autosaves at most 20 s of painting are lost.
+const LONG_STROKE: Duration = Duration::from_secs(7);
+
 /// The studio, and what the page tells it between frames.
 pub(crate) struct Framed {
     pub(crate) studio: Studio,
     context: Context,
+    /// When the pen was set down; `None` while it is lifted.
+    down_since: Option<Instant>,
     frame_done: Function,
-    /// Frames that were drawn.
+    /// Pictures that were shown: frames, and parts between them.
     pub(crate) frames: u64,
     /// Files to open in the next frame.
     opened: Vec<PathBuf>,
@@ -50,6 +57,9 @@ impl Framed {
         if let Some(drawn) = &creation.wgpu_render_state {
             studio::view::set_format(&context, drawn.target_format);
             let info = drawn.adapter.get_info();
+            if studio::view::is_processor(&drawn.adapter) {
+                studio::view::draw_meshes(&context);
+            }
             graphics = format!("{:?}: {}", info.backend, info.name);
         }
         let home = Home::for_platform();
@@ -67,7 +77,15 @@ impl Framed {
         problems.into_iter().for_each(|problem| files.report(problem));
         let pen = Pen::new(PenSettings::default());
         let studio = Studio::new(&context, Parts { worker, pen, files, open: None, log: None });
-        Self { studio, context, frame_done, frames: 0, opened: Vec::new(), graphics }
+        Self {
+            studio,
+            context,
+            down_since: None,
+            frame_done,
+            frames: 0,
+            opened: Vec::new(),
+            graphics,
+        }
     }
 
     /// Points of the interface per CSS pixel.
@@ -78,6 +96,29 @@ impl Framed {
     /// Asks for a frame.
     pub(crate) fn wake(&self) {
         self.context.request_repaint();
+    }
+
+    /// Passes on what the stylus reported, if its stroke is shown between frames.
+    pub(crate) fn take_stylus(&mut self) -> bool {
+        self.studio.take_stylus(&self.context)
+    }
+
+    /// What a stroke changed since the last frame, and the physical pixels per point; `None` if frames
+    /// show all.
+    pub(crate) fn between(&mut self) -> Option<(Between, f32)> {
+        let between = self.studio.between(&self.context)?;
+        if between.patch.width > 0 {
+            self.frames += 1;
+        }
+        Some((between, self.context.pixels_per_point()))
+    }
+
+    /// Whether the pen is down, and has not been for long: then work beside the stroke, such as writing
+    /// an autosave, waits, as it would hold the stroke up.
+    pub(crate) fn is_in_stroke(&mut self, now: Instant) -> bool {
+        let since = self.studio.pen.is_down().then(|| self.down_since.unwrap_or(now));
+        self.down_since = since;
+        since.is_some_and(|since| now < since + LONG_STROKE)
     }
 
     /// Opens a file in the next frame.
@@ -104,7 +145,7 @@ impl App for Framed {
     }
 
     fn ui(&mut self, ui: &mut Ui, frame: &mut Frame) {
-        let busy = frame.info().cpu_usage.map(std::time::Duration::from_secs_f32);
+        let busy = frame.info().cpu_usage.map(Duration::from_secs_f32);
         self.studio.ui(ui, busy);
         self.frames += 1;
         // The page asks for a turn of the worker, which has the commands of this frame now.

@@ -10,12 +10,14 @@ mod framed;
 
 mod told;
 
+mod shown;
+
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use eframe::WebRunner;
 use eframe::egui::pos2;
-use js_sys::{Array, Function, Uint8Array};
+use js_sys::{Array, Function, Object, Uint8Array};
 use spectra::file::disk;
 use studio::files::{PageProblem, Problem};
 use studio::language::{Language, set_system};
@@ -89,12 +91,13 @@ impl Page {
     /// Lets the workers work for `budget_ms`. Returns the time until the next turn in ms: 0 for at
     /// once, and -1 if there is nothing to do until the next frame.
     pub fn turn(&self, budget_ms: f64) -> f64 {
-        let Some(framed) = self.runner.app_mut::<Framed>() else { return -1.0 };
+        let Some(mut framed) = self.runner.app_mut::<Framed>() else { return -1.0 };
         let deadline = Instant::now() + Duration::from_secs_f64(budget_ms.max(0.0) / 1000.0);
         let wait = framed.studio.turn(deadline);
+        let waits = framed.is_in_stroke(Instant::now());
         drop(framed);
         // Work that may ask for the window, with the window free.
-        if session::background::next() {
+        if !waits && session::background::next() {
             return 0.0;
         }
         match wait {
@@ -185,16 +188,19 @@ impl Page {
 
     /// Takes a pointer event of a stylus. `phase` is 0 down, 1 move, 2 up, 3 gone; `numbers` are
     /// x and y in CSS pixels of the canvas, pressure, tiltX, tiltY, twist, buttons, and the age of
-    /// the event in ms.
-    pub fn pen(&self, phase: u8, numbers: &[f64]) {
+    /// the event in ms. Returns whether its stroke is shown by [`Page::between`], and the worker has
+    /// what it needs of it already.
+    pub fn pen(&self, phase: u8, numbers: &[f64]) -> bool {
         let phase = match phase {
             0 => PagePhase::Down,
             1 => PagePhase::Move,
             2 => PagePhase::Up,
             _ => PagePhase::Gone,
         };
-        let &[x, y, pressure, tilt_x, tilt_y, twist_deg, buttons, age_ms] = numbers else { return };
-        let Some(mut framed) = self.runner.app_mut::<Framed>() else { return };
+        let &[x, y, pressure, tilt_x, tilt_y, twist_deg, buttons, age_ms] = numbers else {
+            return false;
+        };
+        let Some(mut framed) = self.runner.app_mut::<Framed>() else { return false };
         let zoom = f64::from(framed.zoom());
         let now = Instant::now();
         let age = Duration::from_secs_f64(age_ms.clamp(0.0, 1000.0) / 1000.0);
@@ -214,7 +220,19 @@ impl Page {
         if let Some(text) = pens.take_notice() {
             framed.report(Problem { text, hint: None });
         }
-        framed.wake();
+        let taken = phase == PagePhase::Move && framed.take_stylus();
+        if !taken {
+            framed.wake();
+        }
+        taken
+    }
+
+    /// What the stroke of a stylus has changed since the last call or frame, as `left`, `top`, `width`
+    /// and `height` in physical pixels, `pixels` and `head`: to be shown over the canvas until the next
+    /// frame. Without extent if nothing changed; undefined if frames show all.
+    pub fn between(&self) -> Option<Object> {
+        let mut framed = self.runner.app_mut::<Framed>()?;
+        framed.between().map(|(between, density)| shown::shown(&between, density))
     }
 
     /// Keeps what the page would forget: to be called when it is hidden.

@@ -88,12 +88,17 @@ impl Panels {
         }
     }
 
+    /// Whether a column has panels.
+    pub(in crate::app) fn has_column(&self, side: Side) -> bool {
+        !self.arrangement.column(side).groups.is_empty()
+    }
+
     /// Width of a column in a window of a width; 0 without panels.
     pub(in crate::app) fn column_width(&self, context: &Context, side: Side) -> f32 {
-        let Column { width, groups } = self.arrangement.column(side);
-        if groups.is_empty() {
+        if !self.has_column(side) {
             return 0.0;
         }
+        let Column { width, .. } = self.arrangement.column(side);
         let touched = theme::is_touch(context);
         let least = if touched { theme::panel_width(context) } else { *WIDTHS.start() };
         let most = WIDEST * context.content_rect().width();
@@ -111,7 +116,9 @@ impl Panels {
         let whole = ui.max_rect();
         drawn.columns.push((side, whole));
         fill_rect(ui.painter(), whole, theme::colors(ui.ctx()).panel);
-        self.width_divider(ui, side, whole);
+        if !theme::is_narrow(ui.ctx()) {
+            self.width_divider(ui, side, whole);
+        }
         let area = whole.shrink2(vec2(8.0, MARGIN));
         let column = self.arrangement.column(side).clone();
         let panels: Vec<Vec<&'static SidePanel>> = column
