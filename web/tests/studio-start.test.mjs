@@ -121,7 +121,7 @@ test("when the studio ends by an error the painter is told, and the page loaded 
   const again = page.getByRole("button", { name: "Load again" });
   assert.ok(await again.evaluate((button) => button === document.activeElement), "the keyboard reaches it");
   await again.click();
-  await page.waitForFunction(() => window.impasto.inspect?.()?.lost === 1, null, { timeout: 60_000 });
+  await page.waitForFunction(() => window.impasto?.inspect?.()?.lost === 1, null, { timeout: 60_000 });
   await recover(page);
   await rest(page);
   assert.ok((await inspect(page)).history[0] > 0, "the stroke is there again");
