@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { resolve } from "node:path";
 import { after, afterEach, before, test } from "node:test";
 import { pictures } from "./browser.mjs";
-import { inspect, launch, openStudio, penStroke, prepared, rest, serve } from "./studio.mjs";
+import { inspect, launch, openStudio, penStroke, prepared, recover, rest, serve } from "./studio.mjs";
 
 let server;
 const browsers = [];
@@ -121,10 +121,8 @@ test("when the studio ends by an error the painter is told, and the page loaded 
   const again = page.getByRole("button", { name: "Load again" });
   assert.ok(await again.evaluate((button) => button === document.activeElement), "the keyboard reaches it");
   await again.click();
-  await page.waitForFunction(() => window.impasto.inspect?.()?.lost === 1, null, { timeout: 60_000 });
-  // The button Recover of the offer, at the top of the canvas.
-  await page.mouse.click(786, 69);
-  await page.waitForFunction(() => window.impasto.inspect().lost === 0, null, { timeout: 60_000 });
+  await page.waitForFunction(() => window.impasto?.inspect?.()?.lost === 1, null, { timeout: 60_000 });
+  await recover(page);
   await rest(page);
   assert.ok((await inspect(page)).history[0] > 0, "the stroke is there again");
   await context.close();

@@ -183,6 +183,18 @@ export async function until(page, condition, value = null, timeout = 30_000) {
   await page.waitForFunction(new Function("value", `return (${text})(value)`), value, { timeout, polling: 100 });
 }
 
+/** Takes up the painting that the page offers: a slow page may miss a click. */
+export async function recover(page) {
+  for (let trial = 0; trial < 5; trial++) {
+    await page.waitForTimeout(1500);
+    // The button Recover of the offer, at the top of the canvas.
+    await page.mouse.click(786, 69);
+    await until(page, (state) => state.lost === 0, null, 10_000).catch(() => {});
+    if ((await inspect(page))?.lost === 0) return;
+  }
+  throw new Error("the painting that is offered was not taken up");
+}
+
 /** Writes preferences to the browser's storage, as the page keeps them, before the studio is opened. */
 export async function prepared(context, url, preferences) {
   const page = await context.newPage();
