@@ -21,20 +21,20 @@ const STATUS: [(&str, &str); 4] = [
     ("129, 130, 143", "Ended by SIGHUP, SIGINT or SIGTERM."),
 ];
 
+/// The name of a file, and the page that it holds.
+type Page = (String, Vec<u8>);
+
 /// Pages of a built command and of those below it, with the names of their files.
 ///
 /// # Errors
 /// The name of a page that could not be made, with the reason.
-pub(crate) fn pages(command: &Command) -> Result<Vec<(String, Vec<u8>)>, (String, io::Error)> {
+pub(crate) fn pages(command: &Command) -> Result<Vec<Page>, (String, io::Error)> {
     let mut pages = Vec::new();
     collect(command, &mut pages)?;
     Ok(pages)
 }
 
-fn collect(
-    command: &Command,
-    pages: &mut Vec<(String, Vec<u8>)>,
-) -> Result<(), (String, io::Error)> {
+fn collect(command: &Command, pages: &mut Vec<Page>) -> Result<(), (String, io::Error)> {
     let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
     let page = page(command, &name).map_err(|error| (name.clone(), error))?;
     pages.push((format!("{name}.1"), page));
