@@ -9,6 +9,7 @@ use clap_complete::Shell;
 use crate::console::{Console, Voice};
 use crate::examples::with_examples;
 use crate::failure::{Failure, Result};
+use crate::manual::pages;
 use crate::output::OutputFolder;
 use crate::verbs::Verb;
 
@@ -73,29 +74,16 @@ impl Completions {
 impl Man {
     pub(crate) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let folder = OutputFolder::open(&self.folder, &[])?;
-        let mut pages = Vec::new();
         let mut whole = command();
         whole.build();
-        collect(&whole, &mut pages)?;
+        let pages = pages(&whole)
+            .map_err(|(name, error)| Failure::from(error).within(format!("the page of {name}")))?;
         let names = pages.iter().map(|(name, _)| name.clone());
         for (output, (_, page)) in folder.outputs(names)?.into_iter().zip(&pages) {
             output.put(page)?;
         }
         folder.told(console)
     }
-}
-
-/// Adds the manual pages of a built command and of those below it, with their file names.
-fn collect(command: &Command, pages: &mut Vec<(String, Vec<u8>)>) -> Result<()> {
-    let name = command.get_display_name().unwrap_or(command.get_name());
-    let mut page = Vec::new();
-    clap_mangen::Man::new(command.clone())
-        .render(&mut page)
-        .map_err(|error| Failure::from(error).within(format!("the page of {name}")))?;
-    pages.push((format!("{name}.1"), page));
-    let inner = command.get_subcommands();
-    let mut shown = inner.filter(|inner| !inner.is_hide_set() && inner.get_name() != "help");
-    shown.try_for_each(|inner| collect(inner, pages))
 }
 
 /// Verbs by what they are for, in the order of the work.

@@ -66,6 +66,8 @@ mod verbs;
 
 mod examples;
 
+mod manual;
+
 mod command;
 
 use std::ffi::OsString;

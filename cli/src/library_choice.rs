@@ -6,7 +6,7 @@ use calibrate::library::PigmentLibrary;
 use spectra::file::{is_standard_input, is_there};
 
 use crate::console::Console;
-use crate::failure::Result;
+use crate::failure::{Context, Failure, Result};
 
 /// Environment variable with the path of the default library.
 pub(crate) const VARIABLE: &str = "IMPASTO_LIBRARY";
@@ -55,14 +55,25 @@ pub(crate) fn quietly_chosen(
     path: Option<&Path>,
     console: &mut Console<'_>,
 ) -> Result<ChosenLibrary> {
-    let Some(path) = path.map(Path::to_owned).or_else(default_path) else {
+    let Some((path, library)) = named_or_default(path)? else {
         let library = PigmentLibrary::van_gogh_oils();
         return Ok(ChosenLibrary { library, path: None });
     };
-    let library = PigmentLibrary::open(&path)?;
     let count = spectra::counted(library.pigments.len(), "pigment");
     console.detail(format!("library: {} ({count})", path.display()))?;
     Ok(ChosenLibrary { library, path: Some(path) })
+}
+
+/// Reads the library at `path`, without one that of [`VARIABLE`], which an error then names. `None` if
+/// there is neither.
+pub(crate) fn named_or_default(path: Option<&Path>) -> Result<Option<(PathBuf, PigmentLibrary)>> {
+    let Some(own) = path.map(Path::to_owned).or_else(default_path) else { return Ok(None) };
+    let read = PigmentLibrary::open(&own).map_err(Failure::from);
+    let library = match path {
+        Some(_) => read?,
+        None => read.context(|| format!("the default library, which {VARIABLE} names"))?,
+    };
+    Ok(Some((own, library)))
 }
 
 /// Splits the words of a verb into the path of a library, if the first word is one, and the others.

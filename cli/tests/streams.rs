@@ -137,6 +137,18 @@ fn the_environment_names_the_default_library() {
     }
     let missing = mix(Some(Path::new("no-such.json")));
     assert_eq!(missing.status.code(), Some(2));
+    let told = text(&missing.stderr);
+    assert!(
+        told.starts_with("error: the default library, which IMPASTO_LIBRARY names\n"),
+        "{told}"
+    );
+    assert!(told.contains("no-such.json: cannot be read"), "{told}");
+    let named = Command::new(env!("CARGO_BIN_EXE_impasto"))
+        .args(["quadrature", "own-missing.json"])
+        .env("IMPASTO_LIBRARY", &library)
+        .output()
+        .unwrap();
+    assert!(text(&named.stderr).starts_with("error: own-missing.json: cannot"), "{named:?}");
 }
 
 #[test]
@@ -157,11 +169,28 @@ fn completions_know_the_verbs_and_every_verb_has_a_manual_page() {
     let pages = folder.path().join("man/man1");
     let made = piped(&["man", pages.to_str().unwrap()], b"");
     assert!(made.status.success(), "{}", text(&made.stderr));
+    let page = |name: &str| std::fs::read_to_string(pages.join(name)).unwrap();
     for name in ["impasto.1", "impasto-fit.1", "impasto-library-merge.1", "impasto-artmap-build.1"]
     {
-        let page = std::fs::read_to_string(pages.join(name)).unwrap();
+        let page = page(name);
         assert!(page.contains(".SH NAME") && page.contains(".SH OPTIONS"), "{name}: {page}");
-        assert!(page.contains("Examples") || name == "impasto.1", "{name} has no examples");
+        let (word, version) = (name.trim_end_matches(".1"), env!("CARGO_PKG_VERSION"));
+        let title = format!(".TH {word} 1 \"\" \"impasto {version}\" \"Manual of impasto\"\n");
+        assert!(page.contains(&title), "{name}: {page}");
+        assert!(page.contains(".SH EXAMPLES\n.nf\n") || name == "impasto.1", "{name}: {page}");
+    }
+    let example = "\nimpasto mix oils.json \"Zinc White=9\" \"Cobalt Blue=1\"\n";
+    assert!(page("impasto-mix.1").contains(example), "{}", page("impasto-mix.1"));
+    let whole = page("impasto.1");
+    for wanted in [".SH \"EXIT STATUS\"", ".SH ENVIRONMENT", "IMPASTO_LIBRARY", "129, 130, 143"] {
+        assert!(whole.contains(wanted), "{wanted}: {whole}");
+    }
+    for file in std::fs::read_dir(&pages).unwrap() {
+        let name = file.unwrap().file_name().into_string().unwrap();
+        for other in page(&name).lines().filter_map(|line| line.strip_suffix("(1)")) {
+            let other = other.replace("\\-", "-").replace("\\fB", "").replace("\\fR", "");
+            assert!(pages.join(format!("{other}.1")).is_file(), "{name} refers to {other}(1)");
+        }
     }
     assert!(!pages.join("impasto-completions.1").exists(), "hidden verbs have no page");
 }

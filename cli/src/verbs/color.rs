@@ -1,6 +1,6 @@
 //! `impasto color`: colours of measured spectra in several systems, and colour differences.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use calibrate::evaluate::Viewing;
 use calibrate::measurement::AveragedSpectrum;
@@ -8,10 +8,12 @@ use clap::{Args, ValueEnum};
 use serde_json::Value;
 use spectra::TristimulusWeights;
 use spectra::color::{Adaptation, Lab, RgbSpace};
+use spectra::file::is_there;
+use spectra::instrument::{split_file_and_name, split_file_and_sheet};
 
 use super::color_table::{ColorTable, ColumnName, Row, SpectrumColor};
 use crate::console::Console;
-use crate::failure::Result;
+use crate::failure::{Failure, Result};
 use crate::input::{remark_coverage, viewing};
 use crate::readings::{ReadingOptions, spectra};
 
@@ -87,6 +89,7 @@ impl Color {
             .iter()
             .map(|light| viewing(light, &self.observer))
             .collect::<Result<Vec<Viewing>>>()?;
+        self.files.iter().try_for_each(|file| refuse_sample(file))?;
         let table = spectra(&self.files, &self.reading, console)?;
         remark_coverage(table.grid, console)?;
         let weights = lights
@@ -146,5 +149,18 @@ impl Color {
             table.print(&selected, light, console)?;
         }
         Ok(())
+    }
+}
+
+/// Refuses FILE#SAMPLE, by which other verbs name one target, with the option that is meant.
+fn refuse_sample(path: &Path) -> Result<()> {
+    let text = path.display().to_string();
+    let is_sheet = split_file_and_sheet(&text).1.is_some();
+    match split_file_and_name(&text) {
+        (file, Some(name)) if !is_sheet && is_there(Path::new(file)) => {
+            let reason = format!("{text}: there is no such file");
+            Err(Failure::usage(reason, format!("for one sample: {file} --sample \"{name}\"")))
+        }
+        _ => Ok(()),
     }
 }

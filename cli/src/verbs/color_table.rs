@@ -9,6 +9,7 @@ use spectra::color::{
 };
 
 use crate::console::Console;
+use crate::decimals::rounded;
 use crate::failure::Result;
 use crate::shown_color::TableColors;
 
@@ -249,7 +250,7 @@ fn named(name: &str, width: usize) -> String {
 
 /// Cells of 7 columns with a blank before each.
 fn decimals(values: &[f64], places: usize) -> String {
-    values.iter().map(|value| format!(" {value:7.places$}")).collect()
+    values.iter().map(|value| format!(" {:>7}", rounded(*value, places))).collect()
 }
 
 /// Cells of whiteness and tint, or why there are none.

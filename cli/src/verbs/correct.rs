@@ -12,9 +12,11 @@ use spectra::{Reflectance, Spectrum, counted, name_list};
 
 use super::match_by::MatchBy;
 use crate::console::Console;
+use crate::decimals;
 use crate::failure::{Failure, Result};
 use crate::input::{condition, srgb};
 use crate::library_choice::{ChosenLibrary, chosen, split};
+use crate::progress::waited;
 use crate::readings::ReadingOptions;
 use crate::targets::targets;
 
@@ -113,7 +115,8 @@ impl Correct {
             tolerance: self.tolerance,
             count: self.count,
         };
-        let found = library.corrections_for(&target, &batch, &options)?;
+        let search = || library.corrections_for(&target, &batch, &options);
+        let found = waited("searching corrections", console, search)?;
         console.remarks(&found.remarks)?;
         let report = Report { library: &library, options: &options, grams };
         if self.csv {
@@ -193,8 +196,7 @@ impl Report<'_> {
             srgb(lab.to_xyz(white), white)
         };
         let line = |name: &str, lab: Lab, console: &Console<'_>| {
-            let (shown, [l, a, b]) = (console.srgb(color(lab)), lab.to_array());
-            format!("{name:8} {shown}  Lab {l:.2} {a:.2} {b:.2}")
+            format!("{name:8} {}  Lab {}", console.srgb(color(lab)), decimals::lab(lab))
         };
         console.line(line("target", found.target.lab[0], console))?;
         let batch = line("batch", found.batch[0], console);

@@ -6,6 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use crate::console::Console;
+use crate::decimals;
 use crate::failure::{Failure, Result};
 use crate::ground::ground;
 use crate::input::ViewingOptions;
@@ -94,9 +95,9 @@ impl Mix {
         console.line(console.srgb(rgb))?;
         let [x, y, z] = xyz.to_array();
         console.line(format!("XYZ {x:.3} {y:.3} {z:.3}"))?;
-        let [l, a, b] = lab.to_array();
         console.line(format!(
-            "Lab {l:.2} {a:.2} {b:.2}  ({}, observer {})",
+            "Lab {}  ({}, observer {})",
+            decimals::lab(lab),
             viewing.illuminant.name(),
             viewing.observer
         ))?;

@@ -69,6 +69,7 @@ pub(crate) enum Verb {
     Fit(fit::Fit),
     Validate(validate::Validate),
     Mix(mix::Mix),
+    #[command(alias = "colour")]
     Color(color::Color),
     Light(light::Light),
     Quadrature(quadrature::Quadrature),

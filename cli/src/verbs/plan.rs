@@ -14,6 +14,7 @@ use crate::grid_option::{grid, numbers};
 use crate::input::library;
 use crate::library_choice::split;
 use crate::output::Output;
+use crate::progress::waited;
 
 /// Maximum number of wavelengths of a measurement file.
 const MAX_WAVELENGTHS: usize = 5001;
@@ -118,7 +119,8 @@ impl Plan {
             balance: self.balance,
             noise,
         };
-        let plan = calibrate::plan(pigments, &self.white, &options)?;
+        let planned = || calibrate::plan(pigments, &self.white, &options);
+        let plan = waited("choosing swatches", console, planned)?;
         console.remarks(&plan.remarks)?;
         if let Some(output) = output {
             output.write(plan.form(&form), console)?;

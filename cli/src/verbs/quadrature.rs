@@ -13,8 +13,9 @@ use spectra::TristimulusWeights;
 
 use crate::console::Console;
 use crate::failure::{Failure, Result};
-use crate::input::{ViewingOptions, color_weights, library};
-use crate::library_choice::default_path;
+use crate::input::{ViewingOptions, color_weights};
+use crate::library_choice::named_or_default;
+use crate::progress::waited;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum MethodName {
@@ -70,8 +71,7 @@ const FILMS: [&str; 2] = ["film over a random ground", "films over random ground
 impl Quadrature {
     pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
         let viewing = self.viewing.viewing()?;
-        let path = self.library.clone().or_else(default_path);
-        let library = path.as_deref().map(library).transpose()?;
+        let library = named_or_default(self.library.as_deref())?.map(|(_, library)| library);
         let method = self.method.unwrap_or(match library {
             Some(_) => MethodName::Library,
             None => MethodName::Moments,
@@ -84,7 +84,10 @@ impl Quadrature {
         let rule = match (method, &library) {
             (MethodName::Gauss, _) => Rule::gauss(&viewing, self.nodes)?,
             (MethodName::Moments, _) => Rule::moments(&viewing, self.nodes)?,
-            (MethodName::Library, Some(library)) => Rule::library(&viewing, library, self.nodes)?,
+            (MethodName::Library, Some(library)) => {
+                let fitted = || Rule::library(&viewing, library, self.nodes);
+                waited("fitting wavelengths", console, fitted)?
+            }
             (MethodName::Library | MethodName::Effective, _) => {
                 return Err(Failure::usage(
                     "--method library and --method effective need a pigment library",
@@ -95,8 +98,11 @@ impl Quadrature {
         let error = match &library {
             Some(library) if self.mixtures > 0 => {
                 let weights = color_weights(&viewing, library.grid, console)?;
-                let mixtures = MixtureSet::random(library, &weights, self.mixtures, self.seed);
-                Some(rule.error(&mixtures))
+                let compared = || {
+                    let (count, seed) = (self.mixtures, self.seed);
+                    rule.error(&MixtureSet::random(library, &weights, count, seed))
+                };
+                Some(waited("comparing mixtures", console, compared))
             }
             _ => None,
         };
@@ -120,14 +126,16 @@ impl Quadrature {
         library: &PigmentLibrary,
         console: &mut Console<'_>,
     ) -> Result<()> {
-        let effective = EffectiveQuadrature::of(viewing, library, self.nodes)?;
+        let fitted = || EffectiveQuadrature::of(viewing, library, self.nodes);
+        let effective = waited("fitting wavelengths", console, fitted)?;
         let weights = color_weights(viewing, library.grid, console)?;
         let draw = |films: fn(&PigmentLibrary, &TristimulusWeights, usize, u64) -> FilmSet| {
             let count = self.mixtures;
             (count > 0)
                 .then(|| effective.error(library, &films(library, &weights, count, self.seed)))
         };
-        let (hiding, over) = (draw(FilmSet::hiding), draw(FilmSet::over_grounds));
+        let drawn = || (draw(FilmSet::hiding), draw(FilmSet::over_grounds));
+        let (hiding, over) = waited("comparing films", console, drawn);
         if self.csv {
             return console.csv_rows(&csv_rows(&effective.rule));
         }

@@ -9,7 +9,7 @@ use spectra::color::{Lab, Rgb, RgbSpace};
 
 use super::recipe_columns::RecipeColumns;
 use crate::console::Console;
-use crate::decimals::at_most;
+use crate::decimals::{self, at_most};
 use crate::failure::Result;
 use crate::input::srgb;
 use crate::shown_color::TableColors;
@@ -44,10 +44,9 @@ impl RecipeReport<'_> {
             true => String::new(),
             false => format!("  {}", RgbSpace::Srgb.outside_note()),
         };
-        let [l, a, b] = lab.to_array();
         let light = self.search.lights().next().unwrap_or_default();
-        console
-            .line(format!("{patch}{}  Lab {l:.2} {a:.2} {b:.2} ({light}){outside}", target.name))?;
+        let lab = decimals::lab(lab);
+        console.line(format!("{patch}{}  Lab {lab} ({light}){outside}", target.name))?;
         let (nearest, unit) = (matched.nearest(), self.search.request.metric.unit());
         if !matched.is_reached() {
             console.line(format!(

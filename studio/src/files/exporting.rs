@@ -119,3 +119,52 @@ fn gamut_remark(path: &Path, outside: OutsideGamut) -> Problem {
     let text = format!("{}: {outside}", path.display());
     Problem::new(text, tr("export linear OpenEXR to keep them"))
 }
+
+#[cfg(test)]
+mod tests {
+    use pigment::library::PigmentLibrary;
+    use render::amount::QUANTA_PER_CELL;
+    use render::paint::ground::GroundSpec;
+    use render::paint::strokes::{Canvas, PaletteSpec, StrokeScript};
+
+    use super::*;
+
+    /// A canvas under a thick layer of a green that sRGB cannot show.
+    fn green() -> Document {
+        let (cell_mm, ground) = (0.5, GroundSpec::default());
+        let canvas = Canvas { width_mm: 12.0, height_mm: 8.0, cell_mm, ground };
+        let palette = PaletteSpec::from_names(["Zinc White", "Emerald Green"]);
+        let script = StrokeScript::new("Green", "CC0-1.0", canvas, palette);
+        let library = PigmentLibrary::van_gogh_oils();
+        let resolved = script.resolve(&library).unwrap();
+        let (width, height) = script.canvas.cells();
+        let ground = script.canvas.ground.build(width, height, cell_mm, &library).unwrap();
+        let mut document = script.bare(&library, &resolved, ground);
+        for amounts in document.wet.pigments.values_mut() {
+            amounts[1] = QUANTA_PER_CELL;
+        }
+        document
+    }
+
+    #[test]
+    fn colors_that_a_picture_loses_are_told_with_its_path() {
+        let (folder, document) = (tempfile::tempdir().unwrap(), green());
+        let light = Light::named(&document.library, "D65", "1931-2").unwrap();
+        let pixels = PixelsPerCell::new(1).unwrap();
+        for (format, told) in [
+            (PictureFormat::Png8, true),
+            (PictureFormat::Png16, true),
+            (PictureFormat::Tiff16, true),
+            (PictureFormat::LinearExr, false),
+        ] {
+            let kind = ExportKind::Picture(format);
+            let path = folder.path().join(format!("green.{}", kind.ending()));
+            let progress = Progress::default();
+            let chosen = Export { kind, pixels };
+            let remark = export(chosen, &document, &light, &path, &progress).unwrap();
+            assert_eq!(remark.is_some(), told, "{format:?}: {remark:?}");
+            let name = path.display().to_string();
+            assert!(remark.is_none_or(|remark| remark.text.starts_with(&name)), "{format:?}");
+        }
+    }
+}

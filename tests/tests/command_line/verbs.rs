@@ -220,6 +220,21 @@ fn color_shows_the_columns_that_are_asked_for_within_100() {
 }
 
 #[test]
+fn a_perfect_white_has_no_signed_zeros_and_colour_is_color() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("white.csv");
+    let grid: String = (40..=70).map(|nm| format!(",{nm}0")).collect();
+    std::fs::write(&path, format!("sample{grid}\nwhite{}\n", ",1".repeat(31))).unwrap();
+    let file = path.to_str().unwrap();
+    for light in ["D65", "C", "A"] {
+        let table = impasto(&["colour", file, "--illuminant", light, "--show", "lab,whiteness"]);
+        assert!(table.status == 0 && !table.out.contains("-0.00"), "{}{}", table.out, table.err);
+    }
+    let one = impasto(&["color", &format!("{file}#white")]);
+    assert!(one.status == 2 && one.err.contains("--sample \"white\""), "{}", one.err);
+}
+
+#[test]
 fn a_comparison_keeps_within_100_columns_and_cuts_no_name() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("papers.csv");

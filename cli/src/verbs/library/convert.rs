@@ -83,7 +83,7 @@ impl Convert {
                     "give --grid FIRST,LAST,STEP or --white PIGMENT",
                 ));
             }
-            let chosen = chosen(path.as_deref(), console)?;
+            let chosen = chosen(self.library.as_deref(), console)?;
             let file = chosen.name();
             (chosen.library, file)
         };

@@ -9,7 +9,7 @@ use super::job::{Job, Summary};
 use super::pigments::open_painting;
 use crate::console::Console;
 use crate::failure::Result;
-use crate::progress::Waiting;
+use crate::progress::{Waiting, waited};
 use crate::stages::NamedStage;
 
 /// Paints a photograph, and writes the picture and the stages.
@@ -47,7 +47,7 @@ pub(super) fn paint(
                 let px_mm = prepared.textures.paper.px_mm;
                 let picture = match picture {
                     Some(picture) => picture,
-                    None => painter.finish(prepared)?,
+                    None => waited("painting", console, || painter.finish(prepared))?,
                 };
                 outputs.exports.write_picture(&linear_from_encoded(&picture), px_mm, console)?;
             }
