@@ -185,10 +185,29 @@ mod tests {
         refused(nm.clone(), vec![0.2; 30], "31 wavelengths and 30 reflectances");
         refused(vec![500.0, 400.0], vec![0.2; 2], "400 nm after 500 nm");
         refused(vec![500.0, f64::NAN], vec![0.2; 2], "NaN nm after 500 nm");
+        refused(vec![500.0, 500.0], vec![0.2; 2], "500 nm after 500 nm");
+        refused(vec![500.0], vec![0.2], "1 wavelengths and 1 reflectances");
         refused(vec![400.0, 500.0], vec![0.2, 42.0], "reflects 42 at 500 nm");
+        refused(vec![400.0, 500.0], vec![-0.1, 0.2], "reflects -0.1 at 400 nm");
+        refused(vec![400.0, 500.0], vec![f64::NAN, 0.2], "reflects NaN at 400 nm");
         let bands = Bands::new(&nm, Grid::from_nm(400.0, 10.0, 31).unwrap()).unwrap();
         let short = Ground::new(nm[..30].to_vec(), reflectance[..30].to_vec()).unwrap();
         let error = BareGround::new(&short, &nm, &bands, &[9e-6; 31]).unwrap_err();
         assert!(error.to_string().contains("700 nm"), "{error}");
+        let late = Ground::new(nm[1..].to_vec(), reflectance[1..].to_vec()).unwrap();
+        let error = BareGround::new(&late, &nm, &bands, &[9e-6; 31]).unwrap_err();
+        assert!(error.to_string().contains("400 nm"), "{error}");
+    }
+
+    #[test]
+    fn ground_of_other_wavelengths_is_interpolated() {
+        let (nm, reflectance) = linen();
+        let bands = Bands::new(&nm, Grid::from_nm(400.0, 10.0, 31).unwrap()).unwrap();
+        let (few, of_few) = (vec![375.0, 505.0, 725.0], vec![0.175, 0.305, 0.525]);
+        let ground = Ground::new(few, of_few).unwrap();
+        let found = BareGround::new(&ground, &nm, &bands, &[9e-6; 31]).unwrap();
+        for (found, expected) in found.reflectance.iter().zip(&reflectance) {
+            assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        }
     }
 }

@@ -76,11 +76,10 @@ impl Mapper {
         if let ModelError::Residuals(residuals) = &model_error {
             prepared.engine.strength_sd = strength_sd(&prepared, residuals);
         }
-        let alike = if settings.group_alike {
-            alike(library, wavelengths, (settings, &model_error), &prepared)?
-        } else {
-            Vec::new()
-        };
+        let groups = alike(library, wavelengths, (settings, &model_error), &prepared)?;
+        prepared.entries.retain(|entry| !groups.iter().any(|group| group.contains(&entry[0])));
+        prepared.entries.extend(groups.iter().cloned());
+        let alike = if settings.group_alike { groups } else { Vec::new() };
         let find = |name: &str| library.find(name).map(|id| library[id].name.clone());
         let columns = columns(&prepared.paints, &settings.groups, find, &alike)?;
         let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));

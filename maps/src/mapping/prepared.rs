@@ -31,6 +31,8 @@ pub(crate) struct Prepared {
     ends: Vec<usize>,
     terms: Vec<(u32, f32)>,
     ground: Option<BareGround>,
+    /// Pigments by place, those that the bands cannot tell apart together.
+    pub(crate) entries: Vec<Vec<usize>>,
 }
 
 /// A pixel on the folded bands.
@@ -74,7 +76,8 @@ impl Prepared {
         used.dedup();
         let bare = |ground: &Ground| BareGround::new(ground, wavelengths, &bands, &noise.sensor);
         let ground = settings.ground.as_ref().map(bare).transpose()?;
-        Ok(Self { bands, paints, noise, engine, used, ends, terms, ground })
+        let entries = (0..paints.count()).map(|pigment| vec![pigment]).collect();
+        Ok(Self { bands, paints, noise, engine, used, ends, terms, ground, entries })
     }
 
     /// Folds a pixel of the scan.

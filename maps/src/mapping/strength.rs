@@ -103,6 +103,18 @@ mod tests {
         let palette = vec!["Viridian".to_owned()];
         let settings = MapSettings { palette, ..MapSettings::default() };
         let prepared = Prepared::new(&oils, &nm, &settings, &ModelError::Stated(0.1)).unwrap();
-        assert_eq!(strength_sd(&prepared, &Residuals::van_gogh_oils()), 0.0);
+        let mut residuals = Residuals::van_gogh_oils();
+        assert_eq!(strength_sd(&prepared, &residuals), 0.0);
+        // Two pigments of three tell no more than one of two.
+        for mixture in &mut residuals.mixtures {
+            mixture.shares.insert("Viridian".to_owned(), 0.3);
+            mixture.shares.insert("Zinc White".to_owned(), 0.3);
+        }
+        residuals.mixtures.retain(|mixture| mixture.shares.len() > 2);
+        assert!(residuals.mixtures.len() > 50, "{} of three or four", residuals.mixtures.len());
+        let palette = vec!["Viridian".to_owned(), "Zinc White".to_owned()];
+        let settings = MapSettings { palette, ..MapSettings::default() };
+        let prepared = Prepared::new(&oils, &nm, &settings, &ModelError::Stated(0.1)).unwrap();
+        assert_eq!(strength_sd(&prepared, &residuals), 0.0);
     }
 }

@@ -52,7 +52,7 @@ pub(crate) fn survey(
         .collect::<Result<_, _>>()?;
     ended.check()?;
     let (paints, mut found): (Vec<usize>, Vec<Vec<SetFit>>) = found.into_iter().unzip();
-    book.palette = palette(&found, &paints, engine.films.pigments);
+    book.palette = palette(&found, &paints, &prepared.entries, excess(engine, &found));
     let informed = engine.with_palette(&book.palette);
     for sets in &mut found {
         for set in sets.iter_mut() {
@@ -87,6 +87,16 @@ fn of_fit(set: &SetFit) -> BookSet {
         pigments: set.members[..set.len()].to_vec(),
         shares: set.shares[..set.len()].to_vec(),
     }
+}
+
+/// Median chi-square per degree of freedom, 1 or more: what the errors of library and scan exceed those that the
+/// engine reckons with.
+fn excess(engine: &Engine, found: &[Vec<SetFit>]) -> f32 {
+    let of_best =
+        |set: &SetFit| set.chi2 / engine.films.bands.saturating_sub(set.len() - 1).max(1) as f32;
+    let mut values: Vec<f32> = found.iter().filter_map(|sets| sets.first().map(of_best)).collect();
+    values.sort_by(f32::total_cmp);
+    values.get(values.len() / 2).map_or(1.0, |median| median.max(1.0))
 }
 
 /// Chi-square that nineteen of twenty pixels do not exceed.

@@ -30,6 +30,8 @@ pub(crate) const NEGLIGIBLE: f32 = 20.0;
 const TEMPERATURE: f64 = 1.5;
 /// Probability of a pigment that a survey needs nowhere.
 const LEAST_LIKELY: f32 = 0.05;
+/// Least addition to the score by a further pigment of a palette: -2 ln of one half.
+const FURTHER: f32 = 2.0 * std::f32::consts::LN_2;
 
 /// All that a search needs, but the pixel.
 #[derive(Debug, Clone)]
@@ -109,7 +111,7 @@ impl Engine {
             self.penalty as f32 * (1.0 - inside) - 2.0 * likely.ln()
         };
         Self {
-            of_count: Self::of_count(size, 0.0),
+            of_count: Self::never_likelier(Self::of_count(size, 0.0)),
             of_pigment: palette.iter().map(cost).collect(),
             ..self.clone()
         }
@@ -123,6 +125,17 @@ impl Engine {
             sets *= (pigments - size as f64).max(1.0) / (size + 1) as f64;
             (2.0 * sets.ln() + penalty * (size + 1) as f64) as f32
         })
+    }
+
+    /// The additions `of_count` raised so that each further pigment makes a set half as likely at most. A palette of
+    /// three has three pairs and one triple, which would cost less than a pair.
+    fn never_likelier(mut of_count: [f32; 4]) -> [f32; 4] {
+        let before = of_count;
+        for size in 1..of_count.len() {
+            let more = before[size] - before[size - 1];
+            of_count[size] = of_count[size - 1] + more.max(FURTHER);
+        }
+        of_count
     }
 
     /// -2 ln of the likelihood of a chi-square, less a constant.
@@ -364,6 +377,24 @@ mod tests {
             if at_most == 4 {
                 assert!(found[0].chi2 < 1.0, "{:?}", found[0]);
             }
+        }
+    }
+
+    #[test]
+    fn a_further_pigment_of_a_palette_costs_something() {
+        let (engine, _) = oils(4);
+        // Three whole pigments of the palette, the others hardly in it.
+        let mut palette = vec![0.0; engine.films.pigments];
+        palette[..3].fill(1.0);
+        let few = engine.with_palette(&palette).of_count;
+        for (size, pair) in few.windows(2).enumerate() {
+            assert!((pair[1] - pair[0] - FURTHER).abs() < 1e-5, "{size}: {few:?}");
+        }
+        // Of eighteen there are 18, 153, 816 and 3060 sets.
+        palette.fill(1.0);
+        let many = engine.with_palette(&palette).of_count;
+        for (found, sets) in many.iter().zip([18.0, 153.0, 816.0, 3060.0_f32]) {
+            assert!((found - 2.0 * sets.ln()).abs() < 1e-3, "{many:?}");
         }
     }
 }

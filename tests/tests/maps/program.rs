@@ -37,9 +37,7 @@ fn pigments_of_a_scan_are_found_with_their_shares() {
         ("Ultramarine", 1.0 / 6.0, 0.1 / 6.0),
     ] {
         let found = figure(&json, pigment, "present");
-        // A little white in a patch without it stays possible, as the scan holds much of it.
-        let near = if pigment == "Lead White" { 0.2 } else { 0.05 };
-        assert!((found - present).abs() < near, "{pigment} present: {found}, not {present}");
+        assert!((found - present).abs() < 0.05, "{pigment} present: {found}, not {present}");
         let found = figure(&json, pigment, "mean_share");
         assert!((found - share).abs() < 0.03, "{pigment} share: {found}, not {share}");
     }
