@@ -60,6 +60,8 @@ mod srgb;
 
 mod tiles;
 
+pub mod warm_up;
+
 mod colors;
 
 mod films;

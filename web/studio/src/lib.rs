@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 use eframe::WebRunner;
 use eframe::egui::pos2;
 use js_sys::{Array, Function, Object, Uint8Array};
+use session::warm_up::WarmUp;
 use spectra::file::disk;
 use studio::files::{PageProblem, Problem};
 use studio::language::{Language, set_system};
@@ -48,6 +49,7 @@ pub struct Page {
     pens: RefCell<PagePens>,
     /// Changes of files that were not asked for yet.
     changes: RefCell<Vec<disk::Change>>,
+    warm_up: RefCell<WarmUp>,
 }
 
 #[wasm_bindgen]
@@ -57,7 +59,12 @@ impl Page {
     pub fn new(language: &str) -> Self {
         set_system(Language::of_name(language));
         let _ = disk::create_dir_all(FILES);
-        Self { runner: WebRunner::new(), pens: RefCell::default(), changes: RefCell::default() }
+        Self {
+            runner: WebRunner::new(),
+            pens: RefCell::default(),
+            changes: RefCell::default(),
+            warm_up: RefCell::default(),
+        }
     }
 
     /// Puts a file on the disk of the page, without telling it as a change.
@@ -95,9 +102,14 @@ impl Page {
         let deadline = Instant::now() + Duration::from_secs_f64(budget_ms.max(0.0) / 1000.0);
         let wait = framed.studio.turn(deadline);
         let waits = framed.is_in_stroke(Instant::now());
+        let shown = framed.frames > 0;
         drop(framed);
         // Work that may ask for the window, with the window free.
         if !waits && session::background::next() {
+            return 0.0;
+        }
+        let idle = wait != session::Wait::None && !waits && shown;
+        if idle && self.warm_up.borrow_mut().step() {
             return 0.0;
         }
         match wait {
