@@ -123,6 +123,8 @@ test("the browser's own dialog opens a file", async () => {
   const faults = [];
   const { page } = await openStudio(context, stage.server.address, faults);
   const choosing = page.waitForEvent("filechooser", { timeout: 60_000 });
+  // The browser must know first that the test takes its dialog.
+  await page.evaluate(() => document.hasFocus());
   await page.keyboard.press("Control+o");
   await dialog(page);
   // Where the frame came too late for the browser, its dialog opens at the next press.

@@ -6,7 +6,7 @@ use render::field::Field;
 use render::gpu::{BackendChoice, DeviceError};
 use render::watercolor::{
     Controls, DensityLayer, DryBrushReach, PaperShading, Preset, Settings, TextureImages, Textures,
-    Wash, apply_density, apply_dry_brush, edges, paint, shade_paper, wobble,
+    Wash, apply_density, apply_dry_brush, back_runs, edges, paint, shade_paper, wobble,
 };
 
 const SIZE: (usize, usize) = (750, 570);
@@ -108,4 +108,18 @@ fn paper_shading(bencher: Bencher<'_, '_>) {
 fn making_textures(bencher: Bencher<'_, '_>) {
     let settings = settings();
     bencher.bench_local(|| Textures::new(SIZE.0, SIZE.1, &settings).unwrap());
+}
+
+/// All textures of a photograph, whose blooms depend on its colours.
+#[divan::bench]
+fn making_textures_of_a_photograph(bencher: Bencher<'_, '_>) {
+    let (wash, settings) = (wash().color, settings());
+    bencher.bench_local(|| Textures::of_photograph(&wash, &settings).unwrap());
+}
+
+/// Blooms of water alone, those of [`making_textures_of_a_photograph`].
+#[divan::bench(name = "back_runs")]
+fn blooming(bencher: Bencher<'_, '_>) {
+    let (wash, settings) = (wash().color, settings().back_runs);
+    bencher.bench_local(|| back_runs(&wash, &settings));
 }

@@ -122,7 +122,6 @@ fn wide_flat(bencher: Bencher<'_, '_>) {
         })
         .collect();
     let report = painting.stroke(brush, &samples[..200]).expect("painted");
-    println!("{} cells a sub-step", report.cells / report.substeps.max(1));
     let painting = RefCell::new(painting);
     bencher
         .counter(ItemsCount::new(report.cells))
