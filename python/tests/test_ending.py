@@ -16,6 +16,12 @@ from test_maps import envi, finished_shards, painted
 import impasto as im
 
 
+@pytest.fixture(autouse=True, scope="module")
+def shared_threads() -> None:
+    """Starts the threads that share work here, as they take the name of the thread that starts them."""
+    im.color.xyz(np.full((100_000, 31), 0.5), wavelengths=np.arange(400.0, 701.0, 10.0))
+
+
 def interrupt(_: object = None) -> None:
     os.kill(os.getpid(), signal.SIGINT)
 
