@@ -64,8 +64,8 @@ pub(crate) fn quietly_chosen(
     Ok(ChosenLibrary { library, path: Some(path) })
 }
 
-/// Reads the library at `path`, without one that of [`VARIABLE`], which an error then names. `None` if
-/// there is neither.
+/// Reads the library at `path`, or the one that [`VARIABLE`] names if there is no path; an error of the
+/// latter names the variable. `None` if there is neither.
 pub(crate) fn named_or_default(path: Option<&Path>) -> Result<Option<(PathBuf, PigmentLibrary)>> {
     let Some(own) = path.map(Path::to_owned).or_else(default_path) else { return Ok(None) };
     let read = PigmentLibrary::open(&own).map_err(Failure::from);

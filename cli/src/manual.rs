@@ -72,11 +72,11 @@ fn page(command: &Command, name: &str) -> io::Result<Vec<u8>> {
             let text = "Path of the library that verbs use where none is named.";
             entry(&mut more, bold(VARIABLE), text);
         }
-        false => examples(command, &mut more),
-    }
-    if name != "impasto" {
-        more.control("SH", ["SEE ALSO"]);
-        more.text([bold("impasto"), roman("(1)")]);
+        false => {
+            examples(command, &mut more);
+            more.control("SH", ["SEE ALSO"]);
+            more.text([bold("impasto"), roman("(1)")]);
+        }
     }
     more.to_writer(&mut page)?;
     Ok(page)

@@ -113,7 +113,7 @@ test("when the studio ends by an error the painter is told, and the page loaded 
   await rest(page);
   await autosaved(page);
   assert.ok(await page.locator("#message").isHidden());
-  // No time ends so late: the module panics as it adds this turn to the time.
+  // The end of an endless turn is beyond all times, so the module panics.
   await page.evaluate(() => setTimeout(() => window.impasto.page.turn(Infinity)));
   await page.locator("#text", { hasText: "has ended by an error" }).waitFor();
   assert.match(await page.locator("#text").innerText(), /What was autosaved is offered when the page is loaded again/);

@@ -152,7 +152,7 @@ impl Color {
     }
 }
 
-/// Refuses FILE#SAMPLE, by which other verbs name one target, with the option that is meant.
+/// Refuses FILE#SAMPLE, which other verbs take, and tells the option `--sample`.
 fn refuse_sample(path: &Path) -> Result<()> {
     let text = path.display().to_string();
     let is_sheet = split_file_and_sheet(&text).1.is_some();

@@ -54,7 +54,7 @@ pub(crate) fn palette(
         let one_of_them = likely(survey.needs(palette, &[of_entry])[0]);
         let own: Vec<u64> = entry.iter().map(|pigment| 1 << pigment).collect();
         let others: Vec<u64> = own.iter().map(|own| of_entry & !own).collect();
-        // Each may stand for all of them, and is the likelier the less it loses by that.
+        // Each may replace the others, and is more likely the less the score rises by that.
         let alone = survey.needs(palette, &others);
         let weights: Vec<f32> = alone.iter().map(|loss| (-0.5 * loss).exp()).collect();
         let sum: f32 = weights.iter().sum();

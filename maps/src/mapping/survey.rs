@@ -89,7 +89,7 @@ fn of_fit(set: &SetFit) -> BookSet {
     }
 }
 
-/// Median chi-square per degree of freedom, 1 or more: what the errors of library and scan exceed those that the
+/// Median chi-square per degree of freedom, at least 1: how far the errors of library and scan exceed those that the
 /// engine reckons with.
 fn excess(engine: &Engine, found: &[Vec<SetFit>]) -> f32 {
     let of_best =

@@ -102,8 +102,8 @@ fn stroke(bencher: Bencher<'_, '_>, head: usize) {
         .bench_local_values(|_| painting.borrow_mut().stroke(brush, &samples).expect("painted"));
 }
 
-/// A loaded flat of 25 mm, upright, in circles on linen, twice over each place: the studio's bench
-/// `speed` paints alike.
+/// A loaded flat of 25 mm, upright, in two circles over each other on linen, as fast as in the studio's
+/// bench `speed`.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn wide_flat(bencher: Bencher<'_, '_>) {
     let library = oils();

@@ -29,7 +29,8 @@ const SHORTEST_INTERVAL: Duration = Duration::from_micros(16_000);
 /// Maximum time between two renderings, if they take long.
 const LONGEST_INTERVAL: Duration = Duration::from_millis(33);
 
-/// Time between two renderings in times of one. In a page, painting has the same thread.
+/// Least time between two renderings, as a multiple of the time that one takes. In a page, rendering and
+/// painting share a thread.
 const RENDERING_TIMES: u32 = if cfg!(target_arch = "wasm32") { 6 } else { 3 };
 
 /// Time between two renderings while the paint is behind the pen: 20 a second.

@@ -46,7 +46,7 @@ impl WarmUp {
             return false;
         }
         self.left -= 1;
-        // Whatever fails here fails again, and is told, where the painter does it.
+        // An error here comes again, and is shown, when the painter begins to paint.
         if self.paint().is_err() {
             self.left = 0;
         }

@@ -1,4 +1,4 @@
-//! What a stroke of a stylus changes between two frames of the window: paint, and the head over it.
+//! Changes by a stroke of a stylus between two frames of the window: paint, and the head over it.
 //!
 //! A page in a browser shows it by itself, as its frames take long where there is no graphics card.
 
@@ -12,10 +12,11 @@ use crate::language::speak;
 use crate::pace;
 use crate::view::{HeadLines, Patch};
 
-/// Least time between two frames of the whole window meanwhile: the panels' figures change as often.
+/// Least time between two frames of the whole window during such a stroke; the panels' figures change
+/// as often.
 const RARE: Duration = Duration::from_millis(500);
 
-/// That time while the paint is behind the pen.
+/// The time instead of [`RARE`] while the paint is behind the pen.
 const RARE_BEHIND: Duration = Duration::from_millis(1500);
 
 /// The part of the window that a stroke has changed.
@@ -41,8 +42,8 @@ impl Studio {
         shown
     }
 
-    /// What the open stroke has changed since the last call or frame; `None` if it must be shown by a
-    /// frame of the whole window, which is asked for if there was none for a while. Not to be called
+    /// Changes by the open stroke since the last call or frame. `None` if a frame of the whole window
+    /// must show them; such a frame is asked for if there was none for a while. Must not be called
     /// during a frame.
     pub fn between(&mut self, context: &Context) -> Option<Between> {
         if !self.take_stylus(context) {

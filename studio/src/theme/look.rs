@@ -15,7 +15,8 @@ pub const PANEL_WIDTH: f32 = 284.0;
 /// Least width of a column of panels for touch, in points: eight buttons side by side.
 const TOUCH_PANEL_WIDTH: f32 = 384.0;
 
-/// Width of a window in points below which toolbar and a column of panels would be its half or more.
+/// Width of a window in points below which the toolbar and a column of panels would take half of it or
+/// more.
 const NARROW: f32 = 640.0;
 
 /// Least width and height of everything that is touched, in points: WCAG 2.2, criterion

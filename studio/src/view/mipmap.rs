@@ -102,7 +102,7 @@ pub(super) fn next_level_rect(rect: Rect) -> Rect {
 
 impl MipLevel {
     fn average(&mut self, below: &Self, changed: Rect) {
-        // Looked up once: each look asks whether the tables are made.
+        // Bound once, as each access checks whether the tables exist.
         let (decoded, encoded) = (&*DECODED, &**ENCODED);
         for y in changed.y..changed.y + changed.height {
             for x in changed.x..changed.x + changed.width {

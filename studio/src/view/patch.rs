@@ -110,7 +110,7 @@ impl<'a> Cells<'a> {
         if !self.interpolate {
             return cell(x as usize, y as usize);
         }
-        // Eighths of bits as samplers have them.
+        // Weights of 8 bits, as samplers of graphics cards have them.
         let along = |at: f32| {
             let at = ((at - 0.5).max(0.0) * 256.0) as usize;
             (at >> 8, (at & 255) as u32)

@@ -103,8 +103,8 @@ impl Framed {
         self.studio.take_stylus(&self.context)
     }
 
-    /// What a stroke changed since the last frame, and the physical pixels per point; `None` if frames
-    /// show all.
+    /// Changes by a stroke since the last frame, and the physical pixels per point; `None` if frames
+    /// show the stroke.
     pub(crate) fn between(&mut self) -> Option<(Between, f32)> {
         let between = self.studio.between(&self.context)?;
         if between.patch.width > 0 {

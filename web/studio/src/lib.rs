@@ -239,9 +239,10 @@ impl Page {
         taken
     }
 
-    /// What the stroke of a stylus has changed since the last call or frame, as `left`, `top`, `width`
-    /// and `height` in physical pixels, `pixels` and `head`: to be shown over the canvas until the next
-    /// frame. Without extent if nothing changed; undefined if frames show all.
+    /// Changes by the stroke of a stylus since the last call or frame, to be shown over the canvas until
+    /// the next frame: `left`, `top`, `width` and `height` in physical pixels, `pixels`, and the head as
+    /// `lines`, `strokes` and `dot`. Width and height are 0 if nothing changed; undefined if frames show
+    /// the stroke.
     pub fn between(&self) -> Option<Object> {
         let mut framed = self.runner.app_mut::<Framed>()?;
         framed.between().map(|(between, density)| shown::shown(&between, density))

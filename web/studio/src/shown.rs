@@ -1,4 +1,4 @@
-//! What a stroke changed between two frames, as an object of JavaScript.
+//! Changes by a stroke between two frames, as an object of JavaScript.
 
 use js_sys::{Array, Float32Array, Object, Reflect, Uint8ClampedArray};
 use studio::app::Between;

@@ -37,10 +37,11 @@ pub(crate) struct SideBySide {
 }
 
 impl SideBySide {
-    /// Moves `head` through `poses` as `tool`, and fills one of `contacts` for each.
+    /// Moves `head` through `poses` as `tool`, and fills one of `contacts` for each. All calls must be
+    /// for one head.
     ///
     /// # Panics
-    /// If there are fewer contacts than poses, or the last head had another shape or size.
+    /// If there are fewer contacts than poses.
     pub(crate) fn advance_as(
         &mut self,
         (head, tool): (&mut Head, StrokeTool),
