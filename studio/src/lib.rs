@@ -38,5 +38,5 @@ pub mod arguments;
 
 pub mod app;
 
-#[cfg(not(target_arch = "wasm32"))]
+#[cfg(all(feature = "wgpu", not(target_arch = "wasm32")))]
 pub mod window;

@@ -13,6 +13,7 @@ use crate::arguments::Start;
 use crate::files::{Files, Problem};
 use crate::language::{Language, set_system};
 use crate::pen::{Pen, PenSettings};
+use crate::view::Drawing;
 use crate::{pace, view};
 use session::initial_commands;
 
@@ -36,7 +37,7 @@ pub fn run(start: Start) -> Result<(), Problem> {
             let context = &creation.egui_ctx;
             let mut draws_on_processor = false;
             if let Some(drawn) = &creation.wgpu_render_state {
-                view::set_format(context, drawn.target_format);
+                view::set_drawing(context, Drawing::OwnShader(drawn.target_format));
                 draws_on_processor = view::is_processor(&drawn.adapter);
                 if draws_on_processor {
                     view::draw_meshes(context);

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { resolve } from "node:path";
 import { test } from "node:test";
 import { pictures } from "./browser.mjs";
-import { fingers, inspect, openStudio, rest, setUp } from "./studio.mjs";
+import { fingers, inspect, openStudio, prepared, rest, setUp } from "./studio.mjs";
 
 const stage = setUp();
 
@@ -99,4 +99,15 @@ test("one finger paints; two move, zoom and turn the view and paint nothing; tap
   assert.equal((await inspect(page)).history[1], all, "taps paint nothing");
   assert.deepEqual(faults, [], "nothing is wrong in the browser's console");
   await context.close();
+});
+
+test("where fingers point for want of a mouse the targets are large, unless the painter chose otherwise", async () => {
+  for (const [phone, chosen, large] of [[false, null, false], [true, null, true], [true, false, false]]) {
+    const context = await stage.context({ viewport: { width: 844, height: 700 }, hasTouch: phone });
+    if (chosen !== null) await prepared(context, stage.server.address, { touch_targets: chosen });
+    const { page } = await openStudio(context, stage.server.address);
+    assert.equal((await inspect(page)).touch_targets, large, `phone: ${phone}, chosen: ${chosen}`);
+    if (large) await page.screenshot({ path: resolve(pictures, "studio-fingers.png") });
+    await context.close();
+  }
 });

@@ -1,20 +1,25 @@
 // The acts that tests and figures of the studio share.
 
-import { mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, afterEach, before } from "node:test";
 import { launched, served } from "./browser.mjs";
 
-/** Flags by which Chromium draws WebGPU without a graphics card. */
-const FLAGS = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan",
-  "--use-vulkan=swiftshader", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-  "--ignore-gpu-blocklist", "--disable-gpu-sandbox"];
+/** Flags by which Chromium draws WebGL 2 without a graphics card. */
+export const WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+
+/** Flags by which it draws WebGPU too. */
+const WEBGPU = [...WEBGL, "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan",
+  "--use-vulkan=swiftshader", "--disable-gpu-sandbox"];
+
+/** A page that is built quickly, for tests, has no module for WebGPU. */
+const FLAGS = existsSync(new URL("../out/studio/webgpu", import.meta.url)) ? WEBGPU : WEBGL;
 
 /** Serves the studio on this machine. */
 export const serve = () => served("studio");
 
-/** Starts Chromium, with other flags than those that draw WebGPU, if given. */
+/** Starts Chromium, with other flags than those of the page's module, if given. */
 export const launch = (flags = FLAGS) => launched(flags);
 
 /**

@@ -10,7 +10,8 @@ use eframe::egui::{
     vec2,
 };
 
-use super::quad::{Quad, QuadCanvas};
+use super::canvas::{Drawing, QuadCanvas};
+use super::quad::Quad;
 
 /// Least area that is worth the change of the shader, in pixels.
 const LEAST: f32 = 2500.0;
@@ -18,6 +19,9 @@ const LEAST: f32 = 2500.0;
 /// Replaces the large opaque fills of this frame. To be called when all of it is drawn.
 pub fn quicken(context: &Context) {
     let canvas = QuadCanvas::of(context);
+    if canvas.drawing == Drawing::Egui {
+        return;
+    }
     let moved = |layer: &LayerId| context.layer_transform_to_global(*layer).is_some();
     let mut layers: Vec<LayerId> = context.memory(|memory| memory.layer_ids().collect());
     if !layers.contains(&LayerId::background()) {

@@ -17,8 +17,9 @@ use eframe::egui_wgpu::{CallbackResources, CallbackTrait, ScreenDescriptor, wgpu
 use wgpu::util::DeviceExt;
 use wgpu::{Buffer, BufferUsages, Device, IndexFormat, Queue, TextureFormat};
 
+use super::canvas::{Drawing, QuadCanvas};
 use super::pipeline::{Pipelines, VERTEX_BYTES};
-use super::quad::{LazyTexture, QuadCanvas};
+use super::texture::LazyTexture;
 
 /// Whether an adapter is the processor, by a driver in software.
 #[must_use]
@@ -57,10 +58,11 @@ impl Plugin for MeshDrawer {
             changes.iter().for_each(|change| self.change(*id, change));
         }
         self.freed.extend(&delta.free);
-        let shapes = std::mem::take(&mut output.shapes);
         let canvas = QuadCanvas::of(context);
+        let Drawing::OwnShader(format) = canvas.drawing else { return };
+        let shapes = std::mem::take(&mut output.shapes);
         let primitives = context.tessellate(shapes, output.pixels_per_point);
-        output.shapes = self.replaced(primitives, &canvas);
+        output.shapes = self.replaced(primitives, format, canvas.visible);
     }
 }
 
@@ -82,7 +84,8 @@ impl MeshDrawer {
     fn replaced(
         &self,
         primitives: Vec<ClippedPrimitive>,
-        canvas: &QuadCanvas,
+        format: TextureFormat,
+        visible: Rect,
     ) -> Vec<ClippedShape> {
         let (mut shapes, mut meshes) = (Vec::new(), Vec::new());
         for ClippedPrimitive { clip_rect, primitive } in primitives {
@@ -97,19 +100,19 @@ impl MeshDrawer {
                 },
                 Primitive::Callback(callback) => Shape::Callback(callback),
             };
-            shapes.extend(shape(std::mem::take(&mut meshes), canvas));
+            shapes.extend(shape(std::mem::take(&mut meshes), format, visible));
             shapes.push(clipped(clip_rect, other));
         }
-        shapes.extend(shape(meshes, canvas));
+        shapes.extend(shape(meshes, format, visible));
         shapes
     }
 }
 
 /// Meshes as one shape; `None` if there is none.
-fn shape(meshes: Vec<ClippedMesh>, canvas: &QuadCanvas) -> Option<ClippedShape> {
-    let job = DrawMeshes { meshes, format: canvas.format, buffers: OnceLock::new() };
+fn shape(meshes: Vec<ClippedMesh>, format: TextureFormat, visible: Rect) -> Option<ClippedShape> {
+    let job = DrawMeshes { meshes, format, buffers: OnceLock::new() };
     let some = !job.meshes.is_empty();
-    some.then(|| clipped(canvas.visible, Callback::new_paint_callback(canvas.visible, job).into()))
+    some.then(|| clipped(visible, Callback::new_paint_callback(visible, job).into()))
 }
 
 fn clipped(clip_rect: Rect, shape: Shape) -> ClippedShape {

@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use eframe::egui::{Color32, Mesh, Painter, Pos2, Shape, Stroke, Vec2};
 
-use super::quad::{Quad, draw_quads};
+use super::canvas::draw_quads;
+use super::quad::Quad;
 use super::transform::Placement;
 use crate::theme;
 

@@ -4,8 +4,10 @@
 use eframe::egui::{Color32, ColorImage, Painter, Rect as Points, pos2};
 use render::tile::Rect;
 
+use super::canvas::draw_quads;
 use super::mipmap::{MipLevels, next_level_rect};
-use super::quad::{LazyTexture, Quad, Vertex, draw_quads};
+use super::quad::{Quad, Vertex};
+use super::texture::LazyTexture;
 use super::transform::Placement;
 use crate::theme;
 use session::TilePixels;

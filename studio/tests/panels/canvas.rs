@@ -8,9 +8,10 @@ use egui_kittest::Harness;
 use image::RgbaImage;
 use render::tile;
 use session::TilePixels;
+use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 use studio::theme;
-use studio::view::{DragMode, Outline, Split, SurfaceView, ViewState};
+use studio::view::{DragMode, Drawing, Outline, Split, SurfaceView, ViewState, set_drawing};
 
 /// Size of the test surfaces in cells: more than one chunk, not a multiple of it.
 const CELLS: (usize, usize) = (700, 530);
@@ -46,6 +47,17 @@ fn shown(
     surface: SurfaceView,
     size: Vec2,
     density: f32,
+    split: Option<f32>,
+) -> Harness<'static, SurfaceView> {
+    shown_by(Drawing::default(), surface, size, density, split)
+}
+
+/// Creates such a window whose quads are drawn in this way.
+fn shown_by(
+    drawing: Drawing,
+    surface: SurfaceView,
+    size: Vec2,
+    density: f32,
     mut split: Option<f32>,
 ) -> Harness<'static, SurfaceView> {
     let show = move |ui: &mut Ui, surface: &mut SurfaceView| {
@@ -59,7 +71,10 @@ fn shown(
         .with_size(size)
         .with_pixels_per_point(density)
         .with_render_cursor(false)
-        .with_context_setup(theme::apply)
+        .with_context_setup(move |context| {
+            theme::apply(context);
+            set_drawing(context, drawing);
+        })
         .build_ui_state(show, surface);
     harness.run();
     harness
@@ -130,6 +145,39 @@ fn rotated_and_mirrored_cells_are_drawn_where_the_view_places_them() {
             }
         }
         assert!(seen > 5_000, "{seen} pixels seen");
+    }
+}
+
+#[test]
+fn egui_draws_what_the_shader_of_quads_draws() {
+    for (zoom, rotation, mirror, split) in [
+        (1.0, 0.0, false, None),
+        (7.0, 0.7, true, None),
+        (1.6, 0.0, false, Some(0.4)),
+        (0.37, 0.3, false, None),
+    ] {
+        let [own, by_egui] = [Drawing::default(), Drawing::Egui].map(|drawing| {
+            let mut surface = surface(Outline::Rectangle);
+            surface.view =
+                ViewState { centre: [511.0, 509.0], zoom, rotation, mirror, fitted: false };
+            let mut harness = shown_by(drawing, surface, vec2(300.0, 200.0), 1.0, split);
+            // Tiles change when their textures are there.
+            let around = tile::Rect { x: 505, y: 500, width: 40, height: 20 };
+            let dark = |x: usize, y: usize| cell(x, y).map(|channel| channel / 2 + 127);
+            let changed =
+                tiles(dark).into_iter().filter(|tile| !tile.rect.intersection(around).is_empty());
+            changed.for_each(|tile| harness.state_mut().write(false, &tile));
+            harness.run();
+            has_adapter().then(|| harness.render().unwrap())
+        });
+        let (Some(own), Some(by_egui)) = (own, by_egui) else { return };
+        for (x, y, one) in own.enumerate_pixels() {
+            let other = by_egui.get_pixel(x, y);
+            let near = |i: usize| one[i].abs_diff(other[i]) <= 3;
+            assert!((0..4).all(near), "{x} {y} at {zoom}: {one:?}, not {other:?}");
+        }
+        let colors: BTreeSet<[u8; 4]> = own.pixels().map(|pixel| pixel.0).collect();
+        assert!(colors.len() > 100, "{} colours at {zoom}", colors.len());
     }
 }
 

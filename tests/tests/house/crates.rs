@@ -77,9 +77,11 @@ fn the_graphics_device_is_named_in_one_folder_and_where_the_window_draws() {
         let draws = [
             "studio/benches/offscreen.rs",
             "studio/src/window.rs",
+            "studio/src/view/canvas.rs",
             "studio/src/view/meshes.rs",
             "studio/src/view/pipeline.rs",
-            "studio/src/view/quad.rs",
+            "studio/src/view/shader.rs",
+            "studio/src/view/texture.rs",
         ];
         let may = path.starts_with("render/graphics/src/gpu/") || draws.contains(&path.as_str());
         assert!(!named || may, "{path}: {needle}");

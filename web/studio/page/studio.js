@@ -222,7 +222,7 @@ async function start() {
     return;
   }
   const [{ Page, memory }, storage] = await Promise.all([load(folder), opening]);
-  const page = new Page(navigator.language);
+  const page = new Page(navigator.language, matchMedia("(pointer: coarse)").matches);
   for (const [path, content] of storage?.taken ?? []) page.put(path, content);
   const keep = keepFiles(page, storage);
   let first = true;

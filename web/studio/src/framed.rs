@@ -11,6 +11,7 @@ use studio::app::{Between, Parts, StartedWorker, Studio};
 use studio::files::{Files, Home, Preferences, Problem};
 use studio::pen::{Pen, PenSettings};
 use studio::theme::ThemeChoice;
+use studio::view::Drawing;
 use wasm_bindgen::JsValue;
 use web_time::{Duration, Instant};
 
@@ -45,28 +46,43 @@ pub(crate) fn options() -> WebOptions {
         dithering: false,
         // Keys of the browser that the studio does not use stay the browser's.
         should_stop_propagation: Box::new(|_| true),
+        #[cfg(not(feature = "webgpu"))]
+        webgl_context_option: eframe::WebGlContextOption::WebGl2,
         ..WebOptions::default()
     }
 }
 
+/// Sets how the window is drawn, and tells by which graphics interface.
+#[cfg(feature = "webgpu")]
+fn graphics(creation: &CreationContext<'_>) -> String {
+    let Some(drawn) = &creation.wgpu_render_state else { return "none".to_owned() };
+    let context = &creation.egui_ctx;
+    studio::view::set_drawing(context, Drawing::OwnShader(drawn.target_format));
+    let info = drawn.adapter.get_info();
+    if studio::view::is_processor(&drawn.adapter) {
+        studio::view::draw_meshes(context);
+    }
+    format!("{:?}: {}", info.backend, info.name)
+}
+
+/// Sets how the window is drawn, and tells by which graphics interface.
+#[cfg(not(feature = "webgpu"))]
+fn graphics(creation: &CreationContext<'_>) -> String {
+    studio::view::set_drawing(&creation.egui_ctx, Drawing::Egui);
+    "WebGL 2".to_owned()
+}
+
 impl Framed {
-    pub(crate) fn new(creation: &CreationContext<'_>, frame_done: Function) -> Self {
+    pub(crate) fn new(creation: &CreationContext<'_>, frame_done: Function, fingers: bool) -> Self {
         let context = creation.egui_ctx.clone();
         context.set_fonts(page_fonts());
-        let mut graphics = "none".to_owned();
-        if let Some(drawn) = &creation.wgpu_render_state {
-            studio::view::set_format(&context, drawn.target_format);
-            let info = drawn.adapter.get_info();
-            if studio::view::is_processor(&drawn.adapter) {
-                studio::view::draw_meshes(&context);
-            }
-            graphics = format!("{:?}: {}", info.backend, info.name);
-        }
+        let graphics = graphics(creation);
         let home = Home::for_platform();
         let home = home.unwrap_or_else(|| Home::in_folder(std::path::Path::new("/data")));
         let (mut preferences, problems) = Preferences::read(&home.preferences());
         if !disk::exists(&home.preferences()) {
             preferences.theme = ThemeChoice::System;
+            preferences.touch_targets = fingers;
             // A page is closed without a question more easily than a window.
             preferences.autosave_seconds = 12;
         }

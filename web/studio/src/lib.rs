@@ -50,13 +50,15 @@ pub struct Page {
     /// Changes of files that were not asked for yet.
     changes: RefCell<Vec<disk::Change>>,
     warm_up: RefCell<WarmUp>,
+    fingers: bool,
 }
 
 #[wasm_bindgen]
 impl Page {
-    /// A page in the language of this name, such as `de-AT`.
+    /// A page in the language of this name, such as `de-AT`. With `fingers`, where they point for want of
+    /// a mouse, the targets are large until the painter chooses otherwise.
     #[wasm_bindgen(constructor)]
-    pub fn new(language: &str) -> Self {
+    pub fn new(language: &str, fingers: bool) -> Self {
         set_system(Language::of_name(language));
         let _ = disk::create_dir_all(FILES);
         Self {
@@ -64,6 +66,7 @@ impl Page {
             pens: RefCell::default(),
             changes: RefCell::default(),
             warm_up: RefCell::default(),
+            fingers,
         }
     }
 
@@ -90,8 +93,9 @@ impl Page {
         canvas: HtmlCanvasElement,
         frame_done: Function,
     ) -> Result<(), JsValue> {
+        let fingers = self.fingers;
         let create: eframe::AppCreator<'static> =
-            Box::new(move |creation| Ok(Box::new(Framed::new(creation, frame_done))));
+            Box::new(move |creation| Ok(Box::new(Framed::new(creation, frame_done, fingers))));
         self.runner.start(canvas, framed::options(), create).await
     }
 

@@ -1,0 +1,111 @@
+//! Textures of cells that are uploaded when they are next drawn.
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use eframe::egui::{Color32, ColorImage, Context, TextureHandle, TextureId, TextureOptions};
+#[cfg(feature = "wgpu")]
+use eframe::egui_wgpu::wgpu::{self, BindGroup, Device, Extent3d, Origin3d, Queue};
+
+#[cfg(feature = "wgpu")]
+use super::pipeline::Pipelines;
+
+/// A texture whose cells are uploaded when it is next drawn.
+#[derive(Clone)]
+pub(super) struct LazyTexture(Arc<Mutex<TextureState>>);
+
+struct TextureState {
+    size: [usize; 2],
+    /// Cells to upload, each with its column and row. Until the texture is made, the first are all of them.
+    pending: Vec<([usize; 2], ColorImage)>,
+    /// The texture, with bind groups for nearest and linear filtering.
+    #[cfg(feature = "wgpu")]
+    texture: Option<(wgpu::Texture, [BindGroup; 2])>,
+    /// The texture where egui draws it, and whether its cells are interpolated.
+    of_egui: Option<(TextureHandle, bool)>,
+    /// The upper left cell.
+    first: Color32,
+}
+
+impl LazyTexture {
+    /// A texture with these cells.
+    pub(super) fn new(image: ColorImage) -> Self {
+        Self(Arc::new(Mutex::new(TextureState {
+            size: image.size,
+            first: image.pixels.first().copied().unwrap_or_default(),
+            pending: vec![([0, 0], image)],
+            #[cfg(feature = "wgpu")]
+            texture: None,
+            of_egui: None,
+        })))
+    }
+
+    fn state(&self) -> MutexGuard<'_, TextureState> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Replaces a rectangle of cells whose upper left corner is `at` (column, row).
+    pub(super) fn write(&self, at: [usize; 2], image: ColorImage) {
+        let mut state = self.state();
+        if image.size == state.size {
+            state.pending.clear();
+        }
+        if at == [0, 0] {
+            state.first = image.pixels.first().copied().unwrap_or(state.first);
+        }
+        state.pending.push((at, image));
+    }
+
+    /// Number of cells that were written but not drawn since.
+    pub(super) fn pending_cells(&self) -> usize {
+        self.state().pending.iter().map(|(_, image)| image.pixels.len()).sum()
+    }
+
+    /// Hands what was written to egui, which uploads it with this frame.
+    pub(super) fn for_egui(&self, context: &Context, smooth: bool) -> TextureId {
+        let mut state = self.state();
+        let TextureState { pending, of_egui, first, .. } = &mut *state;
+        let options = if smooth { TextureOptions::LINEAR } else { TextureOptions::NEAREST };
+        let mut pending = pending.drain(..);
+        if of_egui.is_none() {
+            let all = pending.next().map(|(_, image)| image);
+            let all = all.unwrap_or_else(|| ColorImage::filled([1, 1], *first));
+            *of_egui = Some((context.load_texture("cells", all, options), smooth));
+        }
+        let Some((texture, is_smooth)) = of_egui else { return TextureId::default() };
+        for (at, image) in pending {
+            texture.set_partial(at, image, options);
+        }
+        if *is_smooth != smooth {
+            // The options change with an upload only.
+            texture.set_partial([0, 0], ColorImage::filled([1, 1], *first), options);
+            *is_smooth = smooth;
+        }
+        texture.id()
+    }
+
+    /// Uploads what was written, into a texture that is created the first time.
+    #[cfg(feature = "wgpu")]
+    pub(super) fn upload(&self, device: &Device, queue: &Queue, pipelines: &Pipelines) {
+        let mut state = self.state();
+        let TextureState { size, pending, texture, .. } = &mut *state;
+        let (texture, _) = texture.get_or_insert_with(|| pipelines.texture(device, *size));
+        for (at, image) in pending.drain(..) {
+            let [width, height] = image.size.map(|cells| cells as u32);
+            let mut to = texture.as_image_copy();
+            to.origin = Origin3d { x: at[0] as u32, y: at[1] as u32, z: 0 };
+            let layout = wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(4 * width),
+                rows_per_image: None,
+            };
+            let size = Extent3d { width, height, depth_or_array_layers: 1 };
+            queue.write_texture(to, image.as_raw(), layout, size);
+        }
+    }
+
+    /// The texture as a shader reads it, once it was uploaded.
+    #[cfg(feature = "wgpu")]
+    pub(super) fn bind_group(&self, smooth: bool) -> Option<BindGroup> {
+        self.state().texture.as_ref().map(|(_, bound)| bound[usize::from(smooth)].clone())
+    }
+}
