@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::search::engine::NEGLIGIBLE;
+use crate::search::scores::NEGLIGIBLE;
 use crate::search::set_fit::SetFit;
 
 /// Mean rise of the score without a pigment, in the paints that need it most, from which it is more likely than
