@@ -133,6 +133,21 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_pigment_costs_what_a_survey_tells_of_it() {
+        let scores = Scores::new((18, 31), 2.0, f64::INFINITY);
+        assert_eq!(scores.of_pigment, [0.0; 18], "before a survey");
+        let mut palette = vec![0.0; 18];
+        (palette[0], palette[1]) = (1.0, 0.5);
+        let found = scores.with_palette(&palette).of_pigment;
+        // -2 ln of the probability, which is 5 % at least, and the penalty as far as it is not in the palette.
+        for (place, expected) in
+            [0.0, 1.0 - 2.0 * 0.525_f32.ln(), 2.0 - 2.0 * 0.05_f32.ln()].into_iter().enumerate()
+        {
+            assert!((found[place] - expected).abs() < 1e-5, "{place}: {found:?}");
+        }
+    }
+
+    #[test]
     fn a_further_pigment_of_a_palette_costs_something() {
         let scores = Scores::new((18, 31), 2.0, f64::INFINITY);
         // Three whole pigments of the palette, the others hardly in it.
