@@ -136,7 +136,10 @@ impl Explain for MapError {
             Self::Residuals(error) => error.hint(),
             Self::Pigments { .. } => Some(Hint::new("name the pigments with [palette]")),
             Self::TwoGroups { .. } => Some(Hint::new("name each pigment in one [group]")),
-            Self::Setting { .. } | Self::Book { .. } => None,
+            Self::Setting { .. } => None,
+            Self::Book { .. } => Some(Hint::new(
+                "survey the scan again: without this file, or with another one as the [survey]",
+            )),
             Self::Ground { .. } => Some(Hint::new(
                 "give reflectances from 0 to 1 at rising wavelengths that cover the scan, or a region of bare ground in the scan, as the [ground]",
             )),

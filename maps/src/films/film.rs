@@ -2,10 +2,11 @@
 
 use wide::f32x8;
 
-use super::bands::MOST_BANDS;
 use super::paints::Paints;
-use super::vectors::{Task, by_vectors};
-use super::whitening::{LANES, Spectrum, Whitening, WhiteningNoise, dot, spectrum, total};
+use super::vectors::{Eight, Task, Vectors, by_vectors};
+use super::whitening::{
+    LANES, MOST_BLOCKS, Spectrum, Whitening, WhiteningNoise, dot, spectrum, total,
+};
 
 /// Most pigments of a set.
 pub(crate) const MOST_IN_SET: usize = 4;
@@ -19,7 +20,8 @@ pub(crate) struct Films {
     pub(crate) bands: usize,
     /// Blocks of bands, with K = S = 1 beyond the last band.
     pub(crate) blocks: usize,
-    /// Blocks of pigments, with K = S = 0 beyond the last pigment.
+    /// Blocks of pigments, with K = S = 0 before the first pigment: where each one is combined with those after
+    /// it, the last block holds most.
     pub(crate) columns: usize,
     /// K and S by pigment, each `blocks` long.
     absorption: Vec<f32x8>,
@@ -64,9 +66,10 @@ impl Films {
             };
             (0..pigments * blocks).map(|i| block(i / blocks, i % blocks)).collect()
         };
+        let before = columns * LANES - pigments;
         let by_band = |curves: &[Vec<f64>]| -> Vec<f32x8> {
-            let value = |b: usize, p: usize| {
-                if b < bands && p < pigments { curves[p][b] as f32 } else { 0.0 }
+            let value = |b: usize, lane: usize| {
+                if b < bands && lane >= before { curves[lane - before][b] as f32 } else { 0.0 }
             };
             let block = |b: usize, block: usize| {
                 f32x8::new(std::array::from_fn(|lane| value(b, block * LANES + lane)))
@@ -108,7 +111,7 @@ impl Films {
 
     /// Internal reflectance and 1/S of a film, by band.
     pub(crate) fn film(&self, shares: &[(usize, f32)]) -> (Spectrum, Spectrum) {
-        let half = [f32x8::HALF; MOST_BANDS / LANES];
+        let half = [f32x8::HALF; MOST_BLOCKS];
         let (mut internal, mut inverse) = (half, half);
         let (low, high) = (f32x8::splat(INTERNAL[0]), f32x8::splat(INTERNAL[1]));
         for block in 0..self.blocks {
@@ -134,53 +137,53 @@ impl Films {
     }
 
     #[inline(always)]
-    fn compared<const N: usize>(
+    fn compared<V: Vectors, const N: usize>(
         &self,
+        v: V,
         pixel: &Pixel,
         members: [usize; N],
         shares: [f32; N],
     ) -> Difference {
         let blocks = self.blocks;
-        let one = f32x8::ONE;
+        let (zero, one) = (v.splat(0.0), v.splat(1.0));
+        let [through, floor, k2] = [self.through, self.floor, self.k2].map(|x| v.load(x));
         let curves = members.map(|p| p * blocks..(p + 1) * blocks);
         let absorption = curves.clone().map(|range| &self.absorption[range]);
         let scattering = curves.map(|range| &self.scattering[range]);
-        let shares = shares.map(f32x8::splat);
-        let mut residual = [f32x8::ZERO; MOST_BANDS / LANES];
+        let shares = shares.map(|share| v.splat(share));
+        let mut residual = [zero; MOST_BLOCKS];
         let mut slopes = [residual; N];
-        let mut squares = f32x8::ZERO;
+        let mut squares = zero;
         for block in 0..blocks {
-            let (mut k, mut s) = (f32x8::ZERO, f32x8::ZERO);
+            let (mut k, mut s) = (zero, zero);
             for i in 0..N {
-                k += shares[i] * absorption[i][block];
-                s += shares[i] * scattering[i][block];
+                k = k + shares[i] * v.load(absorption[i][block]);
+                s = s + shares[i] * v.load(scattering[i][block]);
             }
             let inside = s / (k + s + (k * (k + s + s)).sqrt());
-            let out = one / (one - self.k2 * inside);
-            let slope = -self.through * out * out * inside * (one - inside);
-            let rest = pixel.measured[block] - (self.floor + self.through * inside * out);
+            let out = one / (one - k2 * inside);
+            let slope = (zero - through) * out * out * inside * (one - inside);
+            let rest = v.load(pixel.measured[block]) - (floor + through * inside * out);
             // One division for the slopes over K and over S: it takes as long as many products.
             let over_both = slope / ((one + inside) * (k * s));
             let (over_k, over_s) = (over_both * s, over_both * k);
             residual[block] = rest;
-            squares += rest * rest * self.inside[block];
+            squares = squares + rest * rest * v.load(self.inside[block]);
             for i in 0..N {
-                slopes[i][block] = absorption[i][block] * over_k - scattering[i][block] * over_s;
+                slopes[i][block] =
+                    v.load(absorption[i][block]) * over_k - v.load(scattering[i][block]) * over_s;
             }
         }
-        pixel.white.whiten(blocks, &mut residual);
-        for slope in &mut slopes {
-            pixel.white.whiten(blocks, slope);
-        }
+        pixel.white.whiten(v, blocks, &mut residual, &mut slopes);
         let mut found = Difference {
-            chi2: dot(blocks, &residual, &residual),
+            chi2: dot(v, blocks, &residual, &residual),
             squares: total(squares),
             ..Difference::default()
         };
         for i in 0..N {
-            found.right[i] = dot(blocks, &slopes[i], &residual);
+            found.right[i] = dot(v, blocks, &slopes[i], &residual);
             for j in 0..=i {
-                let product = dot(blocks, &slopes[i], &slopes[j]);
+                let product = dot(v, blocks, &slopes[i], &slopes[j]);
                 found.normal[i][j] = product;
                 found.normal[j][i] = product;
             }
@@ -195,60 +198,65 @@ impl Films {
     }
 
     #[inline(always)]
-    fn multiplied(
+    fn multiplied<V: Vectors>(
         &self,
+        v: V,
         pixel: &Pixel,
         (internal, inverse): (&Spectrum, &Spectrum),
         work: &mut Work,
     ) {
-        let one = f32x8::ONE;
+        let one = v.splat(1.0);
+        let [through, k2] = [self.through, self.k2].map(|x| v.load(x));
         work.sizes.fill(f32x8::ZERO);
-        let mut whole = f32x8::splat(1e-12);
+        let mut whole = v.splat(1e-12);
         for block in 0..self.blocks {
             // The secant of K/S between two internal reflectances is exact in this form, without a
             // difference of nearly equal numbers, and finite where the pixel is black.
-            let (m, r) = (pixel.internal[block], internal[block]);
-            let weight = pixel.white.scale[block] * self.through * r * inverse[block]
-                / ((one - self.k2 * m) * (one - self.k2 * r) * (one - m * r));
+            let (m, r) = (v.load(pixel.internal[block]), v.load(internal[block]));
+            let inverse = v.load(inverse[block]);
+            let weight = v.load(pixel.white.scale[block]) * through * r * inverse
+                / ((one - k2 * m) * (one - k2 * r) * (one - m * r));
             let (by_s, by_k) = (weight * (one - m) * (one - m), weight * (m + m));
-            whole += by_s / inverse[block];
-            for (lane, (by_s, by_k)) in by_s.to_array().into_iter().zip(by_k.to_array()).enumerate()
-            {
+            whole = whole + by_s / inverse;
+            let (by_s, by_k) = (by_s.store().to_array(), by_k.store().to_array());
+            for (lane, (by_s, by_k)) in by_s.into_iter().zip(by_k).enumerate() {
                 let band = block * LANES + lane;
                 let at = band * self.columns..(band + 1) * self.columns;
-                let (by_s, by_k) = (f32x8::splat(by_s), f32x8::splat(by_k));
+                let (by_s, by_k) = (v.splat(by_s), v.splat(by_k));
                 let curves = self.absorption_of_band[at.clone()].iter();
                 let curves = curves.zip(&self.scattering_of_band[at.clone()]);
                 let row = work.white[at].iter_mut().zip(&mut work.sizes);
                 for ((x, size), (k, s)) in row.zip(curves) {
-                    let scattered = by_s * *s;
-                    *size += scattered;
-                    *x = scattered - by_k * *k;
+                    let scattered = by_s * v.load(*s);
+                    *size = (v.load(*size) + scattered).store();
+                    *x = (scattered - by_k * v.load(*k)).store();
                 }
             }
         }
-        let whole = f32x8::splat(total(whole));
+        let whole = v.splat(total(whole));
         for size in &mut work.sizes {
-            *size = (*size / whole).fast_max(f32x8::splat(1e-6));
+            *size = (v.load(*size) / whole).greater(v.splat(1e-6)).store();
         }
-        let inverse: Vec<f32x8> = work.sizes.iter().map(|size| one / *size).collect();
+        for (inverse, size) in work.inverse.iter_mut().zip(&work.sizes) {
+            *inverse = (one / v.load(*size)).store();
+        }
         for row in work.white.chunks_exact_mut(self.columns) {
-            for (x, inverse) in row.iter_mut().zip(&inverse) {
-                *x *= *inverse;
+            for (x, inverse) in row.iter_mut().zip(&work.inverse) {
+                *x = (v.load(*x) * v.load(*inverse)).store();
             }
         }
-        pixel.white.whiten_rows(self.columns, &mut work.white);
+        pixel.white.whiten_rows(v, self.columns, &mut work.white);
         for first in 0..self.columns {
             for second in first..self.columns {
-                let mut sums = [f32x8::ZERO; LANES];
+                let mut sums = [v.splat(0.0); LANES];
                 for row in work.white.chunks_exact(self.columns) {
-                    let b = row[second];
+                    let b = v.load(row[second]);
                     for (sum, a) in sums.iter_mut().zip(row[first].to_array()) {
-                        *sum += f32x8::splat(a) * b;
+                        *sum = *sum + v.splat(a) * b;
                     }
                 }
                 for (lane, sum) in sums.iter().enumerate() {
-                    work.products[(first * LANES + lane) * self.columns + second] = *sum;
+                    work.products[(first * LANES + lane) * self.columns + second] = sum.store();
                 }
             }
         }
@@ -266,8 +274,8 @@ impl<const N: usize> Task for Comparison<'_, N> {
     type Result = Difference;
 
     #[inline(always)]
-    fn run(self) -> Difference {
-        self.films.compared(self.pixel, self.members, self.shares)
+    fn run<V: Vectors>(self, v: V) -> Difference {
+        self.films.compared(v, self.pixel, self.members, self.shares)
     }
 }
 
@@ -282,8 +290,8 @@ impl Task for Products<'_> {
     type Result = ();
 
     #[inline(always)]
-    fn run(self) {
-        self.films.multiplied(self.pixel, self.about, self.work);
+    fn run<V: Vectors>(self, v: V) {
+        self.films.multiplied(v, self.pixel, self.about, self.work);
     }
 }
 
@@ -294,8 +302,11 @@ pub(crate) struct Work {
     /// Mean S of each pigment relative to that of the film about which the rows are linearised, by which each
     /// row is divided. Else pigments of little S would seem to explain every pixel.
     sizes: Vec<f32x8>,
-    /// Products of the rows of all pairs of pigments; the upper half is valid.
+    inverse: Vec<f32x8>,
+    /// Products of the rows of all pairs of pigments; the upper half is valid. Row and lane of a pigment are
+    /// `before` its place.
     pub(crate) products: Vec<f32x8>,
+    before: usize,
 }
 
 impl Work {
@@ -303,18 +314,22 @@ impl Work {
         Self {
             white: vec![f32x8::ZERO; films.blocks * LANES * films.columns],
             sizes: vec![f32x8::ONE; films.columns],
+            inverse: vec![f32x8::ONE; films.columns],
             products: vec![f32x8::ZERO; films.columns * LANES * films.columns],
+            before: films.columns * LANES - films.pigments,
         }
     }
 
     /// Product of the rows of two pigments, of which `a` is not after `b`.
     #[inline(always)]
     pub(crate) fn product(&self, a: usize, b: usize) -> f32 {
+        let (a, b) = (a + self.before, b + self.before);
         self.products[a * self.sizes.len() + b / LANES].as_array()[b % LANES]
     }
 
     /// Size by which the row of a pigment is divided.
     pub(crate) fn size(&self, pigment: usize) -> f32 {
-        self.sizes[pigment / LANES].as_array()[pigment % LANES]
+        let lane = pigment + self.before;
+        self.sizes[lane / LANES].as_array()[lane % LANES]
     }
 }

@@ -203,11 +203,25 @@ mod tests {
     fn ground_of_other_wavelengths_is_interpolated() {
         let (nm, reflectance) = linen();
         let bands = Bands::new(&nm, Grid::from_nm(400.0, 10.0, 31).unwrap()).unwrap();
-        let (few, of_few) = (vec![375.0, 505.0, 725.0], vec![0.175, 0.305, 0.525]);
-        let ground = Ground::new(few, of_few).unwrap();
-        let found = BareGround::new(&ground, &nm, &bands, &[9e-6; 31]).unwrap();
-        for (found, expected) in found.reflectance.iter().zip(&reflectance) {
+        let interpolated = |of_few: Vec<f64>| {
+            let ground = Ground::new(vec![375.0, 505.0, 565.0, 725.0], of_few).unwrap();
+            BareGround::new(&ground, &nm, &bands, &[9e-6; 31]).unwrap().reflectance
+        };
+        for (found, expected) in
+            interpolated(vec![0.175, 0.305, 0.365, 0.525]).iter().zip(&reflectance)
+        {
             assert!((found - expected).abs() < 1e-9, "{found} {expected}");
         }
+        // A ground that bends between the bands lies between its neighbours everywhere.
+        let bent = interpolated(vec![0.1, 0.36, 0.24, 0.56]);
+        let expected = nm.iter().map(|nm| match nm {
+            ..505.0 => 0.1 + 0.002 * (nm - 375.0),
+            ..565.0 => 0.36 - 0.002 * (nm - 505.0),
+            _ => 0.24 + 0.002 * (nm - 565.0),
+        });
+        let off = bent.iter().zip(expected).map(|(found, expected)| (found - expected).abs());
+        let off: Vec<usize> =
+            off.enumerate().filter(|(_, off)| *off > 1e-9).map(|(band, _)| band).collect();
+        assert!(off.is_empty(), "{off:?} {bent:?}");
     }
 }

@@ -12,7 +12,7 @@ use wide::f32x8;
 
 use super::bands::MOST_BANDS;
 use super::noise::{CURVES, Noise, Scale};
-use super::vectors::{Task, by_vectors};
+use super::vectors::{Eight, Task, Vectors, by_vectors};
 
 /// Numbers that are computed at once.
 pub(crate) const LANES: usize = 8;
@@ -30,17 +30,22 @@ pub(crate) fn spectrum(values: &[f32], beyond: f32) -> Spectrum {
 
 /// Sum of all lanes.
 #[inline(always)]
-pub(crate) fn total(lanes: f32x8) -> f32 {
-    let [a, b, c, d, e, f, g, h] = lanes.to_array();
+pub(crate) fn total<E: Eight>(lanes: E) -> f32 {
+    let [a, b, c, d, e, f, g, h] = lanes.store().to_array();
     ((a + e) + (b + f)) + ((c + g) + (d + h))
 }
 
 /// Sum of products over `blocks`.
 #[inline(always)]
-pub(crate) fn dot(blocks: usize, a: &Spectrum, b: &Spectrum) -> f32 {
-    let mut sum = f32x8::ZERO;
+pub(crate) fn dot<V: Vectors>(
+    v: V,
+    blocks: usize,
+    a: &[V::Eight; MOST_BLOCKS],
+    b: &[V::Eight; MOST_BLOCKS],
+) -> f32 {
+    let mut sum = v.splat(0.0);
     for (a, b) in a.iter().zip(b).take(blocks) {
-        sum += *a * *b;
+        sum = sum + *a * *b;
     }
     total(sum)
 }
@@ -92,42 +97,43 @@ impl WhiteningNoise {
     }
 
     #[inline(always)]
-    fn whitening(&self, measured: &Spectrum, slope: &Spectrum) -> Whitening {
+    fn whitening<V: Vectors>(&self, v: V, measured: &Spectrum, slope: &Spectrum) -> Whitening {
         let zero = [f32x8::ZERO; MOST_BLOCKS];
         let mut white =
             Whitening { scale: zero, curves: [f32x8::ZERO; MOST_BANDS], removed: [zero; CURVES] };
-        let mut products = [f32x8::ZERO; CURVES];
+        let mut products = [v.splat(0.0); CURVES];
         for block in 0..self.bands.div_ceil(LANES) {
             let size = match self.scale {
                 Scale::FourthRoot => {
-                    let root = measured[block].fast_max(f32x8::splat(1e-4)).sqrt();
-                    f32x8::splat(4.0) * root * root.sqrt()
+                    let root = v.load(measured[block]).greater(v.splat(1e-4)).sqrt();
+                    v.splat(4.0) * root * root.sqrt()
                 }
-                Scale::LogRatio => slope[block],
+                Scale::LogRatio => v.load(slope[block]),
             };
-            let variance = size * size * self.own[block] + self.sensor[block];
-            let scales = (f32x8::ONE / variance.sqrt()).to_array();
-            let sizes = size.to_array();
+            let variance = size * size * v.load(self.own[block]) + v.load(self.sensor[block]);
+            let scales = (v.splat(1.0) / variance.sqrt()).store().to_array();
+            let sizes = size.store().to_array();
             let mut kept = [0.0; LANES];
             for lane in 0..LANES.min(self.bands - block * LANES) {
                 let band = block * LANES + lane;
                 kept[lane] = scales[lane];
-                let curves = f32x8::splat(scales[lane] * sizes[lane]) * self.curves[band];
-                white.curves[band] = curves;
-                for (sum, curve) in products.iter_mut().zip(curves.to_array()) {
-                    *sum += f32x8::splat(curve) * curves;
+                let curves = v.splat(scales[lane] * sizes[lane]) * v.load(self.curves[band]);
+                white.curves[band] = curves.store();
+                for (sum, curve) in products.iter_mut().zip(curves.store().to_array()) {
+                    *sum = *sum + v.splat(curve) * curves;
                 }
             }
             white.scale[block] = f32x8::new(kept);
         }
-        let factor = removal(&products.map(f32x8::to_array)).map(f32x8::new);
+        let factor = removal(&products.map(|row| row.store().to_array()));
+        let factor = factor.map(|row| v.load(f32x8::new(row)));
         let mut removed = [[0.0; MOST_BANDS]; CURVES];
         for band in 0..self.bands {
-            let mut sum = f32x8::ZERO;
+            let mut sum = v.splat(0.0);
             for (from, row) in white.curves[band].to_array().into_iter().zip(&factor) {
-                sum += f32x8::splat(from) * *row;
+                sum = sum + v.splat(from) * *row;
             }
-            for (removed, value) in removed.iter_mut().zip(sum.to_array()) {
+            for (removed, value) in removed.iter_mut().zip(sum.store().to_array()) {
                 removed[band] = value;
             }
         }
@@ -146,8 +152,8 @@ impl Task for Near<'_> {
     type Result = Whitening;
 
     #[inline(always)]
-    fn run(self) -> Whitening {
-        self.noise.whitening(self.measured, self.slope)
+    fn run<V: Vectors>(self, v: V) -> Whitening {
+        self.noise.whitening(v, self.measured, self.slope)
     }
 }
 
@@ -193,49 +199,73 @@ fn removal(products: &[[f32; CURVES]; CURVES]) -> [[f32; CURVES]; CURVES] {
 }
 
 impl Whitening {
-    /// Whitens the difference of a spectrum from the pixel.
+    /// Whitens the difference of a spectrum from the pixel, and `others` with it.
     #[inline(always)]
-    pub(crate) fn whiten(&self, blocks: usize, values: &mut Spectrum) {
-        let mut common = [f32x8::ZERO; 2];
+    pub(crate) fn whiten<V: Vectors, const N: usize>(
+        &self,
+        v: V,
+        blocks: usize,
+        values: &mut [V::Eight; MOST_BLOCKS],
+        others: &mut [[V::Eight; MOST_BLOCKS]; N],
+    ) {
+        let zero = v.splat(0.0);
+        let (mut common, mut common_of) = ([zero; 2], [[zero; 2]; N]);
         for block in 0..blocks {
-            values[block] *= self.scale[block];
-            let lanes = values[block].to_array();
+            let scale = v.load(self.scale[block]);
+            values[block] = values[block] * scale;
+            let lanes = values[block].store().to_array();
+            let lanes_of: [[f32; LANES]; N] = std::array::from_fn(|i| {
+                others[i][block] = others[i][block] * scale;
+                others[i][block].store().to_array()
+            });
             let curves = &self.curves[block * LANES..(block + 1) * LANES];
-            for lane in (0..LANES).step_by(2) {
-                common[0] += f32x8::splat(lanes[lane]) * curves[lane];
-                common[1] += f32x8::splat(lanes[lane + 1]) * curves[lane + 1];
+            for lane in 0..LANES {
+                let curve = v.load(curves[lane]);
+                common[lane % 2] = common[lane % 2] + v.splat(lanes[lane]) * curve;
+                for i in 0..N {
+                    common_of[i][lane % 2] =
+                        common_of[i][lane % 2] + v.splat(lanes_of[i][lane]) * curve;
+                }
             }
         }
-        let common = (common[0] + common[1]).to_array();
+        let common = (common[0] + common[1]).store().to_array();
+        let common_of = common_of.map(|halves| (halves[0] + halves[1]).store().to_array());
         for block in 0..blocks {
-            let mut sum = f32x8::ZERO;
-            for (removed, common) in self.removed.iter().zip(common) {
-                sum += removed[block] * f32x8::splat(common);
+            let (mut sum, mut sums) = (zero, [zero; N]);
+            for curve in 0..CURVES {
+                let removed = v.load(self.removed[curve][block]);
+                sum = sum + removed * v.splat(common[curve]);
+                for i in 0..N {
+                    sums[i] = sums[i] + removed * v.splat(common_of[i][curve]);
+                }
             }
-            values[block] -= sum;
+            values[block] = values[block] - sum;
+            for i in 0..N {
+                others[i][block] = others[i][block] - sums[i];
+            }
         }
     }
 
     /// Whitens many differences, which stand side by side in rows of `columns` blocks for each band, and are
     /// already multiplied by the scale.
     #[inline(always)]
-    pub(crate) fn whiten_rows(&self, columns: usize, values: &mut [f32x8]) {
+    pub(crate) fn whiten_rows<V: Vectors>(&self, v: V, columns: usize, values: &mut [f32x8]) {
         for column in 0..columns {
-            let mut common = [f32x8::ZERO; CURVES];
+            let mut common = [v.splat(0.0); CURVES];
             for (row, curves) in values.chunks_exact(columns).zip(&self.curves) {
                 for (sum, curve) in common.iter_mut().zip(curves.to_array()) {
-                    *sum += f32x8::splat(curve) * row[column];
+                    *sum = *sum + v.splat(curve) * v.load(row[column]);
                 }
             }
             for (block, rows) in values.chunks_mut(columns * LANES).enumerate() {
                 let removed: [[f32; LANES]; CURVES] =
                     std::array::from_fn(|curve| self.removed[curve][block].to_array());
                 for (lane, row) in rows.chunks_exact_mut(columns).enumerate() {
-                    let mut sum = f32x8::ZERO;
+                    let mut sum = v.splat(0.0);
                     for (removed, common) in removed.iter().zip(&common) {
-                        sum += f32x8::splat(removed[lane]) * *common;
+                        sum = sum + v.splat(removed[lane]) * *common;
                     }
-                    row[column] -= sum;
+                    row[column] = (v.load(row[column]) - sum).store();
                 }
             }
         }

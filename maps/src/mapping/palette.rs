@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::search::engine::NEGLIGIBLE;
+use crate::search::scores::NEGLIGIBLE;
 use crate::search::set_fit::SetFit;
 
 /// Mean rise of the score without a pigment, in the paints that need it most, from which it is more likely than
@@ -150,11 +150,14 @@ mod tests {
 
     #[test]
     fn one_paint_tells_as_much_as_its_mean_pixel() {
-        let needed = pixel(&[(&[0, 1], 5.0), (&[0, 2], 40.0)]);
+        let needed = pixel(&[(&[0, 1], 5.0), (&[0, 2], 40.0), (&[0], 105.0)]);
         let not = pixel(&[(&[0], 5.0)]);
         let pixels = [needed.clone(), not.clone(), not.clone(), not.clone()];
         let mixed = palette(&pixels, &[1, 1, 1, 1], &apart(3), 1.0);
-        assert!(mixed[1] < 0.1 && mixed[0] > 0.5, "one of four pixels of one paint: {mixed:?}");
+        assert!(
+            mixed[1] < 0.1 && mixed[0] > 0.5,
+            "one of four pixels of one paint, however much: {mixed:?}"
+        );
         let often =
             palette(&[needed.clone(), needed.clone(), not.clone()], &[1, 1, 2], &apart(3), 1.0);
         assert!(often[1] > 0.9, "one of two paints: {often:?}");

@@ -13,6 +13,7 @@ use crate::map_error::MapError;
 use crate::pixel_maps::Mask;
 use crate::search::engine::Engine;
 use crate::search::nearest::Point;
+use crate::search::scores::Scores;
 use crate::search::table::Table;
 
 /// Reflectances of a band that a scan can have; others show raw counts, percent or a wrong white.
@@ -56,15 +57,12 @@ impl Prepared {
         let films = Films::new(&paints);
         let table = Table::new(&paints, &films, &noise);
         let engine = Engine {
-            of_pigment: vec![0.0; films.pigments],
-            penalty: settings.penalty,
-            strength_sd: 0.0,
             films,
             table,
             noise: WhiteningNoise::new(&noise),
             at_most: settings.at_most.min(paints.count()),
-            of_count: Engine::of_count(paints.count() as f64, settings.penalty),
-            tail: noise.tail,
+            scores: Scores::new((paints.count(), bands.count()), settings.penalty, noise.tail),
+            strength_sd: 0.0,
         };
         let (mut ends, mut terms, mut used) = (Vec::new(), Vec::new(), Vec::new());
         for row in &bands.from_scan {

@@ -2,7 +2,8 @@
 
 use crate::films::film::Pixel;
 use crate::pixel_maps::{BlockMaps, Mask};
-use crate::search::engine::{Engine, NEGLIGIBLE};
+use crate::search::engine::Engine;
+use crate::search::scores::{NEGLIGIBLE, Scores};
 use crate::search::set_fit::SetFit;
 
 /// Numbers of one pixel, by column of the map.
@@ -44,7 +45,7 @@ impl Told {
 
     /// Sums up the sets `found`, the best first. `column_of` is the column of each pigment.
     ///
-    /// Sets count by [`Engine::weight`]. The shares are those of the best set; their variance is the curvature's,
+    /// Sets count by [`Scores::weight`]. The shares are those of the best set; their variance is the curvature's,
     /// that of the paints' strengths, and the mean square by which other sets differ, each with its weight.
     pub(crate) fn sum(
         &mut self,
@@ -68,7 +69,7 @@ impl Told {
         let mut total = 0.0;
         let mut shares = vec![0.0; self.share.len()];
         for set in found.iter().take_while(|set| set.score < best.score + NEGLIGIBLE) {
-            let weight = Engine::weight(set.score - best.score);
+            let weight = Scores::weight(set.score - best.score);
             total += weight;
             let columns = bits(set);
             if self.second == 0 && columns != best_bits {
@@ -84,7 +85,7 @@ impl Told {
             }
         }
         let difference = best.difference(&engine.films, pixel);
-        let excess = engine.excess(best.chi2);
+        let excess = engine.scores.excess(best.chi2);
         let covariance = best.covariance(&difference);
         // A share changes with the logarithm of a paint's strength by share x (own column - column's share).
         let of_strength = |column: usize| -> f64 {

@@ -42,7 +42,7 @@ fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
     let pixel = engine.films.pixel(&engine.noise, &off);
     let truth = set.shares;
     let difference = set.refine(&engine.films, &pixel, STEPS);
-    let (excess, covariance) = (engine.excess(set.chi2), set.covariance(&difference));
+    let (excess, covariance) = (engine.scores.excess(set.chi2), set.covariance(&difference));
     let shares: Vec<f64> = set.parts().map(|(_, share)| f64::from(share)).collect();
     let needed = (0..shares.len()).map(|i| {
         let slope = |(j, share): (usize, &f64)| {

@@ -9,7 +9,8 @@ use spectra::{Cancellation, Cancelled};
 use super::book::{Book, BookEntry, BookSet, SetFrequency};
 use super::palette::palette;
 use super::prepared::{Folded, Prepared};
-use crate::search::engine::{Engine, NEGLIGIBLE, Scratch};
+use crate::search::engine::{Engine, Scratch};
+use crate::search::scores::{NEGLIGIBLE, Scores};
 use crate::search::set_fit::SetFit;
 
 /// Pixels that a survey searches, about.
@@ -53,10 +54,10 @@ pub(crate) fn survey(
     ended.check()?;
     let (paints, mut found): (Vec<usize>, Vec<Vec<SetFit>>) = found.into_iter().unzip();
     book.palette = palette(&found, &paints, &prepared.entries, excess(engine, &found));
-    let informed = engine.with_palette(&book.palette);
+    let informed = engine.scores.with_palette(&book.palette);
     for sets in &mut found {
         for set in sets.iter_mut() {
-            set.score += informed.prior(set) - engine.prior(set);
+            set.score += informed.prior(set) - engine.scores.prior(set);
         }
         sets.sort_by(|a, b| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key())));
         let best = sets.first().map_or(0.0, |set| set.score);
@@ -112,7 +113,7 @@ fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
     let mut parts = BTreeMap::new();
     for sets in found {
         let Some(best) = sets.first() else { continue };
-        let weight = |set: &SetFit| Engine::weight(set.score - best.score);
+        let weight = |set: &SetFit| Scores::weight(set.score - best.score);
         let total: f64 = sets.iter().map(weight).sum();
         for set in sets {
             *parts.entry(set.key()).or_insert(0.0) += weight(set) / total / found.len() as f64;

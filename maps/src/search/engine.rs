@@ -1,9 +1,11 @@
 //! Whole search of one pixel: all sets of pigments, best first.
 
 use super::quadratic::Quadratic;
+use super::scores::Scores;
 use super::set_fit::SetFit;
 use super::table::Table;
-use crate::films::film::{Difference, Films, Pixel, Work};
+use super::triples::Marks;
+use crate::films::film::{Films, Pixel, Work};
 use crate::films::whitening::WhiteningNoise;
 
 /// Linearised sets that are kept, by their number of pigments.
@@ -23,16 +25,6 @@ const SHORTLIST_PENALTY: f32 = 6.0;
 const FAR: f32 = 30.0;
 /// Chi-square of three pigments relative to that of the best pair from which they are passed over.
 const WORSE: f64 = 1.5;
-/// Scores above the best beyond which a set does not matter: its weight is below 2e-3.
-pub(crate) const NEGLIGIBLE: f32 = 20.0;
-/// Factor by which differences of scores count less than those of exact likelihoods: the errors of a library are
-/// known roughly, so that probabilities would promise too much. Chosen of 1 to 3 on simulated paintings.
-const TEMPERATURE: f64 = 1.5;
-/// Probability of a pigment that a survey needs nowhere.
-const LEAST_LIKELY: f32 = 0.05;
-/// Least addition to the score by a further pigment of a palette: -2 ln of one half.
-const FURTHER: f32 = 2.0 * std::f32::consts::LN_2;
-
 /// All that a search needs, but the pixel.
 #[derive(Debug, Clone)]
 pub(crate) struct Engine {
@@ -40,16 +32,9 @@ pub(crate) struct Engine {
     pub(crate) table: Table,
     pub(crate) noise: WhiteningNoise,
     pub(crate) at_most: usize,
-    /// Additions to the score by number of pigments.
-    pub(crate) of_count: [f32; 4],
-    /// Additions to the score by pigment: none, or what a survey knows of the palette.
-    pub(crate) of_pigment: Vec<f32>,
-    /// Chi-square that a pigment must save of which no survey says that it is in the palette.
-    pub(crate) penalty: f64,
+    pub(crate) scores: Scores,
     /// Standard deviation of the logarithm of a paint's strength.
     pub(crate) strength_sd: f64,
-    /// Degrees of freedom of the residuals' distribution; infinite for a normal one.
-    pub(crate) tail: f64,
 }
 
 /// Memory of a search, reused from pixel to pixel.
@@ -57,6 +42,7 @@ pub(crate) struct Engine {
 pub(crate) struct Scratch {
     work: Work,
     quadratic: Quadratic,
+    marks: Marks,
     pub(crate) found: Vec<SetFit>,
     by_size: [Vec<SetFit>; 4],
     shortlist: Vec<SetFit>,
@@ -69,6 +55,7 @@ impl Scratch {
         Self {
             work: Work::new(films),
             quadratic: Quadratic::new(films.pigments),
+            marks: Marks::new(films.pigments),
             found: Vec::new(),
             by_size: [const { Vec::new() }; 4],
             shortlist: Vec::new(),
@@ -78,89 +65,9 @@ impl Scratch {
 }
 
 impl Engine {
-    /// -2 ln of the probability of a refined set, less a constant: its misfit, the part of all shares that
-    /// agree with the pixel, and the prior: a set of any number of pigments is as likely as one of another, and
-    /// so is any set of one number, but for what a survey tells of the palette. How often it found a set is no
-    /// part of it: pixels of one paint share the errors of the library, so that they are no independent
-    /// evidence. As a prior they made probabilities between 0.5 and 0.9 too high by 0.2.
-    pub(crate) fn score(&self, set: &SetFit, difference: &Difference) -> f32 {
-        let exactness = difference.exactness(set.len(), self.excess(set.chi2)) as f32;
-        self.misfit(set.chi2) + exactness + self.prior(set)
-    }
-
-    /// Additions to the score of a set that do not depend on the pixel.
-    pub(crate) fn prior(&self, set: &SetFit) -> f32 {
-        self.of_count[set.len() - 1] + self.of_pigments(set)
-    }
-
-    fn of_pigments(&self, set: &SetFit) -> f32 {
-        set.parts().map(|(member, _)| self.of_pigment[member]).sum()
-    }
-
-    /// Weight of a set whose score is `above` that of the best one.
-    pub(crate) fn weight(above: f32) -> f64 {
-        (-0.5 / TEMPERATURE * f64::from(above)).exp()
-    }
-
-    /// The engine for a scan whose palette holds each pigment with these probabilities. Pigments outside it pay
-    /// for that and the penalty, and those inside it no penalty: it guards against pigments that are not there.
+    /// The engine for a scan whose palette holds each pigment with these probabilities.
     pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
-        let size: f64 = palette.iter().map(|p| f64::from(*p)).sum();
-        let cost = |&inside: &f32| {
-            let likely = LEAST_LIKELY + (1.0 - LEAST_LIKELY) * inside;
-            self.penalty as f32 * (1.0 - inside) - 2.0 * likely.ln()
-        };
-        Self {
-            of_count: Self::never_likelier(Self::of_count(size, 0.0)),
-            of_pigment: palette.iter().map(cost).collect(),
-            ..self.clone()
-        }
-    }
-
-    /// Additions to the score by number of pigments, for `pigments` of which up to four are mixed, and each
-    /// of which must save `penalty`.
-    pub(crate) fn of_count(pigments: f64, penalty: f64) -> [f32; 4] {
-        let mut sets = 1.0;
-        std::array::from_fn(|size| {
-            sets *= (pigments - size as f64).max(1.0) / (size + 1) as f64;
-            (2.0 * sets.ln() + penalty * (size + 1) as f64) as f32
-        })
-    }
-
-    /// The additions `of_count` raised so that each further pigment makes a set half as likely at most. A palette of
-    /// three has three pairs and one triple, which would cost less than a pair.
-    fn never_likelier(mut of_count: [f32; 4]) -> [f32; 4] {
-        let before = of_count;
-        for size in 1..of_count.len() {
-            let more = before[size] - before[size - 1];
-            of_count[size] = of_count[size - 1] + more.max(FURTHER);
-        }
-        of_count
-    }
-
-    /// -2 ln of the likelihood of a chi-square, less a constant.
-    fn misfit(&self, chi2: f32) -> f32 {
-        if self.tail.is_infinite() {
-            return chi2;
-        }
-        let scale = self.tail + self.films.bands as f64;
-        (scale * (f64::from(chi2.max(0.0)) / self.tail).ln_1p()) as f32
-    }
-
-    /// Greatest change of the score by chi-square.
-    fn steepest(&self) -> f32 {
-        if self.tail.is_infinite() {
-            return 1.0;
-        }
-        ((self.tail + self.films.bands as f64) / self.tail) as f32
-    }
-
-    /// Factor by which the variance of a pixel's errors exceeds the usual one.
-    pub(crate) fn excess(&self, chi2: f32) -> f64 {
-        if self.tail.is_infinite() {
-            return 1.0;
-        }
-        (self.tail + f64::from(chi2)) / (self.tail + self.films.bands as f64)
+        Self { scores: self.scores.with_palette(palette), ..self.clone() }
     }
 
     /// Searches all sets, beginning at the film `place` of the table. The sets are left in `scratch.found`,
@@ -171,11 +78,8 @@ impl Engine {
         let (internal, inverse) = self.table.film(place);
         self.films.products(pixel, (internal, inverse), &mut scratch.work);
         self.shortlist(scratch);
-        let far = scratch.shortlist.first().map_or(0.0, |best| best.score + FAR * self.steepest());
         for index in 0..REFINED[0].min(scratch.shortlist.len()) {
-            if scratch.shortlist[index].score < far {
-                self.add_refined(pixel, index, scratch);
-            }
+            self.add_refined(pixel, index, scratch);
         }
         let best = |a: SetFit, b: SetFit| if b.score < a.score { b } else { a };
         let Some(winner) = scratch.found.iter().copied().reduce(best) else { return };
@@ -186,7 +90,8 @@ impl Engine {
         let mut refined = 0;
         for index in 0..scratch.shortlist.len() {
             let key = scratch.shortlist[index].key();
-            let near = scratch.shortlist[index].score < scratch.least + FAR * self.steepest();
+            let near =
+                scratch.shortlist[index].score < scratch.least + FAR * self.scores.steepest();
             if near && refined < REFINED[1] && scratch.found.iter().all(|found| found.key() != key)
             {
                 self.add_refined(pixel, index, scratch);
@@ -203,32 +108,33 @@ impl Engine {
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
         let difference = best.refine(&self.films, pixel, STEPS[2]);
-        best.score = self.score(best, &difference);
+        best.score = self.scores.of_set(best, &difference);
         found.sort_unstable_by(order);
     }
 
     /// Refines a set in measured reflectance by `steps`, and tells its score.
     pub(crate) fn refined(&self, pixel: &Pixel, mut set: SetFit, steps: usize) -> SetFit {
         let difference = set.refine(&self.films, pixel, steps);
-        set.score = self.score(&set, &difference);
+        set.score = self.scores.of_set(&set, &difference);
         set
     }
 
     fn add_refined(&self, pixel: &Pixel, index: usize, scratch: &mut Scratch) {
         let mut set = scratch.shortlist[index];
         let first = set.refine(&self.films, pixel, STEPS[0]);
-        set.score = self.score(&set, &first);
-        if set.score < scratch.least + HOPELESS * self.steepest() {
+        set.score = self.scores.of_set(&set, &first);
+        if set.score < scratch.least + HOPELESS * self.scores.steepest() {
             let second = set.refine_from(first, &self.films, pixel, STEPS[1]);
-            set.score = self.score(&set, &second);
+            set.score = self.scores.of_set(&set, &second);
         }
         scratch.least = scratch.least.min(set.score);
         scratch.found.push(set);
     }
 
-    /// Best sets of the linearised problem, in `scratch.shortlist`, the best first.
+    /// Best sets of the linearised problem, in `scratch.shortlist`, the best first. Those far from the best score
+    /// that was refined are left out, or in the beginning those far from the best of these.
     fn shortlist(&self, scratch: &mut Scratch) {
-        let Scratch { work, quadratic, by_size, shortlist, .. } = scratch;
+        let Scratch { work, quadratic, marks, by_size, shortlist, least, .. } = scratch;
         let count = self.films.pigments;
         quadratic.read(work);
         by_size.iter_mut().for_each(Vec::clear);
@@ -251,7 +157,7 @@ impl Engine {
             // A third pigment that does not save much on the best pair is of no use.
             let least = singles.iter().chain(&*pairs).map(|set| set.chi2).reduce(f32::min);
             let limit = f64::from(least.unwrap_or(f32::INFINITY)) * WORSE + f64::from(FAR);
-            quadratic.triples(limit, |members, shares, chi2| {
+            quadratic.triples(limit, marks, |members, shares, chi2| {
                 keep(triples, KEPT[2], quadratic.fit(members, shares, chi2));
                 let full = triples.len() == KEPT[2];
                 triples.last().filter(|_| full).map_or(limit, |last| f64::from(last.chi2))
@@ -273,9 +179,13 @@ impl Engine {
         shortlist.clear();
         for set in by_size.iter().flatten() {
             let penalty = SHORTLIST_PENALTY * set.len() as f32;
-            let score = self.misfit(set.chi2) + penalty + self.of_pigments(set);
+            let score = self.scores.misfit(set.chi2) + penalty + self.scores.of_pigments(set);
             shortlist.push(SetFit { score, ..*set });
         }
+        let best = shortlist.iter().map(|set| set.score).fold(f32::INFINITY, f32::min);
+        let best = if least.is_finite() { *least } else { best };
+        let far = best + FAR * self.scores.steepest();
+        shortlist.retain(|set| set.score < far);
         let order =
             |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         shortlist.sort_unstable_by(order);
@@ -291,11 +201,15 @@ fn keep(list: &mut Vec<SetFit>, most: usize, set: SetFit) {
     if !is_kept(list, most, set.chi2) {
         return;
     }
-    if list.len() == most {
-        list.pop();
+    if list.len() < most {
+        list.push(set);
     }
-    let place = list.iter().position(|known| set.chi2 < known.chi2).unwrap_or(list.len());
-    list.insert(place, set);
+    let mut place = list.len() - 1;
+    while place > 0 && set.chi2 < list[place - 1].chi2 {
+        list[place] = list[place - 1];
+        place -= 1;
+    }
+    list[place] = set;
 }
 
 #[cfg(test)]
@@ -314,22 +228,9 @@ mod tests {
         let noise = Noise::new(&bands, 0.003, &ModelError::Stated(0.1));
         let films = Films::new(&paints);
         let table = Table::new(&paints, &films, &noise);
-        let of_count = Engine::of_count(paints.count() as f64, 2.0);
-        let (noise, tail) = (WhiteningNoise::new(&noise), noise.tail);
-        (
-            Engine {
-                of_pigment: vec![0.0; films.pigments],
-                penalty: 2.0,
-                strength_sd: 0.0,
-                films,
-                table,
-                noise,
-                at_most,
-                of_count,
-                tail,
-            },
-            paints,
-        )
+        let scores = Scores::new((paints.count(), bands.count()), 2.0, noise.tail);
+        let noise = WhiteningNoise::new(&noise);
+        (Engine { films, table, noise, at_most, scores, strength_sd: 0.0 }, paints)
     }
 
     fn found(engine: &Engine, paints: &Paints, truth: &[(usize, f64)]) -> Vec<SetFit> {
@@ -377,24 +278,6 @@ mod tests {
             if at_most == 4 {
                 assert!(found[0].chi2 < 1.0, "{:?}", found[0]);
             }
-        }
-    }
-
-    #[test]
-    fn a_further_pigment_of_a_palette_costs_something() {
-        let (engine, _) = oils(4);
-        // Three whole pigments of the palette, the others hardly in it.
-        let mut palette = vec![0.0; engine.films.pigments];
-        palette[..3].fill(1.0);
-        let few = engine.with_palette(&palette).of_count;
-        for (size, pair) in few.windows(2).enumerate() {
-            assert!((pair[1] - pair[0] - FURTHER).abs() < 1e-5, "{size}: {few:?}");
-        }
-        // Of eighteen there are 18, 153, 816 and 3060 sets.
-        palette.fill(1.0);
-        let many = engine.with_palette(&palette).of_count;
-        for (found, sets) in many.iter().zip([18.0, 153.0, 816.0, 3060.0_f32]) {
-            assert!((found - 2.0 * sets.ln()).abs() < 1e-3, "{many:?}");
         }
     }
 }

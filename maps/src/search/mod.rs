@@ -4,7 +4,11 @@ pub(crate) mod nearest;
 
 pub(crate) mod set_fit;
 
+pub(crate) mod scores;
+
 mod quadratic;
+
+mod triples;
 
 pub(crate) mod table;
 

@@ -114,6 +114,38 @@ fn a_survey_is_written_once_and_used_again() {
     assert_eq!(second.json(), first.json(), "{}", second.err);
     let other = map(&scan, &["--survey", &book, "--palette", "Viridian"]);
     assert!(other.status != 0 && other.err.contains("hint"), "{}", other.err);
+    let fewer = map(&scan, &["--survey", &book, "--at-most", "2"]);
+    assert!(fewer.status != 0 && fewer.err.contains("survey the scan again"), "{}", fewer.err);
+    let ground = map(&scan, &["--survey", &book, "--ground", "0..6,8..12"]);
+    assert!(ground.status != 0 && ground.err.contains("survey the scan again"), "{}", ground.err);
+    // As an earlier version wrote it.
+    let text = std::fs::read_to_string(&book).unwrap();
+    let earlier = text.replacen("\"version\":3", "\"version\":2", 1);
+    assert_ne!(earlier, text);
+    std::fs::write(&book, earlier).unwrap();
+    let run = map(&scan, &["--survey", &book]);
+    assert!(run.status != 0 && run.err.contains("version 2"), "{}", run.err);
+    assert!(run.err.contains("survey.json") && run.err.contains("--survey"), "{}", run.err);
+}
+
+#[test]
+fn ground_without_a_reflectance_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let scan = written(folder.path(), 6, 1.0);
+    let data = folder.path().join("scan.bip");
+    let mut bytes = std::fs::read(&data).unwrap();
+    // The first four columns hold NaN.
+    let pixel = bytes.len() / (6 * 24);
+    for row in bytes.chunks_exact_mut(24 * pixel) {
+        row[..4 * pixel]
+            .chunks_exact_mut(4)
+            .for_each(|b| b.copy_from_slice(&f32::NAN.to_le_bytes()));
+    }
+    std::fs::write(&data, bytes).unwrap();
+    let run = map(&scan, &["--ground", "0..6,0..4"]);
+    assert!(run.status == 2 && run.err.contains("no pixel that holds"), "{}", run.err);
+    let run = map(&scan, &["--ground", "0..6,0..8"]);
+    assert_eq!(run.status, 0, "{}", run.err);
 }
 
 #[test]

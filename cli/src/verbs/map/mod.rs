@@ -19,7 +19,7 @@ use maps::truth::{Truth, compare};
 use maps::{Book, Region, Spot, StoreMode, StoredMaps, SurveyedScan};
 
 use crate::console::Console;
-use crate::failure::{Failure, Result};
+use crate::failure::{Context, Failure, Result};
 use crate::library_choice::chosen;
 use crate::output::OutputFolder;
 use crate::progress::{Progress, Waiting};
@@ -107,7 +107,8 @@ impl Map {
         let known = self.survey.as_ref().filter(|path| path.exists());
         let scan = match known {
             Some(path) => {
-                let book = Book::from_json(&crate::input::text(path)?)?;
+                let book = Book::from_json(&crate::input::text(path)?)
+                    .context(|| format!("{} cannot be used", path.display()))?;
                 SurveyedScan::with_book(cube, &library, &settings, region, book)?
             }
             None => SurveyedScan::survey(cube, &library, &settings, region, &|| {

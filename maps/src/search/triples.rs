@@ -1,0 +1,209 @@
+//! Sets of three pigments of the linearised problem: there are many, most of which explain nothing.
+
+use super::quadratic::Quadratic;
+use crate::films::vectors::{Eight, Task, Vectors, by_vectors};
+use crate::films::whitening::LANES;
+
+/// Differences of all pigments from one, `a`: they span the plane of shares of sum 1.
+#[derive(Debug, Clone, Copy, Default)]
+struct Line {
+    /// Square of the difference of pigment `b`, and its inverse.
+    square: f64,
+    inverse: f64,
+    /// Product of this difference with that of the pixel.
+    to_b: f64,
+    /// Least sum of squares of the two pigments with shares of any sign.
+    of_pair: f64,
+}
+
+/// Memory of [`Quadratic::triples`].
+#[derive(Debug)]
+pub(crate) struct Marks {
+    lines: Vec<Line>,
+    /// A bit for each third pigment of a pair, by the second one and by block.
+    lanes: Vec<u32>,
+}
+
+impl Marks {
+    /// Memory for `count` pigments.
+    pub(crate) fn new(count: usize) -> Self {
+        let columns = count.div_ceil(LANES);
+        Self { lines: vec![Line::default(); count], lanes: vec![0; count * columns] }
+    }
+}
+
+struct Triples<'a, F> {
+    quadratic: &'a Quadratic,
+    limit: f64,
+    marks: &'a mut Marks,
+    found: F,
+}
+
+impl<F: FnMut([usize; 3], [f64; 3], f64) -> f64> Task for Triples<'_, F> {
+    type Result = ();
+
+    #[inline(always)]
+    fn run<V: Vectors>(self, v: V) {
+        self.quadratic.sets_of_three(v, self.limit, self.marks, self.found);
+    }
+}
+
+impl Quadratic {
+    /// Calls `found` with the places, the shares and the sum of squares of three pigments whose best shares
+    /// are all above 0, if the sum is below a limit: at first `limit`, then what `found` returned last.
+    pub(crate) fn triples(
+        &self,
+        limit: f64,
+        marks: &mut Marks,
+        found: impl FnMut([usize; 3], [f64; 3], f64) -> f64,
+    ) {
+        by_vectors(Triples { quadratic: self, limit, marks, found });
+    }
+
+    #[inline(always)]
+    fn sets_of_three<V: Vectors>(
+        &self,
+        v: V,
+        mut limit: f64,
+        marks: &mut Marks,
+        mut found: impl FnMut([usize; 3], [f64; 3], f64) -> f64,
+    ) {
+        let (count, columns) = (self.count, self.own.len());
+        for a in 0..count {
+            let base = self.at(a, a);
+            // All sets are marked before one is looked at: branches that depend on each would cost more than
+            // the arithmetic.
+            for b in a + 1..count {
+                marks.lines[b] = self.line(a, b);
+                self.mark(v, (a, b), limit, marks);
+            }
+            for b in a + 1..count {
+                let Line { square, to_b, inverse, of_pair } = marks.lines[b];
+                for block in (b + 1 + self.before) / LANES..columns {
+                    let mut lanes = marks.lanes[b * columns + block];
+                    while lanes != 0 {
+                        let lane = lanes.trailing_zeros() as usize;
+                        lanes &= lanes - 1;
+                        let c = block * LANES + lane - self.before;
+                        let along =
+                            (self.at(b, c) - self.at(a, c) - self.at(a, b) + base) * inverse;
+                        let rest =
+                            self.at(c, c) - 2.0 * self.at(a, c) + base - along * along * square;
+                        let share_c = (base - self.at(a, c) - to_b * along) / rest;
+                        let share_b = to_b * inverse - share_c * along;
+                        let share_a = 1.0 - share_b - share_c;
+                        let sum = of_pair - share_c * share_c * rest;
+                        let inside = share_a > 0.0 && share_b > 0.0 && share_c > 0.0;
+                        if inside && rest > 1e-9 * base && sum < limit {
+                            limit = found([a, b, c], [share_a, share_b, share_c], sum);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn line(&self, a: usize, b: usize) -> Line {
+        let (base, across) = (self.at(a, a), self.at(a, b));
+        let (square, to_b) = (self.at(b, b) - 2.0 * across + base, base - across);
+        Line { square, to_b, inverse: 1.0 / square, of_pair: base - to_b * to_b / square }
+    }
+
+    /// Marks the third pigments after `b` that may be in a set with `a` and `b` whose sum is below `limit`. A
+    /// little slack makes up for rounding.
+    #[inline(always)]
+    fn mark<V: Vectors>(&self, v: V, (a, b): (usize, usize), limit: f64, marks: &mut Marks) {
+        let columns = self.own.len();
+        let splat = |value: f64| v.splat(value as f32);
+        let base = self.at(a, a);
+        let Line { square, to_b, inverse, of_pair } = marks.lines[b];
+        let spans_a_line = square > 1e-9 * base;
+        let [of_a, of_b] = [a, b].map(|place| {
+            let row = place + self.before;
+            &self.rows[row * columns..(row + 1) * columns]
+        });
+        let shift = splat(to_b);
+        let slope = splat(inverse);
+        let (base_of_all, square_of_all) = (splat(base), splat(square));
+        let saved = splat(of_pair - 1.01 * limit - 1e-6 * base);
+        let after = b + 1 + self.before;
+        let mut kept = if spans_a_line { u32::MAX << (after % LANES) } else { 0 };
+        for block in after / LANES..columns {
+            let (with_a, with_b) = (v.load(of_a[block]), v.load(of_b[block]));
+            let along = (with_b - with_a + shift) * slope;
+            let rest = v.load(self.own[block]) - with_a - with_a + base_of_all
+                - along * along * square_of_all;
+            let to_c = base_of_all - with_a - shift * along;
+            let near = to_c.is_above(v.splat(0.0)) & (to_c * to_c).is_above(saved * rest);
+            marks.lanes[b * columns + block] = near & kept;
+            kept = if spans_a_line { u32::MAX } else { 0 };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use wide::f32x8;
+
+    use super::*;
+
+    /// Products of ten rows of invented numbers.
+    fn invented() -> Quadratic {
+        let rows: Vec<Vec<f64>> = (0..10)
+            .map(|p: usize| (0..12).map(|b| ((3 * p * p + 7 * b * p + b) as f64).sin()).collect())
+            .collect();
+        let mut quadratic = Quadratic::new(rows.len());
+        for (a, first) in rows.iter().enumerate() {
+            for (b, second) in rows.iter().enumerate() {
+                let product: f64 = first.iter().zip(second).map(|(x, y)| x * y).sum();
+                quadratic.products[a * 10 + b] = product;
+                let block = &mut quadratic.rows[(a + 6) * 2 + (b + 6) / LANES];
+                let mut lanes = block.to_array();
+                lanes[(b + 6) % LANES] = product as f32;
+                *block = f32x8::new(lanes);
+                if a == b {
+                    let mut lanes = quadratic.own[(a + 6) / LANES].to_array();
+                    lanes[(a + 6) % LANES] = product as f32;
+                    quadratic.own[(a + 6) / LANES] = f32x8::new(lanes);
+                }
+            }
+        }
+        quadratic
+    }
+
+    #[test]
+    fn triples_are_those_of_the_closed_form_of_each_set() {
+        let quadratic = invented();
+        let mut found = Vec::new();
+        quadratic.triples(f64::INFINITY, &mut Marks::new(10), |members, shares, sum| {
+            found.push(quadratic.fit(members, shares, sum));
+            f64::INFINITY
+        });
+        let mut expected = Vec::new();
+        for a in 0..10 {
+            for b in a + 1..10 {
+                for c in b + 1..10 {
+                    expected.extend(quadratic.set([a, b, c]));
+                }
+            }
+        }
+        assert!(expected.len() > 10, "{} sets inside", expected.len());
+        assert_eq!(found.len(), expected.len());
+        for (found, expected) in found.iter().zip(&expected) {
+            assert_eq!(found.members, expected.members);
+            assert!((found.chi2 - expected.chi2).abs() < 1e-5, "{found:?} {expected:?}");
+            for (a, b) in found.shares.iter().zip(&expected.shares) {
+                assert!((a - b).abs() < 1e-5, "{found:?} {expected:?}");
+            }
+        }
+        let least = found.iter().map(|set| set.chi2).fold(f32::INFINITY, f32::min);
+        let mut below = Vec::new();
+        quadratic.triples(f64::from(least) * 1.5, &mut Marks::new(10), |members, shares, sum| {
+            below.push(quadratic.fit(members, shares, sum));
+            f64::from(least) * 1.5
+        });
+        let expected = found.iter().filter(|set| set.chi2 < 1.5 * least).count();
+        assert_eq!(below.len(), expected, "sets below a limit");
+    }
+}
