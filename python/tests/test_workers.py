@@ -1,0 +1,82 @@
+"""Tasks of maps on Dask workers, and what a client tells of workers that die."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from pathlib import Path
+
+import pytest
+from test_maps import digest, envi, finished_shards, painted
+
+import impasto as im
+
+pytest.importorskip("distributed", reason="the extra maps needs Python 3.11")
+import dask.config
+from distributed import Client, LocalCluster
+
+from impasto import workers
+
+
+def test_small_neighbours_are_one_task() -> None:
+    large = workers.PIXELS_A_TASK
+    assert list(workers.tasks_of([large] * 3, 1)) == [[0], [1], [2]]
+    few = large // 4
+    assert list(workers.tasks_of([few, few, 0, few, few, few], 1)) == [[0, 1, 3, 4], [5]]
+    # Workers share what is left: four tasks for eight shards, however small.
+    assert list(workers.tasks_of([1] * 8, 4)) == [[0, 1], [2, 3], [4, 5], [6, 7]]
+    assert list(workers.tasks_of([1] * 3, 8)) == [[0], [1], [2]]
+    assert list(workers.tasks_of([0, 0], 8)) == []
+
+
+def test_maps_of_one_name_on_one_cluster(oils: im.Library, tmp_path: Path) -> None:
+    """Two maps at once, whose folders have one name; then workers that die, and a run that goes on."""
+    scans = []
+    for name in ("left", "right"):
+        folder = tmp_path / name
+        folder.mkdir()
+        values, _ = painted(oils, 2, 2048 * 6)
+        values = values if name == "left" else values[:, ::-1]
+        cube = im.Cube.open(envi(folder / "scan.hdr", values, oils.wavelengths))
+        survey = im.survey(cube, oils)
+        im.pigment_map(cube, oils, folder / "one.zarr", survey=survey)
+        scans.append((folder, cube, survey))
+    with (
+        dask.config.set({"distributed.scheduler.allowed-failures": 0}),
+        LocalCluster(
+            n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None
+        ) as cluster,
+        Client(cluster) as client,
+    ):
+
+        def run(scan: tuple[Path, im.Cube, im.Survey]) -> None:
+            folder, cube, survey = scan
+            im.pigment_map(cube, oils, folder / "maps.zarr", survey=survey, client=client)
+
+        threads = [threading.Thread(target=run, args=(scan,)) for scan in scans]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for folder, _, _ in scans:
+            assert digest(folder / "maps.zarr") == digest(folder / "one.zarr")
+
+        folder, cube, survey = scans[0]
+        killed: list[int] = []
+
+        def kill(_: str) -> None:
+            (nanny,) = cluster.workers.values()
+            if not killed and nanny.process and nanny.process.pid:
+                killed.append(nanny.process.pid)
+                os.kill(killed[0], signal.SIGKILL)
+
+        out = folder / "killed.zarr"
+        with pytest.raises(im.Error, match="workers died at . of 6 shards .rows 0 to 1 and") as error:
+            im.pigment_map(cube, oils, out, survey=survey, client=client, progress=kill)
+        assert "allowed-failures" in str(error.value.hint)
+        # Only those that were on the worker failed, and the rest went on.
+        assert 1 <= finished_shards(out) < 6, finished_shards(out)
+        im.pigment_map(cube, oils, out, survey=survey, client=client, resume=True)
+        assert digest(out) == digest(folder / "one.zarr")
+        assert not list(folder.glob("*.job.json*")), "the file of the job is removed"
