@@ -6,15 +6,16 @@ import os
 import signal
 import threading
 from pathlib import Path
+from typing import Any
 
 import pytest
-from test_maps import digest, envi, finished_shards, painted
+from conftest import OILS_JSON
+from test_maps import PIGMENTS, digest, envi, finished_shards, painted
 
 import impasto as im
 
-pytest.importorskip("distributed", reason="the extra maps needs Python 3.11")
+distributed = pytest.importorskip("distributed", reason="the extra maps needs Python 3.11")
 import dask.config
-from distributed import Client, LocalCluster
 
 from impasto import workers
 
@@ -30,8 +31,37 @@ def test_small_neighbours_are_one_task() -> None:
     assert list(workers.tasks_of([0, 0], 8)) == []
 
 
-def test_maps_of_one_name_on_one_cluster(oils: im.Library, tmp_path: Path) -> None:
-    """Two maps at once, whose folders have one name; then workers that die, and a run that goes on."""
+def test_a_job_holds_all_that_a_survey_depends_on(oils: im.Library, tmp_path: Path) -> None:
+    values, _ = painted(oils, 12, 96)
+    cube = im.Cube.open(envi(tmp_path / "scan.hdr", values, oils.wavelengths))
+    # Another name, since the oils that ship have residuals that need not be given.
+    others = im.Library.from_json(oils.to_json().replace("Van Gogh's oils", "others"))
+    usual = im.survey(cube, others)
+    linen = im.Spectrum(oils.wavelengths, 0.3 + 0.001 * (oils.wavelengths - 400))
+    for number, settings in enumerate[dict[str, Any]](
+        [
+            {"palette": PIGMENTS, "groups": {"green": ["Viridian", "Emerald Green"]}},
+            {"ground": linen, "at_most": 2, "penalty": 3.0},
+            {"ground": (slice(0, 4), slice(10, 30)), "noise": 0.01, "group_alike": False},
+            {"region": (slice(2, 9), slice(5, 60)), "model_error": 0.2},
+            {"residuals": OILS_JSON.with_name("van-gogh-oils.residuals.json")},
+        ]
+    ):
+        found = im.survey(cube, others, **settings)
+        job = workers.Job.written(found, tmp_path / f"maps-{number}.zarr")
+        again, out = workers.prepared(job.file, job.sha256)
+        assert again.about == found.about and again.to_json() == found.to_json(), settings
+        assert out == str(tmp_path / f"maps-{number}.zarr")
+        # Maps of another region would be refused.
+        assert found._native.begin(out, False) == again._native.begin(out, True)
+        assert found.to_json() != usual.to_json(), "the settings change nothing"
+    job = workers.Job.written(usual, tmp_path / "usual.zarr")
+    Path(job.file).write_text("{}\n{}")
+    with pytest.raises(im.Error, match="not the job of this run"):
+        workers.prepared(job.file, job.sha256)
+
+
+def test_maps_of_one_name_and_dead_workers_on_one_cluster(oils: im.Library, tmp_path: Path) -> None:
     scans = []
     for name in ("left", "right"):
         folder = tmp_path / name
@@ -44,10 +74,10 @@ def test_maps_of_one_name_on_one_cluster(oils: im.Library, tmp_path: Path) -> No
         scans.append((folder, cube, survey))
     with (
         dask.config.set({"distributed.scheduler.allowed-failures": 0}),
-        LocalCluster(
+        distributed.LocalCluster(
             n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None
         ) as cluster,
-        Client(cluster) as client,
+        distributed.Client(cluster) as client,
     ):
 
         def run(scan: tuple[Path, im.Cube, im.Survey]) -> None:

@@ -53,7 +53,10 @@ def map_on_workers(
         keys = [f"impasto-{out.name}-{job.sha256[:16]}-{p[0]}-{p[-1]}" for p in places]
         mapped.update(zip(keys, places))
         # All at once, since the scheduler takes as long for a message as for a task.
-        return client.map(map_shards, places, file=job.file, sha256=job.sha256, pure=False, key=keys)
+        futures: list[Any] = client.map(
+            map_shards, places, file=job.file, sha256=job.sha256, pure=False, key=keys
+        )
+        return futures
 
     running = as_completed(submit(window))
     try:
