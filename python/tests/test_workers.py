@@ -61,7 +61,12 @@ def test_a_job_holds_all_that_a_survey_depends_on(oils: im.Library, tmp_path: Pa
         workers.prepared(job.file, job.sha256)
 
 
-def test_maps_of_one_name_and_dead_workers_on_one_cluster(oils: im.Library, tmp_path: Path) -> None:
+def test_maps_of_one_name_and_dead_workers_on_one_cluster(
+    oils: im.Library, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Four of six tasks wait at first.
+    monkeypatch.setattr(workers, "TASKS_A_WORKER", 2)
+    monkeypatch.setattr(workers, "PIXELS_A_TASK", 1)
     scans = []
     for name in ("left", "right"):
         folder = tmp_path / name
