@@ -1,7 +1,11 @@
 """What Dask costs a map, and how it scales: `python benches/dask_scaling.py [WORKERS..]`.
 
-Prints the time of a task that has nothing to do, without what a map takes whose only task that is, and that of one map in one process and on each number of
-workers (default: 1 and 2), of one thread each. Needs the extra `maps`.
+Needs the extra `maps`, and prints
+- the time of a finished shard, in a loop and on a worker: there only the way to it takes time. It is measured on
+  a map of 200 small shards, some of which are one task, less that of a map of one. A task is also measured by
+  itself: one of Dask that returns its argument, and one of a single shard;
+- the time of one map by threads of one process and by as many workers of one thread each (default: 1 and 2),
+  first by workers that have not prepared the survey yet, then by those that have.
 
 Seconds of the clock need a machine that does nothing else. Seconds of the processors, summed over all processes,
 hardly depend on other work: they tell what the workers, the scheduler and the client spend beside the map itself.
@@ -10,22 +14,23 @@ hardly depend on other work: they tell what the workers, the scheduler and the c
 from __future__ import annotations
 
 import os
+import shutil
+import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 # One thread a process, so that workers are compared with each other.
-os.environ["RAYON_NUM_THREADS"] = "1"
+os.environ.setdefault("RAYON_NUM_THREADS", "1")
 
 import numpy as np
-from distributed import Client, LocalCluster
+from distributed import Client, LocalCluster, as_completed
 
 import impasto as im
-from impasto import maps
+from impasto import workers
 
 SHARD = 2048
 """Rows and columns of a shard."""
@@ -62,6 +67,10 @@ class Spent(NamedTuple):
         """Seconds of the processors in all processes."""
         return self.here + self.workers
 
+    def to(self, more: Spent, count: int) -> Spent:
+        """What one of the `count` costs that `more` has beyond this."""
+        return Spent(*((b - a) / count for a, b in zip(self, more, strict=True)))
+
 
 def spent(work: Callable[[], object], client: Client | None = None) -> Spent:
     """What `work` takes, here and on the workers of `client`."""
@@ -78,47 +87,83 @@ def spent(work: Callable[[], object], client: Client | None = None) -> Spent:
 
 
 class Run:
-    """Maps of one scan, each into a folder of its own."""
+    """Maps of one scan."""
 
     def __init__(self, oils: im.Library, folder: Path, rows: int, shards: int) -> None:
-        self.cube, self.oils, self.folder = scan(oils, folder, rows, SHARD * shards), oils, folder
+        self.cube, self.oils = scan(oils, folder, rows, SHARD * shards), oils
         self.survey = im.survey(self.cube, oils, model_error=0.05)
+        self.out = folder / f"maps-{shards}.zarr"
         self.shards = shards
         self.pixels = rows * SHARD * shards
-        self.count = 0
 
-    def out(self) -> Path:
-        self.count += 1
-        return self.folder / f"maps-{self.shards}-{self.count}.zarr"
+    def map(self, client: Client | None = None) -> Spent:
+        """A map in this process, or on the workers of a client."""
+        shutil.rmtree(self.out, ignore_errors=True)
 
-    def alone(self) -> Spent:
-        """A map in this process."""
-        out = self.out()
-        return spent(lambda: im.pigment_map(self.cube, self.oils, out, survey=self.survey))
+        def work() -> None:
+            im.pigment_map(self.cube, self.oils, self.out, survey=self.survey, client=client)
 
-    def finished(self, client: Client | None) -> Spent:
+        return spent(work, client)
+
+    def by_threads(self, threads: int) -> float:
+        """Seconds by the clock of a map by threads of another process."""
+        book = self.out.with_suffix(".json")
+        book.write_text(self.survey.to_json())
+        program = (
+            "import sys, time; import impasto as im; cube = im.Cube.open(sys.argv[1]);"
+            "oils = im.Library.van_gogh_oils(); book = open(sys.argv[3]).read();"
+            "found = im.survey(cube, oils, model_error=0.05, book=book); start = time.perf_counter();"
+            "im.pigment_map(cube, oils, sys.argv[2], survey=found); print(time.perf_counter() - start)"
+        )
+
+        def once() -> float:
+            shutil.rmtree(self.out, ignore_errors=True)
+            words = [sys.executable, "-c", program, str(self.cube.path), str(self.out), str(book)]
+            environment = {**os.environ, "RAYON_NUM_THREADS": str(threads)}
+            run = subprocess.run(words, env=environment, check=True, stdout=subprocess.PIPE)
+            return float(run.stdout)
+
+        return min(once() for _ in range(ROUNDS))
+
+    def finished(self, client: Client | None, one_a_task: bool = False) -> Spent:
         """A shard of going once more through finished maps, where only the way there takes time."""
-        out = self.out()
-        im.pigment_map(self.cube, self.oils, out, survey=self.survey)
+        out = os.fspath(self.out)
 
         def again(shards: int) -> None:
             if client is None:
                 for place in range(shards):
-                    self.survey._native.map_shard(os.fspath(out), place)
-            else:
-                done = [place >= shards for place in range(self.shards)]
-                maps._on_workers(self.survey, out, done, client, None)
+                    self.survey._native.map_shards(out, [place])
+                return
+            # As many pixels as a task may have make it one of a single shard.
+            pixels = workers.PIXELS_A_TASK if one_a_task else SHARD
+            left = [(str(place), pixels if place < shards else 0) for place in range(self.shards)]
+            workers.map_on_workers(self.survey, self.out, left, client, None)
 
         one, every = (
-            least(lambda: spent(lambda: again(shards), client)) for shards in (1, self.shards)
+            least(lambda shards=shards: spent(lambda: again(shards), client))
+            for shards in (1, self.shards)
         )
-        return Spent(*((b - a) / (self.shards - 1) for a, b in zip(one, every, strict=True)))
+        return one.to(every, self.shards - 1)
 
-    def tasks(self, client: Client) -> Spent:
-        """A map on the workers of a client."""
-        out = self.out()
-        work = partial(im.pigment_map, self.cube, self.oils, out, survey=self.survey, client=client)
-        return spent(work, client)
+
+def bare(client: Client, tasks: int) -> Spent:
+    """A task of Dask that has nothing to do, sent and received one by one."""
+
+    def work(count: int) -> None:
+        keys = iter(f"bare-{time.time_ns()}-{place}" for place in range(count))
+
+        def submit() -> list[object]:
+            return [client.submit(abs, 1, pure=False, key=key) for key in [next(keys, None)] if key]
+
+        running = as_completed([each for _ in range(4) for each in submit()])
+        for future in running:
+            future.result()
+            running.update(submit())
+
+    one, every = (
+        least(lambda count=count: spent(lambda: work(count), client)) for count in (1, tasks)
+    )
+    return one.to(every, tasks - 1)
 
 
 def least(measured: Callable[[], Spent]) -> Spent:
@@ -128,41 +173,59 @@ def least(measured: Callable[[], Spent]) -> Spent:
     return least_work._replace(clock=min(each.clock for each in found))
 
 
-def on_workers(count: int, warm: Run, work: Callable[[Client], Spent]) -> Spent:
-    """What `work` measures on a cluster whose workers have mapped before."""
-    with (
-        LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None) as cluster,
-        Client(cluster) as client,
-    ):
-        # Workers import the package and prepare a survey when their first task comes.
-        warm.tasks(client)
-        return work(client)
+def cluster_of(count: int) -> LocalCluster:
+    """Workers of one thread each."""
+    return LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None)
+
+
+def overhead(small: Run) -> None:
+    """Prints what a shard and a task cost."""
+    small.map()
+    loop = small.finished(None)
+    with cluster_of(1) as cluster, Client(cluster) as client:
+        # The worker imports the package and prepares the survey.
+        small.finished(client)
+        shard, task = small.finished(client), small.finished(client, one_a_task=True)
+        nothing = bare(client, small.shards)
+    print("ms by the clock (of the processors):")
+    for words, each in [
+        ("a finished shard in a loop", loop),
+        ("a finished shard on one worker", shard),
+        ("a task of one finished shard", task),
+        ("a task of Dask that does nothing", nothing),
+    ]:
+        print(f"  {words}: {1e3 * each.clock:.2f} ({1e3 * each.processors:.2f})", flush=True)
+
+
+def scaling(large: Run, counts: list[int]) -> None:
+    """Prints the time of a map by threads and by workers."""
+    alone = least(large.map)
+    print(
+        f"{large.pixels} pixels in {large.shards} shards: {alone.clock:.2f} s in this process, "
+        f"{alone.processors:.2f} of the processors",
+        flush=True,
+    )
+    for count in counts:
+        threads = large.by_threads(count)
+        with cluster_of(count) as cluster, Client(cluster) as client:
+            first, run = large.map(client), least(lambda: large.map(client))
+        print(
+            f"{count} threads {threads:.2f} s; {count} workers {run.clock:.2f} s, "
+            f"{100 * alone.clock / run.clock / count:.0f} % of linear, "
+            f"{100 * threads / run.clock:.0f} % of the threads; "
+            f"{run.processors:.2f} s of the processors, {100 * alone.processors / run.processors:.0f} % of "
+            f"them for the map; first map of these workers {first.clock:.2f} s, {first.processors:.2f} of "
+            "the processors",
+            flush=True,
+        )
 
 
 def main() -> None:
-    workers = [int(word) for word in sys.argv[1:]] or [1, 2]
+    counts = [int(word) for word in sys.argv[1:]] or [1, 2]
     oils = im.Library.van_gogh_oils()
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        small, large = Run(oils, folder, 1, 200), Run(oils, folder, 16, 16)
-        loop, task = small.finished(None), on_workers(1, small, small.finished)
-        print("a finished shard, ms by the clock (of the processors):")
-        for words, each in [("in a loop", loop), ("as a task of one worker", task)]:
-            print(f"  {words}: {1e3 * each.clock:.2f} ({1e3 * each.processors:.2f})")
-        alone = least(large.alone)
-        print(
-            f"{large.pixels} pixels in {large.shards} shards: one process {alone.clock:.2f} s "
-            f"({alone.processors:.2f} of the processors)"
-        )
-        first = None
-        for count in workers:
-            run = on_workers(count, small, lambda client: least(lambda: large.tasks(client)))
-            first = first or run.clock * count
-            print(
-                f"{count} workers: {run.clock:.2f} s, {large.pixels / run.clock / count:.0f} pixels/s a worker, "
-                f"{100 * first / run.clock / count:.0f} % of linear; of the processors {run.workers:.2f} s in workers, "
-                f"{run.here:.2f} s here, {100 * alone.processors / run.processors:.0f} % of them for the map"
-            )
+        overhead(Run(oils, Path(name), 1, 200))
+        scaling(Run(oils, Path(name), 16, 16), counts)
 
 
 if __name__ == "__main__":

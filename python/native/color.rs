@@ -8,6 +8,7 @@ use spectra::color::{ColorValues, Lab, Xyz, delta_e_cie76, delta_e_ciede2000};
 use crate::arrays::{GridNumbers, grid, rows};
 use crate::failure::{Exception, Raised};
 use crate::light::{Light, viewing};
+use crate::running::beside;
 
 /// Spectra that one task of a thread takes.
 const SPECTRA_A_TASK: usize = 4096;
@@ -26,7 +27,7 @@ pub(crate) fn xyz<'py>(
     let weights = viewing(py, light, observer)?.weights(grid).raised(py, Exception::Other)?;
     let (values, [count, bands]) = rows(py, &reflectance)?;
     let mut xyz = vec![0.0; 3 * count];
-    py.detach(|| {
+    beside(py, || {
         let pieces = xyz.par_chunks_mut(3 * SPECTRA_A_TASK);
         pieces.zip(values.par_chunks(bands * SPECTRA_A_TASK)).for_each(|(xyz, values)| {
             weights.xyz_of_rows(values, xyz.as_chunks_mut().0);
@@ -46,7 +47,7 @@ pub(crate) fn rgb<'py>(
     let (values, [count, _]) = rows(py, &xyz)?;
     let white = Xyz::from(white);
     let (mut lab, mut srgb) = (vec![0.0; 3 * count], vec![0.0; 3 * count]);
-    py.detach(|| {
+    beside(py, || {
         let pairs = lab.as_chunks_mut::<3>().0.par_iter_mut().zip(srgb.as_chunks_mut::<3>().0);
         pairs.zip(values.as_chunks::<3>().0).for_each(|((lab, srgb), xyz)| {
             let color = ColorValues::from_xyz(Xyz::from(*xyz), white);
@@ -67,7 +68,7 @@ pub(crate) fn delta_e<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (first, _) = rows(py, &first)?;
     let (second, _) = rows(py, &second)?;
-    let differences = py.detach(|| {
+    let differences = beside(py, || {
         let pairs = first.as_chunks::<3>().0.par_iter().zip(second.as_chunks::<3>().0);
         let difference = if cie1976 { delta_e_cie76 } else { delta_e_ciede2000 };
         let each = pairs.map(|(a, b)| difference(Lab::from(*a), Lab::from(*b)));

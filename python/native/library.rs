@@ -16,6 +16,7 @@ use crate::arrays::{GridNumbers, reflectance, rows};
 use crate::failure::{Exception, Raised};
 use crate::json::{RemarkTuple, remarks};
 use crate::light::{Light, viewing};
+use crate::running::beside;
 
 /// A library of calibrated pigments.
 #[pyclass(frozen, module = "impasto._native")]
@@ -146,7 +147,7 @@ impl Library {
         let bands = library.grid.count();
         let mut mixed = vec![0.0; count * bands];
         let ids: Vec<_> = library.ids().collect();
-        let done = py.detach(|| {
+        let done = beside(py, || {
             let pairs = mixed.par_chunks_mut(bands).zip(values.par_chunks(pigments)).enumerate();
             pairs.try_for_each(|(row, (mixed, parts))| {
                 let recipe = ids.iter().copied().zip(parts.iter().copied());

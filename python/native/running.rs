@@ -1,13 +1,16 @@
 //! Long work beside Python: other threads of Python go on, Ctrl-C is obeyed, progress is told.
 
+use std::cell::OnceCell;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use spectra::Cancellation;
 
 /// Time between two looks for signals.
@@ -58,8 +61,7 @@ pub(crate) fn run<T: Send + 'static>(
     let (told, stages) = channel();
     let (done, result) = channel();
     let reporter = Reporter { told: Mutex::new(told), cancellation: cancellation.clone() };
-    let thread = std::thread::Builder::new().name(THREAD.to_owned());
-    let worker = thread.spawn(move || {
+    let worker = started(move || {
         let result = catch_unwind(AssertUnwindSafe(|| work(&reporter)));
         // Nobody listens once the caller has given up.
         let _ = done.send(result);
@@ -72,6 +74,42 @@ pub(crate) fn run<T: Send + 'static>(
     let ended = py.detach(|| worker.join());
     ended.map_err(|_| PyRuntimeError::new_err("the thread of the work was lost"))?;
     waited?.map_err(|_| PyRuntimeError::new_err("a defect of impasto: please report it"))
+}
+
+/// Starts a thread that does `work`: alone if the process shares work among one thread only
+/// (`RAYON_NUM_THREADS=1`), which would have to do that of all others too.
+fn started(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHandle<()>> {
+    let thread = || std::thread::Builder::new().name(THREAD.to_owned());
+    if rayon::current_num_threads() > 1 {
+        return thread().spawn(work);
+    }
+    let mut worker = None;
+    let pool = ThreadPoolBuilder::new().num_threads(1).spawn_handler(|own| {
+        worker = Some(thread().spawn(move || own.run())?);
+        Ok(())
+    });
+    // Once it is dropped, its thread ends with the work.
+    pool.build().map_err(std::io::Error::other)?.spawn(work);
+    worker.ok_or_else(|| std::io::Error::other("no thread was started"))
+}
+
+thread_local! {
+    /// What makes a thread of Python compute by itself.
+    static OWN: OnceCell<Option<ThreadPool>> = const { OnceCell::new() };
+}
+
+/// Does short `work` while other threads of Python run: on the calling thread if the process shares work among
+/// one thread only, which would have to do that of all others too.
+pub(crate) fn beside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
+    py.detach(|| {
+        if rayon::current_num_threads() == 1 && rayon::current_thread_index().is_none() {
+            let own = || ThreadPoolBuilder::new().num_threads(1).use_current_thread().build().ok();
+            OWN.with(|pool| {
+                pool.get_or_init(own);
+            });
+        }
+        work()
+    })
 }
 
 fn wait<T: Send>(

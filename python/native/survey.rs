@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use maps::blocks::RunError;
+use maps::store::Shard;
 use maps::{
-    Book, Ground, MapSettings, ModelError, PigmentGroup, Region, StoreMode, SurveyError,
+    Book, Ground, MapError, MapSettings, ModelError, PigmentGroup, Region, StoreMode, SurveyError,
     SurveyedScan,
 };
 use pyo3::prelude::*;
@@ -109,11 +111,16 @@ impl Survey {
         self.0.to_json(None, &[]).to_string()
     }
 
-    /// Begins or resumes the maps at `path`, and returns for each shard whether it is finished.
-    fn begin(&self, py: Python<'_>, path: PathBuf, resume: bool) -> PyResult<Vec<bool>> {
+    /// Begins or resumes the maps at `path`, and returns for each shard its name and how many of its pixels
+    /// are still to be mapped.
+    fn begin(&self, py: Python<'_>, path: PathBuf, resume: bool) -> PyResult<Vec<(String, usize)>> {
         let mode = if resume { StoreMode::Resume } else { StoreMode::New };
         let store = py.detach(|| self.0.store(path, mode)).raised(py, Exception::Other)?;
-        Ok(store.shards().iter().map(|shard| store.is_finished(shard)).collect())
+        let left = |shard: &Shard| match store.is_finished(shard) {
+            true => 0,
+            false => shard.rows.len() * shard.columns.len(),
+        };
+        Ok(store.shards().iter().map(|shard| (shard.to_string(), left(shard))).collect())
     }
 
     /// Maps all shards of the maps at `path` that are not finished, on all cores.
@@ -135,13 +142,19 @@ impl Survey {
         mapped.raised(py, Exception::Other).map(drop)
     }
 
-    /// Maps one shard of the maps at `path`, and returns the number of its pixels; 0 if it was finished.
-    fn map_shard(&self, py: Python<'_>, path: PathBuf, place: usize) -> PyResult<u64> {
+    /// Maps the shards of the maps at `path` that are in `places` and not finished, one after another, and
+    /// returns the number of their pixels.
+    fn map_shards(&self, py: Python<'_>, path: PathBuf, places: Vec<usize>) -> PyResult<u64> {
         let scan = Arc::clone(&self.0);
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
-        let mapped =
-            run(py, None, move |reporter| scan.map_shard(&store, place, |_| reporter.flow()))?;
-        Ok(mapped.raised(py, Exception::Other)?.map_or(0, |counts| counts.all()))
+        let mapped = run(py, None, move |reporter| {
+            let goes_on = |_: &usize| reporter.flow().is_continue();
+            places.into_iter().take_while(goes_on).try_fold(0, |pixels, place| {
+                let counts = scan.map_shard(&store, place, |_| reporter.flow())?;
+                Ok::<_, RunError<MapError>>(pixels + counts.map_or(0, |counts| counts.all()))
+            })
+        })?;
+        mapped.raised(py, Exception::Other)
     }
 }

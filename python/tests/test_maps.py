@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import signal
 import subprocess
@@ -161,6 +162,32 @@ def test_a_survey_is_kept_as_json(scan: tuple[Path, np.ndarray], oils: im.Librar
     assert again.about == first.about
     with pytest.raises(im.Error):
         im.survey(cube, oils, at_most=2, book=first.to_json())
+
+
+def test_a_palette_and_groups_are_kept_to(scan: tuple[Path, np.ndarray], oils: im.Library) -> None:
+    cube = im.Cube.open(scan[0])
+    found = im.survey(cube, oils, palette=PIGMENTS, group_alike=False)
+    assert set(found.palette) == set(PIGMENTS) and not found.groups
+    assert im.survey(cube, oils).groups and not im.survey(cube, oils, group_alike=False).groups
+    cool = ["Viridian", "Ultramarine"]
+    found = im.survey(cube, oils, palette=PIGMENTS, groups={"cool": cool}, group_alike=False)
+    assert found.groups == {"cool": cool} and len(found.palette) == 4
+    with pytest.raises(im.Error, match="list of names") as error:
+        im.survey(cube, oils, palette="Viridian")
+    assert error.value.hint == "try ['Viridian']"
+    with pytest.raises(im.Error, match="Virridian"):
+        im.survey(cube, oils, palette=["Virridian"])
+
+
+def test_books_of_other_versions_are_refused(
+    scan: tuple[Path, np.ndarray], oils: im.Library
+) -> None:
+    cube = im.Cube.open(scan[0])
+    book = json.loads(im.survey(cube, oils).to_json())
+    assert im.survey(cube, oils, book=json.dumps(book)).palette
+    for change in ({"version": book["version"] - 1}, {"format": "other"}, {"palette": [0.5]}):
+        with pytest.raises(im.ReadingError, match="of version|palette"):
+            im.survey(cube, oils, book=json.dumps(book | change))
 
 
 def test_residuals_of_a_library_reach_its_maps(

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,9 +20,6 @@ from impasto.spectrum import Spectrum
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
-
-TASKS_A_WORKER = 4
-"""Shards that wait for each worker, so that none is idle and a large scan needs little of the scheduler."""
 
 
 class Survey:
@@ -170,99 +165,21 @@ def pigment_map(
     """Maps every pixel of a scan into the Zarr group `out`.
 
     Works on all cores of this machine, in bounded memory; with a Dask `client` on its workers, which must see
-    the scan and `out` under the same paths. One task maps one shard and writes it; nothing travels but
-    numbers of shards. A shard that exists is finished: `resume` continues a run that was ended, and refuses
-    maps of another scan, library or settings. Machines, workers and resumed runs give the same bytes.
-    `settings` are those of `survey`.
+    the scan and `out` under the same paths. One task maps one shard, or some if they are small, and writes
+    each; nothing travels but numbers of shards. Shards that workers died of again and again are named by an
+    error, once the others are mapped. A shard that exists is finished: `resume` continues a run that was
+    ended, and refuses maps of another scan, library or settings. Machines, workers and resumed runs give the
+    same bytes. `settings` are those of `survey`.
     """
     found = survey or _surveyed(cube, library, progress=progress, **settings)
     if survey is not None and settings:
         raise Error(f"settings belong to the survey: {', '.join(settings)}", "give them to survey")
     path = Path(out)
-    finished = found._native.begin(os.fspath(path), resume)
+    shards = found._native.begin(os.fspath(path), resume)
     if client is None:
         found._native.map(os.fspath(path), progress)
     else:
-        _on_workers(found, path, finished, client, progress)
+        from impasto import workers
+
+        workers.map_on_workers(found, path, shards, client, progress)
     return PigmentMaps(path)
-
-
-def _on_workers(
-    found: Survey,
-    path: Path,
-    finished: Sequence[bool],
-    client: Client,
-    progress: Callable[[str], object] | None,
-) -> None:
-    from distributed import as_completed
-
-    job = json.dumps(
-        {
-            "cube": os.path.abspath(found.cube.path),
-            "options": found.cube._options,
-            "library": found.library.to_json(),
-            "settings": found._settings,
-            "book": found.to_json(),
-            "out": os.path.abspath(path),
-        }
-    )
-    # By a file and not by the scheduler, which forgets data with the worker that holds it, and would copy
-    # the library and the survey with every task.
-    file = Path(os.path.abspath(path.with_name(path.name + ".job.json")))
-    if not file.exists() or file.read_text() != job:
-        part = file.with_name(file.name + ".part")
-        part.write_text(job)
-        part.replace(file)
-    sha256 = hashlib.sha256(job.encode()).hexdigest()
-    waiting = [place for place, done in enumerate(finished) if not done]
-    total, done = len(finished), len(finished) - len(waiting)
-
-    def submit(place: int) -> Any:
-        key = f"impasto-{path.name}-{place}"
-        return client.submit(_map_shard, os.fspath(file), sha256, place, pure=False, key=key)
-
-    cores: Any = client.ncores()
-    workers = max(1, sum(cores.values()))
-    first, rest = waiting[: TASKS_A_WORKER * workers], iter(waiting[TASKS_A_WORKER * workers :])
-    running = as_completed([submit(place) for place in first])
-    for future in running:
-        future.result()
-        done += 1
-        if progress is not None:
-            progress(f"{done} of {total} shards")
-        place = next(rest, None)
-        if place is not None:
-            running.add(submit(place))
-    file.unlink(missing_ok=True)
-
-
-def _map_shard(job: str, sha256: str, place: int) -> int:
-    """Maps one shard on a worker; `job` is the path of a file."""
-    survey, out = _prepared(job, sha256)
-    return survey._native.map_shard(out, place)
-
-
-@lru_cache(maxsize=2)
-def _prepared(job: str, sha256: str) -> tuple[Survey, str]:
-    """The survey of a job, prepared once for a worker."""
-    text = Path(job).read_text()
-    if hashlib.sha256(text.encode()).hexdigest() != sha256:
-        raise Error(f"{job}: is not the job of this run", "start the run again with resume=True")
-    told = json.loads(text)
-    cube = Cube.open(told["cube"], **told["options"])
-    settings = dict(told["settings"])
-    region = settings.pop("region")
-    if region is not None:
-        rows, columns = region
-        region = slice(*rows), slice(*columns)
-    settings["groups"] = dict(settings["groups"])
-    ground, ends = settings.pop("ground"), settings.pop("ground_region")
-    if ground is not None:
-        settings["ground"] = Spectrum(*ground)
-    elif ends is not None:
-        settings["ground"] = slice(*ends[0]), slice(*ends[1])
-    residuals = settings.pop("residuals")
-    if residuals is not None:
-        settings["residuals"] = Residuals.from_json(residuals)
-    library = Library.from_json(told["library"])
-    return survey(cube, library, region=region, book=told["book"], **settings), told["out"]
