@@ -6,7 +6,7 @@ import { refuse, scans } from "./shelf.js";
 
 let maps = null;
 let urls = [];
-// Picture on the canvas, and the square of the spot.
+// Picture on the canvas, and the square of it that the spot lies in.
 let picture = null;
 let point = { x: 0, y: 0 };
 
@@ -26,7 +26,7 @@ export function startSpots() {
     event.preventDefault();
   });
   $("scan-which").addEventListener("change", show);
-  $("scan-size").addEventListener("change", () => !$("scan-result").hidden && draw());
+  $("scan-size").addEventListener("change", compare);
 }
 
 // Shows the pictures of the maps `about`; those of the pigments `named` alone.
@@ -43,7 +43,7 @@ export function showMaps({ about, pictures }, named) {
     return element("figure", {}, image, element("figcaption", {}, `${title} `, element("a", { href: files.get(file), download: file, ariaLabel: `Download ${file}` }, "PNG")));
   }));
   $("scan-which").replaceChildren(...all.map(([title, file]) => element("option", { value: files.get(file) }, title)));
-  $("scan-map").classList.toggle("tall", about.height > about.width);
+  $("scan-spots").classList.toggle("tall", about.height > about.width);
   point = { x: about.width >> 1, y: about.height >> 1 };
   $("scan-spot").textContent = "Point at a spot.";
   $("scan-chart").replaceChildren();
@@ -83,11 +83,8 @@ function draw() {
   const { width, height } = $("scan-map");
   area.clearRect(0, 0, width, height);
   area.drawImage(picture, 0, 0, width, height);
-  // A cross of two inks is seen on any map.
-  for (const [ink, from] of [["#000", 3], ["#fff", 4]]) {
-    area.fillStyle = ink;
-    for (const [x, y] of [[from, 0], [-from, 0], [0, from], [0, -from]]) area.fillRect(point.x + x, point.y + y, 1, 1);
-  }
+  const [left, top] = [(point.x + 0.5) / width, (point.y + 0.5) / height];
+  $("scan-cross").style.cssText = `left:${100 * left}%;top:${100 * top}%`;
 }
 
 // A curve of `values` over `from`, read at the wavelengths `nm`.
