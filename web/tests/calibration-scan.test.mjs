@@ -253,28 +253,36 @@ test("a scan above 1 GB is refused before it is read, and mapping can be cancell
   assert.match(await page.locator("#scan-words").innerText(), /^384 x 64 pixels/);
 });
 
-for (const scheme of ["light", "dark"]) {
-  for (const width of [1280, 390]) {
-    test(`the panel of scans fits ${width} px, ${scheme}`, async () => {
+test("without a network the panel fits 390 and 1280 px, light and dark, and every control has a name", async () => {
+  await page.locator("html[data-offline=ready]").waitFor({ state: "attached" });
+  await context.setOffline(true);
+  await page.reload();
+  await page.locator("#tab-mix").focus();
+  await page.keyboard.press("End");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "tab-scan");
+  await drop(scan("shown", {}));
+  await ready();
+  for (const name of ["#scan-options", "#scan-reading"]) await page.locator(`${name} summary`).click();
+  await page.locator("#scan").getByLabel("Map every n-th pixel").fill("2");
+  await map();
+  assert.match(await page.locator("#scan").innerText(), /Tested on simulated scans and measured swatches only/);
+  assert.equal(await page.evaluate(() => document.activeElement.id), "scan-heading");
+  for (const scheme of ["light", "dark"]) {
+    for (const width of [1280, 390]) {
       await page.emulateMedia({ colorScheme: scheme });
       await page.setViewportSize({ width, height: 860 });
-      await page.locator("#tab-scan").click();
-      await drop(scan("shown", {}));
-      await ready();
-      await page.locator("#scan-options summary").click();
-      await page.locator("#scan").getByLabel("Map every n-th pixel").fill("2");
-      await map();
+      await page.locator("#scan-chart").evaluate((chart) => chart.replaceChildren());
       await page.locator("#scan-map").click({ position: { x: 40, y: 40 } });
       await page.locator("#scan-chart svg").waitFor();
       const wide = await page.evaluate(() => document.documentElement.scrollWidth);
       assert.ok(wide <= width, `${wide} px wide`);
       await page.screenshot({ path: join(pictures, `calibration-scan-${width}-${scheme}.png`), fullPage: true });
-      const nameless = await page.evaluate(() => {
-        const controls = [...document.querySelectorAll("#scan button, #scan input, #scan select, #scan summary, #scan canvas, #scan img, #scan [tabindex='0']")];
-        const named = (one) => one.labels?.length || one.ariaLabel || one.alt || one.textContent.trim();
-        return controls.filter((one) => !named(one)).map((one) => one.outerHTML.slice(0, 80));
-      });
-      assert.deepEqual(nameless, []);
-    });
+    }
   }
-}
+  const nameless = await page.evaluate(() => {
+    const controls = [...document.querySelectorAll("#scan button, #scan input, #scan select, #scan summary, #scan canvas, #scan img, #scan [tabindex='0']")];
+    const named = (one) => one.labels?.length || one.ariaLabel || one.alt || one.textContent.trim();
+    return controls.filter((one) => !named(one)).map((one) => one.outerHTML.slice(0, 80));
+  });
+  assert.deepEqual(nameless, []);
+});
