@@ -165,6 +165,21 @@ test("all orders and types of numbers give the same maps; rows, distance and pig
     assert.deepEqual(found.pixels, wanted.pixels, name);
     assert.equal(found.survey_sha256, wanted.survey_sha256, name);
   }
+  // Raw counts with readings of white and dark.
+  const one = (value) => ({ ...simulated, samples: 1, lines: 1, pixels: [simulated.nm.map(() => value)] });
+  const [white, dark] = [["white", 1], ["dark", 0.01]].map(([name, value]) => scan(name, { type: 12, scale: 4000 }, one(value)));
+  await page.locator("#scan-reading summary").click();
+  for (const [id, files] of [["#s-white-files", white], ["#s-dark-files", dark]]) {
+    await page.locator(id).setInputFiles(files.map(({ name }) => join(folder, name)));
+  }
+  await drop(scan("counts", { type: 12, scale: 4000 }, { ...simulated, pixels: simulated.pixels.map((pixel) => pixel.map((value) => Math.max(value, 0))) }));
+  await ready();
+  await map();
+  const ofCounts = JSON.parse((await savedBy(page, page.getByRole("button", { name: "Download JSON" }))).text);
+  const told = program(folder, "map", "counts.hdr", library, "-o", "counts.zarr", "--white-reading", "white.hdr", "--dark-reading", "dark.hdr",
+    "--region", "4..20,8..40", "--at-most", "2", ...palette, "--json");
+  assert.deepEqual(ofCounts.palette, JSON.parse(told).palette);
+  assert.equal(ofCounts.survey_sha256, JSON.parse(told).survey_sha256);
   await page.locator("#scan").getByLabel("Map every n-th pixel").fill("3");
   await map();
   const found = JSON.parse((await savedBy(page, page.getByRole("button", { name: "Download JSON" }))).text);
