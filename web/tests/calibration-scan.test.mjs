@@ -137,6 +137,13 @@ test("maps, pictures and spots of a small scan are the program's, and its module
   assert.match(words, /^rows 10\.\.13, columns 9\.\.12: .* \+- \d+ %/);
   const values = (await page.locator('#scan-chart polyline[data-name="measured"]').getAttribute("data-values")).split(" ").map(Number);
   assert.deepEqual(near(values), near(spot.measured));
+  // The pixel without data, by itself.
+  for (const [key, times] of [["Shift+ArrowUp", 2], ["ArrowLeft", 5]]) {
+    for (let step = 0; step < times; step++) await canvas.press(key);
+  }
+  await page.locator("#scan-size").selectOption("1");
+  await notice().waitFor();
+  assert.match(await notice().innerText(), /rows 0\.\.1, columns 5\.\.6: none of these pixels can be mapped[^]*choose another spot of the map/);
 });
 
 test("all orders and types of numbers give the same maps; rows, distance and pigments are the user's", async () => {

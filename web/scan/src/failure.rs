@@ -5,9 +5,10 @@ use spectra::hint::Explain;
 pub(crate) use told::{Result, options};
 
 /// Where the panel has each setting that hints name. Others are options of the program alone.
-const CONTROLS: [(&str, &str); 10] = [
+const CONTROLS: [(&str, &str); 11] = [
     ("at_most", "\"Pigments of a pixel at most\""),
     ("palette", "\"Only these pigments\""),
+    ("spot", "spot of the map"),
     ("region", "\"Rows and columns\""),
     ("scale", "\"A white reads\""),
     ("percent", "\"Values are\": percent"),
