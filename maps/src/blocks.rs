@@ -6,40 +6,16 @@ use std::ops::ControlFlow;
 use spectra::hint::{Explain, Fault, Hint};
 
 use crate::cube::{Block, Cube, CubeError};
-use crate::pixel_maps::{BlockMaps, Mask};
+use crate::pixel_maps::BlockMaps;
 use crate::store::{MapStore, Shard, StoreError};
+
+pub use crate::pixel_maps::PixelCounts;
 
 /// Bytes of the values that are read at once. Together with the maps of a shard, a run stays below 1
 /// GB.
 const BLOCK_BYTES: usize = 192 << 20;
 /// Most pixels that are mapped at once, so that progress is told often.
 const MOST_PIXELS: usize = 256 * 2048;
-
-/// Number of pixels by mask.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct PixelCounts {
-    counts: [u64; Mask::ALL.len()],
-}
-
-impl PixelCounts {
-    /// Number of pixels with this mask.
-    #[must_use]
-    pub fn of(&self, mask: Mask) -> u64 {
-        self.counts[usize::from(mask.code())]
-    }
-
-    /// Number of all pixels.
-    #[must_use]
-    pub fn all(&self) -> u64 {
-        self.counts.iter().sum()
-    }
-
-    pub(crate) fn add(&mut self, masks: &[Mask]) {
-        for mask in masks {
-            self.counts[usize::from(mask.code())] += 1;
-        }
-    }
-}
 
 /// State of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -140,9 +116,7 @@ pub fn map_cube<E: Error + 'static>(
             outcome.cancelled = true;
             return Ok(outcome);
         };
-        for (sum, count) in outcome.pixels.counts.iter_mut().zip(counts.counts) {
-            *sum += count;
-        }
+        outcome.pixels.add_all(&counts);
         outcome.written += 1;
         state.shards += 1;
         state.done = before + pixels(shard);

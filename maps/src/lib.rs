@@ -7,9 +7,14 @@
 //!                                            StoredMaps <-- MapStore <----+
 //! ```
 //!
+//! Without the feature `files` (default) there are no stores and no scans but those of ENVI, whose bytes the caller
+//! reads: so pages in browsers use it.
+//!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
 pub mod pixel_maps;
+
+mod kept_numbers;
 
 mod map_error;
 
@@ -25,17 +30,26 @@ pub mod camera;
 
 mod numbers;
 
+#[cfg(feature = "files")]
 mod zarr;
 
 pub mod cube;
 
+mod maps_about;
+
+#[cfg(feature = "files")]
 pub mod store;
 
+#[cfg(feature = "files")]
 pub mod truth;
 
+#[cfg(feature = "files")]
 pub mod blocks;
 
 mod surveyed;
+
+#[cfg(feature = "files")]
+mod stored_run;
 
 mod spot;
 
@@ -43,6 +57,9 @@ pub mod pictures;
 
 mod told;
 
+mod told_text;
+
+#[cfg(feature = "files")]
 pub use blocks::map_cube;
 pub use cube::Cube;
 pub use films::bands;
@@ -56,6 +73,8 @@ pub use mapping::groups::{ALIKE, Column, Confusion};
 pub use mapping::mapper::Mapper;
 pub use mapping::open_book::OpenBook;
 pub use mapping::survey::{SURVEYED, survey_step};
+pub use maps_about::MapsAbout;
 pub use spot::{Spot, SpotError, SpotPigment};
+#[cfg(feature = "files")]
 pub use store::{MapStore, StoreMode, StoredMaps};
 pub use surveyed::{FoundColumn, Region, SurveyError, SurveyedScan};

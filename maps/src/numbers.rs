@@ -102,6 +102,7 @@ impl NumberType {
     }
 
     /// Converts `bytes` to f64 without rounding integers below 2^53. For coordinates.
+    #[cfg(feature = "files")]
     pub(crate) fn convert_exactly(self, order: ByteOrder, bytes: &[u8]) -> Vec<f64> {
         macro_rules! convert {
             ($type:ty) => {

@@ -71,6 +71,38 @@ impl Mask {
     }
 }
 
+/// Number of pixels by mask.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PixelCounts {
+    counts: [u64; Mask::ALL.len()],
+}
+
+impl PixelCounts {
+    /// Number of pixels with this mask.
+    #[must_use]
+    pub fn of(&self, mask: Mask) -> u64 {
+        self.counts[usize::from(mask.code())]
+    }
+
+    /// Number of all pixels.
+    #[must_use]
+    pub fn all(&self) -> u64 {
+        self.counts.iter().sum()
+    }
+
+    pub(crate) fn add(&mut self, masks: &[Mask]) {
+        for mask in masks {
+            self.counts[usize::from(mask.code())] += 1;
+        }
+    }
+    #[cfg(feature = "files")]
+    pub(crate) fn add_all(&mut self, other: &Self) {
+        for (sum, count) in self.counts.iter_mut().zip(other.counts) {
+            *sum += count;
+        }
+    }
+}
+
 /// Maps of the pixels of one block, in the order of the block's pixels: row after row.
 ///
 /// The vectors `share`, `share_sd` and `presence` hold `pigments` numbers a pixel, the others one.

@@ -2,14 +2,12 @@
 //! shard, by one process or by many.
 
 use std::ops::{ControlFlow, Range};
-use std::path::Path;
 
 use pigment::PigmentLibrary;
 use pigment::library::Input;
 use serde_json::{Map, Value, json};
 use spectra::hint::{Explain, Fault, Hint};
 
-use crate::blocks::{MapOutcome, MapProgress, PixelCounts, RunError, map_cube, map_shard};
 use crate::cube::{Block, Cube, CubeError};
 use crate::films::ground::Ground;
 use crate::films::noise::ModelError;
@@ -20,8 +18,8 @@ use crate::mapping::groups::Column;
 use crate::mapping::mapper::Mapper;
 use crate::mapping::open_book::OpenBook;
 use crate::mapping::survey::SURVEYED;
+use crate::maps_about::MapsAbout;
 use crate::pixel_maps::BlockMaps;
-use crate::store::{MapStore, MapsAbout, StoreError, StoreMode};
 
 /// A rectangle of a scan, in rows and columns from 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -172,14 +170,6 @@ impl SurveyedScan {
         found
     }
 
-    /// Begins or resumes the maps at `path`.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the folder holds anything else than maps of this run, or cannot be written.
-    pub fn store(&self, path: impl AsRef<Path>, mode: StoreMode) -> Result<MapStore, StoreError> {
-        MapStore::create(path, &self.about, mode)
-    }
-
     /// Maps pixels, the reflectances of all bands of each after another.
     ///
     /// # Errors
@@ -203,38 +193,6 @@ impl SurveyedScan {
     /// [`MapError`] if the block has other bands than the scan.
     pub fn map_block(&self, block: &Block) -> Result<BlockMaps, MapError> {
         self.mapper.map(&self.opened, &block.values, &block.mask)
-    }
-
-    /// Maps every shard that is not finished, on all cores and in bounded memory. `progress` is called after
-    /// each block; if it breaks, the run ends, and the shard under way is not written.
-    ///
-    /// # Errors
-    /// [`RunError`] if the scan cannot be read or the maps not be written.
-    pub fn map(
-        &self,
-        store: &MapStore,
-        progress: impl FnMut(MapProgress) -> ControlFlow<()>,
-    ) -> Result<MapOutcome, RunError<MapError>> {
-        map_cube(&self.cube, store, |block| self.map_block(block), progress)
-    }
-
-    /// Maps the shard at `place` in the order of the store, unless it is finished. `None` if it was, or if
-    /// `progress`, called after each block with the number of finished pixels, broke.
-    ///
-    /// # Errors
-    /// [`RunError`] if the scan cannot be read or the shard not be written.
-    pub fn map_shard(
-        &self,
-        store: &MapStore,
-        place: usize,
-        progress: impl FnMut(u64) -> ControlFlow<()>,
-    ) -> Result<Option<PixelCounts>, RunError<MapError>> {
-        match store.shards().get(place) {
-            Some(shard) if !store.is_finished(shard) => {
-                map_shard(&self.cube, store, shard, |block| self.map_block(block), progress)
-            }
-            _ => Ok(None),
-        }
     }
 }
 

@@ -47,7 +47,7 @@ afterEach(async () => {
   await context.close();
 });
 
-const choose = (label, ...files) => page.getByLabel(label, { exact: true }).setInputFiles(files.map((name) => join(folder, name)));
+const choose = (label, ...files) => page.locator("#fit").getByLabel(label, { exact: true }).setInputFiles(files.map((name) => join(folder, name)));
 const notice = () => page.locator("#notice").innerText();
 
 /** What the program refuses: its message. */
@@ -71,8 +71,8 @@ const reads = (count) => page.locator("#readings-told", { hasText: `${count} rea
 test("raw counts give the program's library, byte for byte, with the tile as a number and as a file", async () => {
   await choose("White reading", "white.txt");
   await choose("Dark readings", "dark.txt");
-  await page.getByLabel("Reflectance of the white", { exact: true }).fill(String(given.tile));
-  await page.getByLabel("Reflectance of the white", { exact: true }).press("Tab");
+  await page.locator("#fit").getByLabel("Reflectance of the white", { exact: true }).fill(String(given.tile));
+  await page.locator("#fit").getByLabel("Reflectance of the white", { exact: true }).press("Tab");
   await dropped(page, "#readings-drop", given.files);
   await reads(names.length);
   const words = ["--recipes", "recipes.csv", "--method", "weighted", "--white-reading", "white.txt", "--dark-reading", "dark.txt"];
@@ -85,7 +85,7 @@ test("raw counts give the program's library, byte for byte, with the tile as a n
   same(await library(), readFileSync(join(folder, "number.json"), "utf8"));
   await page.screenshot({ path: resolve(pictures, "calibration-counts.png"), fullPage: true });
 
-  await page.getByLabel("Reflectance of the white", { exact: true }).fill("");
+  await page.locator("#fit").getByLabel("Reflectance of the white", { exact: true }).fill("");
   await choose("or its file", "tile.csv");
   await dropped(page, "#readings-drop", given.files);
   await page.locator("#fit-result").waitFor({ state: "hidden" });
@@ -124,13 +124,13 @@ test("counts are refused as the program refuses them, in the words of the page",
 
   await choose("White reading", "white.txt");
   for (const tile of ["0", "1.3"]) {
-    await page.getByLabel("Reflectance of the white", { exact: true }).fill(tile);
-    await page.getByLabel("Reflectance of the white", { exact: true }).press("Tab");
+    await page.locator("#fit").getByLabel("Reflectance of the white", { exact: true }).fill(tile);
+    await page.locator("#fit").getByLabel("Reflectance of the white", { exact: true }).press("Tab");
     const message = refused(...start, "--white-reading", "white.txt", "--dark-reading", "dark.txt", "--tile", tile);
     await page.locator("#notice", { hasText: message }).waitFor();
   }
-  await page.getByLabel("Reflectance of the white", { exact: true }).fill("");
-  await page.getByLabel("Reflectance of the white", { exact: true }).press("Tab");
+  await page.locator("#fit").getByLabel("Reflectance of the white", { exact: true }).fill("");
+  await page.locator("#fit").getByLabel("Reflectance of the white", { exact: true }).press("Tab");
   await reads(names.length);
 });
 
@@ -146,7 +146,7 @@ test("one of several spectra in a file is the white, by its name", async () => {
   await dropped(page, "#readings-drop", given.files);
   const message = refused(...names, ...words, "both.csv", "--dark-reading", "dark.txt");
   await page.locator("#notice", { hasText: message }).waitFor();
-  const field = page.getByLabel("Spectra in them");
+  const field = page.locator("#fit").getByLabel("Spectra in them");
   await field.fill("other.csv#white");
   await field.press("Tab");
   await page.locator("#notice", { hasText: "names a spectrum of no file" }).waitFor();

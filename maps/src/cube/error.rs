@@ -119,6 +119,7 @@ impl CubeError {
     }
 
     /// The error of unpacking the file `path`.
+    #[cfg(feature = "files")]
     pub(crate) fn unpacking(path: &Path, reason: io::Error) -> Self {
         match reason.kind() {
             io::ErrorKind::UnexpectedEof => {

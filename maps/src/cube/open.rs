@@ -6,40 +6,16 @@ use std::path::{Path, PathBuf};
 
 use super::envi;
 use super::error::CubeError;
+use super::kinds::refuse_other_kinds;
 use super::opened::Opened;
-use super::options::{CubeOptions, DarkReading};
-use super::readings::{Reading, Readings};
+use super::options::CubeOptions;
+use super::reading_files::{OwnReadings, readings};
 use super::scan::Cube;
-use super::specim::{self, SpecimScan};
+use super::specim;
 use super::spectral_exr;
 use super::stack;
 use super::wavelength_file::wavelengths_of;
 use super::zarr_cube;
-
-/// Kinds that other programs read, by their first bytes.
-const OTHERS: [(&[u8], &str, &str); 5] = [
-    (
-        b"\x89HDF\r\n",
-        "an HDF5 file (or MATLAB 7.3, NeXus)",
-        "open it in Python with h5py and save it as Zarr with xarray, or export ENVI",
-    ),
-    (b"CDF", "a NetCDF file", "open it in Python with xarray and save it as Zarr"),
-    (
-        b"MATLAB 5.0",
-        "a MATLAB file",
-        "open it in Python with scipy.io and save it as Zarr with xarray, or export ENVI",
-    ),
-    (
-        b"\x89PNG",
-        "one picture, which is no cube",
-        "name the folder that holds a picture for each wavelength",
-    ),
-    (
-        b"\xff\xd8\xff",
-        "a JPEG picture, which is no cube",
-        "name the folder that holds a picture for each wavelength",
-    ),
-];
 
 impl Cube {
     /// Opens the cube at `path`: a header or data of ENVI, a folder of a Specim camera, a Zarr
@@ -58,7 +34,7 @@ impl Cube {
     /// [`CubeError`] with file, place and advice.
     pub fn open_with(path: impl AsRef<Path>, options: &CubeOptions) -> Result<Self, CubeError> {
         let path = path.as_ref();
-        check(path, options)?;
+        options.check(path)?;
         let (scan, own) =
             match path.is_dir() && !zarr_cube::is_zarr(path) && specim::is_specim(path) {
                 true => {
@@ -69,31 +45,10 @@ impl Cube {
                 }
                 false => (open_scan(path, options)?, None),
             };
-        let readings = readings(&scan, own.as_ref(), options)?;
+        let own = own.map(OwnReadings::from);
+        let open = |path: &Path| open_kind(path, options);
+        let readings = readings(&scan, own.as_ref(), options, &open)?;
         Self::of(scan, readings.as_ref(), options)
-    }
-}
-
-fn check(path: &Path, options: &CubeOptions) -> Result<(), CubeError> {
-    let fault = |name: &str, found: f64| {
-        let problem = format!("the setting `{name}` must be above 0 and finite, found `{found}`");
-        CubeError::format(path, problem, format!("give a number with [{name}]"))
-    };
-    if !(options.tile > 0.0 && options.tile <= 1.2) {
-        let problem = format!(
-            "the white's reflectance must be above 0 and at most 1.2, found `{}`",
-            options.tile
-        );
-        return Err(CubeError::format(path, problem, "give a fraction, such as [tile=0.99]"));
-    }
-    if let super::options::CubeScale::White(white) = options.scale
-        && !(white.is_finite() && white > 0.0)
-    {
-        return Err(fault("scale", white));
-    }
-    match options.full_scale {
-        Some(full) if !(full.is_finite() && full > 0.0) => Err(fault("full_scale", full)),
-        _ => Ok(()),
     }
 }
 
@@ -135,9 +90,7 @@ fn open_kind(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     if stack::is_tiff(&start) {
         return stack::open_pages(path, options);
     }
-    if let Some((_, kind, way_out)) = OTHERS.iter().find(|(magic, ..)| start.starts_with(magic)) {
-        return Err(CubeError::format(path, format!("is {kind}"), *way_out));
-    }
+    refuse_other_kinds(path, &start)?;
     Err(CubeError::format(
         path,
         "is no cube that can be read, and no header is beside it",
@@ -174,62 +127,8 @@ fn open_folder(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> 
     }
 }
 
-/// White and dark readings of a scan: those of the settings, else those of its folder.
-fn readings(
-    scan: &Opened,
-    own: Option<&SpecimScan>,
-    options: &CubeOptions,
-) -> Result<Option<Readings>, CubeError> {
-    let asked = options.white_reading.as_ref();
-    let Some(white) = asked.or_else(|| own.and_then(|own| own.white.as_ref())) else {
-        if options.dark_reading != DarkReading::Missing {
-            let problem = "a dark reading is given, but no white reading";
-            let way_out = "add [white_reading=FILE] of the same settings";
-            return Err(CubeError::format(&scan.path, problem, way_out));
-        }
-        return Ok(None);
-    };
-    let open = |path: &PathBuf| open_kind(path, options);
-    let white_scan = open(white)?;
-    let (dark, white_dark) = match (&options.dark_reading, own) {
-        (DarkReading::File(dark), _) => (Some(dark), None),
-        (DarkReading::Subtracted, _) => (None, None),
-        (DarkReading::Missing, Some(own)) if own.dark.is_some() => {
-            let white_dark = own.white_dark.as_ref().filter(|_| asked.is_none());
-            (own.dark.as_ref(), white_dark)
-        }
-        (DarkReading::Missing, _) => {
-            return Err(CubeError::Reading {
-                path: white.clone(),
-                role: "white",
-                problem: "needs a dark reading".to_owned(),
-                way_out: "add [dark_reading=FILE] (the same settings, shutter closed), or [dark_reading=0] if the dark is subtracted already".to_owned(),
-            });
-        }
-    };
-    let times = [scan.integration_time, white_scan.integration_time];
-    let time_ratio = match times {
-        [Some(of_scan), Some(of_white)] if of_scan > 0.0 && of_white > 0.0 => of_scan / of_white,
-        _ => 1.0,
-    };
-    if time_ratio != 1.0 && dark.is_some() && white_dark.is_none() {
-        return Err(CubeError::Reading {
-            path: white.clone(),
-            role: "white",
-            problem: format!(
-                "was integrated for {} (`tint`), the scan for {}: the dark fits one of them only",
-                times[1].unwrap_or(0.0),
-                times[0].unwrap_or(0.0)
-            ),
-            way_out: "take the white at the integration time of the scan: a dark does not scale with time".to_owned(),
-        });
+impl From<specim::SpecimScan> for OwnReadings {
+    fn from(scan: specim::SpecimScan) -> Self {
+        Self { white: scan.white, dark: scan.dark, white_dark: scan.white_dark }
     }
-    let reading = |path: &PathBuf, role| Reading::of(&open(path)?, scan, role);
-    Ok(Some(Readings {
-        white: Reading::of(&white_scan, scan, "white")?,
-        dark: dark.map(|path| reading(path, "dark")).transpose()?,
-        white_dark: white_dark.map(|path| reading(path, "dark")).transpose()?,
-        tile: options.tile,
-        time_ratio,
-    }))
 }

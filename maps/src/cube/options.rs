@@ -1,6 +1,8 @@
 //! Settings for opening a cube.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+use super::error::CubeError;
 
 /// Scale of the values of a cube.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -62,6 +64,33 @@ impl Default for CubeOptions {
             wavelengths: None,
             variable: None,
             scratch: None,
+        }
+    }
+}
+
+impl CubeOptions {
+    /// Checks the range of every number; `path` is the scan's name in messages.
+    pub(crate) fn check(&self, path: &Path) -> Result<(), CubeError> {
+        let fault = |name: &str, found: f64| {
+            let problem =
+                format!("the setting `{name}` must be above 0 and finite, found `{found}`");
+            CubeError::format(path, problem, format!("give a number with [{name}]"))
+        };
+        if !(self.tile > 0.0 && self.tile <= 1.2) {
+            let problem = format!(
+                "the white's reflectance must be above 0 and at most 1.2, found `{}`",
+                self.tile
+            );
+            return Err(CubeError::format(path, problem, "give a fraction, such as [tile=0.99]"));
+        }
+        if let CubeScale::White(white) = self.scale
+            && !(white.is_finite() && white > 0.0)
+        {
+            return Err(fault("scale", white));
+        }
+        match self.full_scale {
+            Some(full) if !(full.is_finite() && full > 0.0) => Err(fault("full_scale", full)),
+            _ => Ok(()),
         }
     }
 }

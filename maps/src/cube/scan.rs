@@ -117,6 +117,14 @@ impl Cube {
         self.black_sd.as_deref()
     }
 
+    /// Root mean square over the bands of [`Cube::white_sd`]; `None` for cubes of reflectance.
+    #[must_use]
+    pub fn noise_of_white(&self) -> Option<f64> {
+        let sd = self.white_sd().filter(|sd| !sd.is_empty())?;
+        let squares: f64 = sd.iter().map(|sd| sd * sd).sum();
+        Some((squares / sd.len() as f64).sqrt())
+    }
+
     /// How the values of the file become reflectance.
     #[must_use]
     pub fn values(&self) -> CubeValues {

@@ -51,6 +51,7 @@ impl<'p> Pixels<'p> {
     }
 
     /// The first `rows` rows and the rest.
+    #[cfg(feature = "files")]
     pub(crate) fn split(self, window: &Window, bands: usize, rows: usize) -> (Self, Self) {
         let pixels = rows * window.width();
         let (values, more_values) = self.values.split_at_mut(pixels * bands);

@@ -1,12 +1,8 @@
 //! Maps at the size of a screen: means over squares of pixels.
 
-use crate::blocks::PixelCounts;
-use crate::pixel_maps::Mask;
-use crate::store::{StoreError, StoredMaps};
+use std::ops::Range;
 
-/// Rows and columns that are read at once, so that wide scans take no more memory than others.
-const ROWS: usize = 256;
-const COLUMNS: usize = 2048;
+use crate::pixel_maps::{BlockMaps, Mask, PixelCounts};
 
 /// Means of maps over squares of pixels. Values are NaN where no pixel of a square is mapped.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,8 +31,13 @@ pub struct Overview {
     pub pixels: PixelCounts,
 }
 
-/// Sum of the values of each square.
-struct Sums {
+/// Sums of the values of each square, to which maps are added block by block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OverviewSums {
+    step: usize,
+    width: usize,
+    height: usize,
+    pigments: Vec<String>,
     share: Vec<Vec<f64>>,
     presence: Vec<Vec<f64>>,
     chi2: Vec<f64>,
@@ -45,78 +46,87 @@ struct Sums {
     counts: Vec<u32>,
     /// Pixels of each square that have a chi-square.
     compared: Vec<u32>,
+    /// Pixels where each pigment is more likely present than not.
+    present: Vec<u64>,
+    pixels: PixelCounts,
 }
 
-impl Overview {
-    /// Reads all of `maps`, with at most `longest` squares along the longer side.
-    ///
-    /// # Errors
-    /// [`StoreError`] if a shard cannot be read.
-    pub fn of(maps: &StoredMaps, longest: usize) -> Result<Self, StoreError> {
-        let (rows, columns) = (maps.rows(), maps.columns());
-        let step = rows.len().max(columns.len()).div_ceil(longest.max(1)).max(1);
-        let (width, height) = (columns.len().div_ceil(step), rows.len().div_ceil(step));
-        let count = maps.pigments().len();
+impl OverviewSums {
+    /// Sums of no pixel yet, for maps of `pigments` with these rows and columns, with at most `longest` squares
+    /// along the longer side.
+    #[must_use]
+    pub fn new(pigments: &[String], (rows, columns): (usize, usize), longest: usize) -> Self {
+        let step = rows.max(columns).div_ceil(longest.max(1)).max(1);
+        let (width, height) = (columns.div_ceil(step), rows.div_ceil(step));
         let field = || vec![0.0; width * height];
-        let mut sums = Sums {
-            share: vec![field(); count],
-            presence: vec![field(); count],
+        Self {
+            step,
+            width,
+            height,
+            pigments: pigments.to_vec(),
+            share: vec![field(); pigments.len()],
+            presence: vec![field(); pigments.len()],
             chi2: field(),
             rms: field(),
             counts: vec![0; width * height],
             compared: vec![0; width * height],
-        };
-        let mut pixels = PixelCounts::default();
-        let mut present = vec![0_u64; count];
-        for start in rows.clone().step_by(ROWS) {
-            let end = (start + ROWS).min(rows.end);
-            for left in columns.clone().step_by(COLUMNS) {
-                let across = left..(left + COLUMNS).min(columns.end);
-                let block = maps.read(start..end, across.clone())?;
-                pixels.add(&block.mask);
-                for (pixel, mask) in block.mask.iter().enumerate() {
-                    if !mask.is_compared() {
-                        continue;
-                    }
-                    let row = start - rows.start + pixel / across.len();
-                    let column = left - columns.start + pixel % across.len();
-                    let square = row / step * width + column / step;
-                    sums.compared[square] += 1;
-                    sums.chi2[square] += f64::from(block.chi2[pixel]);
-                    sums.rms[square] += f64::from(block.rms[pixel]);
-                    if *mask != Mask::Mapped {
-                        continue;
-                    }
-                    sums.counts[square] += 1;
-                    for (pigment, present) in present.iter_mut().enumerate() {
-                        let at = pixel * count + pigment;
-                        sums.share[pigment][square] += f64::from(block.share[at]);
-                        sums.presence[pigment][square] += f64::from(block.presence[at]);
-                        *present += u64::from(block.presence[at] > 0.5);
-                    }
-                }
+            present: vec![0; pigments.len()],
+            pixels: PixelCounts::default(),
+        }
+    }
+
+    /// Adds the maps `block` of the pixels in `rows` and `columns`, counted from the first of the maps. Pixels
+    /// outside the maps are passed over.
+    pub fn add(&mut self, rows: Range<usize>, columns: Range<usize>, block: &BlockMaps) {
+        self.pixels.add(&block.mask);
+        let count = self.pigments.len();
+        for (pixel, mask) in block.mask.iter().enumerate() {
+            let row = rows.start + pixel / columns.len();
+            let column = columns.start + pixel % columns.len();
+            let square = row / self.step * self.width + column / self.step;
+            if !mask.is_compared() || square >= self.compared.len() {
+                continue;
+            }
+            self.compared[square] += 1;
+            self.chi2[square] += f64::from(block.chi2[pixel]);
+            self.rms[square] += f64::from(block.rms[pixel]);
+            if *mask != Mask::Mapped {
+                continue;
+            }
+            self.counts[square] += 1;
+            for (pigment, present) in self.present.iter_mut().enumerate() {
+                let at = pixel * count + pigment;
+                self.share[pigment][square] += f64::from(block.share[at]);
+                self.presence[pigment][square] += f64::from(block.presence[at]);
+                *present += u64::from(block.presence[at] > 0.5);
             }
         }
-        let mapped = pixels.of(Mask::Mapped);
-        let means_of = |field: &Vec<f64>, counts: &[u32]| -> Vec<f32> {
+    }
+
+    /// Means of all that was added.
+    #[must_use]
+    pub fn finish(self) -> Overview {
+        let mapped = self.pixels.of(Mask::Mapped);
+        let means_of = |field: Vec<f64>, counts: &[u32]| -> Vec<f32> {
             let pairs = field.iter().zip(counts);
             // No pixel gives 0 / 0, which is NaN.
             pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
         };
-        let means = |field: &Vec<f64>| means_of(field, &sums.counts);
         let of_all = |field: &Vec<f64>| field.iter().sum::<f64>() / mapped.max(1) as f64;
-        Ok(Self {
-            step,
-            width,
-            height,
-            pigments: maps.pigments().to_vec(),
-            mean_share: sums.share.iter().map(of_all).collect(),
-            present: present.into_iter().map(|n| n as f64 / mapped.max(1) as f64).collect(),
-            share: sums.share.iter().map(means).collect(),
-            presence: sums.presence.iter().map(means).collect(),
-            chi2: means_of(&sums.chi2, &sums.compared),
-            rms: means_of(&sums.rms, &sums.compared),
-            pixels,
-        })
+        let part = |pixels: u64| pixels as f64 / mapped.max(1) as f64;
+        Overview {
+            step: self.step,
+            width: self.width,
+            height: self.height,
+            pigments: self.pigments,
+            mean_share: self.share.iter().map(of_all).collect(),
+            present: self.present.into_iter().map(part).collect(),
+            // One field after another, so that sums and means of all never lie side by side.
+            share: self.share.into_iter().map(|field| means_of(field, &self.counts)).collect(),
+            presence: self.presence.into_iter().map(|it| means_of(it, &self.counts)).collect(),
+            chi2: means_of(self.chi2, &self.compared),
+            rms: means_of(self.rms, &self.compared),
+            pixels: self.pixels,
+        }
     }
 }

@@ -3,12 +3,9 @@
 use half::f16;
 use serde_json::{Map, Value, json};
 
+use crate::kept_numbers::{NO_PRESENCE, PRESENCE_ONE, code_of, half_of};
 use crate::pixel_maps::{BlockMaps, Mask};
 
-/// Number by which a probability of 1 is stored.
-pub(crate) const PRESENCE_ONE: f32 = 250.0;
-/// Number that stands for no probability.
-pub(crate) const NO_PRESENCE: u8 = 255;
 /// Number of a pixel that no run has mapped yet.
 pub(crate) const NOT_YET: u8 = 255;
 
@@ -137,10 +134,7 @@ impl MapArray {
             Self::ShareSd => halves(&maps.share_sd[of_pigments], stored),
             Self::Presence => {
                 for (byte, value) in stored.iter_mut().zip(&maps.presence[of_pigments]) {
-                    *byte = match value.is_nan() {
-                        true => NO_PRESENCE,
-                        false => (value.clamp(0.0, 1.0) * PRESENCE_ONE).round() as u8,
-                    };
+                    *byte = code_of(*value);
                 }
             }
             Self::Chi2 => singles(&maps.chi2[pixels], stored),
@@ -162,8 +156,7 @@ impl MapArray {
 /// Half-precision numbers. Every NaN has the same bits.
 fn halves(values: &[f32], stored: &mut [u8]) {
     for (bytes, value) in stored.chunks_exact_mut(2).zip(values) {
-        let half = if value.is_nan() { f16::NAN } else { f16::from_f32(*value) };
-        bytes.copy_from_slice(&half.to_le_bytes());
+        bytes.copy_from_slice(&half_of(*value).to_le_bytes());
     }
 }
 

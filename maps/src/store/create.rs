@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 use spectra::file::{FileAction, FileError, write_whole};
 
-use super::about::MapsAbout;
 use super::arrays::MapArray;
 use super::error::StoreError;
 use super::tiles::{Shard, Tiles};
+use crate::maps_about::MapsAbout;
 use crate::pixel_maps::BlockMaps;
 use crate::zarr::{ArrayDocument, group_document};
 

@@ -7,8 +7,6 @@ mod tiles;
 
 mod error;
 
-mod about;
-
 mod arrays;
 
 mod create;
@@ -17,7 +15,7 @@ mod shard_writer;
 
 mod stored;
 
-pub use about::MapsAbout;
+pub use crate::maps_about::MapsAbout;
 pub(crate) use create::{GROUP, entries, names, text, write};
 pub use create::{MapStore, StoreMode};
 pub use error::StoreError;

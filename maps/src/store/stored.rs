@@ -7,10 +7,11 @@ use rayon::prelude::*;
 use serde_json::{Map, Value};
 use spectra::file::FileError;
 
-use super::arrays::{MapArray, NO_PRESENCE, PRESENCE_ONE};
+use super::arrays::MapArray;
 use super::create::{GROUP, shard_file};
 use super::error::StoreError;
 use super::tiles::Tiles;
+use crate::kept_numbers::presence_of;
 use crate::numbers::{ByteOrder, NumberType};
 use crate::pixel_maps::{BlockMaps, Mask};
 use crate::zarr::{ChunkError, ZarrArray};
@@ -167,10 +168,7 @@ impl StoredMaps {
                 MapArray::Rms => floats(NumberType::F32, &mut maps.rms),
                 MapArray::Presence => {
                     for (value, byte) in maps.presence.iter_mut().zip(&bytes) {
-                        *value = match *byte {
-                            NO_PRESENCE => f32::NAN,
-                            byte => f32::from(byte) / PRESENCE_ONE,
-                        };
+                        *value = presence_of(*byte);
                     }
                 }
                 MapArray::Second => {

@@ -8,6 +8,8 @@ mod envi;
 
 mod envi_faults;
 
+mod listed;
+
 mod headers;
 
 mod specim;

@@ -11,14 +11,25 @@ export class Refusal extends Error {
 }
 
 export class Engine {
+  #script;
   #worker = null;
   #waiting = new Map();
   #next = 1;
   // Calls whose effect a new worker needs, by the object they make.
   #kept = new Map();
 
+  // `script` is the file of the worker, beside this one.
+  constructor(script = "worker.js") {
+    this.#script = script;
+  }
+
+  // Whether a call is not answered yet.
+  get busy() {
+    return this.#waiting.size > 0;
+  }
+
   #start() {
-    const worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+    const worker = new Worker(new URL(this.#script, import.meta.url), { type: "module" });
     worker.onmessage = ({ data }) => {
       const waiting = this.#waiting.get(data.id);
       if (!waiting) return;

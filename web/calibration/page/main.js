@@ -7,7 +7,8 @@ import { $, clearNotice, fits, notice, takesDrops, takesFiles } from "./page.js"
 import { startPhotograph } from "./photograph.js";
 import { startRecipes } from "./recipes.js";
 import { startReport } from "./report.js";
-import { changeViewing, long, refuse, useLibrary, useShipped } from "./shelf.js";
+import { isScan, startScan, takeScan } from "./scan.js";
+import { changeViewing, long, refuse, scans, useLibrary, useShipped } from "./shelf.js";
 import { say, select, startTabs } from "./tabs.js";
 
 async function openLibrary(file) {
@@ -33,6 +34,7 @@ function start() {
   startRecipes();
   startPhotograph();
   startReport();
+  startScan();
   $("library-shipped").addEventListener("click", async () => {
     clearNotice();
     try {
@@ -47,12 +49,16 @@ function start() {
   $("library-save").addEventListener("click", saveLibrary);
   for (const id of ["light", "observer"]) $(id).addEventListener("change", changeViewing);
   $("busy-cancel").addEventListener("click", () => {
-    long.stop();
+    for (const engine of [long, scans]) if (engine.busy) engine.stop();
     say("Cancelled");
   });
-  // A file that is dropped beside the fields is a library or readings, by its ending.
+  // A file that is dropped beside the fields is a library, a scan or readings, by its ending.
   takesDrops(document.body, (files) => {
     if (files.length === 1 && /\.json$/i.test(files[0].name)) return openLibrary(files[0]);
+    if (isScan(files)) {
+      select("scan", false);
+      return takeScan(files);
+    }
     select("fit", false);
     return take(files);
   });

@@ -53,13 +53,13 @@ export const MOST_BYTES = 256 * 1024 * 1024;
 const mebibytes = (bytes) => `${Math.ceil(bytes / 1024 / 1024)} MB`;
 
 // Refuses files too large for memory, before they are read. Returns whether they may be read.
-export function fits(files) {
+export function fits(files, most = MOST_BYTES, hint = "use the program impasto, which reads large files in pieces") {
   const bytes = files.reduce((sum, file) => sum + file.size, 0);
-  if (bytes <= MOST_BYTES) return true;
+  if (bytes <= most) return true;
   const names = files.map((file) => file.name).join(", ");
   notice({
-    message: `${names}: ${mebibytes(bytes)}, and a page reads ${mebibytes(MOST_BYTES)} at most`,
-    hint: "use the program impasto, which reads large files in pieces",
+    message: `${names}: ${mebibytes(bytes)}, and a page reads ${mebibytes(most)} at most`,
+    hint,
   });
   return false;
 }

@@ -5,6 +5,8 @@ import { $, clearNotice, notice } from "./page.js";
 
 export const quick = new Engine();
 export const long = new Engine();
+// The module of scans, which is loaded when the first call comes.
+export const scans = new Engine("maps/worker.js");
 
 // The library: file name, JSON text, and what it tells of itself. `null` before there is one.
 export const shelf = { name: "", json: "", about: null, readings: null };

@@ -1,13 +1,8 @@
-//! Errors of the libraries as the page takes them: JSON in the words of the page.
+//! Errors of the libraries in the words of the page.
 
-use std::error::Error;
+use spectra::hint::{Explain, Hint};
 
-use serde_json::json;
-use spectra::hint::{Explain, Fault, Hint};
-use wasm_bindgen::JsValue;
-
-/// Result of a call of the page.
-pub(crate) type Result<T> = std::result::Result<T, JsValue>;
+pub(crate) use told::{Result, options, setting};
 
 /// Where the page has each setting that hints name. Others are options of the program alone.
 const CONTROLS: [(&str, &str); 29] = [
@@ -44,55 +39,7 @@ const CONTROLS: [(&str, &str); 29] = [
 
 /// A hint that names the controls of the page.
 pub(crate) fn hint_text(hint: &Hint) -> String {
-    hint.with_settings(|name, value| {
-        if (name, value) == ("dark_reading", Some("0")) {
-            return "\"Dark is subtracted already\"".to_owned();
-        }
-        let control = CONTROLS.iter().find(|(setting, _)| *setting == name);
-        // A word in capitals stands for what the user writes.
-        let is_word = |value: &str| !value.chars().any(|c| c.is_ascii_lowercase() || c == '"');
-        let is_number = |value: &str| value.parse::<f64>().is_ok();
-        match (control, value.filter(|value| !is_word(value) || is_number(value))) {
-            (Some((_, control)), None) => (*control).to_owned(),
-            (Some((_, control)), Some(value)) => {
-                format!("{control}: {}", value.trim_matches('"'))
-            }
-            (None, None) => format!("`--{}` of the program impasto", name.replace('_', "-")),
-            (None, Some(value)) => {
-                format!("`--{} {value}` of the program impasto", name.replace('_', "-"))
-            }
-        }
-    })
-}
-
-/// An error with its causes.
-pub(crate) fn failure(error: &dyn Explain) -> JsValue {
-    let mut causes = Vec::new();
-    let mut cause: Option<&dyn Error> = error.source();
-    let message = error.to_string();
-    while let Some(error) = cause {
-        let text = error.to_string();
-        if text != message {
-            causes.push(text);
-        }
-        cause = error.source();
-    }
-    let fault = match error.fault() {
-        Fault::Input => "input",
-        Fault::Setting => "setting",
-        Fault::Environment => "environment",
-    };
-    let hint = error.hint().map(|hint| hint_text(&hint));
-    told(&json!({ "message": message, "causes": causes, "hint": hint, "fault": fault }))
-}
-
-/// A setting of the page that no library reads.
-pub(crate) fn setting(message: &str, hint: &str) -> JsValue {
-    told(&json!({ "message": message, "causes": [], "hint": hint, "fault": "setting" }))
-}
-
-fn told(failure: &serde_json::Value) -> JsValue {
-    JsValue::from_str(&failure.to_string())
+    told::hint_text(hint, &CONTROLS)
 }
 
 /// Results whose errors reach the page.
@@ -103,12 +50,6 @@ pub(crate) trait Told<T> {
 
 impl<T, E: Explain> Told<T> for std::result::Result<T, E> {
     fn told(self) -> Result<T> {
-        self.map_err(|error| failure(&error))
+        self.map_err(|error| told::refusal(&error, &CONTROLS))
     }
-}
-
-/// Options that the page passes as JSON.
-pub(crate) fn options<T: serde::de::DeserializeOwned>(json: &str) -> Result<T> {
-    serde_json::from_str(json)
-        .map_err(|error| setting(&format!("options of the page: {error}"), "load the page again"))
 }

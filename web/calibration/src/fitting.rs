@@ -13,7 +13,6 @@ use crate::failure::{Result, Told, options};
 use crate::library::Library;
 use crate::readings::Readings;
 use crate::remarks::remarks;
-use crate::told;
 use crate::viewing::ViewingNames;
 
 #[derive(Debug, Deserialize)]

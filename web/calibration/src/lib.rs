@@ -1,13 +1,11 @@
 //! The native part of the calibration page: the front doors of the libraries over names, bytes and JSON.
 //! The page itself is in `../page`.
 //!
-//! Every error reaches the page as JSON: `message`, `causes`, `hint`, `fault`.
+//! Errors reach the page as the crate `told` says.
 
 mod failure;
 
 mod remarks;
-
-mod told;
 
 mod viewing;
 

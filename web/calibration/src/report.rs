@@ -13,7 +13,6 @@ use wasm_bindgen::prelude::*;
 use crate::failure::{Result, Told, options};
 use crate::library::Library;
 use crate::readings::Readings;
-use crate::told;
 use crate::viewing::ViewingNames;
 
 /// Numbers of wavelengths of the quadratures in a report.

@@ -93,6 +93,19 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().try_for_each(act)
     }
 
+    /// Acts until the first error, which is returned, with a state that a thread would make once.
+    ///
+    /// # Errors
+    /// That of `act`.
+    fn try_for_each_init<T, E>(
+        self,
+        init: impl Fn() -> T,
+        act: impl Fn(&mut T, Self::Item) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut state = init();
+        self.into_iter().try_for_each(|item| act(&mut state, item))
+    }
+
     /// Joins all items, beginning with that of `identity`.
     fn reduce(
         self,

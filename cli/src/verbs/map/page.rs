@@ -1,16 +1,11 @@
 //! Pictures of maps, and a page that shows them.
 
 use calibrate::library::PigmentLibrary;
-use maps::pictures::{Overview, Ramp, picture_png};
+use maps::pictures::{MapPictures, Overview};
 use maps::{Spot, SurveyedScan};
-use spectra::Viewing;
 
-use super::told::place_name;
 use crate::failure::Result;
 use crate::output::OutputFolder;
-
-/// Darkest lightness of the ink of a pigment's picture, so that pale pigments are seen.
-const DARKEST: u8 = 150;
 
 /// Writes a picture of the presence and the share of each pigment, of chi-square and of the residual, and the
 /// page `maps.html`.
@@ -20,32 +15,23 @@ pub(super) fn write(
     overview: &Overview,
     (library, spots): (&PigmentLibrary, &[Spot]),
 ) -> Result<()> {
-    let size = (overview.width, overview.height);
+    let pictures = MapPictures::of(scan, overview, library)?;
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     let mut cells = String::new();
-    let mut order: Vec<usize> = (0..overview.pigments.len()).collect();
-    order.sort_by(|&a, &b| overview.present[b].total_cmp(&overview.present[a]));
-    for place in order {
-        let name = &overview.pigments[place];
-        let file = |kind: &str| format!("{kind}-{}.png", file_name(name));
-        let ink = ink(library, scan, name);
-        for (kind, values) in [("presence", &overview.presence), ("share", &overview.share)] {
-            files.push((file(kind), picture_png(&values[place], size, &Ramp::of_ink(ink))?));
-        }
+    for of in pictures.pigments {
         cells += &format!(
             "<tr><td>{}</td><td>{:.1} %</td><td>{:.1} %</td><td><img src=\"{}\" alt=\"\"></td>\
              <td><img src=\"{}\" alt=\"\"></td></tr>\n",
-            escaped(name),
-            100.0 * overview.present[place],
-            100.0 * overview.mean_share[place],
-            file("presence"),
-            file("share"),
+            escaped(&overview.pigments[of.place]),
+            100.0 * overview.present[of.place],
+            100.0 * overview.mean_share[of.place],
+            of.presence_file,
+            of.share_file,
         );
+        files.extend([(of.presence_file, of.presence), (of.share_file, of.share)]);
     }
-    let chi2 = Ramp { from: (0.0, [255; 3]), to: (4.0, [150, 20, 20]) };
-    let rms = Ramp { from: (0.0, [255; 3]), to: (0.05, [20, 20, 150]) };
-    files.push(("chi2.png".to_owned(), picture_png(&overview.chi2, size, &chi2)?));
-    files.push(("residual.png".to_owned(), picture_png(&overview.rms, size, &rms)?));
+    files.push((MapPictures::CHI2_FILE.to_owned(), pictures.chi2));
+    files.push((MapPictures::RESIDUAL_FILE.to_owned(), pictures.residual));
     files.push((
         "maps.html".to_owned(),
         page(scan, overview, (&cells, &figures(spots))).into_bytes(),
@@ -53,27 +39,6 @@ pub(super) fn write(
     let names = files.iter().map(|(name, _)| name.clone());
     let outputs = folder.outputs(names)?;
     outputs.into_iter().zip(files).try_for_each(|(output, (_, content))| output.put(content))
-}
-
-/// The colour of a pigment's masstone, made dark enough to be seen on white.
-fn ink(library: &PigmentLibrary, scan: &SurveyedScan, column: &str) -> [u8; 3] {
-    let columns = scan.mapper().columns();
-    let first = columns.iter().find(|c| c.name == column).and_then(|c| c.pigments.first());
-    let color = first.and_then(|name| library.color([(name, 1.0)], &Viewing::default()).ok());
-    let rgb = color.map_or([0; 3], |color| color.srgb.0.map(|v| (255.0 * v.clamp(0.0, 1.0)) as u8));
-    let brightest = rgb.iter().copied().max().unwrap_or(0).max(1);
-    match brightest > DARKEST && rgb.iter().copied().min().unwrap_or(0) > DARKEST {
-        true => rgb.map(|v| (f64::from(v) * f64::from(DARKEST) / f64::from(brightest)) as u8),
-        false => rgb,
-    }
-}
-
-/// A name with letters and digits alone, for a file.
-fn file_name(name: &str) -> String {
-    let kept =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
-    let text: String = kept.collect();
-    text.split('-').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("-")
 }
 
 /// A chart of each spot: the measured spectrum as dots, that of the mapped mixture as a line.
@@ -115,7 +80,7 @@ fn figures(spots: &[Spot]) -> String {
              <text x=\"{:.0}\" y=\"{:.0}\" font-size=\"12\" text-anchor=\"end\">{last:.0} nm</text>\
              <text x=\"2\" y=\"{:.0}\" font-size=\"12\">{most:.2}</text>\
              <text x=\"2\" y=\"{:.0}\" font-size=\"12\">0</text></svg>\n",
-            place_name(spot),
+            spot.place_words(),
             pigments.collect::<Vec<_>>().join(", "),
             spot.rms,
             spot.chi2,

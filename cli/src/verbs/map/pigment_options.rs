@@ -52,10 +52,7 @@ impl PigmentOptions {
     pub(super) fn settings(&self, cube: &Cube, library: &PigmentLibrary) -> Result<MapSettings> {
         let usual = MapSettings::default();
         let groups = self.group.iter().map(|text| group(text)).collect::<Result<_>>()?;
-        let of_white = cube.white_sd().filter(|sd| !sd.is_empty()).map(|sd| {
-            let squares: f64 = sd.iter().map(|sd| sd * sd).sum();
-            (squares / sd.len() as f64).sqrt().max(usual.sensor_noise)
-        });
+        let of_white = cube.noise_of_white().map(|noise| noise.max(usual.sensor_noise));
         let residuals = self.residuals.as_ref().map(|path| -> Result<ModelError> {
             Ok(ModelError::Residuals(Residuals::open(path)?))
         });

@@ -1,7 +1,6 @@
 //! Text of a survey and its maps.
 
 use maps::pictures::Overview;
-use maps::pixel_maps::Mask;
 use maps::{FoundColumn, Spot, SurveyedScan};
 
 use crate::console::Console;
@@ -20,28 +19,9 @@ fn place<'a>(found: &FoundColumn, mapped: Option<&'a Overview>) -> Option<(&'a O
 /// Pigments and residual of each spot, a line each.
 pub(super) fn print_spots(spots: &[Spot], console: &mut Console<'_>) -> Result<()> {
     for spot in spots {
-        let each = spot.pigments.iter().map(|pigment| {
-            let [share, sd] = [pigment.share, pigment.share_sd].map(|part| 100.0 * part);
-            format!("{} {share:.0} +- {sd:.0} %", pigment.name)
-        });
-        console.line(format!(
-            "{}: {}; residual {:.4}, chi-square {:.2}",
-            place_name(spot),
-            each.collect::<Vec<_>>().join(", "),
-            spot.rms,
-            spot.chi2
-        ))?;
+        console.line(spot.words())?;
     }
     Ok(())
-}
-
-/// Words for the place of a spot.
-pub(super) fn place_name(spot: &Spot) -> String {
-    let part = |name: &str, range: &std::ops::Range<usize>| match range.len() {
-        1 => format!("{name} {}", range.start),
-        _ => format!("{name}s {}..{}", range.start, range.end),
-    };
-    format!("{}, {}", part("row", &spot.region.rows), part("column", &spot.region.columns))
 }
 
 pub(super) fn print(
@@ -49,20 +29,9 @@ pub(super) fn print(
     mapped: Option<&Overview>,
     console: &mut Console<'_>,
 ) -> Result<()> {
-    let cube = scan.cube();
-    let [first, last] = [cube.wavelengths_nm().first(), cube.wavelengths_nm().last()];
-    console.line(format!(
-        "{} x {} pixels, {} from {} to {} nm; {} searched",
-        cube.lines(),
-        cube.samples(),
-        spectra::counted(cube.wavelengths_nm().len(), "band"),
-        first.copied().unwrap_or_default(),
-        last.copied().unwrap_or_default(),
-        spectra::counted(scan.book().entries.len(), "pixel"),
-    ))?;
-    for column in scan.mapper().columns().iter().filter(|column| column.pigments.len() > 1) {
-        let alike = column.pigments.join(", ");
-        console.line(format!("mapped as one: {alike}"))?;
+    console.line(scan.words())?;
+    for line in scan.group_words() {
+        console.line(line)?;
     }
     let palette = scan.palette();
     let named: Vec<&FoundColumn> = palette.iter().filter(|found| found.part >= NAMED).collect();
@@ -79,12 +48,8 @@ pub(super) fn print(
         console.line(line)?;
     }
     let Some(overview) = mapped else { return Ok(()) };
-    for mask in Mask::ALL.into_iter().filter(|mask| *mask != Mask::Mapped) {
-        let count = overview.pixels.of(mask);
-        if count > 0 {
-            let all = overview.pixels.all();
-            console.line(format!("not mapped: {count} of {all} pixels, {}", mask.name()))?;
-        }
+    for line in overview.unmapped_words() {
+        console.line(line)?;
     }
     Ok(())
 }

@@ -17,7 +17,7 @@ fn with_added(path: &Path, ending: &str) -> PathBuf {
 }
 
 /// Paths where the data of the header `path` may be, the likeliest first.
-fn places(path: &Path) -> Vec<PathBuf> {
+pub(crate) fn places(path: &Path) -> Vec<PathBuf> {
     // `scan.img.hdr` belongs to `scan.img`, `scan.hdr` to `scan` or `scan.img`.
     let stem = path.with_extension("");
     let mut places = vec![stem.clone()];
@@ -30,6 +30,7 @@ fn places(path: &Path) -> Vec<PathBuf> {
 
 /// Finds the data file of the header at `path`. If several files can be it, the one whose size fits
 /// is.
+#[cfg(feature = "files")]
 pub(crate) fn data_of(path: &Path, header: &EnviHeader) -> Result<PathBuf, CubeError> {
     let found: Vec<_> = places(path).into_iter().filter(|place| place.is_file()).collect();
     let bytes = |place: &PathBuf| std::fs::metadata(place).map(|about| about.len()).ok();
@@ -45,8 +46,23 @@ pub(crate) fn data_of(path: &Path, header: &EnviHeader) -> Result<PathBuf, CubeE
                 ENDINGS[..6].join(", .")
             ),
         )),
-        Some(place) if fits(&place) => Ok(place.clone()),
-        Some(place) => Err(size_error(place, path, header, bytes(place).unwrap_or(0))),
+        Some(place) => {
+            check_size(place, path, header, bytes(place).unwrap_or(0))?;
+            Ok(place.clone())
+        }
+    }
+}
+
+/// Checks that the file `data` of `found` bytes has the size that the header `path` describes.
+pub(crate) fn check_size(
+    data: &Path,
+    path: &Path,
+    header: &EnviHeader,
+    found: u64,
+) -> Result<(), CubeError> {
+    match header.layout.file_bytes() == Some(found) {
+        true => Ok(()),
+        false => Err(size_error(data, path, header, found)),
     }
 }
 
@@ -74,6 +90,7 @@ fn size_error(data: &Path, path: &Path, header: &EnviHeader, found: u64) -> Cube
 }
 
 /// Finds the header of the data at `path`: `scan.hdr` or `scan.img.hdr`.
+#[cfg(feature = "files")]
 pub(crate) fn header_of(path: &Path) -> Option<PathBuf> {
     let endings = ["hdr", "HDR"];
     let added = endings.map(|ending| with_added(path, ending));

@@ -1,9 +1,12 @@
 //! Opens the scan of an ENVI header.
 
+#[cfg(feature = "files")]
 use std::fs::File;
+#[cfg(feature = "files")]
 use std::io::Read;
 use std::path::Path;
 
+#[cfg(feature = "files")]
 use super::data_file::data_of;
 use super::header::EnviHeader;
 use crate::cube::error::CubeError;
@@ -15,26 +18,38 @@ use crate::cube::raw_file::RawFile;
 const LARGEST_HEADER: u64 = 16 << 20;
 
 /// Opens the header at `path` and its data.
+#[cfg(feature = "files")]
 pub(crate) fn open(path: &Path) -> Result<Opened, CubeError> {
     let file = File::open(path).map_err(|reason| CubeError::reading(path, reason))?;
     let mut bytes = Vec::new();
     let read = file.take(LARGEST_HEADER + 1).read_to_end(&mut bytes);
     read.map_err(|reason| CubeError::reading(path, reason))?;
-    if bytes.len() as u64 > LARGEST_HEADER {
-        let problem = format!("has more than {LARGEST_HEADER} bytes, which no ENVI header has");
-        return Err(CubeError::format(path, problem, "name the header, which is a short text"));
-    }
+    check_length(path, bytes.len() as u64)?;
     let header = EnviHeader::parse(&bytes, path)?;
     let data = data_of(path, &header)?;
-    let layout = header.layout;
     let file = PositionalFile::open(&data)?;
+    Ok(opened(path, header, file))
+}
+
+/// Refuses a header of so many bytes as none has.
+pub(crate) fn check_length(path: &Path, bytes: u64) -> Result<(), CubeError> {
+    if bytes <= LARGEST_HEADER {
+        return Ok(());
+    }
+    let problem = format!("has more than {LARGEST_HEADER} bytes, which no ENVI header has");
+    Err(CubeError::format(path, problem, "name the header, which is a short text"))
+}
+
+/// The scan of a header and its data, whose size fits.
+pub(crate) fn opened(path: &Path, header: EnviHeader, file: PositionalFile) -> Opened {
+    let layout = header.layout;
     let values = match (header.gains, header.scale_factor) {
         (Some(gains), _) => Values::Gains(gains),
         (None, Some(factor)) => Values::Divided(factor),
         (None, None) if header.is_radiance => Values::Counts,
         (None, None) => Values::Unknown { are_whole: layout.number_type.is_whole() },
     };
-    Ok(Opened {
+    Opened {
         path: path.to_owned(),
         lines: layout.lines,
         samples: layout.samples,
@@ -47,5 +62,5 @@ pub(crate) fn open(path: &Path) -> Result<Opened, CubeError> {
         integration_time: header.integration_time,
         remarks: header.remarks,
         source: Box::new(RawFile::new(file, layout)),
-    })
+    }
 }

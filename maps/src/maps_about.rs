@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use serde_json::{Map, Value, json};
+#[cfg(feature = "files")]
+use serde_json::json;
+use serde_json::{Map, Value};
 
 /// Everything on which the bytes of maps depend.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +27,7 @@ pub struct MapsAbout {
 
 impl MapsAbout {
     /// Attributes of the group.
+    #[cfg(feature = "files")]
     pub(crate) fn attributes(&self) -> Map<String, Value> {
         let all = json!({
             "title": "pigment maps",

@@ -1,0 +1,125 @@
+//! Opens an ENVI cube of files that the caller reads, such as those that a page is given.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::envi::{self, EnviHeader};
+use super::error::CubeError;
+use super::kinds::refuse_other_kinds;
+use super::opened::Opened;
+use super::options::{CubeOptions, DarkReading};
+use super::positional::{PositionalFile, ReadAt};
+use super::reading_files::readings;
+use super::scan::Cube;
+
+/// First bytes by which the kind of a file is told.
+const START: usize = 16;
+/// Advice where a header or its data are missing.
+const BOTH: &str = "give the header (.hdr) and its data file together";
+
+/// A file that the caller reads.
+#[derive(Debug, Clone)]
+pub struct ScanFile {
+    /// Name of the file, as messages show it.
+    pub name: PathBuf,
+    /// Contents.
+    pub contents: Arc<dyn ReadAt>,
+}
+
+impl ScanFile {
+    fn start(&self, bytes: u64) -> Result<Vec<u8>, CubeError> {
+        let mut start = vec![0; self.contents.bytes().min(bytes) as usize];
+        PositionalFile::with(self.contents.clone(), &self.name).read_at(&mut start, 0)?;
+        Ok(start)
+    }
+
+    fn is_header(&self) -> Result<bool, CubeError> {
+        let named = self.name.extension().is_some_and(|end| end.eq_ignore_ascii_case("hdr"));
+        Ok(named || envi::is_header(&self.start(START as u64)?))
+    }
+}
+
+impl Cube {
+    /// Opens the ENVI scan among `files`: a header and its data. Readings of white and dark that `options` name
+    /// are among them too.
+    ///
+    /// # Errors
+    /// [`CubeError`] with file, place and advice.
+    pub fn of_files(files: &[ScanFile], options: &CubeOptions) -> Result<Self, CubeError> {
+        let dark = match &options.dark_reading {
+            DarkReading::File(path) => Some(path),
+            _ => None,
+        };
+        let is_reading =
+            |file: &&ScanFile| [options.white_reading.as_ref(), dark].contains(&Some(&file.name));
+        let mut headers = Vec::new();
+        for file in files {
+            if file.is_header()? && !is_reading(&file) {
+                headers.push(file);
+            }
+        }
+        let header = match &headers[..] {
+            [header] => header,
+            [] => return Err(without_header(files)?),
+            [first, ..] => {
+                let problem = format!("is one of {} headers of ENVI", headers.len());
+                return Err(CubeError::format(&first.name, problem, "give those of one scan"));
+            }
+        };
+        options.check(&header.name)?;
+        let scan = open(files, &header.name)?;
+        let readings = readings(&scan, None, options, &|path| open(files, path))?;
+        Self::of(scan, readings.as_ref(), options)
+    }
+}
+
+/// The refusal of files none of which is a header.
+fn without_header(files: &[ScanFile]) -> Result<CubeError, CubeError> {
+    let Some(first) = files.first() else {
+        return Ok(CubeError::format(Path::new("scan"), "no file is given", BOTH));
+    };
+    refuse_other_kinds(&first.name, &first.start(START as u64)?)?;
+    Ok(CubeError::format(
+        &first.name,
+        "is no cube that can be read, and no header of ENVI is beside it",
+        BOTH,
+    ))
+}
+
+/// Opens the header `path` among `files`, and its data.
+fn open(files: &[ScanFile], path: &Path) -> Result<Opened, CubeError> {
+    let Some(file) = files.iter().find(|file| file.name == path) else {
+        return Err(CubeError::format(path, "is not among the files", BOTH));
+    };
+    envi::check_length(path, file.contents.bytes())?;
+    let header = EnviHeader::parse(&file.start(u64::MAX)?, path)?;
+    let data = data_of(files, path, &header)?;
+    envi::check_size(&data.name, path, &header, data.contents.bytes())?;
+    let data = PositionalFile::with(data.contents.clone(), &data.name);
+    Ok(envi::opened(path, header, data))
+}
+
+/// The data of a header: by name, and of several the one whose size fits; else the only file beside the header.
+fn data_of<'f>(
+    files: &'f [ScanFile],
+    path: &Path,
+    header: &EnviHeader,
+) -> Result<&'f ScanFile, CubeError> {
+    let places = envi::places(path);
+    let named: Vec<&ScanFile> =
+        places.iter().filter_map(|place| files.iter().find(|f| f.name == *place)).collect();
+    let fits = |file: &&&ScanFile| header.layout.file_bytes() == Some(file.contents.bytes());
+    if let Some(file) = named.iter().find(fits).or(named.first()) {
+        return Ok(file);
+    }
+    let mut others = Vec::new();
+    for file in files {
+        if !file.is_header()? {
+            others.push(file);
+        }
+    }
+    match &others[..] {
+        [only] if files.len() == 2 => Ok(only),
+        _ => Err(CubeError::format(path, "the data of this header are not beside it", BOTH)),
+    }
+}

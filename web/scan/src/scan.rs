@@ -1,0 +1,170 @@
+//! A scan of the page: opened, surveyed and mapped with a library.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use maps::cube::{Block, CubeOptions, ScanFile};
+use maps::pictures::OverviewSums;
+use maps::{Cube, Region, SURVEYED, Spot, SurveyedScan};
+use pigment::PigmentLibrary;
+use serde_json::json;
+use told::stage;
+use wasm_bindgen::prelude::*;
+
+use crate::failure::{Result, Told, options};
+use crate::mapped::Mapped;
+use crate::options::{MapOptions, ReadingOptions};
+use crate::slices::scan_files;
+
+/// Bytes of the values that are read at once.
+const BLOCK_BYTES: usize = 64 << 20;
+/// Most pixels that are mapped at once, so that progress is told often.
+const MOST_PIXELS: usize = 4096;
+/// Bytes of the sums of all maps at most.
+const SUM_BYTES: usize = 256 << 20;
+/// Squares along the longer side of the pictures, as those of the program.
+const PICTURE: usize = 1600;
+
+/// A scan that the page was given, with the library of its maps.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Scan {
+    files: Vec<ScanFile>,
+    options: CubeOptions,
+    told: String,
+    library: Option<PigmentLibrary>,
+    surveyed: Option<SurveyedScan>,
+}
+
+#[wasm_bindgen]
+impl Scan {
+    /// Opens the scan of the worker's files, whose names and sizes are given.
+    #[wasm_bindgen(constructor)]
+    pub fn open(names: Vec<String>, sizes: &[f64], reading: &str) -> Result<Scan> {
+        let reading: ReadingOptions = options(reading)?;
+        let (files, options) = (scan_files(names, sizes), reading.cube_options());
+        let cube = Cube::of_files(&files, &options).told()?;
+        let told = json!({
+            "name": cube.path().display().to_string(),
+            "lines": cube.lines(),
+            "samples": cube.samples(),
+            "wavelengths_nm": cube.wavelengths_nm(),
+            "remarks": cube.remarks(),
+        });
+        Ok(Self { files, options, told: told.to_string(), library: None, surveyed: None })
+    }
+
+    /// Sizes, wavelengths and remarks as JSON.
+    pub fn about(&self) -> String {
+        self.told.clone()
+    }
+
+    /// Surveys and maps the scan with the library in the file `name`. The page hears how far it is.
+    pub fn map(&mut self, name: &str, library: &[u8], options_json: &str) -> Result<Mapped> {
+        let chosen: MapOptions = options(options_json)?;
+        let library = PigmentLibrary::from_json(name, &String::from_utf8_lossy(library)).told()?;
+        // What an earlier run held would lie beside this one.
+        self.surveyed = None;
+        let cube = Cube::of_files(&self.files, &self.options).told()?;
+        let settings = chosen.settings(&cube);
+        let region = chosen.region();
+        let pixels = |rows: usize, columns: usize| rows.saturating_mul(columns).min(SURVEYED);
+        let about = match &region {
+            Some(region) => pixels(region.rows.len(), region.columns.len()),
+            None => pixels(cube.lines(), cube.samples()),
+        };
+        let told = Percent::new("surveying", about);
+        let scan = SurveyedScan::survey(cube, &library, &settings, region, &|| {
+            told.add(1);
+            ControlFlow::Continue(())
+        });
+        let scan = scan.told()?;
+        let sums = map_all(&scan, chosen.every())?;
+        stage("drawing");
+        let mapped = Mapped::of(&scan, &sums.finish(), &library, chosen.every())?;
+        (self.library, self.surveyed) = (Some(library), Some(scan));
+        Ok(mapped)
+    }
+
+    /// The spot of these rows and columns as JSON: that of `impasto map --spot --json`, and its words.
+    pub fn spot(&self, top: usize, bottom: usize, left: usize, right: usize) -> Result<String> {
+        let (Some(library), Some(scan)) = (&self.library, &self.surveyed) else {
+            return Err(told::setting("no scan is mapped yet", "map one"));
+        };
+        let spot: Spot =
+            scan.spot(library, Region { rows: top..bottom, columns: left..right }).told()?;
+        let mut json = spot.to_json();
+        json["words"] = json!(spot.words());
+        Ok(json.to_string())
+    }
+}
+
+/// Maps every pixel of the surveyed region, or those at the distance `every`, in blocks of rows.
+fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
+    let (rows, columns) = (scan.about().rows.clone(), scan.about().columns.clone());
+    let (height, width) = (rows.len().div_ceil(every), columns.len().div_ceil(every));
+    let pigments = &scan.about().pigments;
+    let mut sums =
+        OverviewSums::new(pigments, (height, width), longest((height, width), pigments.len()));
+    let together = scan.cube().rows_within(BLOCK_BYTES, columns.len());
+    let together = together.min((MOST_PIXELS / width).max(1));
+    let told = Percent::new("mapping", height * width);
+    let (mut block, mut row) = (Block::default(), Block::default());
+    for start in (0..height).step_by(together) {
+        let end = (start + together).min(height);
+        let first = rows.start + start * every;
+        if every == 1 {
+            scan.cube().read_into(first..rows.start + end, columns.clone(), &mut block).told()?;
+        } else {
+            block.values.clear();
+            block.mask.clear();
+            for line in (start..end).map(|line| rows.start + line * every) {
+                scan.cube().read_into(line..line + 1, columns.clone(), &mut row).told()?;
+                for (values, mask) in row.iter().step_by(every) {
+                    block.values.extend_from_slice(values);
+                    block.mask.push(mask);
+                }
+            }
+            block.bands = row.bands;
+        }
+        let mapped = scan.map_block(&block).told()?;
+        sums.add(start..end, 0..width, &mapped.as_kept());
+        told.add((end - start) * width);
+    }
+    Ok(sums)
+}
+
+/// Squares along the longer side, as many as those of the program where memory is enough.
+fn longest((height, width): (usize, usize), pigments: usize) -> usize {
+    let long = height.max(width);
+    let mut step = long.div_ceil(PICTURE).max(1);
+    let bytes =
+        |step: usize| (height.div_ceil(step) * width.div_ceil(step)).saturating_mul(pigments * 16);
+    while bytes(step) > SUM_BYTES {
+        step += 1;
+    }
+    long.div_ceil(step)
+}
+
+/// Tells the page each further percent of some work.
+struct Percent {
+    name: &'static str,
+    all: usize,
+    done: AtomicUsize,
+}
+
+impl Percent {
+    fn new(name: &'static str, all: usize) -> Self {
+        stage(name);
+        Self { name, all: all.max(1), done: AtomicUsize::new(0) }
+    }
+
+    fn add(&self, count: usize) {
+        let before = self.done.fetch_add(count, Ordering::Relaxed);
+        let percent = |done: usize| 100 * done.min(self.all) / self.all;
+        let now = percent(before + count);
+        if now > percent(before) {
+            stage(&format!("{}, {now} %", self.name));
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Errors, stages and defects as pages take them.
+//!
+//! Every error reaches a page as JSON: `message`, `causes`, `hint`, `fault`.
+
+mod refusal;
+
+mod stages;
+
+pub use refusal::{Controls, Result, hint_text, options, refusal, setting};
+pub use stages::{begin, stage};
