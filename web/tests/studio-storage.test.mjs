@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fromViewMenu, inspect, openStudio, opened, prepared, rest, setUp, stylus, until } from "./studio.mjs";
+import { fromViewMenu, inspect, openStudio, opened, penStroke, prepared, rest, setUp, stylus, until } from "./studio.mjs";
 
 const stage = setUp();
 const origin = () => new URL(stage.server.address).origin;
@@ -176,5 +176,45 @@ test("two pages keep each other's settings", async () => {
   await two.waitForTimeout(3000);
   await holds(two, "/settings/preferences.json");
   assert.ok((await kept(two)).includes("/settings/swatches.json"), "the mixture of the other page is kept");
+  await context.close();
+});
+
+/** When the browser's storage took the newest painting of a page, in ms; 0 if it has none. */
+const newest = (page) => page.evaluate(async () => {
+  let last = 0;
+  const folder = await (await navigator.storage.getDirectory()).getDirectoryHandle("impasto-studio");
+  for await (const [name, pages] of folder) {
+    if (!name.startsWith("page-")) continue;
+    const { files } = JSON.parse(await (await (await pages.getFileHandle("list.json")).getFile()).text());
+    for (const [path, kept] of Object.entries(files)) {
+      if (!path.endsWith(".exr")) continue;
+      last = Math.max(last, (await (await pages.getFileHandle(kept)).getFile()).lastModified);
+    }
+  }
+  return last;
+}).catch(() => 0);
+
+/** Waits until `condition` of the newest painting holds. */
+async function kept(page, condition) {
+  for (let trial = 0; trial < 40 && !condition(await newest(page)); trial++) await page.waitForTimeout(500);
+  assert.ok(condition(await newest(page)), "an autosave is written");
+}
+
+test("an autosave waits for the end of a short stroke, and not for that of a long one", async () => {
+  const context = await stage.context({ colorScheme: "light" });
+  const { page, pen } = await autosaving(context, []);
+  const along = (y) => Array.from({ length: 100 }, (_, at) => [300 + 5 * at, y, 0.5]);
+  await paint(page, pen, 200);
+  await kept(page, (last) => last > 0);
+  for (const [seconds, y, waits] of [[5.5, 300, true], [16, 350, false]]) {
+    await page.waitForTimeout(3000);
+    const before = await newest(page);
+    const stroke = penStroke(page, along(y), { everyMs: 10 * seconds });
+    await page.waitForTimeout(1000 * (seconds - 1));
+    assert.ok((await inspect(page)).stroke_open, "the pen is down");
+    assert.equal((await newest(page)) === before, waits, `in a stroke of ${seconds} s`);
+    await stroke;
+    await kept(page, (last) => last > before);
+  }
   await context.close();
 });
