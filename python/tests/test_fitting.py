@@ -87,6 +87,27 @@ def test_a_dataframe_with_a_bad_cell_names_it() -> None:
         im.Readings.from_dataframe(frame)
 
 
+def test_a_missing_or_complex_cell_is_told_as_such() -> None:
+    pd = pytest.importorskip("pandas")
+    frame = pd.DataFrame({"sample": ["a", "b"], "White": [1.0, pd.NA], "Blue": [pd.NA, 1.0]})
+    for nm in (400, 410, 420):
+        frame[nm] = [0.5, 0.4]
+    assert im.Readings.from_dataframe(frame).amounts.tolist() == [[1.0, 0.0], [0.0, 1.0]]
+    frame[410] = [0.5, 0.4 + 0.1j]
+    with pytest.raises(im.ReadingError, match=r"column `410`.*j\)"):
+        im.Readings.from_dataframe(frame)
+
+
+def test_a_plan_with_impossible_numbers_is_refused(oils: im.Library) -> None:
+    infinite = float("inf")
+    with pytest.raises(im.Error, match="2 to 5001 wavelengths"):
+        im.plan(["Viridian"], "Zinc White", grid=(400, infinite, 10))
+    for noise in ((0.0, 0.0), (float("nan"), 0.01), (0.0, infinite), (-0.1, 0.2)):
+        with pytest.raises(im.FitError, match="expected noise") as error:
+            im.plan(["Viridian"], "Zinc White", prior=oils, noise=noise)
+        assert error.value.hint
+
+
 def test_left_out_mixtures_are_those_of_the_program(readings: im.Readings) -> None:
     done: list[str] = []
     with pytest.warns(im.FindingWarning):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -77,6 +78,15 @@ def test_recipes_are_those_of_the_program(oils: im.Library) -> None:
     assert [m[0].distance < 0.1 for m in several] == [True] * 3
 
 
+def test_numbers_of_numpy_are_numbers(oils: im.Library) -> None:
+    half: Any = np.float32(0.5)
+    film = oils.mix({"Viridian": 1}, thickness=0.1, over=half)
+    assert np.array_equal(film.values, oils.mix({"Viridian": 1}, thickness=0.1, over=0.5).values)
+    for wrong in (np.array([50, 3j, 2]), ["L", "a", "b"], [[1, 2], [3]]):
+        with pytest.raises(im.Error, match="cannot be read as numbers"):
+            oils.match(wrong)
+
+
 def test_a_target_that_is_no_colour_is_told(oils: im.Library) -> None:
     with pytest.raises(im.RecipeError, match="teal") as error:
         oils.match("teal")
@@ -103,6 +113,9 @@ def test_few_wavelengths_give_the_colour_of_many(oils: im.Library) -> None:
     assert rule.nodes.shape == (8,) and rule.weights.shape == (8, 3)
     assert rule.about["error"]["mean"] < 0.15
     assert np.allclose(rule.xyz(np.ones(8))[1], 100.0, atol=0.5)
+    for wrong in (np.ones(7), np.float64(1.0), np.ones(8) * 1j, ["a"] * 8):
+        with pytest.raises(im.Error, match="reflectance"):
+            rule.xyz(wrong)
     with pytest.raises(im.Error, match="needs a pigment library"):
         im.Quadrature.of(method="effective")
 

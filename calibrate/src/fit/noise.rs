@@ -28,6 +28,17 @@ pub struct ExpectedNoise {
     pub even: f64,
 }
 
+impl ExpectedNoise {
+    /// Whether both errors are 0 to below 1, and their sum is 1e-6 or more.
+    #[must_use]
+    pub fn is_possible(&self) -> bool {
+        let range = 0.0..1.0;
+        range.contains(&self.constant)
+            && range.contains(&self.even)
+            && self.constant + self.even >= 1e-6
+    }
+}
+
 /// Distribution of the noise over samples and wavelengths.
 pub(super) struct Noise {
     /// Cube roots of the measured reflectance.

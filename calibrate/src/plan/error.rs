@@ -54,6 +54,16 @@ pub enum PlanError {
         /// Value that was given.
         value: f64,
     },
+    /// Expected errors are out of range.
+    #[error(
+        "expected noise is two errors from 0 to below 1, one of them above 0, found `{constant}` and `{even}`"
+    )]
+    Noise {
+        /// Error of the instrument that was given.
+        constant: f64,
+        /// Error of weighing and mixing that was given.
+        even: f64,
+    },
     /// The swatches would not identify every pigment.
     #[error("these swatches would not identify `{}`", paints.join(", "))]
     Unidentified {
@@ -87,6 +97,7 @@ impl Explain for PlanError {
             }
             Self::Grams { needed, .. } => format!("try [grams={needed}], or a finer [balance]"),
             Self::NotPositive { .. } => "give grams, such as [grams=10] [balance=0.01]".into(),
+            Self::Noise { .. } => "try 0.002 of the instrument and 0.01 of weighing and mixing".into(),
             Self::Unidentified { .. } => "give more [swatches]".into(),
             Self::Prior(error) => return error.hint(),
             Self::Cancelled(error) => return error.hint(),

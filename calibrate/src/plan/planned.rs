@@ -98,7 +98,7 @@ pub struct Plan {
 /// ```
 ///
 /// # Errors
-/// [`PlanError`] for impossible names, masses or numbers of swatches.
+/// [`PlanError`] for impossible names, masses, noise or numbers of swatches.
 pub fn plan<N: AsRef<str>>(
     pigments: &[N],
     white: &str,
@@ -110,13 +110,16 @@ pub fn plan<N: AsRef<str>>(
 /// Plans like [`plan`], until `cancellation` ends it: many swatches of many paints take minutes.
 ///
 /// # Errors
-/// [`PlanError`] for impossible names, masses or numbers of swatches, or if the plan was cancelled.
+/// [`PlanError`] for impossible names, masses, noise or numbers of swatches, or if the plan was cancelled.
 pub fn plan_until<N: AsRef<str>>(
     pigments: &[N],
     white: &str,
     options: &PlanOptions,
     cancellation: &Cancellation,
 ) -> Result<Plan, PlanError> {
+    if let Some(noise) = options.noise.filter(|noise| !noise.is_possible()) {
+        return Err(PlanError::Noise { constant: noise.constant, even: noise.even });
+    }
     let paints = paint_set(pigments, white, options)?;
     let weighing = Weighing::new(options.grams, options.balance)?;
     let pool = candidates(&paints, weighing.least_share());

@@ -187,11 +187,7 @@ impl Plan {
     fn noise(&self) -> Result<Option<ExpectedNoise>> {
         let Some(text) = &self.noise else { return Ok(None) };
         match numbers(text) {
-            Some([constant, even])
-                if (0.0..1.0).contains(&constant)
-                    && (0.0..1.0).contains(&even)
-                    && constant + even >= 1e-6 =>
-            {
+            Some([constant, even]) if (ExpectedNoise { constant, even }).is_possible() => {
                 Ok(Some(ExpectedNoise { constant, even }))
             }
             _ => Err(Failure::usage(

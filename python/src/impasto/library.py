@@ -319,8 +319,10 @@ def _by_name(parts: Any) -> Sequence[Mapping[str, float]] | None:
 
 def ground_of(over: float | str | Any | None) -> Any:
     """A ground as the native part takes it."""
-    if over is None or isinstance(over, (int, float)):
-        return over
+    if over is None:
+        return None
+    if isinstance(over, (int, float, np.floating, np.integer)):
+        return float(over)
     if isinstance(over, str):
         known = {"white": 1.0, "black": 0.0}
         if over not in known:

@@ -13,7 +13,7 @@ from impasto import _native
 from impasto.display import Html, swatch, table
 from impasto.errors import Error, warn, warnings_of
 from impasto.light import light_of
-from impasto.spectrum import Spectrum, frozen, spectrum
+from impasto.spectrum import Spectrum, floats, frozen, spectrum
 
 if TYPE_CHECKING:
     from impasto.library import Library
@@ -156,8 +156,10 @@ def _names(setting: str, names: Sequence[str]) -> list[str]:
 def _targets(target: Any, wavelengths: Any) -> tuple[list[Any], bool]:
     if isinstance(target, str):
         return [target], True
-    if wavelengths is None and isinstance(target, (tuple, list, np.ndarray)) and np.shape(target) == (3,):
-        return [",".join(repr(float(value)) for value in target)], True
+    if wavelengths is None and isinstance(target, (tuple, list, np.ndarray)):
+        lab = floats(target, "target", (0, 1, 2))
+        if lab.shape == (3,):
+            return [",".join(repr(value) for value in lab.tolist())], True
     found = spectrum(target, wavelengths)
     names = found.names or tuple(f"spectrum {n}" for n in range(len(found)))
     single = found.values.ndim == 1

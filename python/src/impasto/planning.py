@@ -86,7 +86,8 @@ def plan(
     if isinstance(pigments, str):
         raise Error(f"pigments is a list of names, found `{pigments}`", f"try [{pigments!r}]")
     first, last, step = grid
-    count = round((last - first) / step) + 1 if step > 0 and last > first else 0
+    steps = (last - first) / step if step > 0 and last > first else 0.0
+    count = round(steps) + 1 if steps <= 5001 else 0
     if not 2 <= count <= 5001 or not 1 <= replicates <= 100:
         raise Error("a form has 2 to 5001 wavelengths and 1 to 100 readings of each film")
     options = {

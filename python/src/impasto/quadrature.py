@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from impasto import _native
+from impasto.errors import Error
 from impasto.library import Library
 from impasto.light import Light, light_of
-from impasto.spectrum import Floats
+from impasto.spectrum import Floats, floats
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,10 @@ class Quadrature:
         about = json.loads(text)
         return cls(np.array(about["nodes_nm"]), np.array(about["weights"]), about)
 
-    def xyz(self, reflectance: Floats) -> Floats:
+    def xyz(self, reflectance: ArrayLike) -> Floats:
         """XYZ of reflectance at the nodes, (n,) or (M, n)."""
-        result: Floats = np.asarray(reflectance, dtype=np.float64) @ self.weights
+        values = floats(reflectance, "reflectance", (1, 2))
+        if values.shape[-1] != len(self.nodes):
+            raise Error(f"reflectance has shape {values.shape}, but there are {len(self.nodes)} nodes")
+        result: Floats = values @ self.weights
         return result

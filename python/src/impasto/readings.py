@@ -8,6 +8,8 @@ import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from impasto import _native
 from impasto.display import listed, swatch, table
 from impasto.errors import Error, notes_of, warn, warnings_of
@@ -206,6 +208,8 @@ def _heading(column: Any) -> str:
 
 
 def _cell(value: Any) -> str:
-    if value is None or value != value:
+    # pandas.NA is neither equal to itself nor not.
+    if value is None or type(value).__name__ == "NAType" or value != value:
         return ""
-    return repr(float(value)) if hasattr(value, "__float__") else str(value)
+    is_complex = isinstance(value, (complex, np.complexfloating))
+    return repr(float(value)) if hasattr(value, "__float__") and not is_complex else str(value)

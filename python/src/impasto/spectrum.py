@@ -39,9 +39,10 @@ class Spectrum:
                 "the last axis is wavelength",
             )
         count = 1 if self.values.ndim == 1 else len(self.values)
-        if names and len(names) != count:
-            raise Error(f"{len(names)} names for {count} spectra", "give one name a spectrum")
-        self.names = tuple(names)
+        # An Index of pandas or an array has no truth value.
+        self.names = tuple(str(name) for name in _listed(names))
+        if self.names and len(self.names) != count:
+            raise Error(f"{len(self.names)} names for {count} spectra", "give one name a spectrum")
 
     @property
     def grid(self) -> tuple[float, float, int]:
@@ -85,6 +86,8 @@ class Spectrum:
         """The spectrum as colour-science's `SpectralDistribution`, several as `MultiSpectralDistributions`."""
         import colour
 
+        if len(self) == 0:
+            raise Error("colour-science has no distributions of no spectrum")
         if self.values.ndim == 1:
             name = self.names[0] if self.names else "impasto"
             return colour.SpectralDistribution(
@@ -129,7 +132,21 @@ def _of_pandas(value: Any) -> Spectrum:
     except ValueError as error:
         raise Error(f"a label is no wavelength: {error}", "keep the columns of wavelengths only") from None
     names = [str(name) for name in value.index] if value.ndim == 2 else [str(value.name or "")]
-    return Spectrum(nm, value.to_numpy(dtype=np.float64), names)
+    values = value.to_numpy()
+    if values.dtype == object:
+        # Columns of several kinds, or with pandas.NA.
+        try:
+            values = value.to_numpy(dtype=np.float64, na_value=np.nan)
+        except (TypeError, ValueError, OverflowError) as error:
+            raise Error(f"values cannot be read as numbers: {error}") from None
+    return Spectrum(nm, values, names)
+
+
+def _listed(names: Any) -> list[Any]:
+    try:
+        return list(names)
+    except TypeError as error:
+        raise Error(f"names are a list of text: {error}", "give one name a spectrum") from None
 
 
 def floats(value: ArrayLike, name: str, dimensions: tuple[int, ...]) -> Floats:

@@ -6,13 +6,16 @@ use calibrate::fit::{
 };
 use calibrate::library::PigmentLibrary;
 use calibrate::observation::{BLACK, Hiding, Observation};
-use calibrate::plan::{Information, PaintSet, SwatchRecipe, candidates, optimal, usual};
+use calibrate::plan::{
+    Information, PaintSet, PlanError, PlanOptions, SwatchRecipe, candidates, optimal, usual,
+};
 use calibrate::{PigmentId, Recipe};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use spectra::Cancellation;
+use spectra::hint::Explain;
 use spectra::optics::absorption_over_scattering;
 
 use crate::painted::oils;
@@ -205,5 +208,17 @@ fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
             unidentified(shares(&best).iter().map(Vec::as_slice), PaintSet::WHITE).is_empty(),
             "optimal of {count}"
         );
+    }
+}
+
+#[test]
+fn impossible_noise_is_refused_before_the_search() {
+    let impossible = [(f64::NAN, 0.0), (0.0, 0.0), (-0.1, 0.01), (0.0, 1e300), (5e-324, 0.0)];
+    for (constant, even) in impossible {
+        let noise = Some(ExpectedNoise { constant, even });
+        let options = PlanOptions { prior: Some(oils()), noise, ..PlanOptions::default() };
+        let error = calibrate::plan(&["Viridian"], "Zinc White", &options).unwrap_err();
+        assert!(matches!(error, PlanError::Noise { .. }), "{constant}, {even}: {error}");
+        assert!(error.hint().is_some());
     }
 }
