@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Without the feature `files` (default) there are no stores and no scans but those of ENVI, whose bytes the caller
-//! reads: so pages in browsers use it.
+//! reads. Pages in browsers use it like this.
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 

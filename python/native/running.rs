@@ -94,7 +94,7 @@ fn started(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHandle<(
 }
 
 thread_local! {
-    /// What makes a thread of Python compute by itself.
+    /// Pool whose only thread is the calling one; `None` if it could not be made.
     static OWN: OnceCell<Option<ThreadPool>> = const { OnceCell::new() };
 }
 

@@ -101,7 +101,7 @@ test("one finger paints; two move, zoom and turn the view and paint nothing; tap
   await context.close();
 });
 
-test("where fingers point for want of a mouse the targets are large, unless the painter chose otherwise", async () => {
+test("on a touch device the targets are large, unless the painter chose otherwise", async () => {
   for (const [phone, chosen, large] of [[false, null, false], [true, null, true], [true, false, false]]) {
     const context = await stage.context({ viewport: { width: 844, height: 700 }, hasTouch: phone });
     if (chosen !== null) await prepared(context, stage.server.address, { touch_targets: chosen });

@@ -1,4 +1,4 @@
-//! Files that are no cubes, by their first bytes.
+//! Recognises files that are no cubes by their first bytes.
 
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Arithmetic on eight numbers at once by the widest vectors of the processor.
 //!
-//! Nothing is fused, and each operation rounds as the same one of single numbers does, so that all processors
+//! Nothing is fused, and each operation rounds like that on single numbers, so that all processors
 //! give the same bits.
 
 use std::fmt::Debug;
@@ -33,10 +33,10 @@ pub(crate) trait Eight:
 {
     fn sqrt(self) -> Self;
 
-    /// The greater of each two numbers; what comes of NaN differs.
+    /// The greater of each two numbers; the result for NaN depends on the processor.
     fn greater(self, other: Self) -> Self;
 
-    /// A bit for each number that is above `other`, the first one lowest.
+    /// Bits of the numbers that are greater than those of `other`; the lowest bit is the first number.
     fn is_above(self, other: Self) -> u32;
 
     /// The numbers for memory.

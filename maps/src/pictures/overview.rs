@@ -52,7 +52,7 @@ pub struct OverviewSums {
 }
 
 impl OverviewSums {
-    /// Sums of no pixel yet, for maps of `pigments` with these rows and columns, with at most `longest` squares
+    /// Empty sums for maps of `pigments` with these rows and columns, with at most `longest` squares
     /// along the longer side.
     #[must_use]
     pub fn new(pigments: &[String], (rows, columns): (usize, usize), longest: usize) -> Self {

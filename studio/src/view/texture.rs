@@ -15,7 +15,7 @@ pub(super) struct LazyTexture(Arc<Mutex<TextureState>>);
 
 struct TextureState {
     size: [usize; 2],
-    /// Cells to upload, each with its column and row. Until the texture is made, the first are all of them.
+    /// Cells to upload, each with its column and row. Until the texture is made, the first entry has all cells.
     pending: Vec<([usize; 2], ColorImage)>,
     /// The texture, with bind groups for nearest and linear filtering.
     #[cfg(feature = "wgpu")]
@@ -60,7 +60,7 @@ impl LazyTexture {
         self.state().pending.iter().map(|(_, image)| image.pixels.len()).sum()
     }
 
-    /// Hands what was written to egui, which uploads it with this frame.
+    /// The texture in egui, which uploads what was written with this frame.
     pub(super) fn for_egui(&self, context: &Context, smooth: bool) -> TextureId {
         let mut state = self.state();
         let TextureState { pending, of_egui, first, .. } = &mut *state;

@@ -93,7 +93,7 @@ pub trait ParallelIterator: IntoIterator + Sized {
         self.into_iter().try_for_each(act)
     }
 
-    /// Acts until the first error, which is returned, with a state that a thread would make once.
+    /// Acts until the first error, which is returned. The state is made once, as by one thread.
     ///
     /// # Errors
     /// That of `act`.

@@ -63,7 +63,7 @@ impl Scan {
     pub fn map(&mut self, name: &str, library: &[u8], options_json: &str) -> Result<Mapped> {
         let chosen: MapOptions = options(options_json)?;
         let library = PigmentLibrary::from_json(name, &String::from_utf8_lossy(library)).told()?;
-        // What an earlier run held would lie beside this one.
+        // Frees the memory of an earlier run first.
         self.surveyed = None;
         let cube = Cube::of_files(&self.files, &self.options).told()?;
         let settings = chosen.settings(&cube);

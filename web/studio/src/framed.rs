@@ -52,7 +52,7 @@ pub(crate) fn options() -> WebOptions {
     }
 }
 
-/// Sets how the window is drawn, and tells by which graphics interface.
+/// Sets how the window is drawn, and returns the name of the graphics interface.
 #[cfg(feature = "webgpu")]
 fn graphics(creation: &CreationContext<'_>) -> String {
     let Some(drawn) = &creation.wgpu_render_state else { return "none".to_owned() };
@@ -65,7 +65,7 @@ fn graphics(creation: &CreationContext<'_>) -> String {
     format!("{:?}: {}", info.backend, info.name)
 }
 
-/// Sets how the window is drawn, and tells by which graphics interface.
+/// Sets how the window is drawn, and returns the name of the graphics interface.
 #[cfg(not(feature = "webgpu"))]
 fn graphics(creation: &CreationContext<'_>) -> String {
     studio::view::set_drawing(&creation.egui_ctx, Drawing::Egui);

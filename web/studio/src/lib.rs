@@ -55,8 +55,8 @@ pub struct Page {
 
 #[wasm_bindgen]
 impl Page {
-    /// A page in the language of this name, such as `de-AT`. With `fingers`, where they point for want of
-    /// a mouse, the targets are large until the painter chooses otherwise.
+    /// A page in the language of this name, such as `de-AT`. `fingers` tells that the device is pointed at
+    /// with fingers: its targets are large unless the painter has chosen otherwise.
     #[wasm_bindgen(constructor)]
     pub fn new(language: &str, fingers: bool) -> Self {
         set_system(Language::of_name(language));

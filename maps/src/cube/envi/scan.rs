@@ -31,7 +31,7 @@ pub(crate) fn open(path: &Path) -> Result<Opened, CubeError> {
     Ok(opened(path, header, file))
 }
 
-/// Refuses a header of so many bytes as none has.
+/// Refuses a header that is too large to be one of ENVI.
 pub(crate) fn check_length(path: &Path, bytes: u64) -> Result<(), CubeError> {
     if bytes <= LARGEST_HEADER {
         return Ok(());
