@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let subject = Subject::of_library(&library, &viewing, "report")?;
     let report = Report::draw(&subject, &|| ())?;
     for (path, content) in report.files() {
-        spectra::file::write_whole(&folder.join(path), &content)?;
+        documents::file::write_whole(&folder.join(path), &content)?;
     }
     println!("{} figures: {}", report.figures().count(), folder.join("report.html").display());
     Ok(())

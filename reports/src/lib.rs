@@ -16,7 +16,7 @@
 //! let subject = Subject::of_library(&library, &viewing, "my program")?;
 //! let report = Report::draw(&subject, &|| ())?;
 //! for (path, content) in report.files() {
-//!     spectra::file::write_whole(std::path::Path::new(&path), &content)?;
+//!     documents::file::write_whole(std::path::Path::new(&path), &content)?;
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -5,9 +5,9 @@
 
 use std::sync::{Arc, OnceLock};
 
+use documents::hint::{Explain, Fault};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb::Database};
-use spectra::hint::{Explain, Fault};
 
 /// Pixels per px of the figure.
 const SCALE: f32 = 2.0;

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use calibrate::comparison::Comparison;
 use calibrate::evaluate::Summary;
 use calibrate::validation::Validation;
-use spectra::name_list;
+use documents::name_list;
 
 #[cfg(feature = "pictures")]
 use crate::figure::Figure;
@@ -95,7 +95,7 @@ fn head(subject: &Subject<'_>) -> Head {
 }
 
 fn errors(count: usize, item: &str, errors: &Summary) -> String {
-    let items = spectra::counted(count, item);
+    let items = documents::counted(count, item);
     format!(
         "{items}, CIEDE2000 mean {:.2}, median {:.2}, 90 % below {:.2}, largest {:.2}",
         errors.mean, errors.median, errors.p90, errors.max

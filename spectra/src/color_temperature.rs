@@ -74,8 +74,8 @@ fn uv(light: &Illuminant) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hint::Explain;
     use crate::light::light_from_text;
+    use documents::hint::Explain;
 
     /// Colour temperatures in K from tables T.6.1, T.8.1, T.9.1, T.10 and T.12 of CIE 15:2018.
     const PUBLISHED: &[(&str, f64)] = &[

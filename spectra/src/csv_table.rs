@@ -1,7 +1,7 @@
 //! Tables of spectra in CSV files: the place of a cell, errors of any table, and the wavelength
 //! in a column's heading.
 
-use crate::counted::counted;
+use documents::counted;
 
 /// A cell of a CSV file.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::hint::Explain;
 use crate::wavelength::{Wavelength, WavelengthError};
+use documents::hint::Explain;
 
 /// Wavelengths in nanometres at a constant step.
 ///

@@ -3,11 +3,11 @@
 use std::sync::OnceLock;
 
 use crate::grid::Grid;
-use crate::hint::{Explain, Hint};
 use crate::interpolate::Extrapolation;
 use crate::irregular::{IrregularSpectrum, IrregularSpectrumError};
 use crate::spectrum::{Power, Spectrum, SpectrumError};
 use crate::table;
+use documents::hint::{Explain, Hint};
 
 /// A light: its name and its relative spectral power at 1 nm on [`Grid::cie`].
 ///

@@ -4,7 +4,7 @@
 //! lets the same rows resample a spectrum and, transposed, reduce an observer to a coarse grid.
 
 use crate::grid::Grid;
-use crate::hint::Explain;
+use documents::hint::Explain;
 
 /// The method of interpolation between the wavelengths of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

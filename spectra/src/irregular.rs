@@ -1,11 +1,11 @@
 //! Spectra at irregular wavelengths.
 
-use crate::counted::counted;
 use crate::grid::Grid;
-use crate::hint::Explain;
 use crate::interpolate::Extrapolation;
 use crate::spline::Spline;
 use crate::wavelength::{Wavelength, WavelengthError};
+use documents::counted;
+use documents::hint::Explain;
 
 /// Fewest values for a spline, as Sprague's polynomial needs on a regular grid.
 const LEAST_OF_SPLINE: usize = 6;

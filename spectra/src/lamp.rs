@@ -1,12 +1,12 @@
 //! Lights measured by an instrument.
 
 use crate::grid::Grid;
-use crate::hint::{Explain, Hint};
 use crate::illuminant::{Illuminant, IlluminantError};
 use crate::instrument::{
     ChoiceError, Format, InstrumentError, MeasuredQuantity, MeasuredSpectrum, choose_spectrum, read,
 };
 use crate::irregular::IrregularSpectrum;
+use documents::hint::{Explain, Hint};
 
 /// Negative power down to minus this fraction of the peak counts as noise of the spectrometer
 /// (chosen by eye).

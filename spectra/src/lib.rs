@@ -27,7 +27,6 @@
 //! | colour differences | [`color::delta_e_ciede2000`] and its neighbours |
 //! | reflectance of a paint film | [`optics`] |
 //! | swatches of painting programs | [`swatch_file`] |
-//! | advice on an error | [`hint::Explain`] |
 //!
 //! In scope: wavelengths and grids, typed spectra and their resampling, the CIE observers
 //! and illuminants, colour and colour difference, and the optics of a paint film. Out of
@@ -35,20 +34,6 @@
 //! reflectance factor does not separate.
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
-
-pub mod hint;
-
-mod cancellation;
-
-mod name_list;
-
-mod counted;
-
-mod similar;
-
-mod parser_reason;
-
-pub mod file;
 
 mod wavelength;
 
@@ -97,10 +82,8 @@ pub mod swatch_file;
 pub mod optics;
 
 pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};
-pub use cancellation::{Cancellation, Cancelled};
 pub use color_rendering::{ColorFidelity, ColorRendering, ColorRenderingError, RenderingIndex};
 pub use color_temperature::ColorTemperature;
-pub use counted::{counted, counted_as};
 pub use daylight::{daylight, daylight_chromaticity};
 pub use grid::{Grid, GridError};
 pub use illuminant::{Illuminant, IlluminantError};
@@ -110,10 +93,7 @@ pub use interpolate::{Extrapolation, InterpolateError, Interpolation};
 pub use irregular::{IrregularSpectrum, IrregularSpectrumError};
 pub use lamp::{LampError, lamp_from_bytes};
 pub use light::{LightError, light_from_text};
-pub use name_list::name_list;
 pub use observer::{Observer, ObserverError};
-pub use parser_reason::{ParserReason, plain_parser_message};
-pub use similar::{did_you_mean, similar_names};
 pub use spectrum::{
     Absorption, Power, Quantity, Reflectance, Response, Scattering, Spectrum, SpectrumError,
 };

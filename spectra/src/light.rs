@@ -4,11 +4,11 @@ use std::path::Path;
 
 use crate::black_body::black_body;
 use crate::daylight::daylight;
-use crate::file::{self, FileError};
-use crate::hint::{Explain, Fault, Hint};
 use crate::illuminant::{Illuminant, IlluminantError};
 use crate::instrument::{bytes_of, split_file_and_name, split_file_and_sheet};
 use crate::lamp::{LampError, lamp_from_bytes};
+use documents::file::{self, FileError};
+use documents::hint::{Explain, Fault, Hint};
 
 /// Returns the light that `text` names.
 ///
@@ -104,7 +104,7 @@ fn did_you_mean(text: &str) -> String {
     let question = match known {
         _ if fluorescent.is_some() => fluorescent.map(|name| format!("did you mean {name}?")),
         Some((_, name)) => Some(format!("did you mean {name}?")),
-        None if is_name => crate::did_you_mean(text, Illuminant::names()),
+        None if is_name => documents::did_you_mean(text, Illuminant::names()),
         None => None,
     };
     question.map_or_else(String::new, |question| question + " ")

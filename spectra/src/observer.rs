@@ -3,9 +3,9 @@
 use std::sync::OnceLock;
 
 use crate::grid::Grid;
-use crate::hint::{Explain, Fault};
 use crate::spectrum::{Response, Spectrum};
 use crate::table;
+use documents::hint::{Explain, Fault};
 
 /// A set of colour-matching functions at 1 nm.
 ///

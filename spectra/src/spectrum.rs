@@ -2,10 +2,10 @@
 
 use std::marker::PhantomData;
 
-use crate::counted::counted;
 use crate::grid::Grid;
-use crate::hint::Explain;
 use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
+use documents::counted;
+use documents::hint::Explain;
 
 /// A physical quantity over wavelength, with its range of valid values.
 pub trait Quantity: Copy + std::fmt::Debug + PartialEq {

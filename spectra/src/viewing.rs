@@ -2,13 +2,13 @@
 
 use crate::color::ColorValues;
 use crate::grid::Grid;
-use crate::hint::{Explain, Fault, Hint};
 use crate::illuminant::Illuminant;
 use crate::integrate::TristimulusWeights;
 use crate::interpolate::{InterpolateError, Interpolation};
 use crate::light::{LightError, light_from_text};
 use crate::observer::{Observer, ObserverError};
 use crate::spectrum::{Reflectance, Spectrum};
+use documents::hint::{Explain, Fault, Hint};
 
 /// A light and an observer.
 ///

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::hint::Explain;
+use documents::hint::Explain;
 
 /// A finite, positive wavelength in nanometres.
 ///

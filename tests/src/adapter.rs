@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use render::gpu::{BackendChoice, Device, choose};
+use graphics::gpu::{BackendChoice, Device, choose};
 
 /// Opens the graphics device for a test, a hardware adapter before a software one. `None` without
 /// an adapter, with a note on standard error. Appends the name of the adapter (or `none`) to the

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use spectra::hint::{Explain, Fault, Hint};
+use documents::hint::{Explain, Fault, Hint};
 use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use crate::remark::Remark;

@@ -1,7 +1,7 @@
 //! Predicts the spectrum and colour of a mixture given by pigment names and parts.
 
+use documents::hint::{Explain, Fault, Hint};
 use spectra::color::{Lab, Rgb, Xyz};
-use spectra::hint::{Explain, Fault, Hint};
 use spectra::{Reflectance, Spectrum, SpectrumError};
 
 use crate::appearance::Appearance;

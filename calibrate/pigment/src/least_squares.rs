@@ -6,9 +6,9 @@
 
 use std::ops::Range;
 
+use documents::Cancellation;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use spectra::Cancellation;
 
 /// First damping: Nielsen's choice for a start near the minimum.
 const FIRST_DAMPING: f64 = 1e-3;

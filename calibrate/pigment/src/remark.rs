@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use spectra::hint::Hint;
+use documents::hint::Hint;
 
 /// Kind of a [`Remark`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Whether a wavelength grid covers enough of the visible band for colours.
 
+use documents::hint::{Explain, Hint};
 use spectra::Grid;
-use spectra::hint::{Explain, Hint};
 
 use crate::remark::Remark;
 

@@ -81,11 +81,11 @@ pub fn to_srgb(image: DynamicImage, profile: &[u8]) -> Result<DynamicImage, Prof
 
 #[cfg(test)]
 mod tests {
+    use documents::hint::{Explain, Fault};
     use image::codecs::png::PngEncoder;
     use image::codecs::tiff::TiffEncoder;
     use image::{ExtendedColorType, ImageEncoder};
     use spectra::color::Rgb;
-    use spectra::hint::{Explain, Fault};
 
     use super::*;
     use crate::picture::Photograph;

@@ -2,12 +2,12 @@
 
 use std::io::Cursor;
 
+use documents::hint::{Explain, Hint};
 use exr::meta::MetaData;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
 use rayon::prelude::*;
 use spectra::color::{Adaptation, Matrix3, RgbSpace, Xyz};
-use spectra::hint::{Explain, Hint};
 
 use crate::field::Field;
 use crate::picture::{MOST_PIXELS, Picture};

@@ -3,13 +3,13 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use documents::file::read;
+use documents::hint::{Explain, Fault, Hint};
 use image::{
     ColorType, DynamicImage, ExtendedColorType, ImageDecoder, ImageFormat, ImageReader, Limits,
 };
 use rayon::prelude::*;
 use spectra::color::Rgb;
-use spectra::file::read;
-use spectra::hint::{Explain, Fault, Hint};
 
 use crate::color_profile::{ProfileError, tiff_profile, to_srgb};
 use crate::field::Field;
@@ -30,6 +30,9 @@ const MOST_BYTES: u64 = 3 << 29;
 pub struct Photograph {
     image: DynamicImage,
 }
+
+/// Longest side in pixels of a painting when nobody asks for a width.
+const USUAL_LONGER_SIDE_PX: usize = 1600;
 
 impl Photograph {
     /// Reads a PNG, JPEG, TIFF or WebP file, grey or colour, with 8 or 16 bits per channel. Its
@@ -91,6 +94,15 @@ impl Photograph {
             image = to_srgb(image, &profile).map_err(refused)?;
         }
         Ok(Self { image })
+    }
+
+    /// Width in pixels of a painting of this photograph when nobody asks for one: the photograph's
+    /// own width, or less, so that the longer side has at most 1600 pixels.
+    #[must_use]
+    pub fn usual_width_px(&self) -> usize {
+        let (width, height) = self.size();
+        let scale = (USUAL_LONGER_SIDE_PX as f64 / width.max(height) as f64).min(1.0);
+        (scale * width as f64).round().max(1.0) as usize
     }
 
     /// Width and height in pixels.

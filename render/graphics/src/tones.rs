@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 use crate::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
 use crate::picture_formats::NAMES;
@@ -68,7 +68,8 @@ impl ToneRamp {
     pub fn open(path: &Path) -> Result<Self, ToneRampError> {
         let rejected =
             |reason: String| ToneRampError::NoPicture { name: path.display().to_string(), reason };
-        let bytes = spectra::file::disk::read(path).map_err(|error| rejected(error.to_string()))?;
+        let bytes =
+            documents::file::disk::read(path).map_err(|error| rejected(error.to_string()))?;
         if is_cut_off_jpeg(&bytes) {
             return Err(rejected(CUT_OFF.to_owned()));
         }

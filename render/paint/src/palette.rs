@@ -1,7 +1,7 @@
 //! Pigments of a palette by name.
 
+use documents::hint::{Explain, Fault, Hint};
 use pigment::{PigmentLibrary, RecipeError};
-use spectra::hint::{Explain, Fault, Hint};
 
 use crate::document::Slots;
 use crate::layer::SLOTS;

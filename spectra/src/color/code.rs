@@ -6,7 +6,7 @@ use super::adaptation::Adaptation;
 use super::lab::Lab;
 use super::rgb::{Rgb, RgbSpace};
 use super::xyz::Xyz;
-use crate::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 /// A colour as a user types it: `#rrggbb` or `#rgb` in sRGB, or CIELAB as `L,a,b`.
 ///

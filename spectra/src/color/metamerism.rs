@@ -3,7 +3,7 @@
 use super::difference::delta_e_ciede2000;
 use super::lab::Lab;
 use super::xyz::Xyz;
-use crate::hint::Explain;
+use documents::hint::Explain;
 
 /// Corrects a sample under the test light for its difference from the standard under the
 /// reference light: each tristimulus value is multiplied by the ratio of standard to sample

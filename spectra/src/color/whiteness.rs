@@ -1,9 +1,9 @@
 //! CIE whiteness and tint.
 
 use super::xyz::Xyz;
-use crate::hint::{Explain, Fault, Hint};
 use crate::illuminant::Illuminant;
 use crate::observer::Observer;
+use documents::hint::{Explain, Fault, Hint};
 
 /// Least whiteness to which the formula applies; the greatest is 5 Y - 280.
 const LEAST_WHITENESS: f64 = 40.0;

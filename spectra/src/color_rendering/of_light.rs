@@ -3,8 +3,8 @@
 use super::fidelity::ColorFidelity;
 use super::rendering_index::RenderingIndex;
 use crate::color_temperature::ColorTemperature;
-use crate::hint::{Explain, Hint};
 use crate::illuminant::{Illuminant, IlluminantError};
+use documents::hint::{Explain, Hint};
 
 /// Greatest colour temperature in K of daylight, with which bluer lights would be compared.
 const BLUEST: f64 = 25_000.0;

@@ -92,7 +92,7 @@ pub(super) fn read_binary(
     details.extend((!comment.is_empty()).then(|| ("Comment".to_owned(), comment)));
     let (one, many) =
         ("wavelength without light of the white is", "wavelengths without light of the white are");
-    let remark = format!("{} left out", crate::counted_as(dropped, one, many));
+    let remark = format!("{} left out", documents::counted_as(dropped, one, many));
     Ok(vec![MeasuredSpectrum {
         name: stem(file),
         quantity,

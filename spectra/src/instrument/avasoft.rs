@@ -20,7 +20,7 @@ pub(super) fn of_pixels(
     let ordered = ordered(file, points, Duplicates::Average)?;
     let (one, many) =
         ("wavelength without light of the white is", "wavelengths without light of the white are");
-    let remark = format!("{} left out", crate::counted_as(dropped, one, many));
+    let remark = format!("{} left out", documents::counted_as(dropped, one, many));
     Ok(MeasuredSpectrum {
         name,
         quantity,

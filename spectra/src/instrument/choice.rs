@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::measured::{MeasuredSpectrum, Role};
-use crate::file::disk::is_file;
-use crate::hint::{Explain, Hint};
+use documents::file::disk::is_file;
+use documents::hint::{Explain, Hint};
 
 /// Maximum number of names listed in an error.
 const LISTED: usize = 8;

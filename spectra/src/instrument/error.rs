@@ -1,6 +1,6 @@
 //! Errors in the files of instruments, with their place.
 
-use crate::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 /// An instrument's file that cannot be read. Every variant names the file, and the line where
 /// possible.

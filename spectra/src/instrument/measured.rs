@@ -1,9 +1,9 @@
 //! One spectrum out of an instrument's file.
 
 use crate::grid::Grid;
-use crate::hint::{Explain, Hint};
 use crate::irregular::{IrregularSpectrum, IrregularSpectrumError};
 use crate::spectrum::{Reflectance, Spectrum, SpectrumError};
+use documents::hint::{Explain, Hint};
 
 /// The quantity that an instrument measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

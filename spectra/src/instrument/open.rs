@@ -7,8 +7,8 @@ use super::error::InstrumentError;
 use super::measured::MeasuredSpectrum;
 use super::read::{InstrumentFile, read};
 use super::workbook::split_file_and_sheet;
-use crate::file::{self, FileError};
-use crate::hint::{Explain, Fault, Hint};
+use documents::file::{self, FileError};
+use documents::hint::{Explain, Fault, Hint};
 
 /// Bytes of a file that is given as `FILE` or `FILE.xlsx#SHEET`.
 ///

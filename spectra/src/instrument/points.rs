@@ -83,7 +83,7 @@ pub(super) fn ordered(
         ordered.values.push(values().map(|value| value * share).sum());
     }
     if repeated > 0 {
-        let repeated = crate::counted_as(repeated, "wavelength occurs", "wavelengths occur");
+        let repeated = documents::counted_as(repeated, "wavelength occurs", "wavelengths occur");
         let what = format!("{repeated} more than once; the values were averaged");
         ordered.remarks.push(what);
     }

@@ -8,7 +8,7 @@ use std::io::Cursor;
 use calamine::{DataRef, DataType, Reader, Xlsx};
 
 use super::error::InstrumentError;
-use crate::name_list;
+use documents::name_list;
 
 const FORMAT: &str = "Excel workbook";
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::hint::{Explain, Fault};
+use documents::hint::{Explain, Fault};
 
 /// Whether readings contain the specular reflection at the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 //! Errors in computing reflectance from counts.
 
-use crate::hint::{Explain, Hint};
 use crate::instrument::MeasuredQuantity;
+use documents::hint::{Explain, Hint};
 
 /// Readings of sample, white and dark that do not give a reflectance.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

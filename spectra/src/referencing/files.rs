@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::error::ReferencingError;
 use super::reference::{LEAST_LIGHT, Referencing};
 use super::tile::{Dark, Tile};
-use crate::hint::{Explain, Fault, Hint};
 use crate::instrument::{MeasuredSpectrum, OpenError, open_spectrum, split_file_and_name};
+use documents::hint::{Explain, Fault, Hint};
 
 /// The files of a reference measurement. Each spectrum is given as `FILE`, or as
 /// `FILE#NAME` where the file holds several.

@@ -1,6 +1,6 @@
 //! Errors in reading and writing swatch files.
 
-use crate::hint::Explain;
+use documents::hint::Explain;
 
 /// A swatch file that cannot be read or written.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

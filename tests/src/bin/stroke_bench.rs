@@ -68,8 +68,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let table = report::table(&reports);
     let json = serde_json::to_string_pretty(&report::json(&bench, &reports))?;
-    spectra::file::write_whole(&out.join("strokes.txt"), table.as_bytes())?;
-    spectra::file::write_whole(&out.join("strokes.json"), json.as_bytes())?;
+    documents::file::write_whole(&out.join("strokes.txt"), table.as_bytes())?;
+    documents::file::write_whole(&out.join("strokes.json"), json.as_bytes())?;
     sheet::sheet(&reports)?.save(out.join("strokes.png"))?;
     println!("\n{table}\nWrote strokes.txt, strokes.json and strokes.png to {}", out.display());
     Ok(())

@@ -4,17 +4,17 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use calibrate::library::PigmentLibrary;
+use graphics::encoding::encoded_from_linear;
+use graphics::field::Field;
 use image::RgbImage;
-use render::amount::{mm_from_quanta, quanta_from_mm};
-use render::encoding::encoded_from_linear;
-use render::field::Field;
-use render::layer::{Cell, Layer, SLOTS};
-use render::light::Light;
-use render::paint::document::{Document, Lighting, Medium, Slots};
-use render::paint::ground::GroundKind;
-use render::paint::painting::Painting;
-use render::paint::{BrushId, PaintEngine};
-use render::{HeadShape, Sample};
+use paint::amount::{mm_from_quanta, quanta_from_mm};
+use paint::document::{Document, Lighting, Medium, Slots};
+use paint::ground::GroundKind;
+use paint::layer::{Cell, Layer, SLOTS};
+use paint::light::Light;
+use paint::painting::Painting;
+use paint::{BrushId, PaintEngine};
+use paint::{HeadShape, Sample};
 use spectra::color::{Lab, RgbSpace};
 
 use super::figure::{Curve, Panel};

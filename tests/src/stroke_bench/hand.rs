@@ -1,6 +1,6 @@
 //! Even hands: samples of a pen along straight and turning paths.
 
-use render::Sample;
+use paint::Sample;
 
 /// Pressure at which most strokes are painted.
 pub const PRESSURE: f64 = 0.475;

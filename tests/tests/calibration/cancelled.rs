@@ -11,8 +11,8 @@ use calibrate::matching::{MatchOptions, SearchControl};
 use calibrate::plan::{PlanError, PlanOptions, plan_until};
 use calibrate::quadrature::{EffectiveQuadrature, QuadratureFailure};
 use calibrate::{FitOptions, FittingError, PreparedFit, Readings, ValidationOptions, Viewing};
-use spectra::Cancellation;
-use spectra::hint::{Explain, Fault};
+use documents::Cancellation;
+use documents::hint::{Explain, Fault};
 use suite::watercolors::Watercolors;
 
 /// The stages that `work` tells, if it is asked to end at the first that `last` selects, and its error.

@@ -6,7 +6,7 @@ use calibrate::library::PigmentLibrary;
 use calibrate::measurement::MeasurementError;
 use calibrate::observation::{BelowSurface, Hiding, observations};
 use calibrate::validation::{ValidationPlan, leave_out};
-use spectra::hint::Explain;
+use documents::hint::Explain;
 use spectra::optics::Surface;
 use suite::oils::{SURFACE, fitted, settings, swatches};
 

@@ -1,10 +1,10 @@
 //! Errors of the graphics device: sizes beyond its limits, and a lost device.
 
-use render::field::Field;
-use render::gpu::DeviceError;
-use render::layer::Layer;
-use render::paint::engine::PaintEngine;
-use spectra::hint::Explain;
+use documents::hint::Explain;
+use graphics::field::Field;
+use graphics::gpu::DeviceError;
+use paint::engine::PaintEngine;
+use paint::layer::Layer;
 
 #[test]
 fn a_canvas_beyond_the_device_is_told_with_both_sizes() {

@@ -1,14 +1,13 @@
 //! Checks of GPU kernels without an adapter: validity, bindings and layouts of structs.
 
+use graphics::gpu::{Kernel, Layout, Storage};
+use graphics::surface::{STENCIL_FACES, WEIGHED_FACES};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, StorageAccess, TypeInner};
-use render::gpu::{Kernel, Layout, Storage};
-use render::surface::{STENCIL_FACES, WEIGHED_FACES};
-use render::{graphics_kernels, paint, painterly, volumes, watercolor};
 
 /// The kernels of graphics, paint, watercolour, models in brushwork and paint volumes.
 fn kernels() -> Vec<&'static Kernel> {
-    let own = [graphics_kernels(), paint::engine::kernels()];
+    let own = [graphics::kernels(), paint::engine::kernels()];
     [own.concat(), watercolor::kernels(), painterly::kernels(), volumes::kernels()].concat()
 }
 

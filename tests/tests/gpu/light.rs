@@ -1,15 +1,15 @@
 //! Rendering on the GPU against the layer and shading formulas in f64.
 
+use graphics::field::Field;
+use graphics::tile::TileSet;
+use paint::View;
+use paint::amount::QUANTA_PER_CELL;
+use paint::engine::PaintEngine;
+use paint::layer::{Cell, Layer, SLOTS};
+use paint::optics::{Gloss, Lamp, LayerOptics, NODES, Scene, SceneSurface};
+use paint::shade::{MOST, ReliefLamp, SOFT, Tap};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::amount::QUANTA_PER_CELL;
-use render::field::Field;
-use render::layer::{Cell, Layer, SLOTS};
-use render::optics::{Gloss, Lamp, LayerOptics, NODES, Scene, SceneSurface};
-use render::paint::View;
-use render::paint::engine::PaintEngine;
-use render::shade::{MOST, ReliefLamp, SOFT, Tap};
-use render::tile::TileSet;
 use spectra::optics::{Layer as Film, Specular, Surface};
 
 /// Tolerance in linear RGB for f32 with the inexact `exp`, `sqrt` and division of WGSL. Largest
@@ -184,7 +184,7 @@ fn layers_relief_and_gloss_are_those_of_the_formulas() {
     assert!(off < NEAR_STACK, "{off:e} off at cell {cell}");
 }
 
-/// Light of a cell whose level colour is `flat`, by the formulas of [`render::shade`] in f64. `top`
+/// Light of a cell whose level colour is `flat`, by the formulas of [`paint::shade`] in f64. `top`
 /// gives heights around the cell in quanta.
 fn shaded(
     prepared: &ReliefLamp,
@@ -245,7 +245,7 @@ fn only_the_tiles_that_are_named_change() {
     engine.render(View::First, &flat_scene(0.5, NO_LAYER, Vec::new()), &all, &all).unwrap();
     let before = engine.picture().unwrap();
     let mut one = TileSet::default();
-    one.insert(render::tile::Rect { x: 130, y: 100, width: 1, height: 1 });
+    one.insert(graphics::tile::Rect { x: 130, y: 100, width: 1, height: 1 });
     engine
         .render(View::First, &flat_scene(0.9, NO_LAYER, Vec::new()), &one, &TileSet::default())
         .unwrap();

@@ -1,11 +1,11 @@
 //! Sub-steps on the GPU equal the reference on the CPU bit for bit, and conserve paint.
 
+use graphics::field::Field;
+use graphics::tile::{Rect, TileSet};
+use paint::engine::PaintEngine;
+use paint::motion::MotionConstants;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::field::Field;
-use render::paint::engine::PaintEngine;
-use render::paint::motion::MotionConstants;
-use render::tile::{Rect, TileSet};
 
 use crate::reference::{Amounts, Reference, contact, paint};
 
@@ -21,12 +21,12 @@ fn reference(rng: &mut ChaCha8Rng, canvas: Amounts, head: Amounts) -> Reference 
     }
 }
 
-fn contact_on(rng: &mut ChaCha8Rng, at: &Reference, rect: Rect) -> render::paint::contact::Contact {
+fn contact_on(rng: &mut ChaCha8Rng, at: &Reference, rect: Rect) -> paint::contact::Contact {
     let top = |x: usize, y: usize| at.floor[(x, y)] + at.wet.cell(y * SIZE.0 + x).volume() as i32;
     contact(rng, rect, top, (HEAD.0 * HEAD.1) as u32)
 }
 
-fn engine(start: &Reference) -> Option<(PaintEngine, render::paint::BrushId)> {
+fn engine(start: &Reference) -> Option<(PaintEngine, paint::BrushId)> {
     Some(start.in_engine(PaintEngine::on_device(crate::device()?, &start.floor).unwrap()))
 }
 

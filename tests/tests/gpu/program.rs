@@ -1,6 +1,6 @@
 //! `impasto gpu`: the adapters that it lists, and the one that painting would use.
 
-use render::gpu::{BackendChoice, Kind, adapters, best};
+use graphics::gpu::{BackendChoice, Kind, adapters, best};
 use suite::program::impasto;
 
 #[test]

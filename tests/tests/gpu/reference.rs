@@ -1,13 +1,13 @@
 //! Random paint and contacts to test with.
 
+use graphics::field::Field;
+use graphics::tile::Rect;
+use paint::BrushId;
+use paint::contact::{Contact, ExchangeRates, Touch, Wicking};
+use paint::engine::PaintEngine;
+use paint::layer::{Cell, Layer};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use render::field::Field;
-use render::layer::{Cell, Layer};
-use render::paint::BrushId;
-use render::paint::contact::{Contact, ExchangeRates, Touch, Wicking};
-use render::paint::engine::PaintEngine;
-use render::tile::Rect;
 
 /// A canvas (floor and wet paint) and the paint on one brush head.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,12 +1,12 @@
 //! Drying, dry layers and undo tiles on the GPU: exact amounts, and exact restoring.
 
+use graphics::field::Field;
+use graphics::tile::{TILE, Tile};
+use paint::UndoSlot;
+use paint::engine::PaintEngine;
+use paint::layer::Layer;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::field::Field;
-use render::layer::Layer;
-use render::paint::UndoSlot;
-use render::paint::engine::PaintEngine;
-use render::tile::{TILE, Tile};
 
 use crate::reference::{Amounts, paint};
 

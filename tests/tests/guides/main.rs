@@ -38,8 +38,8 @@ const OTHERS: [&str; 8] = [
     "mkdir",
     "pip",
     "rustup",
-    "web/build",
-    "web/serve",
+    "apps/web/build",
+    "apps/web/serve",
 ];
 
 /// Verbs, words that the command holds, and options that make its work small.

@@ -35,19 +35,56 @@ fn crates_depend_downwards_only() {
     let own = own_crates();
     assert!(own.contains("spectra") && own.contains("calibrate"), "the crates: {own:?}");
     for (folder, below) in [
-        ("spectra", &[][..]),
-        ("calibrate/pigment", &["spectra"]),
-        ("calibrate", &["spectra", "pigment"]),
-        ("reports", &["spectra", "calibrate"]),
-        ("render/graphics", &["spectra"]),
-        ("render/paint", &["spectra", "pigment", "graphics"]),
-        ("render/artmap", &["spectra", "pigment", "graphics", "paint"]),
-        ("render/volumes", &["spectra", "pigment", "graphics", "paint"]),
-        ("render", &["spectra", "pigment", "graphics", "paint", "artmap", "volumes"]),
-        ("maps", &["spectra", "pigment", "calibrate"]),
-        ("cli", &["spectra", "calibrate", "reports", "render", "maps"]),
-        ("studio/session", &["spectra", "pigment", "render"]),
-        ("studio", &["spectra", "pigment", "render", "session"]),
+        ("documents", &[][..]),
+        ("spectra", &["documents"]),
+        ("calibrate/pigment", &["documents", "spectra"]),
+        ("calibrate/fit", &["documents", "spectra", "pigment"]),
+        ("calibrate/maps", &["documents", "spectra", "pigment", "calibrate"]),
+        ("reports", &["documents", "spectra", "calibrate"]),
+        ("render/graphics", &["documents", "spectra"]),
+        ("render/paint", &["documents", "spectra", "pigment", "graphics"]),
+        ("render/techniques/artmap", &["documents", "spectra", "pigment", "graphics", "paint"]),
+        (
+            "render/techniques/painterly",
+            &["documents", "spectra", "pigment", "graphics", "paint", "artmap"],
+        ),
+        ("render/techniques/strokes", &["documents", "spectra", "pigment", "graphics", "paint"]),
+        ("render/techniques/volumes", &["documents", "spectra", "pigment", "graphics", "paint"]),
+        ("render/techniques/watercolor", &["documents", "spectra", "pigment", "graphics", "paint"]),
+        ("apps/session", &["documents", "spectra", "pigment", "graphics", "paint", "volumes"]),
+        (
+            "apps/studio",
+            &[
+                "documents",
+                "spectra",
+                "pigment",
+                "graphics",
+                "paint",
+                "artmap",
+                "painterly",
+                "strokes",
+                "volumes",
+                "watercolor",
+                "session",
+            ],
+        ),
+        (
+            "apps/cli",
+            &[
+                "documents",
+                "spectra",
+                "calibrate",
+                "maps",
+                "reports",
+                "graphics",
+                "paint",
+                "artmap",
+                "painterly",
+                "strokes",
+                "volumes",
+                "watercolor",
+            ],
+        ),
     ] {
         let manifest = format!("{folder}/Cargo.toml");
         for (dependency, line) in dependencies(&manifest) {
@@ -75,13 +112,13 @@ fn the_graphics_device_is_named_in_one_folder_and_where_the_window_draws() {
     for (path, text) in texts(&[".rs"]) {
         let named = text.contains(&needle);
         let draws = [
-            "studio/benches/offscreen.rs",
-            "studio/src/window.rs",
-            "studio/src/view/canvas.rs",
-            "studio/src/view/meshes.rs",
-            "studio/src/view/pipeline.rs",
-            "studio/src/view/shader.rs",
-            "studio/src/view/texture.rs",
+            "apps/studio/benches/offscreen.rs",
+            "apps/studio/src/window.rs",
+            "apps/studio/src/view/canvas.rs",
+            "apps/studio/src/view/meshes.rs",
+            "apps/studio/src/view/pipeline.rs",
+            "apps/studio/src/view/shader.rs",
+            "apps/studio/src/view/texture.rs",
         ];
         let may = path.starts_with("render/graphics/src/gpu/") || draws.contains(&path.as_str());
         assert!(!named || may, "{path}: {needle}");
@@ -94,11 +131,11 @@ fn the_graphics_device_is_named_in_one_folder_and_where_the_window_draws() {
 fn only_programs_parse_arguments() {
     let needle = ["clap", "::"].concat();
     for (path, text) in texts(&[".rs"]) {
-        let may = path.starts_with("cli/") || path == "studio/src/arguments.rs";
+        let may = path.starts_with("apps/cli/") || path == "apps/studio/src/arguments.rs";
         assert!(may || !text.contains(&needle), "{path}: {needle}");
     }
     for (path, _) in texts(&["/Cargo.toml"]) {
-        let may = path.starts_with("cli/") || path.starts_with("studio/");
+        let may = path.starts_with("apps/cli/") || path.starts_with("apps/studio/");
         assert!(may || !dependencies(&path).contains_key("clap"), "{path} depends on clap");
     }
 }
@@ -114,10 +151,10 @@ fn test_profile(manifest: &str, lock: &str) -> toml::Table {
 
 #[test]
 fn the_python_package_takes_over_what_the_tests_compiled() {
-    let lock = text("python/Cargo.lock");
+    let lock = text("apps/python/Cargo.lock");
     let [ours, theirs] =
-        ["Cargo.toml", "python/Cargo.toml"].map(|manifest| test_profile(manifest, &lock));
-    assert_eq!(ours, theirs, "[profile.dev] of python/Cargo.toml and of the workspace");
+        ["Cargo.toml", "apps/python/Cargo.toml"].map(|manifest| test_profile(manifest, &lock));
+    assert_eq!(ours, theirs, "[profile.dev] of apps/python/Cargo.toml and of the workspace");
 }
 
 #[test]
@@ -137,7 +174,7 @@ fn workspaces_of_their_own_have_the_versions_of_this_one() {
     };
     let workspace = packages("Cargo.lock");
     let known: BTreeSet<String> = workspace.iter().map(line).collect();
-    for lock in ["python/Cargo.lock", "web/Cargo.lock"] {
+    for lock in ["apps/python/Cargo.lock", "apps/web/Cargo.lock"] {
         let theirs = packages(lock);
         assert!(theirs.iter().any(|(name, _)| name == "impasto-calibrate"), "{lock}");
         for package in theirs {

@@ -69,7 +69,7 @@ fn names_an_option(line: &str) -> bool {
 
 #[test]
 fn no_library_names_an_option_of_a_command_line() {
-    let libraries = ["spectra/", "calibrate/", "render/", "reports/", "studio/session/"];
+    let libraries = ["spectra/", "calibrate/", "render/", "reports/", "apps/session/"];
     let mut found = Vec::new();
     for (path, source) in texts(&[".rs"]) {
         let library = libraries.iter().any(|folder| path.starts_with(folder));

@@ -1,7 +1,7 @@
 //! Light seen by an eye that adapted to it in part.
 
-use render::paint::document::Lighting;
-use render::paint::scene::{picture, scene};
+use paint::document::Lighting;
+use paint::scene::{picture, scene};
 use spectra::color::{Lab, RgbSpace, Xyz};
 
 use crate::made_up::{document, light, oils};

@@ -3,9 +3,9 @@
 
 use calibrate::evaluate::{Summary, Viewing, percentile};
 use calibrate::{Curves, PigmentId};
-use render::light::{Light, Mixer};
-use render::paint::document::Document;
-use render::paint::scene::{SpectralDocument, picture, scene};
+use paint::document::Document;
+use paint::light::{Light, Mixer};
+use paint::scene::{SpectralDocument, picture, scene};
 use spectra::color::{Adaptation, Lab, Lch, Rgb, RgbSpace, Xyz, delta_e_ciede2000};
 
 use crate::made_up::{document, glazes_over_mixtures, lay, light, slots, viewing};

@@ -1,8 +1,8 @@
 //! Pictures with several pixels a cell.
 
-use render::field::Field;
-use render::paint::document::{Document, Lighting};
-use render::paint::scene::{PixelsPerCell, fine_picture, picture, scene};
+use graphics::field::Field;
+use paint::document::{Document, Lighting};
+use paint::scene::{PixelsPerCell, fine_picture, picture, scene};
 
 use crate::made_up::{document, glazes_over_mixtures, lay, light};
 

@@ -1,8 +1,8 @@
 //! Colours of thin films that no screen shows.
 
-use render::layer::SLOTS;
-use render::paint::document::Slots;
-use render::paint::scene::{picture, scene};
+use paint::document::Slots;
+use paint::layer::SLOTS;
+use paint::scene::{picture, scene};
 use spectra::color::{Lab, Lch, Rgb, RgbSpace};
 
 use crate::made_up::{document, lay, light};

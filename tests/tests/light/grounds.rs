@@ -1,10 +1,10 @@
 //! Grounds: relief, reflectance and gloss of each kind, and refusal of invalid descriptions.
 
 use calibrate::evaluate::Viewing;
-use render::amount::QUANTA_PER_CELL;
-use render::paint::ground::{Ground, GroundError, GroundSpec};
+use documents::hint::Explain;
+use paint::amount::QUANTA_PER_CELL;
+use paint::ground::{Ground, GroundError, GroundSpec};
 use spectra::color::{Adaptation, RgbSpace};
-use spectra::hint::Explain;
 
 use crate::made_up::{CELL_MM, oils};
 

@@ -2,15 +2,15 @@
 
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
+use graphics::field::Field;
+use paint::amount::quanta_from_mm;
+use paint::document::{Document, LayerId, Lighting, Medium, Slots};
+use paint::ground::Ground;
+use paint::layer::Layer;
+use paint::light::Light;
+use paint::optics::Gloss;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::amount::quanta_from_mm;
-use render::field::Field;
-use render::layer::Layer;
-use render::light::Light;
-use render::optics::Gloss;
-use render::paint::document::{Document, LayerId, Lighting, Medium, Slots};
-use render::paint::ground::Ground;
 use spectra::{Observer, light_from_text};
 pub(crate) use suite::oils::library as oils;
 

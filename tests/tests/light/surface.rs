@@ -1,14 +1,14 @@
 //! Shading of relief and gloss.
 
 use calibrate::evaluate::Viewing;
+use paint::document::Lighting;
+use paint::ground::GroundSpec;
+use paint::light::Light;
+use paint::optics::{Gloss, Scene};
+use paint::scene::{picture, scene};
+use paint::shade::{MOST, SOFT, TopMaterial, Tops, reach, shade_row};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::light::Light;
-use render::optics::{Gloss, Scene};
-use render::paint::document::Lighting;
-use render::paint::ground::GroundSpec;
-use render::paint::scene::{picture, scene};
-use render::shade::{MOST, SOFT, TopMaterial, Tops, reach, shade_row};
 
 use TopMaterial::{Dry, Ground, Wet};
 
@@ -37,7 +37,7 @@ fn lit(scene: &Scene, slopes: (f32, f32), material: TopMaterial) -> f32 {
 }
 
 fn studio(lighting: Lighting) -> Scene {
-    let document = render::paint::document::Document { lighting, ..document(1, 1, &[]) };
+    let document = paint::document::Document { lighting, ..document(1, 1, &[]) };
     scene(&document, &Light::new(&document.library, &Viewing::default()).unwrap())
 }
 
@@ -235,7 +235,7 @@ fn a_row_may_be_cut_anywhere() {
                 [(&document.dry[0].paint, &scene.dry[0]), (&document.wet, &scene.wet)]
             {
                 let cells = layer.pigments.row(y, first, count);
-                render::composite::composite_row(coat, cells, &mut internal);
+                paint::composite::composite_row(coat, cells, &mut internal);
             }
             let materials: Vec<TopMaterial> = (first..first + count)
                 .map(|x| {

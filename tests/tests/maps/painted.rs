@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use calibrate::PigmentLibrary;
-use render::amount::quanta_from_mm;
-use render::field::Field;
-use render::layer::Layer;
-use render::optics::Gloss;
-use render::paint::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
-use render::paint::file;
-use render::paint::ground::Ground;
+use graphics::field::Field;
+use paint::amount::quanta_from_mm;
+use paint::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
+use paint::file;
+use paint::ground::Ground;
+use paint::layer::Layer;
+use paint::optics::Gloss;
 use suite::oils::library;
 
 const CELL_MM: f64 = 0.1;

@@ -6,7 +6,7 @@ use calibrate::matching::{
     ColorTarget, MatchError, MatchOptions, Metric, RecipeMatch, RequiredName, SpectrumWeights,
     Thickness, ToleranceOrigin,
 };
-use spectra::hint::Explain;
+use documents::hint::Explain;
 use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum, Viewing};
 
 use super::{conditions, oils};

@@ -1,9 +1,9 @@
 //! Continuous adjustments, gloss, the memory limit of undo, and setting the paint on a brush.
 
-use render::optics::Gloss;
-use render::paint::brush::HeadShape;
-use render::paint::document::Lighting;
-use render::paint::painting::{LayerRef, PaintingError};
+use paint::brush::HeadShape;
+use paint::document::Lighting;
+use paint::optics::Gloss;
+use paint::painting::{LayerRef, PaintingError};
 
 use super::studio::{WHITE, along, bare, crossing, loaded, on_both, pure};
 

@@ -2,10 +2,10 @@
 //! full spectrum.
 
 use calibrate::evaluate::Viewing;
-use render::paint::brush::HeadShape;
-use render::paint::document::{Document, Lighting};
-use render::paint::painting::{LayerRef, Painting};
-use render::paint::scene::SpectralDocument;
+use paint::brush::HeadShape;
+use paint::document::{Document, Lighting};
+use paint::painting::{LayerRef, Painting};
+use paint::scene::SpectralDocument;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
 
 use super::studio::{

@@ -2,9 +2,9 @@
 //! with those settings from the start.
 
 use calibrate::PigmentId;
-use render::paint::brush::HeadShape;
-use render::paint::document::{Document, Lighting, Slots};
-use render::paint::painting::{LayerRef, Painting, PaintingError, UNDO_BYTES};
+use paint::brush::HeadShape;
+use paint::document::{Document, Lighting, Slots};
+use paint::painting::{LayerRef, Painting, PaintingError, UNDO_BYTES};
 
 use super::studio::{
     RED, YELLOW, along, bare, crossing, differences, loaded, on_both, on_cpu, pigment, pure,
@@ -34,7 +34,7 @@ fn relighting_gives_what_a_painting_opened_under_that_light_shows() {
         painting.relight(lamp.clone()).unwrap();
         let relit = painting.picture().unwrap();
         let document = painting.document().unwrap();
-        let engine = render::paint::engine::PaintEngine::on_cpu(document.ground.height.clone());
+        let engine = paint::engine::PaintEngine::on_cpu(document.ground.height.clone());
         let mut opened = Painting::open(document, engine, UNDO_BYTES).unwrap();
         let off = differences(&relit, &opened.picture().unwrap());
         assert!(off[off.len() - 1] < 0.01, "{:?} off", off.last());

@@ -1,13 +1,13 @@
 //! Conservation of paint: strokes, drying, undo and redo neither create nor lose a quantum of any
 //! pigment or of vehicle.
 
+use paint::amount::{MAX_COLUMN, mm_from_quanta};
+use paint::brush::HeadShape;
+use paint::engine::BrushId;
+use paint::layer::{Layer, SLOTS};
+use paint::painting::Painting;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::amount::{MAX_COLUMN, mm_from_quanta};
-use render::layer::{Layer, SLOTS};
-use render::paint::brush::HeadShape;
-use render::paint::engine::BrushId;
-use render::paint::painting::Painting;
 
 use super::studio::{CELL_MM, along, bare, on_both, tell};
 
@@ -102,6 +102,6 @@ fn a_brush_filled_again_and_again_piles_no_cell_full() {
         assert!(highest < MAX_COLUMN / 2, "{highest} quanta on {}", painting.backend());
         // Columns this high can still be dried and saved.
         painting.dry(1.0).unwrap();
-        assert!(render::paint::file::write(&painting.document().unwrap()).is_ok(), "not saved");
+        assert!(paint::file::write(&painting.document().unwrap()).is_ok(), "not saved");
     }
 }

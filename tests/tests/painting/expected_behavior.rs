@@ -1,12 +1,12 @@
 //! Expected behaviour of paint: wet mixing, contact with the weave, pick-up by a clean brush, and
 //! limits of brushes and columns.
 
-use render::amount::{MAX_COLUMN, QUANTA_PER_CELL};
-use render::layer::Layer;
-use render::paint::brush::HeadShape;
-use render::paint::engine::BrushId;
-use render::paint::painting::{Painting, PaintingError};
-use render::paint::pose::Sample;
+use paint::amount::{MAX_COLUMN, QUANTA_PER_CELL};
+use paint::brush::HeadShape;
+use paint::engine::BrushId;
+use paint::layer::Layer;
+use paint::painting::{Painting, PaintingError};
+use paint::pose::Sample;
 use spectra::color::Lab;
 
 use super::studio::{
@@ -180,7 +180,7 @@ fn paint_too_high_for_whole_numbers_is_refused_when_opened() {
     for _ in 0..2 {
         document.push_dry(slots, layer.clone());
     }
-    let engine = render::paint::engine::PaintEngine::on_cpu(document.ground.height.clone());
+    let engine = paint::engine::PaintEngine::on_cpu(document.ground.height.clone());
     let error = Painting::open(document, engine, 0).unwrap_err();
     assert!(matches!(error, PaintingError::TooHigh { x: 17, y: 1 }), "{error}");
 }

@@ -163,7 +163,7 @@ fn what_a_script_saves_is_checked_before_it_paints() {
     let run = paint(folder, UNDO, good);
     assert_eq!(run.status, 0, "{}", run.err);
     let bytes = std::fs::read(folder.join("sub/a.exr")).unwrap();
-    let document = render::paint::file::read("a.exr", &bytes).unwrap();
+    let document = paint::file::read("a.exr", &bytes).unwrap();
     assert_eq!((document.title.as_str(), document.dry.len()), ("A trial", 1));
     assert!(folder.join("sub/a.png").exists(), "no picture");
     assert!(SCRIPT.contains(document.title.as_str()));

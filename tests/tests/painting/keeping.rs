@@ -1,14 +1,14 @@
 //! Saving, drying, merging and exporting keep the colours of the picture.
 
+use documents::hint::Explain;
+use graphics::export::{linear_exr, png8, png16};
+use graphics::field::Field;
 use image::ImageDecoder;
-use render::export::{linear_exr, png8, png16};
-use render::field::Field;
-use render::paint::brush::HeadShape;
-use render::paint::file;
-use render::paint::painting::{LayerRef, MERGE_TOLERANCE, Painting, PaintingError};
-use render::paint::scene::SpectralDocument;
+use paint::brush::HeadShape;
+use paint::file;
+use paint::painting::{LayerRef, MERGE_TOLERANCE, Painting, PaintingError};
+use paint::scene::SpectralDocument;
 use spectra::color::{Adaptation, Rgb, RgbSpace};
-use spectra::hint::Explain;
 
 use super::studio::{
     BLUE, CELL_MM, WHITE, YELLOW, along, bare, crossing, differences, loaded, on_both, on_cpu,
@@ -180,7 +180,7 @@ fn a_spectral_export_at_the_nodes_has_the_colors_that_were_shown() {
         })
         .collect();
     let bytes =
-        render::export::spectral_exr(&flat, &quadrature.rule.nodes_nm, &planes, CELL_MM).unwrap();
+        paint::export::spectral_exr(&flat, &quadrature.rule.nodes_nm, &planes, CELL_MM).unwrap();
     let channels = exr_channels(&bytes);
     let mut nodes: Vec<(f64, &Vec<f32>)> = channels
         .iter()

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use render::paint::file;
+use paint::file;
 
 use super::program::{SCRIPT, place, script};
 

@@ -1,18 +1,18 @@
 //! Helpers: sessions with a canvas and a palette, and random actions in them.
 
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use render::layer::Layer;
-use render::optics::Gloss;
-use render::paint::brush::HeadShape;
-use render::paint::document::{Document, Lighting};
-use render::paint::engine::PaintEngine;
-use render::paint::painting::UNDO_BYTES;
-use render::paint::pose::Sample;
-use render::paint::session::{Outcome, PaintingSession};
-use render::paint::strokes::{
+use paint::brush::HeadShape;
+use paint::document::{Document, Lighting};
+use paint::engine::PaintEngine;
+use paint::layer::Layer;
+use paint::optics::Gloss;
+use paint::painting::UNDO_BYTES;
+use paint::pose::Sample;
+use paint::session::{Outcome, PaintingSession};
+use paint::strokes::{
     Action, BrushSpec, LayerRef, Load, PaletteSpec, Squeeze, StrokeScript, SurfaceId,
 };
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use super::studio::{PALETTE, gpu_engine, oils, open};
 

@@ -1,15 +1,15 @@
 //! Strokes extended in portions: any division into portions gives the paint and the undo of the
 //! whole stroke.
 
+use documents::hint::Explain;
+use paint::brush::{HeadMesh, HeadShape};
+use paint::engine::BrushId;
+use paint::layer::Layer;
+use paint::painting::{Painting, PaintingError};
+use paint::pose::Sample;
+use paint::stroke::StrokeError;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::layer::Layer;
-use render::paint::brush::{HeadMesh, HeadShape};
-use render::paint::engine::BrushId;
-use render::paint::painting::{Painting, PaintingError};
-use render::paint::pose::Sample;
-use render::paint::stroke::StrokeError;
-use spectra::hint::Explain;
 
 use super::studio::{BLUE, WHITE, along, bare, crossing, loaded, on_both};
 

@@ -1,8 +1,8 @@
 //! Paint and reflectance read from a rectangle of a painting.
 
-use render::paint::painting::{LayerRef, PaintingError};
-use render::paint::scene::SpectralDocument;
-use render::tile::Rect;
+use graphics::tile::Rect;
+use paint::painting::{LayerRef, PaintingError};
+use paint::scene::SpectralDocument;
 
 use super::studio::{bare, crossing, on_both};
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use calibrate::PigmentId;
-use render::amount::mm_from_quanta;
-use render::layer::SLOTS;
+use paint::amount::mm_from_quanta;
+use paint::layer::SLOTS;
 use suite::program::{Run, impasto};
 
 /// A script with most actions, on a canvas of 120 x 80 cells.
@@ -177,7 +177,7 @@ fn pigment_maps_sum_all_layers() {
     assert!(names.iter().any(|name| name.ends_with(".csv")), "{names:?}");
     assert!(names.iter().all(|name| !name.starts_with('.')), "{names:?}");
 
-    let document = render::paint::file::read("a.exr", &std::fs::read(&painting).unwrap()).unwrap();
+    let document = paint::file::read("a.exr", &std::fs::read(&painting).unwrap()).unwrap();
     let dry = document.dry.iter().map(|layer| (&layer.slots, &layer.paint));
     let layers: Vec<_> = dry.chain([(&document.slots, &document.wet)]).collect();
     assert!(layers.len() > 1, "no dry layer to sum");

@@ -3,13 +3,13 @@
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
+use paint::brush::HeadShape;
+use paint::document::{Document, Lighting};
+use paint::layer::SLOTS;
+use paint::painting::Painting;
+use paint::session::{PaintingSession, ReplayReport};
+use paint::strokes::{Action, LayerRef, Load, StrokeScript, SurfaceId};
 use rand::RngExt;
-use render::layer::SLOTS;
-use render::paint::brush::HeadShape;
-use render::paint::document::{Document, Lighting};
-use render::paint::painting::Painting;
-use render::paint::session::{PaintingSession, ReplayReport};
-use render::paint::strokes::{Action, LayerRef, Load, StrokeScript, SurfaceId};
 
 use super::painted_sessions::{
     BACKENDS, Backend, Whole, header, live, load, loaded, seeded, set_up, something, spec, squeeze,
@@ -156,7 +156,7 @@ fn a_session_may_go_on_with_a_painting() {
 /// `document` on the CPU under its own light, which may differ from daylight.
 fn on_cpu_lit(document: Document) -> Painting {
     let engine = BACKENDS[0](&document).unwrap();
-    Painting::open(document, engine, render::paint::painting::UNDO_BYTES).unwrap()
+    Painting::open(document, engine, paint::painting::UNDO_BYTES).unwrap()
 }
 
 #[test]

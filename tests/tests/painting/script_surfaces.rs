@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use render::amount::mm_from_quanta;
-use render::paint::document::Document;
+use paint::amount::mm_from_quanta;
+use paint::document::Document;
 use suite::program::{Run, impasto};
 
 use super::program::place;
@@ -46,7 +46,7 @@ fn painted(script: &str, output: &str) -> Document {
     let run = paint(script, &["--output", output]);
     assert_eq!(run.status, 0, "{}", run.err);
     assert!(run.err.lines().all(|line| line.starts_with("Wrote ")), "{}", run.err);
-    render::paint::file::read(output, &std::fs::read(output).unwrap()).unwrap()
+    paint::file::read(output, &std::fs::read(output).unwrap()).unwrap()
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Stiffness of the medium: fluid paint levels after a stroke, stiff paint keeps its furrows.
 
-use render::layer::Layer;
-use render::paint::brush::HeadShape;
+use paint::brush::HeadShape;
+use paint::layer::Layer;
 
 use super::studio::{BLUE, along, bare_on, loaded, on_both};
 

@@ -1,15 +1,15 @@
 //! Sessions with a canvas and a palette: brushes used on both, one history and one light.
 
-use render::amount::mm_from_quanta;
-use render::layer::SLOTS;
-use render::optics::Gloss;
-use render::paint::brush::HeadShape;
-use render::paint::document::{Lighting, Medium};
-use render::paint::history::TILE_BYTES;
-use render::paint::painting::PaintingError;
-use render::paint::session::{Outcome, PaintingSession, SessionError};
-use render::paint::strokes::{Action, LayerRef, PaletteSpec, SurfaceId};
-use spectra::hint::Explain;
+use documents::hint::Explain;
+use paint::amount::mm_from_quanta;
+use paint::brush::HeadShape;
+use paint::document::{Lighting, Medium};
+use paint::history::TILE_BYTES;
+use paint::layer::SLOTS;
+use paint::optics::Gloss;
+use paint::painting::PaintingError;
+use paint::session::{Outcome, PaintingSession, SessionError};
+use paint::strokes::{Action, LayerRef, PaletteSpec, SurfaceId};
 
 use super::painted_sessions::{
     BACKENDS, header, live, load, loaded, seeded, sessions, set_up, something, spec, squeeze,
@@ -329,7 +329,7 @@ fn what_cannot_be_is_told_as_in_a_script() {
 fn surfaces_that_do_not_go_together_are_refused() {
     let (canvas, palette) = header().surfaces(super::studio::oils(), None).unwrap();
     let palette = palette.unwrap();
-    let together = |change: fn(&mut render::paint::document::Document)| {
+    let together = |change: fn(&mut paint::document::Document)| {
         let mut palette = palette.clone();
         change(&mut palette);
         let (canvas, palette) =

@@ -1,12 +1,12 @@
 //! Squeezing paint onto a surface, and scraping wet paint off.
 
-use render::amount::{QUANTA_PER_CELL, mm_from_quanta};
-use render::layer::SLOTS;
-use render::paint::brush::HeadShape;
-use render::paint::history::TILE_BYTES;
-use render::paint::painting::{Painting, PaintingError};
-use render::tile::{Rect, TileSet};
-use spectra::hint::Explain;
+use documents::hint::Explain;
+use graphics::tile::{Rect, TileSet};
+use paint::amount::{QUANTA_PER_CELL, mm_from_quanta};
+use paint::brush::HeadShape;
+use paint::history::TILE_BYTES;
+use paint::layer::SLOTS;
+use paint::painting::{Painting, PaintingError};
 
 use super::studio::{BLUE, CELL_MM, WHITE, YELLOW, along, bare, bare_on, loaded, on_both, pure};
 

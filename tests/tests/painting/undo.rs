@@ -1,18 +1,18 @@
 //! Undo and redo of every kind of action restore paint, brushes and picture bit for bit.
 
 use calibrate::PigmentId;
+use graphics::field::Field;
+use paint::brush::HeadShape;
+use paint::document::{Document, Lighting};
+use paint::engine::BrushId;
+use paint::engine::PaintEngine;
+use paint::history::TILE_BYTES;
+use paint::layer::Layer;
+use paint::light::Light;
+use paint::optics::Gloss;
+use paint::painting::{LayerRef, Painting, UNDO_BYTES};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::field::Field;
-use render::layer::Layer;
-use render::optics::Gloss;
-use render::paint::brush::HeadShape;
-use render::paint::document::{Document, Lighting};
-use render::paint::engine::BrushId;
-use render::paint::engine::PaintEngine;
-use render::paint::history::TILE_BYTES;
-use render::paint::light::Light;
-use render::paint::painting::{LayerRef, Painting, UNDO_BYTES};
 
 use super::studio::{
     BLUE, PALETTE, WHITE, YELLOW, along, bare, crossing, loaded, on_both, on_cpu, open, pigment,

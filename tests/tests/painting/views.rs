@@ -1,11 +1,11 @@
 //! Incremental pictures: `refresh` renders and reports the changed tiles only, and reading those
 //! keeps a window correct.
 
-use render::field::Field;
-use render::paint::brush::HeadShape;
-use render::paint::document::Lighting;
-use render::paint::painting::{LayerRef, Painting};
-use render::tile::{Rect, TileSet};
+use graphics::field::Field;
+use graphics::tile::{Rect, TileSet};
+use paint::brush::HeadShape;
+use paint::document::Lighting;
+use paint::painting::{LayerRef, Painting};
 
 use super::studio::{
     BLUE, CELL_MM, WHITE, along, bare, crossing, loaded, on_both, on_cpu, on_gpu, pigment, pure,

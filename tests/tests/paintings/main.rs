@@ -2,32 +2,32 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-#[path = "../../../render/examples/paintings/color_study.rs"]
+#[path = "../../../render/paint/examples/paintings/color_study.rs"]
 mod color_study;
 
-#[path = "../../../render/examples/paintings/script_builder.rs"]
+#[path = "../../../render/paint/examples/paintings/script_builder.rs"]
 mod script_builder;
 
-#[path = "../../../render/examples/paintings/glaze.rs"]
+#[path = "../../../render/paint/examples/paintings/glaze.rs"]
 mod glaze;
 
-#[path = "../../../render/examples/paintings/field_path.rs"]
+#[path = "../../../render/paint/examples/paintings/field_path.rs"]
 mod field_path;
 
-#[path = "../../../render/examples/paintings/growth.rs"]
+#[path = "../../../render/paint/examples/paintings/growth.rs"]
 mod growth;
 
-#[path = "../../../render/examples/paintings/landscape.rs"]
+#[path = "../../../render/paint/examples/paintings/landscape.rs"]
 mod landscape;
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use render::field::Field;
-use render::paint::engine::PaintEngine;
-use render::paint::painting::{Painting, UNDO_BYTES};
-use render::paint::session::{PaintingSession, ReplayReport};
-use render::paint::strokes::StrokeScript;
+use graphics::field::Field;
+use paint::engine::PaintEngine;
+use paint::painting::{Painting, UNDO_BYTES};
+use paint::session::{PaintingSession, ReplayReport};
+use paint::strokes::StrokeScript;
 use suite::program::repository;
 
 fn shipped(name: &str) -> String {

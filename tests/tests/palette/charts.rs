@@ -6,8 +6,8 @@ use calibrate::library::AmountKind;
 use calibrate::palette::{
     Cards, Palette, PaletteError, TINTS, drawdowns, mixing_chart, tint_ladders,
 };
+use documents::hint::Explain;
 use spectra::color::delta_e_ciede2000;
-use spectra::hint::Explain;
 
 use crate::made::{Oils, even, five, grid, library, recipe};
 

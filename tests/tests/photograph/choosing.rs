@@ -1,10 +1,10 @@
 //! Choosing the palette for a photograph from the pigments of a library.
 
 use calibrate::PigmentId;
-use render::field::Field;
-use render::layer::SLOTS;
-use render::paint::document::Slots;
-use render::photograph::{
+use graphics::field::Field;
+use paint::document::Slots;
+use paint::layer::SLOTS;
+use strokes::{
     ChosenPalette, PaintFilm, Picture, SeparationError, SeparationSettings, choose_palette,
 };
 
@@ -12,9 +12,8 @@ use crate::made::STUDIO;
 
 fn chosen(picture: &Picture) -> ChosenPalette {
     let materials = STUDIO.materials(&[None; SLOTS]);
-    let film = |materials: render::photograph::FilmMaterials<'_>| {
-        PaintFilm::at_nodes(materials, &STUDIO.quadrature)
-    };
+    let film =
+        |materials: strokes::FilmMaterials<'_>| PaintFilm::at_nodes(materials, &STUDIO.quadrature);
     choose_palette(picture, materials, film, &SeparationSettings::default()).unwrap()
 }
 
@@ -64,10 +63,9 @@ fn a_library_of_unknown_scattering_is_refused() {
     let mut library = STUDIO.library.clone();
     library.pigments.iter_mut().for_each(|pigment| pigment.identified = false);
     let materials = STUDIO.materials(&[None; SLOTS]);
-    let materials = render::photograph::FilmMaterials { library: &library, ..materials };
-    let film = |materials: render::photograph::FilmMaterials<'_>| {
-        PaintFilm::at_nodes(materials, &STUDIO.quadrature)
-    };
+    let materials = strokes::FilmMaterials { library: &library, ..materials };
+    let film =
+        |materials: strokes::FilmMaterials<'_>| PaintFilm::at_nodes(materials, &STUDIO.quadrature);
     let picture = Field::filled(2, 2, [0.5; 3]);
     let found = choose_palette(&picture, materials, film, &SeparationSettings::default());
     assert_eq!(found, Err(SeparationError::NoPigment));

@@ -5,11 +5,11 @@ use std::sync::LazyLock;
 use calibrate::evaluate::Viewing;
 use calibrate::library::PigmentLibrary;
 use calibrate::quadrature::EffectiveQuadrature;
+use paint::document::{Medium, Slots};
+use paint::layer::SLOTS;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::layer::SLOTS;
-use render::paint::document::{Medium, Slots};
-use render::photograph::{FilmMaterials, PaintFilm, Picture, Separation, SeparationSettings};
+use strokes::{FilmMaterials, PaintFilm, Picture, Separation, SeparationSettings};
 use suite::program::repository;
 
 /// The shipped oils, eight wavelengths for daylight, and a white ground.

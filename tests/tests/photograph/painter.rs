@@ -4,13 +4,13 @@
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use render::field::Field;
-use render::paint::document::Document;
-use render::paint::engine::PaintEngine;
-use render::paint::painting::Painting;
-use render::paint::session::{PaintingSession, ReplayReport};
-use render::paint::strokes::{Action, Canvas, PaletteSpec, StrokeScript};
-use render::photograph::{
+use graphics::field::Field;
+use paint::document::Document;
+use paint::engine::PaintEngine;
+use paint::painting::Painting;
+use paint::session::{PaintingSession, ReplayReport};
+use paint::strokes::{Action, Canvas, PaletteSpec, StrokeScript};
+use strokes::{
     LevelReport, PaintProgress, Painter, Picture, Plan, black_compensated, plan_layer,
     rebuild_picture,
 };

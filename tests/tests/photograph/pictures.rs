@@ -2,13 +2,13 @@
 
 use std::io::Cursor;
 
+use documents::hint::{Explain, Fault};
 use image::{
     DynamicImage, ExtendedColorType, GrayAlphaImage, GrayImage, ImageEncoder, ImageFormat,
     RgbImage, RgbaImage,
 };
-use render::photograph::{MOST_PIXELS, Photograph, PhotographError};
 use spectra::color::Rgb;
-use spectra::hint::{Explain, Fault};
+use strokes::{MOST_PIXELS, Photograph, PhotographError};
 
 fn png(image: impl Into<DynamicImage>) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());

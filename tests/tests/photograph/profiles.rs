@@ -2,14 +2,14 @@
 
 use std::io::Cursor;
 
+use documents::hint::{Explain, Fault};
 use image::codecs::jpeg::JpegEncoder;
 use image::codecs::png::PngEncoder;
 use image::codecs::webp::WebPEncoder;
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, ImageFormat, RgbImage};
 use moxcms::ColorProfile;
-use render::photograph::{Photograph, PhotographError};
 use spectra::color::Rgb;
-use spectra::hint::{Explain, Fault};
+use strokes::{Photograph, PhotographError};
 
 type Deep = image::ImageBuffer<image::Rgb<u16>, Vec<u16>>;
 

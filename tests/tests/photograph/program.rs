@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use render::export::png8;
-use render::field::Field;
-use render::light::Light;
-use render::paint::document::Medium;
-use render::paint::ground::GroundSpec;
-use render::photograph::{
+use graphics::export::png8;
+use graphics::field::Field;
+use paint::document::Medium;
+use paint::ground::GroundSpec;
+use paint::light::Light;
+use strokes::{
     ColorErrors, FilmMaterials, PaintFilm, Photograph, Separation, SeparationSettings,
     black_compensated, rebuild_picture,
 };

@@ -1,13 +1,13 @@
 //! Separation of colours into heights of pigments, and the colours of the films rebuilt.
 
+use graphics::field::Field;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::field::Field;
-use render::photograph::{
+use spectra::color::{Rgb, delta_e_ciede2000};
+use strokes::{
     ColorErrors, PaintFilm, Picture, Separation, SeparationError, SeparationSettings,
     black_compensated, rebuild_picture,
 };
-use spectra::color::{Rgb, delta_e_ciede2000};
 
 use crate::made::{HIDING, STUDIO, THIN, mixtures};
 
@@ -117,7 +117,7 @@ fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
     let black = vec![0.03; STUDIO.library.grid.count()];
     let materials = STUDIO.materials(&STUDIO.slots);
     let over_black = PaintFilm::at_nodes(
-        render::photograph::FilmMaterials { ground: &black, ..materials },
+        strokes::FilmMaterials { ground: &black, ..materials },
         &STUDIO.quadrature,
     );
     let shows = |separation: &Separation| {

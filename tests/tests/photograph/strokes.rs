@@ -1,9 +1,7 @@
 //! Planning the strokes of a layer: direction, geometry, coverage, order and limits.
 
-use render::field::Field;
-use render::photograph::{
-    Order, Picture, Plan, PlanError, PlannedStroke, plan_layer, rebuild_picture,
-};
+use graphics::field::Field;
+use strokes::{Order, Picture, Plan, PlanError, PlannedStroke, plan_layer, rebuild_picture};
 
 use crate::made::HIDING;
 

@@ -10,12 +10,12 @@ use calibrate::plan::{
     Information, PaintSet, PlanError, PlanOptions, SwatchRecipe, candidates, optimal, usual,
 };
 use calibrate::{PigmentId, Recipe};
+use documents::Cancellation;
+use documents::hint::Explain;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use spectra::Cancellation;
-use spectra::hint::Explain;
 use spectra::optics::absorption_over_scattering;
 
 use crate::painted::oils;

@@ -1,9 +1,9 @@
 //! Invalid stroke scripts: errors with location, expected range and hint, and no panic.
 
+use documents::hint::Explain;
+use paint::pose::Sample;
+use paint::strokes::{Action, MAX_FILE_BYTES, MAX_SAMPLES, ScriptError, StrokeScript};
 use proptest::prelude::*;
-use render::paint::pose::Sample;
-use render::paint::strokes::{Action, MAX_FILE_BYTES, MAX_SAMPLES, ScriptError, StrokeScript};
-use spectra::hint::Explain;
 
 use crate::{SOUND, refused};
 

@@ -8,8 +8,8 @@ mod pigments;
 mod round_trip;
 mod surfaces;
 
-use render::paint::strokes::{Action, ScriptError, StrokeScript};
-use spectra::hint::Explain;
+use documents::hint::Explain;
+use paint::strokes::{Action, ScriptError, StrokeScript};
 
 /// A script with every action.
 const SOUND: &str = r##"{

@@ -1,12 +1,12 @@
 //! Pigments of a script by name: resolving, unknown names, and pigments off the palette.
 
-use render::paint::strokes::{ActionPigments, StrokeScript};
-use spectra::hint::Explain;
+use documents::hint::Explain;
+use paint::strokes::{ActionPigments, StrokeScript};
 use suite::oils::library;
 
 use crate::SOUND;
 
-fn resolved(from: &str, to: &str) -> Result<render::paint::strokes::Resolved, (String, String)> {
+fn resolved(from: &str, to: &str) -> Result<paint::strokes::Resolved, (String, String)> {
     let script = StrokeScript::from_json("a.json", SOUND.replace(from, to).as_bytes()).unwrap();
     let told = script.resolve(&library());
     told.map_err(|error| {

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use proptest::prelude::*;
-use render::optics::Gloss;
-use render::paint::brush::HeadShape;
-use render::paint::document::{LayerId, Lighting, Medium};
-use render::paint::ground::GroundSpec;
-use render::paint::pose::Sample;
-use render::paint::strokes::{
+use paint::brush::HeadShape;
+use paint::document::{LayerId, Lighting, Medium};
+use paint::ground::GroundSpec;
+use paint::optics::Gloss;
+use paint::pose::Sample;
+use paint::strokes::{
     Action, BrushSpec, Canvas, LayerRef, Load, MaskChange, PaletteSpec, Squeeze, Stroke,
     StrokeScript, StrokeTool, SurfaceId,
 };
+use proptest::prelude::*;
 
 use crate::SOUND;
 

@@ -1,12 +1,10 @@
 //! Scripts with a mixing palette, and scripts that continue a painting.
 
-use render::layer::SLOTS;
-use render::optics::Gloss;
-use render::paint::document::Document;
-use render::paint::strokes::{
-    Action, ScriptError, ScriptStartError, Squeeze, StrokeScript, SurfaceId,
-};
-use spectra::hint::Explain;
+use documents::hint::Explain;
+use paint::document::Document;
+use paint::layer::SLOTS;
+use paint::optics::Gloss;
+use paint::strokes::{Action, ScriptError, ScriptStartError, Squeeze, StrokeScript, SurfaceId};
 
 use crate::SOUND;
 
@@ -156,7 +154,7 @@ fn any_number_of_cells_comes_back_from_a_script() {
         let mut document = painting();
         document.cell_mm = cell_mm;
         for cells in (1..3000).step_by(7) {
-            let row = render::field::Field::filled(cells, 1, 0);
+            let row = graphics::field::Field::filled(cells, 1, 0);
             document.ground.height = row;
             let found = StrokeScript::continue_from("a.exr", &document).canvas.cells();
             assert_eq!(found, (cells, 1), "cells of {cell_mm} mm");

@@ -1,8 +1,8 @@
 //! Camera paths: interpolation of keyframes, closed paths, and invalid files.
 
+use documents::hint::Explain;
 use glam::Vec3;
-use render::camera::{Camera, CameraPath, CameraPathError};
-use spectra::hint::Explain;
+use graphics::camera::{Camera, CameraPath, CameraPathError};
 
 const PATH: &str = "
 frames = 9

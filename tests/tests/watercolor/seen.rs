@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use glam::Vec3;
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
-use render::camera::{Camera, Framing};
-use render::mesh::{Material, Mesh, Triangle};
-use render::surface::{
+use graphics::camera::{Camera, Framing};
+use graphics::mesh::{Material, Mesh, Triangle};
+use graphics::surface::{
     Fragment, NO_TRIANGLE, Rasteriser, Sides, VisibilityBuffer, position_at, visible,
 };
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 /// A mesh of triangles that share no vertex.
 pub(crate) fn loose(triangles: &[[Vec3; 3]]) -> Mesh {

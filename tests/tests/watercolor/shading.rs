@@ -1,17 +1,17 @@
 //! Visibility of meshes and toon shading, on CPU and GPU.
 
 use glam::{Vec2, Vec3};
+use graphics::camera::{Camera, Framing};
+use graphics::compute::Compute;
+use graphics::distant_light::DistantLight;
+use graphics::field::Field;
+use graphics::gpu::DeviceError;
+use graphics::mesh::{Material, Mesh, Texture};
+use graphics::surface::{Model, NO_TRIANGLE, PackedMesh, RASTER, VisibilityBuffer, position_at};
+use graphics::tones::ToneRamp;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use render::camera::{Camera, Framing};
-use render::compute::Compute;
-use render::distant_light::DistantLight;
-use render::field::Field;
-use render::gpu::DeviceError;
-use render::mesh::{Material, Mesh, Texture};
-use render::surface::{Model, NO_TRIANGLE, PackedMesh, RASTER, VisibilityBuffer, position_at};
-use render::tones::ToneRamp;
-use render::watercolor::{ModelPainter, Settings, ShadowMap, Toon, shade_toon};
 use suite::adapter::device;
+use watercolor::{ModelPainter, Settings, ShadowMap, Toon, shade_toon};
 
 use super::seen::{inside_them, random_triangles};
 
@@ -39,7 +39,7 @@ fn two() -> Mesh {
     mesh.texture_coordinates
         .extend(ball.texture_coordinates.iter().map(|[u, v]| [3.0 * u - 1.0, 2.0 * v]));
     mesh.colors.extend(&ball.colors);
-    mesh.triangles.extend(ball.triangles.iter().map(|triangle| render::mesh::Triangle {
+    mesh.triangles.extend(ball.triangles.iter().map(|triangle| graphics::mesh::Triangle {
         corners: triangle.corners.map(|at| at + first),
         material: 1,
     }));
@@ -95,7 +95,7 @@ fn ball_over_floor() -> Mesh {
     let mut mesh = Mesh::sphere(2000);
     mesh.colors.fill([1.0; 3]);
     let first = mesh.positions.len();
-    let cells = render::mesh::GridSize { columns: 9, rows: 9 };
+    let cells = graphics::mesh::GridSize { columns: 9, rows: 9 };
     mesh.add_grid(cells, 0, |Vec2 { x, y }| Vec3::new(12.0 * x - 6.0, -1.5, 12.0 * y - 6.0));
     mesh.normals[first..].fill([0.0, 1.0, 0.0]);
     mesh
@@ -257,7 +257,7 @@ fn shade_is_dense_paint_and_light_is_thin() {
     let wall = |cosine: f32| {
         let mut mesh = Mesh::default();
         mesh.materials.push(Material::plain([0.6, 0.5, 1.0]));
-        let cells = render::mesh::GridSize { columns: 3, rows: 2 };
+        let cells = graphics::mesh::GridSize { columns: 3, rows: 2 };
         mesh.add_grid(cells, 0, |Vec2 { x, y }| Vec3::new(x, -y, 0.0));
         mesh.normals.fill([(1.0 - cosine * cosine).sqrt(), 0.0, cosine]);
         mesh
@@ -292,7 +292,7 @@ fn shade_is_dense_paint_and_light_is_thin() {
 fn both_sides_of_a_surface_are_lit_from_where_they_are_seen() {
     let mut mesh = Mesh::default();
     mesh.materials.push(Material::plain([0.5; 3]));
-    mesh.add_grid(render::mesh::GridSize { columns: 3, rows: 2 }, 0, |Vec2 { x, y }| {
+    mesh.add_grid(graphics::mesh::GridSize { columns: 3, rows: 2 }, 0, |Vec2 { x, y }| {
         Vec3::new(x, -y, 0.0)
     });
     let toon = Toon { light: DistantLight::with_camera(0.0, 90.0), ..Toon::default() };

@@ -1,8 +1,8 @@
 //! Reasons why a library cannot be changed as requested.
 
+use documents::hint::{Explain, Fault, Hint};
 use spectra::InterpolateError;
 use spectra::color::ColorCodeError;
-use spectra::hint::{Explain, Fault, Hint};
 
 use crate::library::RecipeError;
 

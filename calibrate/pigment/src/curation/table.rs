@@ -1,9 +1,9 @@
 //! K and S as a CSV table: one row per curve, with the columns `pigment`, `quantity` and the
 //! wavelengths in nm.
 
+use documents::hint::{Explain, Fault, Hint};
 use spectra::Grid;
 use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers, wavelength_of_header};
-use spectra::hint::{Explain, Fault, Hint};
 use spectra::optics::Surface;
 
 use super::error::CurationError;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use documents::counted;
+use documents::file::{FileError, read, write_whole};
+use documents::hint::{Explain, Fault, Hint};
 use serde_json::{Map, Value};
-use spectra::counted;
-use spectra::file::{FileError, read, write_whole};
-use spectra::hint::{Explain, Fault, Hint};
 
 use super::json::to_text;
 use super::pigment_library::PigmentLibrary;
@@ -63,7 +63,7 @@ impl PigmentLibrary {
         }
         let syntax = |error: serde_json::Error| LibraryError::Syntax {
             file: file.to_owned(),
-            reason: spectra::plain_parser_message(&error.to_string()),
+            reason: documents::plain_parser_message(&error.to_string()),
         };
         let mut value: Value = serde_json::from_str(text).map_err(syntax)?;
         let object = value.as_object_mut().ok_or_else(|| LibraryError::Format {

@@ -1,7 +1,7 @@
 //! Reasons why a recipe cannot be mixed.
 
-use spectra::did_you_mean;
-use spectra::hint::{Explain, Hint};
+use documents::did_you_mean;
+use documents::hint::{Explain, Hint};
 
 /// A recipe that cannot be mixed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,7 +1,7 @@
 //! Reasons why there are no recipes.
 
+use documents::hint::{Explain, Fault, Hint};
 use spectra::InterpolateError;
-use spectra::hint::{Explain, Fault, Hint};
 
 use crate::backing::BackingError;
 use crate::library::RecipeError;

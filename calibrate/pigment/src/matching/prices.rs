@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use documents::file::{FileError, read};
+use documents::hint::{Explain, Fault, Hint};
 use spectra::csv_table::RowNumbers;
-use spectra::file::{FileError, read};
-use spectra::hint::{Explain, Fault, Hint};
 
 use super::error::MatchError;
 use crate::library::PigmentLibrary;

@@ -1,7 +1,7 @@
 //! The search for recipes by name: options in, recipes out, with a fallback for distant targets.
 
+use documents::hint::Hint;
 use spectra::Grid;
-use spectra::hint::Hint;
 
 use super::error::MatchError;
 use super::options::{MatchOptions, ToleranceOrigin};

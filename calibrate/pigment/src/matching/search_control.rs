@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use spectra::Cancellation;
+use documents::Cancellation;
 
 /// Progress of a running search for recipes, and the request to cancel it. Shared between threads.
 #[derive(Debug, Default)]

@@ -1,7 +1,7 @@
 //! The paints of a library that can be mixed, and the colours of their mixtures.
 
+use documents::hint::{Explain, Hint};
 use spectra::TristimulusWeights;
-use spectra::hint::{Explain, Hint};
 
 use super::cards::Cards;
 use crate::appearance::Appearance;

@@ -1,6 +1,6 @@
 //! Effective K and S, fitted together with the weights and the wavelengths to films of a library.
 
-use spectra::Cancellation;
+use documents::Cancellation;
 
 use super::effective::EffectiveQuadrature;
 use super::effective_problem::{Nodes, Problem};

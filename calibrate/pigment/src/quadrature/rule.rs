@@ -1,9 +1,10 @@
 //! Wavelengths with their weights for X, Y and Z, and their colour error.
 
+use documents::Cancelled;
+use documents::hint::{Explain, Fault, Hint};
 use serde::Serialize;
 use spectra::color::{Lab, Xyz, delta_e_ciede2000};
-use spectra::hint::{Explain, Fault, Hint};
-use spectra::{Cancelled, Grid, TristimulusWeights};
+use spectra::{Grid, TristimulusWeights};
 
 use super::gauss::GaussRule;
 use super::mixtures::MixtureSet;

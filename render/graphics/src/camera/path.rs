@@ -3,10 +3,10 @@
 use std::io::{Error, ErrorKind};
 use std::path::Path;
 
+use documents::ParserReason;
+use documents::hint::{Explain, Fault, Hint};
 use glam::Vec3;
 use serde::Deserialize;
-use spectra::ParserReason;
-use spectra::hint::{Explain, Fault, Hint};
 
 use super::perspective::Camera;
 
@@ -157,7 +157,7 @@ impl CameraPath {
     pub fn open(path: &Path) -> Result<Self, CameraPathError> {
         let name = path.display().to_string();
         let unreadable = |error| CameraPathError::Unreadable { name: name.clone(), error };
-        let bytes = spectra::file::read(path).map_err(|error| {
+        let bytes = documents::file::read(path).map_err(|error| {
             unreadable(Error::new(error.reason.kind(), error.reason.to_string()))
         })?;
         let text = String::from_utf8(bytes)

@@ -226,7 +226,7 @@ mod tests {
     use image::codecs::gif::GifDecoder;
     use image::codecs::png::PngDecoder;
 
-    use spectra::hint::Explain;
+    use documents::hint::Explain;
 
     use super::*;
     use crate::field::Field;

@@ -1,6 +1,6 @@
 //! Errors of writing pictures.
 
-use spectra::hint::Explain;
+use documents::hint::Explain;
 
 /// Data that cannot be written as a picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

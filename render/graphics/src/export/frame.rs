@@ -2,10 +2,10 @@
 
 use std::io::{BufRead, Seek};
 
+use documents::counted;
+use documents::hint::{Explain, Fault, Hint};
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
-use spectra::counted;
-use spectra::hint::{Explain, Fault, Hint};
 
 use crate::field::Field;
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 use super::error::ExportError;
 use super::linear_exr::linear_exr;

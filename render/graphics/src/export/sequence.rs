@@ -9,8 +9,8 @@ use std::fs::{self, File};
 use std::io::{BufReader, Cursor, ErrorKind};
 use std::path::{Path, PathBuf};
 
+use documents::file::write_whole;
 use serde::{Deserialize, Serialize};
-use spectra::file::write_whole;
 
 use super::compressed::CompressedFrame;
 use super::frame::{Frame, FrameError, frame_png, read_frame};
@@ -234,7 +234,7 @@ fn remove(path: &Path) -> Result<(), SequenceError> {
 
 #[cfg(test)]
 mod tests {
-    use spectra::hint::Explain;
+    use documents::hint::Explain;
 
     use super::*;
     use crate::field::Field;

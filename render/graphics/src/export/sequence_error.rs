@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use spectra::file::FileError;
-use spectra::hint::{Explain, Fault, Hint};
+use documents::file::FileError;
+use documents::hint::{Explain, Fault, Hint};
 
 use super::frame::FrameError;
 

@@ -1,6 +1,6 @@
 //! Why a graphics device failed.
 
-use spectra::hint::{Explain, Fault, Hint};
+use documents::hint::{Explain, Fault, Hint};
 
 /// A graphics device failed. Computation on the processor never returns this.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

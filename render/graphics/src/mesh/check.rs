@@ -1,7 +1,7 @@
 //! Validity of a mesh: the conditions that rendering relies on.
 
-use spectra::counted_as;
-use spectra::hint::{Explain, Hint};
+use documents::counted_as;
+use documents::hint::{Explain, Hint};
 
 use super::model::Mesh;
 

@@ -1,7 +1,7 @@
 //! Segmentation: from a picture to its regions.
 
+use documents::hint::{Explain, Hint};
 use rayon::prelude::*;
-use spectra::hint::{Explain, Hint};
 
 use super::climb::{MEETING, modes};
 use super::luv::LuvPlanes;

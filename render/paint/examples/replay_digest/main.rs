@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
     let actions = words.next().ok_or("name a number of actions, then scripts")?.parse()?;
     for path in words {
-        let script = spectra::file::read(path.as_ref())?;
+        let script = documents::file::read(path.as_ref())?;
         println!("{}", replayed::digest(&script, actions)?);
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! Why a head cannot be made.
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 /// Why a head cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 /// Number of nodes of a spine, including the one in the ferrule.
 pub(super) const NODES: usize = 6;

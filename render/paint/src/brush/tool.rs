@@ -1,6 +1,6 @@
 //! Tools that work the wet paint with a clean head.
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 /// Use of a head on the wet paint below it.
 ///

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use spectra::file::{FileAction, FileError, write_whole};
-use spectra::hint::{Explain, Fault, Hint};
+use documents::file::{FileAction, FileError, write_whole};
+use documents::hint::{Explain, Fault, Hint};
 
 use super::layers::layers_file;
 use super::painting::{SpectralBands, painting_maps, spectral_file};
@@ -130,7 +130,7 @@ pub fn save_files(folder: &Path, files: &[NamedFile]) -> Result<(), FileError> {
 }
 
 fn make_folder(folder: &Path) -> Result<(), FileError> {
-    spectra::file::disk::create_dir_all(folder).map_err(|reason| FileError {
+    documents::file::disk::create_dir_all(folder).map_err(|reason| FileError {
         path: folder.to_owned(),
         action: FileAction::Write,
         reason: Arc::new(reason),

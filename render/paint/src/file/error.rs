@@ -1,8 +1,8 @@
 //! Errors of painting files.
 
+use documents::file::FileError;
+use documents::hint::{Explain, Fault, Hint};
 use pigment::library::LibraryError;
-use spectra::file::FileError;
-use spectra::hint::{Explain, Fault, Hint};
 
 /// A painting's file cannot be read, or a painting cannot be written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -13,7 +13,7 @@ impl Document {
     /// # Errors
     /// [`PaintingFileError`] if the file cannot be read or is not a valid painting.
     pub fn open(path: &Path) -> Result<Self, PaintingFileError> {
-        read(&path.display().to_string(), &spectra::file::read(path)?)
+        read(&path.display().to_string(), &documents::file::read(path)?)
     }
 
     /// Writes the painting to a file (OpenEXR, see [`crate::file`]), which is replaced as a
@@ -22,6 +22,6 @@ impl Document {
     /// # Errors
     /// [`PaintingFileError`] if the document is inconsistent or the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), PaintingFileError> {
-        Ok(spectra::file::write_whole(path, &write(self)?)?)
+        Ok(documents::file::write_whole(path, &write(self)?)?)
     }
 }

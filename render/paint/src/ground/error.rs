@@ -1,7 +1,7 @@
 //! Errors of making a ground.
 
+use documents::hint::{Explain, Hint};
 use graphics::picture_formats::NAMES;
-use spectra::hint::{Explain, Hint};
 
 /// A ground cannot be made as described.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

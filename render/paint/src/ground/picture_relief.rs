@@ -69,7 +69,7 @@ impl PictureRelief {
     fn read(&self) -> Result<image::ImageBuffer<image::Luma<u16>, Vec<u16>>, GroundError> {
         let rejected = |reason: String| GroundError::Picture { path: self.path.clone(), reason };
         let bytes =
-            spectra::file::disk::read(&self.path).map_err(|error| rejected(error.to_string()))?;
+            documents::file::disk::read(&self.path).map_err(|error| rejected(error.to_string()))?;
         if is_cut_off_jpeg(&bytes) {
             return Err(rejected(CUT_OFF.to_owned()));
         }

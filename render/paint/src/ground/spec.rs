@@ -105,7 +105,7 @@ impl GroundKind {
 #[error("a ground is linen, paper, panel or wood, found `{0}`")]
 pub struct ParseGroundKindError(pub String);
 
-impl spectra::hint::Explain for ParseGroundKindError {}
+impl documents::hint::Explain for ParseGroundKindError {}
 
 impl FromStr for GroundKind {
     type Err = ParseGroundKindError;

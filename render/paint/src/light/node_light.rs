@@ -1,11 +1,11 @@
 //! The eight wavelengths that paint is computed at under a light, and their conversion to
 //! sRGB.
 
+use documents::hint::{Explain, Fault, Hint};
 use pigment::evaluate::Viewing;
 use pigment::library::PigmentLibrary;
 use pigment::quadrature::{EffectiveQuadrature, Quadrature, QuadratureFailure};
 use spectra::color::{Adaptation, RgbSpace};
-use spectra::hint::{Explain, Fault, Hint};
 use spectra::{LightError, Observer, ObserverError, light_from_text};
 
 use super::kept;

@@ -4,9 +4,9 @@ use crate::brush::{BrushError, ToolError};
 use crate::dry_layer::LayerId;
 use crate::light::PaintLightError;
 use crate::stroke::StrokeError;
+use documents::counted;
+use documents::hint::{Explain, Fault, Hint};
 use graphics::gpu::DeviceError;
-use spectra::counted;
-use spectra::hint::{Explain, Fault, Hint};
 
 /// Why a painting refuses an action. Nothing is changed then, unless the device failed.
 #[derive(Debug, thiserror::Error)]

@@ -7,8 +7,8 @@ use crate::document::{Document, LayerId, Lighting, Medium};
 use crate::engine::PaintEngine;
 use crate::ground::GroundSpec;
 use crate::layer::{Cell, Layer};
+use documents::hint::Explain;
 use graphics::tile::Rect;
-use spectra::hint::Explain;
 
 const WIDTH: usize = 90;
 const HEIGHT: usize = 70;

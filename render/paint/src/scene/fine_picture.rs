@@ -1,7 +1,7 @@
 //! Picture of a painting at rest with several pixels a cell.
 
+use documents::hint::{Explain, Fault, Hint};
 use rayon::prelude::*;
-use spectra::hint::{Explain, Fault, Hint};
 
 use super::picture::{ALL, lay_row, tops};
 use crate::document::Document;

@@ -5,9 +5,9 @@
 //! `film_search`); between points, heights are interpolated within tetrahedra, as usual for
 //! colour tables.
 
+use documents::hint::{Explain, Hint};
 use rayon::prelude::*;
 use spectra::color::{Lab, RgbSpace, delta_e_ciede2000};
-use spectra::hint::{Explain, Hint};
 
 use super::film::PaintFilm;
 use super::film_search::{Anchor, FilmMix, FilmSearch};

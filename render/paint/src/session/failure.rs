@@ -1,6 +1,6 @@
 //! Errors of a painting session.
 
-use spectra::hint::{Explain, Fault, Hint};
+use documents::hint::{Explain, Fault, Hint};
 
 use crate::file::PaintingFileError;
 use crate::painting::PaintingError;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use spectra::hint::{Explain, Fault, Hint};
+use documents::hint::{Explain, Fault, Hint};
 
 use super::failure::SessionError;
 use super::state::{Outcome, PaintingSession};

@@ -1,6 +1,6 @@
 //! Errors of strokes.
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 use super::limits::MOST_SUBSTEPS;
 

@@ -1,6 +1,6 @@
 //! Ranges of the numbers in an action, for scripts and for actions of a user.
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 use spectra::{Observer, light_from_text};
 
 use super::action::{Action, Load, Recipe, Squeeze};

@@ -1,6 +1,6 @@
 //! Location of a value that is checked, and errors about it.
 
-use spectra::hint::Hint;
+use documents::hint::Hint;
 
 use super::error::{InvalidValue, ValueLocation};
 
@@ -66,5 +66,5 @@ pub(crate) fn did_you_mean<'a>(
     name: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<Hint> {
-    spectra::did_you_mean(name, known).map(Hint::new)
+    documents::did_you_mean(name, known).map(Hint::new)
 }

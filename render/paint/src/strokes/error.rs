@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 /// Location of a value in a script.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -107,7 +107,7 @@ fn explained(file: &str, text: &str, error: &serde_json::Error) -> ScriptError {
     let reason = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     let reason = reason.strip_suffix(&place).unwrap_or(&reason);
-    let reason = spectra::plain_parser_message(reason);
+    let reason = documents::plain_parser_message(reason);
     ScriptError::Syntax { file, line: error.line(), column: error.column(), reason }
 }
 

@@ -29,7 +29,7 @@ impl StrokeScript {
             return Ok(ScriptLibrary { library: shipped, missing: None });
         };
         let path = folder.join(name);
-        if spectra::file::disk::is_file(&path) {
+        if documents::file::disk::is_file(&path) {
             return Ok(ScriptLibrary { library: PigmentLibrary::open(path)?, missing: None });
         }
         Ok(ScriptLibrary { library: shipped, missing: Some(name.clone()) })

@@ -1,8 +1,8 @@
 //! Lookup of pigment names in a library.
 
+use documents::hint::{Explain, Hint};
 use pigment::PigmentId;
 use pigment::library::{PigmentLibrary, RecipeError};
-use spectra::hint::{Explain, Hint};
 
 use super::action::{Action, Load, Recipe, Squeeze};
 use super::check_context::{CheckContext, did_you_mean};

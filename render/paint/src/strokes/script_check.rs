@@ -1,6 +1,6 @@
 //! Checks of a whole script before it is played.
 
-use spectra::hint::Hint;
+use documents::hint::Hint;
 
 use super::action_limits::{
     ActionLimits, check_brush, check_gloss, check_light, check_palette, check_size,

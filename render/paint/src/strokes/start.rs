@@ -13,8 +13,8 @@ use super::side_table::{KeptBrush, SideTable};
 use crate::canvas::{Canvas, covering_cells};
 use crate::document::{Document, Medium, Slots};
 use crate::ground::{Ground, GroundError, GroundSpec};
+use documents::hint::{Explain, Hint};
 use graphics::tile::Rect;
-use spectra::hint::{Explain, Hint};
 
 /// Why the surfaces of a script cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,8 +1,8 @@
 //! Errors of a timelapse.
 
+use documents::file::FileError;
+use documents::hint::{Explain, Fault, Hint};
 use graphics::export::{ExportError, FrameError, SequenceError};
-use spectra::file::FileError;
-use spectra::hint::{Explain, Fault, Hint};
 
 use crate::file::PaintingFileError;
 use crate::painting::PaintingError;

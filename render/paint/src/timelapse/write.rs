@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use documents::file::write_whole;
 use graphics::export::{AnimationFormat, FrameRate, Sequence, SequenceSettings};
 use sha2::{Digest, Sha256};
-use spectra::file::write_whole;
 
 use super::error::TimelapseError;
 use super::plan::Timelapse;

@@ -1,6 +1,6 @@
 //! Strokes over and along the edge of the canvas.
 
-use render::HeadShape;
+use paint::HeadShape;
 
 use super::super::canvas::{BODY, Bench};
 use super::super::figure::{CaseReport, Figure};

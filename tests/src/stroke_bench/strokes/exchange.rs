@@ -1,8 +1,8 @@
 //! Paint that a brush takes up: a heap, and wet bands across its way.
 
-use render::HeadShape;
-use render::layer::Layer;
-use render::paint::ground::GroundKind;
+use paint::HeadShape;
+use paint::ground::GroundKind;
+use paint::layer::Layer;
 
 use super::super::canvas::{BLUE_SLOT, Bench, Easel, YELLOW};
 use super::super::figure::{CaseReport, Figure};

@@ -1,7 +1,7 @@
 //! Films over load, pressure and cell.
 
-use render::HeadShape;
-use render::paint::ground::GroundKind;
+use paint::HeadShape;
+use paint::ground::GroundKind;
 
 use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure, Panel};

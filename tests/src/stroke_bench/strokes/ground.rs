@@ -1,7 +1,7 @@
 //! Paint over a ground: the weave under a thick film, and a wall covered in pulls.
 
-use render::HeadShape;
-use render::paint::ground::GroundKind;
+use paint::HeadShape;
+use paint::ground::GroundKind;
 
 use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure};

@@ -1,7 +1,7 @@
 //! The knife: spreading, scraping, and scratching through wet paint.
 
-use render::HeadShape;
-use render::paint::ground::GroundKind;
+use paint::HeadShape;
+use paint::ground::GroundKind;
 
 use super::super::canvas::{BLUE_SLOT, BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure, Panel};

@@ -1,6 +1,6 @@
 //! Outlines of strokes, and where a mark lies under the pen.
 
-use render::HeadShape;
+use paint::HeadShape;
 
 use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure};

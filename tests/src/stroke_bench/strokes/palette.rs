@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use render::HeadShape;
+use paint::HeadShape;
 use spectra::color::Lab;
 
 use super::super::canvas::{BLUE, Bench, YELLOW};

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use render::HeadShape;
-use render::paint::BrushId;
+use paint::BrushId;
+use paint::HeadShape;
 
 use super::super::canvas::{BODY, Bench, Easel};
 use super::super::figure::{CaseReport, Figure};

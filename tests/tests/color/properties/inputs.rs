@@ -1,6 +1,6 @@
 //! Inputs of spectra, grids, lamps and lights: which are refused, and with which error.
 
-use spectra::hint::Explain;
+use documents::hint::Explain;
 use spectra::{
     Absorption, Extrapolation, Grid, GridError, Illuminant, InterpolateError, Interpolation,
     IrregularSpectrum, IrregularSpectrumError, LampError, LightError, Observer, Power, Quantity,

@@ -12,8 +12,8 @@ mod paintings;
 
 mod refusals;
 
-use render::export::png8;
-use render::field::Field;
+use graphics::export::png8;
+use graphics::field::Field;
 use suite::program::{Run, impasto};
 use tempfile::TempDir;
 

@@ -1,7 +1,7 @@
 //! Marks that `impasto artmap sample --propose` writes.
 
-use render::export::png8;
-use render::field::Field;
+use graphics::export::png8;
+use graphics::field::Field;
 
 use super::{Folder, artmap, done};
 

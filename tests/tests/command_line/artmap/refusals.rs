@@ -1,7 +1,7 @@
 //! Refusals of `impasto artmap sample`: exit status, place and way out.
 
-use render::export::png8;
-use render::field::Field;
+use graphics::export::png8;
+use graphics::field::Field;
 
 use super::{Folder, MARKS, artmap};
 

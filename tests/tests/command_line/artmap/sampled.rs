@@ -1,7 +1,7 @@
 //! `impasto artmap sample` of pictures by marks, and `impasto artmap show`.
 
-use render::export::png8;
-use render::field::Field;
+use graphics::export::png8;
+use graphics::field::Field;
 use serde_json::{Value, json};
 
 use super::{Folder, MARKS, artmap, done};

@@ -6,17 +6,17 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use glam::Vec3;
-use render::camera::Camera;
-use render::export::PictureFormat;
-use render::paint::document::Document;
-use render::volumes::script::Script;
-use render::volumes::settings;
+use graphics::camera::Camera;
+use graphics::export::PictureFormat;
+use paint::document::Document;
 use session::volumes::{
     Grip, Inside, Look, SceneImage, SceneLight, ScenePen, SceneRecording, SceneState, SceneTool,
     Subject, VolumeCommand, VolumeEvent, VolumeWorker,
 };
 use suite::program::repository;
 use tempfile::TempDir;
+use volumes::script::Script;
+use volumes::settings;
 
 use super::{done, path};
 
@@ -137,7 +137,7 @@ impl Session {
         self.painted = None;
         self.ask(VolumeCommand::Paint(2, SIZE));
         self.wait(|session| session.painted.is_some());
-        render::paint::file::write(self.painted.as_ref().unwrap()).unwrap()
+        paint::file::write(self.painted.as_ref().unwrap()).unwrap()
     }
 
     /// Writes the recording in a file.

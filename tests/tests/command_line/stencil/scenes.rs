@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use graphics::camera::Framing;
+use graphics::mesh::Mesh;
 use image::{Rgb, RgbImage};
-use render::camera::Framing;
-use render::mesh::Mesh;
-use render::volumes::performance::{FirstView, Performance};
-use render::volumes::script::Script;
 use suite::adapter::device;
+use volumes::performance::{FirstView, Performance};
+use volumes::script::Script;
 
 use super::{BOX, POUR, SMALL, done, files, folder, path, pixels};
 

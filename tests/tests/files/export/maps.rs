@@ -1,7 +1,7 @@
 //! Export of pigment maps: scale, file names, table of volumes, refused maps.
 
-use render::export::{NamedFile, PigmentMap, pigment_maps};
-use render::field::Field;
+use graphics::field::Field;
+use paint::export::{NamedFile, PigmentMap, pigment_maps};
 use suite::near::assert_near;
 
 fn map(name: &str, height_mm: impl Fn(usize) -> f32) -> PigmentMap {

@@ -3,8 +3,9 @@
 use std::io::Cursor;
 
 use exr::prelude::{AttributeValue, FlatImage, FlatSamples, ReadChannels, ReadLayers, Text, Vec2};
-use render::export::{linear_exr, spectral_exr};
-use render::field::Field;
+use graphics::export::linear_exr;
+use graphics::field::Field;
+use paint::export::spectral_exr;
 use suite::near::assert_near;
 
 const CELL_MM: f64 = 0.1;

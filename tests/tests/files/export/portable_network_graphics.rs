@@ -1,7 +1,7 @@
 //! PNG export: sRGB curve, chunks of colour space and size, clipping, refused pictures.
 
-use render::export::{ExportError, png8, png16};
-use render::field::Field;
+use graphics::export::{ExportError, png8, png16};
+use graphics::field::Field;
 use spectra::color::Rgb;
 use suite::near::assert_near;
 

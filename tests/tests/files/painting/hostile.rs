@@ -4,14 +4,14 @@
 use std::io::Cursor;
 
 use calibrate::PigmentId;
+use documents::hint::Explain;
 use exr::prelude::{
     AnyChannel, AttributeValue, FlatImage, FlatSamples, ReadChannels, ReadLayers, Text,
     WritableImage,
 };
+use paint::document::Slots;
+use paint::file::{PaintingFileError, read, read_within, write};
 use proptest::prelude::*;
-use render::paint::document::Slots;
-use render::paint::file::{PaintingFileError, read, read_within, write};
-use spectra::hint::Explain;
 
 use super::made_up::{painting, small};
 

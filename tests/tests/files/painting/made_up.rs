@@ -1,13 +1,13 @@
 //! Documents of paintings with random amounts of paint.
 
 use calibrate::PigmentId;
+use graphics::field::Field;
+use paint::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
+use paint::ground::Ground;
+use paint::layer::{Cell, Layer, SLOTS};
+use paint::optics::Gloss;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::field::Field;
-use render::layer::{Cell, Layer, SLOTS};
-use render::optics::Gloss;
-use render::paint::document::{Document, DryLayer, LayerId, Lighting, Medium, Slots};
-use render::paint::ground::Ground;
 pub(crate) use suite::oils::library;
 
 /// A layer with paint on about a third of the cells in a random rectangle: 0 to `highest` quanta of

@@ -3,10 +3,10 @@
 use std::io::Cursor;
 
 use exr::prelude::{ReadChannels, ReadLayers};
+use paint::amount::{MAX_COLUMN, mm_from_quanta};
+use paint::file::{read, write};
+use paint::layer::SLOTS;
 use proptest::prelude::*;
-use render::amount::{MAX_COLUMN, mm_from_quanta};
-use render::layer::SLOTS;
-use render::paint::file::{read, write};
 
 use super::made_up::{painting, small};
 
@@ -52,7 +52,7 @@ fn a_cell_filled_to_the_brim_comes_back() {
     let mut document = small();
     let slot = document.slots.iter().position(Option::is_some).unwrap();
     for amount in [MAX_COLUMN, MAX_COLUMN - 1, (1 << 23) + 1, 1 << 24, 16_777_217] {
-        let cell = render::layer::Cell::default();
+        let cell = paint::layer::Cell::default();
         document.wet.set_cell(7, cell);
         document.wet.pigments.values_mut()[7][slot] = amount;
         let bytes = write(&document).unwrap();

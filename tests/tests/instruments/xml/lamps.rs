@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use spectra::hint::Explain;
+use documents::hint::Explain;
 use spectra::instrument::ChoiceError;
 use spectra::{Illuminant, LampError, LightError, lamp_from_bytes, light_from_text};
 use suite::program::impasto;

@@ -1,7 +1,7 @@
 //! Reflectance from detector counts: made-up counts of a grey of known reflectance, its white and
 //! darks, with integration times, saturation and noise.
 
-use spectra::hint::Explain;
+use documents::hint::Explain;
 use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 use spectra::referencing::{Dark, Referencing, ReferencingError, Tile};
 

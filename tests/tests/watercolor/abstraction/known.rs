@@ -1,6 +1,6 @@
 //! Pictures with known regions, generated exactly as in `tests/golden/segmentation.py`.
 
-use render::field::Field;
+use graphics::field::Field;
 use serde::Deserialize;
 
 pub(super) const WIDTH: usize = 160;

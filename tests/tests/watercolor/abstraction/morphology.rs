@@ -1,11 +1,11 @@
 //! Openings and closings: definition, algebraic properties, and CPU against GPU.
 
+use graphics::compute::{ColorImage, Compute};
+use graphics::field::Field;
+use graphics::gpu::DeviceError;
+use graphics::morphology::{self, Extremum, StructuringElement};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::compute::{ColorImage, Compute};
-use render::field::Field;
-use render::gpu::DeviceError;
-use render::morphology::{self, Extremum, StructuringElement};
 use suite::adapter::device;
 
 type Colors = Field<[f32; 4]>;

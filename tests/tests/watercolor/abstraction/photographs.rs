@@ -2,13 +2,13 @@
 
 use std::io::Cursor;
 
+use documents::hint::Explain;
+use graphics::compute::Compute;
+use graphics::picture::Photograph;
+use graphics::segmentation::SegmentationSettings;
 use image::{ImageFormat, Rgba, RgbaImage};
-use render::compute::Compute;
-use render::picture::Photograph;
-use render::segmentation::SegmentationSettings;
-use render::watercolor::{AbstractionError, RegionSettings, abstract_photograph};
-use spectra::hint::Explain;
 use suite::adapter::device;
+use watercolor::{AbstractionError, RegionSettings, abstract_photograph};
 
 /// Three bands: opaque red with a grey speck and one lighter pixel, half transparent blue, and
 /// full transparency.

@@ -1,7 +1,7 @@
 //! Quality of segmentation: regions and boundaries against OpenCV's mean shift.
 
-use render::field::Field;
-use render::segmentation::{SegmentationSettings, segment};
+use graphics::field::Field;
+use graphics::segmentation::{SegmentationSettings, segment};
 use serde::Deserialize;
 use suite::golden::{Golden, read};
 

@@ -1,10 +1,10 @@
 //! Segmentation of small synthetic pictures: regions, connectivity, coverage and settings.
 
+use documents::hint::Explain;
+use graphics::field::Field;
+use graphics::segmentation::{SegmentationError, SegmentationSettings, segment};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::field::Field;
-use render::segmentation::{SegmentationError, SegmentationSettings, segment};
-use spectra::hint::Explain;
 
 fn settings(least_region_px: u32) -> SegmentationSettings {
     SegmentationSettings {

@@ -9,15 +9,15 @@ mod twins;
 use std::sync::Arc;
 
 use glam::Vec3;
-use render::camera::Camera;
-use render::coherence::{
+use graphics::camera::Camera;
+use graphics::coherence::{
     AnchoredNoise, Anchors, FeatureNoise, Features, Hierarchy, Particles, Projection, Splat,
     depth_field, draw_anchored, draw_splats, repeating_noise,
 };
-use render::compute::Compute;
-use render::field::Field;
-use render::mesh::{Mesh, Triangle};
-use render::surface::visible;
+use graphics::compute::Compute;
+use graphics::field::Field;
+use graphics::mesh::{Mesh, Triangle};
+use graphics::surface::visible;
 
 /// A mesh with what noise needs of it: hierarchy, features and a repeating texture.
 struct Subject {

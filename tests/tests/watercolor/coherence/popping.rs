@@ -5,10 +5,10 @@
 
 use std::io::Write;
 
-use render::camera::Framing;
-use render::coherence::{AnchoredNoise, FeatureNoise, NoiseFrame, Particles, Popping};
-use render::field::Field;
-use render::mesh::Mesh;
+use graphics::camera::Framing;
+use graphics::coherence::{AnchoredNoise, FeatureNoise, NoiseFrame, Particles, Popping};
+use graphics::field::Field;
+use graphics::mesh::Mesh;
 
 use super::{Bare, Subject, wall};
 

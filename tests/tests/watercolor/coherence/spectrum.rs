@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use render::coherence::{FeatureNoise, Features, Particles, SPREAD, repeating_noise};
-use render::compute::Compute;
-use render::field::Field;
-use render::mesh::Mesh;
+use graphics::coherence::{FeatureNoise, Features, Particles, SPREAD, repeating_noise};
+use graphics::compute::Compute;
+use graphics::field::Field;
+use graphics::mesh::Mesh;
 
 use super::{Subject, anchored_on, from_front, splats_on, spread, wall, waves};
 

@@ -2,11 +2,11 @@
 //! camera.
 
 use glam::{Vec3, Vec4};
-use render::camera::{Camera, Framing};
-use render::coherence::{FeatureNoise, Particles, Splat, repeating_noise};
-use render::compute::Compute;
-use render::field::Field;
-use render::mesh::Mesh;
+use graphics::camera::{Camera, Framing};
+use graphics::coherence::{FeatureNoise, Particles, Splat, repeating_noise};
+use graphics::compute::Compute;
+use graphics::field::Field;
+use graphics::mesh::Mesh;
 use suite::adapter::device;
 
 use super::{Bare, Subject, anchored_on, from_front, splats_on, waves};

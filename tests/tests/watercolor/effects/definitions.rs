@@ -1,9 +1,9 @@
 //! Each effect on the CPU against its definition.
 
-use render::compute::Compute;
-use render::field::Field;
-use render::watercolor::{ColorRange, DryBrushReach, PaperShading};
+use graphics::compute::Compute;
+use graphics::field::Field;
 use spectra::color::{Lab, Rgb, RgbSpace};
+use watercolor::{ColorRange, DryBrushReach, PaperShading};
 
 use super::on_fields::{self, Layer};
 use super::{any_grey, any_picture};

@@ -1,16 +1,16 @@
 //! Glazes of calibrated pigments over paper of known reflectance.
 
 use calibrate::PigmentId;
-use render::compute::Compute;
-use render::field::Field;
-use render::light::Light;
-use render::paint::document::{Document, Lighting, Slots};
-use render::paint::scene::{picture, scene};
-use render::watercolor::{
+use documents::hint::Explain;
+use graphics::compute::Compute;
+use graphics::field::Field;
+use paint::document::{Document, Lighting, Slots};
+use paint::light::Light;
+use paint::scene::{picture, scene};
+use spectra::color::{Lab, delta_e_ciede2000};
+use watercolor::{
     Controls, FrameTextures, GlazeError, Glazes, PaperTexture, Settings, Textures, Wash, paint,
 };
-use spectra::color::{Lab, delta_e_ciede2000};
-use spectra::hint::Explain;
 
 use super::any_picture;
 

@@ -2,12 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
+use graphics::compute::Compute;
+use graphics::field::Field;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use render::compute::Compute;
-use render::field::Field;
-use render::watercolor::Settings;
 use suite::adapter::device;
+use watercolor::Settings;
 
 mod on_fields;
 

@@ -1,8 +1,8 @@
 //! Helpers that apply an effect to fields: upload, compute, download.
 
-use render::compute::{Compute, GreyImage, Image};
-use render::field::Field;
-use render::watercolor::{self as effects, ColorRange, DensityLayer, DryBrushReach, PaperShading};
+use graphics::compute::{Compute, GreyImage, Image};
+use graphics::field::Field;
+use watercolor::{self as effects, ColorRange, DensityLayer, DryBrushReach, PaperShading};
 
 type Colors = Field<[f32; 4]>;
 type Greys = Field<f32>;

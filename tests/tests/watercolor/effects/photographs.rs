@@ -2,10 +2,10 @@
 
 use std::io::Cursor;
 
+use graphics::field::Field;
+use graphics::picture::Photograph;
 use image::{ImageFormat, Rgb, RgbImage};
-use render::field::Field;
-use render::picture::Photograph;
-use render::watercolor::{
+use watercolor::{
     BackRunSettings, BrushTouch, PaperTexture, PhotographPainter, PreparedPhotograph, Settings,
     back_runs,
 };

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use render::watercolor::{Preset, Settings, SettingsError};
-use spectra::hint::Explain;
+use documents::hint::Explain;
+use watercolor::{Preset, Settings, SettingsError};
 
 /// `group.key` of every key, and whether a comment is on the line above it. Includes keys that
 /// are commented out.

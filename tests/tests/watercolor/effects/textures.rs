@@ -1,12 +1,12 @@
 //! Textures of flow, dispersion and paper: mean, spread, spectrum and seed.
 
-use render::field::Field;
-use render::paint::ground::PaperFinish;
-use render::watercolor::{
+use documents::hint::Explain;
+use graphics::field::Field;
+use paint::ground::PaperFinish;
+use watercolor::{
     DispersionSettings, FlowSettings, PaperSettings, PaperTexture, PaperTextureError, dispersion,
     turbulent_flow,
 };
-use spectra::hint::Explain;
 
 const SIZE: usize = 512;
 

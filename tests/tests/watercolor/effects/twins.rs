@@ -1,11 +1,11 @@
 //! Every effect on the GPU against its CPU implementation.
 
-use render::compute::Compute;
-use render::field::Field;
-use render::watercolor::{ColorRange, DryBrushReach, PaperShading};
+use graphics::compute::Compute;
+use graphics::field::Field;
 use spectra::color::Rgb;
 use suite::adapter::device;
 use suite::near::assert_near;
+use watercolor::{ColorRange, DryBrushReach, PaperShading};
 
 use super::on_fields::{
     Layer, apply_density, apply_dry_brush, color_mask, edges, shade_paper, wobble,

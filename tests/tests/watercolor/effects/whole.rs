@@ -1,12 +1,12 @@
 //! The pipeline of all effects: its stages, their observer, and CPU against GPU.
 
-use render::compute::Compute;
-use render::field::Field;
-use render::watercolor::{
-    Controls, FrameTextures, Preset, Settings, Stage, StageObserver, Textures, Wash, paint,
-};
+use graphics::compute::Compute;
+use graphics::field::Field;
 use suite::adapter::device;
 use suite::near::assert_near;
+use watercolor::{
+    Controls, FrameTextures, Preset, Settings, Stage, StageObserver, Textures, Wash, paint,
+};
 
 use super::{any_grey, any_picture, numbers, without_effects};
 

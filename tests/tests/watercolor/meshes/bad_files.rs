@@ -1,8 +1,8 @@
 //! Invalid mesh files: errors with the location, the reason and a hint.
 
-use render::mesh::{Mesh, MeshError};
+use documents::hint::Explain;
+use graphics::mesh::{Mesh, MeshError};
 use serde_json::json;
-use spectra::hint::Explain;
 
 use super::{gltf, opened, square_bytes, square_document};
 

@@ -1,6 +1,6 @@
 //! Reading meshes from OBJ, PLY and glTF: geometry, materials, textures and transforms.
 
-use render::mesh::{Material, Mesh};
+use graphics::mesh::{Material, Mesh};
 use serde_json::json;
 
 use super::{SQUARE, gltf, opened, square_bytes, square_document, two_texels};

@@ -6,7 +6,7 @@ mod bad_files;
 
 mod normals;
 
-use render::mesh::{Mesh, MeshError};
+use graphics::mesh::{Mesh, MeshError};
 
 /// Writes files of these names and contents, opens the first as a mesh and checks the mesh.
 fn opened(files: &[(&str, &[u8])]) -> Result<Mesh, MeshError> {

@@ -1,8 +1,8 @@
 //! Normals, closed surfaces, faults of meshes, and the sample models.
 
+use documents::hint::Explain;
 use glam::Vec3;
-use render::mesh::{GridSize, Mesh, MeshFault, SampleModel, Texture};
-use spectra::hint::Explain;
+use graphics::mesh::{GridSize, Mesh, MeshFault, SampleModel, Texture};
 
 /// Largest angle between `normals` and the radii of a ball, in degrees.
 fn worst(mesh: &Mesh, normals: &[[f32; 3]]) -> f32 {

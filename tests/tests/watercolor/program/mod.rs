@@ -14,9 +14,9 @@ mod pigments;
 
 use std::path::Path;
 
+use graphics::export::png8;
+use graphics::field::Field;
 use image::RgbImage;
-use render::export::png8;
-use render::field::Field;
 use suite::program::{Run, impasto};
 use tempfile::TempDir;
 

@@ -1,6 +1,6 @@
 //! Settings of a field of directions, directions given by the user, and their faults.
 
-use spectra::hint::{Explain, Hint};
+use documents::hint::{Explain, Hint};
 
 /// The principal direction that a field follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

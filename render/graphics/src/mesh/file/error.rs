@@ -1,6 +1,6 @@
 //! Errors of reading models.
 
-use spectra::hint::{Explain, Fault, Hint};
+use documents::hint::{Explain, Fault, Hint};
 
 use crate::mesh::check::MeshFault;
 use crate::picture_formats::NAMES;

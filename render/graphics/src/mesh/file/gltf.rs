@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
+use documents::counted_as;
 use glam::{Mat3, Mat4, Vec3};
 use gltf::mesh::{Mode, Semantic};
 use spectra::color::Rgb;
-use spectra::counted_as;
 
 use super::error::MeshError;
 use super::gltf_values::{COLORS, COORDINATES, CORNERS, NORMALS, POSITIONS, check, path_of, slice};

@@ -18,7 +18,7 @@ mod ply;
 
 use std::path::Path;
 
-use spectra::file::{is_standard_input, read};
+use documents::file::{is_standard_input, read};
 
 pub use error::MeshError;
 

@@ -1,7 +1,7 @@
 //! Validation of OBJ and MTL files line by line, since the parser reports no line numbers
 //! and panics on some input.
 
-use spectra::counted;
+use documents::counted;
 
 /// Line number from 1, and the reason.
 pub(super) type LineFault = (usize, String);

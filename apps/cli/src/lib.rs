@@ -1,0 +1,125 @@
+//! The command line `impasto VERB ...`, callable in process.
+//!
+//! Each verb has a file of its own: its options, one or two calls of a library, and printing.
+//! Exit status: 0 done, 1 the data are faulty or a check failed, 2 the command could not run
+//! (a wrong option, an unreadable file, a missing device), 128 + n ended by signal n.
+
+mod command_line;
+
+mod decimals;
+
+mod failure;
+
+mod console;
+
+mod progress;
+
+mod shown_color;
+
+mod csv_rows;
+
+mod driver_noise;
+
+mod input;
+
+mod library_choice;
+
+mod referencing;
+
+mod readings;
+
+mod selected_spectra;
+
+mod grid_option;
+
+mod ground;
+
+mod canvas;
+
+mod targets;
+
+mod costs;
+
+mod surface;
+
+mod output;
+
+mod stages;
+
+mod engine;
+
+mod pictures;
+
+mod plain_picture;
+
+mod setting_changes;
+
+mod subject;
+
+mod palette;
+
+mod animation;
+
+mod timelapse;
+
+mod verbs;
+
+mod examples;
+
+mod manual;
+
+mod command;
+
+use std::ffi::OsString;
+use std::io::Write;
+use std::time::Instant;
+
+use clap::FromArgMatches;
+
+use command::{Arguments, Task};
+use console::Console;
+pub use console::Screen;
+
+/// Runs the program with `arguments`, the first of which is the program's name, and returns its
+/// exit status. Results are written to `out`; remarks, warnings and errors to `err`.
+pub fn run(
+    arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+    screen: Screen,
+) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
+    let words: Vec<_> = std::iter::once("impasto".into()).chain(words).collect();
+    let command = command_line::command_line(words.iter().map(AsRef::as_ref));
+    let parsed = command::command()
+        .try_get_matches_from(arguments)
+        .and_then(|matches| Arguments::from_arg_matches(&matches));
+    let parsed = match parsed {
+        Ok(parsed) => parsed,
+        Err(error) => {
+            // Requested help is a result, help after an error is not.
+            let text = error.render();
+            let requested = !error.use_stderr();
+            let _ = if requested { write!(out, "{text}") } else { write!(err, "{text}") };
+            return if requested { 0 } else { 2 };
+        }
+    };
+    let (start, voice) = (Instant::now(), parsed.voice());
+    let mut console = Console { out, err, screen, command, voice, streamed: false };
+    let done = match parsed.task {
+        Task::Verb(verb) => verb.run(&mut console),
+        Task::Completions(completions) => completions.run(&mut console),
+        Task::Man(man) => man.run(&mut console),
+    };
+    let took = format!("took {:.2} s", start.elapsed().as_secs_f64());
+    match done.and_then(|()| console.detail(took)) {
+        Ok(()) => 0,
+        Err(failure) => failure.report(console.err),
+    }
+}
+
+/// Compiles the example of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct ReadmeExample;

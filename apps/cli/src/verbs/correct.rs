@@ -1,0 +1,306 @@
+//! `impasto correct`: what to add to a pot of paint that came out beside its target.
+
+use calibrate::PigmentId;
+use calibrate::library::PigmentLibrary;
+use calibrate::matching::{
+    Batch, ColorTarget, Correction, CorrectionOptions, Corrections, TargetColor, USUAL_CORRECTION,
+};
+use clap::Args;
+use documents::{counted, name_list};
+use serde_json::{Map, Value, json};
+use spectra::color::Lab;
+use spectra::{Reflectance, Spectrum};
+
+use super::match_by::MatchBy;
+use crate::console::Console;
+use crate::decimals;
+use crate::failure::{Failure, Result};
+use crate::input::{condition, srgb};
+use crate::library_choice::{ChosenLibrary, chosen, split};
+use crate::progress::waited;
+use crate::readings::ReadingOptions;
+use crate::targets::targets;
+
+/// Most names that an error lists.
+const NAMES: usize = 8;
+
+/// Find what to add to a batch of paint so that it matches its target
+///
+/// The batch is the paint in the pot: what was mixed (--made) and the spectrum of a film of it that
+/// hides. Additions are searched that bring it within --tolerance of the target, those with the least
+/// paint first. The measured batch, not its recipe, is what they are mixed into, so that weighing
+/// errors and errors of the library at that colour do not matter.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "impasto correct [OPTIONS] [LIBRARY] <TARGET> <BATCH> --made <PIGMENT=GRAMS>..."
+)]
+pub(crate) struct Correct {
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else the Van Gogh oils that ship],
+    /// then the target (#rrggbb, L,a,b, or a measured standard, FILE or FILE#SAMPLE), then the spectrum
+    /// of the batch, FILE or FILE#SAMPLE
+    #[arg(required = true, value_name = "[LIBRARY] TARGET BATCH")]
+    words: Vec<String>,
+    /// Match the color under the lights, or the spectrum of a measured standard
+    #[arg(long, value_enum, default_value = "color")]
+    by: MatchBy,
+    /// Grams (or parts) of a pigment that are in the pot (may be repeated)
+    #[arg(long, value_name = "PIGMENT=GRAMS", required = true, num_args = 1..)]
+    made: Vec<String>,
+    /// Grams of paint in the pot [default: the sum of --made]
+    #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
+    grams: Option<f64>,
+    /// Grams of a pigment in stock (may be repeated); others have no limit
+    #[arg(long, value_name = "PIGMENT=GRAMS", num_args = 1..)]
+    stock: Vec<String>,
+    /// Add only these pigments (may be repeated) [default: all whose S is known]
+    #[arg(long, value_name = "PIGMENT")]
+    only: Vec<String>,
+    /// A pigment that is not added (may be repeated)
+    #[arg(long, value_name = "PIGMENT")]
+    without: Vec<String>,
+    /// Maximum number of pigments to add, 1 to 7
+    #[arg(long, value_name = "K", default_value_t = 3)]
+    at_most: usize,
+    /// Least grams of a pigment that can be weighed [default: a thousandth of the batch]
+    #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
+    least: Option<f64>,
+    /// Most grams to add in all [default: as much as the batch]
+    #[arg(long, value_name = "GRAMS", allow_hyphen_values = true)]
+    most: Option<f64>,
+    /// Difference from the target that is near enough, in CIEDE2000 or, by spectrum, % of reflectance
+    #[arg(long, value_name = "DELTA_E", allow_hyphen_values = true, default_value_t = USUAL_CORRECTION)]
+    tolerance: f64,
+    /// Number of corrections to show
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    count: usize,
+    /// Light, as in `color`, with its weight where there are several (may be repeated)
+    #[arg(long, value_name = "LIGHT[=WEIGHT]", default_value = "D65")]
+    illuminant: Vec<String>,
+    /// Observer: 1931-2 (or 2), 1964-10 (or 10), 2015-2, 2015-10
+    #[arg(long, value_name = "NAME", default_value = "1931-2")]
+    observer: String,
+    #[command(flatten)]
+    reading: ReadingOptions,
+    /// Print JSON: target, batch, differences, and a list of corrections
+    #[arg(long)]
+    json: bool,
+    /// Print the corrections, a row for each pigment of one, as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+}
+
+impl Correct {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let (path, words) = split(&self.words, true);
+        let ChosenLibrary { library, .. } = chosen(path.as_deref(), console)?;
+        let [target, pot] = words else {
+            return Err(Failure::usage(
+                format!("a target and a batch are wanted, found {}", counted(words.len(), "word")),
+                "try impasto correct standard.csv batch.csv --made \"Zinc White=440\"",
+            ));
+        };
+        let target = one(target, "a target", targets(target, &self.reading, console)?)?;
+        let made = amounts("--made", &self.made)?;
+        let grams = self.grams.unwrap_or_else(|| made.iter().map(|(_, grams)| grams).sum());
+        let batch = Batch { made, grams, reflectance: self.batch_spectrum(pot, console)? };
+        let conditions = self.illuminant.iter().map(|text| condition(text, &self.observer));
+        let options = CorrectionOptions {
+            metric: self.by.metric(),
+            conditions: conditions.collect::<Result<_>>()?,
+            only: self.only.clone(),
+            without: self.without.clone(),
+            at_most: self.at_most,
+            stock: amounts("--stock", &self.stock)?,
+            least_grams: self.least,
+            most_grams: self.most,
+            tolerance: self.tolerance,
+            count: self.count,
+        };
+        let search = || library.corrections_for(&target, &batch, &options);
+        let found = waited("searching corrections", console, search)?;
+        console.remarks(&found.remarks)?;
+        let report = Report { library: &library, options: &options, grams };
+        if self.csv {
+            return console.csv_rows(&report.rows(&found));
+        }
+        if self.json { console.json(&report.json(&found)) } else { report.print(&found, console) }
+    }
+
+    /// Reads the one spectrum of the batch.
+    fn batch_spectrum(
+        &self,
+        pot: &str,
+        console: &mut Console<'_>,
+    ) -> Result<Spectrum<Reflectance>> {
+        let measured = one(pot, "a batch", targets(pot, &self.reading, console)?)?;
+        match measured.color {
+            TargetColor::Reflectance(reflectance) => Ok(reflectance),
+            TargetColor::Lab(_) => Err(Failure::usage(
+                format!("a batch is a measured spectrum, found the colour `{pot}`"),
+                "give the file of its reading: FILE or FILE#SAMPLE",
+            )),
+        }
+    }
+}
+
+/// The only one of the colours that `text` names.
+fn one(text: &str, what: &str, colors: Vec<ColorTarget>) -> Result<ColorTarget> {
+    let names: Vec<String> = colors.iter().map(|color| color.name.clone()).collect();
+    let mut colors = colors.into_iter();
+    match (colors.next(), names.len()) {
+        (Some(color), 1) => Ok(color),
+        (_, count) => Err(Failure::usage(
+            format!("{what} is one colour, and {text} holds {count}"),
+            format!("name one of them, FILE#SAMPLE: {}", name_list(&names, NAMES, ", ")),
+        )),
+    }
+}
+
+/// Parses amounts of the form `PIGMENT=GRAMS`.
+fn amounts(option: &str, texts: &[String]) -> Result<Vec<(String, f64)>> {
+    let amount = |text: &String| {
+        let found = text.rsplit_once('=').and_then(|(name, grams)| {
+            let grams: f64 = grams.trim().parse().ok().filter(|g| (0.0..1e9).contains(g))?;
+            Some((name.trim().to_owned(), grams))
+        });
+        found.ok_or_else(|| {
+            Failure::usage(
+                format!("{option} takes PIGMENT=GRAMS, found `{text}`"),
+                format!("try {option} \"Cobalt Blue=20\""),
+            )
+        })
+    };
+    texts.iter().map(amount).collect()
+}
+
+/// Names and settings that all corrections of a run share.
+struct Report<'a> {
+    library: &'a PigmentLibrary,
+    options: &'a CorrectionOptions,
+    grams: f64,
+}
+
+impl Report<'_> {
+    fn lights(&self) -> impl Iterator<Item = &str> {
+        self.options.conditions.iter().map(|condition| condition.viewing.illuminant.name())
+    }
+
+    /// Differences with the names of their lights.
+    fn under(&self, differences: &[f64]) -> String {
+        let each = differences.iter().zip(self.lights());
+        each.map(|(d, light)| format!("{d:.2} ({light})")).collect::<Vec<_>>().join(", ")
+    }
+
+    fn print(&self, found: &Corrections, console: &mut Console<'_>) -> Result<()> {
+        let color = |lab: Lab| {
+            let white = spectra::color::RgbSpace::Srgb.white();
+            srgb(lab.to_xyz(white), white)
+        };
+        let line = |name: &str, lab: Lab, console: &Console<'_>| {
+            format!("{name:8} {}  Lab {}", console.srgb(color(lab)), decimals::lab(lab))
+        };
+        console.line(line("target", found.target.lab[0], console))?;
+        let batch = line("batch", found.batch[0], console);
+        console.line(format!("{batch}  {} g", shown(self.grams)))?;
+        let off = self.under(&found.batch_delta_e);
+        console.line(format!("CIEDE2000 of the batch from the target: {off}"))?;
+        let off = self.under(&found.recipe_delta_e);
+        console.line(format!("CIEDE2000 of the batch from what its recipe predicts: {off}"))?;
+        if let Some(rms) = found.batch_rms_percent {
+            console.line(format!(
+                "reflectance of the batch from the target: {rms:.2} % (root mean square)"
+            ))?;
+        }
+        let (tolerance, unit) = (self.options.tolerance, self.options.metric.unit());
+        if found.is_near {
+            return console
+                .line(format!("within {tolerance} {unit} of the target: nothing to add"));
+        }
+        console.line(if found.reaches {
+            format!("within {tolerance} {unit} of the target, the least addition first:")
+        } else {
+            format!("no addition comes within {tolerance} {unit} of the target; the nearest:")
+        })?;
+        for (rank, correction) in found.corrections.iter().enumerate() {
+            let patch = console.patch(color(correction.lab[0]));
+            let rms = correction.rms_percent.map(|rms| format!("; reflectance {rms:.2} %"));
+            let rms = rms.unwrap_or_default();
+            console.line(format!(
+                "{:>3}  {patch}add {} g, then {} from the target{rms}",
+                rank + 1,
+                shown(correction.grams),
+                self.under(&correction.delta_e)
+            ))?;
+            for (id, grams) in &correction.additions {
+                let name = &self.library[*id].name;
+                let all = correction.out_of_stock.contains(id);
+                let note = if all { "  (all that is in stock)" } else { "" };
+                console.line(format!("       {:>10} g  {name}{note}", shown(*grams)))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn json(&self, found: &Corrections) -> Value {
+        let correction = |correction: &Correction| {
+            let additions = correction.additions.iter().map(|(id, grams)| {
+                let all = correction.out_of_stock.contains(id);
+                json!({ "name": self.library[*id].name, "grams": grams, "all_in_stock": all })
+            });
+            json!({
+                "grams": correction.grams,
+                "additions": additions.collect::<Vec<Value>>(),
+                "delta_e": self.by_light(correction.delta_e.iter().map(|d| json!(d))),
+                "distance": correction.distance,
+                "rms_percent": correction.rms_percent,
+                "lab": self.by_light(correction.lab.iter().map(|lab| json!(lab.to_array()))),
+                "wavelengths_nm": self.library.grid.wavelengths_nm().collect::<Vec<f64>>(),
+                "reflectance": correction.reflectance,
+            })
+        };
+        let lab = |labs: &[Lab]| self.by_light(labs.iter().map(|lab| json!(lab.to_array())));
+        let differences = |found: &[f64]| self.by_light(found.iter().map(|d| json!(d)));
+        json!({
+            "target": found.target.name,
+            "target_lab": lab(&found.target.lab),
+            "batch_lab": lab(&found.batch),
+            "batch_grams": self.grams,
+            "batch_delta_e": differences(&found.batch_delta_e),
+            "recipe_delta_e": differences(&found.recipe_delta_e),
+            "by": self.options.metric.name(),
+            "unit": self.options.metric.unit(),
+            "batch_rms_percent": found.batch_rms_percent,
+            "tolerance": self.options.tolerance,
+            "is_near": found.is_near,
+            "reaches": found.reaches,
+            "corrections": found.corrections.iter().map(correction).collect::<Vec<Value>>(),
+        })
+    }
+
+    /// One row for each pigment of each correction.
+    fn rows(&self, found: &Corrections) -> Vec<Value> {
+        let of = |(rank, correction): (usize, &Correction)| -> Vec<Value> {
+            let row = |(id, grams): &(PigmentId, f64)| {
+                json!({
+                    "correction": rank + 1,
+                    "pigment": self.library[*id].name,
+                    "grams": grams,
+                    "distance": correction.distance,
+                })
+            };
+            correction.additions.iter().map(row).collect()
+        };
+        found.corrections.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// JSON object with one value per light, keyed by its name.
+    fn by_light(&self, values: impl Iterator<Item = Value>) -> Value {
+        Value::Object(self.lights().map(str::to_owned).zip(values).collect::<Map<_, _>>())
+    }
+}
+
+/// Grams with three digits or more.
+fn shown(grams: f64) -> String {
+    let decimals = (2 - grams.abs().max(1e-9).log10().floor() as i32).clamp(0, 6);
+    format!("{grams:.*}", usize::try_from(decimals).unwrap_or(0))
+}

@@ -1,0 +1,188 @@
+//! `impasto library export`: writes a library in formats of other programs.
+
+use std::path::PathBuf;
+
+use calibrate::curation::{SwatchSpace, Swatches, to_csv};
+use calibrate::library::PigmentLibrary;
+use clap::{Args, ValueEnum};
+use documents::{counted, counted_as};
+use spectra::instrument::{CxfHead, write_cxf};
+use spectra::swatch_file::{write_aco, write_ase, write_gpl};
+use spectra::{Reflectance, Spectrum};
+
+use crate::console::Console;
+use crate::failure::{Failure, Result};
+use crate::input::{ViewingOptions, remark_coverage};
+use crate::library_choice::chosen;
+use crate::output::Output;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// GIMP palette: sRGB and names
+    Gpl,
+    /// Adobe Swatch Exchange: sRGB or Lab, and names
+    Ase,
+    /// Photoshop swatches: sRGB or Lab, and names
+    Aco,
+    /// K and S with their standard deviations, one row per curve
+    Csv,
+    /// CxF3: predicted reflectance spectra of the swatches
+    Cxf,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Space {
+    /// sRGB, clipped to its gamut
+    Rgb,
+    /// CIELAB under D50, as in graphic arts
+    Lab,
+}
+
+/// Export a library to other programs: palettes, spectra, or a table of K and S
+///
+/// A swatch is the masstone of a pigment under the chosen light. Palettes of Adobe programs may hold
+/// Lab under D50, to which colours under another light are adapted (Bradford).
+#[derive(Debug, Args)]
+pub(super) struct Export {
+    /// The pigment library (JSON) [default: that of IMPASTO_LIBRARY, else
+    /// the Van Gogh oils that ship]
+    library: Option<PathBuf>,
+    /// Format of the output file [default: by its ending]
+    #[arg(long, value_enum)]
+    to: Option<Format>,
+    /// The file to write
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// Add tints in the reference white, as parts of white to one of the pigment, such as 1,4,9
+    #[arg(long, value_name = "PARTS", value_delimiter = ',', num_args = 0..=1,
+          default_missing_value = "1,4,9", require_equals = true)]
+    tints: Vec<String>,
+    /// Colour space of .ase and .aco files
+    #[arg(long, value_enum, default_value = "rgb")]
+    space: Space,
+    #[command(flatten)]
+    viewing: ViewingOptions,
+}
+
+impl Export {
+    /// The format: that of `--to`, else that of the output's ending.
+    fn format(&self, console: &mut Console<'_>) -> Result<Format> {
+        let ending = self.output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let named = ending.as_deref().and_then(|ending| Format::from_str(ending, true).ok());
+        let output = self.output.display();
+        match (self.to, named) {
+            (Some(to), Some(named)) if to != named => {
+                let [to, named] = [to, named].map(|format| format!("{format:?}").to_lowercase());
+                console.warnings(&[format!(
+                    "{output} is written as {to}, although its name ends in .{named}"
+                )])?;
+            }
+            _ => {}
+        }
+        self.to.or(named).ok_or_else(|| {
+            Failure::usage(
+                format!("{output}: the ending names no format"),
+                "add --to gpl, ase, aco, csv or cxf",
+            )
+        })
+    }
+
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let to = self.format(console)?;
+        if self.space == Space::Lab && !matches!(to, Format::Ase | Format::Aco) {
+            return Err(Failure::usage("only .ase and .aco hold Lab", "leave out --space"));
+        }
+        if to == Format::Csv && !self.tints.is_empty() {
+            return Err(Failure::usage("a table of K and S has no tints", "leave out --tints"));
+        }
+        let tints = tints(&self.tints)?;
+        let viewing = self.viewing.viewing()?;
+        let chosen = chosen(self.library.as_deref(), console)?;
+        let output = Output::open(&self.output, &chosen.inputs())?;
+        let library = chosen.library;
+        if to == Format::Csv {
+            remark_csv_omissions(&library, console)?;
+            output.write(to_csv(&library), console)?;
+            let pigments = counted(library.pigments.len(), "pigment");
+            return console.line(format!("{}: {pigments}", self.output.display()));
+        }
+        remark_coverage(library.grid, console)?;
+        let swatches = Swatches::new(&library, &viewing, &tints)?;
+        let number = swatches.swatches.len();
+        if to == Format::Cxf {
+            output.write(cxf(&library, &swatches)?, console)?;
+            let spectra = if number == 1 { "spectrum" } else { "spectra" };
+            return console.line(format!("{}: {number} {spectra}", self.output.display()));
+        }
+        let clipped = swatches.outside_srgb();
+        if self.space == Space::Rgb && !clipped.is_empty() {
+            let names = clipped.join(", ");
+            console.warnings(&[format!("outside sRGB, clipped to its gamut: {names}")])?;
+        }
+        let palette = swatches.palette(match self.space {
+            Space::Rgb => SwatchSpace::Srgb,
+            Space::Lab => SwatchSpace::LabD50,
+        });
+        let bytes = match to {
+            Format::Ase => write_ase(&palette)?,
+            Format::Aco => write_aco(&palette)?,
+            Format::Gpl | Format::Csv | Format::Cxf => write_gpl(&palette)?.into_bytes(),
+        };
+        output.write(bytes, console)?;
+        console.line(format!(
+            "{}: {}",
+            self.output.display(),
+            counted_as(number, "swatch", "swatches")
+        ))
+    }
+}
+
+/// Encodes the spectra of the swatches as CxF3.
+fn cxf(library: &PigmentLibrary, swatches: &Swatches) -> Result<String> {
+    let swatches = &swatches.swatches;
+    let spectra = swatches
+        .iter()
+        .map(|swatch| Ok(Spectrum::new(library.grid, swatch.reflectance.clone())?))
+        .collect::<Result<Vec<Spectrum<Reflectance>>>>()?;
+    let named: Vec<(&str, &Spectrum<Reflectance>)> =
+        swatches.iter().map(|swatch| swatch.name.as_str()).zip(&spectra).collect();
+    let head = CxfHead {
+        creator: "impasto",
+        description: &library.title,
+        geometry: "predicted",
+        creation_date: None,
+    };
+    Ok(write_cxf(&head, &named))
+}
+
+/// Parses the parts of white of `--tints`.
+fn tints(texts: &[String]) -> Result<Vec<f64>> {
+    let parts = texts.iter().map(|text| {
+        text.trim().parse().ok().filter(|v: &f64| *v > 0.0 && *v <= 1e6).ok_or_else(|| {
+            Failure::usage(
+                format!("--tints takes parts of white above 0 and up to 1e6, found `{text}`"),
+                "try --tints=1,4,9",
+            )
+        })
+    });
+    parts.collect()
+}
+
+/// Prints the parts of a library that a table cannot hold.
+fn remark_csv_omissions(library: &PigmentLibrary, console: &mut Console<'_>) -> Result<()> {
+    let guessed = library.pigments.iter().filter(|pigment| pigment.guessed);
+    let guessed: Vec<String> = guessed
+        .map(|pigment| format!("{} is guessed, which the table cannot state", pigment.name))
+        .collect();
+    console.warnings(&guessed)?;
+    let surface = library.saunderson;
+    console.remark(format!(
+        "the table does not hold: k1 = {}, k2 = {}, titles, notes, evidence{}",
+        surface.k1,
+        surface.k2,
+        library
+            .reference
+            .as_ref()
+            .map_or_else(String::new, |name| format!(", the reference {name}"))
+    ))
+}

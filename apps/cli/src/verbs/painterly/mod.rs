@@ -1,0 +1,189 @@
+//! `impasto painterly`: paints 3D models and pictures in the brushwork of art maps.
+
+mod brushwork;
+
+mod form;
+
+mod exr_frames;
+
+mod settings;
+
+mod pigments;
+
+mod job;
+
+use std::path::PathBuf;
+
+use clap::{Args, value_parser};
+use graphics::camera::{Camera, PictureView};
+use painterly::{Preset, Settings};
+
+use crate::animation::{Animation, AnimationOptions};
+use crate::console::Console;
+use crate::engine::BackendOption;
+use crate::failure::{Failure, Result};
+use crate::pictures::Exports;
+use crate::stages::StageFolder;
+use crate::subject::{PictureViews, Subject, SubjectOptions};
+use brushwork::BrushworkOptions;
+use exr_frames::ExrFrames;
+use form::FormOptions;
+use job::{Job, Scene, SceneSubject};
+use pigments::PigmentOptions;
+use settings::{SettingsOptions, preset_names};
+
+/// Paint a 3D model or a photograph in the brushwork of a painting
+///
+/// A model is covered with strokes of an art map. They run along its form, their tone follows the
+/// light, and they stay on the surface while the camera moves (Yan, Chi, Lee and Lin 2008). A
+/// photograph is painted in its own colours, with strokes along its edges. Make a map of a painting
+/// with `impasto artmap`, or name a style.
+#[derive(Debug, Args)]
+pub(crate) struct Painterly {
+    /// A photograph (.png, .jpg, .tif, .webp), a mesh (.obj, .gltf, .glb, .ply), or a built-in shape
+    /// (shape:still-life, shape:village, shape:torus-knot, shape:sphere)
+    #[arg(required_unless_present = "show_preset")]
+    subject: Option<PathBuf>,
+    /// Print the settings of a preset, each with its meaning, and do nothing else
+    #[arg(long, value_name = "NAME", conflicts_with = "subject", value_parser = preset_names())]
+    show_preset: Option<Preset>,
+    #[command(flatten)]
+    exports: Exports,
+    /// Write each frame into this folder as OpenEXR, for compositing: colour and cover, depth, height
+    /// of the brushwork, direction of strokes
+    #[arg(long, value_name = "FOLDER", help_heading = "Animation")]
+    exr_frames: Option<PathBuf>,
+    /// Write every step to the picture into this folder, as PNG: depth, strokes, directions and tones
+    /// of each layer, and what it paints
+    #[arg(long, value_name = "FOLDER", help_heading = "Exports")]
+    stages: Option<PathBuf>,
+    /// Let strokes flow in a loop of this number of frames, seen from a camera that stands still
+    /// (for --animation)
+    #[arg(long = "loop", value_name = "FRAMES", value_parser = value_parser!(u64).range(1..=100_000),
+          conflicts_with = "turntable", help_heading = "Animation")]
+    loop_frames: Option<u64>,
+    /// Print JSON: size, backend, strokes, layers, matched, maps, regions, frames, frames_found
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    backend: BackendOption,
+    #[command(flatten)]
+    brushwork: BrushworkOptions,
+    #[command(flatten)]
+    settings: SettingsOptions,
+    #[command(flatten)]
+    subject_options: SubjectOptions,
+    #[command(flatten)]
+    form: FormOptions,
+    #[command(flatten)]
+    animation: AnimationOptions,
+    #[command(flatten)]
+    pigments: PigmentOptions,
+}
+
+impl Painterly {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        if let Some(preset) = self.show_preset {
+            return console.line(preset.text().trim_end());
+        }
+        if !self.exports.any()
+            && !self.animation.any()
+            && self.stages.is_none()
+            && self.exr_frames.is_none()
+        {
+            return Err(Failure::usage(
+                "nothing would be written",
+                "add --picture painted.png, or --turntable 60 --animation turning.gif",
+            ));
+        }
+        let settings = self.settings.settings()?;
+        let path = self.subject.clone().unwrap_or_default();
+        let views = match self.form.has_depth() {
+            true => PictureViews::Turned,
+            false => PictureViews::Front,
+        };
+        let (subject, mut inputs) = self.subject_options.subject(&path, views)?;
+        inputs.extend(self.brushwork.inputs());
+        inputs.extend(self.form.inputs().chain(self.settings.input().cloned()));
+        inputs.extend(self.pigments.input());
+        let scene = self.scene(subject, &settings)?;
+        let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let layers = self.exports.layer_option().is_some();
+        let painting = self.pigments.materials(&title.unwrap_or_default(), layers, console)?;
+        let animation = self.animation.open(&inputs)?;
+        let exports = self.exports.open(&inputs)?;
+        let file = animation.as_ref().and_then(Animation::file);
+        if let Some(file) = file.filter(|file| exports.writes(file)) {
+            return Err(Failure::usage(
+                format!(
+                    "{}: the picture and the animation have this file name",
+                    file.path().display()
+                ),
+                "give each its own file name",
+            ));
+        }
+        let stages = self.stages.as_deref();
+        let stages = stages.map(|folder| StageFolder::open(folder, &inputs)).transpose()?;
+        let exr_frames = self.exr_frames.as_deref();
+        let exr_frames = exr_frames
+            .map(|folder| ExrFrames::open(folder, scene.cameras.len(), &inputs))
+            .transpose()?;
+        let maps = self.brushwork.maps(self.settings.style(), console)?;
+        let compute = self.backend.compute(console)?;
+        let job =
+            Job { compute, settings, scene, painting, exports, stages, exr_frames, animation };
+        let summary = job.paint(&maps, console)?;
+        summary.print(self.json, console)
+    }
+
+    /// The subject with the cameras of all frames.
+    fn scene(&self, subject: Subject, settings: &Settings) -> Result<Scene> {
+        let (subject, cameras, size) = match subject {
+            Subject::Mesh(mesh, cameras, size) => {
+                let guides = self.form.of_model(&mesh)?;
+                (SceneSubject::Model(mesh, guides), cameras, size)
+            }
+            Subject::Photograph(photograph, width) => {
+                let (own_width, own_height) = photograph.size();
+                let rows = (width as f64 * own_height as f64 / own_width as f64).round() as usize;
+                let size = (width, rows.max(1));
+                let form = self.form.of_picture()?;
+                let view = PictureView::of(photograph.size());
+                let turns = self.subject_options.picture_turns()?;
+                let cameras = turns.into_iter().map(|[right, up]| view.turned(right, up));
+                (SceneSubject::Picture(photograph, form), cameras.collect(), size)
+            }
+        };
+        Ok(Scene { subject, cameras: self.frames(cameras, settings)?, size })
+    }
+
+    /// The cameras of all frames.
+    fn frames(&self, cameras: Vec<Camera>, settings: &Settings) -> Result<Vec<Camera>> {
+        let Some(&first) = cameras.first() else {
+            return Err(Failure::data("the camera path has no frames", "give frames = 60"));
+        };
+        let Some(frames) = self.loop_frames else {
+            if cameras.len() < 2 && self.animation.any() {
+                return Err(Failure::usage(
+                    "--animation and --frames need a camera or strokes that move",
+                    "add --turntable 60, --camera path.toml with keyframes, or --loop 48",
+                ));
+            }
+            return Ok(cameras);
+        };
+        if cameras.len() > 1 {
+            return Err(Failure::usage(
+                "--loop needs a camera that stands still",
+                "leave out --loop: strokes flow while the camera moves too",
+            ));
+        }
+        let still = settings.flow.periods == 0 && settings.flow.twinkle == 0.0;
+        if still && !self.brushwork.has_regions() {
+            return Err(Failure::usage(
+                "strokes do not flow with these settings",
+                "add --set flow.periods=1, or --set flow.twinkle=0.2",
+            ));
+        }
+        Ok(vec![first; frames as usize])
+    }
+}

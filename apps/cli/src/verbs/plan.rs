@@ -1,0 +1,199 @@
+//! `impasto plan`: plans the swatches to prepare.
+
+use std::path::PathBuf;
+
+use calibrate::fit::ExpectedNoise;
+use calibrate::plan::{MeasurementForm, PaintSet, PlanOptions};
+use clap::Args;
+use spectra::Grid;
+
+use super::plan_report;
+use crate::console::Console;
+use crate::failure::{Failure, Result};
+use crate::grid_option::{grid, numbers};
+use crate::input::library;
+use crate::library_choice::split;
+use crate::output::Output;
+use crate::progress::waited;
+
+/// Maximum number of wavelengths of a measurement file.
+const MAX_WAVELENGTHS: usize = 5001;
+
+/// Plan the swatches to prepare, so that K and S of every pigment can be determined
+///
+/// Prints the recipe of each swatch in parts and grams, and the total of each paint. With a
+/// library of similar paint, the swatches are chosen to determine K and S best (D-optimal), and the
+/// expected deviations are predicted. --output writes the measurement file to fill in: bare cards
+/// and every swatch over a white and a black card, amounts in grams. Replace its amounts by what
+/// the balance showed.
+#[derive(Debug, Args)]
+#[command(override_usage = "impasto plan [OPTIONS] --white <NAME> [LIBRARY] <PIGMENT>...")]
+pub(crate) struct Plan {
+    /// A pigment library (JSON) of the same or similar paint, to choose the swatches by [default:
+    /// none], then the pigments, whose names may be abbreviated with a library
+    #[arg(required = true, value_name = "[LIBRARY] PIGMENT")]
+    words: Vec<String>,
+    /// The white for tints, whose S is the unit
+    #[arg(long, value_name = "NAME")]
+    white: String,
+    /// A black, for shades
+    #[arg(long, value_name = "NAME")]
+    black: Option<String>,
+    /// The library, as it was named before
+    #[arg(long, value_name = "LIBRARY", hide = true)]
+    prior: Option<PathBuf>,
+    /// Number of swatches [default: masstones, two tints each, a shade each with a black, and one
+    /// cross each]
+    #[arg(long, value_name = "N")]
+    swatches: Option<usize>,
+    /// Grams of paint per swatch
+    #[arg(long, value_name = "G", default_value_t = 10.0, allow_hyphen_values = true)]
+    grams: f64,
+    /// Smallest step of the balance in grams; no part is smaller than fifty steps, so that each is
+    /// weighed to 1 %
+    #[arg(long, value_name = "G", default_value_t = 0.01, allow_hyphen_values = true)]
+    balance: f64,
+    /// Expected noise of a swatch's reflectance, as standard deviations CONSTANT,EVEN: that of the
+    /// instrument, and that of weighing, mixing and film, which is perceptually uniform [default:
+    /// 0.002 and the residual of the prior's own fit, else 0.01]
+    #[arg(long, value_name = "CONSTANT,EVEN", allow_hyphen_values = true)]
+    noise: Option<String>,
+    /// Readings of each film and card in the file
+    #[arg(long, value_name = "N", default_value_t = 2)]
+    replicates: usize,
+    /// Wavelengths of the file in nm: first,last,step
+    #[arg(long, value_name = "FIRST,LAST,STEP", default_value = "400,700,10")]
+    grid: String,
+    /// The empty measurement file to write (CSV)
+    #[arg(short, long, value_name = "CSV")]
+    output: Option<PathBuf>,
+    /// Print JSON: swatches, totals_g, unknowns, identified, prior (null without)
+    #[arg(long)]
+    json: bool,
+    /// Print the swatches as CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+}
+
+impl Plan {
+    pub(super) fn run(self, console: &mut Console<'_>) -> Result<()> {
+        let form = MeasurementForm { grid: self.grid()?, replicates: self.replicates()? };
+        let noise = self.noise()?;
+        let (first, pigments) = split(&self.words, true);
+        let path = match (first, &self.prior) {
+            (Some(first), Some(prior)) => {
+                let both =
+                    format!("{} and {} are both libraries", first.display(), prior.display());
+                return Err(Failure::usage(both, "leave --prior out"));
+            }
+            (first, prior) => first.or_else(|| prior.clone()),
+        };
+        if pigments.is_empty() {
+            return Err(Failure::usage("no pigment is named", "name those to plan for"));
+        }
+        if self.noise.is_some() && path.is_none() {
+            return Err(Failure::usage(
+                "--noise is for swatches that a library chooses",
+                "name a library of similar paint first, or leave --noise out",
+            ));
+        }
+        let inputs: Vec<PathBuf> = path.iter().cloned().collect();
+        let open = |path: &PathBuf| {
+            let output = Output::open(path, &inputs)?;
+            // The file may hold readings by now.
+            if path.exists() {
+                return Err(Failure::usage(
+                    format!("{}: exists already and is not overwritten", path.display()),
+                    "give another name, or remove the file first",
+                ));
+            }
+            Ok(output)
+        };
+        let output = self.output.as_ref().map(open).transpose()?;
+        let prior = path.as_deref().map(library).transpose()?;
+        let options = PlanOptions {
+            black: self.black.clone(),
+            prior,
+            swatches: self.swatches,
+            grams: self.grams,
+            balance: self.balance,
+            noise,
+        };
+        let planned = || calibrate::plan(pigments, &self.white, &options);
+        let plan = waited("choosing swatches", console, planned)?;
+        console.remarks(&plan.remarks)?;
+        if let Some(output) = output {
+            output.write(plan.form(&form), console)?;
+        }
+        if self.csv {
+            let whole = plan.to_json();
+            return console.csv_rows(whole["swatches"].as_array().map_or(&[], Vec::as_slice));
+        }
+        if self.json {
+            return console.json(&plan.to_json());
+        }
+        plan_report::print_swatches(&plan, console)?;
+        plan_report::print_totals(&plan, console)?;
+        console.line("")?;
+        console.line(format!(
+            "{} for {} per wavelength; every pigment is identified",
+            documents::counted_as(plan.swatches.len(), "swatch", "swatches"),
+            documents::counted(plan.paints.unknowns(), "unknown")
+        ))?;
+        if let Some(forecast) = &plan.forecast {
+            plan_report::print_forecast(&plan.paints, forecast, console)?;
+        }
+        match &self.output {
+            Some(path) => console.remark(format!(
+                "next: fill in {}, then run impasto fit {} --white \"{}\"",
+                path.display(),
+                path.display(),
+                plan.paints.name(PaintSet::WHITE)
+            )),
+            None => console.remark("give --output FILE.csv for the measurement file to fill in"),
+        }
+    }
+
+    fn replicates(&self) -> Result<usize> {
+        if (1..=100).contains(&self.replicates) {
+            return Ok(self.replicates);
+        }
+        Err(Failure::usage(
+            format!("--replicates takes 1 to 100, found `{}`", self.replicates),
+            "try --replicates 2, and turn the sample between both readings",
+        ))
+    }
+
+    fn grid(&self) -> Result<Grid> {
+        let out_of_range = || {
+            let limits = format!("up to {MAX_WAVELENGTHS} wavelengths from 200 to 2500 nm");
+            Failure::usage(
+                format!("--grid takes {limits}, found `{}`", self.grid),
+                "try --grid 400,700,10",
+            )
+        };
+        if let Some([first, last, _]) = numbers(&self.grid)
+            && !(first >= 200.0 && last <= 2500.0)
+        {
+            return Err(out_of_range());
+        }
+        let grid = grid(&self.grid)?;
+        if grid.count() > MAX_WAVELENGTHS {
+            return Err(out_of_range());
+        }
+        Ok(grid)
+    }
+
+    fn noise(&self) -> Result<Option<ExpectedNoise>> {
+        let Some(text) = &self.noise else { return Ok(None) };
+        match numbers(text) {
+            Some([constant, even]) if (ExpectedNoise { constant, even }).is_possible() => {
+                Ok(Some(ExpectedNoise { constant, even }))
+            }
+            _ => Err(Failure::usage(
+                format!("--noise takes CONSTANT,EVEN, each 0 to 1 and one above 0, found `{text}`"),
+                "try --noise 0.002,0.01",
+            )),
+        }
+    }
+}

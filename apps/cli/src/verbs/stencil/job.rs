@@ -1,0 +1,252 @@
+//! One run: what is painted, and into which files.
+
+use std::path::{Path, PathBuf};
+
+use calibrate::library::PigmentLibrary;
+use graphics::compute::Compute;
+use volumes::painter::{Show, VolumePainter, VolumePigments};
+use volumes::performance::Performance;
+use volumes::settings::{Preset, Settings};
+use volumes::world::StepDevice;
+
+use super::film::Film;
+use super::options::Stencil;
+use super::outputs::OpenOutputs;
+use super::scene::{OpenScript, Scene};
+use super::snapshots::Snapshots;
+use super::stills::Stills;
+use super::summary::Summary;
+use super::times::Times;
+use crate::animation::{Animation, FramesDigest};
+use crate::console::Console;
+use crate::failure::{Failure, Result};
+use crate::progress::waited;
+
+/// A scene, its script and its outputs.
+pub(super) struct Job {
+    compute: Compute,
+    script: OpenScript,
+    settings: Settings,
+    scene: Scene,
+    /// The script before its first step.
+    beginning: Performance,
+    pigments: Option<VolumePigments>,
+    show: Show,
+    times: Times,
+    title: String,
+    /// Text of `--script-out`.
+    script_text: String,
+    outputs: OpenOutputs,
+    animation: Option<Animation>,
+    json: bool,
+}
+
+impl Job {
+    /// Checks all options and reads all files.
+    pub(super) fn of(verb: Stencil, console: &mut Console<'_>) -> Result<Self> {
+        check_outputs(&verb)?;
+        let path = verb.subject.clone().unwrap_or_default();
+        let library = verb.pigments.library()?;
+        let mut script = script(&verb, &path, library.as_ref(), console)?;
+        let rate = verb.animation.rate();
+        let frames = Times::frames(&script, rate).map_err(|fault| script.located(fault))?;
+        let scene = script.scene(&path, &verb.subject_options, frames)?;
+        if scene.photograph {
+            script.script.light_of_its_own();
+        }
+        let settings = script.script.settings().map_err(|fault| script.located(fault))?;
+        let frames = if scene.cameras.len() > 1 { scene.cameras.len() } else { frames };
+        let times = Times::of(script.script.seconds, verb.at, rate, frames)?;
+        let located = |fault| script.located(fault);
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let of_script = (&script.script, &settings);
+        let pigments = verb.pigments.materials(of_script, (library, folder), located)?;
+        check_layers(&verb, pigments.is_some())?;
+        let own_library = || script.script.library_file(folder).filter(|_| pigments.is_some());
+        let library = verb.pigments.input().cloned().or_else(own_library);
+        let mut inputs: Vec<PathBuf> = scene.inputs.clone();
+        inputs.extend(verb.settings.input().into_iter().chain(&library).cloned());
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let own_title = Some(script.script.title.clone()).filter(|title| !title.is_empty());
+        let title = own_title.or(stem).unwrap_or_default();
+        let script_text = match verb.outputs.script_folder() {
+            None => String::new(),
+            Some(to) => {
+                let light = verb.pigments.light(&script.script, folder);
+                script.text(&scene, &title, &to, (library.as_deref(), light.as_deref()))?
+            }
+        };
+        let beginning = script.beginning(&scene, &settings)?;
+        let compute = verb.backend.compute(console)?;
+        let animation = verb.animation.open(&inputs)?;
+        let file = animation.as_ref().and_then(Animation::file);
+        let outputs = verb.outputs.open(&inputs, frames, file)?;
+        let (show, json) = (verb.show, verb.json);
+        Ok(Self {
+            compute,
+            script,
+            settings,
+            scene,
+            beginning,
+            pigments,
+            show,
+            times,
+            title,
+            script_text,
+            outputs,
+            animation,
+            json,
+        })
+    }
+
+    /// Plays the script and writes everything.
+    pub(super) fn run(mut self, console: &mut Console<'_>) -> Result<()> {
+        let backend = self.compute.name().to_owned();
+        let size = self.scene.size;
+        let lighting = self.pigments.as_ref().map(|own| own.lighting.clone());
+        let animation = self.animation.take();
+        let digest = animation.as_ref().map(|_| self.digest(&backend));
+        let device = StepDevice::beside(&self.compute);
+        let mut snapshots = match (&animation, &digest) {
+            (Some(animation), Some(digest)) => {
+                let wish = digest.clone().text();
+                Snapshots::find(animation.folder(), wish, (&self.beginning, device), console)?
+            }
+            _ => Snapshots::none(device),
+        };
+        let mut painter = waited("preparing the scene", console, || self.painter())?;
+        if painter.counts_elsewhere() {
+            console.warnings(&[format!(
+                "{backend} writes no buffers from fragments; volumes are counted on the processor"
+            )])?;
+        }
+        let rehearsed = || self.rehearsed(animation.is_some(), &mut snapshots);
+        let still = waited("spreading the paint", console, rehearsed)?;
+        let recording = match (animation, digest) {
+            (Some(animation), Some(digest)) => {
+                Some(animation.begin(digest, self.times.frames.len(), size)?)
+            }
+            _ => None,
+        };
+        let OpenOutputs { pictures, script, volumes } = self.outputs;
+        let mut stills = Stills {
+            painter: &mut painter,
+            world: still.world(),
+            camera: &self.scene.cameras[0],
+            size,
+            show: self.show,
+            lighting: lighting.as_ref(),
+            title: &self.title,
+        };
+        stills.write(pictures, console)?;
+        if let Some(output) = script {
+            output.write(&self.script_text, console)?;
+        }
+        let mut summary = Summary::of(still.world(), size, &backend);
+        let mut film = Film {
+            script: &self.script,
+            scene: &self.scene,
+            beginning: &self.beginning,
+            steps: &self.times.frames,
+            snapshots: &mut snapshots,
+        };
+        if let Some(folder) = volumes {
+            film.write_volumes(&folder, console)?;
+        }
+        if let Some(recording) = recording {
+            let found = film.record(recording, &mut painter, self.show, console)?;
+            summary.frames = Some((self.times.frames.len(), found));
+        }
+        (summary.from_s, summary.played) = (snapshots.from_s, snapshots.played);
+        summary.print(self.json, console)
+    }
+
+    /// Everything that the frames depend on.
+    fn digest(&self, backend: &str) -> FramesDigest {
+        FramesDigest::default()
+            .add(&env!("CARGO_PKG_VERSION"))
+            .add(&self.script.script)
+            .add(&self.settings)
+            .add(&(&self.scene.cameras, &self.times.frames, self.show))
+            .add(&self.scene.mesh)
+            .add(&self.pigments)
+            .add(&backend)
+    }
+
+    fn painter(&mut self) -> Result<VolumePainter> {
+        let compute = std::mem::replace(&mut self.compute, Compute::cpu());
+        let styles = self.script.script.region_styles(&self.settings);
+        let painter = VolumePainter::new(&self.scene.mesh, &self.settings, &styles)?.on(compute)?;
+        match self.pigments.take() {
+            Some(pigments) => Ok(painter.with_pigments(pigments)?),
+            None => Ok(painter),
+        }
+    }
+
+    /// The script at the time of single pictures. It is played to the last step of all first, so
+    /// that an event that cannot be done is told before anything is written. A run that left
+    /// snapshots has done so already.
+    fn rehearsed(&self, has_frames: bool, snapshots: &mut Snapshots) -> Result<Performance> {
+        let located = |error| self.script.located_event(error);
+        let mut play = self.beginning.clone();
+        snapshots.advance(&mut play, self.times.still).map_err(located)?;
+        let still = play.clone();
+        if (has_frames || self.outputs.volumes.is_some()) && !snapshots.any() {
+            snapshots.advance(&mut play, self.times.last()).map_err(located)?;
+        }
+        Ok(still)
+    }
+}
+
+/// Refuses options that ask for nothing.
+fn check_outputs(verb: &Stencil) -> Result<()> {
+    if !verb.outputs.any() && !verb.animation.any() {
+        return Err(Failure::usage(
+            "nothing would be written",
+            "add --picture spread.png, --animation spread.gif, or --output painting.exr",
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses layers of a painting without pigments, and of pictures that are none.
+fn check_layers(verb: &Stencil, has_pigments: bool) -> Result<()> {
+    let Some(option) = verb.outputs.layer_option() else { return Ok(()) };
+    if !has_pigments {
+        return Err(Failure::usage(
+            format!("{option} needs pigments, but no library is given"),
+            "name a LIBRARY after the subject, and give --palette",
+        ));
+    }
+    match verb.show {
+        Show::Final => Ok(()),
+        show => Err(Failure::usage(
+            format!("{option} is of the painting, and --show {} is not", show.name()),
+            format!("leave out {option} or --show"),
+        )),
+    }
+}
+
+/// The script with all that options change of it.
+fn script(
+    verb: &Stencil,
+    path: &Path,
+    library: Option<&PigmentLibrary>,
+    console: &mut Console<'_>,
+) -> Result<OpenScript> {
+    let mut open = OpenScript::of(path, &verb.pours)?;
+    let usual = (verb.pigments.any() && !open.is_file()).then_some(Preset::Grisaille);
+    verb.settings.apply(&mut open.script, usual)?;
+    verb.pours.apply(&mut open.script, verb.pigments.palette(), library)?;
+    verb.pigments.apply(&mut open.script, console)?;
+    // A script that is written plays the same.
+    open.script = open.script.rounded();
+    open.script.check().map_err(|fault| open.located(fault))?;
+    if open.script.events().is_empty() {
+        return Err(Failure::usage(
+            format!("{}: nothing is poured", path.display()),
+            "add --pour 0.5,0.5, or a script with [[pour]]",
+        ));
+    }
+    Ok(open)
+}

@@ -1,0 +1,245 @@
+//! The scene, its cameras and its script.
+
+use std::path::{Path, PathBuf};
+
+use graphics::camera::{Camera, PictureView};
+use graphics::mesh::Mesh;
+use spectra::instrument::split_file_and_name;
+use volumes::performance::{FirstView, Performance, PerformanceError};
+use volumes::script::{
+    CameraTable, Script, ScriptCamera, ScriptError, Subject as ScriptSubject, is_light,
+};
+use volumes::settings::Settings;
+use volumes::toml_text::{Fault, KeyPath, KeyStep};
+
+use super::cameras::{camera_table, model_cameras, picture_cameras};
+use super::pours::PourOptions;
+use crate::failure::{Failure, Result};
+use crate::input::{is_toml, text};
+use crate::subject::{PictureViews, Subject, SubjectOptions};
+
+/// A script with the file that it was read from, if any.
+pub(super) struct OpenScript {
+    pub(super) script: Script,
+    /// Name of the file and its text.
+    file: Option<(String, String)>,
+    /// Number of its own pours; later ones are of the command line.
+    own_pours: usize,
+    /// Whether the command line gives the duration.
+    seconds_given: bool,
+    /// Whether the command line gives the camera.
+    camera_given: bool,
+}
+
+/// A scene ready to be painted.
+pub(super) struct Scene {
+    pub(super) mesh: Mesh,
+    /// Cameras of the frames; one for a camera that stands still.
+    pub(super) cameras: Vec<Camera>,
+    /// Width and height of a picture in pixels.
+    pub(super) size: (usize, usize),
+    /// Whether it is a photograph, which has light of its own.
+    pub(super) photograph: bool,
+    /// The model or photograph, for a script.
+    subject: PathBuf,
+    /// Files that it was read from.
+    pub(super) inputs: Vec<PathBuf>,
+}
+
+impl OpenScript {
+    /// Reads a script, or makes one in which nothing happens to `subject`.
+    pub(super) fn of(subject: &Path, pours: &PourOptions) -> Result<Self> {
+        let seconds_given = pours.has_seconds();
+        if !is_toml(subject) {
+            let script = Script::new(&subject.to_string_lossy(), pours.usual_seconds());
+            return Ok(Self {
+                script,
+                file: None,
+                own_pours: 0,
+                seconds_given,
+                camera_given: false,
+            });
+        }
+        let name = subject.display().to_string();
+        let text = text(subject)?;
+        let script = Script::open_own(subject)?;
+        let own_pours = script.pours.len();
+        Ok(Self { script, file: Some((name, text)), own_pours, seconds_given, camera_given: false })
+    }
+
+    /// Whether it was read from a file.
+    pub(super) fn is_file(&self) -> bool {
+        self.file.is_some()
+    }
+
+    /// A fault of the script with its file and line.
+    pub(super) fn located(&self, fault: Box<Fault>) -> Failure {
+        if let Some(option) = self.option_of(&fault.key) {
+            let Fault { wanted, found, hint, .. } = *fault;
+            let message = format!("{option} takes {wanted}, found `{found}`");
+            // Names of pigments depend on the library.
+            return match option.starts_with("--palette") {
+                true => Failure::data(message, hint),
+                false => Failure::usage(message, hint),
+            };
+        }
+        match &self.file {
+            Some((name, text)) => ScriptError::located(name, text, fault).into(),
+            None => ScriptError::from(fault).into(),
+        }
+    }
+
+    /// The option that gave the value at `key`, if it was one.
+    fn option_of(&self, key: &KeyPath) -> Option<String> {
+        let (first, index) = match &key.0[..] {
+            [KeyStep::Key(first), KeyStep::Index(index), ..] => (first, Some(*index)),
+            [KeyStep::Key(first), ..] => (first, None),
+            _ => return None,
+        };
+        match (first.as_str(), index) {
+            ("seconds", _) if self.seconds_given || self.file.is_none() => {
+                Some("--seconds".to_owned())
+            }
+            ("pour", Some(index)) if index >= self.own_pours => {
+                Some(format!("--pour number {}", index + 1 - self.own_pours))
+            }
+            ("camera", _) if self.camera_given => Some("--camera".to_owned()),
+            ("palette", _) if self.file.is_none() => Some("--palette or --paint".to_owned()),
+            _ => None,
+        }
+    }
+
+    /// An error of playing with its file and line.
+    pub(super) fn located_event(&self, error: PerformanceError) -> Failure {
+        if let Some(option) = error.table().and_then(|table| self.option_of(table)) {
+            return error.placed(option).into();
+        }
+        match &self.file {
+            Some((name, text)) => error.located(name, text).into(),
+            None => error.into(),
+        }
+    }
+
+    /// The model or photograph: `path` itself, or what the script there names.
+    fn subject(&self, path: &Path) -> Result<PathBuf> {
+        if self.file.is_none() {
+            return Ok(path.to_owned());
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        match self.script.subject_in(folder).map_err(|fault| self.located(fault))? {
+            ScriptSubject::Shape(shape) => Ok(PathBuf::from(format!("shape:{}", shape.name()))),
+            ScriptSubject::File(file) if file.is_file() => Ok(file),
+            ScriptSubject::File(file) => Err(self.located(Box::new(Fault {
+                key: KeyPath::of("subject"),
+                wanted: "a file that is there".to_owned(),
+                found: self.script.subject.clone(),
+                hint: format!("put it at {}, or name another file", file.display()),
+            }))),
+        }
+    }
+
+    /// The script before its first step.
+    pub(super) fn beginning(&self, scene: &Scene, settings: &Settings) -> Result<Performance> {
+        let Scene { mesh, cameras, size, .. } = scene;
+        let view = FirstView::new(mesh, &cameras[0], *size);
+        Performance::new(&self.script, mesh, settings, &view).map_err(|error| {
+            let of_scene = matches!(error, PerformanceError::World(_));
+            let failure = self.located_event(error);
+            match of_scene {
+                true => failure
+                    .within(format!("{}: paint cannot be poured over it", scene.subject.display())),
+                false => failure,
+            }
+        })
+    }
+
+    /// The script as text, to be written into `folder`: with the paths of the subject and of the
+    /// `library` and a lamp from there, if they have files, and with the light of its paint.
+    pub(super) fn text(
+        &self,
+        scene: &Scene,
+        title: &str,
+        folder: &Path,
+        (library, light): (Option<&Path>, Option<&str>),
+    ) -> Result<String> {
+        let mut script = self.script.clone();
+        script.subject = path_from(&scene.subject, folder);
+        script.library = library.map(|file| path_from(file, folder)).or(script.library);
+        (script.illuminant, script.lamp) = match light {
+            Some(light) if is_light(light) => (Some(light.to_owned()), None),
+            Some(lamp) => (None, Some(lamp_from(lamp, folder))),
+            None => (None, None),
+        };
+        script.title = title.to_owned();
+        Ok(script.to_text()?)
+    }
+
+    /// Reads the scene. `frames` is the number of frames of a camera path of the script. A camera
+    /// of the options becomes that of the script.
+    pub(super) fn scene(
+        &mut self,
+        path: &Path,
+        options: &SubjectOptions,
+        frames: usize,
+    ) -> Result<Scene> {
+        let subject = self.subject(path)?;
+        // Before a path of the script a photograph is seen as the studio shows it.
+        let is_path = |camera: &CameraTable| matches!(camera.camera(frames), ScriptCamera::Path(_));
+        let free = !options.has_camera() && self.script.camera.as_ref().is_some_and(is_path);
+        let views = if free { PictureViews::Free } else { PictureViews::Turned };
+        let (read, mut inputs) = options.without_camera().subject(&subject, views)?;
+        if self.file.is_some() {
+            inputs.push(path.to_owned());
+        }
+        let photograph = matches!(read, Subject::Photograph(..));
+        if options.has_camera() {
+            inputs.extend(options.camera_file()?.map(Path::to_owned));
+            self.script.camera = Some(camera_table(options, photograph)?);
+            self.script = self.script.rounded();
+            self.camera_given = true;
+            self.script.check().map_err(|fault| self.located(fault))?;
+        }
+        let table = self.script.camera.clone().unwrap_or_default();
+        let (mesh, size, cameras) = match read {
+            Subject::Mesh(mesh, _, size) => {
+                let cameras = model_cameras(&table, &mesh, size, frames);
+                (*mesh, size, cameras)
+            }
+            Subject::Photograph(photograph, width) => {
+                let (own_width, own_height) = photograph.size();
+                let shape = own_height as f64 / own_width as f64;
+                let rows = |columns: usize| ((columns as f64 * shape).round() as usize).max(1);
+                let columns = if free { photograph.usual_width_px() } else { width };
+                let mesh = Mesh::of_picture(&photograph.with_opacity(columns, rows(columns)));
+                let size = (width, options.height().filter(|_| free).unwrap_or(rows(width)));
+                let view = PictureView::of(photograph.size());
+                let cameras = picture_cameras(&table, view, &mesh, frames);
+                (mesh, size, cameras.map_err(|fault| self.located(fault))?)
+            }
+        };
+        match cameras.is_empty() {
+            false => Ok(Scene { mesh, cameras, size, photograph, subject, inputs }),
+            true => Err(Failure::data("the camera path has no frames", "give frames = 60")),
+        }
+    }
+}
+
+/// The path of a subject from a folder, or its whole path if it does not lie below the folder.
+fn path_from(subject: &Path, folder: &Path) -> String {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let path = match (subject.canonicalize(), folder.canonicalize()) {
+        (Ok(subject), Ok(folder)) => {
+            subject.strip_prefix(&folder).map_or(subject.clone(), Path::to_owned)
+        }
+        // A shape has no file.
+        _ => subject.to_owned(),
+    };
+    path.to_string_lossy().into_owned()
+}
+
+/// The file of a lamp from a folder, with the name of its spectrum if it has one.
+fn lamp_from(lamp: &str, folder: &Path) -> String {
+    let (file, name) = split_file_and_name(lamp);
+    let file = path_from(Path::new(file), folder);
+    name.map_or(file.clone(), |name| format!("{file}#{name}"))
+}

@@ -1,0 +1,100 @@
+//! Errors of the libraries as exceptions of the package.
+
+use std::error::Error;
+
+use pyo3::prelude::*;
+use documents::hint::{Explain, Fault, Hint};
+
+/// Exceptions that the package defines in `impasto/errors.py`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Exception {
+    /// Files of measurements that cannot be read.
+    Reading,
+    /// Names and parts that cannot be mixed or matched.
+    Recipe,
+    /// Fits, validations and plans that fail.
+    Fit,
+    /// Everything else.
+    Other,
+}
+
+impl Exception {
+    fn name(self, fault: Fault) -> &'static str {
+        match (fault, self) {
+            (Fault::Environment, _) => "FileError",
+            (_, Self::Reading) => "ReadingError",
+            (_, Self::Recipe) => "RecipeError",
+            (_, Self::Fit) => "FitError",
+            (_, Self::Other) => "Error",
+        }
+    }
+
+    /// The exception for `error`, with its causes in the message, its hint, and the place of a cell.
+    pub(crate) fn of(self, py: Python<'_>, error: &dyn Explain) -> PyErr {
+        let hint = error.hint().map(|hint| hint_text(&hint));
+        self.with(py, error.fault(), &message(error), hint.as_deref())
+    }
+
+    /// An exception with this message and hint.
+    pub(crate) fn with(
+        self,
+        py: Python<'_>,
+        fault: Fault,
+        message: &str,
+        hint: Option<&str>,
+    ) -> PyErr {
+        let made = || {
+            let class = py.import("impasto.errors")?.getattr(self.name(fault))?;
+            class.call1((message, hint))
+        };
+        made().map_or_else(|error| error, PyErr::from_value)
+    }
+}
+
+/// A hint whose settings are arguments of the package.
+pub(crate) fn hint_text(hint: &Hint) -> String {
+    hint.with_settings(|name, value| {
+        let argument = match name {
+            "saunderson" => return "`surface=impasto.Surface(k1, k2)`".to_owned(),
+            "percent" => return "`percent=True`".to_owned(),
+            "fraction" => return "`percent=False`".to_owned(),
+            "with" => "using",
+            "least" => "least_share",
+            "parts" => "whole_parts",
+            "cost" | "costs" => "prices",
+            other => other,
+        };
+        match value {
+            Some(value) if value.parse::<f64>().is_ok() => format!("`{argument}={value}`"),
+            Some(value) => format!("`{argument}=\"{}\"`", value.trim_matches('"')),
+            None => format!("`{argument}`"),
+        }
+    })
+}
+
+/// The message of `error` and of its causes.
+fn message(error: &dyn Explain) -> String {
+    let mut message = error.to_string();
+    let mut cause: Option<&dyn Error> = error.source();
+    while let Some(error) = cause {
+        let text = error.to_string();
+        if !message.contains(&text) {
+            message += ": ";
+            message += &text;
+        }
+        cause = error.source();
+    }
+    message
+}
+
+/// Results whose errors become exceptions.
+pub(crate) trait Raised<T> {
+    /// Turns the error into an exception of this class.
+    fn raised(self, py: Python<'_>, exception: Exception) -> PyResult<T>;
+}
+
+impl<T, E: Explain> Raised<T> for Result<T, E> {
+    fn raised(self, py: Python<'_>, exception: Exception) -> PyResult<T> {
+        self.map_err(|error| exception.of(py, &error))
+    }
+}

@@ -1,0 +1,142 @@
+//! Long work beside Python: other threads of Python go on, Ctrl-C is obeyed, progress is told.
+
+use std::cell::OnceCell;
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use documents::Cancellation;
+
+/// Time between two looks for signals.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Name of the thread of the work.
+const THREAD: &str = "impasto-work";
+
+/// How work tells its stages, and learns that nobody waits for it any more.
+pub(crate) struct Reporter {
+    told: Mutex<Sender<String>>,
+    cancellation: Cancellation,
+}
+
+impl Reporter {
+    /// Tells a stage. Any thread may call it.
+    pub(crate) fn tell(&self, stage: impl ToString) {
+        if let Ok(told) = self.told.lock() {
+            // Nobody listens once the caller has given up.
+            let _ = told.send(stage.to_string());
+        }
+    }
+
+    /// Set once the caller was interrupted.
+    pub(crate) fn cancellation(&self) -> &Cancellation {
+        &self.cancellation
+    }
+
+    /// Whether work goes on: not once the caller was interrupted.
+    pub(crate) fn flow(&self) -> ControlFlow<()> {
+        if self.cancellation.is_cancelled() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+/// Does `work` on a thread of its own. Meanwhile `progress` is called with each stage as text, and
+/// signals are looked for. After Ctrl-C, or an exception of `progress`, the work is asked to end, and the
+/// call raises once its thread has ended.
+pub(crate) fn run<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Reporter) -> T + Send + 'static,
+) -> PyResult<T> {
+    let cancellation = Cancellation::default();
+    let (told, stages) = channel();
+    let (done, result) = channel();
+    let reporter = Reporter { told: Mutex::new(told), cancellation: cancellation.clone() };
+    let worker = started(move || {
+        let result = catch_unwind(AssertUnwindSafe(|| work(&reporter)));
+        // Nobody listens once the caller has given up.
+        let _ = done.send(result);
+    })?;
+    let waited = wait(py, progress, &stages, result);
+    if waited.is_err() {
+        cancellation.cancel();
+    }
+    // A thread that still computes while the program ends or goes on would take its processors and files.
+    let ended = py.detach(|| worker.join());
+    ended.map_err(|_| PyRuntimeError::new_err("the thread of the work was lost"))?;
+    waited?.map_err(|_| PyRuntimeError::new_err("a defect of impasto: please report it"))
+}
+
+/// Starts a thread that does `work`: alone if the process shares work among one thread only
+/// (`RAYON_NUM_THREADS=1`), which would have to do that of all others too.
+fn started(work: impl FnOnce() + Send + 'static) -> std::io::Result<JoinHandle<()>> {
+    let thread = || std::thread::Builder::new().name(THREAD.to_owned());
+    if rayon::current_num_threads() > 1 {
+        return thread().spawn(work);
+    }
+    let mut worker = None;
+    let pool = ThreadPoolBuilder::new().num_threads(1).spawn_handler(|own| {
+        worker = Some(thread().spawn(move || own.run())?);
+        Ok(())
+    });
+    // Once it is dropped, its thread ends with the work.
+    pool.build().map_err(std::io::Error::other)?.spawn(work);
+    worker.ok_or_else(|| std::io::Error::other("no thread was started"))
+}
+
+thread_local! {
+    /// Pool whose only thread is the calling one; `None` if it could not be made.
+    static OWN: OnceCell<Option<ThreadPool>> = const { OnceCell::new() };
+}
+
+/// Does short `work` while other threads of Python run: on the calling thread if the process shares work among
+/// one thread only, which would have to do that of all others too.
+pub(crate) fn beside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
+    py.detach(|| {
+        if rayon::current_num_threads() == 1 && rayon::current_thread_index().is_none() {
+            let own = || ThreadPoolBuilder::new().num_threads(1).use_current_thread().build().ok();
+            OWN.with(|pool| {
+                pool.get_or_init(own);
+            });
+        }
+        work()
+    })
+}
+
+fn wait<T: Send>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    stages: &Receiver<String>,
+    result: Receiver<T>,
+) -> PyResult<T> {
+    // A receiver cannot be shared between threads, a lock on it can.
+    let result = Mutex::new(result);
+    loop {
+        let received = py.detach(|| match result.lock() {
+            Ok(result) => result.recv_timeout(LOOK),
+            Err(_) => Err(RecvTimeoutError::Disconnected),
+        });
+        py.check_signals()?;
+        for stage in stages.try_iter() {
+            if let Some(progress) = progress {
+                progress.call1((stage,))?;
+            }
+        }
+        match received {
+            Ok(result) => return Ok(result),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the work ended without a result"));
+            }
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! Takes over brushes of MyPaint (`.myb`) as far as they have a meaning for a head of hair.
+//!
+//! | MyPaint | here |
+//! | --- | --- |
+//! | `radius_logarithmic` | size in mm: the diameter at half pressure, a pixel being [`MM_PER_PIXEL`] |
+//! | its dynamics by `pressure` | curve of the pressure: the radius as a share of the largest |
+//! | `opaque_multiply` or `opaque` by `pressure` | curve of the pressure, if the radius has none |
+//! | `opaque` | share of clear medium in a load: one minus it |
+//! | `smudge` | height of a load: 0.3 mm less this share; none at 0.95 and above |
+//! | `slow_tracking` | moving average over the way of a pen at 100 mm/s: 2 mm for each unit, because MyPaint's filter lags by 0.01 s a unit and an average by half its length |
+//! | `elliptical_dab_ratio` | from 1.5 on a flat, else a round |
+//! | `elliptical_dab_angle` | fixed twist; with dynamics by `direction` across the stroke, by `tilt_ascension` with the pen |
+//!
+//! The setting names are those of MyPaint's public documentation (`brushsettings.json`). All other
+//! settings and dynamics are listed as without meaning; none is dropped in silence.
+
+use paint::brush::HeadShape;
+use paint::strokes::{BrushSpec, Recipe};
+
+use super::curve::PressureCurve;
+use super::error::BrushFileError;
+use super::myb_file::{self, MybSetting};
+use super::options::{BrushOptions, TwistUse};
+use super::points::CurvePoints;
+use super::preset::{BrushPreset, PresetLoad, proper_name};
+use super::stabiliser::{LengthUnit, StabiliserMethod, StabiliserSettings};
+
+/// Millimetres of a pixel of MyPaint unless told otherwise: the width of a cell of a new canvas, so
+/// that a brush covers as many cells as it covered pixels.
+pub const MM_PER_PIXEL: f64 = 0.1;
+
+/// Height of a full load in mm.
+const LOAD_MM: f64 = 0.3;
+
+/// Share of smudging from which a brush takes no load.
+const SMUDGES_ONLY: f64 = 0.95;
+
+/// Averaged length in mm for each unit of `slow_tracking`.
+const MM_PER_TRACKING: f64 = 2.0;
+
+/// Ratio of a dab's axes from which it is a flat.
+const FLAT_RATIO: f64 = 1.5;
+
+/// A brush that was taken over, and what became of its settings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportedBrush {
+    /// The brush as it is kept here.
+    pub preset: BrushPreset,
+    /// Settings that have a meaning here, each with what became of it.
+    pub taken: Vec<String>,
+    /// Settings and dynamics without a meaning here.
+    pub meaningless: Vec<String>,
+}
+
+/// Settings of a file, from which those with a meaning are taken.
+struct Import {
+    settings: Vec<MybSetting>,
+    taken: Vec<String>,
+    meaningless: Vec<String>,
+}
+
+/// Takes over the brush that the text of a `.myb` file describes. `file` names the file in errors
+/// and, without folder and ending, the brush; `mm_per_pixel` is the width of one of its pixels.
+///
+/// # Errors
+/// [`BrushFileError`] if the text is not a MyPaint brush of version 3, with the key at fault.
+pub fn brush_of_myb(
+    text: &str,
+    file: &str,
+    mm_per_pixel: f64,
+) -> Result<ImportedBrush, BrushFileError> {
+    let (settings, described) = myb_file::read(text, file)?;
+    let mut import = Import { settings, taken: Vec::new(), meaningless: Vec::new() };
+    let (size_mm, by_radius) = import.radius(mm_per_pixel);
+    let (vehicle, by_opacity) = import.opacity(by_radius.is_some());
+    let amount_mm = import.smudge();
+    let stabiliser = import.tracking();
+    let shape = import.ratio();
+    let twist = import.angle(shape);
+    for setting in std::mem::take(&mut import.settings) {
+        let inputs: Vec<&str> = setting.inputs.iter().map(|(input, _)| input.as_str()).collect();
+        let by =
+            if inputs.is_empty() { String::new() } else { format!(" by {}", inputs.join(", ")) };
+        import.meaningless.push(format!("{}{by}", setting.name));
+    }
+    let described = described.into_iter().filter(|key| key != "notes");
+    import.meaningless.extend(described);
+    let curve = by_radius.or(by_opacity);
+    let options = BrushOptions { twist, curve, stabiliser, ..BrushOptions::default() };
+    let amount =
+        amount_mm.map(|amount_mm| PresetLoad { recipe: Recipe::new(), vehicle, amount_mm });
+    let stem = std::path::Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
+    let name = proper_name(&stem).unwrap_or_else(|| "brush".to_owned());
+    let brush = BrushSpec { shape, size_mm };
+    let preset = BrushPreset { name, brush, options, load: amount };
+    Ok(ImportedBrush { preset, taken: import.taken, meaningless: import.meaningless })
+}
+
+impl Import {
+    /// Removes a setting. Its dynamics are listed as without meaning, except those in `used`.
+    fn take(&mut self, name: &str, used: &[&str]) -> Option<MybSetting> {
+        let at = self.settings.iter().position(|setting| setting.name == name)?;
+        let setting = self.settings.remove(at);
+        for (input, _) in setting.inputs.iter().filter(|(input, _)| !used.contains(&&input[..])) {
+            self.meaningless.push(format!("{name} by {input}"));
+        }
+        Some(setting)
+    }
+
+    fn radius(&mut self, mm_per_pixel: f64) -> (f64, Option<PressureCurve>) {
+        let Some(radius) = self.take("radius_logarithmic", &["pressure"]) else {
+            self.taken.push("no radius_logarithmic: size 6 mm".to_owned());
+            return (6.0, None);
+        };
+        let pixels = 2.0 * radius.at("pressure", 0.5).exp();
+        let wanted = pixels * mm_per_pixel;
+        let size_mm = if wanted.is_finite() { wanted.clamp(0.2, 100.0) } else { 100.0 };
+        let limit = if size_mm == wanted { "" } else { ", the nearest that there is" };
+        self.taken.push(format!(
+            "radius_logarithmic: {pixels:.1} pixels of {mm_per_pixel} mm, size {size_mm:.2} mm{limit}"
+        ));
+        let curve = self.curve(&radius, |x| radius.at("pressure", x).exp());
+        (size_mm, curve)
+    }
+
+    fn opacity(&mut self, has_curve: bool) -> (f64, Option<PressureCurve>) {
+        let used: &[&str] = if has_curve { &[] } else { &["pressure"] };
+        let factor = self.take("opaque_multiply", used);
+        let opaque = self.take("opaque", used);
+        let mut curve = None;
+        let sources = [factor, opaque.clone()];
+        for source in sources.iter().flatten().filter(|_| !has_curve) {
+            if curve.is_none() {
+                curve = self.curve(source, |x| source.at("pressure", x).max(0.0));
+            } else if source.input("pressure").is_some() {
+                self.meaningless.push(format!("{} by pressure", source.name));
+            }
+        }
+        let base = opaque.map(|opaque| opaque.base.clamp(0.0, 1.0));
+        if let Some(base) = base {
+            self.taken.push(format!("opaque: {:.0} % medium in a load", 100.0 * (1.0 - base)));
+        }
+        (base.map_or(0.0, |base| 1.0 - base), curve)
+    }
+
+    /// The curve of a setting's dynamics by pressure, as shares of the largest value.
+    fn curve(&mut self, setting: &MybSetting, value: impl Fn(f64) -> f64) -> Option<PressureCurve> {
+        setting.input("pressure")?;
+        let values: Vec<[f64; 2]> =
+            (0..=4).map(|at| f64::from(at) / 4.0).map(|x| [x, value(x)]).collect();
+        let most = values.iter().fold(0.0, |most: f64, point| most.max(point[1]));
+        let shares: Vec<[f64; 2]> =
+            values.iter().map(|[x, y]| [*x, (y / most).clamp(0.0, 1.0)]).collect();
+        let name = &setting.name;
+        match CurvePoints::try_from(shares) {
+            Ok(points) if most > 0.0 => {
+                self.taken.push(format!("{name} by pressure: curve of the pressure"));
+                Some(PressureCurve::Points(points))
+            }
+            _ => {
+                self.meaningless.push(format!("{name} by pressure, which falls"));
+                None
+            }
+        }
+    }
+
+    fn smudge(&mut self) -> Option<f64> {
+        let smudge = self.take("smudge", &[]).map_or(0.0, |smudge| smudge.base.clamp(0.0, 1.0));
+        if smudge == 0.0 {
+            return Some(LOAD_MM);
+        }
+        if smudge >= SMUDGES_ONLY {
+            self.taken.push("smudge: no load, moves the paint that lies there".to_owned());
+            return None;
+        }
+        let amount_mm = LOAD_MM * (1.0 - smudge);
+        self.taken.push(format!("smudge: loads of {amount_mm:.2} mm"));
+        Some(amount_mm)
+    }
+
+    fn tracking(&mut self) -> Option<StabiliserSettings> {
+        let tracking = self.take("slow_tracking", &[])?.base;
+        let length = (MM_PER_TRACKING * tracking).min(100.0);
+        let settings =
+            StabiliserSettings { method: StabiliserMethod::Average, length, unit: LengthUnit::Mm };
+        let used = settings.is_valid();
+        let told = if used { format!("average over {length:.1} mm") } else { "off".to_owned() };
+        self.taken.push(format!("slow_tracking: stabiliser, {told}"));
+        used.then_some(settings)
+    }
+
+    fn ratio(&mut self) -> HeadShape {
+        let Some(MybSetting { base: ratio, .. }) = self.take("elliptical_dab_ratio", &[]) else {
+            return HeadShape::Round;
+        };
+        let shape = if ratio >= FLAT_RATIO { HeadShape::Flat } else { HeadShape::Round };
+        self.taken.push(format!("elliptical_dab_ratio: {ratio:.1}, a {shape}"));
+        shape
+    }
+
+    fn angle(&mut self, shape: HeadShape) -> TwistUse {
+        let used = ["direction", "tilt_ascension"];
+        let Some(angle) = self.take("elliptical_dab_angle", &used) else { return TwistUse::AsSet };
+        if shape == HeadShape::Round {
+            self.meaningless.push("elliptical_dab_angle of a round".to_owned());
+            return TwistUse::AsSet;
+        }
+        let (twist, told) = if angle.input("direction").is_some() {
+            (TwistUse::Stroke, "turns across the stroke".to_owned())
+        } else if angle.input("tilt_ascension").is_some() {
+            (TwistUse::Device, "turns with the pen".to_owned())
+        } else {
+            let degrees = angle.base.rem_euclid(180.0);
+            (TwistUse::Fixed(degrees), format!("held at {degrees:.0} degrees"))
+        };
+        self.taken.push(format!("elliptical_dab_angle: {told}"));
+        twist
+    }
+}

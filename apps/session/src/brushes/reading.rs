@@ -1,0 +1,125 @@
+//! Reads JSON objects key by key, so that every error names its key.
+
+use documents::hint::Hint;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+use super::error::BrushFileError;
+
+/// An object of a file, whose keys are taken out one by one.
+#[derive(Debug)]
+pub(super) struct Object<'a> {
+    file: &'a str,
+    /// Path of the object in the file; empty for the whole.
+    path: String,
+    keys: Map<String, Value>,
+}
+
+impl<'a> Object<'a> {
+    /// The object that a text holds. `file` names it in errors.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] if the text is not JSON, or not an object.
+    pub(super) fn of_text(text: &str, file: &'a str) -> Result<Self, BrushFileError> {
+        let value: Value = serde_json::from_str(text).map_err(|error| BrushFileError {
+            file: file.to_owned(),
+            key: String::new(),
+            what: format!("is not JSON: {error}"),
+            hint: Some(Hint::new("choose a file of brushes: .json of this program, or .myb")),
+        })?;
+        Self::of_value(value, file, String::new())
+    }
+
+    /// The object that a value of a file is; `path` is its place in the file.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] if the value is not an object.
+    pub(super) fn of_value(
+        value: Value,
+        file: &'a str,
+        path: String,
+    ) -> Result<Self, BrushFileError> {
+        match value {
+            Value::Object(keys) => Ok(Self { file, path, keys }),
+            _ => Err(Self { file, path, keys: Map::new() }.fault("must be an object")),
+        }
+    }
+
+    /// Removes a key and reads its value; `None` if there is no such key.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] if the value has another type.
+    pub(super) fn take<T: DeserializeOwned>(
+        &mut self,
+        key: &str,
+    ) -> Result<Option<T>, BrushFileError> {
+        let Some(value) = self.keys.remove(key) else { return Ok(None) };
+        let read = serde_json::from_value(value);
+        read.map(Some).map_err(|error| self.fault_at(key, error.to_string()))
+    }
+
+    /// Removes a key that must be there and reads its value.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] if the key is missing or the value has another type.
+    pub(super) fn need<T: DeserializeOwned>(&mut self, key: &str) -> Result<T, BrushFileError> {
+        self.take(key)?.ok_or_else(|| self.fault_at(key, "is missing"))
+    }
+
+    /// Removes a key and returns the object in it; `None` if there is no such key.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] if the value is not an object.
+    pub(super) fn take_object(&mut self, key: &str) -> Result<Option<Self>, BrushFileError> {
+        let Some(value) = self.keys.remove(key) else { return Ok(None) };
+        Self::of_value(value, self.file, self.path_of(key)).map(Some)
+    }
+
+    /// Removes a key that must hold a list of objects, and returns them.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] if the key is missing or holds anything else.
+    pub(super) fn need_objects(&mut self, key: &str) -> Result<Vec<Self>, BrushFileError> {
+        let values: Vec<Value> = self.need(key)?;
+        let path = self.path_of(key);
+        let object = |(at, value)| Self::of_value(value, self.file, format!("{path}[{at}]"));
+        values.into_iter().enumerate().map(object).collect()
+    }
+
+    /// Removes and returns all keys that are left, in the order of their names.
+    pub(super) fn rest(self) -> Vec<(String, Value)> {
+        self.keys.into_iter().collect()
+    }
+
+    /// Names of the keys that are left, in order.
+    pub(super) fn names(&self) -> Vec<String> {
+        self.keys.keys().cloned().collect()
+    }
+
+    /// Refuses keys that nothing took.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] if a key is left.
+    pub(super) fn end(self) -> Result<(), BrushFileError> {
+        match self.keys.keys().next() {
+            None => Ok(()),
+            Some(key) => Err(self.fault_at(key, "is unknown")),
+        }
+    }
+
+    /// The error that this object is at fault.
+    pub(super) fn fault(&self, what: impl Into<String>) -> BrushFileError {
+        let (file, key) = (self.file.to_owned(), self.path.clone());
+        let hint = Some(Hint::new("correct the file, or export it again"));
+        BrushFileError { file, key, what: what.into(), hint }
+    }
+
+    /// The error that a key of this object is at fault.
+    pub(super) fn fault_at(&self, key: &str, what: impl Into<String>) -> BrushFileError {
+        BrushFileError { key: self.path_of(key), ..self.fault(what) }
+    }
+
+    fn path_of(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+}

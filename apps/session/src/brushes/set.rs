@@ -1,0 +1,310 @@
+//! A set of own brushes, and its file (`impasto-brushes`, version 1).
+//!
+//! ```json
+//! {
+//!   "format": "impasto-brushes",
+//!   "version": 1,
+//!   "name": "Portraits",
+//!   "presets": [
+//!     {
+//!       "name": "soft filbert",
+//!       "brush": { "shape": "filbert", "size_mm": 8 },
+//!       "options": { "tilt": "ignored", "twist": { "fixed": 30 }, "range": [0.1, 0.9],
+//!                    "curve": { "power": 1.6 },
+//!                    "stabiliser": { "method": "string", "length": 4, "unit": "mm" } },
+//!       "load": { "recipe": { "Zinc White": 1 }, "vehicle": 0.2, "amount_mm": 0.3 }
+//!     }
+//!   ]
+//! }
+//! ```
+//!
+//! `options` and `load` may be absent, and so may every key of `options`. A curve is a `power`, or
+//! 2 to 8 `points` `[x, y]` of 0 to 1. Unknown keys are refused.
+
+use serde_json::{Value, json};
+
+use super::error::BrushFileError;
+use super::preset::{BrushPreset, proper_name};
+use super::reading::Object;
+
+/// Most brushes of a set.
+const MOST_PRESETS: usize = 1000;
+
+/// Brushes that a painter keeps together, each under a name of its own.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BrushSet {
+    name: String,
+    presets: Vec<BrushPreset>,
+}
+
+impl BrushSet {
+    /// Name of the format in a file.
+    pub const FORMAT: &'static str = "impasto-brushes";
+
+    /// Version of the format that is read and written.
+    pub const VERSION: u64 = 1;
+
+    /// An empty set. A name without letters becomes `Brushes`.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        let name = proper_name(name).unwrap_or_else(|| "Brushes".to_owned());
+        Self { name, presets: Vec::new() }
+    }
+
+    /// The set under another name; one without letters changes nothing.
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        self.name = proper_name(name).unwrap_or(self.name);
+        self
+    }
+
+    /// Name of the set.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The brushes in the painter's order.
+    #[must_use]
+    pub fn presets(&self) -> &[BrushPreset] {
+        &self.presets
+    }
+
+    /// Adds a brush at the end and returns the name that it got: a taken one is numbered. `None`,
+    /// and nothing is added, once there are 1000.
+    pub fn add(&mut self, preset: BrushPreset) -> Option<String> {
+        if self.presets.len() >= MOST_PRESETS {
+            return None;
+        }
+        let name = self.free_name(&preset.name);
+        self.presets.push(BrushPreset { name: name.clone(), ..preset });
+        Some(name)
+    }
+
+    /// Replaces the brush of the same name, or adds it.
+    pub fn put(&mut self, preset: BrushPreset) {
+        match self.presets.iter_mut().find(|own| own.name == preset.name) {
+            Some(own) => *own = preset,
+            None => {
+                self.add(preset);
+            }
+        }
+    }
+
+    /// Renames a brush; a taken name is numbered, and one without letters changes nothing.
+    pub fn rename(&mut self, index: usize, name: &str) {
+        let Some(name) = proper_name(name) else { return };
+        if self.presets.get(index).is_none_or(|preset| preset.name == name) {
+            return;
+        }
+        self.presets[index].name = self.free_name(&name);
+    }
+
+    /// Removes a brush, if it is there.
+    pub fn remove(&mut self, index: usize) {
+        if index < self.presets.len() {
+            self.presets.remove(index);
+        }
+    }
+
+    /// Moves a brush to another place of the list, at most to its end.
+    pub fn move_to(&mut self, index: usize, place: usize) {
+        if index < self.presets.len() {
+            let preset = self.presets.remove(index);
+            self.presets.insert(place.min(self.presets.len()), preset);
+        }
+    }
+
+    /// Adds all brushes of another set, and returns how many there was room for.
+    pub fn add_all(&mut self, other: Self) -> usize {
+        other.presets.into_iter().filter_map(|preset| self.add(preset)).count()
+    }
+
+    /// Reads the text of a file; `file` names it in errors.
+    ///
+    /// # Errors
+    /// [`BrushFileError`] with the key that is unknown, missing or out of range.
+    pub fn of_json(text: &str, file: &str) -> Result<Self, BrushFileError> {
+        let mut object = Object::of_text(text, file)?;
+        let format: String = object.need("format")?;
+        if format != Self::FORMAT {
+            return Err(object.fault_at("format", format!("is not `{}`", Self::FORMAT)));
+        }
+        let version: u64 = object.need("version")?;
+        if version != Self::VERSION {
+            return Err(object.fault_at("version", format!("{version} is not known, only 1 is")));
+        }
+        let name: String = object.need("name")?;
+        let mut set = Self::new(&name);
+        let presets = object.need_objects("presets")?;
+        if presets.len() > MOST_PRESETS {
+            return Err(object.fault_at("presets", format!("holds more than {MOST_PRESETS}")));
+        }
+        for preset in presets {
+            let twice = preset.fault("has the name of a brush before it");
+            let preset = BrushPreset::read(preset)?;
+            if set.presets.iter().any(|own| own.name == preset.name) {
+                return Err(twice);
+            }
+            set.presets.push(preset);
+        }
+        object.end()?;
+        Ok(set)
+    }
+
+    /// Text of the file.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Names, numbers and lists always have a JSON form.
+        let presets = serde_json::to_value(&self.presets).unwrap_or(Value::Null);
+        let (format, version, name) = (Self::FORMAT, Self::VERSION, &self.name);
+        let value =
+            json!({ "format": format, "version": version, "name": name, "presets": presets });
+        pigment::library::to_text(&value)
+    }
+
+    /// The name itself, or numbered if it is taken.
+    fn free_name(&self, name: &str) -> String {
+        let name = proper_name(name).unwrap_or_else(|| "brush".to_owned());
+        let taken = |name: &str| self.presets.iter().any(|own| own.name == name);
+        let stem: String = name.chars().take(72).collect();
+        let mut free = name;
+        let mut number = 2;
+        while taken(&free) {
+            free = format!("{stem} {number}");
+            number += 1;
+        }
+        free
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use paint::brush::HeadShape;
+    use paint::strokes::BrushSpec;
+
+    use super::super::{
+        BrushOptions, LengthUnit, PresetLoad, PressureCurve, StabiliserMethod, StabiliserSettings,
+        TiltUse, TwistUse,
+    };
+    use super::*;
+
+    fn preset(name: &str) -> BrushPreset {
+        let brush = BrushSpec { shape: HeadShape::Filbert, size_mm: 8.0 };
+        BrushPreset { name: name.to_owned(), brush, options: BrushOptions::default(), load: None }
+    }
+
+    fn rich() -> BrushPreset {
+        let options = BrushOptions {
+            tilt: TiltUse::Ignored,
+            twist: TwistUse::Fixed(30.0),
+            range: [0.1, 0.9],
+            curve: Some(PressureCurve::Points(PressureCurve::FIRM.points())),
+            stabiliser: Some(StabiliserSettings {
+                method: StabiliserMethod::String,
+                length: 40.0,
+                unit: LengthUnit::Px,
+            }),
+        };
+        let recipe = [("Zinc White".to_owned(), 1.0)].into();
+        let load = Some(PresetLoad { recipe, vehicle: 0.2, amount_mm: 0.3 });
+        BrushPreset { options, load, ..preset("rich") }
+    }
+
+    fn names(set: &BrushSet) -> Vec<&str> {
+        set.presets().iter().map(|preset| preset.name.as_str()).collect()
+    }
+
+    #[test]
+    fn a_set_survives_its_file() {
+        let mut set = BrushSet::new("Portraits");
+        set.add(rich());
+        set.add(preset("plain"));
+        let text = set.to_json();
+        assert_eq!(BrushSet::of_json(&text, "a.json"), Ok(set), "{text}");
+    }
+
+    #[test]
+    fn the_example_of_the_guide_is_read() {
+        let guide = include_str!("../../../../docs/guide/painting.md");
+        let mut blocks = guide.split("```json").skip(1).filter_map(|rest| rest.split("```").next());
+        let example = blocks.find(|block| block.contains(BrushSet::FORMAT)).unwrap();
+        let set = BrushSet::of_json(example, "painting.md").unwrap();
+        let preset = &set.presets()[0];
+        assert_eq!((preset.name.as_str(), preset.options.tilt), ("soft filbert", TiltUse::Ignored));
+        assert!(preset.options.curve.is_some() && preset.load.is_some(), "{preset:?}");
+    }
+
+    #[test]
+    fn a_faulty_file_is_refused_with_its_key() {
+        let file = |preset: &str| {
+            let head = r#""format": "impasto-brushes", "version": 1, "name": "A""#;
+            format!("{{{head}, \"presets\": [{preset}]}}")
+        };
+        let brush = r#""name": "a", "brush": {"shape": "flat", "size_mm": 4}"#;
+        for (text, key, what) in [
+            ("[]".to_owned(), "", "must be an object"),
+            ("{".to_owned(), "", "is not JSON"),
+            (r#"{"format": "strokes"}"#.to_owned(), "format", "is not `impasto-brushes`"),
+            (r#"{"format": "impasto-brushes", "version": 2}"#.to_owned(), "version", "only 1"),
+            (file("3"), "presets[0]", "must be an object"),
+            (file(&format!("{{{brush}, \"hue\": 1}}")), "presets[0].hue", "is unknown"),
+            (file(r#"{"name": "a"}"#), "presets[0].brush", "is missing"),
+            (file(r#"{"name": " a", "brush": 3}"#), "presets[0].name", "1 to 80 letters"),
+            (
+                file(&format!("{{{}}}", brush.replace("flat", "spoon"))),
+                "presets[0].brush",
+                "unknown variant",
+            ),
+            (
+                file(&format!("{{{}}}", brush.replace("4}", "400}"))),
+                "presets[0].brush.size_mm",
+                "0.2 to 100",
+            ),
+            (
+                file(&format!("{{{brush}, \"options\": {{\"range\": [0.5, 0.2]}}}}")),
+                "presets[0].options.range",
+                "ascending",
+            ),
+            (
+                file(&format!("{{{brush}, \"options\": {{\"curve\": {{\"power\": 9}}}}}}")),
+                "presets[0].options.curve",
+                "exponent",
+            ),
+            (
+                file(&format!(
+                    "{{{brush}, \"load\": {{\"recipe\": {{}}, \"vehicle\": 3, \"amount_mm\": 1}}}}"
+                )),
+                "presets[0].load.vehicle",
+                "0 to 1",
+            ),
+            (file(&format!("{{{brush}}}, {{{brush}}}")), "presets[1]", "a brush before it"),
+        ] {
+            let error = BrushSet::of_json(&text, "a.json").unwrap_err();
+            assert_eq!((error.key.as_str(), error.file.as_str()), (key, "a.json"), "{text}");
+            assert!(error.what.contains(what), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn brushes_are_renamed_ordered_and_removed() {
+        let mut set = BrushSet::new("  ");
+        assert_eq!(set.name(), "Brushes");
+        for name in ["a", "b", "a", "c"] {
+            set.add(preset(name));
+        }
+        assert_eq!(names(&set), ["a", "b", "a 2", "c"]);
+        set.rename(3, " b ");
+        set.rename(0, " ");
+        set.rename(9, "x");
+        assert_eq!(names(&set), ["a", "b", "a 2", "b 2"]);
+        set.move_to(3, 0);
+        set.move_to(1, 99);
+        assert_eq!(names(&set), ["b 2", "b", "a 2", "a"]);
+        set.remove(1);
+        set.put(BrushPreset { name: "a 2".to_owned(), ..rich() });
+        assert_eq!(names(&set), ["b 2", "a 2", "a"]);
+        assert_eq!(set.presets()[1].options, rich().options);
+        assert_eq!(set.clone().add_all(set.clone()), 3);
+    }
+}

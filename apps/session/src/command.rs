@@ -1,0 +1,220 @@
+//! Commands of the front end.
+
+use web_time::Instant;
+
+use paint::document::{Document, Lighting};
+use paint::pose::Sample;
+use paint::session::KeptSession;
+use paint::strokes::{
+    Action, BrushSpec, Recipe, SampleDecimals, SideTable, StrokeScript, StrokeTool, SurfaceId,
+};
+use pigment::library::PigmentLibrary;
+
+use super::event::Picked;
+
+/// A sample of the pen and its time of arrival.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PenSample {
+    /// Position, pressure and angles of the brush over the surface.
+    pub sample: Sample,
+    /// Time at which the system reported it; latency is measured from here.
+    pub arrived: Instant,
+}
+
+/// Pace of a replay.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pace {
+    /// Without pauses, as fast as the machine allows.
+    Fast,
+    /// At the pace of the painter, by the seconds of the samples.
+    AsPainted,
+}
+
+/// State that a painting starts from.
+#[derive(Debug, Clone)]
+pub enum Origin {
+    /// A canvas without paint, described by the header of a script. Its actions are not played.
+    Blank {
+        /// Script with canvas, pigments, medium and light.
+        script: Box<StrokeScript>,
+        /// Library of the pigments that it names.
+        library: Box<PigmentLibrary>,
+    },
+    /// A painting that was read from a file.
+    Painting(Box<Document>),
+    /// A painting that was read from a file, with the palette and the brushes that were saved with
+    /// it.
+    WithTable {
+        /// Document of the canvas.
+        canvas: Box<Document>,
+        /// Palette and brushes as they were left.
+        table: Box<SideTable>,
+    },
+    /// Canvas and palette recovered from an autosave.
+    Recovered {
+        /// Document of the canvas.
+        canvas: Box<Document>,
+        /// Document of the palette.
+        palette: Box<Document>,
+        /// Brushes and recording; without them the painting has clean brushes, and is not recorded.
+        kept: Option<Box<KeptSession>>,
+    },
+}
+
+/// A request to the worker. Commands are executed in their order.
+#[derive(Debug)]
+pub enum Command {
+    /// Opens a painting in place of the open one.
+    Open(Origin),
+    /// Adds a brush under a name, or replaces the one with that name.
+    SetBrush {
+        /// Name of the brush.
+        name: String,
+        /// Shape and size of its head.
+        spec: BrushSpec,
+    },
+    /// Sets a brush down; samples follow.
+    PenDown {
+        /// Surface to paint on.
+        surface: SurfaceId,
+        /// Name of the brush.
+        brush: String,
+        /// Decimals that the samples of the stroke are rounded to.
+        decimals: SampleDecimals,
+    },
+    /// Sets the head of a brush down as a tool that works the wet paint; samples follow. They are
+    /// rounded to [`SampleDecimals::PEN`].
+    ToolDown {
+        /// The tool that the head is used as.
+        tool: StrokeTool,
+        /// Surface to work on.
+        surface: SurfaceId,
+        /// Name of the brush.
+        brush: String,
+    },
+    /// Adds samples to the open stroke.
+    PenMove(Vec<PenSample>),
+    /// Lifts the brush, which ends the stroke.
+    PenUp,
+    /// Begins a group: its strokes are one step of undo and redo.
+    BeginGroup,
+    /// Ends a group. One in which anything but strokes was done is none.
+    EndGroup,
+    /// Applies an action. An open stroke is finished first.
+    Apply(Action),
+    /// Applies an action of light, gloss, stiffness or opacity while its slider is dragged. All
+    /// adjustments until [`Command::EndAdjustment`] become one action of the history.
+    Adjust(Action),
+    /// Ends an adjustment: the slider was released.
+    EndAdjustment,
+    /// Undoes or repeats actions until this number of actions of the history is done.
+    GoTo(usize),
+    /// Sets the second light of the split view; `None` turns it off.
+    SetSecondLight(Option<Lighting>),
+    /// Asks for reflectance and paint at a position. The answer is
+    /// [`Event::Picked`](super::Event::Picked).
+    Pick {
+        /// Surface to pick from.
+        surface: SurfaceId,
+        /// Distance from the left edge in mm.
+        x_mm: f64,
+        /// Distance from the upper edge in mm.
+        y_mm: f64,
+        /// Radius of the circle that is averaged, in mm; 0 is one cell.
+        radius_mm: f64,
+    },
+    /// Asks for the documents as they are now, for saving and exporting. The answer is
+    /// [`Event::Snapshot`](super::Event::Snapshot) with this number.
+    Snapshot(u64),
+    /// Asks for all that a later session needs to go on from here. The answer is
+    /// [`Event::Kept`](super::Event::Kept) with this number.
+    Keep {
+        /// Number of the request.
+        number: u64,
+        /// Number of actions of the recording that are known already: the answer has the others.
+        recorded: usize,
+    },
+    /// Asks for the recording since the painting was opened. The answer is
+    /// [`Event::Recording`](super::Event::Recording) with this number.
+    Recording(u64),
+    /// Opens the painting that a script describes and plays the script on it.
+    Replay {
+        /// Script to play.
+        script: Box<StrokeScript>,
+        /// Library of its pigments.
+        library: Box<PigmentLibrary>,
+        /// Pace of the replay.
+        pace: Pace,
+    },
+    /// Ends a replay.
+    Cancel,
+    /// Loads a brush with the mean wet paint that was picked, besides what it holds.
+    LoadPicked {
+        /// Name of the brush.
+        brush: String,
+        /// Answer to [`Command::Pick`].
+        picked: Box<Picked>,
+        /// Height of the paint on the head, in mm.
+        amount_mm: f64,
+    },
+    /// Squeezes a heap of paint on the palette ([`Action::Squeeze`]) at the first of `places` that
+    /// has no wet paint around it; if all have some, at the one with the least.
+    SqueezeInFreeSpace {
+        /// Parts of pigments by their names in the library.
+        recipe: Recipe,
+        /// Fraction of clear vehicle, 0 to 1.
+        vehicle: f64,
+        /// Volume of the heap in mm3.
+        volume_mm3: f64,
+        /// Positions from the upper left corner in mm, in order of preference.
+        places: Vec<[f64; 2]>,
+        /// Half the side of the square around a position that must be free, in mm.
+        reach_mm: f64,
+    },
+    /// Sets the limit of the memory for undo, in bytes.
+    SetUndoBytes(u64),
+    /// Ends the thread.
+    Quit,
+}
+
+impl Command {
+    /// Whether it is answered while a stroke is open; other commands than those of the pen end the
+    /// stroke.
+    #[must_use]
+    pub fn is_question(&self) -> bool {
+        matches!(
+            self,
+            Self::Snapshot(_)
+                | Self::Keep { .. }
+                | Self::Recording(_)
+                | Self::Pick { .. }
+                | Self::SetUndoBytes(_)
+                | Self::EndAdjustment
+        )
+    }
+
+    /// Name of the command for messages.
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Self::Open(_) => "opening",
+            Self::SetBrush { .. } => "taking a brush",
+            Self::PenDown { .. } | Self::ToolDown { .. } | Self::PenMove(_) | Self::PenUp => {
+                "a stroke"
+            }
+            Self::BeginGroup | Self::EndGroup => "a group of strokes",
+            Self::Apply(action) | Self::Adjust(action) => action.kind(),
+            Self::EndAdjustment => "settling",
+            Self::GoTo(_) => "going through the history",
+            Self::SetSecondLight(_) => "a second light",
+            Self::Pick { .. } => "picking a colour",
+            Self::Snapshot(_) | Self::Keep { .. } => "saving",
+            Self::Recording(_) => "a recording",
+            Self::Replay { .. } => "a replay",
+            Self::Cancel => "cancelling",
+            Self::LoadPicked { .. } => "loading a brush",
+            Self::SqueezeInFreeSpace { .. } => "laying paint out",
+            Self::SetUndoBytes(_) => "the memory of undo",
+            Self::Quit => "quitting",
+        }
+    }
+}

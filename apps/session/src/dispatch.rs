@@ -1,0 +1,386 @@
+//! Executes commands in their order.
+
+use std::sync::Arc;
+
+use documents::hint::Hint;
+
+use paint::layer::SLOTS;
+use paint::painting::OpenStroke;
+use paint::session::{Outcome, PaintingSession, SessionError};
+use paint::strokes::{Action, Load, SampleDecimals, Squeeze, StrokeTool, SurfaceId};
+
+use super::command::{Command, PenSample};
+use super::event::{Event, KeptPainting, Picked, Snapshot};
+use super::free_space::freest_place;
+use super::pick::{Place, pick};
+use super::report::WorkerStatus;
+use super::state::PaintingState;
+use super::stroke_timing::{StrokeTiming, is_lifted, waiting_substeps};
+use super::tally::tally;
+use super::worker::{OpenPainting, WorkerLoop};
+
+/// Message of a broken invariant: every session of the worker has a palette.
+const PALETTE: &str = "every session of the worker has a palette";
+
+impl WorkerLoop<'_> {
+    /// Paints a slice of a stroke, or executes the next command.
+    pub(super) fn work(&mut self) -> Result<(), SessionError> {
+        if self.playing.is_some() {
+            for question in self.inbox.take_questions() {
+                self.answer(question)?;
+            }
+            self.play()
+        } else if self.stroke.is_some() {
+            self.paint()
+        } else if let Some(command) = self.inbox.next() {
+            self.execute(command)
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Continues the open stroke: adds all samples that arrived, then answers a question or paints
+    /// a slice. Any other command lifts the brush first.
+    fn paint(&mut self) -> Result<(), SessionError> {
+        while let Some(Command::PenMove(samples)) =
+            self.inbox.next_if(|command| matches!(command, Command::PenMove(_)))
+        {
+            self.extend(&samples)?;
+        }
+        let waiting = self.open.as_ref().map_or(0, |open| waiting_substeps(open.session()));
+        if waiting == 0
+            && let Some(question) = self.inbox.next_if(Command::is_question)
+        {
+            return self.answer(question);
+        }
+        if self.inbox.next_if(|command| matches!(command, Command::PenUp)).is_some()
+            || self.inbox.next_is(|command| !command.is_question())
+        {
+            // Any other command finishes the stroke first.
+            self.lift()?;
+        }
+        self.paint_slice()
+    }
+
+    fn extend(&mut self, samples: &[PenSample]) -> Result<(), SessionError> {
+        let (Some(stroke), Some(open)) = (&mut self.stroke, &mut self.open) else { return Ok(()) };
+        let session = &mut open.prepared.session;
+        if is_lifted(session) {
+            return Ok(());
+        }
+        for PenSample { sample, arrived } in samples {
+            if let Err(error) = stroke.extend(session, sample, *arrived)
+                && !std::mem::replace(&mut stroke.refused, true)
+            {
+                let hint = Some(Hint::new("the stroke goes on without it"));
+                (self.send)(Event::Message { text: error.to_string(), hint, failed: true });
+            }
+        }
+        session.advance(0).map(|_| ())
+    }
+
+    /// Lifts the brush of the open stroke, if one is open.
+    pub(super) fn lift(&mut self) -> Result<(), SessionError> {
+        match (&self.stroke, &mut self.open) {
+            (Some(_), Some(open)) => open.prepared.session.lift(),
+            _ => Ok(()),
+        }
+    }
+
+    /// Paints a slice of the open stroke; closes the stroke once all is painted.
+    pub(super) fn paint_slice(&mut self) -> Result<(), SessionError> {
+        let (Some(stroke), Some(open)) = (&mut self.stroke, &mut self.open) else { return Ok(()) };
+        let session = &mut open.prepared.session;
+        let painted = stroke.paint_slice(session, &mut self.meter, &mut self.outbox)?;
+        self.picture_stale |= painted;
+        self.revision += u64::from(painted);
+        if is_lifted(session) && waiting_substeps(session) == 0 {
+            let brush = session.open_stroke().map(|(_, brush)| brush.to_owned());
+            let tool = session.stroke_progress().map_or(StrokeTool::Paint, OpenStroke::tool);
+            self.stroke = None;
+            let report = session.end_stroke()?;
+            if let (Some(report), false) = (report, tool.is_paint()) {
+                // A replay would tell it of every stroke.
+                if self.playing.is_none() {
+                    let (text, hint) = tally(tool, &report.taken, session.canvas());
+                    (self.send)(Event::Message { text, hint, failed: false });
+                }
+                brush.iter().for_each(|brush| open.reporter.tool_ended(brush));
+            } else if let Some(brush) = brush
+                && open.reporter.is_dirty_after_stroke(session, &brush)?
+                && !std::mem::replace(&mut self.dirty_told, true)
+            {
+                (self.send)(Event::DirtyBrush(brush));
+            }
+            (self.picture_stale, self.state_stale) = (true, true);
+        }
+        Ok(())
+    }
+
+    /// Executes one command while no stroke is open and nothing is played.
+    fn execute(&mut self, command: Command) -> Result<(), SessionError> {
+        match command {
+            Command::Open(origin) => self.open(origin),
+            Command::Replay { script, library, pace } => self.replay(*script, &library, pace),
+            Command::SetUndoBytes(bytes) => {
+                self.undo_bytes = bytes;
+                if let Some(open) = &mut self.open {
+                    open.prepared.session.set_undo_bytes(bytes);
+                    self.state_stale = true;
+                }
+            }
+            // A pen command without an open stroke belongs to a stroke that another command has
+            // ended or that could not begin. The inbox handles `Cancel` and `Quit` itself.
+            Command::PenMove(_) | Command::PenUp | Command::Cancel | Command::Quit => {}
+            Command::BeginGroup | Command::EndGroup if self.open.is_none() => {}
+            command if self.open.is_some() => return self.execute_on_painting(command),
+            command => {
+                let text = format!("no painting is open for {}", command.name());
+                self.send_message(text, Some(Hint::new("open one, or begin a new one")), true);
+            }
+        }
+        Ok(())
+    }
+
+    /// Executes a command that needs a painting.
+    fn execute_on_painting(&mut self, command: Command) -> Result<(), SessionError> {
+        match command {
+            Command::ToolDown { tool, surface, brush } => {
+                self.session().begin_stroke_as(tool, surface, &brush, SampleDecimals::PEN)?;
+                self.stroke = Some(StrokeTiming::default());
+                self.state_stale = true;
+                Ok(())
+            }
+            Command::PenDown { surface, brush, decimals } => {
+                self.session().begin_rounded_stroke(surface, &brush, decimals)?;
+                let OpenPainting { prepared, reporter, .. } = self.open_mut();
+                reporter.stroke_begins(&mut prepared.session, &brush)?;
+                self.stroke = Some(StrokeTiming::default());
+                self.state_stale = true;
+                Ok(())
+            }
+            Command::SetBrush { name, spec } => {
+                self.session().set_brush(&name, &spec)?;
+                self.brush_changed(&name);
+                Ok(())
+            }
+            Command::BeginGroup | Command::EndGroup => {
+                let OpenPainting { prepared, groups, .. } = self.open_mut();
+                let (numbers, (_, done)) =
+                    (prepared.session.history_numbers(), prepared.session.history());
+                match command {
+                    Command::BeginGroup => groups.begin(&numbers, done),
+                    _ => groups.end(&numbers, done),
+                }
+                Ok(())
+            }
+            Command::Apply(action) => self.apply(&action),
+            Command::Adjust(action) => {
+                self.open_mut().groups.give_up();
+                self.session().adjust(&action)?;
+                self.changed();
+                Ok(())
+            }
+            Command::GoTo(done) => {
+                let result = self.session().go_to(done);
+                self.all_changed();
+                result
+            }
+            Command::SetSecondLight(lighting) => {
+                self.session().canvas_mut().set_second_light(lighting.clone())?;
+                if let Some(palette) = self.session().painting_mut(SurfaceId::Palette) {
+                    palette.set_second_light(lighting)?;
+                }
+                (self.picture_stale, self.state_stale) = (true, true);
+                Ok(())
+            }
+            Command::LoadPicked { brush, picked, amount_mm } => {
+                self.load_picked(brush, &picked, amount_mm)
+            }
+            Command::SqueezeInFreeSpace { recipe, vehicle, volume_mm3, places, reach_mm } => {
+                let palette = self.session().painting_mut(SurfaceId::Palette).expect(PALETTE);
+                let Some([x_mm, y_mm]) = freest_place(palette, &places, reach_mm)? else {
+                    let hint = "squeeze it out of the tubes";
+                    let text = "there is no place for it on the palette";
+                    self.send_message(text.to_owned(), Some(Hint::new(hint)), true);
+                    return Ok(());
+                };
+                let on = SurfaceId::Palette;
+                let heap = Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 };
+                self.apply(&Action::Squeeze(heap))
+            }
+            question => self.answer(question),
+        }
+    }
+
+    /// Undoes or repeats a whole group of strokes, if the action would do that to one of them.
+    fn step_over_group(&mut self, action: &Action) -> Result<Option<Outcome>, SessionError> {
+        let OpenPainting { prepared, groups, .. } = self.open_mut();
+        let session = &mut prepared.session;
+        let (numbers, (_, done)) = (session.history_numbers(), session.history());
+        let to = match action {
+            Action::Undo {} => groups.undo_to(&numbers, done),
+            Action::Redo {} => groups.redo_to(&numbers, done),
+            _ => None,
+        };
+        groups.give_up();
+        let Some(done) = to else { return Ok(None) };
+        session.go_to(done)?;
+        Ok(Some(Outcome::Done))
+    }
+
+    fn apply(&mut self, action: &Action) -> Result<(), SessionError> {
+        let outcome = match self.step_over_group(action)? {
+            Some(outcome) => outcome,
+            None => self.session().apply(action)?,
+        };
+        match action {
+            Action::Load(Load { brush, .. })
+            | Action::Wipe { brush, .. }
+            | Action::Wash { brush } => self.brush_changed(brush),
+            action if outcome == Outcome::Nothing => {
+                let text = match action {
+                    Action::Dry { .. } => "there is no wet paint to dry",
+                    Action::Undo {} => "there is nothing to undo",
+                    Action::Redo {} => "there is nothing to redo",
+                    Action::Mask(_) => "there is no mask",
+                    _ => "there is nothing to do",
+                };
+                self.send_message(text.to_owned(), None, false);
+            }
+            _ => self.all_changed(),
+        }
+        Ok(())
+    }
+
+    /// Loads a brush with picked paint.
+    fn load_picked(
+        &mut self,
+        brush: String,
+        picked: &Picked,
+        amount_mm: f64,
+    ) -> Result<(), SessionError> {
+        let library = Arc::clone(&self.open_mut().prepared.library);
+        let wet = picked.layers.last();
+        let amounts = wet.map_or([0.0; SLOTS + 1], |wet| wet.amounts_mm);
+        let total: f64 = amounts.iter().sum();
+        if total <= 0.0 {
+            let hint = "dry paint stays where it is; its recipe can be loaded from the tubes";
+            self.send_message("there was no wet paint".to_owned(), Some(Hint::new(hint)), true);
+            return Ok(());
+        }
+        let slots = wet.map_or([None; SLOTS], |wet| wet.slots);
+        let named = slots.iter().zip(amounts).filter(|(_, amount)| *amount > 0.0);
+        let recipe = named
+            .filter_map(|(slot, amount)| Some((library[(*slot)?].name.clone(), amount / total)));
+        let load =
+            Load { brush, recipe: recipe.collect(), vehicle: amounts[SLOTS] / total, amount_mm };
+        self.apply(&Action::Load(load))
+    }
+
+    /// Executes a command that changes no paint.
+    pub(super) fn answer(&mut self, question: Command) -> Result<(), SessionError> {
+        if self.open.is_none() {
+            return Ok(());
+        }
+        match question {
+            Command::Snapshot(number) => {
+                let snapshot = self.snapshot(number)?;
+                (self.send)(Event::Snapshot(snapshot));
+            }
+            Command::Keep { number, recorded } => {
+                let snapshot = self.snapshot(number)?;
+                let session = self.session();
+                let agrees = waiting_substeps(session) == 0 && !is_lifted(session);
+                let recording = session.recording_from(recorded).filter(|_| agrees);
+                let brushes = session.kept_heads()?;
+                let mask = session.canvas().mask().cloned();
+                let kept = KeptPainting { snapshot, recording, brushes, mask };
+                (self.send)(Event::Kept(Arc::new(kept)));
+            }
+            Command::Recording(number) => match self.session().recording().cloned() {
+                Some(script) => {
+                    (self.send)(Event::Recording { number, script: Arc::new(script) });
+                    self.open_mut().recording_stop_reported = false;
+                    self.report_recording_stop();
+                }
+                None => {
+                    let text = "a painting that was recovered has no recording";
+                    self.send_message(
+                        text.to_owned(),
+                        Some(Hint::new("save the painting itself")),
+                        true,
+                    );
+                }
+            },
+            Command::Pick { surface, x_mm, y_mm, radius_mm } => {
+                let place = Place { surface, x_mm, y_mm, radius_mm };
+                let painting = self.session().painting_mut(surface).expect(PALETTE);
+                if let Some(picked) = pick(painting, place)? {
+                    (self.send)(Event::Picked(Arc::new(picked)));
+                }
+            }
+            Command::SetUndoBytes(bytes) => {
+                self.undo_bytes = bytes;
+                self.session().set_undo_bytes(bytes);
+                self.state_stale = true;
+            }
+            Command::EndAdjustment => {
+                self.session().end_adjustment();
+                (self.state_stale, self.shot_revision) = (true, None);
+            }
+            other => unreachable!("`{}` changes paint", other.name()),
+        }
+        Ok(())
+    }
+
+    /// Canvas and palette as they are now.
+    fn snapshot(&mut self, number: u64) -> Result<Snapshot, SessionError> {
+        let revision = self.revision;
+        let (canvas, palette) = self.session().documents()?;
+        let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.expect(PALETTE)));
+        let brushes = Arc::new(self.session().kept_brushes()?);
+        let snapshot = Snapshot { number, canvas, palette, brushes, revision };
+        self.keep(&snapshot);
+        Ok(snapshot)
+    }
+
+    /// State of the painting besides its pixels.
+    pub(super) fn state(&mut self) -> Result<Option<Arc<PaintingState>>, SessionError> {
+        let Some(OpenPainting { prepared, reporter, shots, .. }) = &mut self.open else {
+            return Ok(None);
+        };
+        shots.follow(&prepared.session.history_numbers());
+        let history_shots = shots.report();
+        let (revision, stroke_open) = (self.revision, self.stroke.is_some());
+        let status = WorkerStatus { revision, stroke_open, history_shots };
+        Ok(Some(Arc::new(reporter.state(prepared, &status, self.outbox.bytes())?)))
+    }
+
+    /// Session of the painting.
+    ///
+    /// # Panics
+    /// If no painting is open.
+    pub(super) fn session(&mut self) -> &mut PaintingSession {
+        &mut self.open_mut().prepared.session
+    }
+
+    pub(super) fn open_mut(&mut self) -> &mut OpenPainting {
+        self.open.as_mut().expect("a painting is open")
+    }
+
+    fn brush_changed(&mut self, brush: &str) {
+        self.open_mut().reporter.brush_changed(brush);
+        self.state_stale = true;
+    }
+
+    fn changed(&mut self) {
+        self.revision += 1;
+        (self.picture_stale, self.state_stale) = (true, true);
+    }
+
+    pub(super) fn all_changed(&mut self) {
+        self.open_mut().reporter.brushes_changed();
+        self.changed();
+    }
+}

@@ -1,0 +1,134 @@
+//! A session of painting: the thread that owns the paint, and what keeps it safe.
+//!
+//! A front end (a window, a browser, a test) sends [`Command`]s to the [`Worker`] and
+//! reads its [`Event`]s. [`Autosave`] keeps the paintings on the disk, and [`LostSession`]
+//! finds the autosaves of programs that were killed.
+//!
+//! ```text
+//! front end -- Command --> Worker: inbox -> dispatch -> PaintingSession -> paint engine
+//!     ^                                                                        |
+//!     +------- Event (state, tiles, snapshots, messages) <---------------------+
+//! ```
+//!
+//! ```
+//! use std::{sync::mpsc::channel, time::Instant};
+//!
+//! use pigment::PigmentLibrary;
+//! use paint::{pose::Sample, strokes::{SampleDecimals, SurfaceId}};
+//! use session::{Command, Event, PenSample, Worker, WorkerOptions, blank_canvas};
+//!
+//! let (wake, woken) = channel();
+//! let worker = Worker::start(WorkerOptions::default(), move || wake.send(()).unwrap_or(()));
+//! worker.ask(Command::Open(blank_canvas(PigmentLibrary::van_gogh_oils(), 20.0, 15.0, 0.2)));
+//! let (surface, decimals) = (SurfaceId::Canvas, SampleDecimals::PEN);
+//! worker.ask(Command::PenDown { surface, brush: "round".to_owned(), decimals });
+//! let sample = Sample::upright(0.0, 10.0, 8.0, 0.5);
+//! worker.ask(Command::PenMove(vec![PenSample { sample, arrived: Instant::now() }]));
+//! worker.ask(Command::PenUp);
+//! worker.ask(Command::Snapshot(1));
+//! let painted = loop {
+//!     woken.recv()?;
+//!     let snapshot = worker.events().find_map(|event| match event {
+//!         Event::Snapshot(snapshot) => Some(snapshot),
+//!         _ => None,
+//!     });
+//!     if let Some(snapshot) = snapshot {
+//!         break snapshot;
+//!     }
+//! };
+//! assert_eq!(painted.canvas.wet.width(), 100);
+//! # Ok::<(), std::sync::mpsc::RecvError>(())
+//! ```
+//!
+//! Out of scope: windows, pens and pictures on a screen (crate `studio`).
+
+mod awaited;
+
+pub mod background;
+
+mod state;
+
+mod event;
+
+mod command;
+
+mod defaults;
+
+mod backend;
+
+mod srgb;
+
+mod tiles;
+
+pub mod warm_up;
+
+mod colors;
+
+mod films;
+
+mod thumbnail;
+
+mod miniature;
+
+mod shots;
+
+mod layers;
+
+mod masks;
+
+mod pick;
+
+mod free_space;
+
+mod meter;
+
+mod inbox;
+
+mod works;
+
+mod outbox;
+
+mod prepare;
+
+mod report;
+
+mod stroke_timing;
+
+mod groups;
+
+mod tally;
+
+mod replay;
+
+mod worker;
+
+mod dispatch;
+
+mod open;
+
+mod thread;
+
+mod failure;
+
+mod autosave;
+
+pub mod brushes;
+
+pub mod swatches;
+
+pub mod volumes;
+
+#[cfg(test)]
+mod tests;
+
+pub use autosave::{Autosave, LostSession, RecoveredWork, SessionMeta, now};
+pub use command::{Command, Origin, Pace, PenSample};
+pub use defaults::{blank_canvas, default_brushes, default_mixing_canvas, initial_commands};
+pub use event::{Event, HeadOnCanvas, KeptPainting, Picked, PickedLayer, Snapshot, TilePixels};
+pub use failure::FileFailure;
+pub use inbox::Wait;
+pub use state::{
+    BrushState, BrushSwatch, FilmColor, HistoryShot, HistoryShots, LayerState, MaskState,
+    PaintingState, Performance, Thumbnail,
+};
+pub use thread::{Worker, WorkerOptions};

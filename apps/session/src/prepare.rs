@@ -1,0 +1,247 @@
+//! Preparing paintings to be worked on.
+
+use std::sync::Arc;
+
+use documents::file::disk;
+use documents::hint::{Explain, Hint};
+use paint::document::{Document, Lighting};
+use paint::file::{self, PaintingFileError};
+use paint::light::Light;
+use paint::painting::{Painting, PaintingError};
+use paint::session::{KeptSession, PaintingSession, SessionError};
+use paint::strokes::{KeptBrush, ScriptStartError, SideTable, StrokeScript};
+use pigment::library::PigmentLibrary;
+
+use super::backend::Backend;
+use super::command::Origin;
+use super::defaults::{default_brushes, default_mixing_canvas};
+
+/// A session and its constant properties.
+#[derive(Debug)]
+pub(super) struct PreparedPainting {
+    pub(super) session: PaintingSession,
+    pub(super) library: Arc<PigmentLibrary>,
+    /// Reflectance of the ground on the grid of the library.
+    pub(super) ground: Arc<Vec<f64>>,
+    /// Messages about differences from the request.
+    pub(super) remarks: Vec<String>,
+}
+
+/// Why a painting cannot be opened.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum OpenError {
+    #[error(transparent)]
+    ScriptStart(#[from] ScriptStartError),
+    #[error(transparent)]
+    Painting(#[from] PaintingError),
+    #[error(transparent)]
+    Session(#[from] SessionError),
+    #[error("the painting that the script continues: {path}: {reason}")]
+    Start { path: String, reason: String },
+    #[error("the painting that the script continues: {0}")]
+    StartFile(#[from] PaintingFileError),
+}
+
+impl Explain for OpenError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::ScriptStart(error) => error.hint(),
+            Self::Painting(error) => error.hint(),
+            Self::Session(error) => error.hint(),
+            Self::Start { .. } => Some(Hint::new("put it back where the script names it")),
+            Self::StartFile(error) => error.hint(),
+        }
+    }
+}
+
+/// Prepares the painting of `origin`.
+///
+/// # Errors
+/// [`OpenError`]; nothing is changed then.
+pub(super) fn prepare(
+    origin: Origin,
+    backend: &mut Backend,
+    undo_bytes: u64,
+) -> Result<PreparedPainting, OpenError> {
+    match origin {
+        Origin::Blank { script, library } => prepare_script(&script, &library, backend, undo_bytes),
+        Origin::Painting(canvas) => {
+            let script = continue_from(&canvas);
+            let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
+            let surfaces = || Ok(script.surfaces_with_table(&library, Some(*canvas), None)?);
+            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
+        }
+        Origin::WithTable { canvas, table } if !table.palette.belongs_to(&canvas) => {
+            let mut prepared = prepare(Origin::Painting(canvas), backend, undo_bytes)?;
+            let remark = "the palette in the file belongs to another painting; it begins bare";
+            prepared.remarks.push(remark.to_owned());
+            Ok(prepared)
+        }
+        Origin::WithTable { canvas, table } => {
+            let script = StrokeScript::continue_with_table(&path_of(&canvas), &canvas, &table);
+            let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
+            let surfaces =
+                || Ok(script.surfaces_with_table(&library, Some(*canvas), Some(*table))?);
+            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
+        }
+        Origin::Recovered { canvas, palette, kept } => {
+            let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
+            let surfaces = || Ok((*canvas, Some(*palette), Vec::new()));
+            let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+            let kept = kept.unwrap_or_default();
+            surfaces.into_session(Beginning::Kept(kept), backend, undo_bytes)
+        }
+    }
+}
+
+/// Prepares the surfaces that a script starts on. A script without a palette gets one; the
+/// painting that it continues is read from its path.
+///
+/// # Errors
+/// [`OpenError`]; nothing is changed then.
+pub(super) fn prepare_script(
+    script: &StrokeScript,
+    library: &PigmentLibrary,
+    backend: &mut Backend,
+    undo_bytes: u64,
+) -> Result<PreparedPainting, OpenError> {
+    let mut script = script.header();
+    script.mixing.get_or_insert_with(|| default_mixing_canvas(script.canvas.cell_mm));
+    let (start, table) = match &script.start {
+        Some(start) => {
+            let (painting, table) = read(start, script.table)?;
+            (Some(painting), table)
+        }
+        None => (None, None),
+    };
+    let library = start.as_ref().map_or(library, |start| &start.library).clone();
+    let lighting = match &start {
+        Some(start) => start.lighting.clone(),
+        None => script.lighting.clone().unwrap_or_default(),
+    };
+    let surfaces = || Ok(script.surfaces_with_table(&library, start, table)?);
+    let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
+    surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
+}
+
+/// Reads a painting, and the palette and the brushes saved with it if they are asked for.
+fn read(path: &str, with_table: bool) -> Result<(Document, Option<SideTable>), OpenError> {
+    let bytes = disk::read(path)
+        .map_err(|error| OpenError::Start { path: path.to_owned(), reason: error.to_string() })?;
+    let table = if with_table { file::read_table(path, &bytes)? } else { None };
+    Ok((file::read(path, &bytes)?, table))
+}
+
+/// Name of the file that a recording on a painting names as its start.
+fn path_of(canvas: &Document) -> String {
+    let title = if canvas.title.is_empty() { "painting" } else { canvas.title.as_str() };
+    format!("{title}.exr")
+}
+
+/// Header of a recording that continues a painting.
+fn continue_from(canvas: &Document) -> StrokeScript {
+    let mut script = StrokeScript::continue_from(&path_of(canvas), canvas);
+    script.mixing = Some(default_mixing_canvas(script.canvas.cell_mm));
+    script
+}
+
+/// How a session begins on its surfaces.
+enum Beginning<'a> {
+    /// It is recorded under this header.
+    Recorded(&'a StrokeScript),
+    /// It goes on from another one.
+    Kept(Box<KeptSession>),
+}
+
+/// Documents of canvas and palette, brushes with their loads, and the light.
+struct Surfaces {
+    canvas: Document,
+    palette: Option<Document>,
+    brushes: Vec<KeptBrush>,
+    light: Light,
+    remarks: Vec<String>,
+}
+
+/// Canvas, palette, and brushes with their loads.
+type SurfacesOfScript = (Document, Option<Document>, Vec<KeptBrush>);
+
+impl Surfaces {
+    /// Makes the surfaces while another thread computes the light, since both take about as long.
+    /// If the light cannot be found, such as a lamp whose file is missing, the default light is
+    /// used and a remark says so.
+    fn new(
+        library: &PigmentLibrary,
+        lighting: &Lighting,
+        surfaces: impl FnOnce() -> Result<SurfacesOfScript, OpenError> + Send,
+    ) -> Result<Self, OpenError> {
+        let named =
+            |lighting: &Lighting| Light::named(library, &lighting.illuminant, &lighting.observer);
+        let (light, surfaces) = rayon::join(|| named(lighting), surfaces);
+        let (mut canvas, mut palette, brushes) = surfaces?;
+        let mut remarks = Vec::new();
+        let light = light.or_else(|error| {
+            let fallback = Lighting::default();
+            let Lighting { illuminant, observer, .. } = fallback.clone();
+            remarks.push(format!("{error}; shown under {illuminant}"));
+            for document in std::iter::once(&mut canvas).chain(&mut palette) {
+                document.lighting.illuminant.clone_from(&illuminant);
+                document.lighting.observer.clone_from(&observer);
+            }
+            named(&fallback)
+        });
+        let light = light.map_err(PaintingError::from)?;
+        Ok(Self { canvas, palette, brushes, light, remarks })
+    }
+
+    /// A session on these surfaces. If it has no brushes, it gets the usual ones.
+    fn into_session(
+        self,
+        beginning: Beginning<'_>,
+        backend: &mut Backend,
+        undo_bytes: u64,
+    ) -> Result<PreparedPainting, OpenError> {
+        let Self { canvas, palette, brushes: kept, light, mut remarks } = self;
+        let library = Arc::new(canvas.library.clone());
+        let ground = Arc::new(canvas.ground.reflectance.clone());
+        let (engine, reason) = backend.engine(&canvas.ground.height);
+        let palette = palette.map(|palette| {
+            let (engine, _) = backend.engine(&palette.ground.height);
+            (palette, engine)
+        });
+        remarks.extend(reason.map(|reason| format!("{reason}; painting on the processor")));
+        // Both paintings share one light, because lights are compared by address.
+        let light = Arc::new(light);
+        let (canvas, palette) = rayon::join(
+            || Painting::open_under(canvas, Arc::clone(&light), engine, undo_bytes),
+            || {
+                palette.map(|(palette, engine)| {
+                    Painting::open_under(palette, Arc::clone(&light), engine, undo_bytes)
+                })
+            },
+        );
+        let (canvas, palette) = (canvas?, palette.transpose()?);
+        let mut session = match beginning {
+            Beginning::Recorded(script) => {
+                let mut session = PaintingSession::recorded(canvas, palette, script)?;
+                for brush in session.take_up(&kept)? {
+                    remarks
+                        .push(format!("the brush `{brush}` has another head now and begins clean"));
+                }
+                for (name, spec) in &script.brushes {
+                    session.set_brush(name, spec)?;
+                }
+                session
+            }
+            Beginning::Kept(kept) => PaintingSession::restored(canvas, palette, *kept)?,
+        };
+        session.set_undo_bytes(undo_bytes);
+        if session.brushes().next().is_none() {
+            for (name, spec) in default_brushes() {
+                session.set_brush(&name, &spec)?;
+            }
+        }
+        Ok(PreparedPainting { session, library, ground, remarks })
+    }
+}

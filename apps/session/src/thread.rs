@@ -1,0 +1,141 @@
+//! The worker as the front end sees it.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+use documents::hint::Hint;
+use graphics::gpu::BackendChoice;
+use paint::painting::UNDO_BYTES;
+use web_time::Instant;
+
+use super::awaited::Awaited;
+use super::backend::Backend;
+use super::command::Command;
+use super::event::Event;
+use super::inbox::{Inbox, Input, Wait};
+use super::worker::WorkerLoop;
+use super::works::Works;
+
+/// Settings of a worker.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WorkerOptions {
+    /// Backend that computes the paint; the best one there is by default.
+    pub backend: BackendChoice,
+    /// Limit of the memory for undo, in bytes; 512 MiB by default.
+    pub undo_bytes: u64,
+}
+
+impl Default for WorkerOptions {
+    fn default() -> Self {
+        Self { backend: BackendChoice::Auto, undo_bytes: UNDO_BYTES }
+    }
+}
+
+/// Handle of the worker that owns the paint. Dropping it ends its thread and waits for that, at most
+/// five seconds.
+#[derive(Debug)]
+pub struct Worker {
+    // Dropped first, which tells the thread to end.
+    inputs: Sender<Input>,
+    events: Receiver<Event>,
+    works: Works<WorkerLoop<'static>>,
+}
+
+impl Worker {
+    /// Starts the thread. It has no painting until [`Command::Open`]. `wake` is called on the
+    /// thread after each event, so that a window can be drawn again.
+    ///
+    /// The worker sends at most a few parts of pictures until the front end receives them with
+    /// [`Worker::events`]. A front end that reads rarely gets the changes in between combined.
+    #[must_use]
+    pub fn start(options: WorkerOptions, wake: impl Fn() + Send + 'static) -> Self {
+        let (inputs, receiver) = channel();
+        let (sender, events) = channel();
+        let thread = Awaited::spawn(move || {
+            let send = move |event| {
+                // Sending fails only if the front end has dropped the receiver.
+                let _ = sender.send(event);
+                wake();
+            };
+            report_panic(&send, || {
+                let backend = Backend::new(options.backend);
+                WorkerLoop::new(Inbox::new(receiver), backend, options.undo_bytes, &send).run();
+            });
+        });
+        Self { inputs, events, works: Works::OnThread { _thread: thread } }
+    }
+
+    /// A worker without a thread, which works only while the front end calls [`Worker::turn`]: for a
+    /// page in a browser. `wake` is called after each event.
+    #[must_use]
+    pub fn in_turns(options: WorkerOptions, wake: impl Fn() + 'static) -> Self {
+        let (inputs, receiver) = channel();
+        let (sender, events) = channel();
+        let send = move |event| {
+            // Sending fails only if the front end has dropped the receiver.
+            let _ = sender.send(event);
+            wake();
+        };
+        let backend = Backend::new(options.backend);
+        let work = WorkerLoop::new(Inbox::new(receiver), backend, options.undo_bytes, send);
+        Self { inputs, events, works: Works::in_turns(work) }
+    }
+
+    /// Lets a worker of [`Worker::in_turns`] work until `deadline`, or until it must wait; what it has
+    /// begun by then, at most a slice of 8 ms or one command, it finishes. Returns how long it
+    /// may wait for the next turn; [`Wait::Forever`] is until the next command. A worker on a thread
+    /// does nothing here.
+    pub fn turn(&self, deadline: Instant) -> Wait {
+        self.works.turn(|work| work.turn(deadline))
+    }
+
+    /// Sends a command. Has no effect after the worker has ended.
+    pub fn ask(&self, command: Command) {
+        let _ = self.inputs.send(Input::Command(command));
+    }
+
+    /// Events since the last call.
+    pub fn events(&self) -> impl Iterator<Item = Event> + '_ {
+        let events: Vec<Event> = self.events.try_iter().collect();
+        let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
+        let received = events.iter().filter(paced).count();
+        if received > 0 {
+            let _ = self.inputs.send(Input::Confirmed(received));
+        }
+        events.into_iter()
+    }
+}
+
+/// Runs `work`, and sends a message if it panics.
+fn report_panic(send: &dyn Fn(Event), work: impl FnOnce()) {
+    let Err(panic) = catch_unwind(AssertUnwindSafe(work)) else { return };
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    let reason = text.unwrap_or("no reason given");
+    send(Event::Message {
+        text: format!("painting has stopped by a fault of the program: {reason}"),
+        hint: Some(Hint::new("start it again; it takes up what was saved last")),
+        failed: true,
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+
+    #[test]
+    fn a_panic_is_reported() {
+        let events = RefCell::new(Vec::new());
+        let send = |event| events.borrow_mut().push(event);
+        report_panic(&send, || {});
+        assert!(events.borrow().is_empty(), "nothing happened");
+        let cells = 3;
+        report_panic(&send, || assert!(cells > 7, "there are {cells} cells"));
+        let [Event::Message { text, hint, failed: true }] = &events.borrow()[..] else {
+            panic!("one message: {events:?}");
+        };
+        assert!(text.contains("there are 3 cells") && hint.is_some(), "{text}");
+    }
+}

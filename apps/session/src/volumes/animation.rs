@@ -1,0 +1,127 @@
+//! A scene from its start to its end as an animation.
+
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use documents::file::write_whole;
+use graphics::encoding::encoded_from_linear;
+use graphics::export::{Apng, ColorTable, Frame, FrameError, FrameRate, Gif, frame_of};
+
+use super::event::SceneRecording;
+use super::pacer::STEPS_A_SECOND;
+use super::painters::Sight;
+use super::scene::Scene;
+use super::subject::Subject;
+use crate::failure::FileFailure;
+
+/// Frames a second.
+const RATE: u64 = 24;
+
+/// Longest side of an animation in pixels.
+const LONGEST_PX: usize = 720;
+
+/// Frames that the colours of a GIF are taken from.
+const SAMPLED: u64 = 12;
+
+/// Steps of a frame: whole steps are shown.
+const FRAME_STEPS: u64 = STEPS_A_SECOND / RATE;
+
+/// Writes all pictures of a recording from its start to its end in the file `path`: a GIF, or an
+/// animated PNG if its name ends in `.png` or `.apng`. `size` is the picture's in the window, which
+/// is reduced to at most 720 pixels. `report` is told the share that is done; if it returns false,
+/// nothing is written.
+///
+/// # Errors
+/// [`FileFailure`] if the recording cannot be played or the file cannot be written.
+pub fn animation(
+    recording: &SceneRecording,
+    size: [usize; 2],
+    path: &Path,
+    mut report: impl FnMut(f64) -> bool,
+) -> Result<(), FileFailure> {
+    let text = Subject::Text { text: recording.text.to_string(), folder: recording.folder.clone() };
+    let mut player = Player { scene: Scene::open(&text)?, sight: None };
+    let longest = size[0].max(size[1]).max(1);
+    let reduced = |side: usize| (side * longest.min(LONGEST_PX) / longest).max(1);
+    let size = size.map(reduced);
+    player.sight = player.scene.seen_from().map(|camera| Sight { camera, size });
+    let last = player.scene.end() / FRAME_STEPS;
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    let bytes = match ending.to_ascii_lowercase().as_str() {
+        "png" | "apng" => apng(&mut player, size, last, &mut report)?,
+        _ => gif(&mut player, size, last, &mut report)?,
+    };
+    match bytes {
+        Some(bytes) => write_whole(path, &bytes).map_err(|error| FileFailure::explained(&error)),
+        None => Ok(()),
+    }
+}
+
+/// A scene that draws its frames.
+struct Player {
+    scene: Scene,
+    sight: Option<Sight>,
+}
+
+impl Player {
+    /// The frame with this number.
+    fn frame(&mut self, number: u64) -> Result<Frame, FileFailure> {
+        let no_camera = || FileFailure { what: "the scene has no camera".to_owned(), hint: None };
+        let sight = self.sight.ok_or_else(no_camera)?;
+        self.scene.go_to(number * FRAME_STEPS)?;
+        while self.scene.is_behind() {
+            self.scene.step()?;
+        }
+        Ok(frame_of(&encoded_from_linear(&self.scene.picture(&sight)?)))
+    }
+}
+
+fn rate() -> Result<FrameRate, FileFailure> {
+    FrameRate::new(RATE as f64).map_err(failed)
+}
+
+fn failed(error: FrameError) -> FileFailure {
+    FileFailure::explained(&error)
+}
+
+fn apng(
+    player: &mut Player,
+    [width, height]: [usize; 2],
+    last: u64,
+    report: &mut impl FnMut(f64) -> bool,
+) -> Result<Option<Vec<u8>>, FileFailure> {
+    let mut bytes = Vec::new();
+    let mut file = BufWriter::new(&mut bytes);
+    let mut apng =
+        Apng::new(&mut file, (width, height), rate()?, last as usize + 1).map_err(failed)?;
+    for number in 0..=last {
+        if !report(number as f64 / (last + 1) as f64) {
+            return Ok(None);
+        }
+        apng.push(&player.frame(number)?).map_err(failed)?;
+    }
+    apng.finish().map_err(failed)?;
+    file.flush().map_err(|error| FileFailure::without_hint(&error))?;
+    drop(file);
+    Ok(Some(bytes))
+}
+
+fn gif(
+    player: &mut Player,
+    [width, height]: [usize; 2],
+    last: u64,
+    report: &mut impl FnMut(f64) -> bool,
+) -> Result<Option<Vec<u8>>, FileFailure> {
+    // The colours of the last frames are those of all: colour only comes in.
+    let sampled = (0..=SAMPLED).map(|number| player.frame(last * number / SAMPLED));
+    let table = ColorTable::of(sampled)?;
+    let gif = Gif::new(Vec::new(), (width, height), rate()?, &table);
+    let mut gif = gif.map_err(failed)?;
+    for number in 0..=last {
+        if !report(0.3 + 0.7 * number as f64 / (last + 1) as f64) {
+            return Ok(None);
+        }
+        gif.push(&player.frame(number)?).map_err(failed)?;
+    }
+    Ok(Some(gif.finish().map_err(failed)?))
+}

@@ -1,0 +1,102 @@
+//! Cameras and picked places of a script, and numbers of a world for the window.
+
+use glam::Vec3;
+use graphics::camera::{Camera, Framing, PictureView};
+use graphics::mesh::Mesh;
+use volumes::performance::FirstView;
+use volumes::script::{self, CameraTable, KeyframeTable, Row, Script, ScriptCamera};
+use volumes::world::Tally;
+
+use super::state::SceneTally;
+
+/// Size of the picture in which scripts pick places, as the command line makes it.
+const FIRST_PICTURE: (usize, usize) = (1000, 750);
+
+/// Steps of the duration of a script.
+pub(super) fn script_steps(script: &Script) -> u64 {
+    u64::from(script::steps_of(script.seconds))
+}
+
+/// A camera that frames a subject in a picture of 4 by 3: a model from the right and above, a flat
+/// one from the front.
+pub(super) fn framed(mesh: &Mesh, flat: bool) -> Camera {
+    let framing = Framing { field_of_view_deg: 35.0, aspect: 4.0 / 3.0, ..Framing::default() };
+    match flat {
+        true => Framing { azimuth_deg: 0.0, elevation_deg: 0.0, ..framing }.fit(&mesh.positions),
+        false => framing.fit(&mesh.positions),
+    }
+}
+
+/// Size of the first picture of a scene; that of a `flat` one, a photograph, has its shape.
+pub(super) fn first_size(mesh: &Mesh, flat: bool) -> (usize, usize) {
+    let [low, high] = mesh.bounds();
+    let [width, height] = [high.x - low.x, high.y - low.y];
+    let rows = (FIRST_PICTURE.0 as f32 * height / width).round();
+    if flat && rows >= 1.0 { (FIRST_PICTURE.0, rows as usize) } else { FIRST_PICTURE }
+}
+
+/// The camera of the first picture of a script. A `flat` scene, a photograph, fills its picture, or
+/// is seen from degrees beside its middle, as on the command line.
+pub(super) fn first_camera(script: &Script, mesh: &Mesh, flat: bool) -> Camera {
+    let table = script.camera.clone().unwrap_or_default();
+    if flat && table.keyframes.is_empty() {
+        let [right, up] = [table.azimuth_deg, table.elevation_deg].map(Option::unwrap_or_default);
+        let view = PictureView::of(first_size(mesh, flat));
+        return view.turned(right as f32, up as f32);
+    }
+    let aspect = FIRST_PICTURE.0 as f32 / FIRST_PICTURE.1 as f32;
+    let framed = |framing: Framing| Framing { aspect, ..framing }.fit(&mesh.positions);
+    match script.camera.as_ref().map(|camera| camera.camera(1)) {
+        Some(ScriptCamera::Path(path)) => {
+            let first = path.cameras(mesh.bounds()).into_iter().next();
+            first.unwrap_or_else(|| framed(Framing::default()))
+        }
+        Some(ScriptCamera::Framing(framing)) => framed(framing),
+        None => framed(Framing::default()),
+    }
+}
+
+/// A camera as a script has it.
+pub(super) fn camera_table(camera: &Camera) -> CameraTable {
+    let row = |place: Vec3| Row(place.to_array().map(f64::from));
+    let keyframe = KeyframeTable {
+        eye: row(camera.eye),
+        target: row(camera.target),
+        up: None,
+        field_of_view_deg: Some(camera.field_of_view_deg.into()),
+    };
+    CameraTable { keyframes: vec![keyframe], ..CameraTable::default() }
+}
+
+/// A camera as a recording keeps it, with the digits of a file, and as it is played: so that the
+/// recording shows the same bytes.
+pub(super) fn recorded_camera(camera: &Camera, mesh: &Mesh) -> Camera {
+    let mut script = Script::new("", 0.0);
+    script.camera = Some(camera_table(camera));
+    first_camera(&script.rounded(), mesh, false)
+}
+
+/// Replaces places picked in the first picture by places of the subject, so that a recording does
+/// not depend on its camera. Picks of nothing stay, and are refused when they are played.
+pub(super) fn resolve_picks(script: &mut Script, mesh: &Mesh, view: &FirstView) {
+    let resolve = |at: &mut Option<Row<3>>, picked: &mut Option<Row<2>>| {
+        let place = picked.and_then(|Row(share)| view.place(mesh, share));
+        if let Some(place) = place {
+            (*at, *picked) = (Some(Row(place.to_array().map(f64::from))), None);
+        }
+    };
+    script.pours.iter_mut().for_each(|pour| resolve(&mut pour.at, &mut pour.picked));
+    script.lifts.iter_mut().for_each(|lift| resolve(&mut lift.at, &mut lift.picked));
+}
+
+/// Where the paint is, in mm3.
+pub(super) fn tally(tally: &Tally, quantum_mm3: f64, volumes: usize) -> SceneTally {
+    let mm3 = |amounts: &[u64]| amounts.iter().sum::<u64>() as f64 * quantum_mm3;
+    SceneTally {
+        poured_mm3: mm3(&tally.poured),
+        on_surfaces_mm3: mm3(&tally.on_scene),
+        lifted_mm3: mm3(&tally.lifted),
+        left_mm3: mm3(&tally.in_tube),
+        volumes,
+    }
+}

@@ -1,0 +1,260 @@
+//! Pictures of a scene: a drawing, and paintings in pigments, whose painters are made beside the
+//! thread of the scene when they are first needed.
+
+use std::sync::Arc;
+
+use graphics::camera::Camera;
+use graphics::field::Field;
+use graphics::mesh::Mesh;
+use paint::document::Document;
+use volumes::painter::{PaintingError, Show, VolumePainter, VolumePigments};
+use volumes::script::{RegionStyle, Script};
+use volumes::settings::Settings;
+use volumes::world::World;
+
+use super::look::{Inside, Look};
+use super::making::Making;
+use crate::failure::FileFailure;
+
+/// Size of a picture in pixels, and what sees it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sight {
+    /// The camera that sees it.
+    pub(super) camera: Camera,
+    /// Width and height in pixels.
+    pub(super) size: [usize; 2],
+}
+
+/// How carefully a picture is drawn.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Quality {
+    /// Whether it has all samples, or one a pixel.
+    pub(super) fine: bool,
+    /// Its width by that of the picture that it stands for, whose strokes it has.
+    pub(super) share: f32,
+    /// Whether it waits for its painter; otherwise it is the drawing until that is made.
+    pub(super) waits: bool,
+}
+
+impl Quality {
+    /// A picture as it is exported.
+    pub(super) const BEST: Self = Self { fine: true, share: 1.0, waits: true };
+}
+
+/// The purpose of a painter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// A drawing whose volumes show the subject's own colours.
+    Drawing,
+    /// A painting in pigments, whose volumes show this inside.
+    Painting(Inside),
+}
+
+/// A painter that was made.
+#[derive(Debug)]
+struct Made {
+    kind: Kind,
+    /// Number of the pigments that it was made of.
+    version: u64,
+    painter: VolumePainter,
+}
+
+/// A painter that is being made, with its kind and the number of its pigments.
+type InMaking = (Kind, u64, Making<Result<VolumePainter, PaintingError>>);
+
+/// The painters of a scene.
+#[derive(Debug)]
+pub(super) struct Painters {
+    scene: Arc<Mesh>,
+    settings: Settings,
+    styles: Vec<RegionStyle>,
+    pigments: Option<VolumePigments>,
+    /// Counter of changes of the pigments.
+    version: u64,
+    made: Vec<Made>,
+    /// Kind and pigments of the painter that could not be made last.
+    failed: Option<(Kind, u64)>,
+    /// A painter that is being made.
+    making: Option<InMaking>,
+}
+
+impl Painters {
+    /// Painters of a scene with the settings and regions of a script, and these pigments if there
+    /// are any.
+    pub(super) fn new(
+        scene: &Arc<Mesh>,
+        script: &Script,
+        settings: &Settings,
+        pigments: Option<VolumePigments>,
+    ) -> Self {
+        Self {
+            scene: Arc::clone(scene),
+            settings: settings.clone(),
+            styles: script.region_styles(settings),
+            pigments,
+            version: 1,
+            made: Vec::new(),
+            failed: None,
+            making: None,
+        }
+    }
+
+    /// Paints with other pigments, or under another light, from now on. Until painters are made
+    /// of them pictures are those of before.
+    pub(super) fn set_pigments(&mut self, pigments: Option<VolumePigments>) {
+        self.pigments = pigments;
+        self.version += 1;
+    }
+
+    /// Whether the picture of a look is that of a painting.
+    pub(super) fn paints(&self, look: &Look) -> bool {
+        let shows_films = look.show == Show::Final && look.inside != Inside::OwnColours;
+        shows_films && self.pigments.is_some()
+    }
+
+    /// Whether a painter is being made.
+    pub(super) fn is_making(&self) -> bool {
+        self.making.is_some()
+    }
+
+    /// Takes the painter that was being made, if it is ready. Returns whether it is.
+    ///
+    /// # Errors
+    /// [`FileFailure`] for settings or pigments that cannot be used.
+    pub(super) fn take_made(&mut self) -> Result<bool, FileFailure> {
+        if self.making.as_mut().is_some_and(|(.., making)| making.is_ready()) {
+            return self.await_made().map(|()| true);
+        }
+        Ok(false)
+    }
+
+    /// Waits for the painter that is being made.
+    fn await_made(&mut self) -> Result<(), FileFailure> {
+        let Some((kind, version, making)) = self.making.take() else { return Ok(()) };
+        self.failed = Some((kind, version));
+        let what = "the paint could not be mixed by a fault of the program".to_owned();
+        let made = making.result().ok_or(FileFailure { what, hint: None })?;
+        let painter = made.map_err(|error| FileFailure::explained(&error))?;
+        self.failed = None;
+        self.made.retain(|made| made.kind != kind);
+        self.made.push(Made { kind, version, painter });
+        Ok(())
+    }
+
+    /// Number of the pigments that a painter of this kind is made of now.
+    fn wanted(&self, kind: Kind) -> u64 {
+        if kind == Kind::Drawing { 0 } else { self.version }
+    }
+
+    fn index(&self, kind: Kind) -> Option<usize> {
+        self.made.iter().position(|made| made.kind == kind)
+    }
+
+    fn is_made(&self, kind: Kind) -> bool {
+        let wanted = self.wanted(kind);
+        self.index(kind).is_some_and(|index| self.made[index].version == wanted)
+    }
+
+    /// Begins to make a painter, unless it is there or another is being made.
+    fn begin(&mut self, kind: Kind) {
+        if self.is_made(kind) || self.making.is_some() {
+            return;
+        }
+        let inside = match kind {
+            Kind::Drawing => Inside::OwnColours,
+            Kind::Painting(inside) => inside,
+        };
+        let style = |style: &RegionStyle| RegionStyle {
+            inside: inside.as_setting().unwrap_or(style.inside),
+            ..style.clone()
+        };
+        let styles: Vec<RegionStyle> = self.styles.iter().map(style).collect();
+        let pigments = self.pigments.clone().filter(|_| kind != Kind::Drawing);
+        let (scene, settings) = (Arc::clone(&self.scene), self.settings.clone());
+        let making = Making::begin(move || {
+            let painter = VolumePainter::new(&scene, &settings, &styles)?;
+            match pigments {
+                Some(pigments) => painter.with_pigments(pigments),
+                None => Ok(painter),
+            }
+        });
+        self.making = Some((kind, self.wanted(kind), making));
+    }
+
+    /// The painter of a kind, which draws with these settings. It waits until it is made; without
+    /// `waits` one of earlier pigments will do, or else that of the drawing.
+    fn painter(
+        &mut self,
+        kind: Kind,
+        waits: bool,
+        settings: &Settings,
+    ) -> Result<&mut VolumePainter, FileFailure> {
+        let mut kind = kind;
+        if !waits && kind != Kind::Drawing {
+            if self.failed != Some((kind, self.version)) {
+                self.begin(kind);
+            }
+            if self.index(kind).is_none() {
+                kind = Kind::Drawing;
+            }
+        }
+        let will_do = |own: &Self| own.is_made(kind) || !waits && own.index(kind).is_some();
+        while !will_do(self) {
+            // One of another kind may be in the making.
+            let others = self.making.as_ref().is_some_and(|(own, ..)| *own != kind);
+            if others && kind == Kind::Drawing {
+                let waiting = self.making.take();
+                self.begin(kind);
+                self.await_made()?;
+                self.making = waiting;
+                continue;
+            }
+            self.begin(kind);
+            self.await_made()?;
+        }
+        let index = self.index(kind).unwrap_or_default();
+        let painter = &mut self.made[index].painter;
+        painter.set_drawing(settings).map_err(|error| FileFailure::explained(&error))?;
+        Ok(painter)
+    }
+
+    /// The picture of a world: encoded sRGB.
+    ///
+    /// # Errors
+    /// [`FileFailure`] for settings or pigments that cannot be used.
+    pub(super) fn picture(
+        &mut self,
+        world: &World,
+        sight: &Sight,
+        look: &Look,
+        quality: Quality,
+    ) -> Result<Field<[f32; 4]>, FileFailure> {
+        let mut settings = look.applied_to(&self.settings);
+        if !quality.fine {
+            settings.picture.samples = 1;
+        }
+        let hatching = &mut settings.hatching;
+        hatching.width_px = (hatching.width_px * quality.share).max(1.0);
+        let kind = if self.paints(look) { Kind::Painting(look.inside) } else { Kind::Drawing };
+        let painter = self.painter(kind, quality.waits, &settings)?;
+        let picture = painter.shown(world, &sight.camera, sight.size.into(), look.show);
+        picture.map_err(|error| FileFailure::explained(&error))
+    }
+
+    /// The painting of a world.
+    ///
+    /// # Errors
+    /// [`FileFailure`] for settings or pigments that cannot be used.
+    pub(super) fn painting(
+        &mut self,
+        world: &World,
+        sight: &Sight,
+        look: &Look,
+        title: &str,
+    ) -> Result<Document, FileFailure> {
+        let settings = look.applied_to(&self.settings);
+        let painter = self.painter(Kind::Painting(look.inside), true, &settings)?;
+        let painting = painter.painting(world, &sight.camera, sight.size.into(), title);
+        painting.map_err(|error| FileFailure::explained(&error))
+    }
+}

@@ -1,0 +1,153 @@
+//! Lists the files and folders of a folder.
+
+use std::path::Path;
+use web_time::SystemTime;
+
+use documents::file::disk;
+use graphics::picture_formats::ENDINGS;
+
+use crate::files::job::{JobError, Progress};
+use crate::files::problem::Problem;
+use crate::language::english;
+
+/// Maximum number of entries that are listed.
+const MAX_ENTRIES: usize = 20_000;
+
+/// A file or folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Entry {
+    /// Name without the folder.
+    pub(crate) name: String,
+    /// Whether this is a folder.
+    pub(crate) folder: bool,
+    /// Size of a file in bytes.
+    pub(crate) bytes: u64,
+    /// Time of the last change, if the system knows it.
+    pub(crate) changed: Option<SystemTime>,
+}
+
+/// A rule that selects which files are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Filter {
+    /// Label of the rule in the dialog.
+    pub(crate) label: &'static str,
+    /// Extensions of the names, in lower case. An empty list accepts all files.
+    pub(crate) endings: &'static [&'static str],
+}
+
+impl Filter {
+    /// Accepts all files.
+    pub(crate) const ALL: Self = Self { label: english("All files"), endings: &[] };
+
+    /// Whether a file of this name is shown.
+    #[must_use]
+    pub(crate) fn passes(&self, name: &str) -> bool {
+        let name = name.to_lowercase();
+        let ends = |ending: &&str| name.strip_suffix(ending).is_some_and(|n| n.ends_with('.'));
+        self.endings.is_empty() || self.endings.iter().any(ends)
+    }
+}
+
+/// Endings of all pictures that can be read, and `others`: `ALL` together.
+pub(crate) const fn pictures_and<const ALL: usize>(others: &[&'static str]) -> [&'static str; ALL] {
+    let mut endings = [""; ALL];
+    assert!(ALL == ENDINGS.len() + others.len(), "the number of all endings");
+    let mut at = 0;
+    while at < ALL {
+        endings[at] = if at < others.len() { others[at] } else { ENDINGS[at - others.len()] };
+        at += 1;
+    }
+    endings
+}
+
+/// Lists `folder` without hidden entries: folders first, each group sorted by name with
+/// numbers in numerical order.
+///
+/// # Errors
+/// [`JobError`] if the folder cannot be read.
+pub(super) fn entries(folder: &Path, progress: &Progress) -> Result<Vec<Entry>, JobError> {
+    let unreadable = |error: std::io::Error| Problem::io(folder, "read", &error);
+    let mut entries = Vec::new();
+    for entry in disk::read_dir(folder).map_err(unreadable)?.take(MAX_ENTRIES) {
+        progress.report(0.0)?;
+        let Ok(entry) = entry else { continue };
+        // A name that is not valid Unicode could not be typed or shown.
+        let Ok(name) = entry.file_name().into_string() else { continue };
+        if name.starts_with('.') {
+            continue;
+        }
+        // Links are followed; a broken link is left out.
+        let Ok(found) = disk::metadata(entry.path()) else { continue };
+        let (bytes, changed) = (found.len(), found.modified().ok());
+        entries.push(Entry { name, folder: found.is_dir(), bytes, changed });
+    }
+    entries.sort_by_cached_key(|entry| (!entry.folder, sort_key(&entry.name), entry.name.clone()));
+    Ok(entries)
+}
+
+/// Part of a name: letters or a number, for sorting.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum NamePart {
+    Number(u64),
+    Letters(String),
+}
+
+fn sort_key(name: &str) -> Vec<NamePart> {
+    let name = name.to_lowercase();
+    let mut pieces = Vec::new();
+    let mut rest = name.as_str();
+    while let Some(first) = rest.chars().next() {
+        let digits = first.is_ascii_digit();
+        let end = rest.find(|letter: char| letter.is_ascii_digit() != digits);
+        let (piece, after) = rest.split_at(end.unwrap_or(rest.len()));
+        pieces.push(match piece.parse() {
+            Ok(number) if digits => NamePart::Number(number),
+            _ => NamePart::Letters(piece.to_owned()),
+        });
+        rest = after;
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_come_first_and_numbers_sort_by_value() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["b10.exr", "b9.exr", "A.exr", ".hidden"] {
+            std::fs::write(folder.path().join(name), "x").unwrap();
+        }
+        std::fs::create_dir(folder.path().join("zebra")).unwrap();
+        let entries = entries(folder.path(), &Progress::default()).unwrap();
+        let names: Vec<_> = entries.iter().map(|entry| entry.name.as_str()).collect();
+        assert_eq!(names, ["zebra", "A.exr", "b9.exr", "b10.exr"]);
+        assert_eq!((entries[0].folder, entries[1].bytes), (true, 1));
+    }
+
+    #[test]
+    fn a_filter_of_pictures_shows_all_that_can_be_read() {
+        const ENDINGS: [&str; 7] = pictures_and(&["exr"]);
+        let filter = Filter { label: english("Pictures and paintings"), endings: &ENDINGS };
+        for name in ["a.exr", "a.png", "a.JPEG", "scan.tif", "scan.tiff", "web.webp"] {
+            assert!(filter.passes(name), "{name}");
+        }
+        assert!(!filter.passes("oils.json"), "no picture");
+    }
+
+    #[test]
+    fn a_filter_tests_only_the_extension() {
+        let filter = Filter { label: english("Paintings"), endings: &["exr"] };
+        for (name, passes) in [("a.exr", true), ("A.EXR", true), ("exr", false), ("a.png", false)] {
+            assert_eq!(filter.passes(name), passes, "{name}");
+            assert!(Filter::ALL.passes(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_missing_folder_is_reported() {
+        let listed = entries(Path::new("/no/such/folder"), &Progress::default());
+        assert!(matches!(listed, Err(JobError::Failed(_))), "{listed:?}");
+    }
+}

@@ -1,0 +1,400 @@
+//! State of the file browser, and how keys and clicks change it.
+
+use std::path::{Path, PathBuf};
+
+use super::arranged::arranged;
+use super::listing::{Entry, Filter, entries};
+use super::places::{PlaceFolder, folders_of, home_folder, places};
+use crate::files::browser_look::BrowserLook;
+use crate::files::job::{Job, JobError};
+use crate::files::problem::Problem;
+use crate::language::tr;
+use documents::file::disk;
+
+/// Title, filters and purpose of a file browser.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct BrowserOptions {
+    /// Title of the dialog.
+    pub(crate) title: &'static str,
+    /// Whether the file is to be written rather than read.
+    pub(crate) saving: bool,
+    /// Filters that the painter can choose from; the first is active when the dialog opens.
+    pub(crate) filters: &'static [Filter],
+    /// Extension that is added to the name of a new file; `None` for no extension.
+    pub(crate) ending: Option<&'static str>,
+    /// Other extensions that a new file may have, to which none is added.
+    pub(crate) others: &'static [&'static str],
+    /// Name that is suggested for a new file.
+    pub(crate) name: String,
+}
+
+impl BrowserOptions {
+    /// Options of a dialog that opens an existing file.
+    pub(crate) fn open(title: &'static str, filters: &'static [Filter]) -> Self {
+        Self { title, saving: false, filters, ending: None, others: &[], name: String::new() }
+    }
+}
+
+/// A dialog that asks for a file.
+#[derive(Debug)]
+pub(crate) struct Browser {
+    /// Title, filters and purpose.
+    pub(crate) options: BrowserOptions,
+    /// The folder that is listed.
+    pub(super) folder: PathBuf,
+    /// The text of the folder field.
+    pub(super) typed_folder: String,
+    pub(super) recent: Vec<PathBuf>,
+    /// Folders of one click, once they are found.
+    pub(super) places: Vec<PlaceFolder>,
+    finding_places: Option<Job<Vec<PlaceFolder>>>,
+    /// Form and order of the files.
+    pub(crate) look: BrowserLook,
+    /// Letters that the shown names must have.
+    pub(super) typed_filter: String,
+    /// Number of entries beside each other.
+    pub(super) columns: usize,
+    entries: Vec<Entry>,
+    reading: Option<Job<Vec<Entry>>>,
+    /// The last problem, shown in the dialog.
+    pub(super) problem: Option<Problem>,
+    /// Index of the active filter.
+    pub(super) filter: usize,
+    /// Name of the selected entry.
+    pub(super) selected: Option<String>,
+    /// Name of the file to be written.
+    pub(super) name: String,
+    /// Whether the name field has received the keyboard focus, which happens once.
+    pub(super) name_focused: bool,
+    /// The existing file that would be replaced, while the painter is asked.
+    pub(super) replacing: Option<PathBuf>,
+    /// Whether the list must scroll to the selection.
+    pub(super) scroll_to_selected: bool,
+    wake: eframe::egui::Context,
+}
+
+/// The painter's answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Answer {
+    /// The file that was chosen.
+    File(PathBuf),
+    /// No file was chosen.
+    Cancelled,
+}
+
+impl Browser {
+    /// A browser that lists `folder`, or the home folder if that does not exist.
+    #[must_use]
+    pub(crate) fn new(
+        options: BrowserOptions,
+        folder: Option<&Path>,
+        recent: &[PathBuf],
+        look: BrowserLook,
+        wake: &eframe::egui::Context,
+    ) -> Self {
+        let lately = folders_of(folder, recent);
+        let woken = wake.clone();
+        let finding_places =
+            Job::start("places", move || woken.request_repaint(), move |_| Ok(places(&lately)));
+        let folder = folder.filter(|folder| disk::is_dir(folder)).map(Path::to_owned);
+        let filter = options.filters.first().copied().unwrap_or(Filter::ALL);
+        let passes = |path: &&PathBuf| path.to_str().is_some_and(|path| filter.passes(path));
+        let mut browser = Self {
+            name: options.name.clone(),
+            options,
+            folder: PathBuf::new(),
+            typed_folder: String::new(),
+            recent: recent.iter().filter(passes).cloned().collect(),
+            places: Vec::new(),
+            finding_places: Some(finding_places),
+            look,
+            typed_filter: String::new(),
+            columns: 1,
+            entries: Vec::new(),
+            reading: None,
+            problem: None,
+            filter: 0,
+            selected: None,
+            name_focused: false,
+            replacing: None,
+            scroll_to_selected: false,
+            wake: wake.clone(),
+        };
+        browser.go(folder.unwrap_or_else(home_folder));
+        browser
+    }
+
+    /// The folder that is listed.
+    #[must_use]
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Lists another folder.
+    pub(crate) fn go(&mut self, folder: PathBuf) {
+        self.typed_folder = folder.display().to_string();
+        self.selected = None;
+        self.replacing = None;
+        self.problem = None;
+        self.typed_filter.clear();
+        self.entries.clear();
+        let (wake, read) = (self.wake.clone(), folder.clone());
+        let wake = move || wake.request_repaint();
+        self.reading = Some(Job::start(tr("reading the folder"), wake, move |progress| {
+            entries(&read, progress)
+        }));
+        self.folder = folder;
+    }
+
+    /// Applies the result of listing; returns whether it is still running.
+    pub(crate) fn update(&mut self) -> bool {
+        if let Some(found) = self.finding_places.as_mut().and_then(Job::poll) {
+            self.finding_places = None;
+            self.places = found.unwrap_or_default();
+        }
+        if let Some(result) = self.reading.as_mut().and_then(Job::poll) {
+            self.reading = None;
+            match result {
+                Ok(entries) => self.entries = entries,
+                Err(JobError::Failed(problem)) => self.problem = Some(problem),
+                Err(JobError::Cancelled) => {}
+            }
+        }
+        self.reading.is_some()
+    }
+
+    /// The entries that the filters accept, in the order that the painter chose.
+    #[must_use]
+    pub(crate) fn shown(&self) -> Vec<&Entry> {
+        let filter = self.options.filters.get(self.filter).copied().unwrap_or(Filter::ALL);
+        arranged(&self.entries, filter, &self.typed_filter, self.look.order)
+    }
+
+    /// Lists the folder above, with the previous one selected.
+    pub(crate) fn up(&mut self) {
+        let Some(above) = self.folder.parent().map(Path::to_owned) else { return };
+        let from = self.folder.file_name().map(|name| name.to_string_lossy().into_owned());
+        self.go(above);
+        self.selected = from;
+        self.scroll_to_selected = true;
+    }
+
+    /// Moves the selection by `steps` entries.
+    pub(crate) fn step(&mut self, steps: isize) {
+        let shown = self.shown();
+        let Some(last) = shown.len().checked_sub(1) else { return };
+        let at = shown.iter().position(|entry| Some(&entry.name) == self.selected.as_ref());
+        let next = match at {
+            Some(at) => at.saturating_add_signed(steps).min(last),
+            None => {
+                if steps < 0 {
+                    last
+                } else {
+                    0
+                }
+            }
+        };
+        let next = shown[next].clone();
+        self.select(&next);
+        self.scroll_to_selected = true;
+    }
+
+    /// Selects an entry. In a save dialog, a file's name becomes the name of the new file.
+    pub(crate) fn select(&mut self, entry: &Entry) {
+        self.selected = Some(entry.name.clone());
+        self.replacing = None;
+        if self.options.saving && !entry.folder {
+            self.name.clone_from(&entry.name);
+        }
+    }
+
+    /// Opens the selected folder, or chooses the selected file.
+    pub(crate) fn enter(&mut self) -> Option<Answer> {
+        let shown = self.shown();
+        let selected = shown.into_iter().find(|entry| Some(&entry.name) == self.selected.as_ref());
+        match selected {
+            Some(entry) if entry.folder => {
+                let folder = self.folder.join(&entry.name);
+                self.go(folder);
+                None
+            }
+            _ if self.options.saving => self.save(),
+            Some(entry) => Some(Answer::File(self.folder.join(&entry.name))),
+            None => None,
+        }
+    }
+
+    /// Opens the folder that was typed, or chooses the file.
+    pub(crate) fn enter_typed(&mut self) -> Option<Answer> {
+        let typed = self.folder.join(self.typed_folder.trim());
+        if disk::is_file(&typed) && !self.options.saving {
+            return Some(Answer::File(typed));
+        }
+        self.go(typed);
+        None
+    }
+
+    /// Chooses the file of the typed name; asks first if it exists.
+    pub(crate) fn save(&mut self) -> Option<Answer> {
+        let name = self.name.trim();
+        if name.is_empty() || name.contains(['/', '\\', '\0']) || [".", ".."].contains(&name) {
+            let text = format!("`{name}` is not a valid file name");
+            self.problem = Some(Problem::new(text, "choose a name without / and \\"));
+            return None;
+        }
+        let path = with_ending(self.folder.join(name), self.options.ending, self.options.others);
+        if disk::exists(&path) && self.replacing.as_ref() != Some(&path) {
+            self.replacing = Some(path);
+            return None;
+        }
+        Some(Answer::File(path))
+    }
+
+    /// Creates a folder of the typed name and lists it.
+    pub(crate) fn make_folder(&mut self) {
+        let name = self.name.trim();
+        let name = name.split('.').next().unwrap_or(name);
+        let folder = self.folder.join(if name.is_empty() { tr("New folder") } else { name });
+        match disk::create_dir(&folder) {
+            Ok(()) => self.go(folder),
+            Err(error) => self.problem = Some(Problem::io(&folder, "created", &error)),
+        }
+    }
+}
+
+/// Appends the extension `ending` to `path` if it has neither it nor one of the `others`.
+fn with_ending(path: PathBuf, ending: Option<&str>, others: &[&str]) -> PathBuf {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let small = name.to_lowercase();
+    let has = |ending: &str| small.ends_with(&format!(".{ending}"));
+    match ending {
+        Some(ending) if !has(ending) && !others.iter().any(|other| has(other)) => {
+            path.with_file_name(format!("{name}.{ending}"))
+        }
+        _ => path,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PAINTINGS: Filter = Filter { label: "Paintings", endings: &["exr"] };
+
+    fn browser(saving: bool) -> (Browser, tempfile::TempDir) {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("sub")).unwrap();
+        for name in ["a.exr", "b.exr", "notes.txt"] {
+            std::fs::write(folder.path().join(name), "x").unwrap();
+        }
+        let options = BrowserOptions {
+            title: "Open",
+            saving,
+            filters: &[PAINTINGS, Filter::ALL],
+            ending: Some("exr"),
+            others: &[],
+            name: "study".to_owned(),
+        };
+        let mut browser = Browser::new(
+            options,
+            Some(folder.path()),
+            &[],
+            BrowserLook::default(),
+            &Default::default(),
+        );
+        read(&mut browser);
+        (browser, folder)
+    }
+
+    fn read(browser: &mut Browser) {
+        while browser.update() {
+            std::thread::yield_now();
+        }
+    }
+
+    #[test]
+    fn keys_move_through_the_filtered_entries() {
+        let (mut browser, folder) = browser(false);
+        let names = |browser: &Browser| {
+            browser.shown().iter().map(|entry| entry.name.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(names(&browser), ["sub", "a.exr", "b.exr"]);
+        assert_eq!(browser.enter(), None, "nothing is selected");
+        for (steps, wanted) in [(1, "sub"), (1, "a.exr"), (9, "b.exr"), (-1, "a.exr"), (-9, "sub")]
+        {
+            browser.step(steps);
+            assert_eq!(browser.selected.as_deref(), Some(wanted));
+        }
+        assert_eq!(browser.enter(), None);
+        read(&mut browser);
+        assert_eq!(browser.folder(), folder.path().join("sub"));
+        browser.step(1);
+        assert_eq!(browser.selected, None, "it is empty");
+        browser.up();
+        read(&mut browser);
+        assert_eq!(browser.selected.as_deref(), Some("sub"), "where it came from");
+        browser.filter = 1;
+        browser.step(9);
+        assert_eq!(browser.enter(), Some(Answer::File(folder.path().join("notes.txt"))));
+    }
+
+    #[test]
+    fn an_existing_file_is_replaced_only_after_asking() {
+        let (mut browser, folder) = browser(true);
+        assert_eq!(browser.save(), Some(Answer::File(folder.path().join("study.exr"))));
+        browser.name = "a".to_owned();
+        assert_eq!(browser.save(), None);
+        assert_eq!(browser.replacing, Some(folder.path().join("a.exr")));
+        browser.step(-1);
+        assert_eq!((browser.name.as_str(), &browser.replacing), ("b.exr", &None));
+        assert_eq!(browser.save(), None, "another file, another question");
+        assert_eq!(browser.save(), Some(Answer::File(folder.path().join("b.exr"))));
+    }
+
+    #[test]
+    fn a_name_of_another_folder_is_rejected() {
+        let (mut browser, _folder) = browser(true);
+        for name in ["", "..", "a/b", "  "] {
+            browser.name = name.to_owned();
+            browser.problem = None;
+            assert_eq!(browser.save(), None, "{name:?}");
+            assert!(browser.problem.is_some(), "{name:?}");
+        }
+    }
+
+    #[test]
+    fn a_name_keeps_an_extension_that_the_file_may_have() {
+        let (mut browser, folder) = browser(true);
+        browser.options.others = &["exr", "apng"];
+        for (name, wanted) in [
+            ("b2", "b2.exr"),
+            ("b2.EXR", "b2.EXR"),
+            ("b2.apng", "b2.apng"),
+            ("b2.txt", "b2.txt.exr"),
+        ] {
+            browser.name = name.to_owned();
+            assert_eq!(browser.save(), Some(Answer::File(folder.path().join(wanted))));
+        }
+    }
+
+    #[test]
+    fn a_typed_path_is_a_folder_or_a_file() {
+        let (mut browser, folder) = browser(false);
+        browser.typed_folder = "sub".to_owned();
+        assert_eq!(browser.enter_typed(), None);
+        assert_eq!(browser.folder(), folder.path().join("sub"));
+        browser.typed_folder = folder.path().join("a.exr").display().to_string();
+        assert_eq!(browser.enter_typed(), Some(Answer::File(folder.path().join("a.exr"))));
+        browser.go(folder.path().join("gone"));
+        read(&mut browser);
+        assert!(browser.problem.is_some(), "it is not there");
+    }
+
+    #[test]
+    fn a_new_folder_is_created_and_listed() {
+        let (mut browser, folder) = browser(true);
+        browser.make_folder();
+        assert_eq!(browser.folder(), folder.path().join("study"));
+        assert!(browser.folder().is_dir(), "it was not made");
+    }
+}

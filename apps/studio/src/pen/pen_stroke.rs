@@ -1,0 +1,365 @@
+//! Turns the states of a pressed device into samples of a stroke.
+
+use web_time::{Duration, Instant};
+
+use eframe::egui::{Pos2, Vec2};
+use paint::pose::Sample;
+use paint::strokes::SurfaceId;
+
+use super::aids::{Guide, Lead};
+use super::handling::Handling;
+use super::heading::Heading;
+use super::report::{Device, PointerState};
+use super::speed::SpeedPressure;
+use super::stabiliser::{Stabiliser, distance};
+use super::transform::SurfaceTransform;
+use session::PenSample;
+
+/// Time without reports after which a pen counts as still. A sample is then added at its
+/// position, because the smoothed path of the brush lags one sample behind.
+pub(super) const STILL: Duration = Duration::from_millis(30);
+
+/// Change of pressure (full pressure is 1) above which another sample is added while the
+/// pen rests.
+const CHANGED: f64 = 0.005;
+
+/// Seconds between the samples at the end of a stroke.
+const END_INTERVAL_SECONDS: f64 = 0.008;
+
+/// Speed of a straight line drawn with shift, in mm per second.
+const LINE_SPEED_MM_S: f64 = 100.0;
+/// Length over which the pressure of a straight line rises, in mm.
+const LINE_START_MM: f64 = 2.0;
+
+/// Length of the way in points after which perspective takes the direction of a stroke.
+const DECIDED_POINTS: f64 = 14.0;
+
+/// Longest time for which the first samples wait for the direction of the stroke.
+const LONGEST_WAIT: Duration = Duration::from_millis(80);
+
+/// A stroke that has begun and not ended.
+#[derive(Debug)]
+pub(super) struct PenStroke {
+    pub(super) device: Device,
+    transform: SurfaceTransform,
+    began: Instant,
+    /// Duration of the straight line at the start, in seconds.
+    line_seconds: f64,
+    pressure_model: SpeedPressure,
+    state: PointerState,
+    moved: Instant,
+    /// Whether the last sample was added because the pen rested.
+    still: bool,
+    heading: Heading,
+    stabiliser: Stabiliser,
+    lead: Lead,
+    last: Option<Sample>,
+    samples: Vec<PenSample>,
+}
+
+impl PenStroke {
+    /// Begins a stroke on a surface, led by a guide if there is one. With `from`, a position in mm, a
+    /// straight line leads from there to the pen.
+    pub(super) fn new(
+        device: Device,
+        state: PointerState,
+        at: Instant,
+        (transform, guide): (SurfaceTransform, Option<Guide>),
+        from: Option<(f64, f64)>,
+        handling: &Handling<'_>,
+    ) -> Self {
+        let (method, length_mm) = handling.stabiliser(&transform);
+        let mut stroke = Self {
+            device,
+            transform,
+            began: at,
+            line_seconds: 0.0,
+            pressure_model: SpeedPressure::new(state.at, 0.0),
+            state,
+            moved: at,
+            still: false,
+            heading: Heading::new(handling.first_twist()),
+            stabiliser: Stabiliser::new(method, length_mm),
+            lead: Lead::new(guide, DECIDED_POINTS * transform.mm_per_point()),
+            last: None,
+            samples: Vec::new(),
+        };
+        if !handling.follows() {
+            stroke.heading.start();
+        }
+        if let Some(from) = from {
+            stroke.add_straight_line(from, at, handling);
+        }
+        stroke.extend(state, at, handling);
+        stroke
+    }
+
+    /// The surface that is painted on.
+    pub(super) fn surface(&self) -> SurfaceId {
+        self.transform.surface
+    }
+
+    /// The last state of the device.
+    pub(super) fn state(&self) -> PointerState {
+        self.state
+    }
+
+    /// Current position on the surface, in mm.
+    pub(super) fn position_mm(&self) -> (f64, f64) {
+        self.transform.position_mm(self.state.at)
+    }
+
+    /// The place on the surface where the brush is when it has caught up, in mm.
+    pub(super) fn end_mm(&self) -> (f64, f64) {
+        self.lead.led(self.position_mm())
+    }
+
+    /// Follows a change of zoom, pan or rotation.
+    pub(super) fn set_transform(&mut self, transform: SurfaceTransform) {
+        self.transform = transform;
+    }
+
+    /// Adds a sample at a new state of the device.
+    pub(super) fn extend(&mut self, state: PointerState, at: Instant, handling: &Handling<'_>) {
+        let seconds = self.seconds(at);
+        let by_speed = handling.pressure_by_speed(self.pressure_model.move_to(state.at, seconds));
+        let pressure = state.pressure.map_or(by_speed, |pressure| handling.pressure(pressure));
+        let step = state.at - self.state.at;
+        self.state = state;
+        self.moved = at;
+        self.still = false;
+        let (before, free) = (self.lead.last(), self.stabiliser.is_off() && self.lead.is_off());
+        let place = self.follow(handling);
+        if handling.follows() {
+            let step = match before {
+                Some(before) if !free => self.way_in_window(self.lead.led(before), place),
+                _ => step,
+            };
+            self.heading.add(step);
+        }
+        self.add_sample(place, pressure, seconds, at, handling);
+        let measured = handling.measured_twist(&state).is_some();
+        let clear = self.heading.is_clear() || self.has_waited(at);
+        if measured || clear && !self.lead.is_open() {
+            self.start_heading(handling);
+        }
+    }
+
+    /// Adds one sample when the pen comes to rest, and further ones only while the pressure
+    /// changes.
+    pub(super) fn add_rest_sample(&mut self, now: Instant, handling: &Handling<'_>) {
+        if self.has_waited(now) && !self.lead.is_open() {
+            self.start_heading(handling);
+        }
+        if now.saturating_duration_since(self.moved) < STILL {
+            return;
+        }
+        let seconds = self.seconds(now);
+        let pressure = self.pressure(seconds, handling);
+        let last = self.last.map_or(0.0, |last| last.pressure);
+        if !self.still || (pressure - last).abs() > CHANGED {
+            self.still = true;
+            let place = self.follow(handling);
+            self.add_sample(place, pressure, seconds, now, handling);
+        }
+    }
+
+    /// Place of the brush for the present place of the pen: behind it, and on the line of a guide.
+    fn follow(&mut self, handling: &Handling<'_>) -> (f64, f64) {
+        let place = self.stabiliser.follow(self.position_mm());
+        self.led(place, handling)
+    }
+
+    /// The place on the line of a guide. Once that line is decided, the samples that waited for it
+    /// are put on it, and a brush that follows its direction starts across it.
+    fn led(&mut self, place: (f64, f64), handling: &Handling<'_>) -> (f64, f64) {
+        let waited = self.lead.is_open();
+        let place = self.lead.follow(place);
+        if !waited || self.lead.is_open() {
+            return place;
+        }
+        for PenSample { sample, .. } in &mut self.samples {
+            (sample.x_mm, sample.y_mm) = self.lead.led((sample.x_mm, sample.y_mm));
+        }
+        let first = self.samples.first().map(|first| (first.sample.x_mm, first.sample.y_mm));
+        if let Some(first) = first
+            && !self.heading.is_started()
+        {
+            self.heading = Heading::new(handling.first_twist());
+            self.heading.add(self.way_in_window(first, place));
+            self.start_heading(handling);
+        }
+        place
+    }
+
+    /// Time until [`Self::add_rest_sample`] must be called; `None` if it would do nothing.
+    pub(super) fn next_rest_sample(&self, now: Instant) -> Option<Duration> {
+        let waits = (!self.heading.is_started() && !self.lead.is_open())
+            .then(|| LONGEST_WAIT.saturating_sub(now.saturating_duration_since(self.began)));
+        [waits, self.next_still_sample(now)].into_iter().flatten().min()
+    }
+
+    fn next_still_sample(&self, now: Instant) -> Option<Duration> {
+        let landing = self.state.pressure.is_none()
+            && self.pressure_model.pressure(f64::INFINITY)
+                - self.pressure_model.pressure(self.seconds(now))
+                > CHANGED;
+        match (self.still, landing) {
+            (false, _) => Some(STILL.saturating_sub(now.saturating_duration_since(self.moved))),
+            (true, true) => Some(Duration::from_millis(10)),
+            (true, false) => None,
+        }
+    }
+
+    /// Adds the samples that end a stroke: the way on which a brush that stayed behind catches up,
+    /// and for a device without pressure those that lift it.
+    pub(super) fn finish(&mut self, at: Instant, handling: &Handling<'_>) {
+        self.catch_up(at, handling);
+        self.lead.settle();
+        self.start_heading(handling);
+        if self.state.pressure.is_some() {
+            return;
+        }
+        let mut seconds = self.last_seconds().max(self.seconds(at));
+        for pressure in self.pressure_model.end_pressures(self.seconds(at)) {
+            seconds += END_INTERVAL_SECONDS;
+            let pressure = handling.pressure_by_speed(pressure);
+            self.add_sample(self.end_mm(), pressure, seconds, at, handling);
+        }
+    }
+
+    /// Leads the brush to the last place of the pen, as fast as a straight line is drawn.
+    fn catch_up(&mut self, at: Instant, handling: &Handling<'_>) {
+        let mut before = self.lead.last().unwrap_or_else(|| self.position_mm());
+        let mut seconds = self.last_seconds().max(self.seconds(at));
+        let pressure = self.last.map_or(0.0, |last| last.pressure);
+        for place in self.stabiliser.catch_up() {
+            let place = self.led(place, handling);
+            if handling.follows() {
+                self.heading.add(self.way_in_window(self.lead.led(before), place));
+            }
+            seconds += distance(before, place) / LINE_SPEED_MM_S;
+            self.add_sample(place, pressure, seconds, at, handling);
+            before = place;
+        }
+    }
+
+    /// Line in the window from the brush to the pen, if the brush stays behind.
+    pub(super) fn string_line(&self) -> Option<[Pos2; 2]> {
+        let free = self.stabiliser.is_off() && self.lead.is_off();
+        let brush = self.lead.last().filter(|_| !free)?;
+        Some([self.state.at + self.way_in_window(self.position_mm(), brush), self.state.at])
+    }
+
+    fn way_in_window(&self, from: (f64, f64), to: (f64, f64)) -> Vec2 {
+        self.transform.way_in_window((to.0 - from.0, to.1 - from.1))
+    }
+
+    fn last_seconds(&self) -> f64 {
+        self.last.map_or(0.0, |last| last.seconds)
+    }
+
+    /// Removes and returns the samples since the last call. There are none before the direction
+    /// of a stroke that the brush or a guide follows is known: a brush that turned on the canvas
+    /// would paint a hook.
+    pub(super) fn take_samples(&mut self) -> Vec<PenSample> {
+        let waits = !self.heading.is_started() || self.lead.is_open();
+        if waits { Vec::new() } else { std::mem::take(&mut self.samples) }
+    }
+
+    fn has_waited(&self, now: Instant) -> bool {
+        now.saturating_duration_since(self.began) >= LONGEST_WAIT
+    }
+
+    /// Puts the brush across the direction of the stroke, from its first sample on.
+    fn start_heading(&mut self, handling: &Handling<'_>) {
+        if self.heading.is_started() {
+            return;
+        }
+        self.heading.start();
+        let Sample { twist_deg, .. } =
+            brush_sample(&self.transform, &self.state, self.heading.twist(), handling);
+        for PenSample { sample, .. } in &mut self.samples {
+            sample.twist_deg = twist_deg;
+        }
+    }
+
+    /// Adds a straight line from `from`, in mm, to the current position.
+    fn add_straight_line(&mut self, from: (f64, f64), at: Instant, handling: &Handling<'_>) {
+        let (from, to) = match self.lead.is_off() {
+            true => (from, self.position_mm()),
+            false => (self.lead.follow(from), self.lead.follow(self.position_mm())),
+        };
+        let length = (to.0 - from.0).hypot(to.1 - from.1);
+        if length < LINE_START_MM {
+            return;
+        }
+        if handling.follows() {
+            self.heading.add(self.way_in_window(from, to));
+            self.start_heading(handling);
+        }
+        self.pressure_model =
+            SpeedPressure::new(self.state.at, length / LINE_SPEED_MM_S).at_full_pressure();
+        let moderate = handling.pressure_by_speed(self.pressure_model.pressure(0.0));
+        let full = self
+            .state
+            .pressure
+            .map_or(moderate, |measured| handling.pressure(measured).max(moderate));
+        for (mm, pressure) in [(0.0, 0.2 * full), (LINE_START_MM, full)] {
+            let share = mm / length;
+            let position_mm = (from.0 + (to.0 - from.0) * share, from.1 + (to.1 - from.1) * share);
+            let sample = brush_sample(&self.transform, &self.state, self.heading.twist(), handling);
+            let sample = Sample { pressure, seconds: mm / LINE_SPEED_MM_S, ..sample };
+            self.push(Sample { x_mm: position_mm.0, y_mm: position_mm.1, ..sample }, at);
+        }
+        self.line_seconds = length / LINE_SPEED_MM_S;
+        if let Some(measured) = &mut self.state.pressure {
+            *measured = full;
+        }
+    }
+
+    fn seconds(&self, at: Instant) -> f64 {
+        at.saturating_duration_since(self.began).as_secs_f64() + self.line_seconds
+    }
+
+    fn pressure(&self, seconds: f64, handling: &Handling<'_>) -> f64 {
+        let by_speed = || handling.pressure_by_speed(self.pressure_model.pressure(seconds));
+        self.state.pressure.map_or_else(by_speed, |measured| handling.pressure(measured))
+    }
+
+    fn add_sample(
+        &mut self,
+        (x_mm, y_mm): (f64, f64),
+        pressure: f64,
+        seconds: f64,
+        at: Instant,
+        handling: &Handling<'_>,
+    ) {
+        let sample = brush_sample(&self.transform, &self.state, self.heading.twist(), handling);
+        self.push(Sample { pressure, seconds, x_mm, y_mm, ..sample }, at);
+    }
+
+    /// Adds a sample. If its time is before that of the last one, it is set to that time.
+    fn push(&mut self, sample: Sample, arrived: Instant) {
+        let earliest = self.last.map_or(0.0, |last| last.seconds);
+        let sample = Sample { seconds: sample.seconds.max(earliest), ..sample };
+        self.last = Some(sample);
+        self.samples.push(PenSample { sample, arrived });
+    }
+}
+
+/// Sample of a brush over a surface at pressure 0. `twist` is the rotation used if the
+/// device measures none.
+pub(super) fn brush_sample(
+    transform: &SurfaceTransform,
+    state: &PointerState,
+    twist: f64,
+    handling: &Handling<'_>,
+) -> Sample {
+    let (x_mm, y_mm) = transform.position_mm(state.at);
+    let tilt = transform.surface_tilt(handling.tilt_deg(state));
+    let twist = handling.measured_twist(state).unwrap_or(twist);
+    let twist_deg = transform.surface_twist(twist);
+    let (tilt_x_deg, tilt_y_deg) = (tilt.0.clamp(-90.0, 90.0), tilt.1.clamp(-90.0, 90.0));
+    Sample { seconds: 0.0, x_mm, y_mm, pressure: 0.0, tilt_x_deg, tilt_y_deg, twist_deg }
+}

@@ -1,0 +1,333 @@
+//! Tests of the brush panel.
+
+use eframe::egui::{Event, Key, accesskit::Role, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use paint::brush::HeadShape;
+use paint::document::LayerId;
+use paint::strokes::{Action, BrushSpec, LayerRef, Load, MaskChange, Recipe};
+use session::swatches::SwatchChange;
+use session::{BrushState, Command};
+use studio::panels::brushes::Brushes;
+use studio::panels::{FileRequest, Mode, Request};
+
+use super::fixture::{Fixture, assert_requests, click, is_disabled, painting, picture, show_panel};
+use super::panel_window::PanelWindow;
+
+fn brushes() -> Harness<'static, Fixture<Brushes>> {
+    show_panel(Brushes::default(), painting(), Brushes::show)
+}
+
+fn act(action: Action) -> Request {
+    Request::Worker(Command::Apply(action))
+}
+
+fn take(name: &str, shape: HeadShape, size_mm: f64) -> Request {
+    let spec = BrushSpec { shape, size_mm };
+    Request::Worker(Command::SetBrush { name: name.to_owned(), spec })
+}
+
+/// Load action with the paint of the round brush of the test painting.
+fn round_paint() -> Request {
+    let recipe = [("Zinc White", 0.25), ("Vermilion", 0.75)];
+    let recipe: Recipe = recipe.map(|(name, part)| (name.to_owned(), part)).into();
+    act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle: 0.2, amount_mm: 0.4 }))
+}
+
+#[test]
+fn a_click_or_a_number_selects_a_brush() {
+    let mut harness = brushes();
+    harness.state_mut().tools.mode = Mode::Squeeze;
+    click(&mut harness, "knife");
+    assert_eq!(harness.state().tools.brush, "knife");
+    assert_eq!(harness.state().tools.mode, Mode::Paint);
+    let there = harness.state_mut().with_panel(|panel, cx| panel.choose(2, cx));
+    assert_eq!((there, harness.state().tools.brush.as_str()), (true, "flat"));
+    for none in [0, 4, 9] {
+        let there = harness.state_mut().with_panel(|panel, cx| panel.choose(none, cx));
+        assert_eq!((there, harness.state().tools.brush.as_str()), (false, "flat"));
+    }
+    assert_requests(&mut harness, &[]);
+}
+
+#[test]
+fn a_changed_shape_or_size_keeps_the_paint() {
+    let mut harness = brushes();
+    click(&mut harness, "shape filbert");
+    assert_requests(&mut harness, &[take("round", HeadShape::Filbert, 6.0), round_paint()]);
+    // The worker has not reported yet, so the requested head is used.
+    harness.state_mut().with_panel(|panel, cx| panel.resize(1.5, cx));
+    assert_requests(&mut harness, &[take("round", HeadShape::Filbert, 9.0), round_paint()]);
+    click(&mut harness, "shape filbert");
+    assert_requests(&mut harness, &[]);
+
+    click(&mut harness, "flat");
+    harness.get_by_role_and_label(Role::Slider, "Size").set_value_accesskit(0.5);
+    harness.run();
+    assert_requests(&mut harness, &[take("flat", HeadShape::Flat, 0.5)]);
+    harness.state_mut().with_panel(|panel, cx| panel.resize(0.1, cx));
+    assert_requests(&mut harness, &[take("flat", HeadShape::Flat, 0.2)]);
+}
+
+#[test]
+fn the_label_follows_the_shape_but_not_a_name_of_the_painter() {
+    let mut harness = brushes();
+    click(&mut harness, "shape knife");
+    click(&mut harness, "knife 2");
+    click(&mut harness, "shape mop");
+    assert!(harness.query_by_label("round").is_none());
+    click(&mut harness, "Rename");
+    harness.event(Event::Text(" of hog".to_owned()));
+    harness.key_press(Key::Enter);
+    harness.run();
+    click(&mut harness, "shape fan");
+    assert_eq!(harness.query_all_by_label("mop of hog").count(), 1);
+}
+
+#[test]
+fn dragging_the_size_sends_one_request_at_the_end() {
+    let mut harness = brushes();
+    click(&mut harness, "knife");
+    let rail = harness.get_by_role_and_label(Role::Slider, "Size").rect();
+    harness.hover_at(rail.center());
+    harness.drag_at(rail.center());
+    harness.run();
+    for step in 1..5_u8 {
+        harness.hover_at(rail.center() + vec2(4.0 * f32::from(step), 0.0));
+        harness.run();
+    }
+    assert_requests(&mut harness, &[]);
+    harness.drop_at(rail.center() + vec2(16.0, 0.0));
+    harness.run();
+    let requests = format!("{:?}", harness.state().requests);
+    assert_eq!(harness.state().requests.len(), 1, "{requests}");
+    assert!(requests.contains("SetBrush { name: \"knife\""), "{requests}");
+}
+
+#[test]
+fn a_reported_head_ends_its_request() {
+    let mut harness = brushes();
+    click(&mut harness, "shape mop");
+    harness.state_mut().requests.clear();
+    // The head is reported first, the load later.
+    let round = &mut harness.state_mut().painting.brushes[0];
+    round.spec.shape = HeadShape::Mop;
+    let loaded = std::mem::replace(&mut round.amount_mm, 0.0);
+    harness.run();
+    click(&mut harness, "shape bright");
+    assert_requests(&mut harness, &[take("round", HeadShape::Bright, 6.0), round_paint()]);
+    let round = &mut harness.state_mut().painting.brushes[0];
+    round.spec.shape = HeadShape::Bright;
+    round.amount_mm = loaded;
+    harness.run();
+    // After washing, the brush has no paint to keep.
+    harness.state_mut().painting.brushes[0].amount_mm = 0.0;
+    harness.run();
+    click(&mut harness, "shape fan");
+    assert_requests(&mut harness, &[take("round", HeadShape::Fan, 6.0)]);
+}
+
+#[test]
+fn keeping_selects_a_clean_copy_and_leaves_the_loaded_brush() {
+    let mut harness = brushes();
+    click(&mut harness, "Keep");
+    assert_requests(&mut harness, &[take("round 2", HeadShape::Round, 6.0)]);
+    assert_eq!(harness.state().tools.brush, "round 2", "selected before the worker reports it");
+    assert!(is_disabled(&harness, "Wash"), "the copy is clean");
+    let order: Vec<f32> =
+        ["round", "round 2", "flat"].map(|name| harness.get_by_label(name).rect().top()).to_vec();
+    assert!(order.is_sorted(), "the copy is listed after the original: {order:?}");
+    click(&mut harness, "Keep");
+    assert_requests(&mut harness, &[take("round 3", HeadShape::Round, 6.0)]);
+}
+
+#[test]
+fn a_brush_is_added_renamed_and_removed() {
+    let mut harness = brushes();
+    click(&mut harness, "Add");
+    click(&mut harness, "bright");
+    assert_requests(&mut harness, &[take("bright", HeadShape::Bright, 6.0)]);
+    assert_eq!(harness.state().tools.brush, "bright");
+
+    click(&mut harness, "Rename");
+    harness.key_press_modifiers(eframe::egui::Modifiers::COMMAND, Key::A);
+    harness.event(Event::Text("for highlights".to_owned()));
+    harness.key_press(Key::Enter);
+    harness.run();
+    assert!(harness.query_by_label("for highlights").is_some(), "its new name");
+    assert_eq!(harness.state().tools.brush, "bright", "the painting keeps the old name");
+
+    click(&mut harness, "Rename");
+    harness.event(Event::Text(" never".to_owned()));
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert!(harness.query_by_label("for highlights").is_some(), "left as it was");
+
+    click(&mut harness, "Remove");
+    assert!(harness.query_by_label("for highlights").is_none(), "removed");
+    assert_eq!(harness.state().tools.brush, "flat", "its neighbour is selected");
+    click(&mut harness, "Remove");
+    harness.run();
+    assert!(
+        harness.query_by_label("flat").is_none(),
+        "removed from the list although the painting has it"
+    );
+    assert_requests(&mut harness, &[]);
+}
+
+#[test]
+fn loading_uses_tube_or_medium_with_the_slider_values() {
+    let mut harness = brushes();
+    harness.state_mut().tools.tube = 4;
+    harness.get_by_role_and_label(Role::Slider, "Load").set_value_accesskit(0.75);
+    harness.get_by_role_and_label(Role::Slider, "Medium").set_value_accesskit(40.0);
+    harness.run();
+    click(&mut harness, "Load from tube");
+    let load = |recipe: &[(&str, f64)], vehicle| {
+        let recipe = recipe.iter().map(|(name, part)| ((*name).to_owned(), *part)).collect();
+        act(Action::Load(Load { brush: "round".to_owned(), recipe, vehicle, amount_mm: 0.75 }))
+    };
+    assert_requests(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.4)]);
+    harness.get_by_role_and_label(Role::Slider, "Medium").set_value_accesskit(99.5);
+    harness.run();
+    click(&mut harness, "Load from tube");
+    assert_requests(&mut harness, &[load(&[("Ultramarine", 1.0)], 0.995)]);
+    click(&mut harness, "Medium only");
+    assert_requests(&mut harness, &[load(&[], 1.0)]);
+    harness.state_mut().tools.tube = 7;
+    harness.run();
+    assert!(is_disabled(&harness, "Load from tube"), "slot 8 is empty");
+}
+
+#[test]
+fn wiping_and_washing_need_paint() {
+    let mut harness = brushes();
+    harness.get_by_role_and_label(Role::Slider, "Wipe to").set_value_accesskit(55.0);
+    harness.run();
+    click(&mut harness, "Wipe");
+    click(&mut harness, "Wash");
+    let brush = "round".to_owned();
+    let wipe = Action::Wipe { brush: brush.clone(), keep: 0.55 };
+    assert_requests(&mut harness, &[act(wipe), act(Action::Wash { brush })]);
+    click(&mut harness, "flat");
+    assert!(is_disabled(&harness, "Wipe") && is_disabled(&harness, "Wash"), "it is clean");
+    let table = harness.state_mut();
+    table.with_panel(|_, cx| studio::panels::brushes::wash(cx));
+    table.with_panel(|_, cx| studio::panels::brushes::wipe(cx));
+    assert_requests(&mut harness, &[]);
+}
+
+#[test]
+fn the_brush_list_follows_the_painting() {
+    let mut harness = brushes();
+    click(&mut harness, "knife");
+    let state = &mut harness.state_mut().painting.brushes;
+    let spec = BrushSpec { shape: HeadShape::Mop, size_mm: 20.0 };
+    let mop = BrushState { name: "sky".to_owned(), spec, ..state[1].clone() };
+    *state = vec![mop];
+    harness.run();
+    assert_eq!(harness.state().tools.brush, "sky", "the knife is gone");
+    assert!(harness.query_by_label("knife").is_none(), "the knife is gone");
+    assert!(is_disabled(&harness, "Remove"), "the last brush cannot be removed");
+    harness.state_mut().painting.brushes.clear();
+    harness.run();
+    assert!(is_disabled(&harness, "Keep") && is_disabled(&harness, "Medium only"), "no brush");
+}
+
+#[test]
+fn new_brushes_are_listed_in_the_order_of_their_shapes() {
+    let mut reversed = painting();
+    reversed.brushes.reverse();
+    let harness = show_panel(Brushes::default(), reversed, Brushes::show);
+    let tops = ["round", "flat", "knife"].map(|name| harness.get_by_label(name).rect().top());
+    assert!(tops.is_sorted(), "{tops:?}");
+}
+
+#[test]
+fn a_size_between_slider_steps_is_not_changed() {
+    let mut odd = painting();
+    odd.brushes[0].spec.size_mm = 6.123_456;
+    let mut harness = show_panel(Brushes::default(), odd, Brushes::show);
+    harness.run_steps(3);
+    assert_requests(&mut harness, &[]);
+}
+
+#[test]
+fn brushes_are_drawn() {
+    let mut harness = brushes();
+    let Some(drawn) = picture(&mut harness, "brushes") else { return };
+    // The icon of the round brush has the colour of its paint.
+    let row = harness.get_by_label("round").rect();
+    let [red, green, blue] = harness.state().painting.brushes[0].color.unwrap();
+    let at = drawn.get_pixel((row.left() + 36.0) as u32, (row.top() + 12.0) as u32).0;
+    assert_eq!(at, [red, green, blue, 255]);
+}
+
+#[test]
+fn the_swatch_tells_colour_thickness_and_hiding_of_what_the_brush_holds() {
+    let mut harness = brushes();
+    for words in ["Lab 47.2 52.1 38.4", "hides 62 %", "0.25 mm at the tip, 20 % medium"] {
+        assert!(harness.query_by_label(words).is_some(), "{words}");
+    }
+    let rect = harness.get_by_label("Paint on the brush").rect();
+    assert!(rect.height() >= 50.0 && rect.width() > 260.0, "{rect}");
+    assert!(harness.query_by_label("Marks of the tip").is_some());
+    if let Some(drawn) = picture(&mut harness, "brush-swatch") {
+        let at = |share: f32, y: f32| {
+            let x = rect.left() + share * rect.width();
+            drawn.get_pixel(x as u32, y as u32).0
+        };
+        let swatch = harness.state().painting.brushes[0].swatch.clone().unwrap();
+        let rgb = |[r, g, b]: [u8; 3]| [r, g, b, 255];
+        let middle = rect.center().y;
+        assert_eq!(at(0.25, middle), rgb(swatch.opaque.srgb), "the left half hides");
+        assert_eq!(at(0.6, middle), rgb(swatch.over_ground.srgb));
+        assert_eq!(at(0.6, rect.bottom() - 3.0), rgb(swatch.ground.srgb), "the bare ground");
+        assert_eq!(at(0.81, middle), rgb(swatch.over_cards[0].srgb));
+        assert_eq!(at(0.95, middle), rgb(swatch.over_cards[1].srgb));
+        assert_eq!(at(0.95, rect.top() + 3.0), rgb(swatch.cards[1].srgb), "the bare card");
+    }
+    harness.state_mut().tools.brush = "flat".to_owned();
+    harness.run();
+    assert!(harness.query_by_label("hides 62 %").is_none(), "a clean brush has no colour");
+    assert!(harness.query_by_label("Keep this mixture").is_none());
+}
+
+#[test]
+fn what_the_brush_holds_is_kept_as_a_mixture() {
+    let mut harness = brushes();
+    click(&mut harness, "Keep this mixture");
+    let requests = std::mem::take(&mut harness.state_mut().requests);
+    let [Request::File(FileRequest::Swatches(SwatchChange::Keep(kept)))] = &requests[..] else {
+        panic!("{requests:?}");
+    };
+    let recipe: Recipe = [("Zinc White", 0.25), ("Vermilion", 0.75)]
+        .map(|(name, part)| (name.to_owned(), part))
+        .into();
+    assert_eq!((kept.name.as_str(), &kept.recipe), ("Vermilion and Zinc White", &recipe));
+    assert!((kept.vehicle - 0.2).abs() < 1e-9, "{}", kept.vehicle);
+    let painting = &harness.state().painting;
+    let viewing = &painting.light.viewing;
+    let wanted = painting.library.color(recipe, viewing).unwrap();
+    assert_eq!(kept.color, wanted.hex());
+    assert_eq!(kept.library, painting.library.title);
+}
+
+#[test]
+fn the_mask_names_layers_as_the_layer_panel_does() {
+    let mut painting = painting();
+    painting.layers[1].name = "sky".to_owned();
+    let mut stage =
+        PanelWindow::new(Brushes::default(), vec2(300.0, 900.0), painting, Brushes::show);
+    stage.state().tools.mode = Mode::Mask;
+    stage.run();
+    for (label, layer) in [("sky", LayerId(2)), ("Layer 1", LayerId(1))] {
+        stage.click(label);
+        let mask = Action::Mask(MaskChange::Layer(LayerRef::Id(layer)));
+        let found = stage.commands();
+        assert!(matches!(&found[..], [Command::Apply(found)] if *found == mask), "{found:?}");
+    }
+    // A long name does not leave the panel, which the window checks.
+    stage.state().painting.layers[1].name = "the light over the trees at the far bank ".repeat(2);
+    stage.run();
+}

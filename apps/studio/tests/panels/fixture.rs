@@ -1,0 +1,237 @@
+//! A test painting as a worker would report it, and a window with a single panel.
+
+use std::sync::{Arc, OnceLock};
+
+use eframe::egui::{self, Pos2, Rect, Ui, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use paint::brush::HeadShape;
+use paint::document::{LayerId, Lighting, Medium, Slots};
+use paint::layer::SLOTS;
+use paint::light::Light;
+use paint::strokes::BrushSpec;
+use pigment::evaluate::Viewing;
+use pigment::library::PigmentLibrary;
+use pigment::palette::{Cards, Palette, Recipe, TINT_PARTS};
+use session::{
+    BrushState, BrushSwatch, FilmColor, HistoryShot, HistoryShots, LayerState, PaintingState,
+    Thumbnail,
+};
+use spectra::color::Lab;
+use studio::panels::{PanelContext, Request, Tools};
+use studio::theme;
+
+use super::harness::{has_adapter, keep};
+
+/// Pigments in the slots; the last slot is empty.
+pub(crate) const PIGMENTS: [&str; 7] = [
+    "Zinc White",
+    "Chrome Yellow",
+    "Vermilion",
+    "Eosin Lake",
+    "Ultramarine",
+    "Viridian",
+    "Bone Black",
+];
+
+/// State of a painting with seven tubes, three brushes, two dry layers and a history.
+pub(crate) fn painting() -> PaintingState {
+    static LIBRARY: OnceLock<(Arc<PigmentLibrary>, Arc<Light>)> = OnceLock::new();
+    let (library, light) = LIBRARY.get_or_init(|| {
+        let library = Arc::new(PigmentLibrary::van_gogh_oils());
+        let light = Arc::new(Light::new(&library, &Viewing::default()).unwrap());
+        (library, light)
+    });
+    let mut slots: Slots = [None; SLOTS];
+    for (slot, name) in slots.iter_mut().zip(PIGMENTS) {
+        *slot = Some(library.find(name).unwrap());
+    }
+    let cards = Cards::standard(library.grid);
+    let palette = Palette::new(library, &light.viewing, cards).unwrap();
+    let srgb = |recipe: &Recipe| {
+        let encoded = palette.color(recipe).srgb;
+        encoded.0.map(|value| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
+    };
+    PaintingState {
+        title: "made".to_owned(),
+        canvas_cells: (320, 200),
+        palette_cells: (160, 120),
+        cell_mm: 0.1,
+        library: Arc::clone(library),
+        slots,
+        masstones: slots.map(|slot| Some(srgb(&Recipe::single(slot?)))),
+        tints: slots.map(|slot| Some(srgb(&palette.tint(slot?, TINT_PARTS)))),
+        layers: vec![layer(1, slots, 1.0), layer(2, slots, 0.5)],
+        lighting: Lighting::default(),
+        light: Arc::clone(light),
+        second_lighting: None,
+        medium: Medium::default(),
+        ground_reflectance: Arc::new(vec![0.8; library.grid.count()]),
+        history: ["load round", "stroke, round", "dry 50 %", "stroke, flat"]
+            .map(str::to_owned)
+            .to_vec(),
+        history_done: 3,
+        history_shots: shots(),
+        undo_bytes: (96 << 20, 512 << 20),
+        brushes: vec![
+            brush("round", HeadShape::Round, 6.0, Some(srgb(&Recipe::single(slots[2].unwrap())))),
+            brush("flat", HeadShape::Flat, 10.0, None),
+            brush("knife", HeadShape::Knife, 14.0, None),
+        ],
+        mask: None,
+        backend: "cpu".to_owned(),
+        revision: 1,
+        stroke_open: false,
+    }
+}
+
+/// Pictures of all states but the last but one, of which each changes a corner.
+fn shots() -> HistoryShots {
+    let shot = |state: usize| {
+        let pixel = |index: usize| match (index % 48 < 12 * state, index / 48 < 12) {
+            (true, true) => [200, 40 * state as u8, 60, 255],
+            _ => [225, 222, 214, 255],
+        };
+        let picture = Thumbnail { width: 48, height: 30, pixels: (0..1440).map(pixel).collect() };
+        let changed = (state > 0).then(|| [12 * (state - 1), 0, 12, 12]);
+        HistoryShot { picture: Arc::new(picture), changed }
+    };
+    let shots = (0..5).map(|state| (state != 3).then(|| shot(state))).collect();
+    HistoryShots { shots, bytes: 3 << 20, most_bytes: 24 << 20 }
+}
+
+/// A film that hides the ground in part, in this colour.
+fn swatch([r, g, b]: [u8; 3]) -> BrushSwatch {
+    let color =
+        |srgb: [u8; 3], lightness| FilmColor { lab: Lab { lightness, a: 52.1, b: 38.4 }, srgb };
+    BrushSwatch {
+        opaque: color([r, g, b], 47.2),
+        ground: color([230, 228, 222], 91.0),
+        over_ground: color([r, g / 2 + 60, b / 2 + 60], 55.0),
+        cards: [color([63, 63, 63], 26.7), color([231, 231, 231], 91.7)],
+        over_cards: [color([r / 2, g / 2, b / 2], 30.0), color([r, g, b / 2 + 80], 60.0)],
+        contrast: 0.62,
+        thickness_mm: 0.25,
+    }
+}
+
+fn brush(name: &str, shape: HeadShape, size_mm: f64, color: Option<[u8; 3]>) -> BrushState {
+    let mut parts = [0.0; SLOTS];
+    parts[0] = 0.25;
+    parts[2] = 0.75;
+    let loaded = color.is_some();
+    BrushState {
+        name: name.to_owned(),
+        spec: BrushSpec { shape, size_mm },
+        amount_mm: if loaded { 0.4 } else { 0.0 },
+        tip_mm: if loaded { 0.25 } else { 0.0 },
+        most_load_mm: if loaded { 1.5 } else { f64::INFINITY },
+        vehicle: if loaded { 0.2 } else { 0.0 },
+        parts: if loaded { parts } else { [0.0; SLOTS] },
+        color,
+        swatch: color.map(|color| Box::new(swatch(color))),
+    }
+}
+
+fn layer(id: u32, slots: Slots, opacity: f64) -> LayerState {
+    let pixel = |index: usize| [(index * 7 % 256) as u8, 90, 60, 255];
+    let thumbnail = Thumbnail { width: 24, height: 15, pixels: (0..360).map(pixel).collect() };
+    let thumbnail = Arc::new(thumbnail);
+    LayerState {
+        id: LayerId(id),
+        name: String::new(),
+        visible: true,
+        slots,
+        opacity,
+        mean_mm: 0.123,
+        max_mm: 0.81,
+        coverage: 0.34,
+        thumbnail,
+    }
+}
+
+/// A panel with its context and its requests.
+pub(crate) struct Fixture<P> {
+    pub(crate) panel: P,
+    pub(crate) painting: PaintingState,
+    pub(crate) tools: Tools,
+    pub(crate) requests: Vec<Request>,
+}
+
+impl<P> Fixture<P> {
+    /// Calls `act` with the panel and its context, as a keyboard shortcut does.
+    pub(crate) fn with_panel<T>(
+        &mut self,
+        act: impl FnOnce(&mut P, &mut PanelContext<'_>) -> T,
+    ) -> T {
+        let Self { panel, painting, tools, requests } = self;
+        act(panel, &mut PanelContext { painting, tools, requests })
+    }
+}
+
+/// Creates a window of the side panel's width that shows one panel.
+pub(crate) fn show_panel<P: 'static>(
+    panel: P,
+    painting: PaintingState,
+    show: impl Fn(&mut P, &mut Ui, &mut PanelContext<'_>) + 'static,
+) -> Harness<'static, Fixture<P>> {
+    let table = Fixture { panel, painting, tools: Tools::default(), requests: Vec::new() };
+    let builder = Harness::builder()
+        .with_size(Vec2::new(760.0, 700.0))
+        .with_step_dt(1.0 / 60.0)
+        .with_max_steps(60);
+    let mut harness = builder.with_context_setup(theme::apply).build_ui_state(
+        move |ui, table: &mut Fixture<P>| {
+            let panel_fill = theme::colors(ui.ctx()).panel;
+            ui.painter().rect_filled(ui.max_rect(), 0.0, panel_fill);
+            let room = Rect::from_min_size(
+                Pos2::new(8.0, 8.0),
+                Vec2::new(theme::PANEL_WIDTH - 16.0, 680.0),
+            );
+            ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| {
+                let Fixture { panel, painting, tools, requests } = table;
+                show(panel, ui, &mut PanelContext { painting, tools, requests });
+            });
+        },
+        table,
+    );
+    harness.run();
+    harness
+}
+
+/// Clicks the control with a label and draws until nothing changes.
+pub(crate) fn click<P>(harness: &mut Harness<'_, Fixture<P>>, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run();
+}
+
+/// Clicks a row of a list, even if it is scrolled out of view.
+pub(crate) fn click_row<P>(harness: &mut Harness<'_, Fixture<P>>, label: &str) {
+    harness.get_by_label(label).click_accesskit();
+    harness.run();
+}
+
+/// Whether the control with a label is disabled.
+pub(crate) fn is_disabled<P>(harness: &Harness<'_, Fixture<P>>, label: &str) -> bool {
+    harness.get_by_label(label).accesskit_node().is_disabled()
+}
+
+/// Asserts that the requests since the last call are `wanted`.
+#[track_caller]
+pub(crate) fn assert_requests<P>(harness: &mut Harness<'_, Fixture<P>>, wanted: &[Request]) {
+    let requests = std::mem::take(&mut harness.state_mut().requests);
+    assert_eq!(format!("{requests:#?}"), format!("{wanted:#?}"), "requests differ");
+}
+
+/// Renders the window and keeps the picture; `None` without a graphics adapter.
+pub(crate) fn picture<P>(
+    harness: &mut Harness<'_, Fixture<P>>,
+    name: &str,
+) -> Option<image::RgbaImage> {
+    if !has_adapter() {
+        return None;
+    }
+    let image = harness.render().unwrap();
+    keep(&image, &format!("panel-{name}"));
+    Some(image)
+}

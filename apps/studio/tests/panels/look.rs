@@ -1,0 +1,343 @@
+//! Tests of themes, touch targets and scale: what is written is read, what is touched is
+//! large enough.
+
+use eframe::egui::{Key, Modifiers, Rect, Theme, Vec2, vec2};
+use egui_kittest::kittest::Queryable;
+use image::RgbaImage;
+use paint::strokes::{Action, Squeeze, SurfaceId};
+use session::Command;
+use session::volumes::Subject;
+use studio::app::Tab;
+use studio::panels::Mode;
+use studio::theme::{self, ThemeChoice, contrast};
+
+use super::harness::Window;
+use super::seen::{SeenText, Target, targets, texts};
+
+/// All panels of the columns.
+pub(super) const TABS: [Tab; 8] = [
+    Tab::Brush,
+    Tab::Layers,
+    Tab::Light,
+    Tab::Color,
+    Tab::Wheel,
+    Tab::Swatches,
+    Tab::History,
+    Tab::Files,
+];
+
+/// Sizes of windows, in points.
+const SIZES: [Vec2; 3] = [vec2(1280.0, 800.0), vec2(1440.0, 1000.0), vec2(1920.0, 1080.0)];
+
+/// Themes, and whether everything is to be touched.
+const LOOKS: [(ThemeChoice, bool); 4] = [
+    (ThemeChoice::Dark, false),
+    (ThemeChoice::Light, false),
+    (ThemeChoice::Dark, true),
+    (ThemeChoice::Light, true),
+];
+
+pub(super) fn set_look(window: &mut Window, (theme, touch): (ThemeChoice, bool)) {
+    let preferences = &mut window.studio_mut().files.preferences;
+    (preferences.theme, preferences.touch_targets) = (theme, touch);
+    window.harness().step();
+    window.harness().run_ok();
+}
+
+fn show(window: &mut Window, tab: Tab) {
+    window.studio_mut().panels.select(tab);
+    window.harness().step();
+    window.harness().run_ok();
+}
+
+fn seen(window: &mut Window) -> Vec<SeenText> {
+    texts(window.harness().output())
+}
+
+pub(super) fn cut(window: &mut Window) -> Vec<String> {
+    let cut = seen(window).into_iter().filter(SeenText::is_cut);
+    cut.map(|text| format!("{} at {:?}", text.words, text.rect)).collect()
+}
+
+#[test]
+fn no_text_of_the_window_is_cut_in_any_size_theme_or_panel() {
+    for size in SIZES {
+        let mut window = Window::sized("cut", size, 1.0);
+        for look in LOOKS {
+            set_look(&mut window, look);
+            for tab in TABS {
+                show(&mut window, tab);
+                let cut = cut(&mut window);
+                assert!(cut.is_empty(), "{size} {look:?} {tab:?}: {cut:#?}");
+                let mut beyond = targets(&window.harness().root());
+                beyond.retain(|target| target.right > size.x - 2.0);
+                assert!(beyond.is_empty(), "{size} {look:?} {tab:?}: {beyond:#?}");
+            }
+            show(&mut window, Tab::Brush);
+            window.show(&format!("look-{}-{:?}-{}", size.x, look.0, look.1));
+        }
+    }
+}
+
+#[test]
+fn a_long_name_of_brush_or_pigment_is_not_cut() {
+    let mut window = Window::open("long-names");
+    window.click("Rename");
+    let field = window.harness().get_by_label("Name of the brush");
+    field.type_text(" for the thin branches at the edge");
+    window.harness().key_press(Key::Enter);
+    window.harness().run_ok();
+    let names = seen(&mut window);
+    let brush = names.iter().find(|text| text.words.contains("branches")).unwrap();
+    let tube = names.iter().find(|text| text.words == "Chrome Yellow (Otero)").unwrap();
+    window.save("long-names");
+    assert!(brush.is_whole() && tube.is_whole(), "{brush:#?} {tube:#?}");
+}
+
+#[test]
+fn the_brush_panel_is_whole_in_a_window_of_a_thousand_points() {
+    let labels = ["Rename", "shape round", "Load from tube", "Medium only", "Wipe", "Wash"];
+    for size in [vec2(1440.0, 1000.0), vec2(1920.0, 1080.0)] {
+        let mut window = Window::sized("whole-brush-panel", size, 1.0);
+        for look in LOOKS {
+            set_look(&mut window, look);
+            // Whichever panel was used last, the spectral curve yields.
+            show(&mut window, Tab::Light);
+            show(&mut window, Tab::Brush);
+            let heads = ["Fold Light", "Unfold Light"];
+            let top = |name| Some(window.harness().query_by_label(name)?.rect().top());
+            let bottom = heads.into_iter().find_map(top).unwrap();
+            window.show(&format!("brush-panel-{look:?}-{}", size.y));
+            for label in labels {
+                let rect = window.harness().get_by_label(label).rect();
+                assert!(rect.bottom() <= bottom, "{label} of {look:?} in {size}: {rect}");
+            }
+            let tops =
+                ["Wipe", "Wash"].map(|name| window.harness().get_by_label(name).rect().top());
+            assert_eq!(tops[0], tops[1], "a button stands alone: {look:?} in {size}");
+            let names = seen(&mut window);
+            let knife = names.iter().find(|text| text.words == "knife").unwrap();
+            assert!(knife.is_whole(), "{knife:?}");
+        }
+    }
+}
+
+#[test]
+fn the_marks_of_the_tip_are_whole_in_a_window_of_eight_hundred_points() {
+    let mut window = Window::sized("whole-tip", SIZES[0], 1.0);
+    for look in [(ThemeChoice::Dark, false), (ThemeChoice::Light, false)] {
+        set_look(&mut window, look);
+        show(&mut window, Tab::Brush);
+        // With paint there are numbers above; without, the panel is shorter, and Light stays open.
+        for key in [Key::D, Key::W] {
+            window.click("Load brush");
+            window.key(Modifiers::NONE, key);
+            window.settle();
+            let [tip, below] = ["Marks of the tip", "Fold Light"]
+                .map(|label| window.harness().get_by_label(label).rect());
+            window.show(&format!("whole-tip-{key:?}"));
+            assert!(tip.bottom() < below.top(), "{look:?} {key:?}: {tip} {below}");
+        }
+        // Settings of a tool take the place of the numbers of the film.
+        window.click("Load brush");
+        for mode in [Mode::Blend, Mode::Scrape, Mode::Erase] {
+            window.studio_mut().tools.mode = mode;
+            window.settle();
+            let tip = window.harness().get_by_label("Marks of the tip").rect();
+            let below = window.harness().get_by_label("Fold Light").rect();
+            window.show(&format!("whole-tip-{mode:?}"));
+            assert!(tip.bottom() < below.top(), "{look:?} {mode:?}: {tip} {below}");
+        }
+        window.studio_mut().tools.mode = Mode::Paint;
+    }
+}
+
+#[test]
+fn words_stand_in_the_middle_of_high_buttons() {
+    let mut window = Window::sized("high-buttons", SIZES[0], 1.0);
+    set_look(&mut window, (ThemeChoice::Dark, true));
+    window.key(Modifiers::COMMAND, Key::Comma);
+    window.settle();
+    let button = window.harness().get_by_label("Close").rect();
+    let words = seen(&mut window).into_iter().find(|text| text.words == "Close").unwrap();
+    window.save("high-buttons");
+    let off = (words.rect.center() - button.center()).length();
+    assert!(off < 2.0, "{} in {button}", words.rect);
+}
+
+#[test]
+fn palette_and_tubes_grow_with_the_window() {
+    let sizes = |size| {
+        let mut window = Window::sized("growing", size, 1.0);
+        let mut rect = |label| window.harness().get_by_label(label).rect();
+        [rect("Palette").size(), rect("tube of Vermilion").size()]
+    };
+    let [small, large] = [sizes(SIZES[0]), sizes(SIZES[2])];
+    assert!(large[0].y > 1.25 * small[0].y, "the palette: {small:?} {large:?}");
+    assert!(large[1].y > 1.25 * small[1].y, "the tubes: {small:?} {large:?}");
+}
+
+/// Colour that most pixels of a rectangle have.
+fn background(picture: &RgbaImage, rect: Rect) -> [u8; 3] {
+    let mut counts: std::collections::BTreeMap<[u8; 3], usize> = std::collections::BTreeMap::new();
+    for y in rect.top().max(0.0) as u32..(rect.bottom() as u32).min(picture.height()) {
+        for x in rect.left().max(0.0) as u32..(rect.right() as u32).min(picture.width()) {
+            let [red, green, blue, _] = picture.get_pixel(x, y).0;
+            *counts.entry([red, green, blue]).or_default() += 1;
+        }
+    }
+    counts.into_iter().max_by_key(|(_, count)| *count).map_or([0; 3], |(color, _)| color)
+}
+
+#[test]
+fn all_text_on_the_screen_has_a_contrast_of_seven() {
+    for theme in [ThemeChoice::Dark, ThemeChoice::Light] {
+        let mut window = Window::sized("contrast", vec2(1440.0, 1000.0), 1.0);
+        window.studio_mut().tools.figures = true;
+        set_look(&mut window, (theme, false));
+        let mut read = 0;
+        for tab in TABS {
+            show(&mut window, tab);
+            let Some(picture) = window.picture() else { return };
+            window.save(&format!("contrast-{theme:?}-{tab:?}"));
+            let shown = seen(&mut window).into_iter();
+            // Disabled text is translucent.
+            for text in shown.filter(|text| text.is_whole() && text.color.is_opaque()) {
+                let [red, green, blue] = background(&picture, text.rect.expand(1.0));
+                let behind = eframe::egui::Color32::from_rgb(red, green, blue);
+                let found = contrast(text.color, behind);
+                assert!(found >= 7.0, "{theme:?} {tab:?}: {} {found} on {behind:?}", text.words);
+                read += 1;
+            }
+        }
+        assert!(read > 200, "{read} lines of text were read");
+    }
+}
+
+/// Targets that may be smaller, and why.
+const SMALLER: [(&str, &str); 4] = [
+    ("Close window", "the window's own button; Escape and a click elsewhere close it too"),
+    ("Height of ", "edges are dragged, not clicked; folding does without them"),
+    ("Width of ", "edges are dragged, not clicked; the usual width does without them"),
+    ("Target colour", "it shows a colour and does nothing when it is clicked"),
+];
+
+/// Targets that are smaller than a finger.
+pub(super) fn small(window: &mut Window) -> Vec<Target> {
+    let all = targets(&window.harness().root());
+    assert!(all.len() > 20, "{} targets", all.len());
+    let least = theme::TOUCH_TARGET - 0.5;
+    let is_small = |target: &Target| target.size.x < least || target.size.y < least;
+    let excused = |target: &Target| SMALLER.iter().any(|(name, _)| target.name.starts_with(name));
+    all.into_iter().filter(|target| is_small(target) && !excused(target)).collect()
+}
+
+#[test]
+fn everything_that_is_touched_is_44_points_wide_and_high() {
+    let mut window = Window::sized("touch", vec2(1440.0, 1000.0), 1.0);
+    let recipe = [("Vermilion".to_owned(), 1.0)].into();
+    let (on, x_mm, y_mm) = (SurfaceId::Canvas, 16.0, 10.0);
+    let heap = Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3: 30.0 };
+    for action in [Action::Squeeze(heap), Action::Dry { fraction: 1.0 }] {
+        window.studio_mut().ask(Command::Apply(action));
+    }
+    let layers = |window: &Window| window.studio().painting().map_or(0, |p| p.layers.len());
+    // On a busy machine its picture comes after the answers.
+    for _ in 0..20 {
+        window.settle();
+        if layers(&window) > 0 {
+            break;
+        }
+    }
+    assert_eq!(layers(&window), 1, "a layer with its eye");
+    let usual = small(&mut window).len();
+    assert!(usual > 20, "the usual density is kept: {usual} small targets");
+    set_look(&mut window, (ThemeChoice::Dark, true));
+    for tab in TABS {
+        show(&mut window, tab);
+        let small = small(&mut window);
+        assert!(small.is_empty(), "{tab:?}: {small:#?}");
+    }
+    for (opener, entry) in [("File", "Save"), ("View", "Upright"), ("Tubes...", "Take off")] {
+        window.open_menu(opener);
+        assert!(window.harness().query_by_label(entry).is_some(), "{opener} is open");
+        let small = small(&mut window);
+        assert!(small.is_empty(), "{opener}: {small:#?}");
+        window.show(&format!("touch-{opener}"));
+        window.key(Modifiers::NONE, Key::Escape);
+    }
+}
+
+#[test]
+fn scenes_have_the_same_theme_and_targets() {
+    let mut window = Window::open("scene-look");
+    let context = window.harness().ctx.clone();
+    window.studio_mut().open_scene(&context, Subject::Shape("village".to_owned()));
+    super::volumes::wait(&mut window, "the first picture", |scene| scene.picture().is_some());
+    set_look(&mut window, (ThemeChoice::Light, true));
+    assert_eq!(context.theme(), Theme::Light);
+    window.save("scene-look");
+    for name in ["View", "Light", "Here", "Events", "Export"] {
+        let tabs = window.harness().query_all_by_label(name);
+        let tab = tabs.max_by(|a, b| a.rect().top().total_cmp(&b.rect().top())).unwrap();
+        tab.click();
+        window.harness().step();
+        let small = small(&mut window);
+        assert!(small.is_empty(), "{name}: {small:#?}");
+        let cut = cut(&mut window);
+        assert!(cut.is_empty(), "{name}: {cut:#?}");
+    }
+    assert!(window.harness().query_by_label("tube of Zinc White").is_some());
+    window.click("Fold Tubes");
+    assert!(window.harness().query_by_label("tube of Zinc White").is_none(), "they are folded");
+    window.click("Unfold Tubes");
+    assert!(window.harness().query_by_label("tube of Zinc White").is_some());
+}
+
+#[test]
+fn the_menu_changes_theme_targets_and_scale_at_once() {
+    let mut window = Window::open("look-menu");
+    let choose = |window: &mut Window, entry: &str| {
+        window.open_menu("View");
+        let entry = window.harness().query_all_by_label_contains(entry).last();
+        // It may be scrolled out of view.
+        entry.expect("an entry of the menu").click_accesskit();
+        window.harness().step();
+        window.harness().run_ok();
+    };
+    choose(&mut window, "Light theme");
+    assert_eq!(window.harness().ctx.theme(), Theme::Light);
+    choose(&mut window, "Dark theme");
+    assert_eq!(window.harness().ctx.theme(), Theme::Dark);
+    choose(&mut window, "Large targets for touch");
+    assert!(theme::is_touch(&window.harness().ctx));
+    choose(&mut window, "Large targets for touch");
+    assert!(!theme::is_touch(&window.harness().ctx));
+    choose(&mut window, "Larger interface");
+    assert_eq!(window.studio().files.preferences.interface_scale, 1.1);
+    choose(&mut window, "Smaller interface");
+    assert_eq!(window.studio().files.preferences.interface_scale, 1.0);
+}
+
+#[test]
+fn nothing_is_cut_at_any_scale_of_any_screen() {
+    for pixels in [vec2(1280.0, 800.0), vec2(1920.0, 1080.0), vec2(3840.0, 2160.0)] {
+        for preferred in [0.75, 1.25, 2.0, 3.0] {
+            let scale = theme::scale_in_window(preferred, pixels);
+            let mut window = Window::sized("scale", pixels / scale, 1.0);
+            for tab in [Tab::Brush, Tab::Light, Tab::Color] {
+                show(&mut window, tab);
+                let cut = cut(&mut window);
+                let scaled = format!("scale-{}-{preferred}-{tab:?}", pixels.x);
+                window.show(&scaled);
+                assert!(cut.is_empty(), "{pixels} at {preferred}, {tab:?}: {cut:#?}");
+            }
+            show(&mut window, Tab::Brush);
+            let whole = window.whole();
+            for label in ["File", "Canvas", "Paint", "Rename", "tube of Vermilion"] {
+                let rect = window.harness().get_by_label(label).rect();
+                assert!(whole.contains_rect(rect), "{label} at {rect} of {whole}");
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Fingers: taps of several undo and redo, two of them move the view, and handles are large enough.
+
+use std::path::PathBuf;
+
+use eframe::egui::{Event, Pos2, Rect, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
+use egui_kittest::kittest::Queryable;
+use image::{Rgb, RgbImage};
+use paint::strokes::{Action, Load, SurfaceId};
+use session::Command;
+use studio::app::CropTool;
+use studio::theme::TOUCH_TARGET;
+
+use super::harness::{Window, button};
+
+fn touch(id: u64, phase: TouchPhase, pos: Pos2) -> Event {
+    let (device_id, id) = (TouchDeviceId(0), TouchId(id));
+    Event::Touch { device_id, id, phase, pos, force: Some(0.5) }
+}
+
+/// The events of a finger as the window system sends them: the first one is a mouse, too.
+fn finger(id: u64, phase: TouchPhase, pos: Pos2) -> Vec<Event> {
+    let mouse = match phase {
+        _ if id > 0 => vec![],
+        TouchPhase::Start => vec![Event::PointerMoved(pos), button(pos, true)],
+        TouchPhase::Move => vec![Event::PointerMoved(pos)],
+        TouchPhase::End => vec![button(pos, false), Event::PointerGone],
+        TouchPhase::Cancel => vec![Event::PointerGone],
+    };
+    [touch(id, phase, pos)].into_iter().chain(mouse).collect()
+}
+
+/// Events of the same phase of fingers at these places.
+fn fingers(phase: TouchPhase, places: &[Pos2]) -> Vec<Event> {
+    let numbered = places.iter().zip(0..);
+    numbered.flat_map(|(&place, id)| finger(id, phase, place)).collect()
+}
+
+/// Places around the middle of the canvas, in a row with these distances from it.
+fn around(window: &Window, distances: &[f32]) -> Vec<Pos2> {
+    let middle = window.point(SurfaceId::Canvas, 16.0, 10.0);
+    distances.iter().map(|&distance| middle + vec2(distance, 0.0)).collect()
+}
+
+/// Taps at all places at once, within one frame, so that no slow frame makes it late.
+fn tap(window: &mut Window, places: &[Pos2]) {
+    let whole = [TouchPhase::Start, TouchPhase::End].map(|phase| fingers(phase, places));
+    window.frame(whole.concat());
+    window.settle();
+}
+
+fn done(window: &Window) -> (usize, usize) {
+    let painting = window.studio().painting().unwrap();
+    (painting.history_done, painting.history.len())
+}
+
+/// A window whose canvas has two strokes of a loaded brush.
+fn painted(name: &'static str) -> Window {
+    let mut window = Window::open(name);
+    let load = Load {
+        brush: "round".to_owned(),
+        recipe: [("Vermilion".to_owned(), 1.0)].into(),
+        vehicle: 0.2,
+        amount_mm: 0.3,
+    };
+    window.studio_mut().ask(Command::Apply(Action::Load(load)));
+    window.settle();
+    for y_mm in [4.0, 8.0] {
+        let [from, to] = [6.0, 20.0].map(|x_mm| window.point(SurfaceId::Canvas, x_mm, y_mm));
+        window.pen_stroke(&[from, from.lerp(to, 0.5), to]);
+        window.settle();
+    }
+    assert_eq!(done(&window), (2, 2), "two strokes");
+    window
+}
+
+#[test]
+fn a_tap_of_two_fingers_undoes_and_one_of_three_redoes() {
+    let mut window = painted("touch-tap");
+    let [two, three] = [&[-40.0, 40.0][..], &[-60.0, 0.0, 60.0]].map(|at| around(&window, at));
+    tap(&mut window, &two);
+    assert_eq!(done(&window), (1, 2), "two fingers undo");
+    tap(&mut window, &two);
+    assert_eq!(done(&window), (0, 2));
+    tap(&mut window, &three);
+    assert_eq!(done(&window), (1, 2), "three fingers redo");
+    // Beside canvas and palette it is none.
+    let beside = window.harness().get_by_label("Rename").rect().center();
+    tap(&mut window, &[beside, beside + vec2(30.0, 0.0)]);
+    assert_eq!(done(&window), (1, 2), "on a panel nothing is undone");
+}
+
+#[test]
+fn a_second_finger_that_ends_a_stroke_undoes_nothing() {
+    let mut window = painted("touch-late");
+    let places = around(&window, &[0.0, 80.0]);
+    // Far enough to paint, and near enough for a tap.
+    let moved = places[0] + vec2(0.0, 8.0);
+    let mut events = finger(0, TouchPhase::Start, places[0]);
+    events.extend(finger(0, TouchPhase::Move, moved));
+    window.frame(events);
+    let mut events = finger(1, TouchPhase::Start, places[1]);
+    events.extend(finger(1, TouchPhase::End, places[1]));
+    events.extend(finger(0, TouchPhase::End, moved));
+    window.frame(events);
+    window.settle();
+    assert_eq!(done(&window), (3, 3), "the stroke stays, and nothing is undone");
+}
+
+/// The way from one place of the canvas to another one, 10 mm beside it, in the window.
+fn right(window: &Window) -> Vec2 {
+    window.point(SurfaceId::Canvas, 21.0, 10.0) - window.point(SurfaceId::Canvas, 11.0, 10.0)
+}
+
+#[test]
+fn two_fingers_move_zoom_and_turn_the_view_and_paint_nothing() {
+    let mut window = painted("touch-view");
+    let middle = window.point(SurfaceId::Canvas, 16.0, 10.0);
+    let (before, place) = (right(&window), middle);
+    let mut at = around(&window, &[-50.0, 50.0]);
+    window.frame(fingers(TouchPhase::Start, &at));
+    let go = |window: &mut Window, at: &[Pos2]| {
+        window.frame(fingers(TouchPhase::Move, at));
+    };
+    go(&mut window, &at);
+    // Together: the picture follows.
+    for _ in 0..4 {
+        at = at.iter().map(|&finger| finger + vec2(6.0, 4.0)).collect();
+        go(&mut window, &at);
+    }
+    let moved = window.point(SurfaceId::Canvas, 16.0, 10.0) - place;
+    assert!((moved - vec2(24.0, 16.0)).length() < 1.0, "{moved}");
+    assert!((right(&window) - before).length() < 0.01, "only moved");
+    // Apart: it grows around the middle between them.
+    let middle = at[0].lerp(at[1], 0.5);
+    for half in [55.0, 65.0, 80.0, 100.0] {
+        at = vec![middle - vec2(half, 0.0), middle + vec2(half, 0.0)];
+        go(&mut window, &at);
+    }
+    let grown = right(&window).length() / before.length();
+    assert!((grown - 2.0).abs() < 0.02, "{grown} times as large");
+    let stays = window.point(SurfaceId::Canvas, 16.0, 10.0) - middle;
+    assert!(stays.length() < 1.0, "the middle stays: {stays}");
+    // Around each other: it turns with them.
+    for step in 1..=10 {
+        let arm = 100.0 * Vec2::angled(0.05 * step as f32);
+        at = vec![middle - arm, middle + arm];
+        go(&mut window, &at);
+    }
+    let turned = right(&window).angle();
+    assert!((turned - 0.5).abs() < 0.02, "{turned} radians");
+    window.frame(fingers(TouchPhase::End, &at));
+    window.settle();
+    assert_eq!(done(&window), (2, 2), "nothing was painted or undone");
+}
+
+/// Centres and sizes of the squares in which the controls whose labels begin so are pressed.
+fn handles(window: &mut Window, label: &str) -> Vec<Rect> {
+    let found = window.harness().query_all_by_label_contains(label);
+    found.map(|node| node.rect()).collect()
+}
+
+#[test]
+fn handles_over_the_canvas_and_points_of_the_curve_are_large_enough_to_be_touched() {
+    let mut window = Window::open("touch-handles");
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("touch-handles.png");
+    RgbImage::from_pixel(300, 100, Rgb([200, 20, 20])).save(&path).unwrap();
+    let context = window.harness().ctx.clone();
+    for touch in [false, true] {
+        window.studio_mut().files.preferences.touch_targets = touch;
+        let large = |rects: &[Rect], count: usize, what: &str| {
+            assert_eq!(rects.len(), count, "{what}: {rects:?}");
+            let least = |rect: &Rect| rect.width().min(rect.height());
+            let least = rects.iter().map(least).fold(f32::INFINITY, f32::min);
+            assert_eq!(least >= TOUCH_TARGET - 0.5, touch, "{what}: {least}");
+        };
+        window.studio_mut().visible.pen = true;
+        window.settle();
+        let points = handles(&mut window, "curve point ");
+        large(&points, points.len().max(2), "points of the curve");
+        window.studio_mut().visible.pen = false;
+        window.studio_mut().crop = Some(CropTool::new((320, 200)));
+        window.settle();
+        window.save(&format!("touch-crop-{touch}"));
+        large(&handles(&mut window, "Crop "), 8, "the crop");
+        window.studio_mut().crop = None;
+        if !window.studio().panels.reference.is_open() {
+            window.studio_mut().panels.reference.open(&context, &path);
+            window.studio_mut().panels.reference.toggle_over_canvas();
+            while !window.studio().panels.reference.is_over_canvas() {
+                std::thread::sleep(std::time::Duration::from_millis(5));
+                window.harness().step();
+            }
+            window.click("Move");
+        }
+        window.settle();
+        let mut over = handles(&mut window, "Scale by the ");
+        over.extend(handles(&mut window, "Turn the picture"));
+        large(&over, 5, "the picture over the canvas");
+    }
+}

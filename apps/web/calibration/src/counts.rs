@@ -1,0 +1,76 @@
+//! White, dark and tile, which make reflectances of raw counts.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use documents::file::disk;
+use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
+
+use crate::failure::{Result, setting};
+
+/// Reflectance of the white: a number, or a file.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+enum Tile {
+    Fraction(f64),
+    File(String),
+}
+
+/// References as the page passes them. A file is its name, with `#` and a name for one of its spectra.
+#[derive(Debug, Deserialize)]
+pub(crate) struct References {
+    white: String,
+    dark: Vec<String>,
+    subtracted: bool,
+    tile: Option<Tile>,
+    full_scale: Option<f64>,
+    least_light: Option<f64>,
+}
+
+impl References {
+    /// The references as `calibrate` opens them.
+    pub(crate) fn files(self) -> ReferenceFiles {
+        let mut files = ReferenceFiles::new(self.white);
+        files.dark =
+            if self.subtracted { DarkFiles::Subtracted } else { DarkFiles::Files(self.dark) };
+        files.tile = match self.tile {
+            Some(Tile::Fraction(value)) => TileSource::Fraction(value),
+            Some(Tile::File(file)) => TileSource::File(file),
+            None => files.tile,
+        };
+        files.full_scale = self.full_scale;
+        files.least_light = self.least_light.unwrap_or(files.least_light);
+        files
+    }
+}
+
+/// Files on the disk in memory, which are removed when this is dropped.
+#[derive(Debug, Default)]
+pub(crate) struct GivenFiles(Vec<String>);
+
+impl GivenFiles {
+    /// Puts the files of references where `calibrate` opens them by their names.
+    pub(crate) fn put(files: Vec<(String, Vec<u8>)>) -> Result<Self> {
+        let mut given = Self::default();
+        for (name, bytes) in files {
+            let known = disk::read(&name).ok();
+            if known.is_some_and(|known| known != bytes) {
+                let message = format!("two different files of references are called `{name}`");
+                return Err(setting(&message, "give one of them another name"));
+            }
+            disk::write(Path::new(&name), bytes)
+                .map_err(|error| setting(&format!("{name}: {error}"), "choose the file again"))?;
+            given.0.push(name);
+        }
+        Ok(given)
+    }
+}
+
+impl Drop for GivenFiles {
+    fn drop(&mut self) {
+        for name in &self.0 {
+            // A file that was given twice is gone already.
+            let _ = disk::remove_file(name);
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! Errors of the libraries in the words of the page.
+
+use documents::hint::{Explain, Hint};
+
+pub(crate) use told::{Result, options, setting};
+
+/// Where the page has each setting that hints name. Others are options of the program alone.
+const CONTROLS: [(&str, &str); 29] = [
+    ("reference", "\"White\""),
+    ("percent", "\"Readings are in\": percent"),
+    ("fraction", "\"Readings are in\": fractions"),
+    ("format", "\"Format\""),
+    ("pigments", "\"Columns of pigments\""),
+    ("recipes", "the CSV of recipes in \"Recipes of the samples\""),
+    ("saunderson", "\"Surface\" (k1 and k2)"),
+    ("specular", "\"Gloss of the readings\""),
+    ("below_surface", "\"Readings below the surface\""),
+    ("smoothness", "\"Smoothness\""),
+    ("unevenness", "\"Unevenness\""),
+    ("exclude", "\"Samples to leave out\""),
+    ("amounts", "\"Amounts\""),
+    ("method", "\"Method\""),
+    ("white_reading", "\"White reading\""),
+    ("dark_reading", "\"Dark readings\""),
+    ("tile", "\"Reflectance of the white\""),
+    ("full_scale", "\"Largest count\""),
+    ("least_light", "\"Least light\""),
+    ("illuminant", "\"Light\""),
+    ("observer", "\"Observer\""),
+    ("thickness", "\"Thickness\""),
+    ("over", "\"Over\""),
+    ("only", "\"Only these pigments\""),
+    ("with", "\"With\""),
+    ("without", "\"Without\""),
+    ("at_most", "\"Pigments at most\""),
+    ("least", "\"Least share\""),
+    ("tolerance", "\"Tolerance\""),
+];
+
+/// A hint that names the controls of the page.
+pub(crate) fn hint_text(hint: &Hint) -> String {
+    told::hint_text(hint, &CONTROLS)
+}
+
+/// Results whose errors reach the page.
+pub(crate) trait Told<T> {
+    /// The error as the page takes it.
+    fn told(self) -> Result<T>;
+}
+
+impl<T, E: Explain> Told<T> for std::result::Result<T, E> {
+    fn told(self) -> Result<T> {
+        self.map_err(|error| told::refusal(&error, &CONTROLS))
+    }
+}

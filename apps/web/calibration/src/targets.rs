@@ -1,0 +1,101 @@
+//! Target colours: typed, of swatch files, and measured spectra.
+
+use calibrate::ReadingOptions;
+use calibrate::matching::ColorTarget;
+use calibrate::measurement::Film;
+use serde_json::{Value, json};
+use spectra::swatch_file::read_swatch_file;
+use spectra::{Reflectance, Spectrum, Viewing};
+use wasm_bindgen::prelude::*;
+
+use crate::failure::{Result, Told, setting};
+use crate::remarks::remarks;
+
+/// Colours for which recipes are searched.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Targets {
+    pub(crate) targets: Vec<ColorTarget>,
+    /// sRGB of each target.
+    hex: Vec<String>,
+    remarks: Value,
+}
+
+#[wasm_bindgen]
+impl Targets {
+    /// A colour as `#rrggbb` or `L,a,b`.
+    pub fn typed(text: &str) -> Result<Targets> {
+        let text = text.trim();
+        let target: ColorTarget = text.parse().map_err(|_| {
+            let message = format!("a colour is #rrggbb or L,a,b, found `{text}`");
+            setting(&message, "try #4a7d8c or 52,-10.5,8")
+        })?;
+        let code: spectra::color::ColorCode = text.parse().told()?;
+        Ok(Self { targets: vec![target], hex: vec![displayed(code.lab())], remarks: json!([]) })
+    }
+
+    /// The colours of a swatch file (.ase, .gpl, .aco), or the spectra of paint in a file of readings.
+    pub fn of_file(file: &str, bytes: &[u8]) -> Result<Targets> {
+        match read_swatch_file(file, bytes).told()? {
+            Some(swatches) => Self::of_swatches(swatches),
+            None => Self::of_readings(file, bytes),
+        }
+    }
+
+    /// Names and colours as JSON: targets with `name` and `hex`, and `remarks`.
+    pub fn about(&self) -> String {
+        let targets = self.targets.iter().zip(&self.hex);
+        let targets = targets.map(|(target, hex)| json!({ "name": target.name, "hex": hex }));
+        json!({ "targets": targets.collect::<Vec<_>>(), "remarks": self.remarks }).to_string()
+    }
+}
+
+impl Targets {
+    fn of_swatches(file: spectra::swatch_file::SwatchFile) -> Result<Self> {
+        let (mut targets, mut hex, mut inks) = (Vec::new(), Vec::new(), 0);
+        for swatch in file.swatches {
+            let Some(color) = swatch.color.srgb() else {
+                inks += 1;
+                continue;
+            };
+            let name = if swatch.name.is_empty() { color.to_hex() } else { swatch.name };
+            targets.push(ColorTarget { name, ..ColorTarget::srgb(color) });
+            hex.push(color.to_hex());
+        }
+        if targets.is_empty() {
+            return Err(setting("the swatch file holds no colour", "choose a file with colours"));
+        }
+        let told =
+            format!("left out {}, which define no colour", documents::counted(inks, "CMYK ink"));
+        let remarks = match inks {
+            0 => json!([]),
+            _ => json!([{ "warning": true, "text": told, "hint": null }]),
+        };
+        Ok(Self { targets, hex, remarks })
+    }
+
+    fn of_readings(file: &str, bytes: &[u8]) -> Result<Self> {
+        let options = ReadingOptions::default();
+        let readings =
+            calibrate::Readings::spectra_from_files(&[(file, bytes)], &options).told()?;
+        let mut averaged = readings.table.averaged();
+        if averaged.spectra.iter().any(|spectrum| spectrum.film == Film::Paint) {
+            averaged.spectra.retain(|spectrum| spectrum.film == Film::Paint);
+        }
+        let (mut targets, mut hex) = (Vec::new(), Vec::new());
+        for spectrum in averaged.spectra {
+            let measured =
+                Spectrum::<Reflectance>::new(averaged.grid, spectrum.reflectance).told()?;
+            hex.push(Viewing::default().color(&measured).told()?.hex());
+            targets.push(ColorTarget::measured(spectrum.name, measured));
+        }
+        Ok(Self { targets, hex, remarks: remarks(&readings.remarks) })
+    }
+}
+
+/// sRGB of a colour that is seen adapted to its light.
+fn displayed(lab: spectra::color::Lab) -> String {
+    use spectra::color::{Adaptation, RgbSpace};
+    let white = RgbSpace::Srgb.white();
+    RgbSpace::Srgb.encoded_from_xyz(lab.to_xyz(white), white, Adaptation::Bradford).to_hex()
+}

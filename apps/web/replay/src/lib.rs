@@ -1,0 +1,16 @@
+//! Plays strokes in WebAssembly for the tests, which compare the paint with that of the program.
+
+#[path = "../../../../render/paint/examples/replay_digest/replayed.rs"]
+mod replayed;
+
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Digest of the paint after the first `actions` of a script of strokes.
+///
+/// # Errors
+/// A `JsError` if the script cannot be read or played.
+#[wasm_bindgen]
+pub fn digest(script: &[u8], actions: usize) -> Result<String, JsError> {
+    replayed::digest(script, actions).map_err(|error| JsError::new(&error.to_string()))
+}

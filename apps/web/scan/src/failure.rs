@@ -1,0 +1,32 @@
+//! Errors of the libraries in the words of the panel.
+
+use documents::hint::Explain;
+
+pub(crate) use told::{Result, options};
+
+/// Where the panel has each setting that hints name. Others are options of the program alone.
+const CONTROLS: [(&str, &str); 11] = [
+    ("at_most", "\"Pigments of a pixel at most\""),
+    ("palette", "\"Only these pigments\""),
+    ("spot", "spot of the map"),
+    ("region", "\"Rows and columns\""),
+    ("scale", "\"A white reads\""),
+    ("percent", "\"Values are\": percent"),
+    ("fraction", "\"Values are\": fractions"),
+    ("full_scale", "\"Largest count of the detector\""),
+    ("white_reading", "\"White reading\""),
+    ("dark_reading", "\"Dark reading\""),
+    ("tile", "\"Reflectance of the white\""),
+];
+
+/// Results whose errors reach the page.
+pub(crate) trait Told<T> {
+    /// The error as the page takes it.
+    fn told(self) -> Result<T>;
+}
+
+impl<T, E: Explain> Told<T> for std::result::Result<T, E> {
+    fn told(self) -> Result<T> {
+        self.map_err(|error| told::refusal(&error, &CONTROLS))
+    }
+}

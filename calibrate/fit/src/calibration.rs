@@ -1,0 +1,264 @@
+//! The main job: from swatches to a pigment library with its evidence.
+
+use documents::hint::{Explain, Fault, Hint};
+use spectra::optics::Surface;
+
+use crate::findings;
+use crate::fit::{
+    Condition, FitError, FitSettings, Method, Problem, Refined, RefinedState, Refinement,
+    Unidentified, Unknown, Watch, condition, fit_qp_watched, fit_refined, fit_weighted_watched,
+    linear_deviations, unidentified,
+};
+use crate::measurement::MeasurementError;
+use crate::observation::{Observation, observations};
+use crate::scores::Scores;
+use crate::swatch::SwatchSet;
+use pigment::digits::rounded;
+use pigment::evaluate::Viewing;
+use pigment::library::{AmountKind, Evidence, Pigment, PigmentLibrary};
+use pigment::{Curves, PigmentId, Recipe};
+
+/// A fitted library, with intermediate results of the fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Calibration {
+    /// Fitted library. Title, licence, source and inputs are empty.
+    pub library: PigmentLibrary,
+    /// Swatches as the fit used them, in order of the file; empty for absolute amounts.
+    pub observations: Vec<Observation>,
+    /// Rank and condition of the equations; `None` for absolute amounts.
+    pub condition: Option<Condition>,
+    /// Estimates of noise and smoothness that a leave-one-out fit may reuse.
+    pub state: Option<RefinedState>,
+}
+
+/// Fits K and S of every pigment of `set`, with S relative to that of `reference`.
+///
+/// Colour errors in the evidence are CIEDE2000 under `viewing`, between the colour that each swatch's K/S has
+/// in a film that hides and that of the fitted mixture. Samples with a pigment that the data do not identify
+/// are used neither for the fit nor for its errors. A pigment known only from a masstone gets its K/S with
+/// S = 1, marked as not identified; one without a masstone is left out.
+///
+/// # Errors
+/// [`CalibrationError`] if readings cannot be used or the fit fails.
+pub fn calibrate(
+    set: &SwatchSet,
+    reference: PigmentId,
+    surface: Surface,
+    settings: &FitSettings,
+    viewing: &Viewing,
+) -> Result<Calibration, CalibrationError> {
+    calibrate_watched(set, reference, surface, settings, viewing, Watch::default())
+}
+
+/// Fits like [`calibrate`], tells `watch` the stages of the fit, and ends when it asks for that.
+///
+/// # Errors
+/// [`CalibrationError`] if readings cannot be used or the fit fails.
+pub fn calibrate_watched(
+    set: &SwatchSet,
+    reference: PigmentId,
+    surface: Surface,
+    settings: &FitSettings,
+    viewing: &Viewing,
+    watch: Watch<'_>,
+) -> Result<Calibration, CalibrationError> {
+    let observations = observations(set, surface, settings.below_surface)?;
+    let unknown = unidentified(observations.iter().map(|o| o.shares.as_slice()), reference);
+    let (solvable, identified) = without(&observations, &unknown);
+    let reference_among =
+        identified.iter().position(|&p| p == reference).ok_or(FitError::Reference)?;
+    let problem = Problem::new(set.grid, surface, &solvable, PigmentId(reference_among))?;
+    let how = Refinement { watch, ..Refinement::whole(settings.smoothness) };
+    let solution = solve(&problem, settings.method, how)?;
+    let condition = condition(&problem, &solution.curves);
+
+    let mut pigments: Vec<(PigmentId, Pigment)> = identified
+        .iter()
+        .enumerate()
+        .map(|(place, &id)| (id, solution.pigment(place, &set.pigments[id.index()])))
+        .collect();
+    for lone in unknown.iter().filter(|u| u.unknown == Unknown::Scattering) {
+        pigments.push((lone.pigment, masstone(set, &observations, lone)));
+    }
+    pigments.sort_by_key(|(id, _)| *id);
+    let mut library = PigmentLibrary {
+        title: String::new(),
+        licence: String::new(),
+        source: String::new(),
+        grid: set.grid,
+        amounts: AmountKind::Relative,
+        reference: Some(set.pigments[reference.index()].clone()),
+        saunderson: surface,
+        unevenness: 0.0,
+        inputs: Vec::new(),
+        settings: Some(settings.clone()),
+        pigments: pigments.into_iter().map(|(_, pigment)| pigment).collect(),
+        evidence: None,
+    };
+    library.evidence = Some(evidence(&library, set, &solvable, &identified, viewing));
+    if let Some(evidence) = &mut library.evidence {
+        evidence.warnings =
+            findings::warnings(set, &observations, &unknown, &condition, &evidence.per_sample);
+    }
+    Ok(Calibration { library, observations, condition: Some(condition), state: solution.state })
+}
+
+/// K and S by any method, with their standard deviations.
+pub(crate) struct Solution {
+    /// K and S by pigment.
+    pub(crate) curves: Vec<Curves>,
+    /// Standard deviations of K and S by pigment; `None` if they were not requested.
+    deviations: Option<Vec<Curves>>,
+    state: Option<RefinedState>,
+}
+
+impl Solution {
+    fn pigment(&self, place: usize, name: &str) -> Pigment {
+        pigment(name, &self.curves[place], self.deviations.as_ref().map(|all| &all[place]))
+    }
+}
+
+/// A fitted pigment with its values rounded for a file.
+pub(crate) fn pigment(name: &str, curves: &Curves, deviations: Option<&Curves>) -> Pigment {
+    let rounded = |curve: &[f64]| -> Vec<f64> { curve.iter().map(|&v| rounded(v)).collect() };
+    let deviation = |curve: fn(&Curves) -> &[f64]| {
+        deviations.map_or_else(Vec::new, |curves| rounded(curve(curves)))
+    };
+    Pigment {
+        name: name.to_owned(),
+        color_index: None,
+        absorption: rounded(&curves.absorption),
+        scattering: rounded(&curves.scattering),
+        absorption_sd: deviation(|curves| &curves.absorption),
+        scattering_sd: deviation(|curves| &curves.scattering),
+        identified: true,
+        guessed: false,
+        measured_amounts: None,
+        notes: Vec::new(),
+    }
+}
+
+/// Solves `problem` by `method`.
+pub(crate) fn solve(
+    problem: &Problem,
+    method: Method,
+    how: Refinement<'_>,
+) -> Result<Solution, FitError> {
+    let plain = |curves: Vec<Curves>| Solution {
+        deviations: how.deviations.then(|| linear_deviations(problem, &curves)),
+        curves,
+        state: None,
+    };
+    Ok(match method {
+        Method::Qp => plain(fit_qp_watched(problem, how.watch)?),
+        Method::Weighted => plain(fit_weighted_watched(problem, how.watch)?),
+        Method::Refined => {
+            // K and S must not depend on the light under which errors are computed.
+            let weights =
+                Viewing::default().weights(problem.grid).expect("the method fits the grid");
+            let Refined { curves, deviations, state, .. } = fit_refined(problem, &weights, how)?;
+            Solution { curves, deviations, state: Some(state) }
+        }
+    })
+}
+
+/// Observations of identified pigments only, with their shares reduced to these, and the places of these
+/// pigments.
+pub(crate) fn without(
+    observations: &[Observation],
+    unknown: &[Unidentified],
+) -> (Vec<Observation>, Vec<PigmentId>) {
+    let count = observations.first().map_or(0, |o| o.shares.len());
+    let all = (0..count).map(PigmentId);
+    let identified: Vec<PigmentId> =
+        all.filter(|p| unknown.iter().all(|u| u.pigment != *p)).collect();
+    let kept = observations
+        .iter()
+        .filter(|o| unknown.iter().all(|u| o.shares[u.pigment.index()] == 0.0))
+        .map(|o| Observation {
+            shares: identified.iter().map(|p| o.shares[p.index()]).collect(),
+            ..o.clone()
+        })
+        .collect();
+    (kept, identified)
+}
+
+/// A pigment of which only K/S is known.
+fn masstone(set: &SwatchSet, observations: &[Observation], lone: &Unidentified) -> Pigment {
+    let alone = lone.samples.iter().find(|&&s| observations[s].shares[lone.pigment.index()] == 1.0);
+    let sample = &observations[*alone.expect("the pigment has a masstone")];
+    Pigment {
+        name: set.pigments[lone.pigment.index()].clone(),
+        color_index: None,
+        absorption: sample.ratio.iter().map(|&v| rounded(v)).collect(),
+        scattering: vec![1.0; sample.ratio.len()],
+        absorption_sd: Vec::new(),
+        scattering_sd: Vec::new(),
+        identified: false,
+        guessed: false,
+        measured_amounts: None,
+        notes: vec![format!(
+            "only K/S is known, from the masstone {}; S = 1 stands for an unknown scattering, so that mixtures with this pigment are a guess",
+            sample.sample
+        )],
+    }
+}
+
+fn evidence(
+    library: &PigmentLibrary,
+    set: &SwatchSet,
+    solvable: &[Observation],
+    identified: &[PigmentId],
+    viewing: &Viewing,
+) -> Evidence {
+    let weights = viewing.weights(library.grid).expect("the method fits the grid");
+    let in_library: Vec<PigmentId> = identified
+        .iter()
+        .map(|&p| {
+            library.find(&set.pigments[p.index()]).expect("every identified pigment is in it")
+        })
+        .collect();
+    let films = solvable.iter().map(|observation| {
+        let shares = observation.shares.iter().copied();
+        let recipe: Recipe = in_library.iter().copied().zip(shares).collect();
+        let mixture = library.mix(recipe).expect("shares sum to 1");
+        let predicted = mixture.hiding(library.saunderson);
+        (observation.sample.clone(), observation.as_read.as_slice(), predicted)
+    });
+    let Scores { rms, delta_e, per_sample } = Scores::of(&weights, films).rounded();
+    Evidence {
+        illuminant: viewing.illuminant.name().to_owned(),
+        observer: viewing.observer.name().to_owned(),
+        rms,
+        delta_e,
+        per_sample,
+        warnings: Vec::new(),
+    }
+}
+
+/// A calibration that cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CalibrationError {
+    /// Readings cannot be used.
+    #[error(transparent)]
+    Measurement(#[from] MeasurementError),
+    /// The fit failed.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+}
+
+impl Explain for CalibrationError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Measurement(error) => error.hint(),
+            Self::Fit(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Measurement(error) => error.fault(),
+            Self::Fit(error) => error.fault(),
+        }
+    }
+}

@@ -1,0 +1,334 @@
+//! Comparison of a library with measurements: its prediction of each sample, and predictions of mixtures
+//! left out of the fit.
+
+use documents::hint::{Explain, Hint};
+use pigment::palette::{MeasuredSample, Palette};
+use pigment::{PigmentId, Recipe};
+use spectra::optics::Surface;
+use spectra::{Extrapolation, Grid, InterpolateError, Interpolation, Reflectance, Spectrum};
+
+use crate::absolute::{calibrate_absolute_watched, films};
+use crate::calibration::{CalibrationError, calibrate_watched};
+use crate::fit::{FitSettings, MeasuredFilm, Watch};
+use crate::measurement::MeasurementError;
+use crate::observation::{BelowSurface, observations};
+use crate::scores::Scores;
+use crate::swatch::{Swatch, SwatchSet};
+use crate::validation::{DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films};
+use pigment::evaluate::{Summary, Viewing};
+use pigment::library::{AmountKind, PigmentLibrary};
+
+/// One film, measured and predicted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComparedFilm {
+    /// Name of the sample, with its backing if it has several films.
+    pub sample: String,
+    /// Pigments of the library with their amounts; shares sum to 1.
+    pub recipe: Recipe,
+    /// Measured reflectance as a fraction: as a film that hides for shares, of the film itself for
+    /// absolute amounts.
+    pub measured: Vec<f64>,
+    /// Reflectance that the library predicts.
+    pub predicted: Vec<f64>,
+    /// CIEDE2000 between measured and predicted colour.
+    pub delta_e: f64,
+    /// Whether the recipe contains a pigment whose K and S were not measured (not identified, or
+    /// guessed).
+    pub unsure: bool,
+    /// Whether the fit of the library left this sample out.
+    pub excluded: bool,
+}
+
+/// A library compared with measurements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Films in order of the file.
+    pub films: Vec<ComparedFilm>,
+    /// Root mean square error of reflectance, over sure films.
+    pub rms: f64,
+    /// Summary of the colour errors, over sure films.
+    pub delta_e: Summary,
+    /// Samples that could not be compared, each with the names of pigments that the library lacks.
+    pub absent: Vec<(String, Vec<String>)>,
+    /// Wavelengths of the readings, if they are not the library's.
+    pub resampled_from: Option<Grid>,
+}
+
+impl Comparison {
+    /// Films whose pigments are all measured and identified, over which errors are summarised.
+    pub fn sure(&self) -> impl Iterator<Item = &ComparedFilm> {
+        self.films.iter().filter(|film| !film.unsure)
+    }
+
+    /// Films that `palette` can mix, without those that the fit excluded. Empty for absolute amounts, whose
+    /// films do not hide.
+    #[must_use]
+    pub fn measured_samples(&self, palette: &Palette<'_>) -> Vec<MeasuredSample> {
+        if palette.library().amounts == AmountKind::Absolute {
+            return Vec::new();
+        }
+        let known = |recipe: &Recipe| recipe.pigments().all(|p| palette.paints().contains(&p));
+        let films = self.films.iter().filter(|film| !film.excluded && known(&film.recipe));
+        let sample = |film: &ComparedFilm| MeasuredSample {
+            sample: film.sample.clone(),
+            recipe: film.recipe.clone(),
+            reflectance: film.measured.clone(),
+        };
+        films.map(sample).collect()
+    }
+}
+
+/// Measurements that can be compared with a library.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparable {
+    /// Samples whose pigments are all in the library, on the library's wavelengths.
+    pub set: SwatchSet,
+    /// Place in the library of each pigment of `set`.
+    pub in_library: Vec<PigmentId>,
+    /// Samples that cannot be compared, each with the names of pigments that the library lacks.
+    pub absent: Vec<(String, Vec<String>)>,
+    /// Wavelengths of the readings, if they are not the library's.
+    pub resampled_from: Option<Grid>,
+}
+
+impl Comparable {
+    /// Selects the samples of `set` whose pigments are all in `library`, by name without regard to case.
+    ///
+    /// # Errors
+    /// [`ComparisonError`] if there is none, or if the readings do not cover the library's wavelengths.
+    pub fn of(set: &SwatchSet, library: &PigmentLibrary) -> Result<Self, ComparisonError> {
+        let find = |name: &String| {
+            let lower = name.to_lowercase();
+            let exact = library.ids().find(|id| library[*id].name == *name);
+            exact.or_else(|| library.ids().find(|id| library[*id].name.to_lowercase() == lower))
+        };
+        let lacking = |swatch: &Swatch| -> Vec<String> {
+            let used = set.pigments.iter().zip(&swatch.amounts).filter(|(_, a)| **a > 0.0);
+            used.filter(|(name, _)| find(name).is_none()).map(|(name, _)| name.clone()).collect()
+        };
+        let absent = set.swatches.iter().map(|s| (s.sample.clone(), lacking(s)));
+        let absent: Vec<_> = absent.filter(|(_, pigments)| !pigments.is_empty()).collect();
+        let kept = set.retaining(|swatch| lacking(swatch).is_empty());
+        if kept.swatches.is_empty() {
+            return Err(ComparisonError::NothingInCommon {
+                measured: set.pigments.clone(),
+                library: library.pigments.iter().map(|p| p.name.clone()).collect(),
+            });
+        }
+        let (from, to) = (set.grid, library.grid);
+        let same = from == to;
+        let covered = from.covers(to.start_nm()) && from.covers(to.end_nm());
+        if !(same || covered) {
+            return Err(ComparisonError::Band { readings: from, library: to });
+        }
+        let in_library = kept.pigments.iter().filter_map(find).collect();
+        let resampled_from = (!same).then_some(from);
+        let set = if same { kept } else { resampled(kept, to)? };
+        Ok(Self { set, in_library, absent, resampled_from })
+    }
+
+    /// Compares each film as measured with the prediction of `library` under `viewing`.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] if readings cannot be used.
+    ///
+    /// # Panics
+    /// If `library` is not the one for which the measurements were selected.
+    pub fn with(
+        &self,
+        library: &PigmentLibrary,
+        viewing: &Viewing,
+    ) -> Result<Comparison, MeasurementError> {
+        let weights = viewing.weights(library.grid).expect("the method fits the grid");
+        let settings = settings(library);
+        let measured = match library.amounts {
+            AmountKind::Relative => self.hiding(library, &settings)?,
+            AmountKind::Absolute => self.finite(library)?,
+        };
+        let triples = measured
+            .iter()
+            .map(|film| (film.sample.clone(), film.measured.as_slice(), film.predicted.clone()));
+        let errors = Scores::of(&weights, triples).per_sample;
+        let mut films: Vec<ComparedFilm> = measured;
+        for (film, error) in films.iter_mut().zip(errors) {
+            film.delta_e = error.delta_e;
+            let mut pigments = film.recipe.pigments().map(|pigment| &library[pigment]);
+            film.unsure = pigments.any(|p| p.guessed || !p.identified);
+        }
+        let sure = films.iter().filter(|film| !film.unsure);
+        let sure = sure.map(|f| (f.sample.clone(), f.measured.as_slice(), f.predicted.clone()));
+        let Scores { rms, delta_e, .. } = Scores::of(&weights, sure);
+        let (absent, resampled_from) = (self.absent.clone(), self.resampled_from);
+        Ok(Comparison { films, rms, delta_e, absent, resampled_from })
+    }
+
+    fn hiding(
+        &self,
+        library: &PigmentLibrary,
+        settings: &FitSettings,
+    ) -> Result<Vec<ComparedFilm>, MeasurementError> {
+        let observations = observations(&self.set, library.saunderson, settings.below_surface)?;
+        let films = observations.into_iter().map(|observation| {
+            let recipe = self.recipe(&observation.shares);
+            let mixture = library.mix(&recipe).expect("shares sum to 1");
+            let excluded = settings.excluded.contains(&observation.sample);
+            let predicted = mixture.hiding(library.saunderson);
+            film(observation.sample, recipe, observation.as_read, predicted, excluded)
+        });
+        Ok(films.collect())
+    }
+
+    fn finite(&self, library: &PigmentLibrary) -> Result<Vec<ComparedFilm>, MeasurementError> {
+        let problem = films(&self.set)?;
+        let settings = settings(library);
+        let excluded = self.set.swatches.iter().flat_map(|swatch| {
+            let excluded = settings.excluded.contains(&swatch.sample);
+            swatch.films.iter().map(move |_| excluded)
+        });
+        let films = problem.films.into_iter().zip(excluded).map(|(measured, excluded)| {
+            let MeasuredFilm { name, recipe, reflectance, bare } = measured;
+            let amounts = recipe.iter().map(|&(p, amount)| (self.in_library[p.index()], amount));
+            let recipe: Recipe = amounts.collect();
+            let mixture = library.mix(&recipe).expect("amounts are above 0");
+            let predicted = mixture.film(1.0, &bare, library.film());
+            film(name, recipe, reflectance, predicted, excluded)
+        });
+        Ok(films.collect())
+    }
+
+    fn recipe(&self, shares: &[f64]) -> Recipe {
+        let all = self.in_library.iter().copied().zip(shares.iter().copied());
+        all.filter(|(_, share)| *share > 0.0).collect()
+    }
+
+    /// Number of mixtures that [`Self::left_out`] would predict.
+    #[must_use]
+    pub fn mixtures(&self, library: &PigmentLibrary) -> usize {
+        let mixed = |s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1;
+        let set = self.fitted_again(library);
+        let films = set.swatches.iter().filter(mixed).map(|s| match library.amounts {
+            AmountKind::Relative => 1,
+            AmountKind::Absolute => s.films.len(),
+        });
+        films.sum()
+    }
+
+    /// Leaves out each mixture in turn (for absolute amounts, each of 10 seeded groups), fits the others as
+    /// `library` was fitted, and predicts it. Returns `None` if the reference white was not measured, or
+    /// there is no mixture.
+    ///
+    /// For a library without settings of its fit, [`FitSettings::default`] is assumed with dark readings
+    /// read as black.
+    ///
+    /// `watch` is told [`FitStage::LeftOut`](crate::fit::FitStage::LeftOut) after each mixture, and may
+    /// end the work.
+    ///
+    /// # Errors
+    /// [`CalibrationError`] from any fit.
+    pub fn left_out(
+        &self,
+        library: &PigmentLibrary,
+        viewing: &Viewing,
+        watch: Watch<'_>,
+    ) -> Result<Option<Validation>, CalibrationError> {
+        if self.mixtures(library) == 0 {
+            return Ok(None);
+        }
+        let settings = settings(library);
+        let set = self.fitted_again(library);
+        let plan =
+            |state, folds| ValidationPlan { settings: &settings, viewing, state, folds, watch };
+        if library.amounts == AmountKind::Absolute {
+            let film = library.film();
+            let state =
+                calibrate_absolute_watched(&set, film, &settings, viewing, watch.quiet())?.state;
+            return leave_out_films(&set, film, &plan(state, Some(DEFAULT_FOLDS))).map(Some);
+        }
+        let named = |name: &String| set.pigments.iter().position(|p| p == name).map(PigmentId);
+        let Some(reference) = library.reference.as_ref().and_then(named) else { return Ok(None) };
+        let surface: Surface = library.saunderson;
+        let state =
+            calibrate_watched(&set, reference, surface, &settings, viewing, watch.quiet())?.state;
+        leave_out(&set, reference, surface, &plan(state, None), |_| true).map(Some)
+    }
+
+    /// The samples that the library's fit used, with pigments named as in the library.
+    fn fitted_again(&self, library: &PigmentLibrary) -> SwatchSet {
+        let names = self.in_library.iter().map(|&p| library[p].name.clone());
+        let named = SwatchSet { pigments: names.collect(), ..self.set.clone() };
+        let excluded = settings(library).excluded;
+        named.retaining(|swatch| !excluded.contains(&swatch.sample))
+    }
+}
+
+fn settings(library: &PigmentLibrary) -> FitSettings {
+    let usual = || FitSettings { below_surface: BelowSurface::Floor, ..FitSettings::default() };
+    library.settings.clone().unwrap_or_else(usual)
+}
+
+fn film(
+    sample: String,
+    recipe: Recipe,
+    measured: Vec<f64>,
+    predicted: Vec<f64>,
+    excluded: bool,
+) -> ComparedFilm {
+    ComparedFilm { sample, recipe, measured, predicted, delta_e: 0.0, unsure: false, excluded }
+}
+
+/// Resamples every reading of `set` to `grid`, which its own grid covers.
+fn resampled(set: SwatchSet, grid: Grid) -> Result<SwatchSet, InterpolateError> {
+    let method = Interpolation::best_for(set.grid);
+    let from = set.grid;
+    let moved = |values: &[f64]| -> Result<Vec<f64>, InterpolateError> {
+        let spectrum = Spectrum::<Reflectance>::new(from, values.to_vec());
+        let spectrum = spectrum.expect("a reading has a value for each wavelength");
+        // Between a dark and a light band an interpolation may swing below 0.
+        let values = spectrum.resampled(grid, method, Extrapolation::Hold)?.into_values();
+        Ok(values.into_iter().map(|value| value.max(0.0)).collect())
+    };
+    let mut set = SwatchSet { grid, ..set };
+    for film in set.swatches.iter_mut().flat_map(|swatch| &mut swatch.films) {
+        film.reflectance = moved(&film.reflectance)?;
+        film.bare = film.bare.as_deref().map(moved).transpose()?;
+    }
+    Ok(set)
+}
+
+/// A library and measurements that cannot be compared.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ComparisonError {
+    /// Every sample contains a pigment that the library lacks.
+    #[error("every sample holds a pigment that the library has not; measured are `{}`", measured.join(", "))]
+    NothingInCommon {
+        /// Names of the measured pigments.
+        measured: Vec<String>,
+        /// Names of the library's pigments.
+        library: Vec<String>,
+    },
+    /// The readings do not cover the library's wavelengths.
+    #[error("the library stands on {library}, the readings on `{readings}`")]
+    Band {
+        /// Wavelengths of the readings.
+        readings: Grid,
+        /// Wavelengths of the library.
+        library: Grid,
+    },
+    /// The readings cannot be interpolated to the library's wavelengths.
+    #[error(transparent)]
+    Interpolate(#[from] InterpolateError),
+}
+
+impl Explain for ComparisonError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::NothingInCommon { library, .. } => {
+                Some(Hint::new(format!("pigments of the library: {}", library.join(", "))))
+            }
+            Self::Band { .. } => {
+                Some(Hint::new("fit a library from these readings, or measure the whole band"))
+            }
+            Self::Interpolate(_) => None,
+        }
+    }
+}

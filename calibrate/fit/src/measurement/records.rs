@@ -1,0 +1,304 @@
+//! Spectra of an instrument's file as readings of paint.
+
+use std::ops::RangeInclusive;
+
+use spectra::Grid;
+use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
+
+use super::column::MEASURABLE_NM;
+use super::common_grid::{grid_of, on_grid};
+use super::error::MeasurementError;
+use super::scale::{Scale, ScaleChoice};
+use super::table::{Film, MeasurementTable, Reading};
+use spectra::csv_table::CellPlace;
+
+/// Wavelengths in nm that a table of readings may have.
+const BAND: RangeInclusive<f64> = MEASURABLE_NM;
+
+/// Wavelengths in nm at which a reading must be valid: they determine nearly all of the colour. Beyond
+/// them lamps and detectors are weak, and exported files hold noise.
+const SOUND: RangeInclusive<f64> = 400.0..=700.0;
+
+/// A negative reading above minus this fraction counts as 0 with noise: dark paint under little light,
+/// or a dark reading a little too high. Chosen by eye.
+const NOISE_BELOW_ZERO: f64 = 0.02;
+
+/// Greatest reflectance that a surface can have, as a fraction; a reading above is a mistaken unit.
+const LARGEST_REFLECTANCE: f64 = 2.0;
+/// Treatment of an instrument's spectra.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct RecordChoice {
+    /// Percent or fraction; by default what the file states, else what its largest value suggests.
+    pub scale: ScaleChoice,
+    /// Whether transmittance counts as reflectance. Some programs state transmittance although the
+    /// spectrometer measured a surface against a white tile.
+    pub transmittance_is_reflectance: bool,
+}
+
+impl MeasurementTable {
+    /// Reads `records`, the spectra of `file`, as readings of paint. Only spectra of reflectance, or of a
+    /// quantity that the file does not state, are used. The name of a record is the sample; records of one
+    /// name are repeated readings. The table has no pigments and no backings.
+    ///
+    /// Wavelengths outside 200 to 2500 nm are cut off. Outside 400 to 700 nm the ends of a spectrum are
+    /// cut off up to their last impossible value. Values down to -2 % count as 0, with a remark. A
+    /// spectrum is refused if most of its values are impossible, or one from 400 to 700 nm is. Spectra on
+    /// different wavelengths are interpolated to the grid of the coarsest, where all overlap.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] with the line on which the spectrum begins.
+    pub fn from_records(
+        file: &str,
+        records: &[MeasuredSpectrum],
+        choice: RecordChoice,
+    ) -> Result<Self, MeasurementError> {
+        let mut remarks = Vec::new();
+        let mut spectra = reflectances(file, records, choice, &mut remarks)?;
+        for spectrum in &mut spectra {
+            spectrum.cut_to_band(file)?;
+        }
+        let scale = scale(file, &mut spectra, choice.scale)?;
+        for spectrum in &mut spectra {
+            spectrum.cut_noise(file, &mut remarks)?;
+        }
+        let first = &spectra[0];
+        let alike = spectra.iter().all(|s| s.wavelengths_nm == first.wavelengths_nm);
+        let (grid, count) = if alike {
+            (grid_of(&first.wavelengths_nm), first.wavelengths_nm.len())
+        } else {
+            let (grid, count) = overlap(file, &spectra)?;
+            remarks.push(format!("spectra on different wavelengths brought to {grid}"));
+            (grid, count)
+        };
+        let resampled = alike && Grid::through(&first.wavelengths_nm).is_none();
+        let readings = spectra.into_iter().map(|spectrum| Reading {
+            file: file.into(),
+            row: spectrum.record.line as u64,
+            sample: name(&spectrum.record.name),
+            film: Film::Paint,
+            backing: "".into(),
+            thickness_mm: None,
+            amounts: Box::default(),
+            reflectance: on_grid(grid, &spectrum.wavelengths_nm, spectrum.values).into(),
+        });
+        Ok(Self {
+            pigments: Vec::new(),
+            grid,
+            resampled_from: resampled.then_some(count),
+            scale,
+            readings: readings.collect(),
+            remarks,
+        })
+    }
+}
+
+/// Name for a table: without control characters, and not empty.
+fn name(raw: &str) -> String {
+    let plain: String = raw.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let plain = plain.trim();
+    if plain.is_empty() { "unnamed".to_owned() } else { plain.to_owned() }
+}
+
+/// A record that is being converted to a reading.
+struct Spectrum<'a> {
+    record: &'a MeasuredSpectrum,
+    wavelengths_nm: Vec<f64>,
+    values: Vec<f64>,
+    /// Unit of the record's values; `values` have this unit until they are made fractions.
+    scale: Scale,
+}
+
+/// Selects the records that are readings. The others are named in `remarks`, or refused if all are.
+fn reflectances<'a>(
+    file: &str,
+    records: &'a [MeasuredSpectrum],
+    choice: RecordChoice,
+    remarks: &mut Vec<String>,
+) -> Result<Vec<Spectrum<'a>>, MeasurementError> {
+    let is_reading = |record: &&MeasuredSpectrum| match record.quantity {
+        _ if record.role != Role::Main => false,
+        MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
+        MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
+        MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => false,
+    };
+    let (kept, others): (Vec<&MeasuredSpectrum>, Vec<&MeasuredSpectrum>) =
+        records.iter().partition(is_reading);
+    if kept.is_empty() {
+        let Some(record) = others.first() else {
+            return Err(MeasurementError::Empty { file: file.to_owned() });
+        };
+        return Err(MeasurementError::NoReflectance {
+            file: file.to_owned(),
+            line: record.line as u64,
+            sample: name(&record.name),
+            quantity: record.quantity,
+        });
+    }
+    for record in others.into_iter().filter(|record| record.role == Role::Main) {
+        remarks.push(format!("{} is left out, it is {}", name(&record.name), record.quantity));
+    }
+    for record in &kept {
+        for remark in &record.remarks {
+            let of_all = kept.iter().all(|record| record.remarks.contains(remark));
+            let text =
+                if of_all { remark.clone() } else { format!("{}: {remark}", name(&record.name)) };
+            if !remarks.contains(&text) {
+                remarks.push(text);
+            }
+        }
+    }
+    let spectrum = |record: &'a MeasuredSpectrum| Spectrum {
+        record,
+        wavelengths_nm: record.wavelengths_nm.clone(),
+        values: record.values.clone(),
+        scale: Scale::Fraction,
+    };
+    Ok(kept.into_iter().map(spectrum).collect())
+}
+
+/// Determines the unit of every spectrum; returns that of the first.
+fn scale(
+    file: &str,
+    spectra: &mut [Spectrum<'_>],
+    choice: ScaleChoice,
+) -> Result<Scale, MeasurementError> {
+    let stated = |record: &MeasuredSpectrum| match (choice, record.unit) {
+        (ScaleChoice::Known(scale), _) => Some(scale),
+        (ScaleChoice::ByFile, Unit::Percent) => Some(Scale::Percent),
+        (ScaleChoice::ByFile, Unit::Fraction) => Some(Scale::Fraction),
+        (ScaleChoice::ByFile, Unit::Unstated) => None,
+    };
+    let unstated = spectra.iter().filter(|s| stated(s.record).is_none()).map(Spectrum::largest);
+    let found = Scale::of_largest(unstated.fold(0.0, f64::max));
+    for spectrum in &mut *spectra {
+        let largest = spectrum.largest();
+        spectrum.scale = stated(spectrum.record).unwrap_or(found);
+        if stated(spectrum.record).is_none() && found == Scale::Percent && largest <= 1.0 {
+            let (file, row) = (file.to_owned(), spectrum.record.line as u64);
+            return Err(MeasurementError::MixedScale { file, row, largest });
+        }
+    }
+    Ok(spectra[0].scale)
+}
+
+impl Spectrum<'_> {
+    /// Largest value where readings must be valid; of all values, if it has none there.
+    fn largest(&self) -> f64 {
+        let all = || self.wavelengths_nm.iter().zip(&self.values);
+        let sound = all().filter(|(nm, _)| SOUND.contains(nm)).map(|(_, value)| *value);
+        let largest = sound.reduce(f64::max);
+        largest.unwrap_or_else(|| self.values.iter().copied().fold(0.0, f64::max))
+    }
+
+    /// Keeps the points of indices `from` up to, but not including, `to`.
+    fn keep(&mut self, from: usize, to: usize) {
+        self.wavelengths_nm = self.wavelengths_nm[from..to].to_vec();
+        self.values = self.values[from..to].to_vec();
+    }
+
+    fn cut_to_band(&mut self, file: &str) -> Result<(), MeasurementError> {
+        let (start, end) = (*BAND.start(), *BAND.end());
+        let from = self.wavelengths_nm.partition_point(|nm| *nm < start);
+        let to = self.wavelengths_nm.partition_point(|nm| *nm <= end);
+        if from >= to {
+            return Err(self.no_band(file));
+        }
+        self.keep(from, to);
+        Ok(())
+    }
+
+    fn no_band(&self, file: &str) -> MeasurementError {
+        let all = &self.record.wavelengths_nm;
+        MeasurementError::Band {
+            file: file.to_owned(),
+            line: self.record.line as u64,
+            sample: name(&self.record.name),
+            first_nm: all.first().copied().unwrap_or_default(),
+            last_nm: all.last().copied().unwrap_or_default(),
+        }
+    }
+
+    /// Converts the values to fractions. Cuts off the ends up to their last impossible value, outside the
+    /// band in which readings must be valid.
+    fn cut_noise(&mut self, file: &str, remarks: &mut Vec<String>) -> Result<(), MeasurementError> {
+        let factor = self.scale.to_fraction();
+        let is_valid =
+            |value: f64| (-NOISE_BELOW_ZERO..=LARGEST_REFLECTANCE).contains(&(value * factor));
+        let bad = self.values.iter().filter(|value| !is_valid(**value)).count();
+        if 2 * bad > self.values.len() {
+            return Err(MeasurementError::Noise {
+                file: file.to_owned(),
+                line: self.record.line as u64,
+                sample: name(&self.record.name),
+                range: self.scale.range(),
+                count: self.values.len(),
+                bad,
+            });
+        }
+        let (mut from, mut to) = (0, self.values.len());
+        let has_middle = self.wavelengths_nm.iter().any(|nm| SOUND.contains(nm));
+        for (index, (&nm, &value)) in self.wavelengths_nm.iter().zip(&self.values).enumerate() {
+            if is_valid(value) {
+                continue;
+            } else if has_middle && nm < *SOUND.start() {
+                from = index + 1;
+            } else if has_middle && nm > *SOUND.end() {
+                to = to.min(index);
+            } else {
+                let row = self.record.line as u64;
+                return Err(MeasurementError::Reflectance {
+                    place: CellPlace::new(file, row, &format!("{nm} nm")),
+                    range: self.scale.range(),
+                    value,
+                });
+            }
+        }
+        if bad > 0 {
+            let tenths = |nm: f64| (10.0 * nm).round() / 10.0;
+            remarks.push(format!(
+                "{}: cut to {} to {} nm; beyond, readings are not {}",
+                name(&self.record.name),
+                tenths(self.wavelengths_nm[from]),
+                tenths(self.wavelengths_nm[to - 1]),
+                self.scale.range(),
+            ));
+        }
+        self.keep(from, to);
+        let below = self.values.iter().filter(|value| **value < 0.0).count();
+        if below > 0 {
+            let name = name(&self.record.name);
+            let (one, many) = ("reading just below zero counts", "readings just below zero count");
+            remarks.push(format!("{name}: {} as 0", documents::counted_as(below, one, many)));
+        }
+        self.values.iter_mut().for_each(|value| *value = (*value * factor).max(0.0));
+        Ok(())
+    }
+}
+
+/// Grid of the coarsest spectrum where all spectra overlap, and its number of wavelengths there.
+fn overlap(file: &str, spectra: &[Spectrum<'_>]) -> Result<(Grid, usize), MeasurementError> {
+    let first_nm = |s: &Spectrum<'_>| s.wavelengths_nm[0];
+    let last_nm = |s: &Spectrum<'_>| s.wavelengths_nm[s.wavelengths_nm.len() - 1];
+    let mut latest = &spectra[0];
+    let mut earliest = &spectra[0];
+    let mut coarsest = &spectra[0];
+    let step = |s: &Spectrum<'_>| (last_nm(s) - first_nm(s)) / s.wavelengths_nm.len() as f64;
+    for spectrum in spectra {
+        latest = if first_nm(spectrum) > first_nm(latest) { spectrum } else { latest };
+        earliest = if last_nm(spectrum) < last_nm(earliest) { spectrum } else { earliest };
+        coarsest = if step(spectrum) > step(coarsest) { spectrum } else { coarsest };
+    }
+    let (start_nm, end_nm) = (first_nm(latest), last_nm(earliest));
+    let shared = coarsest.wavelengths_nm.iter().filter(|nm| (start_nm..=end_nm).contains(*nm));
+    let shared: Vec<f64> = shared.copied().collect();
+    if shared.is_empty() {
+        return Err(MeasurementError::Apart {
+            file: file.to_owned(),
+            first: name(&earliest.record.name),
+            end_nm,
+            second: name(&latest.record.name),
+            start_nm,
+        });
+    }
+    Ok((grid_of(&shared), shared.len()))
+}

@@ -1,0 +1,386 @@
+//! Measurement files of any known format, read together.
+
+use std::fs::File;
+use std::path::Path;
+
+use documents::counted;
+use documents::file::FileError;
+use spectra::instrument::{FileText, Format, InstrumentError, InstrumentFile, bytes_of, read};
+use spectra::referencing::{OpenedReferences, ReferenceFiles, ReferenceFilesError, TileSource};
+
+use crate::measurement::{
+    LargeCsv, LargeCsvChoice, LargeCsvError, MeasurementError, MeasurementTable, Recipes,
+    RecordChoice, Scale, begins_with_samples, is_measurement_csv,
+};
+pub use crate::reading_options::{ReadingFormat, ReadingOptions};
+use crate::readings_error::ReadingsError;
+use crate::swatch::SwatchSet;
+use pigment::library::Input;
+use pigment::remark::Remark;
+
+/// Readings of one or more measurement files. A sheet of a workbook is given as `FILE.xlsx#SHEET`.
+///
+/// ```no_run
+/// let readings = calibrate::Readings::open("swatches.ti3")?.with_recipes("recipes.csv")?;
+/// for remark in &readings.remarks {
+///     eprintln!("{remark}");
+/// }
+/// # Ok::<(), calibrate::ReadingsError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Readings {
+    /// Readings of all files on one grid.
+    pub table: MeasurementTable,
+    /// Files that were read, with their hashes: measurements, then references, then recipes.
+    pub inputs: Vec<Input>,
+    /// Summary of the contents of each file, and warnings about them.
+    pub remarks: Vec<Remark>,
+}
+
+impl Readings {
+    /// Reads one measurement file of any known format.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, ReadingsError> {
+        Self::open_all(&[path], &ReadingOptions::default())
+    }
+
+    /// Reads several measurement files, which must have the same pigments and wavelengths.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn open_all<P: AsRef<Path>>(
+        paths: &[P],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        Self::open_files(paths, options, false)
+    }
+
+    /// Reads the spectra of files whose other columns do not matter, such as recipes.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn open_spectra<P: AsRef<Path>>(
+        paths: &[P],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        Self::open_files(paths, options, true)
+    }
+
+    /// Reads measurement files of any known format from memory: name and content of each. The name is told in
+    /// errors, and may end in `#SHEET`. White, dark and tile of the options are files on the disk.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn from_files<N: AsRef<str>, B: AsRef<[u8]>>(
+        files: &[(N, B)],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        Self::of_files(files, options, false)
+    }
+
+    /// Reads the spectra of files in memory, as [`Readings::open_spectra`] does from the disk.
+    ///
+    /// # Errors
+    /// [`ReadingsError`] with file, row and column.
+    pub fn spectra_from_files<N: AsRef<str>, B: AsRef<[u8]>>(
+        files: &[(N, B)],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        Self::of_files(files, options, true)
+    }
+
+    /// Reads the measurement CSV in `bytes`, the content of `file`.
+    ///
+    /// # Errors
+    /// [`ReadingsError::Measurement`] with row and column.
+    pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, ReadingsError> {
+        Self::from_csv_with(file, bytes, &ReadingOptions::default())
+    }
+
+    /// Reads the measurement CSV in `bytes`, the content of `file`. Of the options, `scale` and `pigments`
+    /// have a meaning for a CSV.
+    ///
+    /// # Errors
+    /// [`ReadingsError::Measurement`] with row and column.
+    pub fn from_csv_with(
+        file: &str,
+        bytes: &[u8],
+        options: &ReadingOptions,
+    ) -> Result<Self, ReadingsError> {
+        let (table, remarks) = csv_table(file, bytes, options, false)?;
+        Ok(Self { table, inputs: vec![Input::new(file, bytes)], remarks })
+    }
+
+    /// Adds the recipes of a CSV file (columns `sample`, one for each pigment, optionally `film`,
+    /// `backing`, `thickness_mm` and `reading`) to readings whose own files state none.
+    ///
+    /// # Errors
+    /// [`ReadingsError::Recipes`] with the row.
+    pub fn with_recipes(self, path: impl AsRef<Path>) -> Result<Self, ReadingsError> {
+        self.with_recipes_of(path, None)
+    }
+
+    /// Adds the recipes of a CSV file like [`Readings::with_recipes`], of the columns headed as one of
+    /// `pigments`.
+    ///
+    /// # Errors
+    /// [`ReadingsError::Recipes`] with the row.
+    pub fn with_recipes_of(
+        self,
+        path: impl AsRef<Path>,
+        pigments: Option<&[String]>,
+    ) -> Result<Self, ReadingsError> {
+        let (file, bytes) = content(path.as_ref())?;
+        self.with_recipes_from(&file, &bytes, pigments)
+    }
+
+    /// Adds the recipes of the CSV file in `bytes`, the content of `file`, like [`Readings::with_recipes_of`].
+    ///
+    /// # Errors
+    /// [`ReadingsError::Recipes`] with the row.
+    pub fn with_recipes_from(
+        mut self,
+        file: &str,
+        bytes: &[u8],
+        pigments: Option<&[String]>,
+    ) -> Result<Self, ReadingsError> {
+        let recipes = Recipes::from_csv(file, bytes, pigments)?;
+        self.table.remarks.clear();
+        self.table = recipes.joined_to(self.table)?;
+        self.remarks.extend(self.table.remarks.iter().map(Remark::warning));
+        self.inputs.push(Input::new(file, bytes));
+        Ok(self)
+    }
+
+    /// Checks that some file has a column for each of `pigments`.
+    ///
+    /// # Errors
+    /// [`MeasurementError::NoPigmentColumn`] for the first that has none.
+    pub fn check_has_pigments(&self, pigments: &[String]) -> Result<(), MeasurementError> {
+        match pigments.iter().find(|name| !self.table.pigments.contains(name)) {
+            Some(name) => Err(MeasurementError::NoPigmentColumn { name: name.clone() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Groups the readings by sample.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] for rows that contradict each other, or if there is no film of paint.
+    pub fn swatches(&self) -> Result<SwatchSet, MeasurementError> {
+        SwatchSet::from_table(&self.table)
+    }
+
+    fn of_files<N: AsRef<str>, B: AsRef<[u8]>>(
+        files: &[(N, B)],
+        options: &ReadingOptions,
+        spectra_only: bool,
+    ) -> Result<Self, ReadingsError> {
+        let references = options.references.as_ref().map(References::open).transpose()?;
+        let mut found = Found::default();
+        for (file, bytes) in files {
+            let (file, bytes) = (file.as_ref(), bytes.as_ref());
+            found.add(of_bytes(file, bytes, options, references.as_ref(), spectra_only)?);
+        }
+        found.joined(references.as_ref())
+    }
+
+    fn open_files<P: AsRef<Path>>(
+        paths: &[P],
+        options: &ReadingOptions,
+        spectra_only: bool,
+    ) -> Result<Self, ReadingsError> {
+        let references = options.references.as_ref().map(References::open).transpose()?;
+        let mut found = Found::default();
+        for path in paths {
+            if let Some(large) = large_csv(path.as_ref(), options, spectra_only)? {
+                found.add(large);
+                continue;
+            }
+            let (file, bytes) = content(path.as_ref())?;
+            found.add(of_bytes(&file, &bytes, options, references.as_ref(), spectra_only)?);
+        }
+        found.joined(references.as_ref())
+    }
+}
+
+/// Table, input and remarks of one file.
+type OfFile = (MeasurementTable, Input, Vec<Remark>);
+
+/// Tables, inputs and remarks of the files so far.
+#[derive(Default)]
+struct Found {
+    tables: Vec<MeasurementTable>,
+    inputs: Vec<Input>,
+    remarks: Vec<Remark>,
+}
+
+impl Found {
+    fn add(&mut self, (table, input, remarks): OfFile) {
+        self.tables.push(table);
+        self.inputs.push(input);
+        self.remarks.extend(remarks);
+    }
+
+    fn joined(mut self, references: Option<&References>) -> Result<Readings, ReadingsError> {
+        self.remarks.splice(0..0, references.and_then(References::remark));
+        let files = references.iter().flat_map(|references| &references.opened.files);
+        self.inputs.extend(files.map(|(file, bytes)| Input::new(file, bytes)));
+        let table = MeasurementTable::joined(self.tables)?;
+        Ok(Readings { table, inputs: self.inputs, remarks: self.remarks })
+    }
+}
+
+fn of_bytes(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadingOptions,
+    references: Option<&References>,
+    spectra_only: bool,
+) -> Result<OfFile, ReadingsError> {
+    let (table, remarks) = match instrument_file(file, bytes, options.format)? {
+        Some(spectra) => instrument_table(file, spectra, options, references)?,
+        None if references.is_some() => {
+            return Err(ReadingsError::CsvOfCounts { file: file.to_owned() });
+        }
+        None => csv_table(file, bytes, options, spectra_only)?,
+    };
+    Ok((table, Input::new(file, bytes), remarks))
+}
+
+/// Opened files of white, dark and tile.
+struct References {
+    /// The white as the caller named it.
+    white: String,
+    assumes_tile: bool,
+    opened: OpenedReferences,
+}
+
+impl References {
+    fn open(files: &ReferenceFiles) -> Result<Self, ReferenceFilesError> {
+        let assumes_tile = files.tile == TileSource::Fraction(1.0);
+        Ok(Self { white: files.white.clone(), assumes_tile, opened: files.open()? })
+    }
+
+    fn remark(&self) -> Option<Remark> {
+        let note = Remark::note("the white is taken to reflect everything");
+        self.assumes_tile.then(|| note.with_hint("state its reflectance with [tile]"))
+    }
+}
+
+/// The instrument's file in `bytes`. `None` for the measurement CSV, and for unknown content, so that the
+/// CSV's reader reports the first fault.
+fn instrument_file(
+    file: &str,
+    bytes: &[u8],
+    format: Option<ReadingFormat>,
+) -> Result<Option<InstrumentFile>, InstrumentError> {
+    match format {
+        Some(ReadingFormat::Csv) => return Ok(None),
+        Some(ReadingFormat::Instrument(format)) => {
+            return read(file, bytes, Some(format)).map(Some);
+        }
+        None => {}
+    }
+    let Some(content) = FileText::of(file, bytes)? else {
+        return read(file, bytes, None).map(Some);
+    };
+    let text = &content.text;
+    let known = if begins_with_samples(text) { None } else { Format::detect(file, text) };
+    // A table without numbers below its headings is no columns of numbers.
+    let known = known.filter(|format| *format != Format::Columns || !is_measurement_csv(text));
+    known.map(|_| read(file, bytes, None)).transpose()
+}
+
+fn instrument_table(
+    file: &str,
+    mut content: InstrumentFile,
+    options: &ReadingOptions,
+    references: Option<&References>,
+) -> Result<(MeasurementTable, Vec<Remark>), ReadingsError> {
+    if let Some(References { white, opened, .. }) = references {
+        let reflectances = opened.referencing.reflectances(&content.spectra);
+        content.spectra = reflectances.map_err(|reason| ReadingsError::Referencing {
+            file: file.to_owned(),
+            white: white.clone(),
+            reason,
+        })?;
+    }
+    let choice = RecordChoice {
+        scale: options.scale,
+        transmittance_is_reflectance: options.transmittance_is_reflectance,
+    };
+    let table = MeasurementTable::from_records(file, &content.spectra, choice)?;
+    let count = table.readings.len();
+    let spectra = if count == 1 { "spectrum" } else { "spectra" };
+    let summary = format!("{file}: {}, {count} {spectra}", content.format.title());
+    let remarks = remarks(&summary, &table);
+    Ok((table, remarks))
+}
+
+fn csv_table(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadingOptions,
+    spectra_only: bool,
+) -> Result<(MeasurementTable, Vec<Remark>), MeasurementError> {
+    let table = if spectra_only {
+        MeasurementTable::spectra_from_csv(file, bytes, options.scale)?
+    } else {
+        MeasurementTable::from_csv_with(file, bytes, options.scale, options.pigments.as_deref())?
+    };
+    let content = FileText::of(file, bytes).map_err(MeasurementError::Instrument)?;
+    let (file, encoding) = content.map_or((file.to_owned(), "UTF-8"), |c| (c.file, c.encoding));
+    let is_utf8 = encoding == "UTF-8";
+    let encoding = if is_utf8 { String::new() } else { format!(" ({encoding})") };
+    let summary = format!("{file}{encoding}: {}", counted(table.readings.len(), "reading"));
+    let remarks = remarks(&summary, &table);
+    Ok((table, remarks))
+}
+
+/// The table of a large measurement CSV, which is read in pieces; `None` for any other file.
+fn large_csv(
+    path: &Path,
+    options: &ReadingOptions,
+    spectra_only: bool,
+) -> Result<Option<OfFile>, ReadingsError> {
+    let is_csv = options.format.is_none_or(|format| format == ReadingFormat::Csv);
+    if !is_csv || options.references.is_some() {
+        return Ok(None);
+    }
+    let unreadable = |reason| FileError::reading(path, reason);
+    let Some(large) = LargeCsv::open(path).map_err(unreadable)? else { return Ok(None) };
+    let pigments = options.pigments.as_deref();
+    let choice = LargeCsvChoice { scale: options.scale, pigments, spectra_only };
+    let table = large.table(choice).map_err(|error| match error {
+        LargeCsvError::System(reason) => unreadable(reason).into(),
+        LargeCsvError::Measurement(error) => ReadingsError::Measurement(error),
+    })?;
+    let content = File::open(path).map_err(unreadable)?;
+    let input = Input::of_reader(large.file(), content).map_err(unreadable)?;
+    let summary = format!("{}: {}", large.file(), counted(table.readings.len(), "reading"));
+    let remarks = remarks(&summary, &table);
+    Ok(Some((table, input, remarks)))
+}
+
+/// Remarks about one file: `summary` with unit and grid, and the table's own as warnings.
+fn remarks(summary: &str, table: &MeasurementTable) -> Vec<Remark> {
+    let unit = match table.scale {
+        Scale::Percent => "percent",
+        Scale::Fraction => "fractions",
+    };
+    let mut remarks = vec![Remark::note(format!("{summary} in {unit}, {}", table.grid))];
+    remarks.extend(table.resampled_from.map(|count| {
+        Remark::note(format!(
+            "{count} irregular wavelengths brought to that grid by a cubic spline"
+        ))
+    }));
+    remarks.extend(table.remarks.iter().map(Remark::warning));
+    remarks
+}
+
+fn content(path: &Path) -> Result<(String, Vec<u8>), FileError> {
+    Ok((path.display().to_string(), bytes_of(path)?))
+}

@@ -1,0 +1,258 @@
+//! Errors of a library's predictions for mixtures that its fit had not seen, and their JSON file.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use documents::file::{FileError, read, write_whole};
+use pigment::digits::rounded;
+use pigment::fit_settings::FitSettings;
+use pigment::library::{Input, to_text};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+use spectra::optics::Surface;
+use spectra::{Extrapolation, Grid, Interpolation, Reflectance, Spectrum};
+
+use crate::residuals_error::ResidualsError;
+
+const FORMAT: &str = "impasto-residuals";
+const VERSION: u64 = 1;
+/// Output of `impasto validate` for the measurements from which the shipped library was fitted.
+const VAN_GOGH_OILS: &str = include_str!("../../../measurements/van-gogh-oils.residuals.json");
+
+/// A measured mixture, and its prediction by a fit of the other samples. Both are films that hide.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LeftOutMixture {
+    /// Name of the sample.
+    pub sample: String,
+    /// Pigments with their shares, sum 1.
+    pub shares: BTreeMap<String, f64>,
+    /// Measured reflectance at each wavelength, 0 to 1.
+    pub measured: Vec<f64>,
+    /// Predicted reflectance at each wavelength, 0 to 1.
+    pub predicted: Vec<f64>,
+}
+
+/// Measured and predicted reflectances of mixtures that were left out of a fit in turn: what a library does
+/// not know of mixtures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Residuals {
+    /// Wavelengths of all spectra.
+    pub grid: Grid,
+    /// Surface of the films (Saunderson correction).
+    pub saunderson: Surface,
+    /// Settings of the fits.
+    pub settings: FitSettings,
+    /// Number of groups that were left out in turn; `None` for each mixture by itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub folds: Option<usize>,
+    /// Files of the measurements.
+    #[serde(default)]
+    pub inputs: Vec<Input>,
+    /// The mixtures, in order of the files.
+    pub mixtures: Vec<LeftOutMixture>,
+}
+
+impl Residuals {
+    /// Errors of the predictions of the Van Gogh oils, for mixtures left out one by one.
+    ///
+    /// # Panics
+    /// Never: a test reads the file that is compiled in.
+    #[must_use]
+    pub fn van_gogh_oils() -> Self {
+        Self::from_json("van-gogh-oils.residuals.json", VAN_GOGH_OILS)
+            .expect("the shipped residuals are valid")
+    }
+
+    /// Copy with all numbers rounded to six significant digits, as the file has them.
+    #[must_use]
+    pub fn rounded(mut self) -> Self {
+        for mixture in &mut self.mixtures {
+            let lists = [&mut mixture.measured, &mut mixture.predicted];
+            let values = lists.into_iter().flatten().chain(mixture.shares.values_mut());
+            values.for_each(|value| *value = rounded(*value));
+        }
+        self
+    }
+
+    /// The residuals as JSON text; equal residuals give equal bytes.
+    ///
+    /// # Panics
+    /// Never: every value has a JSON form.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let mut file = Map::new();
+        file.insert("format".into(), FORMAT.into());
+        file.insert("version".into(), VERSION.into());
+        let Value::Object(content) = serde_json::to_value(self).expect("residuals are JSON") else {
+            unreachable!("a struct becomes an object")
+        };
+        file.extend(content);
+        to_text(&Value::Object(file))
+    }
+
+    /// SHA-256 of [`Residuals::to_json`], in hexadecimal.
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        Input::new("", self.to_json().as_bytes()).sha256
+    }
+
+    /// Reads residuals from their JSON file.
+    ///
+    /// # Errors
+    /// [`ResidualsError`] if the file cannot be read or holds no valid residuals.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, ResidualsError> {
+        let path = path.as_ref();
+        let bytes = read(path)?;
+        Self::from_json(&path.display().to_string(), &String::from_utf8_lossy(&bytes))
+    }
+
+    /// Writes the residuals to a JSON file, completely or not at all.
+    ///
+    /// # Errors
+    /// [`FileError`] if the file cannot be written.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<(), FileError> {
+        write_whole(path.as_ref(), self.to_json().as_bytes())
+    }
+
+    /// Reads residuals from `text`, the content of `file`, which is only named in errors.
+    ///
+    /// # Errors
+    /// [`ResidualsError`] if the text is not JSON, has another format or version, or values that no
+    /// reflectance can have.
+    pub fn from_json(file: &str, text: &str) -> Result<Self, ResidualsError> {
+        let format = |found: String| ResidualsError::Format { file: file.to_owned(), found };
+        let text = text.trim_start_matches('\u{feff}');
+        if !text.trim_start().starts_with('{') {
+            return Err(format("no JSON object".to_owned()));
+        }
+        let syntax = |error: serde_json::Error| ResidualsError::Syntax {
+            file: file.to_owned(),
+            reason: documents::plain_parser_message(&error.to_string()),
+        };
+        let mut value: Value = serde_json::from_str(text).map_err(syntax)?;
+        let object = value.as_object_mut().ok_or_else(|| format("no object".to_owned()))?;
+        match object.remove("format") {
+            Some(Value::String(found)) if found == FORMAT => {}
+            other => return Err(format(other.map_or("nothing".to_owned(), |v| v.to_string()))),
+        }
+        let version = object.remove("version").unwrap_or(Value::Null);
+        if version != VERSION {
+            return Err(ResidualsError::Version {
+                file: file.to_owned(),
+                found: version.to_string(),
+                newest: VERSION,
+            });
+        }
+        let residuals: Self = serde_json::from_value(value).map_err(syntax)?;
+        residuals.checked(file)
+    }
+
+    fn checked(self, file: &str) -> Result<Self, ResidualsError> {
+        for mixture in &self.mixtures {
+            for (list, values) in
+                [("measured", &mixture.measured), ("predicted", &mixture.predicted)]
+            {
+                let fault = |what: String| ResidualsError::Figures {
+                    file: file.to_owned(),
+                    sample: mixture.sample.clone(),
+                    what,
+                };
+                if values.len() != self.grid.count() {
+                    let wanted = documents::counted(self.grid.count(), "wavelength");
+                    return Err(fault(format!(
+                        "{list} has `{}` values for {wanted}",
+                        values.len()
+                    )));
+                }
+                if let Some(at) = values.iter().position(|v| !(0.0..=2.0).contains(v)) {
+                    let (nm, value) = (self.grid.nm(at), values[at]);
+                    return Err(fault(format!(
+                        "{list} at {nm} nm must be a reflectance of 0 to 2, found `{value}`"
+                    )));
+                }
+            }
+        }
+        Ok(self)
+    }
+
+    /// The residuals on the wavelengths `grid`, which lie within their own: by Sprague's polynomial, or
+    /// by straight lines where there are fewer than six wavelengths.
+    ///
+    /// # Errors
+    /// [`ResidualsError::Wavelengths`] if `grid` reaches beyond their own wavelengths.
+    pub fn on_grid(&self, grid: Grid) -> Result<Self, ResidualsError> {
+        if grid == self.grid {
+            return Ok(self.clone());
+        }
+        let method = Interpolation::best_for(self.grid);
+        let outside = || ResidualsError::Wavelengths { found: self.grid, needed: grid };
+        let resampled = |values: &[f64]| -> Result<Vec<f64>, ResidualsError> {
+            let spectrum = Spectrum::<Reflectance>::new(self.grid, values.to_vec());
+            let spectrum = spectrum.map_err(|_| outside())?;
+            let resampled = spectrum.resampled(grid, method, Extrapolation::Refuse);
+            Ok(resampled.map_err(|_| outside())?.into_values())
+        };
+        let mixture = |mixture: &LeftOutMixture| -> Result<LeftOutMixture, ResidualsError> {
+            Ok(LeftOutMixture {
+                measured: resampled(&mixture.measured)?,
+                predicted: resampled(&mixture.predicted)?,
+                ..mixture.clone()
+            })
+        };
+        let mixtures = self.mixtures.iter().map(mixture).collect::<Result<_, _>>()?;
+        Ok(Self { grid, mixtures, ..self.clone() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use documents::hint::Explain;
+
+    #[test]
+    fn the_shipped_residuals_survive_their_file() {
+        let oils = Residuals::van_gogh_oils();
+        assert_eq!(oils.mixtures.len(), 65, "binary mixtures");
+        assert_eq!(oils.to_json(), VAN_GOGH_OILS);
+        assert_eq!(oils.sha256(), Input::new("", VAN_GOGH_OILS.as_bytes()).sha256);
+        assert_eq!(oils.clone().rounded(), oils);
+    }
+
+    #[test]
+    fn files_that_hold_no_residuals_are_refused_with_their_name() {
+        let text = VAN_GOGH_OILS;
+        let first = Residuals::van_gogh_oils().mixtures[0].measured[0].to_string();
+        for (broken, expected) in [
+            (text.replacen("impasto-residuals", "impasto-pigment-library", 1), "`format`"),
+            (text.replacen("\"version\": 1", "\"version\": 2", 1), "version 1"),
+            (text.replacen(&format!("[{first},"), "[", 1), "`30` values"),
+            (text.replacen(&format!("[{first},"), "[-0.1,", 1), "400 nm"),
+            (text.replacen("\"mixtures\"", "\"mixture\"", 1), "mixture"),
+            (text[..200].to_owned(), "a.json"),
+            ("sample,400".to_owned(), "no JSON"),
+        ] {
+            let error = Residuals::from_json("a.json", &broken).unwrap_err();
+            let words = error.to_string();
+            assert!(words.starts_with("a.json") && words.contains(expected), "{words}");
+        }
+        let error = Residuals::from_json("a.json", "[]").unwrap_err();
+        assert!(error.hint().is_some(), "a way out");
+    }
+
+    #[test]
+    fn other_wavelengths_are_interpolated_within_the_own_ones() {
+        let oils = Residuals::van_gogh_oils();
+        let fine = oils.on_grid(Grid::from_range(420.0, 680.0, 5.0).unwrap()).unwrap();
+        for (coarse, fine) in oils.mixtures.iter().zip(&fine.mixtures) {
+            assert!((coarse.measured[5] - fine.measured[6]).abs() < 1e-12, "at 450 nm");
+            let middle = f64::midpoint(coarse.predicted[5], coarse.predicted[6]);
+            assert!((middle - fine.predicted[7]).abs() < 0.03, "at 455 nm");
+        }
+        let wide = Grid::from_range(380.0, 700.0, 10.0).unwrap();
+        let error = oils.on_grid(wide).unwrap_err();
+        assert!(matches!(error, ResidualsError::Wavelengths { .. }), "{error}");
+        assert!(error.to_string().contains("380") && error.hint().is_some(), "{error}");
+    }
+}

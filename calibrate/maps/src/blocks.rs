@@ -1,0 +1,160 @@
+//! Maps a whole cube shard by shard, in bounded memory.
+
+use std::error::Error;
+use std::ops::ControlFlow;
+
+use documents::hint::{Explain, Fault, Hint};
+
+use crate::cube::{Block, Cube, CubeError};
+use crate::pixel_maps::BlockMaps;
+use crate::store::{MapStore, Shard, StoreError};
+
+pub use crate::pixel_maps::PixelCounts;
+
+/// Bytes of the values that are read at once. Together with the maps of a shard, a run stays below 1
+/// GB.
+const BLOCK_BYTES: usize = 192 << 20;
+/// Most pixels that are mapped at once, so that progress is told often.
+const MOST_PIXELS: usize = 256 * 2048;
+
+/// State of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MapProgress {
+    /// Pixels that are done, those of finished shards included.
+    pub done: u64,
+    /// Pixels of the run.
+    pub all: u64,
+    /// Shards that are written.
+    pub shards: usize,
+    /// Shards of the run.
+    pub all_shards: usize,
+}
+
+/// Result of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MapOutcome {
+    /// Pixels that this run mapped, by mask.
+    pub pixels: PixelCounts,
+    /// Shards that were finished before this run.
+    pub kept: usize,
+    /// Shards that this run wrote.
+    pub written: usize,
+    /// Whether the caller ended the run before its end.
+    pub cancelled: bool,
+}
+
+/// A run that failed. Shards that were written before are whole.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError<E: Error + 'static> {
+    /// The cube cannot be read.
+    #[error(transparent)]
+    Cube(#[from] CubeError),
+    /// A block cannot be mapped.
+    #[error(transparent)]
+    Map(E),
+    /// The maps cannot be written.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl<E: Explain + 'static> Explain for RunError<E> {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Cube(error) => error.hint(),
+            Self::Map(error) => error.hint(),
+            Self::Store(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Cube(error) => error.fault(),
+            Self::Map(error) => error.fault(),
+            Self::Store(error) => error.fault(),
+        }
+    }
+}
+
+/// Maps every shard of `store` that is not finished. `map` maps a block; it is called for one block
+/// at a time and may use all threads. Its result must depend on each pixel alone, so that the bytes
+/// of the store do not depend on the blocks.
+///
+/// `progress` is called after each block. If it breaks, the run ends; the shard under way is not
+/// written.
+///
+/// # Errors
+/// [`RunError`] if the cube cannot be read, a block not mapped or a shard not written.
+pub fn map_cube<E: Error + 'static>(
+    cube: &Cube,
+    store: &MapStore,
+    map: impl Fn(&Block) -> Result<BlockMaps, E>,
+    mut progress: impl FnMut(MapProgress) -> ControlFlow<()>,
+) -> Result<MapOutcome, RunError<E>> {
+    let pixels = |shard: &Shard| shard.rows.len() as u64 * shard.columns.len() as u64;
+    let shards = store.shards();
+    let mut state = MapProgress {
+        done: 0,
+        all: shards.iter().map(pixels).sum(),
+        shards: 0,
+        all_shards: shards.len(),
+    };
+    let mut outcome =
+        MapOutcome { pixels: PixelCounts::default(), kept: 0, written: 0, cancelled: false };
+    for shard in shards {
+        if store.is_finished(shard) {
+            outcome.kept += 1;
+            state.shards += 1;
+            state.done += pixels(shard);
+            continue;
+        }
+        let before = state.done;
+        let found = map_shard(cube, store, shard, &map, |done| {
+            state.done = before + done;
+            progress(state)
+        })?;
+        let Some(counts) = found else {
+            outcome.cancelled = true;
+            return Ok(outcome);
+        };
+        outcome.pixels.add_all(&counts);
+        outcome.written += 1;
+        state.shards += 1;
+        state.done = before + pixels(shard);
+    }
+    Ok(outcome)
+}
+
+/// Maps one shard and writes it, whether it is finished or not. `progress` is called after each block
+/// with the pixels of the shard that are done; if it breaks, nothing is written and the result is
+/// `None`.
+///
+/// # Errors
+/// [`RunError`] if the cube cannot be read, a block not mapped or the shard not written.
+pub fn map_shard<E: Error + 'static>(
+    cube: &Cube,
+    store: &MapStore,
+    shard: &Shard,
+    map: impl Fn(&Block) -> Result<BlockMaps, E>,
+    mut progress: impl FnMut(u64) -> ControlFlow<()>,
+) -> Result<Option<PixelCounts>, RunError<E>> {
+    let width = shard.columns.len();
+    let rows = cube.rows_within(BLOCK_BYTES, width).min((MOST_PIXELS / width).max(1));
+    let mut writer = store.writer(shard);
+    let mut counts = PixelCounts::default();
+    let mut block = Block::default();
+    let mut start = shard.rows.start;
+    while start < shard.rows.end {
+        let end = (start + rows).min(shard.rows.end);
+        cube.read_into(start..end, shard.columns.clone(), &mut block)?;
+        let maps = map(&block).map_err(RunError::Map)?;
+        writer.add(start..end, &maps)?;
+        counts.add(&maps.mask);
+        start = end;
+        let done = (end - shard.rows.start) as u64 * width as u64;
+        if progress(done).is_break() {
+            return Ok(None);
+        }
+    }
+    writer.finish()?;
+    Ok(Some(counts))
+}

@@ -1,0 +1,279 @@
+//! Begins a store, or goes on with one.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use documents::file::{FileAction, FileError, write_whole};
+use serde_json::{Map, Value, json};
+
+use super::arrays::MapArray;
+use super::error::StoreError;
+use super::tiles::{Shard, Tiles};
+use crate::maps_about::MapsAbout;
+use crate::pixel_maps::BlockMaps;
+use crate::zarr::{ArrayDocument, group_document};
+
+/// Whether a store is begun or resumed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StoreMode {
+    /// The folder must not be there, or must be empty.
+    New,
+    /// A store of the same run may be there; what it holds stays.
+    Resume,
+}
+
+/// Maps on the disk that are being written.
+#[derive(Debug, Clone)]
+pub struct MapStore {
+    path: PathBuf,
+    pigments: usize,
+    tiles: Tiles,
+    shards: Vec<Shard>,
+}
+
+/// Name of descriptions.
+pub(crate) const GROUP: &str = "zarr.json";
+
+impl MapStore {
+    /// Begins or resumes the store at `path`. The descriptions of its arrays are written at once.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the folder holds anything else than maps of this run, or cannot be written.
+    pub fn create(
+        path: impl AsRef<Path>,
+        about: &MapsAbout,
+        mode: StoreMode,
+    ) -> Result<Self, StoreError> {
+        let path = path.as_ref();
+        check(path, about)?;
+        let tiles = Tiles::new(about.rows.len(), about.columns.len());
+        let documents = documents(about, tiles);
+        let group = group_document(about.attributes(), documents.iter().cloned());
+        let store = Self {
+            path: path.to_owned(),
+            pigments: about.pigments.len(),
+            tiles,
+            shards: tiles.shards((about.rows.start, about.columns.start)),
+        };
+        if store.is_there(&group, mode)? {
+            return Ok(store);
+        }
+        for (name, document) in &documents {
+            write(&path.join(name).join(GROUP), &text(document))?;
+        }
+        let numbers = |range: &std::ops::Range<usize>| -> Vec<u8> {
+            range.clone().flat_map(|at| (at as i64).to_le_bytes()).collect()
+        };
+        write(&path.join("y/c/0"), &numbers(&about.rows))?;
+        write(&path.join("x/c/0"), &numbers(&about.columns))?;
+        write(&path.join("pigment/c/0"), &names(&about.pigments))?;
+        // Last, so that a store that has it is whole but for its shards.
+        write(&path.join(GROUP), &text(&group))?;
+        Ok(store)
+    }
+
+    /// Whether the folder is a store of this run already; an error if it holds anything else.
+    fn is_there(&self, group: &Value, mode: StoreMode) -> Result<bool, StoreError> {
+        if !self.path.exists() {
+            return Ok(false);
+        }
+        let held = entries(&self.path)?;
+        if held.is_empty() {
+            return Ok(false);
+        }
+        let place = self.path.join(GROUP);
+        let is_group = held.contains(GROUP);
+        let own: BTreeSet<String> = own_names();
+        let is_begun = held.iter().all(|name| own.contains(name) || name.starts_with(".impasto-"));
+        let exists = |holds: &str, is_maps| StoreError::Exists {
+            path: self.path.clone(),
+            holds: holds.to_owned(),
+            is_maps,
+        };
+        match (is_group, mode) {
+            (false, StoreMode::Resume) if is_begun => Ok(false),
+            (false, StoreMode::New) if is_begun => Err(exists("holds maps that were begun", true)),
+            (false, _) => Err(exists("holds other files", false)),
+            (true, _) => {
+                let bytes = documents::file::read(&place)?;
+                let found: Value = serde_json::from_slice(&bytes).map_err(|error| {
+                    StoreError::Damaged { path: place, problem: format!("is no JSON: {error}") }
+                })?;
+                if found["attributes"]["title"] != group["attributes"]["title"] {
+                    return Err(exists("holds other data", false));
+                }
+                match (mode, self.difference(&found, group)) {
+                    (StoreMode::New, _) => Err(exists("holds maps", true)),
+                    (StoreMode::Resume, None) => Ok(true),
+                    (StoreMode::Resume, Some(error)) => Err(error),
+                }
+            }
+        }
+    }
+
+    /// The first attribute or array in which two descriptions differ.
+    fn difference(&self, found: &Value, expected: &Value) -> Option<StoreError> {
+        let nothing = Map::new();
+        let parts = ["/attributes", "/consolidated_metadata/metadata"];
+        for part in parts {
+            let map = |of: &Value| of.pointer(part).and_then(Value::as_object).cloned();
+            let (found, expected) = (map(found), map(expected));
+            let (found, expected) =
+                (found.as_ref().unwrap_or(&nothing), expected.as_ref().unwrap_or(&nothing));
+            let keys: BTreeSet<&String> = found.keys().chain(expected.keys()).collect();
+            for key in keys {
+                if found.get(key) != expected.get(key) {
+                    let words = |of: &Map<String, Value>| {
+                        let text =
+                            of.get(key).map_or_else(|| "missing".to_owned(), Value::to_string);
+                        text.chars().take(200).collect()
+                    };
+                    return Some(StoreError::OtherRun {
+                        path: self.path.clone(),
+                        key: key.clone(),
+                        found: words(found),
+                        expected: words(expected),
+                    });
+                }
+            }
+        }
+        None
+    }
+
+    /// Path of the store.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Number of pigments or groups.
+    #[must_use]
+    pub fn pigments(&self) -> usize {
+        self.pigments
+    }
+
+    /// All shards: from left to right, then down.
+    #[must_use]
+    pub fn shards(&self) -> &[Shard] {
+        &self.shards
+    }
+
+    /// Whether the shard is written.
+    #[must_use]
+    pub fn is_finished(&self, shard: &Shard) -> bool {
+        self.file(MapArray::Mask, shard).is_file()
+    }
+
+    pub(crate) fn tiles(&self) -> Tiles {
+        self.tiles
+    }
+
+    /// File of a shard of an array.
+    pub(crate) fn file(&self, array: MapArray, shard: &Shard) -> PathBuf {
+        shard_file(&self.path, array, shard)
+    }
+}
+
+/// File of a shard of an array of the store at `path`.
+pub(crate) fn shard_file(path: &Path, array: MapArray, shard: &Shard) -> PathBuf {
+    let (row, column) = shard.at;
+    let mut file = path.join(array.name());
+    file.push("c");
+    file.push(row.to_string());
+    file.push(column.to_string());
+    if array.is_of_pigments() {
+        file.push("0");
+    }
+    file
+}
+
+fn check(path: &Path, about: &MapsAbout) -> Result<(), StoreError> {
+    let fault = |problem: String| StoreError::Maps { path: path.to_owned(), problem };
+    let names: BTreeSet<&String> = about.pigments.iter().collect();
+    let count = about.pigments.len();
+    if count == 0 || count > BlockMaps::MOST_PIGMENTS || names.len() < count {
+        let most = BlockMaps::MOST_PIGMENTS;
+        return Err(fault(format!(
+            "maps need 1 to {most} pigments of different names, found {count}"
+        )));
+    }
+    if about.rows.is_empty() || about.columns.is_empty() {
+        return Err(fault("maps need at least one row and one column".to_owned()));
+    }
+    Ok(())
+}
+
+fn own_names() -> BTreeSet<String> {
+    let arrays = MapArray::ALL.into_iter().map(MapArray::name);
+    arrays.chain([GROUP, "y", "x", "pigment"]).map(str::to_owned).collect()
+}
+
+/// Names of everything in a folder.
+pub(crate) fn entries(folder: &Path) -> Result<BTreeSet<String>, StoreError> {
+    let reading = |reason| FileError::reading(folder, reason);
+    let mut names = BTreeSet::new();
+    for entry in std::fs::read_dir(folder).map_err(reading)? {
+        names.insert(entry.map_err(reading)?.file_name().to_string_lossy().into_owned());
+    }
+    Ok(names)
+}
+
+/// Writes a file, and the folders to it.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(|reason| FileError {
+            path: path.to_owned(),
+            action: FileAction::Write,
+            reason: std::sync::Arc::new(reason),
+        })?;
+    }
+    write_whole(path, bytes)
+}
+
+pub(crate) fn text(document: &Value) -> Vec<u8> {
+    format!("{document:#}\n").into_bytes()
+}
+
+/// Texts as the codec `vlen-utf8` stores them.
+pub(crate) fn names(names: &[String]) -> Vec<u8> {
+    let length = |length: usize| u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes();
+    let mut bytes = length(names.len()).to_vec();
+    for name in names {
+        bytes.extend(length(name.len()));
+        bytes.extend(name.as_bytes());
+    }
+    bytes
+}
+
+/// Descriptions of all arrays, with their names.
+fn documents(about: &MapsAbout, tiles: Tiles) -> Vec<(String, Value)> {
+    let count = about.pigments.len();
+    let mut documents = Vec::new();
+    for array in MapArray::ALL {
+        let sizes = |down: usize, across: usize| match array.is_of_pigments() {
+            true => vec![down, across, count],
+            false => vec![down, across],
+        };
+        let document = ArrayDocument {
+            shape: &sizes(tiles.down.length, tiles.across.length),
+            data_type: array.data_type(),
+            outer: &sizes(tiles.down.shard(), tiles.across.shard()),
+            inner: Some(&sizes(tiles.down.chunk, tiles.across.chunk)),
+            fill: array.fill(),
+            dimensions: if array.is_of_pigments() { &["y", "x", "pigment"] } else { &["y", "x"] },
+            attributes: array.attributes(),
+        };
+        documents.push((array.name().to_owned(), document.json()));
+    }
+    for (name, length, data_type, words) in [
+        ("y", tiles.down.length, "int64", "row of the scan"),
+        ("x", tiles.across.length, "int64", "column of the scan"),
+        ("pigment", count, "string", "pigment or group of pigments"),
+    ] {
+        let mut attributes = Map::new();
+        attributes.insert("long_name".to_owned(), json!(words));
+        let document = ArrayDocument::coordinate(&name, &length, data_type, attributes);
+        documents.push((name.to_owned(), document.json()));
+    }
+    documents
+}

@@ -1,0 +1,306 @@
+//! A scan surveyed with a library: all that its maps depend on, ready to be mapped as a whole or shard by
+//! shard, by one process or by many.
+
+use std::ops::{ControlFlow, Range};
+
+use documents::hint::{Explain, Fault, Hint};
+use pigment::PigmentLibrary;
+use pigment::library::Input;
+use serde_json::{Map, Value, json};
+
+use crate::cube::{Block, Cube, CubeError};
+use crate::films::ground::Ground;
+use crate::films::noise::ModelError;
+use crate::films::settings::MapSettings;
+use crate::map_error::MapError;
+use crate::mapping::book::Book;
+use crate::mapping::groups::Column;
+use crate::mapping::mapper::Mapper;
+use crate::mapping::open_book::OpenBook;
+use crate::mapping::survey::SURVEYED;
+use crate::maps_about::MapsAbout;
+use crate::pixel_maps::BlockMaps;
+
+/// A rectangle of a scan, in rows and columns from 0.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Region {
+    /// Rows, from the first to before the last.
+    pub rows: Range<usize>,
+    /// Columns, from the first to before the last.
+    pub columns: Range<usize>,
+}
+
+/// A column of the maps that the survey found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundColumn {
+    /// Pigment or group.
+    pub column: Column,
+    /// Part of the surveyed pixels that hold it, 0 to 1, each pixel with the probability of its sets.
+    pub part: f64,
+}
+
+/// A scan that was surveyed with a library.
+///
+/// ```no_run
+/// use std::ops::ControlFlow;
+///
+/// use maps::{Cube, MapSettings, StoreMode, SurveyedScan};
+/// use pigment::PigmentLibrary;
+///
+/// let oils = PigmentLibrary::van_gogh_oils();
+/// let cube = Cube::open("scan.hdr")?;
+/// let go_on = || ControlFlow::Continue(());
+/// let scan = SurveyedScan::survey(cube, &oils, &MapSettings::default(), None, &go_on)?;
+/// for found in scan.palette() {
+///     println!("{:5.1} % {}", 100.0 * found.part, found.column.name);
+/// }
+/// let store = scan.store("maps.zarr", StoreMode::New)?;
+/// scan.map(&store, |_| ControlFlow::Continue(()))?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct SurveyedScan {
+    cube: Cube,
+    mapper: Mapper,
+    book: Book,
+    opened: OpenBook,
+    about: MapsAbout,
+}
+
+impl SurveyedScan {
+    /// Surveys `region` of a scan, by default all of it. `progress` is called after each surveyed pixel, from
+    /// any thread; if it breaks, the survey ends.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if the scan cannot be read, does not fit the library and the settings, or `progress`
+    /// broke.
+    pub fn survey(
+        cube: Cube,
+        library: &PigmentLibrary,
+        settings: &MapSettings,
+        region: Option<Region>,
+        progress: &(dyn Fn() -> ControlFlow<()> + Sync),
+    ) -> Result<Self, SurveyError> {
+        let cube = within(cube, library)?;
+        let mapper = Mapper::new(library, cube.wavelengths_nm(), settings)?;
+        let region = inside(&cube, region)?;
+        let pixels = cube.spread(region.rows.clone(), region.columns.clone(), SURVEYED)?;
+        let book = mapper.survey(&pixels.values, progress)?;
+        Self::of(cube, library, mapper, settings, region, book)
+    }
+
+    /// The scan with the book of an earlier survey.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if the book was made with another library, other wavelengths or other settings.
+    pub fn with_book(
+        cube: Cube,
+        library: &PigmentLibrary,
+        settings: &MapSettings,
+        region: Option<Region>,
+        book: Book,
+    ) -> Result<Self, SurveyError> {
+        let cube = within(cube, library)?;
+        let mapper = Mapper::new(library, cube.wavelengths_nm(), settings)?;
+        let region = inside(&cube, region)?;
+        Self::of(cube, library, mapper, settings, region, book)
+    }
+
+    fn of(
+        cube: Cube,
+        library: &PigmentLibrary,
+        mapper: Mapper,
+        settings: &MapSettings,
+        region: Region,
+        book: Book,
+    ) -> Result<Self, SurveyError> {
+        let opened = mapper.open_book(&book)?;
+        let about = MapsAbout {
+            pigments: mapper.columns().iter().map(|column| column.name.clone()).collect(),
+            library_sha256: Input::new("", library.to_json().as_bytes()).sha256,
+            book_sha256: book.sha256()?,
+            scan: cube.sign()?,
+            rows: region.rows,
+            columns: region.columns,
+            settings: told(settings, &mapper),
+        };
+        Ok(Self { cube, mapper, book, opened, about })
+    }
+
+    /// The scan that was surveyed.
+    #[must_use]
+    pub fn cube(&self) -> &Cube {
+        &self.cube
+    }
+
+    /// The library on the wavelengths of the scan.
+    #[must_use]
+    pub fn mapper(&self) -> &Mapper {
+        &self.mapper
+    }
+
+    /// The book of the survey.
+    #[must_use]
+    pub fn book(&self) -> &Book {
+        &self.book
+    }
+
+    /// Description of the run that the maps will hold: hashes, region, settings.
+    #[must_use]
+    pub fn about(&self) -> &MapsAbout {
+        &self.about
+    }
+
+    /// Pigments and groups that the survey found, the most frequent first.
+    #[must_use]
+    pub fn palette(&self) -> Vec<FoundColumn> {
+        let part = |column: &Column| -> f64 {
+            let holds = |place: &u8| {
+                let name = self.book.pigments.get(usize::from(*place));
+                name.is_some_and(|name| column.pigments.contains(name))
+            };
+            let sets = self.book.sets.iter().filter(|set| set.pigments.iter().any(holds));
+            // A sum of nothing would be -0.
+            sets.fold(0.0, |sum, set| sum + f64::from(set.part))
+        };
+        let columns = self.mapper.columns().iter();
+        let mut found: Vec<FoundColumn> =
+            columns.map(|c| FoundColumn { column: c.clone(), part: part(c) }).collect();
+        found.sort_by(|a, b| b.part.total_cmp(&a.part));
+        found
+    }
+
+    /// Maps pixels, the reflectances of all bands of each after another.
+    ///
+    /// # Errors
+    /// [`MapError`] for a broken pixel.
+    pub fn map_pixels(&self, spectra: &[f32]) -> Result<BlockMaps, MapError> {
+        self.mapper.map(&self.opened, spectra, &[])
+    }
+
+    /// Pigments of the best set of one pixel with their shares, the greatest first; `None` if it cannot be
+    /// mapped.
+    ///
+    /// # Errors
+    /// [`MapError`] unless `spectrum` has one reflectance a band.
+    pub fn best_set(&self, spectrum: &[f32]) -> Result<Option<Vec<(String, f64)>>, MapError> {
+        self.mapper.best_set(&self.opened, spectrum)
+    }
+
+    /// Maps one block of pixels.
+    ///
+    /// # Errors
+    /// [`MapError`] if the block has other bands than the scan.
+    pub fn map_block(&self, block: &Block) -> Result<BlockMaps, MapError> {
+        self.mapper.map(&self.opened, &block.values, &block.mask)
+    }
+}
+
+impl Region {
+    /// Mean reflectance of the pixels of this region of `cube`, as the ground of a map.
+    ///
+    /// # Errors
+    /// [`SurveyError`] if the region does not lie within the scan, its pixels cannot be read, or none of them holds
+    /// a reflectance.
+    pub fn ground(&self, cube: &Cube) -> Result<Ground, SurveyError> {
+        let region = inside(cube, Some(self.clone()))?;
+        let (pixels, mean) = cube.mean(region.rows.clone(), region.columns.clone())?;
+        if pixels == 0 {
+            let problem = "has no pixel that holds a reflectance".to_owned();
+            return Err(MapError::Ground { problem }.into());
+        }
+        Ok(Ground::new(cube.wavelengths_nm().to_vec(), mean)?)
+    }
+}
+
+/// The cube with the bands within the library's wavelengths: others do not decide whether a pixel can be
+/// mapped.
+fn within(cube: Cube, library: &PigmentLibrary) -> Result<Cube, CubeError> {
+    let range = library.grid.start_nm()..=library.grid.end_nm();
+    // Without any, the mapper says which it needs.
+    match cube.wavelengths_nm().iter().any(|nm| range.contains(nm)) {
+        true => cube.between(range),
+        false => Ok(cube),
+    }
+}
+
+/// The region, or all of the cube.
+fn inside(cube: &Cube, region: Option<Region>) -> Result<Region, SurveyError> {
+    let whole = Region { rows: 0..cube.lines(), columns: 0..cube.samples() };
+    let Some(region) = region else { return Ok(whole) };
+    let fits = |part: &Range<usize>, all: &Range<usize>| !part.is_empty() && part.end <= all.end;
+    if fits(&region.rows, &whole.rows) && fits(&region.columns, &whole.columns) {
+        return Ok(region);
+    }
+    Err(SurveyError::Region { region, lines: whole.rows.end, samples: whole.columns.end })
+}
+
+/// Settings as the maps tell them.
+fn told(settings: &MapSettings, mapper: &Mapper) -> Map<String, Value> {
+    let groups: Map<String, Value> = (mapper.columns().iter())
+        .filter(|column| column.pigments.len() > 1)
+        .map(|column| (column.name.clone(), json!(column.pigments)))
+        .collect();
+    let model_error = match mapper.model_error() {
+        ModelError::Stated(relative) => json!(relative),
+        ModelError::Residuals(residuals) => json!({
+            "left_out_mixtures": residuals.mixtures.len(),
+            "residuals_sha256": residuals.sha256(),
+        }),
+    };
+    let all = json!({
+        "at_most": settings.at_most,
+        "palette": mapper.pigments(),
+        "groups": groups,
+        "sensor_noise": settings.sensor_noise,
+        "model_error": model_error,
+        "penalty": settings.penalty,
+        "ground": settings.ground,
+    });
+    match all {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
+}
+
+/// A scan that cannot be surveyed.
+#[derive(Debug, thiserror::Error)]
+pub enum SurveyError {
+    /// The scan cannot be read.
+    #[error(transparent)]
+    Cube(#[from] CubeError),
+    /// Scan, library and settings do not fit together.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// The region does not lie within the scan.
+    #[error(
+        "the region {}..{},{}..{} (rows, columns) does not lie within the scan's {lines} x {samples} pixels",
+        region.rows.start, region.rows.end, region.columns.start, region.columns.end
+    )]
+    Region {
+        /// Region that was asked for.
+        region: Region,
+        /// Rows of the scan.
+        lines: usize,
+        /// Columns of the scan.
+        samples: usize,
+    },
+}
+
+impl Explain for SurveyError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Cube(error) => error.hint(),
+            Self::Map(error) => error.hint(),
+            Self::Region { .. } => Some(Hint::new("leave [region] out to map all of the scan")),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Cube(error) => error.fault(),
+            Self::Map(error) => error.fault(),
+            Self::Region { .. } => Fault::Setting,
+        }
+    }
+}

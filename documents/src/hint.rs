@@ -1,0 +1,177 @@
+//! Hints: advice on how to resolve an error, independent of the program that shows it.
+
+use std::error::Error;
+use std::fmt;
+
+/// Advice on how to resolve an error, as one sentence.
+///
+/// Settings are written in square brackets, by their name in the library and optionally
+/// with a value: `[reference]`, `[backend=cpu]`. A program replaces them with its own
+/// controls ([`Hint::with_settings`]): a command line with options, a window with panels.
+/// Brackets that hold anything else stay as they are.
+///
+/// ```
+/// use documents::hint::Hint;
+///
+/// let hint = Hint::new("name another white with [reference]");
+/// assert_eq!(hint.to_string(), "name another white with `reference`");
+/// let panel = hint.with_settings(|name, _| format!("the panel {name}"));
+/// assert_eq!(panel, "name another white with the panel reference");
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Hint {
+    sentence: String,
+    has_settings: bool,
+}
+
+impl Hint {
+    /// A hint in which `[name]` and `[name=value]` are settings.
+    #[must_use]
+    pub fn new(sentence: impl Into<String>) -> Self {
+        Self { sentence: sentence.into(), has_settings: true }
+    }
+
+    /// A hint without settings: brackets are kept as they are. For sentences that quote
+    /// names from a file.
+    #[must_use]
+    pub fn verbatim(sentence: impl Into<String>) -> Self {
+        Self { sentence: sentence.into(), has_settings: false }
+    }
+
+    /// Returns the sentence with each setting replaced by `control(name, value)`; `value`
+    /// is `None` for a setting without one.
+    #[must_use]
+    pub fn with_settings(&self, control: impl Fn(&str, Option<&str>) -> String) -> String {
+        if !self.has_settings {
+            return self.sentence.clone();
+        }
+        let mut sentence = String::new();
+        let mut rest = self.sentence.as_str();
+        while let Some(start) = rest.find('[') {
+            let (before, from) = rest.split_at(start);
+            sentence.push_str(before);
+            match setting(from) {
+                Some((name, value, length)) => {
+                    sentence.push_str(&control(name, value));
+                    rest = &from[length..];
+                }
+                None => {
+                    sentence.push('[');
+                    rest = &from[1..];
+                }
+            }
+        }
+        sentence.push_str(rest);
+        sentence
+    }
+}
+
+impl fmt::Display for Hint {
+    /// Writes the sentence with its settings as code: `` `reference` ``, `` `backend = cpu` ``.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.with_settings(|name, value| match value {
+            Some(value) => format!("`{name} = {value}`"),
+            None => format!("`{name}`"),
+        }))
+    }
+}
+
+/// Parses a setting at the start of `text`: `[name]` or `[name=value]`, where the name
+/// consists of lower-case letters, digits and underscores. Returns its name, its value
+/// and its length in bytes, brackets included.
+fn setting(text: &str) -> Option<(&str, Option<&str>, usize)> {
+    let end = text.find(']')?;
+    let inside = &text[1..end];
+    let (name, value) = match inside.split_once('=') {
+        Some((name, value)) => (name, Some(value)),
+        None => (inside, None),
+    };
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    let is_name = name.starts_with(|c: char| c.is_ascii_lowercase()) && name.chars().all(letter);
+    is_name.then_some((name, value, end + 1))
+}
+
+/// Whether the data, a setting or the machine caused an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fault {
+    /// The data are wrong; the call succeeds with other data.
+    Input,
+    /// A setting is wrong: a name that does not exist, a value out of its range. The call
+    /// succeeds with the same data and another setting.
+    Setting,
+    /// The machine is the cause: a file cannot be written, a graphics device was lost.
+    Environment,
+}
+
+/// Advice and cause of an error, beside its message. Every public error of these
+/// libraries implements it.
+pub trait Explain: Error {
+    /// Advice on how to resolve the error, or `None` if the message already says it.
+    fn hint(&self) -> Option<Hint> {
+        None
+    }
+
+    /// Whether the data, a setting or the machine caused the error.
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
+}
+
+impl Explain for std::io::Error {
+    fn hint(&self) -> Option<Hint> {
+        let sentence = match self.kind() {
+            std::io::ErrorKind::NotFound => "check that the file and its folder exist",
+            std::io::ErrorKind::PermissionDenied => {
+                "choose a file or folder that you may read and write"
+            }
+            std::io::ErrorKind::StorageFull => "free space on the disk, or choose another",
+            _ => return None,
+        };
+        Some(Hint::new(sentence))
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Environment
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn option(hint: &str) -> String {
+        Hint::new(hint).with_settings(|name, value| match value {
+            Some(value) => format!("--{name} {value}"),
+            None => format!("--{name}"),
+        })
+    }
+
+    #[test]
+    fn settings_are_replaced_by_the_controls_of_a_program() {
+        assert_eq!(
+            option("paint on the processor: [backend=cpu]"),
+            "paint on the processor: --backend cpu"
+        );
+        assert_eq!(option("[white] and [dark] are files"), "--white and --dark are files");
+        assert_eq!(
+            option("[below_surface=floor] reads it as black"),
+            "--below_surface floor reads it as black"
+        );
+    }
+
+    #[test]
+    fn brackets_that_hold_no_setting_are_kept() {
+        for text in
+            ["samples [[0, 4, 3, 0.5]]", "a [", "an open [bracket", "[Not] a [setting 1]", ""]
+        {
+            assert_eq!(option(text), text);
+        }
+        let quoted = Hint::verbatim("spectra: [white], [dark]");
+        assert_eq!(quoted.with_settings(|_, _| String::new()), "spectra: [white], [dark]");
+    }
+
+    #[test]
+    fn display_writes_settings_as_code() {
+        assert_eq!(Hint::new("set [backend=cpu]").to_string(), "set `backend = cpu`");
+    }
+}

@@ -1,0 +1,283 @@
+use std::sync::Arc;
+
+use documents::hint::Explain;
+use graphics::field::Field;
+use paint::layer::Slots;
+use pigment::{PigmentId, PigmentLibrary};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::ThreadPoolBuilder;
+
+use super::header::{FileHeader, KIND};
+use super::planes::part;
+use super::*;
+use crate::map::art_map::KeyMap;
+use crate::map::tile::Tile;
+use crate::synthesis::{Features, SynthesisSettings};
+use crate::texel::{PaintOfSamples, TexelPaint};
+use crate::texel_file::{Opened, Origin, PartPlanes, encoded, of_planes, write as write_parts};
+
+const SIZE: usize = 40;
+
+/// Numbers that lose bits in anything but lossless storage.
+fn number(index: usize) -> f32 {
+    0.001 + (index as f32 * 0.618_034).fract() / 3.0
+}
+
+fn key(name: &str, light: f32) -> KeyMap {
+    let color = (0..SIZE * SIZE).map(|i| [light * number(i), light * number(i + 7), -0.0]);
+    let paint = (0..SIZE * SIZE).map(|i| TexelPaint {
+        pigments_mm: [number(i), 0.0, number(i + 3), 0.0, 0.0, 0.0, 0.0, number(i + 5)],
+        vehicle_mm: number(i + 1),
+    });
+    let height = (0..SIZE * SIZE).map(|i| number(2 * i));
+    let sources = (0..SIZE * SIZE).map(|i| [(i * 977 % 65535) as u16, (i % 301) as u16]);
+    let tile = Tile {
+        color: Field::from_values(SIZE, SIZE, color.collect()),
+        paint: Some(Field::from_values(SIZE, SIZE, paint.collect())),
+        height_mm: Some(Field::from_values(SIZE, SIZE, height.collect())),
+    };
+    let sources = Field::from_values(SIZE, SIZE, sources.collect());
+    KeyMap { name: name.to_owned(), tone: tile.tone(), tile, sources }
+}
+
+fn map() -> ArtMap {
+    let mut slots = Slots::default();
+    (slots[0], slots[2], slots[7]) = (Some(PigmentId(1)), Some(PigmentId(2)), Some(PigmentId(4)));
+    let library = Arc::new(PigmentLibrary::van_gogh_oils());
+    ArtMap {
+        keys: vec![key("dark", 0.2), key("h\u{f6}her", 0.9), key("light", 2.5)],
+        first: 1,
+        paint: Some(PaintOfSamples { library, slots }),
+        spacing: 7.25 / 3.0,
+        mm_per_texel: Some(0.1 + 0.2),
+        guessed_relief: true,
+        patch: 16,
+        levels: 2,
+        settings: SynthesisSettings {
+            first: Some("h\u{f6}her".to_owned()),
+            features: Features::Paper,
+            follow: 0.3,
+            seed: u64::MAX,
+            ..SynthesisSettings::default()
+        },
+        provenance: "a test".to_owned(),
+    }
+}
+
+/// The map without paint, and with relief in one tile only.
+fn plain() -> ArtMap {
+    let mut map = map();
+    (map.paint, map.mm_per_texel, map.settings.first) = (None, None, None);
+    map.keys.iter_mut().for_each(|key| key.tile.paint = None);
+    (map.keys[0].tile.height_mm, map.keys[2].tile.height_mm) = (None, None);
+    map
+}
+
+#[test]
+fn maps_come_back_bit_for_bit_and_files_are_the_same_bytes() {
+    let single = ArtMap { keys: vec![key("only", 1.0)], first: 0, ..map() };
+    for map in [map(), plain(), single] {
+        let bytes = write(&map).unwrap();
+        let back = read("a.exr", &bytes).unwrap();
+        assert!(back == map);
+        // Zeros of either sign are equal numbers but different bits.
+        let [found, wanted] =
+            [&back, &map].map(|map| map.keys[0].tile.color.values()[5].map(f32::to_bits));
+        assert_eq!(found, wanted);
+        for threads in [1, 2] {
+            let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            assert!(pool.install(|| write(&back)).unwrap() == bytes, "{threads} threads");
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("oil.artmap.exr");
+    map().save(&path).unwrap();
+    assert!(ArtMap::open(&path).unwrap() == map());
+}
+
+/// File of the parts and the description of `map` after a change, with digests of what it became,
+/// as another program would write it.
+fn forged(map: &ArtMap, change: impl FnOnce(&mut FileHeader, &mut [PartPlanes])) -> Vec<u8> {
+    let mut header = FileHeader::of(map).unwrap();
+    let plans = header.plans().into_iter();
+    let pigments = header.pigments.clone();
+    let tiles = map.keys.iter().zip(plans);
+    let mut parts: Vec<PartPlanes> =
+        tiles.map(|(key, plan)| part(key, plan, pigments.as_deref())).collect();
+    change(&mut header, &mut parts);
+    for (key, part) in header.keys.iter_mut().zip(&parts) {
+        key.digest = of_planes(part);
+    }
+    header.digest = header.own_digest().unwrap();
+    write_parts(&KIND, &encoded(&KIND, &header).unwrap(), parts).unwrap()
+}
+
+fn refused(bytes: &[u8]) -> TexelFileError {
+    let error = read("a.exr", bytes).unwrap_err();
+    assert!(error.to_string().starts_with("a.exr: "), "{error}");
+    assert!(error.hint().is_some(), "{error}");
+    error
+}
+
+#[test]
+fn impossible_values_are_named_with_part_channel_and_texel() {
+    assert!(read("a.exr", &forged(&map(), |_, _| ())).unwrap() == map());
+    let cases = [
+        ("R", f32::NAN, "is impossible at x 3, y 2: `NaN`"),
+        ("height", -0.1, "is impossible at x 3, y 2: `-0.1`"),
+        ("vehicle", f32::INFINITY, "is impossible at x 3, y 2: `inf`"),
+        ("source.x", 0.5, "is no whole number below 65535 at x 3, y 2: `0.5`"),
+        ("source.y", 65535.0, "is no whole number below 65535 at x 3, y 2: `65535`"),
+        ("source.y", -1.0, "is no whole number below 65535 at x 3, y 2: `-1`"),
+    ];
+    for (channel, value, wanted) in cases {
+        let bytes = forged(&map(), |_, parts| {
+            let at = parts[1].plan.channels.iter().position(|name| name == channel).unwrap();
+            parts[1].planes[at][2 * SIZE + 3] = value;
+        });
+        let error = refused(&bytes).to_string();
+        assert_eq!(error, format!("a.exr: part `key.001`, channel `{channel}` {wanted}"));
+    }
+    let pigment = PigmentLibrary::van_gogh_oils().pigments[2].name.clone();
+    let mut negative = map();
+    negative.keys[0].tile.paint.as_mut().unwrap()[(0, 1)].pigments_mm[2] = -1.0;
+    let error = write(&negative).unwrap_err().to_string();
+    let wanted = format!("tile `dark`, channel `{pigment}` is impossible at x 0, y 1: `-1`");
+    assert_eq!(error, format!("the art map cannot be saved: {wanted}"));
+}
+
+#[test]
+fn descriptions_that_contradict_the_parts_are_refused() {
+    type Change = fn(&mut FileHeader, &mut [PartPlanes]);
+    let cases: [(Change, &str); 9] = [
+        (|header, _| header.size = 41, "part `key.000` has `40 x 40` texels"),
+        (|header, _| header.keys.truncate(2), "it names 2 parts, the file has `3`"),
+        (|header, _| header.keys[1].relief = false, "channel `height` is none that"),
+        (|header, _| header.keys.swap(0, 1), "tile 0 is part `key.000`, found `key.001`"),
+        (|header, _| header.keys[0].tone += 0.5, "part `key.000` has a mean L* of"),
+        (|header, _| header.keys[2].tone = 0.0, "tiles are in order of tone, found `0` of `light`"),
+        (|header, _| header.first = 3, "first is one of 3 tiles, found `3`"),
+        (|header, _| header.levels = 0, "levels is at least 1, found `0`"),
+        (|header, _| header.spacing = -1.0, "spacing is above 0, found `-1`"),
+    ];
+    for (change, wanted) in cases {
+        let error = refused(&forged(&map(), change)).to_string();
+        assert!(error.contains(wanted), "{error} for {wanted}");
+    }
+    let error = refused(&forged(&plain(), |header, _| header.keys[0].relief = true));
+    assert!(error.to_string().contains("part `key.000`, channel `height` is missing"), "{error}");
+}
+
+#[test]
+fn parts_that_are_no_squares_are_refused() {
+    let bytes = forged(&map(), |_, parts| {
+        parts[2].plan.height -= 1;
+        parts[2].planes.iter_mut().for_each(|plane| plane.truncate(SIZE * (SIZE - 1)));
+    });
+    let error = refused(&bytes).to_string();
+    assert!(error.contains("part `key.002` has `40 x 39` texels, attribute `impasto` says"));
+}
+
+#[test]
+fn a_library_that_lacks_a_pigment_is_refused() {
+    let bytes = forged(&map(), |header, _| {
+        header.pigments.as_mut().unwrap()[1].name = "Octarine".to_owned();
+    });
+    let error = refused(&bytes).to_string();
+    assert!(error.contains("names no pigment of the library: `Octarine`"), "{error}");
+    let bytes = forged(&map(), |header, _| header.pigments = None);
+    assert!(refused(&bytes).to_string().contains("`pigments` and `library` go together"));
+}
+
+#[test]
+fn other_versions_formats_and_changed_values_are_refused() {
+    let bytes = write(&map()).unwrap();
+    let replaced = |from: &str, to: &str| {
+        assert_eq!(from.len(), to.len(), "same length");
+        let at = bytes.windows(from.len()).position(|window| window == from.as_bytes()).unwrap();
+        let mut bytes = bytes.clone();
+        bytes[at..at + to.len()].copy_from_slice(to.as_bytes());
+        bytes
+    };
+    let error = refused(&replaced("\"version\":1", "\"version\":2"));
+    let wanted = "a.exr: art map of version `2`, this program reads versions up to 1";
+    assert_eq!(error.to_string(), wanted);
+    let error = refused(&replaced("impasto-artmap", "impasto-artmop"));
+    assert!(matches!(error, TexelFileError::Format { .. }), "{error}");
+    let error = refused(&replaced("\"patch\":16", "\"patch\":17"));
+    assert!(error.to_string().contains("`digest` is that of another description"), "{error}");
+    let error = refused(&replaced("source.y\0", "source.z\0"));
+    assert!(error.to_string().contains("channel `source.z` is none that"), "{error}");
+    let mut other = map();
+    other.keys[2].tile.color[(0, 0)][0] += 1e-6;
+    let origin = Origin { kind: &KIND, file: "a.exr" };
+    let description = Opened::new(origin, &bytes).unwrap().description().unwrap();
+    let (header, _) = FileHeader::from_json(origin, &description).unwrap();
+    let parts = other.keys.iter().zip(header.plans());
+    let parts = parts.map(|(key, plan)| part(key, plan, header.pigments.as_deref())).collect();
+    let error = refused(&write_parts(&KIND, &description, parts).unwrap());
+    assert!(matches!(error, TexelFileError::Changed { ref part, .. } if part == "key.002"));
+}
+
+#[test]
+fn truncated_files_are_errors() {
+    let bytes = write(&map()).unwrap();
+    let step = bytes.len() / 300;
+    for cut in (0..bytes.len()).step_by(step).chain([bytes.len() - 1]) {
+        refused(&bytes[..cut]);
+    }
+}
+
+#[test]
+fn damaged_files_are_errors_or_the_map_that_was_written() {
+    let map = map();
+    let bytes = write(&map).unwrap();
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let mut survived = 0;
+    for _ in 0..400 {
+        let mut damaged = bytes.clone();
+        for _ in 0..random.random_range(1..3) {
+            let at = random.random_range(0..bytes.len());
+            damaged[at] ^= 1 << random.random_range(0..8);
+        }
+        match read("a.exr", &damaged) {
+            Ok(back) => {
+                assert!(back == map);
+                survived += 1;
+            }
+            Err(error) => assert!(error.hint().is_some(), "{error}"),
+        }
+    }
+    assert!(survived < 40, "{survived} of 400 damaged files were read");
+}
+
+#[test]
+fn inconsistent_maps_are_not_written() {
+    let refused = |change: &dyn Fn(&mut ArtMap)| {
+        let mut map = map();
+        change(&mut map);
+        let error = write(&map).unwrap_err();
+        assert!(matches!(error, TexelFileError::Unwritable { .. }), "{error}");
+        error.to_string()
+    };
+    let none = refused(&|map| map.keys.clear());
+    assert_eq!(none, "the art map cannot be saved: it has no texels");
+    let other = refused(&|map| map.keys[2].tile.color = Field::filled(SIZE, SIZE - 1, [1.0; 3]));
+    assert!(other.contains("tile `light` has `40 x 39` texels for 40 x 40"), "{other}");
+    let fields = refused(&|map| map.keys[0].sources = Field::filled(SIZE, 3, [0; 2]));
+    assert!(fields.contains("fields of tile `dark` differ in size"), "{fields}");
+    assert!(refused(&|map| map.keys[1].tile.paint = None).contains("has no paint"));
+    assert!(refused(&|map| map.paint = None).contains("paint of no library"));
+    assert!(refused(&|map| map.keys.swap(0, 2)).contains("tiles are in order of tone"));
+    assert!(refused(&|map| map.keys[0].tone = f64::NAN).contains("its tone is `NaN`"));
+    assert!(refused(&|map| map.first = 7).contains("first is one of 3 tiles"));
+    let beyond = refused(&|map| {
+        map.paint.as_mut().unwrap().slots[3] = Some(PigmentId(99));
+    });
+    assert!(beyond.contains("a pigment lies beyond the library"), "{beyond}");
+    refused(&|map| map.mm_per_texel = Some(f64::INFINITY));
+    refused(&|map| map.settings.follow = f32::NAN);
+    let place = refused(&|map| map.keys[0].sources[(1, 0)] = [0, u16::MAX]);
+    assert!(place.contains("channel `source.y` is no whole number"), "{place}");
+}

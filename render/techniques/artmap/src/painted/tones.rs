@@ -1,0 +1,350 @@
+//! Tones of one hue: mixtures in even steps of L*, from dark to light.
+
+use std::sync::Arc;
+
+use documents::hint::{Explain, Fault, Hint};
+use paint::layer::{SLOTS, Slots};
+use pigment::library::AmountKind;
+use pigment::matching::{RecipeSearch, TargetColor, USUAL_TOLERANCE};
+use pigment::palette::{Cards, Palette, PaletteError};
+use pigment::{ColorTarget, MatchError, MatchOptions, PigmentId, PigmentLibrary, Recipe, Viewing};
+use spectra::color::{ColorCode, ColorCodeError, Lab};
+
+/// Number of tones allowed in a set.
+pub const TONES: std::ops::RangeInclusive<usize> = 2..=12;
+
+/// Most pigments of the mixture that stands for the hue.
+const HUE_PIGMENTS: usize = 3;
+/// Dark paints, besides the darkest one, that may take part.
+const DARKS: usize = 2;
+/// Greatest L* of the masstone of a dark paint (chosen by eye).
+const DARK: f64 = 45.0;
+/// Least share of a pigment in a mixture: strong pigments tint at far less than a fiftieth.
+const LEAST_SHARE: f64 = 0.002;
+/// Greatest CIELAB hue difference of a mixture that keeps the hue (chosen by eye).
+const HUE_TOLERANCE: f64 = 3.0;
+/// Least chroma of a mixture that keeps the hue, relative to an even shade or tint (chosen by eye).
+const LEAST_CHROMA: f64 = 0.35;
+/// Greatest deviation of a mixture from the L* that it should have.
+const LIGHTNESS_TOLERANCE: f64 = 0.5;
+/// Times that the chroma of a colour is lowered to what paints reach.
+const FADINGS: usize = 12;
+/// Bisections for an end of the range, and for the share of two mixtures.
+const BISECTIONS: usize = 7;
+const SHARE_BISECTIONS: usize = 30;
+
+/// A mixture of the ladder.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tone {
+    /// Colour of the opaque mixture under D65 for the 1931 observer.
+    pub lab: Lab,
+    /// Shares of the pigments by slot, sum 1.
+    pub shares: [f64; SLOTS],
+}
+
+/// Mixtures of one hue from the darkest to the lightest, in one table of pigments.
+#[derive(Debug, Clone)]
+pub struct ToneLadder {
+    library: Arc<PigmentLibrary>,
+    slots: Slots,
+    /// The darkest mixture, the tones in even steps, the lightest mixture.
+    rungs: Vec<Tone>,
+    viewing: Viewing,
+}
+
+impl ToneLadder {
+    /// Finds `count` tones of `hue` (`#rrggbb` or `L,a,b`) in even steps of L*.
+    ///
+    /// The darkest and the lightest mixture that keep the hue bound the range; the tones lie within
+    /// it, `margin` L* from both ends, so that strokes may be darker or lighter than their tone.
+    /// All mixtures come from the recipe search against the masstones of the library: the pigments
+    /// of the mixture nearest to the hue, the white, the darkest paint, and dark paints of a like
+    /// hue. Chroma falls in proportion towards black and white, as in shades and tints, and further
+    /// where the paints reach less.
+    ///
+    /// # Errors
+    /// [`TonesError`] for a hue that is no colour, a count out of range, a library that cannot be
+    /// mixed or has no white, and a hue whose mixtures span less than the margins.
+    pub fn new(
+        library: Arc<PigmentLibrary>,
+        hue: &str,
+        count: usize,
+        margin: f64,
+    ) -> Result<Self, TonesError> {
+        if !TONES.contains(&count) {
+            return Err(TonesError::Count { found: count });
+        }
+        let code: ColorCode = hue.parse()?;
+        if library.amounts != AmountKind::Relative {
+            return Err(TonesError::Absolute { library: library.title.clone() });
+        }
+        let viewing = Viewing::default();
+        let palette = Palette::new(&library, &viewing, Cards::standard(library.grid))?;
+        let table = pigments(&palette, code.lab())?;
+        let names = table.iter().map(|&pigment| library[pigment].name.clone());
+        let options = MatchOptions {
+            only: names.collect(),
+            least_share: LEAST_SHARE,
+            count: 1,
+            tolerance: Some(USUAL_TOLERANCE),
+            ..MatchOptions::default()
+        };
+        let search = library.recipe_search(&options)?;
+        let base = matched(&search, code.lab())?.0;
+        let darkest = farthest(&search, base, 0.0)?;
+        let lightest = farthest(&search, base, 100.0)?;
+        let span = lightest - darkest - 2.0 * margin;
+        if span <= count as f64 {
+            return Err(TonesError::Narrow { hue: hue.to_owned(), darkest, lightest, margin });
+        }
+        let even = |at: usize| darkest + margin + span * at as f64 / (count - 1) as f64;
+        let wanted = std::iter::once(darkest).chain((0..count).map(even)).chain([lightest]);
+        let mut slots = Slots::default();
+        for (slot, &pigment) in slots.iter_mut().zip(&table) {
+            *slot = Some(pigment);
+        }
+        let rungs = wanted.map(|lightness| {
+            let (lab, recipe) = mixture_at(&search, base, lightness)?;
+            let total = recipe.total();
+            let shares = slots.map(|slot| slot.map_or(0.0, |id| recipe.parts_of(id) / total));
+            Ok(Tone { lab, shares })
+        });
+        let rungs = rungs.collect::<Result<_, TonesError>>()?;
+        drop(palette);
+        Ok(Self { library: Arc::clone(&library), slots, rungs, viewing })
+    }
+
+    /// Pigments of all mixtures by slot.
+    #[must_use]
+    pub fn slots(&self) -> &Slots {
+        &self.slots
+    }
+
+    /// Library of the pigments.
+    #[must_use]
+    pub fn library(&self) -> &Arc<PigmentLibrary> {
+        &self.library
+    }
+
+    /// The tones from dark to light.
+    #[must_use]
+    pub fn tones(&self) -> &[Tone] {
+        &self.rungs[1..self.rungs.len() - 1]
+    }
+
+    /// L* of the darkest and of the lightest mixture.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [&self.rungs[0], &self.rungs[self.rungs.len() - 1]].map(|rung| rung.lab.lightness)
+    }
+
+    /// Shares by slot of a mixture with this L*, blended from the two nearest mixtures of the
+    /// ladder; beyond the range, the mixture at its end.
+    #[must_use]
+    pub fn shares_at(&self, lightness: f64) -> [f64; SLOTS] {
+        let above = self.rungs.partition_point(|rung| rung.lab.lightness < lightness);
+        if above == 0 || above == self.rungs.len() {
+            return self.rungs[above.min(self.rungs.len() - 1)].shares;
+        }
+        let [dark, light] = [&self.rungs[above - 1], &self.rungs[above]];
+        let blended = |share: f64| -> [f64; SLOTS] {
+            std::array::from_fn(|slot| {
+                dark.shares[slot] + share * (light.shares[slot] - dark.shares[slot])
+            })
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..SHARE_BISECTIONS {
+            let middle = (low + high) / 2.0;
+            let under = self.lab_of(&blended(middle)).is_some_and(|lab| lab.lightness < lightness);
+            if under { low = middle } else { high = middle }
+        }
+        blended((low + high) / 2.0)
+    }
+
+    /// Two mixtures `spread` L* below and above a mean: blended in equal parts they have this L*.
+    /// Near the ends of the range they lie closer together.
+    ///
+    /// Dark paint outweighs light paint in a blend, so strokes that are as often darker as lighter
+    /// than their tone would darken it where they run into each other. Blends of these two do not.
+    #[must_use]
+    pub fn shares_about(&self, lightness: f64, spread: f64) -> [[f64; SLOTS]; 2] {
+        let pair = |middle: f64| [middle - spread, middle + spread].map(|l| self.shares_at(l));
+        let (mut low, mut high) = (lightness - spread, lightness + spread);
+        for _ in 0..SHARE_BISECTIONS {
+            let middle = (low + high) / 2.0;
+            let [dark, light] = pair(middle);
+            let mean = std::array::from_fn(|slot| (dark[slot] + light[slot]) / 2.0);
+            let under = self.lab_of(&mean).is_some_and(|lab| lab.lightness < lightness);
+            if under { low = middle } else { high = middle }
+        }
+        pair((low + high) / 2.0)
+    }
+
+    /// Colour of an opaque film of a mixture, given as shares by slot.
+    fn lab_of(&self, shares: &[f64; SLOTS]) -> Option<Lab> {
+        let parts = self.slots.iter().zip(shares);
+        let parts: Recipe = parts.filter_map(|(slot, &share)| Some(((*slot)?, share))).collect();
+        let film = self.library.mix(&parts).ok()?.hiding(self.library.saunderson);
+        let weights = self.viewing.weights(self.library.grid).ok()?;
+        Some(Lab::from_xyz(weights.xyz(&film), weights.white()))
+    }
+}
+
+/// Pigments for mixtures of a hue, at most one for each slot of a layer.
+fn pigments(palette: &Palette<'_>, hue: Lab) -> Result<Vec<PigmentId>, TonesError> {
+    let library = palette.library();
+    let options = MatchOptions {
+        at_most: HUE_PIGMENTS,
+        least_share: LEAST_SHARE,
+        count: 1,
+        tolerance: Some(USUAL_TOLERANCE),
+        ..MatchOptions::default()
+    };
+    let (_, recipe) = matched(&library.recipe_search(&options)?, hue)?;
+    let white =
+        palette.white().ok_or_else(|| TonesError::Absolute { library: library.title.clone() })?;
+    let mut chosen: Vec<PigmentId> = recipe.pigments().chain([white, palette.black()]).collect();
+    let mut darks: Vec<(f64, PigmentId)> = palette
+        .paints()
+        .iter()
+        .map(|&paint| (palette.color(&Recipe::single(paint)).lab, paint))
+        .filter(|(lab, _)| lab.lightness < DARK)
+        .map(|(lab, paint)| (turn(lab, hue), paint))
+        .collect();
+    darks.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    chosen.extend(darks.iter().take(DARKS).map(|(_, paint)| paint));
+    chosen.sort_unstable();
+    chosen.dedup();
+    Ok(chosen)
+}
+
+/// Angle between two hues in degrees, 0 to 180.
+fn turn(one: Lab, other: Lab) -> f64 {
+    let turned = (one.to_lch().hue_degrees - other.to_lch().hue_degrees).abs();
+    turned.min(360.0 - turned)
+}
+
+/// CIELAB of `base` in another lightness: chroma falls in proportion towards black and white.
+fn shaded(base: Lab, lightness: f64) -> Lab {
+    let share = if lightness < base.lightness {
+        lightness / base.lightness
+    } else {
+        (100.0 - lightness) / (100.0 - base.lightness)
+    };
+    Lab { lightness, a: share * base.a, b: share * base.b }
+}
+
+/// Mixture of a hue in one lightness, with its own colour: the nearest in the chroma of a shade or
+/// tint, or in as much of it as the paints reach there.
+fn mixture_at(
+    search: &RecipeSearch<'_>,
+    base: Lab,
+    lightness: f64,
+) -> Result<(Lab, Recipe), TonesError> {
+    let mut wanted = shaded(base, lightness);
+    let mut found = matched(search, wanted)?;
+    for _ in 0..FADINGS {
+        let [reached, asked] = [found.0, wanted].map(|lab| lab.to_lch().chroma);
+        let near = (found.0.lightness - lightness).abs() <= LIGHTNESS_TOLERANCE / 4.0;
+        if near || reached >= asked || asked == 0.0 {
+            break;
+        }
+        let share = reached / asked;
+        wanted = Lab { lightness, a: share * wanted.a, b: share * wanted.b };
+        found = matched(search, wanted)?;
+    }
+    Ok(found)
+}
+
+/// Nearest mixture to a colour, with its own colour.
+fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesError> {
+    let target = ColorTarget { name: String::new(), color: TargetColor::Lab(lab) };
+    let mut found = search.recipes_for(&target)?;
+    let best = found.recipes.swap_remove(0);
+    Ok((best.lab[0], best.shares))
+}
+
+/// L* farthest from that of `base` towards `end` at which a mixture keeps the hue.
+fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, TonesError> {
+    let (mut kept, mut lost) = (base.lightness, end);
+    for _ in 0..BISECTIONS {
+        let lightness = (kept + lost) / 2.0;
+        let (found, _) = mixture_at(search, base, lightness)?;
+        let chroma = |lab: Lab| lab.to_lch().chroma;
+        let keeps = hue_difference(found, base) <= HUE_TOLERANCE
+            && chroma(found) >= LEAST_CHROMA * chroma(shaded(base, lightness))
+            && (found.lightness - lightness).abs() <= LIGHTNESS_TOLERANCE;
+        if keeps { kept = lightness } else { lost = lightness }
+    }
+    Ok(kept)
+}
+
+/// CIELAB hue difference between a mixture and the hue in the mixture's chroma.
+fn hue_difference(found: Lab, base: Lab) -> f64 {
+    2.0 * found.to_lch().chroma * (turn(found, base).to_radians() / 2.0).sin()
+}
+
+/// Tones of a hue cannot be mixed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TonesError {
+    /// The hue is no colour.
+    #[error(transparent)]
+    Hue(#[from] ColorCodeError),
+    /// The number of tones is out of range.
+    #[error("a set has {} to {} tones, found `{found}`", TONES.start(), TONES.end())]
+    Count {
+        /// Number of tones asked for.
+        found: usize,
+    },
+    /// The library holds washes, not paints that hide.
+    #[error("library {library} has absolute amounts: its paints have no white to be mixed with")]
+    Absolute {
+        /// Title of the library.
+        library: String,
+    },
+    /// The library has no pigment that can be mixed.
+    #[error(transparent)]
+    Palette(#[from] PaletteError),
+    /// The search for recipes failed.
+    #[error(transparent)]
+    Match(#[from] MatchError),
+    /// The mixtures that keep the hue are too much alike.
+    #[error(
+        "mixtures of the hue {hue} reach from L* {darkest:.1} to {lightest:.1}, too little for tones that keep `{margin}` from both ends"
+    )]
+    Narrow {
+        /// The hue as it was given.
+        hue: String,
+        /// L* of the darkest mixture.
+        darkest: f64,
+        /// L* of the lightest mixture.
+        lightest: f64,
+        /// L* between the range and the tones at both ends.
+        margin: f64,
+    },
+}
+
+impl Explain for TonesError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Hue(error) => return error.hint(),
+            Self::Count { .. } => "leave [tones] out for 7 tones",
+            Self::Absolute { .. } => "choose a library of relative amounts with [pigments]",
+            Self::Palette(error) => return error.hint(),
+            Self::Match(error) => return error.hint(),
+            Self::Narrow { .. } => "choose another [hue], fewer [tones] or other [pigments]",
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Palette(error) => error.fault(),
+            Self::Match(error) => error.fault(),
+            Self::Absolute { .. } => Fault::Input,
+            Self::Hue(_) | Self::Count { .. } | Self::Narrow { .. } => Fault::Setting,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

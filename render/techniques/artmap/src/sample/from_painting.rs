@@ -1,0 +1,253 @@
+//! A painting as one large sample: all its layers summed into one table of pigments.
+
+use std::sync::Arc;
+
+use documents::hint::{Explain, Fault, Hint};
+use graphics::field::Field;
+use graphics::picture::Picture;
+use paint::amount::mm_from_quanta;
+use paint::document::{Document, Lighting};
+use paint::layer::{Layer, SLOTS, Slots};
+use paint::light::{Light, PaintLightError};
+use paint::optics::Gloss;
+use paint::scene::{Appearance, picture};
+use pigment::palette::{Cards, Palette};
+use pigment::{PigmentId, PigmentLibrary, Recipe, Viewing};
+use rayon::prelude::*;
+use spectra::color::{Lab, delta_e_ciede2000};
+
+use crate::texel::{PaintOfSamples, TexelPaint};
+
+/// Share of a painting's pigment below which a pigment counts as minor.
+pub const MINOR: f64 = 0.01;
+
+/// Fields of a whole painting, one texel a cell, to be cut into samples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WholePainting {
+    /// Title of the painting.
+    pub title: String,
+    /// Colour of each texel under D65 for the 1931 observer, of a level surface without gloss, in
+    /// linear sRGB.
+    pub color: Picture,
+    /// Paint of each texel, wet and dry.
+    pub paint: Field<TexelPaint>,
+    /// Height of all paint over the ground in mm.
+    pub height_mm: Field<f32>,
+    /// Side of a texel in mm.
+    pub mm_per_texel: f64,
+    /// Library and pigments of the paint.
+    pub pigments: PaintOfSamples,
+    /// Minor pigments that were merged, each with the pigment that it counts as now.
+    pub merged: Vec<[String; 2]>,
+}
+
+impl WholePainting {
+    /// Sums the layers of a painting. Optical thickness counts: the pigments of a dry layer are
+    /// multiplied by its opacity, its height is not.
+    ///
+    /// With `merge_minor`, pigments below [`MINOR`] of all pigment count as the remaining pigment
+    /// whose masstone is nearest by CIEDE2000, if the painting has more pigments than a table holds.
+    ///
+    /// # Errors
+    /// [`FromPaintingError`] for more than eight pigments, and a library without visible
+    /// wavelengths.
+    pub fn of(document: &Document, merge_minor: bool) -> Result<Self, FromPaintingError> {
+        let used = used_pigments(document);
+        let (kept, merged) = table(document, &used, merge_minor)?;
+        let mut slots = Slots::default();
+        for (slot, pigment) in slots.iter_mut().zip(&kept) {
+            *slot = Some(*pigment);
+        }
+        let place = |pigment: PigmentId| {
+            let target = merged.iter().find(|(minor, _)| *minor == pigment);
+            let target = target.map_or(pigment, |(_, into)| *into);
+            kept.iter().position(|kept| *kept == target)
+        };
+        let light = Light::named(&document.library, "D65", "1931-2")?;
+        let name = |pigment: PigmentId| document.library[pigment].name.clone();
+        Ok(Self {
+            title: document.title.clone(),
+            color: level_colors(document, &light),
+            paint: summed_paint(document, place),
+            height_mm: summed_height(document),
+            mm_per_texel: document.cell_mm,
+            pigments: PaintOfSamples { library: Arc::new(document.library.clone()), slots },
+            merged: merged.iter().map(|&(minor, into)| [name(minor), name(into)]).collect(),
+        })
+    }
+}
+
+/// Layers of a painting, the wet one last, each with its pigments and opacity.
+fn layers(document: &Document) -> Vec<(&Slots, f64, &Layer)> {
+    let dry = document.dry.iter().map(|layer| (&layer.slots, layer.shown_opacity(), &layer.paint));
+    dry.chain([(&document.slots, 1.0, &document.wet)]).collect()
+}
+
+/// Pigments that the painting holds, by their place in the library, each with its share of all
+/// pigment.
+fn used_pigments(document: &Document) -> Vec<(PigmentId, f64)> {
+    let mut sums = vec![0.0; document.library.pigments.len()];
+    for (slots, opacity, layer) in layers(document) {
+        for (slot, total) in slots.iter().zip(layer.totals()) {
+            if let Some(sum) = slot.and_then(|pigment| sums.get_mut(pigment.index())) {
+                *sum += opacity * total as f64;
+            }
+        }
+    }
+    let whole: f64 = sums.iter().sum();
+    let used = sums.iter().enumerate().filter(|(_, sum)| **sum > 0.0);
+    used.map(|(index, sum)| (PigmentId(index), sum / whole)).collect()
+}
+
+type Merged = Vec<(PigmentId, PigmentId)>;
+
+/// Pigments of the table, and the minor ones with those that they are merged into.
+fn table(
+    document: &Document,
+    used: &[(PigmentId, f64)],
+    merge_minor: bool,
+) -> Result<(Vec<PigmentId>, Merged), FromPaintingError> {
+    let ids = |used: &[(PigmentId, f64)]| used.iter().map(|(id, _)| *id).collect::<Vec<_>>();
+    if used.len() <= SLOTS {
+        return Ok((ids(used), Vec::new()));
+    }
+    let library = &document.library;
+    let names = |ids: Vec<PigmentId>| ids.iter().map(|&id| library[id].name.clone()).collect();
+    let (minor, kept): (Vec<_>, Vec<_>) = used.iter().partition(|(_, share)| *share < MINOR);
+    if !merge_minor || kept.len() > SLOTS {
+        return Err(FromPaintingError::TooManyPigments {
+            title: document.title.clone(),
+            names: names(ids(used)),
+            minor: if kept.len() > SLOTS { 0 } else { minor.len() },
+        });
+    }
+    let colors = masstones(library);
+    let nearest = |id: PigmentId| {
+        let distance =
+            |other: PigmentId| delta_e_ciede2000(colors[id.index()], colors[other.index()]);
+        let kept = ids(&kept).into_iter();
+        kept.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+    };
+    let merged = ids(&minor).into_iter().filter_map(|id| Some((id, nearest(id)?))).collect();
+    Ok((ids(&kept), merged))
+}
+
+/// Colours of all paints of a library as opaque films.
+fn masstones(library: &PigmentLibrary) -> Vec<Lab> {
+    let viewing = Viewing::default();
+    let palette = Palette::new(library, &viewing, Cards::standard(library.grid));
+    let color = |id| {
+        let palette = palette.as_ref().ok()?;
+        Some(palette.color(&Recipe::single(id)).lab)
+    };
+    library.ids().map(|id| color(id).unwrap_or_default()).collect()
+}
+
+/// Colours of a painting under `light`, level and without gloss.
+pub(crate) fn level_colors(document: &Document, light: &Light) -> Picture {
+    let dry: Vec<_> =
+        document.dry.iter().map(|layer| (layer.slots, layer.shown_opacity())).collect();
+    let appearance = Appearance {
+        library: &document.library,
+        medium: &document.medium,
+        ground: &document.ground,
+        cell_mm: document.cell_mm,
+        dry: &dry,
+        slots: &document.slots,
+        lighting: &Lighting { relief: 0.0, ..Lighting::default() },
+    };
+    let mut scene = appearance.scene(light);
+    let matt = |gloss: Gloss| Gloss { strength: 0.0, ..gloss };
+    let lamp = &mut scene.lamp;
+    (lamp.wet, lamp.dry, lamp.ground) = (matt(lamp.wet), matt(lamp.dry), matt(lamp.ground));
+    let shown = picture(document, &scene);
+    let colors = shown.values().iter().map(|&[red, green, blue, _]| [red, green, blue]);
+    Field::from_values(shown.width(), shown.height(), colors.collect())
+}
+
+/// Paint of all layers in mm, with each pigment in the slot that `place` names.
+pub(crate) fn summed_paint(
+    document: &Document,
+    place: impl Fn(PigmentId) -> Option<usize>,
+) -> Field<TexelPaint> {
+    let layers: Vec<_> = layers(document)
+        .into_iter()
+        .map(|(slots, opacity, layer)| (slots.map(|slot| slot.and_then(&place)), opacity, layer))
+        .collect();
+    let (width, height) = (document.wet.width(), document.wet.height());
+    let quantum_mm = mm_from_quanta(1, document.cell_mm);
+    let texel = |index: usize| {
+        let mut sums = [0.0; SLOTS];
+        let mut vehicle = 0_u64;
+        for (places, opacity, layer) in &layers {
+            let cell = layer.cell(index);
+            vehicle += u64::from(cell.vehicle);
+            for (place, amount) in places.iter().zip(cell.pigments) {
+                if let Some(place) = *place {
+                    sums[place] += opacity * f64::from(amount);
+                }
+            }
+        }
+        TexelPaint {
+            pigments_mm: sums.map(|sum| (sum * quantum_mm) as f32),
+            vehicle_mm: (vehicle as f64 * quantum_mm) as f32,
+        }
+    };
+    let texels = (0..width * height).into_par_iter().with_min_len(4096).map(texel).collect();
+    Field::from_values(width, height, texels)
+}
+
+/// Height of all paint over the ground in mm.
+pub(crate) fn summed_height(document: &Document) -> Field<f32> {
+    let layers = layers(document);
+    let (width, height) = (document.wet.width(), document.wet.height());
+    let quantum_mm = mm_from_quanta(1, document.cell_mm);
+    let texel = |index: usize| {
+        let volumes = layers.iter().map(|(.., layer)| u64::from(layer.cell(index).volume()));
+        (volumes.sum::<u64>() as f64 * quantum_mm) as f32
+    };
+    let texels = (0..width * height).into_par_iter().with_min_len(4096).map(texel).collect();
+    Field::from_values(width, height, texels)
+}
+
+/// A painting cannot be sampled.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FromPaintingError {
+    /// The painting holds more pigments than a table of samples.
+    #[error(
+        "painting `{title}` has {} pigments, samples hold {SLOTS}: {}",
+        names.len(), names.join(", ")
+    )]
+    TooManyPigments {
+        /// Title of the painting.
+        title: String,
+        /// Names of its pigments.
+        names: Vec<String>,
+        /// Number of minor pigments whose merging would help; 0 if it would not.
+        minor: usize,
+    },
+    /// The painting's library has no wavelengths in common with daylight.
+    #[error(transparent)]
+    Light(#[from] PaintLightError),
+}
+
+impl Explain for FromPaintingError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::TooManyPigments { minor: 0, .. } => {
+                Some(Hint::new("sample parts of the painting that have fewer pigments"))
+            }
+            Self::TooManyPigments { minor, .. } => Some(Hint::new(format!(
+                "{minor} of them are below 1 %: merge them into others with [merge_minor]"
+            ))),
+            Self::Light(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Input
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,301 @@
+//! Painting of a target picture: for each brush, coarse to fine, strokes where the canvas
+//! still differs.
+
+use std::collections::BTreeMap;
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+
+use super::deposit_curve::DepositCurve;
+use super::level_target::{BLUR_SIZES, LevelTarget};
+use super::plan::Plan;
+use super::planned::{PlannedStroke, plan_strokes};
+use documents::hint::{Explain, Fault, Hint};
+use graphics::blurred;
+use graphics::field::Field;
+use graphics::picture::Picture;
+use paint::brush::HeadShape;
+use paint::painting::{Painting, PaintingError};
+use paint::separation::{ColorErrors, Separation};
+use paint::session::{PaintingSession, ReplayError, ReplayReport};
+use paint::strokes::{
+    Action, BrushSpec, Load, Recipe, Stroke, StrokeScript, StrokeTool, SurfaceId,
+};
+use rayon::prelude::*;
+use spectra::color::delta_e_ciede2000;
+
+/// Brushes below this width in mm are rounds, others filberts (chosen by eye).
+const ROUND_BELOW_MM: f64 = 3.0;
+/// Pigments with a smaller share than this are left out of a recipe. The limit is low
+/// because strong blues tint white at shares far below 0.001.
+const LEAST_PART: f64 = 1e-6;
+/// Times that each brush compares the canvas with the target and paints the difference.
+const ROUNDS: u64 = 2;
+
+/// Paints a target picture on a bare canvas in strokes. [`super::StrokePainter`] sets all
+/// of it up for a photograph.
+#[derive(Debug, Clone, Copy)]
+pub struct Painter<'a> {
+    /// Picture to paint, one colour per cell of the canvas, in tones that paint reaches (see
+    /// [`super::black_compensated`]).
+    pub target: &'a Picture,
+    /// Films of the palette that come nearest to each colour.
+    pub separation: &'a Separation,
+    /// Brushes, and rules for their strokes.
+    pub plan: &'a Plan,
+}
+
+/// Report of the strokes of one brush.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct LevelReport {
+    /// Shape of the brush.
+    pub shape: HeadShape,
+    /// Width of the brush in mm.
+    pub size_mm: f64,
+    /// Number of strokes painted.
+    pub strokes: u64,
+    /// Number of sub-steps of these strokes.
+    pub substeps: u64,
+    /// Mean CIEDE2000 of the whole picture afterwards, at the scale of the brush (see
+    /// [`Painter::blur_cells`]).
+    pub mean_error: f64,
+}
+
+/// Progress of a painter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PaintProgress {
+    /// This many more strokes have been planned.
+    Planned(usize),
+    /// One stroke has been painted.
+    Stroke,
+}
+
+impl Painter<'_> {
+    /// Paints on the bare canvas of `session`, which `script` describes. All actions are
+    /// added to the script, which then gives the same painting bit for bit. `progress` is
+    /// called when strokes have been planned, and after each stroke.
+    ///
+    /// # Errors
+    /// [`PainterError`] for brushes that do not suit the canvas, or if the device was lost.
+    ///
+    /// # Panics
+    /// If the target and the canvas differ in size, or the plan fails [`Plan::check`].
+    pub fn paint(
+        &self,
+        session: &mut PaintingSession,
+        script: &mut StrokeScript,
+        mut progress: impl FnMut(PaintProgress),
+    ) -> Result<Vec<LevelReport>, PainterError> {
+        self.plan.check().expect("the plan is valid");
+        let mut reports = Vec::with_capacity(self.plan.sizes_mm.len());
+        let cell_mm = session.canvas().cell_mm();
+        let mut painted = colors(session.canvas_mut())?;
+        for (level, &size_mm) in self.plan.sizes_mm.iter().enumerate() {
+            let brush = BrushSpec { shape: shape(size_mm), size_mm };
+            let mut report = LevelReport {
+                shape: brush.shape,
+                size_mm,
+                strokes: 0,
+                substeps: 0,
+                mean_error: 0.0,
+            };
+            let target = LevelTarget::new(self.target, self.separation, size_mm / cell_mm, level);
+            let mut curve = None;
+            for round in 0..ROUNDS {
+                let planned = self.planned(&target, &painted, round, cell_mm);
+                if planned.is_empty() {
+                    break;
+                }
+                progress(PaintProgress::Planned(planned.len()));
+                let curve = match &curve {
+                    Some(curve) => curve,
+                    None => curve.insert(self.measured(session.canvas(), &brush)?),
+                };
+                let round = round_script(script, level, &brush, &planned, curve);
+                let played = play(round, session, script, &mut progress)?;
+                report.strokes += played.strokes;
+                report.substeps += played.substeps;
+                painted = colors(session.canvas_mut())?;
+            }
+            report.mean_error = self.mean_error(&target, &painted);
+            reports.push(report);
+        }
+        Ok(reports)
+    }
+
+    /// Colour error of the canvas against the target, both blurred by a Gaussian with
+    /// standard deviation `blur_cells`; 0 compares cell by cell.
+    ///
+    /// # Errors
+    /// [`PaintingError`] if the device was lost.
+    pub fn errors(
+        &self,
+        painting: &mut Painting,
+        blur_cells: f64,
+    ) -> Result<ColorErrors, PaintingError> {
+        let wanted = blurred(self.target, blur_cells);
+        let painted = blurred(&colors(painting)?, blur_cells);
+        Ok(ColorErrors::between(self.separation, &wanted, &painted))
+    }
+
+    /// Mean of [`Painter::errors`], which is found much faster than what is in gamut.
+    fn mean_error(&self, target: &LevelTarget, painted: &Picture) -> f64 {
+        let film = self.separation.film();
+        let painted = blurred(painted, target.blur_cells);
+        let pairs = target.picture.values().par_iter().zip(painted.values());
+        let errors: Vec<f64> = pairs
+            .map(|(&wanted, &painted)| {
+                delta_e_ciede2000(film.lab_from_rgb(wanted), film.lab_from_rgb(painted))
+            })
+            .collect();
+        errors.iter().sum::<f64>() / errors.len() as f64
+    }
+
+    /// Standard deviation in cells of the blur at which pictures are compared for a brush of
+    /// `size_mm`.
+    #[must_use]
+    pub fn blur_cells(size_mm: f64, cell_mm: f64) -> f64 {
+        BLUR_SIZES * size_mm / cell_mm
+    }
+
+    /// Strokes of one round over the canvas that looks like `painted`.
+    fn planned(
+        &self,
+        target: &LevelTarget,
+        painted: &Picture,
+        round: u64,
+        cell_mm: f64,
+    ) -> Vec<PlannedStroke> {
+        let plan = Plan { seed: self.plan.seed.wrapping_add(round), ..self.plan.clone() };
+        let strokes = |current| plan_strokes(target, current, self.separation, &plan, cell_mm);
+        match (target.level, round) {
+            (0, 0) => strokes(&unlike(self.target)),
+            _ => strokes(painted),
+        }
+    }
+
+    /// Heights that the brush lays.
+    fn measured(
+        &self,
+        painting: &Painting,
+        brush: &BrushSpec,
+    ) -> Result<DepositCurve, PaintingError> {
+        DepositCurve::measure(brush.shape, brush.size_mm, painting.cell_mm(), self.plan)
+    }
+}
+
+/// Shape of a brush of this width.
+fn shape(size_mm: f64) -> HeadShape {
+    if size_mm < ROUND_BELOW_MM { HeadShape::Round } else { HeadShape::Filbert }
+}
+
+/// White where `picture` is dark and black elsewhere, so that the first coat also covers a ground
+/// that looks like the picture.
+fn unlike(picture: &Picture) -> Picture {
+    let far = |&[red, green, blue]: &[f32; 3]| {
+        if red + green + blue < 0.6 { [1.0; 3] } else { [0.0; 3] }
+    };
+    let values = picture.values().iter().map(far).collect();
+    Field::from_values(picture.width(), picture.height(), values)
+}
+
+/// Colours of the canvas without relief and gloss.
+fn colors(painting: &mut Painting) -> Result<Picture, PaintingError> {
+    let flat = painting.flat_picture()?;
+    let colors = flat.values().iter().map(|&[red, green, blue, _]| [red, green, blue]);
+    Ok(Field::from_values(flat.width(), flat.height(), colors.collect()))
+}
+
+/// Script of one round of one brush.
+fn round_script(
+    script: &StrokeScript,
+    level: usize,
+    spec: &BrushSpec,
+    planned: &[PlannedStroke],
+    curve: &DepositCurve,
+) -> StrokeScript {
+    let mut round = StrokeScript::new(
+        &script.title,
+        &script.licence,
+        script.canvas.clone(),
+        script.palette.clone(),
+    );
+    let brush = format!("{}-{}", level + 1, spec.shape);
+    for stroke in planned {
+        let length = stroke.amount_mm / stroke.height_mm - 1.0;
+        let used = stroke.recipe.iter().zip(&script.palette.pigments);
+        let recipe: Recipe = used
+            .filter(|(part, _)| **part >= LEAST_PART)
+            .map(|(part, (_, name))| (name.clone(), *part))
+            .collect();
+        round.actions.extend([
+            Action::Wash { brush: brush.clone() },
+            Action::Load(Load {
+                brush: brush.clone(),
+                recipe,
+                vehicle: 0.0,
+                amount_mm: curve.load_mm(stroke.height_mm, length),
+            }),
+            Action::Stroke(Stroke {
+                brush: brush.clone(),
+                on: SurfaceId::Canvas,
+                tool: StrokeTool::Paint,
+                samples: stroke.samples.clone(),
+            }),
+        ]);
+    }
+    round.actions.push(Action::Dry { fraction: 1.0 });
+    round.brushes = BTreeMap::from([(brush, spec.clone())]);
+    round
+}
+
+/// Plays the script of a round and adds its actions to `script`.
+fn play(
+    round: StrokeScript,
+    session: &mut PaintingSession,
+    script: &mut StrokeScript,
+    progress: &mut impl FnMut(PaintProgress),
+) -> Result<ReplayReport, PainterError> {
+    let mut kinds = round.actions.iter().map(Action::kind);
+    let step = || {
+        if kinds.next() == Some("stroke") {
+            progress(PaintProgress::Stroke);
+        }
+        ControlFlow::Continue(())
+    };
+    let report = round.replay(session, |_, _| Ok(()), step)?;
+    script.brushes.extend(round.brushes);
+    script.actions.extend(round.actions);
+    Ok(report)
+}
+
+/// A photograph cannot be painted.
+#[derive(Debug, thiserror::Error)]
+pub enum PainterError {
+    /// The picture of the canvas cannot be computed, or the brush cannot be measured.
+    #[error("the painting could not go on")]
+    Painting(#[from] PaintingError),
+    /// A stroke cannot be painted.
+    #[error("a stroke could not be painted")]
+    Stroke(#[from] ReplayError<Infallible>),
+}
+
+impl PainterError {
+    fn cause(&self) -> &dyn Explain {
+        match self {
+            Self::Painting(error) => error,
+            Self::Stroke(ReplayError::Script(error)) => error,
+            Self::Stroke(ReplayError::Action { error, .. }) => error.as_ref(),
+            Self::Stroke(ReplayError::Save { error, .. }) => match *error {},
+        }
+    }
+}
+
+impl Explain for PainterError {
+    fn hint(&self) -> Option<Hint> {
+        self.cause().hint()
+    }
+
+    fn fault(&self) -> Fault {
+        self.cause().fault()
+    }
+}

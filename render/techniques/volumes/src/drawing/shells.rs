@@ -1,0 +1,231 @@
+//! Concentric shells of a volume, and the tint at each count of them.
+
+use documents::counted_as;
+use documents::hint::{Explain, Fault, Hint};
+
+/// Most shells of a volume.
+pub const MOST_SHELLS: usize = 63;
+
+/// Shells or tints that cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ShellError {
+    /// There is no shell, or there are too many.
+    #[error("a volume has 1 to {MOST_SHELLS} shells, found `{found}`")]
+    Count {
+        /// Number of shells.
+        found: usize,
+    },
+    /// There is not one tint more than there are shells.
+    #[error(
+        "{} {} tints, from outside to the core; found `{tints}`",
+        counted_as(*shells, "shell wants", "shells want"),
+        .shells + 1
+    )]
+    Lengths {
+        /// Number of shells.
+        shells: usize,
+        /// Number of tints.
+        tints: usize,
+    },
+    /// A scale is outside of its range, or no number.
+    #[error("scale {index} of the shells is not above 0 and at most 1: `{found}`")]
+    Scale {
+        /// Index of the scale, from 0.
+        index: usize,
+        /// The scale that was given.
+        found: f32,
+    },
+    /// A shell is not smaller than the one before.
+    #[error("scale {index} of the shells is not below the one before it: `{found}`")]
+    NotFalling {
+        /// Index of the scale, from 0.
+        index: usize,
+        /// The scale that was given.
+        found: f32,
+    },
+    /// A tint is outside of its range, or no number.
+    #[error("tint {index} is not within 0 to 1: `{found}`")]
+    Tint {
+        /// Index of the tint, from 0.
+        index: usize,
+        /// The tint that was given.
+        found: f32,
+    },
+    /// A tint is below the one before it.
+    #[error("tint {index} falls below the one before it: `{found}`")]
+    NotRising {
+        /// Index of the tint, from 0.
+        index: usize,
+        /// The tint that was given.
+        found: f32,
+    },
+    /// The tint outside of all volumes is not 0.
+    #[error("the first tint is that outside of all volumes, which is 0, found `{found}`")]
+    Outside {
+        /// The tint that was given.
+        found: f32,
+    },
+}
+
+impl Explain for ShellError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::Count { .. } | Self::Lengths { .. } => {
+                "give one tint for outside and one for each shell"
+            }
+            Self::Scale { .. } | Self::NotFalling { .. } => {
+                "give scales that fall from 1, such as 1, 0.93, 0.86, 0.79"
+            }
+            Self::Tint { .. } | Self::NotRising { .. } | Self::Outside { .. } => {
+                "give tints that rise from 0 to 1, such as 0, 0.25, 0.5, 0.75, 1"
+            }
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        Fault::Setting
+    }
+}
+
+/// The share of colour at each count of volumes or shells that hold a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TintTable {
+    tints: Vec<f32>,
+}
+
+impl TintTable {
+    /// A table of tints at counts of 0, 1, 2 and so on.
+    ///
+    /// # Errors
+    /// [`ShellError`] if there are fewer than 2 or more than 64, the first is not 0, one is not
+    /// within 0..1, or one falls below the one before.
+    pub fn new(tints: Vec<f32>) -> Result<Self, ShellError> {
+        if !(2..=MOST_SHELLS + 1).contains(&tints.len()) {
+            return Err(ShellError::Count { found: tints.len().saturating_sub(1) });
+        }
+        for (index, &found) in tints.iter().enumerate() {
+            if !(0.0..=1.0).contains(&found) {
+                return Err(ShellError::Tint { index, found });
+            }
+            if index > 0 && found < tints[index - 1] {
+                return Err(ShellError::NotRising { index, found });
+            }
+        }
+        if tints[0] != 0.0 {
+            return Err(ShellError::Outside { found: tints[0] });
+        }
+        Ok(Self { tints })
+    }
+
+    /// Full colour inside, without shells.
+    #[must_use]
+    pub fn hard() -> Self {
+        Self { tints: vec![0.0, 1.0] }
+    }
+
+    /// The tint at a count; higher counts than the table has take the last tint, negative ones
+    /// the first.
+    #[must_use]
+    #[inline(always)]
+    pub fn tint(&self, count: i32) -> f32 {
+        let last = self.tints.len() - 1;
+        self.tints[(count.max(0) as usize).min(last)]
+    }
+
+    /// All tints, from count 0 on.
+    #[must_use]
+    pub fn tints(&self) -> &[f32] {
+        &self.tints
+    }
+}
+
+/// Concentric copies of a volume's mesh, scaled about its centre, whose counts add up to softer
+/// edges.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shells {
+    scales: Vec<f32>,
+    table: TintTable,
+}
+
+impl Shells {
+    /// Shells of falling `scales` (above 0, at most 1) with one tint for outside and one for each
+    /// count of shells.
+    ///
+    /// # Errors
+    /// [`ShellError`] if the lists are not of such lengths or not in order.
+    pub fn new(scales: Vec<f32>, tints: Vec<f32>) -> Result<Self, ShellError> {
+        if !(1..=MOST_SHELLS).contains(&scales.len()) {
+            return Err(ShellError::Count { found: scales.len() });
+        }
+        if tints.len() != scales.len() + 1 {
+            return Err(ShellError::Lengths { shells: scales.len(), tints: tints.len() });
+        }
+        for (index, &found) in scales.iter().enumerate() {
+            if !(found > 0.0 && found <= 1.0) {
+                return Err(ShellError::Scale { index, found });
+            }
+            if index > 0 && found >= scales[index - 1] {
+                return Err(ShellError::NotFalling { index, found });
+            }
+        }
+        Ok(Self { scales, table: TintTable::new(tints)? })
+    }
+
+    /// One shell: a hard edge.
+    #[must_use]
+    pub fn hard() -> Self {
+        Self { scales: vec![1.0], table: TintTable::hard() }
+    }
+
+    /// Four shells, 7 % of the radius apart, that bring a quarter of the colour each.
+    #[must_use]
+    pub fn washed() -> Self {
+        let tints = vec![0.0, 0.25, 0.5, 0.75, 1.0];
+        Self { scales: vec![1.0, 0.93, 0.86, 0.79], table: TintTable { tints } }
+    }
+
+    /// Scales of the mesh about its centre, outermost first.
+    #[must_use]
+    pub fn scales(&self) -> &[f32] {
+        &self.scales
+    }
+
+    /// Tints by count.
+    #[must_use]
+    pub fn table(&self) -> &TintTable {
+        &self.table
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_beyond_the_table_take_its_last_tint() {
+        let washed = Shells::washed();
+        let found = [-3, 0, 1, 3, 4, 5, i32::MAX].map(|count| washed.table().tint(count));
+        assert_eq!(found, [0.0, 0.0, 0.25, 0.75, 1.0, 1.0, 1.0]);
+        assert_eq!([0, 1, 2].map(|count| TintTable::hard().tint(count)), [0.0, 1.0, 1.0]);
+        let again = Shells::new(washed.scales().to_vec(), washed.table().tints().to_vec());
+        assert_eq!(again, Ok(washed));
+    }
+
+    #[test]
+    fn lists_out_of_order_are_refused_with_their_place() {
+        let scales = |scales: &[f32]| Shells::new(scales.to_vec(), vec![0.0, 0.5, 1.0]);
+        assert_eq!(scales(&[1.0, 0.9]).map(|shells| shells.scales().len()), Ok(2));
+        assert_eq!(scales(&[0.9, 1.0]), Err(ShellError::NotFalling { index: 1, found: 1.0 }));
+        assert_eq!(scales(&[1.0, 0.0]), Err(ShellError::Scale { index: 1, found: 0.0 }));
+        assert!(matches!(scales(&[f32::NAN, 0.5]), Err(ShellError::Scale { index: 0, .. })));
+        assert_eq!(scales(&[1.0]), Err(ShellError::Lengths { shells: 1, tints: 3 }));
+        assert_eq!(scales(&[]), Err(ShellError::Count { found: 0 }));
+        let tints = |tints: &[f32]| TintTable::new(tints.to_vec());
+        assert_eq!(tints(&[0.0, 0.6, 0.5]), Err(ShellError::NotRising { index: 2, found: 0.5 }));
+        assert_eq!(tints(&[0.2, 0.6]), Err(ShellError::Outside { found: 0.2 }));
+        assert_eq!(tints(&[0.0, 1.5]), Err(ShellError::Tint { index: 1, found: 1.5 }));
+        assert!(matches!(tints(&[0.0, f32::NAN]), Err(ShellError::Tint { index: 1, .. })));
+        assert_eq!(tints(&[0.0]), Err(ShellError::Count { found: 0 }));
+        assert_eq!(tints(&[0.0; 65]), Err(ShellError::Count { found: 64 }));
+    }
+}

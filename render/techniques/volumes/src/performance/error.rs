@@ -1,0 +1,116 @@
+//! Errors of playing a script.
+
+use documents::hint::{Explain, Fault as FaultKind, Hint};
+
+use crate::toml_text::{Fault, KeyPath, Source};
+use crate::world::WorldError;
+
+/// A script cannot be played.
+#[derive(Debug, thiserror::Error)]
+pub enum PerformanceError {
+    /// The world cannot be made or go on.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// A setting does not fit the scene.
+    #[error("{place}{fault}")]
+    Setting {
+        /// File and line, followed by a colon, where these are known.
+        place: String,
+        /// The setting.
+        fault: Box<Fault>,
+    },
+    /// An event cannot be done.
+    #[error("{place}: {error}")]
+    Event {
+        /// The table of the event, with file and line where these are known.
+        place: String,
+        /// Path of the table in the script.
+        table: KeyPath,
+        /// Reason.
+        error: WorldError,
+    },
+    /// The first picture shows nothing where paint is poured or lifted.
+    #[error("{place}: the first picture shows no surface at {x:.3}, {y:.3}")]
+    Bare {
+        /// The table of the event, with file and line where these are known.
+        place: String,
+        /// Path of the table in the script.
+        table: KeyPath,
+        /// Share of the picture's width, from the left.
+        x: f64,
+        /// Share of its height, from the top.
+        y: f64,
+    },
+    /// A volume is to be split that is not there.
+    #[error("{place}: single volume {number} is not there")]
+    NoVolume {
+        /// The table of the event, with file and line where these are known.
+        place: String,
+        /// Path of the table in the script.
+        table: KeyPath,
+        /// Number of the volume in the script, from 1.
+        number: usize,
+    },
+}
+
+impl PerformanceError {
+    /// This error with the file that the script was read from and the line of the event's
+    /// table in its `text`.
+    #[must_use]
+    pub fn located(mut self, file: &str, text: &str) -> Self {
+        let Ok(source) = Source::parse(file, text) else { return self };
+        if let Self::Setting { place, fault } = &mut self {
+            *place = format!("{file}, line {}: ", source.line(&fault.key));
+        }
+        match self.table().map(|table| (source.line(table), table.to_string())) {
+            Some((line, table)) => self.placed(format!("{file}, line {line}: {table}")),
+            None => self,
+        }
+    }
+
+    /// Path of the event's table in the script, if an event is at fault.
+    #[must_use]
+    pub fn table(&self) -> Option<&KeyPath> {
+        match self {
+            Self::World(_) | Self::Setting { .. } => None,
+            Self::Event { table, .. } | Self::Bare { table, .. } | Self::NoVolume { table, .. } => {
+                Some(table)
+            }
+        }
+    }
+
+    /// This error with other words for the place of the event.
+    #[must_use]
+    pub fn placed(mut self, words: String) -> Self {
+        match &mut self {
+            Self::World(_) | Self::Setting { .. } => {}
+            Self::Event { place, .. } | Self::Bare { place, .. } | Self::NoVolume { place, .. } => {
+                *place = words;
+            }
+        }
+        self
+    }
+}
+
+impl Explain for PerformanceError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::World(error) | Self::Event { error, .. } => error.hint(),
+            Self::Setting { fault, .. } => fault.hint(),
+            Self::Bare { .. } => {
+                Some(Hint::new("choose a place on the subject, 0 to 1 across and down"))
+            }
+            Self::NoVolume { .. } => {
+                Some(Hint::new("split a volume after it is born, and only once"))
+            }
+        }
+    }
+
+    fn fault(&self) -> FaultKind {
+        match self {
+            Self::World(error) | Self::Event { error, .. } => error.fault(),
+            Self::Setting { .. } => FaultKind::Setting,
+            Self::Bare { .. } | Self::NoVolume { .. } => FaultKind::Input,
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! A brush with little water: it touches the heights of the paper, and the hollows stay
+//! bare.
+//!
+//! Bousseau et al. 2006, section 3.2: a threshold of the paper's height. Below the
+//! threshold paint fades out over a small band, so that its edge has no steps. Near outlines
+//! and in dark washes the brush is wet: a painter lays darks and contours with care.
+
+use rayon::prelude::*;
+
+use graphics::compute::{ColorImage, Compute, GpuCompute, GreyImage, Image, Plane, assert_size};
+use graphics::field::Field;
+use graphics::gpu::{DeviceError, Kernel, Storage, layout};
+use graphics::lanes::{greater, lesser};
+
+/// The heights of the paper that a dry brush reaches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DryBrushReach {
+    /// Height, 0 to 1, from which on the paint is complete; 0 changes nothing.
+    pub threshold: f32,
+    /// Range of heights below the threshold over which paint fades out; above 0.
+    pub softness: f32,
+    /// How much the dry brush keeps to patches, 0 to 1: at 0 it is dry everywhere, at 1 only
+    /// where the wash flows thinly.
+    pub patches: f32,
+    /// How fast the brush becomes wet with the strength of an outline ([`super::edges`]); at 0
+    /// it passes over outlines.
+    pub outline: f32,
+    /// Mean of red, green and blue, 0 to 1, up to which the brush is wet; from twice of it on
+    /// it is fully dry. 0 is no limit.
+    pub darkest: f32,
+}
+
+/// A wash counts as thin below this value of the flow texture, which has a mean of 0.5 and
+/// a standard deviation of 0.2. Chosen by eye.
+const THIN_FLOW: f32 = 0.35;
+
+/// The wash is fully thin this far below [`THIN_FLOW`]. Chosen by eye.
+const THIN_FADE: f32 = 0.15;
+
+impl DryBrushReach {
+    /// The share of the paint that stays, 0 to 1, at a `height` of the paper. A `mask` below
+    /// 1 lowers the threshold; at 0 all paint stays. `edge` is the strength of the outline.
+    #[inline(always)]
+    fn kept(self, [r, g, b, _]: [f32; 4], height: f32, flow: f32, edge: f32, mask: f32) -> f32 {
+        let thin = lesser(greater((THIN_FLOW - flow) / THIN_FADE, 0.0), 1.0);
+        let inside = lesser(greater(1.0 - self.outline * edge, 0.0), 1.0);
+        let light = match self.darkest > 0.0 {
+            true => lesser(greater((r + g + b) / 3.0 / self.darkest - 1.0, 0.0), 1.0),
+            false => 1.0,
+        };
+        let dry = mask * inside * light * (1.0 - self.patches * (1.0 - thin));
+        let above = (height - self.threshold * dry) / self.softness;
+        lesser(greater(1.0 + above, 0.0), 1.0)
+    }
+}
+
+/// Reduces the coverage of `color` to what a dry brush leaves on paper of `heights` (0 to 1)
+/// where the wash has this `flow`. `edges` are the outlines that it keeps from; without them
+/// it passes over outlines. `mask`, 0 to 1, tells where the brush is dry; without one it is
+/// dry everywhere.
+///
+/// # Errors
+/// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+///
+/// # Panics
+/// If sizes differ, or another form of [`Compute`] made an image.
+pub fn apply_dry_brush(
+    compute: &mut Compute,
+    color: ColorImage,
+    heights: &GreyImage,
+    flow: &GreyImage,
+    reach: DryBrushReach,
+    edges: Option<&GreyImage>,
+    mask: Option<&GreyImage>,
+) -> Result<ColorImage, DeviceError> {
+    assert_size("the paper", heights.size(), color.size());
+    assert_size("the flow", flow.size(), color.size());
+    for image in edges.into_iter().chain(mask) {
+        assert_size("the outlines and mask of the dry brush", image.size(), color.size());
+    }
+    if reach.threshold <= 0.0 {
+        return Ok(color);
+    }
+    match compute {
+        Compute::Cpu => {
+            let where_dry = (edges.map(Image::host), mask.map(Image::host));
+            let paper = (heights.host(), flow.host());
+            Ok(apply_dry_brush_on_cpu(color.into_host(), paper, reach, where_dry).into())
+        }
+        Compute::Gpu(gpu) => {
+            let where_dry = (edges.map(Image::plane), mask.map(Image::plane));
+            let paper = (heights.plane(), flow.plane());
+            apply_dry_brush_on_gpu(gpu, color.plane(), paper, reach, where_dry).map(Image::from)
+        }
+    }
+}
+
+fn apply_dry_brush_on_cpu(
+    mut color: Field<[f32; 4]>,
+    (heights, flow): (&Field<f32>, &Field<f32>),
+    reach: DryBrushReach,
+    (edges, mask): (Option<&Field<f32>>, Option<&Field<f32>>),
+) -> Field<[f32; 4]> {
+    let width = color.width();
+    color.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, colors)| {
+        let [edges, mask] = [edges, mask].map(|field| field.map(|field| field.row(y, 0, width)));
+        let paper = heights.row(y, 0, width).iter().zip(flow.row(y, 0, width));
+        for (x, (color, (&height, &flow))) in colors.iter_mut().zip(paper).enumerate() {
+            let edge = edges.map_or(0.0, |edges| edges[x]);
+            let mask = mask.map_or(1.0, |mask| mask[x]);
+            color[3] *= reach.kept(*color, height, flow, edge, mask);
+        }
+    });
+    color
+}
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct DryBrushParams {
+    size: [u32; 2],
+    threshold: f32,
+    softness: f32,
+    masked: u32,
+    patches: f32,
+    thin: f32,
+    thin_fade: f32,
+    /// 0 without edges.
+    outline: f32,
+    darkest: f32,
+    spare: [u32; 2],
+}
+
+pub(crate) static DRY_BRUSH: Kernel = Kernel {
+    name: "watercolor_dry_brush",
+    source: include_str!("dry_brush.wgsl"),
+    parameters: layout!(DryBrushParams {
+        size,
+        threshold,
+        softness,
+        masked,
+        patches,
+        thin,
+        thin_fade,
+        outline,
+        darkest,
+        spare
+    }),
+    structs: &[],
+    storage: &[
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Read,
+        Storage::Write,
+    ],
+};
+
+fn apply_dry_brush_on_gpu(
+    gpu: &mut GpuCompute,
+    color: &Plane<[f32; 4]>,
+    (heights, flow): (&Plane<f32>, &Plane<f32>),
+    reach: DryBrushReach,
+    (edges, mask): (Option<&Plane<f32>>, Option<&Plane<f32>>),
+) -> Result<Plane<[f32; 4]>, DeviceError> {
+    let (width, height) = color.size();
+    let brushed = gpu.plane(width, height)?;
+    let params = DryBrushParams {
+        size: [width as u32, height as u32],
+        threshold: reach.threshold,
+        softness: reach.softness,
+        masked: u32::from(mask.is_some()),
+        patches: reach.patches,
+        thin: THIN_FLOW,
+        thin_fade: THIN_FADE,
+        outline: if edges.is_some() { reach.outline } else { 0.0 },
+        darkest: reach.darkest,
+        spare: [0; 2],
+    };
+    // The bindings need a buffer even if the kernel does not read it.
+    let [edges, mask] = [edges, mask].map(|plane| plane.unwrap_or(heights).buffer());
+    let (heights, flow) = (heights.buffer(), flow.buffer());
+    let buffers = [color.buffer(), heights, flow, edges, mask, brushed.buffer()];
+    gpu.dispatch(&DRY_BRUSH, &params, &buffers, (width, height));
+    Ok(brushed)
+}

@@ -1,0 +1,218 @@
+//! Photographs to watercolors.
+
+use super::abstraction::{
+    AbstractedPhotograph, AbstractionError, RegionSettings, abstract_photograph, height_for_width,
+};
+use super::photograph::{enlarged, photograph_wash};
+use super::pipeline::{FrameTextures, StageObserver, paint};
+use super::settings::Settings;
+use super::textures::{PaperTextureError, Textures};
+use super::wash::{Masks, Wash, WashImages};
+use documents::hint::{Explain, Fault, Hint};
+use graphics::compute::Compute;
+use graphics::field::Field;
+use graphics::gpu::DeviceError;
+use graphics::picture::Photograph;
+
+/// Longer side in pixels of the largest picture in which regions are looked for; those of larger
+/// ones are enlarged.
+const REGIONS_LONGER_SIDE_PX: usize = 1600;
+
+/// Paints photographs as watercolors, on the processor unless told otherwise.
+///
+/// ```
+/// use graphics::picture::Photograph;
+/// use watercolor::{PhotographPainter, Preset};
+///
+/// # let bytes = graphics::export::frame_png(&graphics::field::Field::filled(24, 16, [200, 90, 60]))?;
+/// let photograph = Photograph::from_bytes("a.png", &bytes)?;
+/// let style = Preset::Landscape.settings();
+/// let picture = PhotographPainter::new(style).paint(&photograph)?;
+/// assert_eq!((picture.width(), picture.height()), (24, 16));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct PhotographPainter {
+    settings: Settings,
+    compute: Compute,
+    width_px: Option<usize>,
+    masks: Masks,
+}
+
+/// A photograph made ready for painting: its wash and the textures of the picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreparedPhotograph {
+    /// The photograph in the size in which regions are looked for, encoded sRGB with coverage:
+    /// that of the painting, with its longer side at most 1600 px.
+    pub original: Field<[f32; 4]>,
+    /// Each region of the photograph in its mean colour, in the size of `original`.
+    pub segmented: Field<[f32; 4]>,
+    /// Number of regions.
+    pub regions: usize,
+    /// The abstracted photograph, and where effects are weaker.
+    pub wash: Wash,
+    /// The textures of the picture.
+    pub textures: Textures,
+    /// The settings for the size of the picture.
+    pub settings: Settings,
+}
+
+impl PreparedPhotograph {
+    /// Each region of the photograph in its mean colour, in the size of the painting.
+    #[must_use]
+    pub fn flat_regions(&self) -> Field<[f32; 4]> {
+        enlarged(&self.segmented, self.wash.color.width(), self.wash.color.height())
+    }
+}
+
+impl PhotographPainter {
+    /// A painter of this style. Its lengths are adapted to the size of each picture
+    /// ([`Settings::for_size`]).
+    #[must_use]
+    pub fn new(settings: Settings) -> Self {
+        Self { settings, compute: Compute::cpu(), width_px: None, masks: Masks::default() }
+    }
+
+    /// Computes with `compute` instead of the processor.
+    #[must_use]
+    pub fn with_compute(self, compute: Compute) -> Self {
+        Self { compute, ..self }
+    }
+
+    /// Sets the width of pictures in pixels, 1 and up. Without it see
+    /// [`Photograph::usual_width_px`].
+    #[must_use]
+    pub fn with_width_px(self, width_px: usize) -> Self {
+        Self { width_px: Some(width_px), ..self }
+    }
+
+    /// Stretches `masks` over each picture.
+    #[must_use]
+    pub fn with_masks(self, masks: Masks) -> Self {
+        Self { masks, ..self }
+    }
+
+    /// Width and height in pixels of a painting of `photograph`.
+    #[must_use]
+    pub fn picture_size(&self, photograph: &Photograph) -> (usize, usize) {
+        let width = self.width_px.unwrap_or_else(|| photograph.usual_width_px());
+        (width, height_for_width(photograph, width))
+    }
+
+    /// Name of the device that computes: `cpu`, or that of a graphics adapter.
+    #[must_use]
+    pub fn compute_name(&self) -> &str {
+        self.compute.name()
+    }
+
+    /// Paints a photograph. The picture is encoded sRGB, covered everywhere.
+    ///
+    /// # Errors
+    /// [`PhotographPainterError`] if the width is 0, a setting is out of its range, the
+    /// paper's scan cannot be read, or the device fails.
+    pub fn paint(
+        &mut self,
+        photograph: &Photograph,
+    ) -> Result<Field<[f32; 4]>, PhotographPainterError> {
+        let prepared = self.prepare(photograph)?;
+        Ok(self.finish(prepared)?)
+    }
+
+    /// Abstracts a photograph and makes the textures of its picture: all that comes before
+    /// the effects, which [`Self::paint_prepared`] and glazes
+    /// ([`super::GlazePainter::paint`]) apply.
+    ///
+    /// # Errors
+    /// [`PhotographPainterError`] if the width is 0, a setting is out of its range, the
+    /// paper's scan cannot be read, or the device fails.
+    pub fn prepare(
+        &mut self,
+        photograph: &Photograph,
+    ) -> Result<PreparedPhotograph, PhotographPainterError> {
+        let (width, height) = self.picture_size(photograph);
+        let settings = self.settings.for_size(width, height);
+        let most = REGIONS_LONGER_SIDE_PX as f64 / width.max(height).max(1) as f64;
+        let own_width = (most.min(1.0) * width as f64).round() as usize;
+        let own = self.settings.for_size(own_width, height_for_width(photograph, own_width.max(1)));
+        let regions = RegionSettings::from(&own.abstraction);
+        let AbstractedPhotograph { original, segmented, smoothed, regions } =
+            abstract_photograph(&mut self.compute, photograph, own_width, &regions)?;
+        let color = photograph_wash((&original, &smoothed), (width, height), &own, &settings);
+        drop(smoothed);
+        let textures = Textures::of_photograph(&color, &settings)?;
+        let wash = Wash { color, controls: self.masks.controls(width, height) };
+        Ok(PreparedPhotograph { original, segmented, regions, wash, textures, settings })
+    }
+
+    /// Applies all effects. The picture is encoded sRGB, covered everywhere. `observer` is
+    /// called with the picture after each stage.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn paint_prepared(
+        &mut self,
+        prepared: &PreparedPhotograph,
+        observer: Option<StageObserver<'_>>,
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
+        let (wash, textures) = (prepared.wash.clone(), prepared.textures.clone());
+        self.paint_wash(wash, textures, &prepared.settings, observer)
+    }
+
+    /// Applies all effects as [`Self::paint_prepared`] does, in the memory of `prepared`.
+    ///
+    /// # Errors
+    /// [`DeviceError`] if a device has no memory left or was lost; never on the processor.
+    pub fn finish(&mut self, prepared: PreparedPhotograph) -> Result<Field<[f32; 4]>, DeviceError> {
+        let PreparedPhotograph { original, segmented, wash, textures, settings, .. } = prepared;
+        drop((original, segmented));
+        self.paint_wash(wash, textures, &settings, None)
+    }
+
+    /// Applies all effects to a wash whose memory is used for the picture.
+    fn paint_wash(
+        &mut self,
+        Wash { color, controls }: Wash,
+        textures: Textures,
+        settings: &Settings,
+        observer: Option<StageObserver<'_>>,
+    ) -> Result<Field<[f32; 4]>, DeviceError> {
+        let compute = &mut self.compute;
+        let color = compute.give(color)?;
+        let wash = WashImages::new(compute, color, &controls)?;
+        let textures = textures.give(compute)?;
+        let color = paint(compute, wash, FrameTextures::from(&textures), settings, observer)?;
+        compute.take(color)
+    }
+}
+
+/// Why a photograph cannot be painted.
+#[derive(Debug, thiserror::Error)]
+pub enum PhotographPainterError {
+    /// The photograph cannot be abstracted.
+    #[error(transparent)]
+    Abstraction(#[from] AbstractionError),
+    /// The paper cannot be made.
+    #[error(transparent)]
+    Paper(#[from] PaperTextureError),
+    /// The graphics device failed.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+}
+
+impl Explain for PhotographPainterError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Abstraction(error) => error.hint(),
+            Self::Paper(error) => error.hint(),
+            Self::Device(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Abstraction(_) => Fault::Setting,
+            Self::Paper(error) => error.fault(),
+            Self::Device(error) => error.fault(),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Pigment dispersion: grains that gather in flocks of several sizes.
+
+use rand::RngExt;
+use rayon::prelude::*;
+
+use crate::settings::DispersionSettings;
+use graphics::field::Field;
+use graphics::noise::random;
+
+/// Standard deviation of the texture before clipping to 0..1. Chosen by eye.
+const SPREAD: f64 = 0.2;
+
+/// A sum of white Gaussian noises, each blurred by a Gaussian twice as wide as that of the
+/// previous one and scaled to the same standard deviation; Bousseau et al. 2006, section 3.2.
+///
+/// The mean is 0.5, the standard deviation 0.2; values outside 0..1 (about 1 %) are clipped.
+/// Blur kernels end at three standard deviations. The finest blur keeps the share
+/// `exp(-2 (pi finest / n)^2)` of the amplitude of a wave of `n` px.
+#[must_use]
+pub fn dispersion(width: usize, height: usize, settings: &DispersionSettings) -> Field<f32> {
+    let mut sum = Field::filled(width, height, 0.0_f32);
+    let scale = SPREAD / f64::from(settings.scales.max(1)).sqrt();
+    for octave in 0..settings.scales {
+        let sigma = f64::from(settings.finest_px) * 2.0_f64.powi(octave as i32);
+        let half = half_gaussian(sigma);
+        // Sum of squares of the kernel in one direction; that of the 2D kernel is its square.
+        let kept = half[0] * half[0] + 2.0 * half[1..].iter().map(|w| w * w).sum::<f64>();
+        let weights: Vec<f32> = half.iter().map(|weight| (weight / kept.sqrt()) as f32).collect();
+        let seed = settings.seed.wrapping_mul(64).wrapping_add(u64::from(octave));
+        add_grains(&mut sum, &weights, seed, scale as f32);
+    }
+    sum.values_mut().par_iter_mut().for_each(|value| *value = (0.5 + *value).clamp(0.0, 1.0));
+    sum
+}
+
+/// Right half of a Gaussian kernel, centre first, not normalised. `sigma` is in px.
+fn half_gaussian(sigma: f64) -> Vec<f64> {
+    let radius = (3.0 * sigma).ceil() as usize;
+    (0..=radius).map(|i| (-0.5 * (i as f64 / sigma).powi(2)).exp()).collect()
+}
+
+/// Adds blurred white noise of unit variance times `scale`. The noise extends beyond the
+/// borders, so that the texture has the same statistics there.
+fn add_grains(sum: &mut Field<f32>, half: &[f32], seed: u64, scale: f32) {
+    let radius = half.len() - 1;
+    let (width, height) = (sum.width(), sum.height());
+    let wide = width + 2 * radius;
+    let mut sideways = vec![0.0_f32; width * (height + 2 * radius)];
+    sideways.par_chunks_mut(width.max(1)).enumerate().for_each_init(
+        || vec![0.0; wide],
+        |noise, (y, out)| {
+            // Each row has its own random stream, so that rows can be computed in any order.
+            gaussian(noise, seed, y as u64);
+            for (x, out) in out.iter_mut().enumerate() {
+                *out = mean(half, |tap| noise[(x + radius).wrapping_add_signed(tap)]);
+            }
+        },
+    );
+    sum.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, out)| {
+        for (x, out) in out.iter_mut().enumerate() {
+            let at = |tap| sideways[(y + radius).wrapping_add_signed(tap) * width + x];
+            *out += scale * mean(half, at);
+        }
+    });
+}
+
+fn mean(half: &[f32], at: impl Fn(isize) -> f32) -> f32 {
+    let pairs = half.iter().zip(0..).skip(1);
+    half[0] * at(0) + pairs.map(|(weight, i)| weight * (at(-i) + at(i))).sum::<f32>()
+}
+
+/// Fills `row` with normally distributed numbers, two at a time (Box and Muller 1958).
+fn gaussian(row: &mut [f32], seed: u64, stream: u64) {
+    let mut random = random(seed, stream);
+    for pair in row.chunks_mut(2) {
+        let radius = (-2.0 * (1.0 - random.random::<f32>()).ln()).sqrt();
+        let (sin, cos) = (std::f32::consts::TAU * random.random::<f32>()).sin_cos();
+        for (out, part) in pair.iter_mut().zip([cos, sin]) {
+            *out = radius * part;
+        }
+    }
+}

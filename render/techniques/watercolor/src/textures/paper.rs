@@ -1,0 +1,268 @@
+//! The heights of paper, 0..1, generated or scanned.
+
+use std::path::Path;
+
+use documents::hint::{Explain, Hint};
+use rayon::prelude::*;
+use spectra::color::{Rgb, RgbSpace};
+
+use super::quantiles::Quantiles;
+use crate::settings::PaperSettings;
+use graphics::field::Field;
+use graphics::picture::{Photograph, PhotographError};
+use graphics::picture_formats::NAMES;
+use paint::amount::QUANTA_PER_CELL;
+use paint::ground::{GroundError, Paper, PaperFinish};
+
+/// Usual width of the bumps of cold-pressed paper in mm. It relates pixels to mm.
+const BUMP_MM: f64 = 1.3;
+
+/// Standard deviation of the heights of cold-pressed paper and of scans. Chosen by eye.
+const SPREAD: f64 = 0.18;
+
+/// Height difference between black and white of a scan in mm: an assumption, close to
+/// the relief of cold-pressed paper.
+const SCAN_MM: f64 = 0.1;
+
+/// Largest width or height of a scaled scan in pixels.
+const LARGEST: usize = 16384;
+
+/// Heights of a paper, with the measures that effects need.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaperTexture {
+    /// Heights in 0..1, with a mean of 0.5. The standard deviation is 0.18 for cold-pressed
+    /// paper and for scans; for other papers it is proportional to their relief in mm. Values
+    /// outside 0..1 are clipped.
+    pub heights: Field<f32>,
+    /// Width of a pixel in mm.
+    pub px_mm: f64,
+    /// Height in mm of the value 1.
+    unit_mm: f64,
+    /// Relief relative to that of cold-pressed paper.
+    depth: f32,
+    /// Root mean square length of the gradient (right minus left, below minus above).
+    slope: f32,
+    quantiles: Quantiles,
+    /// Heights on a finer grid for outlines, in pictures too small for the grain.
+    fine: Option<FineHeights>,
+}
+
+/// Heights of a paper on a finer grid than that of its picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FineHeights {
+    /// Heights in 0..1 of [`FineHeights::factor`] times as many columns and rows.
+    pub heights: Field<f32>,
+    /// Cells along each side of a pixel, at least 2.
+    pub factor: usize,
+    /// Root mean square length of the gradient.
+    slope: f32,
+}
+
+impl FineHeights {
+    /// The factor that scales gradients of the fine heights to a root mean square length of
+    /// `amount`; 0 if the paper is flat.
+    #[must_use]
+    pub fn per_slope(&self, amount: f32) -> f32 {
+        if self.slope > 0.0 { amount / self.slope } else { 0.0 }
+    }
+}
+
+impl PaperTexture {
+    /// The paper of `settings` over `width` x `height` px. A scan smaller than this is
+    /// repeated, mirrored.
+    ///
+    /// # Errors
+    /// [`PaperTextureError`] if the scan cannot be read or a setting is out of its range.
+    pub fn new(
+        width: usize,
+        height: usize,
+        settings: &PaperSettings,
+    ) -> Result<Self, PaperTextureError> {
+        let px_mm = BUMP_MM / f64::from(settings.grain_px);
+        let (raw, depth) = match &settings.scan {
+            Some(path) => (scanned(width, height, path, settings.scan_scale)?, 1.0),
+            None => {
+                let paper = Paper::of(settings.kind, settings.seed);
+                let depth = paper.relief_mm / PaperFinish::ColdPressed.relief_mm();
+                (paper.heights_mm(width, height, px_mm)?, depth)
+            }
+        };
+        let (heights, per_raw) = spread(raw, SPREAD * depth);
+        let unit_mm =
+            if settings.scan.is_some() || per_raw == 0.0 { SCAN_MM } else { 1.0 / per_raw };
+        let slope = slope(&heights);
+        let quantiles = Quantiles::of(&heights);
+        Ok(Self { heights, px_mm, unit_mm, depth: depth as f32, slope, quantiles, fine: None })
+    }
+
+    /// Adds heights on a grid `factor` times as fine, by which outlines are displaced
+    /// ([`super::super::wobble`]). A factor of 1 adds none. `settings` are those of this paper.
+    ///
+    /// # Errors
+    /// [`PaperTextureError`] if the scan cannot be read or a setting is out of its range.
+    pub fn with_fine_heights(
+        self,
+        factor: usize,
+        settings: &PaperSettings,
+    ) -> Result<Self, PaperTextureError> {
+        if factor < 2 {
+            return Ok(Self { fine: None, ..self });
+        }
+        let mut settings = settings.clone();
+        settings.grain_px *= factor as f32;
+        settings.scan_scale *= factor as f32;
+        let (width, height) = (self.heights.width(), self.heights.height());
+        let Self { heights, slope, .. } = Self::new(width * factor, height * factor, &settings)?;
+        Ok(Self { fine: Some(FineHeights { heights, factor, slope }), ..self })
+    }
+
+    /// Heights on a finer grid, if the paper has them.
+    #[must_use]
+    pub fn fine(&self) -> Option<&FineHeights> {
+        self.fine.as_ref()
+    }
+
+    /// The height below which this `share` (0..1) of the paper lies, accurate to about 0.001 of
+    /// the paper.
+    #[must_use]
+    pub fn height_above(&self, share: f32) -> f32 {
+        self.quantiles.at(share)
+    }
+
+    /// The factor that scales gradients of the paper to a root mean square length of `amount`;
+    /// 0 if the paper is flat.
+    #[must_use]
+    pub fn per_slope(&self, amount: f32) -> f32 {
+        if self.slope > 0.0 { amount / self.slope } else { 0.0 }
+    }
+
+    /// [`Self::per_slope`] times the relief of the paper relative to cold-pressed paper, so that
+    /// `amount` is reached on cold-pressed paper.
+    #[must_use]
+    pub fn relief_per_slope(&self, amount: f32) -> f32 {
+        self.per_slope(amount * self.depth)
+    }
+
+    /// The factor on the heights in mm at which Lambert's law shades this paper, in encoded
+    /// values, as much as the setting `relief` does, 0 to 10; 0 if the paper is flat. The light
+    /// stands `elevation_deg` above the paper and is diffuse to the share `ambient`, 0 to 1.
+    #[must_use]
+    pub fn lit_relief(&self, relief: f32, elevation_deg: f64, ambient: f64) -> f64 {
+        let slant = elevation_deg.to_radians().tan();
+        // A slope is that over two pixels, in both directions at an angle of 45 degrees to the
+        // light; encoded values change by 1/2.2 of linear ones.
+        let per_slope = 2.2 * 2.0 * std::f64::consts::SQRT_2 * slant;
+        let shaded = f64::from(self.relief_per_slope(relief));
+        let direct = (1.0 - ambient).max(0.05);
+        (per_slope * shaded * self.px_mm / self.unit_mm / direct).clamp(0.0, 10.0)
+    }
+
+    /// The heights in the integer quanta of a painting, whose cells are
+    /// [`PaperTexture::px_mm`] wide.
+    #[must_use]
+    pub fn quanta(&self) -> Field<i32> {
+        let scale = self.unit_mm / self.px_mm * f64::from(QUANTA_PER_CELL);
+        let quanta = |&height: &f32| (f64::from(height) * scale).round() as i32;
+        let values = self.heights.values().par_iter().map(quanta).collect();
+        Field::from_values(self.heights.width(), self.heights.height(), values)
+    }
+}
+
+/// Shifts and scales heights to a mean of 0.5 and the standard deviation `deviation`, clipped to
+/// 0..1. Returns them with the scale; a flat field becomes 0.5 with a scale of 0.
+fn spread(mut heights: Field<f32>, deviation: f64) -> (Field<f32>, f64) {
+    let count = heights.values().len().max(1) as f64;
+    let mean = heights.values().iter().map(|&v| f64::from(v)).sum::<f64>() / count;
+    let squares = heights.values().iter().map(|&v| (f64::from(v) - mean).powi(2)).sum::<f64>();
+    let own = (squares / count).sqrt();
+    let scale = if own > 1e-9 { deviation / own } else { 0.0 };
+    heights.values_mut().par_iter_mut().for_each(|value| {
+        *value = (0.5 + scale * (f64::from(*value) - mean)).clamp(0.0, 1.0) as f32;
+    });
+    (heights, scale)
+}
+
+/// Root mean square length of the gradient (right minus left, below minus above).
+fn slope(heights: &Field<f32>) -> f32 {
+    let (width, height) = (heights.width(), heights.height());
+    let squares = |y: usize| -> f64 {
+        let here = heights.row(y, 0, width);
+        let above = heights.row(y.saturating_sub(1), 0, width);
+        let below = heights.row((y + 1).min(height - 1), 0, width);
+        let square = |x: usize| {
+            let across = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
+            let down = below[x] - above[x];
+            f64::from(across * across + down * down)
+        };
+        (0..width).map(square).sum()
+    };
+    let rows: Vec<f64> = (0..height).into_par_iter().map(squares).collect();
+    (rows.iter().sum::<f64>() / (width * height).max(1) as f64).sqrt() as f32
+}
+
+/// The heights of a scan: sRGB-encoded luminance. Its pixels become `scale` px wide; beyond
+/// its borders it is repeated, mirrored.
+fn scanned(
+    width: usize,
+    height: usize,
+    path: &str,
+    scale: f32,
+) -> Result<Field<f32>, PaperTextureError> {
+    let photograph = Photograph::open(Path::new(path))?;
+    let side =
+        |pixels: usize| ((pixels as f64 * f64::from(scale)).round() as usize).clamp(1, LARGEST);
+    let (columns, rows) = (side(photograph.size().0), side(photograph.size().1));
+    let weights = RgbSpace::Srgb.xyz_from_linear();
+    let picture = photograph.on_canvas(columns, rows);
+    let mut heights = Field::filled(width, height, 0.0);
+    heights.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, out)| {
+        let row = mirrored(y, rows);
+        for (x, out) in out.iter_mut().enumerate() {
+            let rgb = picture[(mirrored(x, columns), row)].map(f64::from);
+            let luminance = weights.apply(rgb)[1] / 100.0;
+            // Encoded values, since they are about proportional to the lightness seen.
+            *out = Rgb([luminance.clamp(0.0, 1.0); 3]).encoded().0[0] as f32;
+        }
+    });
+    Ok(heights)
+}
+
+/// The index in 0..count for `place` on a line repeated with mirroring.
+fn mirrored(place: usize, count: usize) -> usize {
+    let place = place % (2 * count);
+    place.min(2 * count - 1 - place)
+}
+
+/// Why a paper cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PaperTextureError {
+    /// The scan cannot be read.
+    #[error("scan of paper: {0}")]
+    Scan(#[from] PhotographError),
+    /// A setting of the paper is out of its range.
+    #[error(transparent)]
+    Ground(#[from] GroundError),
+}
+
+impl Explain for PaperTextureError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::Scan(_) => Some(Hint::new(format!(
+                "paper.scan names a picture ({NAMES}); without it paper.kind makes a paper"
+            ))),
+            Self::Ground(error) => error.hint(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mirrors_run_back_and_forth() {
+        let places: Vec<usize> = (0..8).map(|place| mirrored(place, 3)).collect();
+        assert_eq!(places, [0, 1, 2, 2, 1, 0, 0, 1]);
+        assert_eq!(mirrored(5, 1), 0);
+    }
+}
