@@ -47,7 +47,8 @@ fn is_shell_script(path: &str) -> bool {
     let name = path.rsplit('/').next().unwrap_or_default();
     let named = !name.contains('.') || name.ends_with(".sh");
     let first = named.then(|| std::fs::read(root().join(path)).unwrap_or_default());
-    first.is_some_and(|bytes| bytes.starts_with(b"#!/usr/bin/env bash"))
+    let shells: [&[u8]; 2] = [b"#!/usr/bin/env bash", b"#!/bin/sh"];
+    first.is_some_and(|bytes| shells.iter().any(|shell| bytes.starts_with(shell)))
 }
 
 /// Licences, sources and doubles of dependencies. Advisories need a network: `cargo deny check advisories`.
