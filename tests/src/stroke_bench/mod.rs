@@ -11,7 +11,6 @@
 
 pub mod heights;
 pub mod measure;
-pub mod figure;
 pub mod hand;
 pub mod canvas;
 pub mod strokes;
