@@ -11,19 +11,12 @@
 //! Every other crate may use this one; it uses none of them.
 
 pub mod hint;
-
 mod cancellation;
-
 mod name_list;
-
 mod counted;
-
 mod similar;
-
 mod parser_reason;
-
 pub mod file;
-
 pub mod settings_text;
 
 pub use cancellation::{Cancellation, Cancelled};

@@ -1,12 +1,17 @@
 //! Separation of colours into heights of pigments, and the colours of the films rebuilt.
+//!
+//! Choosing the palette for a photograph from the pigments of a library.
 
+use calibrate::PigmentId;
 use graphics::field::Field;
+use paint::document::Slots;
+use paint::layer::SLOTS;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use spectra::color::{Rgb, delta_e_ciede2000};
 use strokes::{
-    ColorErrors, PaintFilm, Picture, Separation, SeparationError, SeparationSettings,
-    black_compensated, rebuild_picture,
+    ChosenPalette, ColorErrors, PaintFilm, Picture, Separation, SeparationError,
+    SeparationSettings, black_compensated, choose_palette, rebuild_picture,
 };
 
 use crate::made::{HIDING, STUDIO, THIN, mixtures};
@@ -66,7 +71,8 @@ fn an_even_picture_gives_even_maps() {
 
 #[test]
 fn a_graded_picture_gives_maps_without_noise() {
-    let (from, to) = (linear("#b08060"), linear("#d8d0c8"));
+    let from = linear("#b08060");
+    let to = linear("#d8d0c8");
     let graded: Vec<[f32; 3]> = (0..400)
         .map(|at| std::array::from_fn(|i| from[i] + (to[i] - from[i]) * at as f32 / 399.0))
         .collect();
@@ -76,7 +82,8 @@ fn a_graded_picture_gives_maps_without_noise() {
         .windows(2)
         .map(|pair| (0..8).map(|i| (pair[1][i] - pair[0][i]).abs()).sum::<f32>())
         .sum();
-    let (first, last) = (maps[(0, 0)], maps[(399, 0)]);
+    let first = maps[(0, 0)];
+    let last = maps[(399, 0)];
     let apart: f32 = (0..8).map(|i| (last[i] - first[i]).abs()).sum();
     assert!(travelled < 2.5 * apart, "{travelled} mm of change for {apart} mm apart");
 }
@@ -85,11 +92,15 @@ fn a_graded_picture_gives_maps_without_noise() {
 fn few_pigments_are_mixed() {
     let picture = mixtures(14, 500, 0.3);
     let maps = HIDING.separate(&picture);
-    let used = |heights: &[f32; 8]| {
-        let total: f32 = heights.iter().sum();
-        heights.iter().filter(|height| **height > 0.005 * total).count()
-    };
-    let mean = maps.values().iter().map(used).sum::<usize>() as f64 / 500.0;
+    let mean = maps
+        .values()
+        .iter()
+        .map(|heights: &[f32; 8]| {
+            let total: f32 = heights.iter().sum();
+            heights.iter().filter(|height| **height > 0.005 * total).count()
+        })
+        .sum::<usize>() as f64
+        / 500.0;
     assert!(mean < 4.5, "{mean} pigments a colour");
 }
 
@@ -111,7 +122,8 @@ fn out_of_reach_lightness_is_kept_before_chroma() {
 #[test]
 fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
     let picture = mixtures(15, 1000, 0.03);
-    let (hiding, thin) = (errors(&HIDING, &picture), errors(&THIN, &picture));
+    let hiding = errors(&HIDING, &picture);
+    let thin = errors(&THIN, &picture);
     assert!(thin.out_of_gamut < hiding.out_of_gamut, "{thin:?} {hiding:?}");
     // The colour change of a film over a black ground measures what the film does not hide.
     let black = vec![0.03; STUDIO.library.grid.count()];
@@ -147,7 +159,8 @@ fn shadows_brought_within_reach_keep_their_differences() {
     assert!((0.03..0.05).contains(&HIDING.black()), "{}", HIDING.black());
     assert!((raised[(0, 0)][1] - HIDING.black()).abs() < 1e-6);
     assert_eq!(black_compensated(&Field::filled(1, 1, [1.0; 3]), 0.04)[(0, 0)], [1.0; 3]);
-    let (plain, raised) = (errors(&HIDING, &shadows), errors(&HIDING, &raised));
+    let plain = errors(&HIDING, &shadows);
+    let raised = errors(&HIDING, &raised);
     assert!(raised.mean < 0.3 * plain.mean, "{raised:?} {plain:?}");
 }
 
@@ -186,4 +199,73 @@ fn a_film_of_one_height_and_one_pigment_is_possible() {
     for (slot, height) in heights.into_iter().enumerate() {
         assert!((height - if slot == 5 { 0.1 } else { 0.0 }).abs() < 1e-6, "{heights:?}");
     }
+}
+
+fn chosen(picture: &Picture) -> ChosenPalette {
+    let materials = STUDIO.materials(&[None; SLOTS]);
+    choose_palette(
+        picture,
+        materials,
+        |materials: strokes::FilmMaterials<'_>| PaintFilm::at_nodes(materials, &STUDIO.quadrature),
+        &SeparationSettings::default(),
+    )
+    .unwrap()
+}
+
+/// Sixty tints and shades of one pigment: mixtures with lead white and bone black.
+fn tints(name: &str) -> Picture {
+    let find = |name: &str| Some(STUDIO.library.find(name).unwrap());
+    let mut slots: Slots = [None; SLOTS];
+    slots[..3].copy_from_slice(&[find("Lead White"), find(name), find("Bone Black")]);
+    let film = PaintFilm::at_nodes(STUDIO.materials(&slots), &STUDIO.quadrature);
+    let colors = (0..60).map(|at| {
+        let white = 0.28 * (at % 10) as f32 / 10.0;
+        let black = 0.02 * (at / 10) as f32 / 6.0;
+        let mut heights = [0.0; SLOTS];
+        heights[..3].copy_from_slice(&[white, 0.3 - white - black, black]);
+        film.rgb(&heights).map(|value| value.clamp(0.0, 1.0))
+    });
+    Field::from_values(60, 1, colors.collect())
+}
+
+#[test]
+fn a_photograph_of_one_hue_gets_a_palette_that_paints_it() {
+    for name in ["Cobalt Blue", "Vermilion"] {
+        let found = chosen(&tints(name));
+        assert!(found.mean < 0.8, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn a_palette_holds_no_pigment_twice_and_none_unidentified() {
+    let colors = (0..216).map(|at| [at / 36, at / 6 % 6, at % 6].map(|v| v as f32 / 5.0));
+    let found = chosen(&Field::from_values(216, 1, colors.collect()));
+    let mut pigments: Vec<PigmentId> = found.slots.iter().flatten().copied().collect();
+    assert_eq!(pigments.len(), SLOTS, "all of sRGB needs a full palette: {found:?}");
+    assert!(pigments.iter().all(|&pigment| STUDIO.library[pigment].identified));
+    pigments.sort_unstable();
+    pigments.dedup();
+    assert_eq!(pigments.len(), SLOTS, "{found:?}");
+}
+
+#[test]
+fn the_same_photograph_gets_the_same_palette() {
+    let picture = tints("Viridian");
+    assert_eq!(chosen(&picture), chosen(&picture));
+}
+
+#[test]
+fn a_library_of_unknown_scattering_is_refused() {
+    let mut library = STUDIO.library.clone();
+    library.pigments.iter_mut().for_each(|pigment| pigment.identified = false);
+    let materials = STUDIO.materials(&[None; SLOTS]);
+    let materials = strokes::FilmMaterials { library: &library, ..materials };
+    let picture = Field::filled(2, 2, [0.5; 3]);
+    let found = choose_palette(
+        &picture,
+        materials,
+        |materials: strokes::FilmMaterials<'_>| PaintFilm::at_nodes(materials, &STUDIO.quadrature),
+        &SeparationSettings::default(),
+    );
+    assert_eq!(found, Err(SeparationError::NoPigment));
 }

@@ -5,8 +5,7 @@
 use std::collections::BTreeSet;
 
 use suite::stroke_bench::canvas::Bench;
-use suite::stroke_bench::figure::CaseReport;
-use suite::stroke_bench::report::table;
+use suite::stroke_bench::report::{CaseReport, table};
 use suite::stroke_bench::sheet::picture;
 use suite::stroke_bench::strokes::CASES;
 
@@ -67,7 +66,8 @@ fn thick_paint_hides_the_weave_and_does_not_pile_up_at_the_edge() {
 
 #[test]
 fn a_case_repeats_to_the_bit_and_is_drawn() {
-    let (first, second) = (report("pick-up"), report("pick-up"));
+    let first = report("pick-up");
+    let second = report("pick-up");
     assert_eq!(first.figures, second.figures);
     assert!(
         first.figures.iter().all(|figure| figure.value.is_finite()),

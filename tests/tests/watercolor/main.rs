@@ -6,19 +6,10 @@
 //! its adapter, or `none`.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
-
-mod cameras;
-
 mod meshes;
-
 mod seen;
-
 mod shading;
-
 mod effects;
-
 mod abstraction;
-
 mod coherence;
-
 mod program;
