@@ -2,8 +2,6 @@
 //! house test (`tests/house`) holds them to their limits.
 
 pub mod files;
-
 pub mod figures;
 pub mod versions;
-
 pub mod rules;

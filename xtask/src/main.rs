@@ -3,14 +3,11 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program for a terminal")]
 
 mod runs;
-
 mod wheel;
-
 mod checks;
 mod pages;
 mod release;
 mod testing;
-
 mod ci;
 
 use std::process::ExitCode;
