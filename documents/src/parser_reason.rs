@@ -54,9 +54,12 @@ impl ParserReason {
         for (begins, kind) in [("unknown field", "key"), ("unknown variant", "word")] {
             let [name, known @ ..] = &quoted[..] else { continue };
             if message.starts_with(begins) {
-                let list = || format!("it takes the {kind}s {}", name_list(known, MOST_KEYS, ", "));
                 let similar = did_you_mean(name, known.iter().copied());
-                let hint = similar.or_else(|| (!known.is_empty()).then(list));
+                let hint = similar.or_else(|| {
+                    (!known.is_empty()).then(|| {
+                        format!("it takes the {kind}s {}", name_list(known, MOST_KEYS, ", "))
+                    })
+                });
                 return Self { reason: format!("unknown {kind} `{name}`"), hint };
             }
         }

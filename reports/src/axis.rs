@@ -53,7 +53,8 @@ impl Axis {
     pub fn around(quantity: &str, unit: &str, low: f64, high: f64, count: usize) -> Self {
         let high = if high > low { high } else { low + 1.0 };
         let step = round_step((high - low) / count.max(1) as f64);
-        let (low, high) = ((low / step + 1e-9).floor() * step, (high / step - 1e-9).ceil() * step);
+        let low = (low / step + 1e-9).floor() * step;
+        let high = (high / step - 1e-9).ceil() * step;
         Self::linear(quantity, unit, low, high, count)
     }
 
@@ -95,7 +96,8 @@ impl Axis {
             let digits = (-value.log10() - 1e-9).ceil().max(0.0) as usize;
             (value, format!("{value:.digits$}"))
         });
-        let (low, high) = (round[below], round[above]);
+        let low = round[below];
+        let high = round[above];
         let ticks = ticks.collect();
         Self { name: named(quantity, unit), low, high, scale: Scale::Log, ticks }
     }
@@ -128,7 +130,8 @@ impl Axis {
             Scale::Linear => v,
             Scale::Log => v.max(self.low).log10(),
         };
-        let (low, high) = (along(self.low), along(self.high));
+        let low = along(self.low);
+        let high = along(self.high);
         ((along(value) - low) / (high - low)).clamp(0.0, 1.0)
     }
 }

@@ -45,7 +45,8 @@ impl Chart {
                 Drawing { area: &area, panel }.draw();
             }
             if let Some((below, left)) = &self.names {
-                let (width, height) = (f64::from(self.width), f64::from(self.height));
+                let width = f64::from(self.width);
+                let height = f64::from(self.height);
                 write(&area, (width / 2.0, height - 14.0), TEXT, Anchor::Middle, INK, below);
                 write_upwards(&area, (14.0, height / 2.0), left);
             }
@@ -191,7 +192,8 @@ impl Drawing<'_, '_> {
             true => frame.y - 9.0,
             false => self.subtitle() - TITLE / 2.0,
         };
-        let (side, mut right) = (11.0, frame.x + frame.width);
+        let side = 11.0;
+        let mut right = frame.x + frame.width;
         for patch in patches.iter().rev() {
             let corners = [(right - side, middle - side / 2.0), (right, middle + side / 2.0)];
             let corners = corners.map(|(x, y)| (fine(x), fine(y)));

@@ -76,7 +76,8 @@ fn figure(subject: &Subject<'_>, curves: &Curves<'_>) -> Figure {
         let name = subject.label(id);
         let mut edges = Vec::new();
         for (at, nm) in library.grid.wavelengths_nm().enumerate() {
-            let (value, sd) = (values[at], deviations.get(at).copied());
+            let value = values[at];
+            let sd = deviations.get(at).copied();
             data.push([name.as_str().into(), nm.into(), value.into(), Cell::from(sd)]);
             edges.extend(sd.map(|sd| (nm, value - sd, value + sd)));
         }

@@ -56,7 +56,8 @@ fn histogram(subject: &Subject<'_>) -> Figure {
         }
         let mut marks = Vec::new();
         for (bin, count) in counts.iter().enumerate() {
-            let (from, to) = (bin as f64 * step, (bin + 1) as f64 * step);
+            let from = bin as f64 * step;
+            let to = (bin + 1) as f64 * step;
             if *count > 0 {
                 let gap = 0.08 * step;
                 let top = (to - gap, f64::from(*count));
@@ -100,8 +101,11 @@ fn table(subject: &Subject<'_>) -> Table {
     ]);
     let left_out = |sample: &str| -> Option<f64> {
         let validation = subject.validation.as_ref()?;
-        let found = |other: &&SampleEvidence| other.sample == sample;
-        validation.per_sample.iter().find(found).map(|s| s.delta_e)
+        validation
+            .per_sample
+            .iter()
+            .find(|other: &&SampleEvidence| other.sample == sample)
+            .map(|s| s.delta_e)
     };
     let needed =
         |sample: &String| subject.validation.as_ref().is_some_and(|v| v.needed.contains(sample));

@@ -55,8 +55,11 @@ impl Figure {
     /// If the name is empty or has other characters than lower-case letters, digits and hyphens.
     #[must_use]
     pub fn new(words: Words<'_>, command: &str, drawing: Drawing, data: Table) -> Self {
-        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-        let named = !words.name.is_empty() && words.name.chars().all(plain);
+        let named = !words.name.is_empty()
+            && words
+                .name
+                .chars()
+                .all(|c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
         assert!(
             named,
             "a figure's name has lower-case letters, digits and hyphens only, found `{}`",

@@ -49,9 +49,11 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
 /// Draws films with their error when left out; `pairs` is sorted by that error, largest first.
 fn figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
     let errors = || pairs.iter().flat_map(|(film, left_out)| [film.delta_e, *left_out]);
-    let (low, high) = (errors().fold(f64::INFINITY, f64::min), errors().fold(0.0, f64::max));
+    let low = errors().fold(f64::INFINITY, f64::min);
+    let high = errors().fold(0.0, f64::max);
     let axis = |what: &str| Axis::log_close(what, "CIEDE2000", low.max(0.05), high);
-    let (x, y) = (axis("Colour error in the fit"), axis("Colour error when left out"));
+    let x = axis("Colour error in the fit");
+    let y = axis("Colour error when left out");
     let mut data = Table::new([
         Column::text("sample"),
         Column::text("recipe"),

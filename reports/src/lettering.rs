@@ -9,15 +9,17 @@ const SMALLEST: f64 = 6.5;
 /// an estimate, because the reader's font is not known.
 #[must_use]
 pub fn estimated_width(text: &str, size: f64) -> f64 {
-    let em = |c: char| match c {
-        'i' | 'j' | 'l' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 0.32,
-        'f' | 't' | 'r' | '(' | ')' | ' ' | '-' => 0.4,
-        'm' | 'w' | 'M' | 'W' | '%' => 0.9,
-        c if c.is_uppercase() => 0.7,
-        c if (c as u32) > 0x2e80 => 1.0,
-        _ => 0.62,
-    };
-    size * text.chars().map(em).sum::<f64>()
+    size * text
+        .chars()
+        .map(|c: char| match c {
+            'i' | 'j' | 'l' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' => 0.32,
+            'f' | 't' | 'r' | '(' | ')' | ' ' | '-' => 0.4,
+            'm' | 'w' | 'M' | 'W' | '%' => 0.9,
+            c if c.is_uppercase() => 0.7,
+            c if (c as u32) > 0x2e80 => 1.0,
+            _ => 0.62,
+        })
+        .sum::<f64>()
 }
 
 /// A text as it fits a space.
@@ -32,7 +34,8 @@ pub struct Fitted {
 impl Fitted {
     /// Distance of the middle of each line below the middle of the text, in px.
     pub fn offsets(&self) -> impl Iterator<Item = f64> + use<> {
-        let (count, line) = (self.lines.len(), LINE * self.size);
+        let count = self.lines.len();
+        let line = LINE * self.size;
         (0..count).map(move |index| (index as f64 - (count as f64 - 1.0) / 2.0) * line)
     }
 
@@ -120,7 +123,8 @@ mod tests {
             let high = found.lines.len() as f64 * LINE * found.size;
             assert!(high <= space.1 + 1e-9, "{space:?}: {found:?}");
         }
-        let (first, last) = (fitted(name, 12.0, (160.0, 30.0)), fitted(name, 12.0, (160.0, 60.0)));
+        let first = fitted(name, 12.0, (160.0, 30.0));
+        let last = fitted(name, 12.0, (160.0, 60.0));
         assert!(first.size < last.size, "more room, larger letters");
         let offsets: Vec<f64> = last.offsets().collect();
         assert!(offsets.iter().sum::<f64>().abs() < 1e-9, "{offsets:?} are around the middle");

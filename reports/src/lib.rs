@@ -56,44 +56,26 @@
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
 pub mod style;
-
 pub mod lettering;
-
 pub mod svg;
-
 pub mod axis;
-
 pub mod panel;
-
 mod names;
-
 mod chart;
 
 #[cfg(feature = "pictures")]
 pub mod picture;
-
 pub mod table;
-
 pub mod figure;
-
 pub mod subject;
-
 pub mod page;
-
 mod curves;
-
 mod samples;
-
 mod residuals;
-
 mod errors;
-
 mod left_out;
-
 mod light;
-
 mod palette;
-
 mod report;
 
 #[cfg(feature = "pictures")]

@@ -81,14 +81,16 @@ fn light(subject: &Subject<'_>, chosen: &QuadratureTrial) -> Figure {
     }
 
     let values = || chosen.rule.weights.iter().flatten().copied();
-    let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
+    let low = values().fold(0.0, f64::min);
+    let high = values().fold(0.0, f64::max);
     let weight = Axis::linear("Weight", "white Y = 100", 1.2 * low, 1.05 * high, 4);
     let zero = vec![(x.low, 0.0), (x.high, 0.0)];
     let mut marks = vec![Mark::Line { points: zero, color: FAINT, width: HAIR }];
     for (nm, weights) in chosen.rule.nodes_nm.iter().zip(&chosen.rule.weights) {
         for (channel, (weight, (_, color))) in weights.iter().zip(CHANNELS).enumerate() {
             let at = nm + 2.6 * (channel as f64 - 1.0);
-            let (from, to) = ((at - 1.2, 0.0), (at + 1.2, *weight));
+            let from = (at - 1.2, 0.0);
+            let to = (at + 1.2, *weight);
             marks.push(Mark::Bar { from, to, color });
         }
     }
@@ -135,7 +137,8 @@ fn errors(subject: &Subject<'_>) -> Figure {
         data.push(row);
     }
     let counts = || subject.quadratures.iter().map(|trial| trial.rule.nodes_nm.len() as f64);
-    let (fewest, most) = (counts().fold(f64::INFINITY, f64::min), counts().fold(0.0, f64::max));
+    let fewest = counts().fold(f64::INFINITY, f64::min);
+    let most = counts().fold(0.0, f64::max);
     let mut x = Axis::linear("Number of wavelengths", "count", fewest - 0.5, most + 0.5, 16);
     x.ticks.retain(|(count, _)| *count >= fewest && *count <= most);
     let errors = || subject.quadratures.iter().map(|trial| trial.error);

@@ -71,8 +71,10 @@ fn free_place<'a>(
             && right <= frame.x + frame.width + 10.0
             && top >= frame.y - 4.0
             && bottom <= frame.y + frame.height;
-        let covers = |[l, t, r, b]: &Edges| left < *r && *l < right && top < *b && *t < bottom;
-        let free = inside && !occupied.iter().any(covers);
+        let free = inside
+            && !occupied
+                .iter()
+                .any(|[l, t, r, b]: &Edges| left < *r && *l < right && top < *b && *t < bottom);
         free.then_some((edges, Placed { at: (x, y), anchor, text }))
     })
 }

@@ -118,7 +118,8 @@ fn contents(sections: &[Section]) -> String {
         out += &format!("<li><a href=\"#s{}\">{}</a>\n<ol>\n", index + 1, escaped(&section.title));
         for figure in section.figures() {
             number += 1;
-            let (name, title) = (&figure.name, escaped(&figure.title));
+            let name = &figure.name;
+            let title = escaped(&figure.title);
             out += &format!("<li><a href=\"#{name}\">{number}. {title}</a></li>\n");
         }
         out += "</ol></li>\n";
@@ -129,10 +130,12 @@ fn contents(sections: &[Section]) -> String {
 fn figure_html(figure: &Figure, number: usize, links: Links) -> String {
     let Figure { name, title, caption, command, svg, .. } = figure;
     let [title, caption] = [title, caption].map(|text| escaped(text));
-    let beside =
-        |ending: &str| format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase());
     let files = match links {
-        Links::Beside => ["svg", "png", "csv"].map(beside).join(" "),
+        Links::Beside => ["svg", "png", "csv"]
+            .map(|ending: &str| {
+                format!("<a href=\"figures/{name}.{ending}\">{}</a>", ending.to_uppercase())
+            })
+            .join(" "),
         Links::Within => format!(
             "<a download=\"{name}.csv\" href=\"data:text/csv;charset=utf-8,{}\">CSV</a>",
             percent_encoded(&figure.data.csv())
@@ -173,7 +176,8 @@ fn table_html(title: &str, table: &Table) -> String {
         // The unit `1` of a ratio is not written.
         let unit = column.unit.as_deref().filter(|unit| *unit != "1");
         let unit = unit.map(|unit| format!(" <small>{}</small>", escaped(unit)));
-        let (class, name) = (class(column), escaped(&column.name));
+        let class = class(column);
+        let name = escaped(&column.name);
         let _ = write!(out, "<th scope=\"col\"{class}>{name}{}</th>", unit.unwrap_or_default());
     }
     out += "</tr></thead>\n<tbody>\n";
@@ -205,17 +209,20 @@ fn style(sections: &[Section]) -> String {
     colors.dedup();
     let mut dark = String::new();
     for (reserved, replacement) in RESERVED {
-        let (from, to) = (reserved.hex(), replacement.hex());
+        let from = reserved.hex();
+        let to = replacement.hex();
         dark +=
             &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
     }
     for color in SERIES {
-        let (from, to) = (color.hex(), color.for_dark_screen().hex());
+        let from = color.hex();
+        let to = color.for_dark_screen().hex();
         dark +=
             &format!("svg [fill=\"{from}\"]{{fill:{to}}}svg [stroke=\"{from}\"]{{stroke:{to}}}\n");
     }
     for color in colors.into_iter().filter(|color| !color.is_reserved()) {
-        let (from, to) = (color.hex(), color.for_dark_screen().hex());
+        let from = color.hex();
+        let to = color.for_dark_screen().hex();
         dark += &format!(
             "svg :not(rect)[fill=\"{from}\"]{{fill:{to}}}svg :not(rect)[stroke=\"{from}\"]{{stroke:{to}}}\n"
         );
@@ -224,8 +231,10 @@ fn style(sections: &[Section]) -> String {
         let [ink, faint, grid, paper] = RESERVED.each_ref().map(|pair| of(pair).hex());
         format!(":root{{--ink:{ink};--faint:{faint};--grid:{grid};--paper:{paper};--link:{link}}}")
     };
-    let (light, night) = (root(|pair| pair.0, "#0057A0"), root(|pair| pair.1, "#7FB8F0"));
-    let (paper, white) = (PAPER.hex(), Color([0xFF; 3]).hex());
+    let light = root(|pair| pair.0, "#0057A0");
+    let night = root(|pair| pair.1, "#7FB8F0");
+    let paper = PAPER.hex();
+    let white = Color([0xFF; 3]).hex();
     format!(
         "{light}\n{STYLE}\
          @media print{{:root{{--paper:{white}}}\

@@ -256,13 +256,16 @@ impl Chart {
         let names = panels.first().map(|panel| (panel.x.name.clone(), panel.y.name.clone()));
         let subtitled = panels.iter().any(|panel| !panel.subtitle.is_empty());
         let subtitle = if subtitled { SUBTITLE } else { 0.0 };
-        let (gap, title, top) = (10.0, 18.0 + subtitle, TOP + subtitle);
+        let gap = 10.0;
+        let title = 18.0 + subtitle;
+        let top = TOP + subtitle;
         let columns = columns.clamp(1, panels.len().max(1));
         let free_width = f64::from(WIDTH) - LEFT - RIGHT - gap * (columns - 1) as f64;
         let width = free_width / columns as f64;
         let count = panels.len();
         let placed = panels.into_iter().enumerate().map(|(index, mut panel)| {
-            let (row, column) = (index / columns, index % columns);
+            let row = index / columns;
+            let column = index % columns;
             panel.frame = Frame {
                 x: LEFT + column as f64 * (width + gap),
                 y: top + row as f64 * (height + gap + title),

@@ -90,7 +90,8 @@ fn head(subject: &Subject<'_>) -> Head {
         let recipes = subject.named_recipes(&text);
         Warning { text, recipes }
     });
-    let (title, command) = (title.to_owned(), subject.command.clone());
+    let title = title.to_owned();
+    let command = subject.command.clone();
     Head { title, facts, warnings: warnings.collect(), command }
 }
 

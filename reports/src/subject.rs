@@ -179,15 +179,18 @@ impl Subject<'_> {
     #[must_use]
     pub fn recipe(&self, recipe: &Recipe) -> String {
         let absolute = self.library.amounts == AmountKind::Absolute;
-        let part = |&(pigment, amount): &(PigmentId, f64)| {
-            let label = self.label(pigment);
-            match (recipe.len(), absolute) {
-                (1, false) => label,
-                (_, false) => format!("{} % {label}", short(100.0 * amount)),
-                (_, true) => format!("{} {label}", short(amount)),
-            }
-        };
-        recipe.iter().map(part).collect::<Vec<_>>().join(" + ")
+        recipe
+            .iter()
+            .map(|&(pigment, amount): &(PigmentId, f64)| {
+                let label = self.label(pigment);
+                match (recipe.len(), absolute) {
+                    (1, false) => label,
+                    (_, false) => format!("{} % {label}", short(100.0 * amount)),
+                    (_, true) => format!("{} {label}", short(amount)),
+                }
+            })
+            .collect::<Vec<_>>()
+            .join(" + ")
     }
 
     /// Name and recipe of each compared sample that `text` names, in the order of the text. A name

@@ -53,7 +53,8 @@ impl Canvas {
 
     /// Draws a filled rectangle with its upper left corner `at`, in px.
     pub fn rectangle(&mut self, at: (f64, f64), size: (f64, f64), fill: Color) {
-        let ((x, y), (width, height)) = (at, size);
+        let (x, y) = at;
+        let (width, height) = size;
         let fill = fill.hex();
         self.element(format_args!(
             r#"<rect x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}" fill="{fill}"/>"#
@@ -62,7 +63,8 @@ impl Canvas {
 
     /// Draws a straight line of `width` px.
     pub fn line(&mut self, from: (f64, f64), to: (f64, f64), width: f64, color: Color) {
-        let ((x1, y1), (x2, y2)) = (from, to);
+        let (x1, y1) = from;
+        let (x2, y2) = to;
         let color = color.hex();
         self.element(format_args!(
             r#"<line x1="{x1:.1}" y1="{y1:.1}" x2="{x2:.1}" y2="{y2:.1}" stroke="{color}" stroke-width="{width}"/>"#
@@ -71,13 +73,15 @@ impl Canvas {
 
     /// Draws a line of text, vertically centred at `at`; `size` is the font size in px.
     pub fn text(&mut self, at: (f64, f64), size: f64, anchor: Anchor, color: Color, text: &str) {
-        let (x, y) = (at.0, at.1 + 0.35 * size);
+        let x = at.0;
+        let y = at.1 + 0.35 * size;
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
             Anchor::End => "end",
         };
-        let (color, text) = (color.hex(), escaped(text));
+        let color = color.hex();
+        let text = escaped(text);
         self.element(format_args!(
             r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" text-anchor="{anchor}" fill="{color}">{text}</text>"#
         ));
@@ -118,8 +122,10 @@ impl Canvas {
 
     /// Draws a line of text that reads upwards and starts at `at`.
     fn text_upwards(&mut self, at: (f64, f64), size: f64, color: Color, text: &str) {
-        let (x, y) = (at.0 + 0.35 * size, at.1);
-        let (color, text) = (color.hex(), escaped(text));
+        let x = at.0 + 0.35 * size;
+        let y = at.1;
+        let color = color.hex();
+        let text = escaped(text);
         self.element(format_args!(
             r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" transform="rotate(-90 {x:.1} {y:.1})" fill="{color}">{text}</text>"#
         ));
@@ -142,7 +148,8 @@ impl Canvas {
 /// px. A rim of paper around letters keeps them readable over colours.
 #[must_use]
 pub fn opening(width: u32, height: u32, fine: u32) -> String {
-    let (w, h) = (width * fine, height * fine);
+    let w = width * fine;
+    let h = height * fine;
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {w} {h}\" font-family=\"{FONTS}\">\n\

@@ -47,11 +47,13 @@ impl ColorTemperature {
         let width = (MIREDS.1 - MIREDS.0) / STEPS as f64;
         let at = |step: usize| MIREDS.0 + step as f64 * width;
         let nearest = (0..=STEPS).min_by(|&a, &b| away(at(a)).0.total_cmp(&away(at(b)).0))?;
-        let (mut low, mut high) = (at(nearest.max(1) - 1), at((nearest + 1).min(STEPS)));
+        let mut low = at(nearest.max(1) - 1);
+        let mut high = at((nearest + 1).min(STEPS));
         // Golden-section search: the distance has one minimum between the neighbours.
         let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
         while high - low > 1e-3 {
-            let (left, right) = (high - golden * (high - low), low + golden * (high - low));
+            let left = high - golden * (high - low);
+            let right = low + golden * (high - low);
             if away(left).0 < away(right).0 { high = right } else { low = left }
         }
         let mired = 0.5 * (low + high);

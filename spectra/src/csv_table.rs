@@ -154,8 +154,8 @@ pub fn wavelength_of_header(lower: &str) -> Option<f64> {
     let mut nm = None;
     while let Some(first) = rest.chars().next() {
         let length = if first.is_ascii_digit() {
-            let other = |c: char| !(c.is_ascii_digit() || c == '.');
-            let length = rest.find(other).unwrap_or(rest.len());
+            let length =
+                rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
             if nm.replace(rest[..length].parse().ok()?).is_some() {
                 return None;
             }

@@ -48,7 +48,8 @@ pub fn lamp_from_bytes(
 }
 
 fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, LampError> {
-    let (file, name) = (file.to_owned(), measured.name.clone());
+    let file = file.to_owned();
+    let name = measured.name.clone();
     let found = match measured.quantity {
         MeasuredQuantity::Unstated if measured.is_relative_to_white() => {
             MeasuredQuantity::Reflectance
@@ -62,7 +63,8 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
     if nm.len() < 2 {
         return Err(LampError::TooShort { file, count: nm.len() });
     }
-    let (start_nm, end_nm) = (nm[0], nm[nm.len() - 1]);
+    let start_nm = nm[0];
+    let end_nm = nm[nm.len() - 1];
     let band = Grid::cie();
     let within = || nm.iter().zip(&measured.values).filter(|(nm, _)| band.covers(**nm));
     let peak = within().fold(0.0, |most: f64, (_, &power)| most.max(power));

@@ -36,49 +36,27 @@
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
 mod wavelength;
-
 mod grid;
-
 mod interpolate;
-
 mod spectrum;
-
 mod spline;
-
 mod irregular;
-
 pub mod csv_table;
-
 pub mod instrument;
-
 pub mod referencing;
-
 mod table;
-
 mod observer;
-
 mod illuminant;
-
 mod daylight;
-
 mod black_body;
-
 mod lamp;
-
 mod light;
-
 pub mod color;
-
 mod integrate;
-
 mod viewing;
-
 mod color_temperature;
-
 mod color_rendering;
-
 pub mod swatch_file;
-
 pub mod optics;
 
 pub use black_body::{SECOND_RADIATION_CONSTANT, black_body};

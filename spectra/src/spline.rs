@@ -21,7 +21,8 @@ impl<'a> Spline<'a> {
         let mut bends = vec![0.0; count];
         let mut above = vec![0.0; count];
         for at in 1..count - 1 {
-            let (left, right) = (width(at - 1), width(at));
+            let left = width(at - 1);
+            let right = width(at);
             let pivot = 2.0 * (left + right) - left * above[at - 1];
             above[at] = right / pivot;
             bends[at] = (6.0 * (slope(at) - slope(at - 1)) - left * bends[at - 1]) / pivot;
@@ -41,7 +42,8 @@ impl<'a> Spline<'a> {
         let after = self.places.partition_point(|&p| p < place).clamp(1, self.places.len() - 1);
         let before = after - 1;
         let width = self.places[after] - self.places[before];
-        let (a, b) = ((self.places[after] - place) / width, (place - self.places[before]) / width);
+        let a = (self.places[after] - place) / width;
+        let b = (place - self.places[before]) / width;
         let bend = (a * a * a - a) * self.bends[before] + (b * b * b - b) * self.bends[after];
         let value = a * self.values[before] + b * self.values[after] + bend * width * width / 6.0;
         let around = &self.values[before.saturating_sub(1)..(after + 2).min(self.values.len())];

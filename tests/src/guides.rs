@@ -40,7 +40,8 @@ fn command(line: &str) -> Command {
 /// Splits a command into words as a shell does, with double quotes; a comment is left out.
 fn words(line: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
-    let (mut quoted, mut open) = (false, false);
+    let mut quoted = false;
+    let mut open = false;
     for (index, c) in line.char_indices() {
         match c {
             '"' => {

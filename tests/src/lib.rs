@@ -5,8 +5,6 @@ pub mod golden;
 pub mod guides;
 pub mod near;
 pub mod program;
-
 pub mod oils;
 pub mod watercolors;
-
 pub mod stroke_bench;

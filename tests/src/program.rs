@@ -28,7 +28,8 @@ impl Run {
 /// Runs `impasto` with `arguments`.
 #[must_use]
 pub fn impasto(arguments: &[&str]) -> Run {
-    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let mut out = Vec::new();
+    let mut err = Vec::new();
     let all = std::iter::once("impasto").chain(arguments.iter().copied());
     let status = impasto::run(all, &mut out, &mut err, impasto::Screen::default());
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");

@@ -126,7 +126,8 @@ impl Animation {
         frames: usize,
         size: (usize, usize),
     ) -> Result<Recording> {
-        let (settings, (width, height)) = (digest.text(), size);
+        let settings = digest.text();
+        let (width, height) = size;
         let sequence =
             Sequence::open(&self.frames, SequenceSettings { settings, frames, width, height })?;
         Ok(Recording { animation: self, sequence, frames })

@@ -86,7 +86,8 @@ mod tests {
 
     #[test]
     fn rows_of_different_keys_make_one_table() {
-        let (mut out, mut err) = (Vec::new(), Vec::new());
+        let mut out = Vec::new();
+        let mut err = Vec::new();
         let mut console = Console {
             out: &mut out,
             err: &mut err,

@@ -5,69 +5,37 @@
 //! (a wrong option, an unreadable file, a missing device), 128 + n ended by signal n.
 
 mod command_line;
-
 mod decimals;
-
 mod failure;
-
 mod console;
-
 mod progress;
-
 mod shown_color;
-
 mod csv_rows;
-
 mod driver_noise;
-
 mod input;
-
 mod library_choice;
-
 mod referencing;
-
 mod readings;
-
 mod selected_spectra;
-
 mod grid_option;
-
 mod ground;
-
 mod canvas;
-
 mod targets;
-
 mod costs;
-
 mod surface;
-
 mod output;
-
 mod stages;
-
 mod engine;
-
 mod pictures;
-
 mod plain_picture;
-
 mod setting_changes;
-
 mod subject;
-
 mod palette;
-
 mod animation;
-
 mod timelapse;
-
 mod verbs;
-
 mod examples;
-
 mod manual;
-
 mod command;
 
 use std::ffi::OsString;
@@ -105,7 +73,8 @@ pub fn run(
             return if requested { 0 } else { 2 };
         }
     };
-    let (start, voice) = (Instant::now(), parsed.voice());
+    let start = Instant::now();
+    let voice = parsed.voice();
     let mut console = Console { out, err, screen, command, voice, streamed: false };
     let done = match parsed.task {
         Task::Verb(verb) => verb.run(&mut console),

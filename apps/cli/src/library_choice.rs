@@ -112,7 +112,8 @@ mod tests {
             std::fs::write(&path, text).unwrap();
             path.display().to_string()
         };
-        let (library, table) = (file("oils", " {\"format\": 1}"), file("a.csv", "sample,400\n"));
+        let library = file("oils", " {\"format\": 1}");
+        let table = file("a.csv", "sample,400\n");
         for (word, alone, among_files) in [
             ("missing.json", true, true),
             ("-", true, true),

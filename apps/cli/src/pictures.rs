@@ -246,7 +246,8 @@ impl OpenExports {
             pigment_maps,
             painting: self.painting.as_ref().map(path),
         };
-        let (mut streamed, mut wrote) = (Vec::new(), Vec::new());
+        let mut streamed = Vec::new();
+        let mut wrote = Vec::new();
         let mut keep = |path: &Path, bytes: &[u8]| {
             if is_stream(path) {
                 streamed.push(bytes.to_vec());
@@ -255,8 +256,8 @@ impl OpenExports {
             wrote.push(path.to_owned());
             write_whole(path, bytes)
         };
-        let write = || exports.write_with(painting, &mut keep);
-        let outside = waited("making the files", console, write)?;
+        let outside =
+            waited("making the files", console, || exports.write_with(painting, &mut keep))?;
         streamed.iter().try_for_each(|bytes| console.stream(bytes))?;
         if let Some(folder) = &exports.pigment_maps {
             wrote.retain(|path| path.parent() != Some(folder));

@@ -18,7 +18,8 @@ const TICK: Duration = Duration::from_millis(200);
 fn shown_late(bar: &ProgressBar, terminal: bool) -> Arc<AtomicBool> {
     let done = Arc::new(AtomicBool::new(!terminal));
     if terminal {
-        let (bar, done) = (bar.clone(), Arc::clone(&done));
+        let bar = bar.clone();
+        let done = Arc::clone(&done);
         std::thread::spawn(move || {
             std::thread::sleep(DELAY);
             if !done.load(Ordering::Relaxed) {

@@ -73,7 +73,8 @@ impl SubjectOptions {
         path: &Path,
         views: PictureViews,
     ) -> Result<(Subject, Vec<PathBuf>)> {
-        let (turned, free) = (views != PictureViews::Front, views == PictureViews::Free);
+        let turned = views != PictureViews::Front;
+        let free = views == PictureViews::Free;
         let text = path.to_string_lossy();
         if let Some(name) = text.strip_prefix("shape:") {
             let Some(shape) = SampleModel::from_name(name) else {
@@ -103,8 +104,7 @@ impl SubjectOptions {
         }
         let photograph = Photograph::open(path)?;
         let (own_width, height) = photograph.size();
-        let usual = || photograph.usual_width_px();
-        let width = self.width.map_or_else(usual, |width| width as usize);
+        let width = self.width.map_or_else(|| photograph.usual_width_px(), |width| width as usize);
         let rows = (width as f64 * height as f64 / own_width as f64).round();
         if self.width.is_none() && width.max(height) < LEAST as usize {
             return Err(Failure::usage(
@@ -244,9 +244,10 @@ fn is_mesh(path: &Path) -> Result<bool> {
 pub(crate) fn picture_turns(way: Option<[f32; 2]>, frames: Option<u64>) -> Vec<[f32; 2]> {
     let Some(frames) = frames else { return vec![way.unwrap_or_default()] };
     let [right, up] = way.unwrap_or([SWING_DEG, SWING_DEG / 2.0]);
-    let swung = |frame: u64| {
-        let (sin, cos) = (std::f32::consts::TAU * frame as f32 / frames as f32).sin_cos();
-        [right * sin, up * cos]
-    };
-    (0..frames).map(swung).collect()
+    (0..frames)
+        .map(|frame: u64| {
+            let (sin, cos) = (std::f32::consts::TAU * frame as f32 / frames as f32).sin_cos();
+            [right * sin, up * cos]
+        })
+        .collect()
 }

@@ -45,9 +45,11 @@ fn measured(selected: SelectedSpectra, console: &mut Console<'_>) -> Result<Vec<
             counted_as(bare, "bare card, which is a target", "bare cards, which are targets")
         ))?;
     }
-    let target = |spectrum: AveragedSpectrum| {
-        let reflectance = Spectrum::<Reflectance>::new(grid, spectrum.reflectance)?;
-        Ok(ColorTarget::measured(spectrum.name, reflectance))
-    };
-    spectra.into_iter().map(target).collect()
+    spectra
+        .into_iter()
+        .map(|spectrum: AveragedSpectrum| {
+            let reflectance = Spectrum::<Reflectance>::new(grid, spectrum.reflectance)?;
+            Ok(ColorTarget::measured(spectrum.name, reflectance))
+        })
+        .collect()
 }

@@ -87,7 +87,8 @@ impl TimelapseOptions {
             (None, Some(seconds)) => Interval::Seconds(seconds),
             (None, None) => Interval::Frames(self.timelapse_count),
         };
-        let (longest_px, with_undone) = (self.timelapse_size, self.timelapse_undone);
+        let longest_px = self.timelapse_size;
+        let with_undone = self.timelapse_undone;
         let settings = TimelapseSettings { interval, longest_px, with_undone };
         let words = || "the timelapse";
         settings.check().context(words)?;
@@ -144,7 +145,8 @@ impl OpenTimelapse {
         if let Some((path, _)) = &self.files.animation {
             console.wrote(path)?;
         }
-        let (frames, size) = (timelapse.frames(), timelapse.size(session));
+        let frames = timelapse.frames();
+        let size = timelapse.size(session);
         Ok(TimelapseReport { frames, found, size })
     }
 }

@@ -47,7 +47,8 @@ fn saved(child: &mut Child, file: &Path) {
 #[test]
 fn a_signal_leaves_no_temporary_file_and_is_the_status() {
     let folder = tempfile::tempdir().unwrap();
-    let (script, file) = (endless(folder.path()), folder.path().join("saved.exr"));
+    let script = endless(folder.path());
+    let file = folder.path().join("saved.exr");
     for (moment, (name, number)) in
         [("INT", 2), ("TERM", 15), ("HUP", 1)].iter().cycle().take(18).enumerate()
     {
@@ -93,7 +94,8 @@ fn a_run_that_ends_before_its_first_write_makes_no_folder() {
 #[test]
 fn a_shell_sees_128_and_the_number() {
     let folder = tempfile::tempdir().unwrap();
-    let (script, file) = (endless(folder.path()), folder.path().join("saved.exr"));
+    let script = endless(folder.path());
+    let file = folder.path().join("saved.exr");
     let program = env!("CARGO_BIN_EXE_impasto");
     let line = format!(
         "'{program}' paint '{script}' --backend cpu & child=$!; \
@@ -108,7 +110,8 @@ fn a_shell_sees_128_and_the_number() {
 #[test]
 fn a_signal_that_was_ignored_at_the_start_stays_ignored() {
     let folder = tempfile::tempdir().unwrap();
-    let (script, file) = (endless(folder.path()), folder.path().join("saved.exr"));
+    let script = endless(folder.path());
+    let file = folder.path().join("saved.exr");
     let line = format!(
         "trap '' HUP; exec '{}' paint '{script}' --backend cpu",
         env!("CARGO_BIN_EXE_impasto")
@@ -125,7 +128,8 @@ fn a_signal_that_was_ignored_at_the_start_stays_ignored() {
 #[test]
 fn a_killed_run_is_cleaned_up_by_the_next_write() {
     let folder = tempfile::tempdir().unwrap();
-    let (script, file) = (endless(folder.path()), folder.path().join("saved.exr"));
+    let script = endless(folder.path());
+    let file = folder.path().join("saved.exr");
     // Killed as soon as a temporary file is seen, until one is left.
     for _ in 0..50 {
         let mut child = Command::new(env!("CARGO_BIN_EXE_impasto"))

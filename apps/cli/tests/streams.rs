@@ -174,7 +174,8 @@ fn completions_know_the_verbs_and_every_verb_has_a_manual_page() {
     {
         let page = page(name);
         assert!(page.contains(".SH NAME") && page.contains(".SH OPTIONS"), "{name}: {page}");
-        let (word, version) = (name.trim_end_matches(".1"), env!("CARGO_PKG_VERSION"));
+        let word = name.trim_end_matches(".1");
+        let version = env!("CARGO_PKG_VERSION");
         let title = format!(".TH {word} 1 \"\" \"impasto {version}\" \"Manual of impasto\"\n");
         assert!(page.contains(&title), "{name}: {page}");
         assert!(page.contains(".SH EXAMPLES\n.nf\n") || name == "impasto.1", "{name}: {page}");

@@ -65,7 +65,8 @@ fn stays(seen: &str) -> Vec<String> {
 #[test]
 fn a_bar_is_drawn_in_a_terminal_and_cleared_again() {
     let folder = tempfile::tempdir().unwrap();
-    let (script, out) = (slow(folder.path()), folder.path().join("a.png"));
+    let script = slow(folder.path());
+    let out = folder.path().join("a.png");
     let paint = format!("impasto paint '{script}' --backend cpu -o '{}'", out.display());
     // Results go elsewhere, the bar stays in the terminal.
     let results = folder.path().join("results.txt");

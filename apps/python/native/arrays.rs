@@ -1,8 +1,8 @@
 //! Arrays and grids between Python and Rust.
 
+use documents::hint::Fault;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use documents::hint::Fault;
 use spectra::{Grid, Reflectance, Spectrum};
 
 use crate::failure::{Exception, Raised};

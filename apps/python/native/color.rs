@@ -46,7 +46,8 @@ pub(crate) fn rgb<'py>(
 ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
     let (values, [count, _]) = rows(py, &xyz)?;
     let white = Xyz::from(white);
-    let (mut lab, mut srgb) = (vec![0.0; 3 * count], vec![0.0; 3 * count]);
+    let mut lab = vec![0.0; 3 * count];
+    let mut srgb = vec![0.0; 3 * count];
     beside(py, || {
         let pairs = lab.as_chunks_mut::<3>().0.par_iter_mut().zip(srgb.as_chunks_mut::<3>().0);
         pairs.zip(values.as_chunks::<3>().0).for_each(|((lab, srgb), xyz)| {

@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use pyo3::prelude::*;
 use documents::hint::{Explain, Fault, Hint};
+use pyo3::prelude::*;
 
 /// Exceptions that the package defines in `impasto/errors.py`.
 #[derive(Debug, Clone, Copy)]

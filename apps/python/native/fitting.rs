@@ -6,8 +6,8 @@ use calibrate::fit::{Method, Smoothness, Watch};
 use calibrate::library::AmountKind;
 use calibrate::observation::BelowSurface;
 use calibrate::{FitOptions, FitValidation, PreparedFit, ValidationOptions};
-use pyo3::prelude::*;
 use documents::hint::Fault;
+use pyo3::prelude::*;
 use spectra::optics::{Specular, Surface};
 
 use crate::failure::{Exception, Raised};

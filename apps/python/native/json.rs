@@ -9,9 +9,11 @@ pub(crate) type RemarkTuple = (bool, String, Option<String>);
 
 /// Remarks as Python takes them.
 pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Vec<RemarkTuple> {
-    let tuple = |remark: &Remark| {
-        let hint = remark.hint.as_ref().map(hint_text);
-        (remark.kind == RemarkKind::Warning, remark.text.clone(), hint)
-    };
-    remarks.into_iter().map(tuple).collect()
+    remarks
+        .into_iter()
+        .map(|remark: &Remark| {
+            let hint = remark.hint.as_ref().map(hint_text);
+            (remark.kind == RemarkKind::Warning, remark.text.clone(), hint)
+        })
+        .collect()
 }

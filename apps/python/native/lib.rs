@@ -4,35 +4,20 @@
 use pyo3::prelude::*;
 
 mod failure;
-
 mod running;
-
 mod arrays;
-
 mod json;
-
 mod light;
-
 mod color;
-
 mod library;
-
 mod readings;
-
 mod residuals;
-
 mod fitting;
-
 mod matching;
-
 mod planning;
-
 mod quadrature;
-
 mod report;
-
 mod cube;
-
 mod survey;
 
 /// The native part of the package `impasto`.

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use calibrate::curves::Curves;
 use calibrate::library::AmountKind;
 use calibrate::{Backing, FilmOver, PigmentLibrary};
+use documents::hint::Fault;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use documents::hint::Fault;
 
 use crate::arrays::{GridNumbers, reflectance, rows};
 use crate::failure::{Exception, Raised};

@@ -8,10 +8,10 @@ use calibrate::matching::{
     ColorTarget, MatchOptions, Metric, PriceList, RequiredName, SearchControl, SpectrumWeights,
     Thickness, ViewingCondition,
 };
+use documents::hint::Fault;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use spectra::Observer;
-use documents::hint::Fault;
 
 use crate::arrays::{GridNumbers, reflectance};
 use crate::failure::{Exception, Raised};
@@ -74,10 +74,6 @@ impl Options<'_> {
         for (pigment, price) in &self.prices {
             prices.set(pigment, *price).raised(py, Exception::Recipe)?;
         }
-        let required = |(name, share): &(String, Option<f64>)| RequiredName {
-            name: name.clone(),
-            share: *share,
-        };
         Ok(MatchOptions {
             metric: metric(py, &self.by)?,
             conditions: self.lights.iter().map(condition).collect(),
@@ -90,7 +86,14 @@ impl Options<'_> {
             }),
             over: self.over.as_ref().map(|ground| ground.backing(py)).transpose()?,
             only: self.only.clone(),
-            with: self.with.iter().map(required).collect(),
+            with: self
+                .with
+                .iter()
+                .map(|(name, share): &(String, Option<f64>)| RequiredName {
+                    name: name.clone(),
+                    share: *share,
+                })
+                .collect(),
             without: self.without.clone(),
             at_most: self.at_most,
             least_share: self.least_share,

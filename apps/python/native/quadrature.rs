@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use calibrate::quadrature::{EffectiveQuadrature, FilmSet, MixtureSet, Quadrature};
+use documents::hint::Fault;
 use pyo3::prelude::*;
 use serde_json::Value;
-use documents::hint::Fault;
 
 use crate::failure::Exception;
 use crate::library::Library;
@@ -28,7 +28,8 @@ pub(crate) fn quadrature(
     let viewing = viewing(py, light, observer)?;
     let library = library.map(|library| library.0.clone());
     let method = method.to_owned();
-    let (known, has_library) = (["gauss", "moments", "library", "effective"], library.is_some());
+    let known = ["gauss", "moments", "library", "effective"];
+    let has_library = library.is_some();
     if !known.contains(&method.as_str())
         || (!has_library && ["library", "effective"].contains(&&*method))
     {
@@ -63,8 +64,10 @@ pub(crate) fn quadrature(
             "moments" => Quadrature::moments(&viewing, nodes)?,
             _ => Quadrature::library(&viewing, &library, nodes)?,
         };
-        let error = || rule.error(&MixtureSet::random(&library, &weights, mixtures, seed));
-        Ok(rule.to_json((mixtures > 0).then(error)))
+        Ok(rule.to_json(
+            (mixtures > 0)
+                .then(|| rule.error(&MixtureSet::random(&library, &weights, mixtures, seed))),
+        ))
     })?;
     let done: Result<Value, QuadratureOrGrid> = done;
     done.map(|value| value.to_string()).map_err(|error| match error {

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use calibrate::ReadingFormat;
 use calibrate::measurement::{Film, Scale, ScaleChoice};
+use documents::hint::Fault;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use documents::hint::Fault;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
 
 use crate::arrays::GridNumbers;
@@ -168,7 +168,8 @@ fn scale(percent: Option<bool>) -> ScaleChoice {
 fn known_format(py: Python<'_>, name: &str) -> PyResult<ReadingFormat> {
     ReadingFormat::named(name).ok_or_else(|| {
         let known: Vec<&str> = ReadingFormat::names().collect();
-        let (message, hint) = (format!("unknown format `{name}`"), known.join(", "));
+        let message = format!("unknown format `{name}`");
+        let hint = known.join(", ");
         Exception::Reading.with(py, Fault::Setting, &message, Some(&format!("formats are {hint}")))
     })
 }

@@ -6,9 +6,9 @@ use calibrate::comparison::Comparable;
 use calibrate::fit::Watch;
 use calibrate::palette::Cards;
 use calibrate::quadrature::QuadratureTrial;
+use documents::hint::Explain;
 use pyo3::prelude::*;
 use reports::{Report, Subject};
-use documents::hint::Explain;
 
 use crate::failure::{Exception, Raised};
 use crate::library::Library;

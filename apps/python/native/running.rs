@@ -8,10 +8,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use documents::Cancellation;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use documents::Cancellation;
 
 /// Time between two looks for signals.
 const LOOK: Duration = Duration::from_millis(50);
@@ -103,9 +103,10 @@ thread_local! {
 pub(crate) fn beside<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
     py.detach(|| {
         if rayon::current_num_threads() == 1 && rayon::current_thread_index().is_none() {
-            let own = || ThreadPoolBuilder::new().num_threads(1).use_current_thread().build().ok();
             OWN.with(|pool| {
-                pool.get_or_init(own);
+                pool.get_or_init(|| {
+                    ThreadPoolBuilder::new().num_threads(1).use_current_thread().build().ok()
+                });
             });
         }
         work()

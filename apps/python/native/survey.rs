@@ -50,14 +50,17 @@ impl Settings {
             (None, None) => None,
         };
         let usual = MapSettings::default();
-        let group = |(name, pigments)| PigmentGroup { name, pigments };
         let residuals = self.residuals.map(|residuals| {
             ModelError::Residuals(calibrate::Residuals::clone(&residuals.get().0))
         });
         let settings = MapSettings {
             at_most: self.at_most,
             palette: self.palette,
-            groups: self.groups.into_iter().map(group).collect(),
+            groups: self
+                .groups
+                .into_iter()
+                .map(|(name, pigments)| PigmentGroup { name, pigments })
+                .collect(),
             group_alike: self.group_alike,
             sensor_noise: self.noise.or(white_sd).unwrap_or(usual.sensor_noise),
             model_error: residuals.or(self.model_error.map(ModelError::Stated)),
@@ -149,11 +152,13 @@ impl Survey {
         let store = py.detach(|| scan.store(path, StoreMode::Resume));
         let store = store.raised(py, Exception::Other)?;
         let mapped = run(py, None, move |reporter| {
-            let goes_on = |_: &usize| reporter.flow().is_continue();
-            places.into_iter().take_while(goes_on).try_fold(0, |pixels, place| {
-                let counts = scan.map_shard(&store, place, |_| reporter.flow())?;
-                Ok::<_, RunError<MapError>>(pixels + counts.map_or(0, |counts| counts.all()))
-            })
+            places.into_iter().take_while(|_: &usize| reporter.flow().is_continue()).try_fold(
+                0,
+                |pixels, place| {
+                    let counts = scan.map_shard(&store, place, |_| reporter.flow())?;
+                    Ok::<_, RunError<MapError>>(pixels + counts.map_or(0, |counts| counts.all()))
+                },
+            )
         })?;
         mapped.raised(py, Exception::Other)
     }

@@ -48,7 +48,8 @@ fn replayed(path: &Path) -> Result<Document, Failure> {
     let (wake, woken) = channel();
     let options = WorkerOptions { backend: BackendChoice::Cpu, ..WorkerOptions::default() };
     let worker = Worker::start(options, move || wake.send(()).unwrap_or_default());
-    let (script, library) = (Box::new(script), Box::new(library));
+    let script = Box::new(script);
+    let library = Box::new(library);
     worker.ask(Command::Replay { script, library, pace: Pace::Fast });
     loop {
         woken.recv()?;

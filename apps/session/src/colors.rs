@@ -80,7 +80,8 @@ impl Colors {
     /// pigment whose scattering is unknown.
     pub(super) fn tints(&self, slots: &Slots) -> [Option<[u8; 3]>; SLOTS] {
         slots.map(|slot| {
-            let (pigment, white) = (slot?, self.white?);
+            let pigment = slot?;
+            let white = self.white?;
             let identified = self.library[pigment].identified;
             identified.then(|| self.of(&[(pigment, 1.0), (white, TINT)]))?
         })

@@ -34,16 +34,18 @@ const BRUSHES: [(&str, HeadShape, f64); 6] = [
 /// Default brushes by name.
 #[must_use]
 pub fn default_brushes() -> BTreeMap<String, BrushSpec> {
-    let spec =
-        |(name, shape, size_mm): (&str, _, _)| (name.to_owned(), BrushSpec { shape, size_mm });
-    BRUSHES.into_iter().map(spec).collect()
+    BRUSHES
+        .into_iter()
+        .map(|(name, shape, size_mm): (&str, _, _)| (name.to_owned(), BrushSpec { shape, size_mm }))
+        .collect()
 }
 
 /// A wooden palette of 640 x 420 cells of `cell_mm` mm: 64 x 42 mm for cells of 0.1 mm.
 #[must_use]
 pub fn default_mixing_canvas(cell_mm: f64) -> Canvas {
     let ground = GroundKind::Wood.spec(1);
-    let (width_mm, height_mm) = (640.0 * cell_mm, 420.0 * cell_mm);
+    let width_mm = 640.0 * cell_mm;
+    let height_mm = 420.0 * cell_mm;
     Canvas { width_mm, height_mm, cell_mm, ground }
 }
 

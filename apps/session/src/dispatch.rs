@@ -166,8 +166,8 @@ impl WorkerLoop<'_> {
             }
             Command::BeginGroup | Command::EndGroup => {
                 let OpenPainting { prepared, groups, .. } = self.open_mut();
-                let (numbers, (_, done)) =
-                    (prepared.session.history_numbers(), prepared.session.history());
+                let numbers = prepared.session.history_numbers();
+                let (_, done) = prepared.session.history();
                 match command {
                     Command::BeginGroup => groups.begin(&numbers, done),
                     _ => groups.end(&numbers, done),
@@ -217,7 +217,8 @@ impl WorkerLoop<'_> {
     fn step_over_group(&mut self, action: &Action) -> Result<Option<Outcome>, SessionError> {
         let OpenPainting { prepared, groups, .. } = self.open_mut();
         let session = &mut prepared.session;
-        let (numbers, (_, done)) = (session.history_numbers(), session.history());
+        let numbers = session.history_numbers();
+        let (_, done) = session.history();
         let to = match action {
             Action::Undo {} => groups.undo_to(&numbers, done),
             Action::Redo {} => groups.redo_to(&numbers, done),
@@ -338,7 +339,8 @@ impl WorkerLoop<'_> {
     fn snapshot(&mut self, number: u64) -> Result<Snapshot, SessionError> {
         let revision = self.revision;
         let (canvas, palette) = self.session().documents()?;
-        let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.expect(PALETTE)));
+        let canvas = Arc::new(canvas);
+        let palette = Arc::new(palette.expect(PALETTE));
         let brushes = Arc::new(self.session().kept_brushes()?);
         let snapshot = Snapshot { number, canvas, palette, brushes, revision };
         self.keep(&snapshot);
@@ -352,7 +354,8 @@ impl WorkerLoop<'_> {
         };
         shots.follow(&prepared.session.history_numbers());
         let history_shots = shots.report();
-        let (revision, stroke_open) = (self.revision, self.stroke.is_some());
+        let revision = self.revision;
+        let stroke_open = self.stroke.is_some();
         let status = WorkerStatus { revision, stroke_open, history_shots };
         Ok(Some(Arc::new(reporter.state(prepared, &status, self.outbox.bytes())?)))
     }

@@ -97,7 +97,8 @@ mod tests {
             let paint = heights(0.01 * scale, 0.02 * scale, 0.005 * scale);
             colors.swatch(&slots, &paint, &setting(0.7)).unwrap()
         };
-        let (thin, thick) = (swatch(0.1), swatch(400.0));
+        let thin = swatch(0.1);
+        let thick = swatch(400.0);
         assert!(thin.contrast < 0.5 && thick.contrast > 0.999, "{thin:?} {thick:?}");
         assert!((thin.thickness_mm - 0.0035).abs() < 1e-12, "{}", thin.thickness_mm);
         let apart = (thick.over_cards[0].lab.lightness - thick.opaque.lab.lightness).abs();
@@ -111,7 +112,9 @@ mod tests {
     fn a_film_over_the_ground_is_the_one_that_the_painting_shows() {
         let (colors, slots) = colors("A");
         let library = PigmentLibrary::van_gogh_oils();
-        let (quanta, cell_mm, setting) = ([300_u32, 900], 0.1, setting(0.62));
+        let quanta = [300_u32, 900];
+        let cell_mm = 0.1;
+        let setting = setting(0.62);
         let medium = Medium { scattering_per_mm: setting.scattering_per_mm, ..Medium::default() };
         let ground = Ground {
             name: "test".to_owned(),

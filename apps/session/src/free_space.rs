@@ -33,13 +33,15 @@ fn wet_paint_around(
     [x_mm, y_mm]: [f64; 2],
     reach_mm: f64,
 ) -> Result<Option<u64>, PaintingError> {
-    let (bounds, cell_mm) = (painting.bounds(), painting.cell_mm());
+    let bounds = painting.bounds();
+    let cell_mm = painting.cell_mm();
     let span = |at_mm: f64, end: usize| {
         let first = ((at_mm - reach_mm) / cell_mm).floor().max(0.0) as usize;
         let last = ((at_mm + reach_mm) / cell_mm).ceil().clamp(0.0, end as f64) as usize;
         (first.min(end), last)
     };
-    let ((x, right), (y, bottom)) = (span(x_mm, bounds.width), span(y_mm, bounds.height));
+    let (x, right) = span(x_mm, bounds.width);
+    let (y, bottom) = span(y_mm, bounds.height);
     let inside = (0.0..=bounds.width as f64 * cell_mm).contains(&x_mm)
         && (0.0..=bounds.height as f64 * cell_mm).contains(&y_mm);
     if !inside || right <= x || bottom <= y {

@@ -119,11 +119,13 @@ impl Inbox {
 
     /// Number of pen samples in waiting commands.
     pub(super) fn samples(&self) -> usize {
-        let samples = |command: &Command| match command {
-            Command::PenMove(samples) => samples.len(),
-            _ => 0,
-        };
-        self.waiting.iter().map(samples).sum()
+        self.waiting
+            .iter()
+            .map(|command: &Command| match command {
+                Command::PenMove(samples) => samples.len(),
+                _ => 0,
+            })
+            .sum()
     }
 }
 

@@ -40,13 +40,22 @@ impl Layers {
         }
         self.changes = painting.dry_changes();
         let mut former = std::mem::take(&mut self.entries);
-        let entry = |layer: &DryLayerState| {
-            let known = former.iter().position(|entry| entry.id == layer.id);
-            let known = known.map(|index| former.swap_remove(index));
-            let new = || LayerEntry { id: layer.id, current: false, summary: None, sent: None };
-            LayerEntry { current: false, ..known.unwrap_or_else(new) }
-        };
-        self.entries = dry.iter().map(entry).collect();
+        self.entries = dry
+            .iter()
+            .map(|layer: &DryLayerState| {
+                let known = former.iter().position(|entry| entry.id == layer.id);
+                let known = known.map(|index| former.swap_remove(index));
+                LayerEntry {
+                    current: false,
+                    ..known.unwrap_or_else(|| LayerEntry {
+                        id: layer.id,
+                        current: false,
+                        summary: None,
+                        sent: None,
+                    })
+                }
+            })
+            .collect();
     }
 
     /// Whether a summary is outdated.
@@ -63,7 +72,8 @@ impl Layers {
         self.update(painting);
         let outdated = self.entries.iter().position(|entry| !entry.current);
         let Some(index) = outdated else { return Ok(()) };
-        let (bounds, cell_mm) = (painting.bounds(), painting.cell_mm());
+        let bounds = painting.bounds();
+        let cell_mm = painting.cell_mm();
         let summary = LayerSummary::new(bounds, cell_mm, |rect| painting.dry_in(index, rect))?;
         let entry = &mut self.entries[index];
         (entry.current, entry.summary, entry.sent) = (true, Some(summary), None);

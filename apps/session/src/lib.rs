@@ -43,79 +43,42 @@
 //! Out of scope: windows, pens and pictures on a screen (crate `studio`).
 
 mod awaited;
-
 pub mod background;
-
 mod state;
-
 mod event;
-
 mod command;
-
 mod defaults;
-
 mod backend;
-
 mod srgb;
-
 mod tiles;
-
 pub mod warm_up;
-
 mod colors;
-
 mod films;
-
 mod thumbnail;
-
 mod miniature;
-
 mod shots;
-
 mod layers;
-
 mod masks;
-
 mod pick;
-
 mod free_space;
-
 mod meter;
-
 mod inbox;
-
 mod works;
-
 mod outbox;
-
 mod prepare;
-
 mod report;
-
 mod stroke_timing;
-
 mod groups;
-
 mod tally;
-
 mod replay;
-
 mod worker;
-
 mod dispatch;
-
 mod open;
-
 mod thread;
-
 mod failure;
-
 mod autosave;
-
 pub mod brushes;
-
 pub mod swatches;
-
 pub mod volumes;
 
 #[cfg(test)]

@@ -28,7 +28,8 @@ impl Miniature {
         while step < TILE && longer.div_ceil(step) > LONGEST {
             step *= 2;
         }
-        let (width, height) = (bounds.width.div_ceil(step), bounds.height.div_ceil(step));
+        let width = bounds.width.div_ceil(step);
+        let height = bounds.height.div_ceil(step);
         let picture = Thumbnail { width, height, pixels: vec![[0, 0, 0, 255]; width * height] };
         Self { bounds, step, picture, stale: TileSet::all(bounds) }
     }
@@ -79,7 +80,8 @@ impl Miniature {
                     }
                 }
                 let [r, g, b] = sum.map(|sum| sum / (width * height) as f32);
-                let (x, y) = ((rect.x + left) / step, (rect.y + top) / step);
+                let x = (rect.x + left) / step;
+                let y = (rect.y + top) / step;
                 self.picture.pixels[y * self.picture.width + x] = bytes.pixel([r, g, b, 1.0]);
             }
         }
@@ -106,8 +108,13 @@ mod tests {
     use super::*;
 
     fn canvas(width: usize, height: usize, color: impl Fn(usize, usize) -> f32) -> Field<[f32; 4]> {
-        let cell = |index: usize| [color(index % width, index / width); 4];
-        Field::from_values(width, height, (0..width * height).map(cell).collect())
+        Field::from_values(
+            width,
+            height,
+            (0..width * height)
+                .map(|index: usize| [color(index % width, index / width); 4])
+                .collect(),
+        )
     }
 
     fn read(canvas: &Field<[f32; 4]>) -> impl FnMut(Rect) -> Result<Field<[f32; 4]>, Infallible> {

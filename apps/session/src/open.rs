@@ -56,7 +56,8 @@ impl WorkerLoop<'_> {
         }
         let reporter = Reporter::new(&prepared);
         let shots = Shots::default();
-        let (groups, recording_stop_reported) = (Groups::default(), false);
+        let groups = Groups::default();
+        let recording_stop_reported = false;
         self.open =
             Some(OpenPainting { prepared, reporter, shots, groups, recording_stop_reported });
         self.shot_revision = None;
@@ -215,10 +216,11 @@ mod tests {
     /// events since. `saved` is whether a snapshot was sent before.
     fn lost(saved: bool) -> (Option<Snapshot>, Vec<Event>) {
         let events = RefCell::new(Vec::new());
-        let send = |event| events.borrow_mut().push(event);
         let (_sender, receiver) = channel();
         let backend = Backend::new(BackendChoice::Cpu);
-        let mut worker = WorkerLoop::new(Inbox::new(receiver), backend, 1 << 24, send);
+        let mut worker = WorkerLoop::new(Inbox::new(receiver), backend, 1 << 24, |event| {
+            events.borrow_mut().push(event)
+        });
         worker.open(blank_canvas(PigmentLibrary::van_gogh_oils(), 6.0, 5.0, 0.1));
         let heap = Action::Squeeze(Squeeze {
             on: SurfaceId::Canvas,
@@ -230,7 +232,8 @@ mod tests {
         });
         worker.session().apply(&heap).unwrap();
         let (canvas, palette) = worker.session().documents().unwrap();
-        let (canvas, palette) = (Arc::new(canvas), Arc::new(palette.unwrap()));
+        let canvas = Arc::new(canvas);
+        let palette = Arc::new(palette.unwrap());
         let brushes = Arc::new(worker.session().kept_brushes().unwrap());
         let snapshot = Snapshot { number: 1, canvas, palette, brushes, revision: 1 };
         // Set by hand, because a worker without a graphics device keeps no snapshot.

@@ -185,8 +185,9 @@ impl Outbox {
             view.refresh(painting, &mut self.small)?;
             while self.unconfirmed < MOST_UNCONFIRMED && !view.unsent.is_empty() {
                 let part = take_first_tiles(&mut view.unsent, PART_TILES);
-                let read = |rect: Rect| painting.picture_in(view.second, rect);
-                let tiles = encode(&part, bounds, &self.bytes, read)?;
+                let tiles = encode(&part, bounds, &self.bytes, |rect: Rect| {
+                    painting.picture_in(view.second, rect)
+                })?;
                 let complete = view.unsent.is_empty();
                 let newest = self.arrived.back().copied().filter(|_| complete && !view.second);
                 send(Event::Tiles { surface: view.surface, second: view.second, tiles, newest });
@@ -207,7 +208,8 @@ impl Outbox {
 
 /// Removes the first `most` tiles from `set` and returns them.
 fn take_first_tiles(set: &mut TileSet, most: usize) -> TileSet {
-    let (mut first, mut rest) = (TileSet::default(), TileSet::default());
+    let mut first = TileSet::default();
+    let mut rest = TileSet::default();
     for (index, tile) in set.iter().enumerate() {
         if index < most {
             first.insert_tile(tile)
@@ -226,7 +228,8 @@ mod tests {
     #[test]
     fn a_whole_picture_is_sent_in_parts_and_no_tile_twice() {
         let all = TileSet::all(Rect { x: 0, y: 0, width: 1920, height: 1080 });
-        let (mut left, mut sent) = (all.clone(), TileSet::default());
+        let mut left = all.clone();
+        let mut sent = TileSet::default();
         let mut parts = Vec::new();
         while !left.is_empty() {
             let part = take_first_tiles(&mut left, PART_TILES);

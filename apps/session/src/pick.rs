@@ -40,7 +40,8 @@ pub(super) fn pick(painting: &mut Painting, place: Place) -> Result<Option<Picke
     let mut layers = Vec::with_capacity(state.dry.len() + 1);
     for (index, dry) in state.dry.iter().enumerate() {
         let amounts_mm = mean_mm(&rows, cell_mm, |row| painting.dry_in(index, row))?;
-        let (label, opacity) = (dry.label(), dry.shown_opacity());
+        let label = dry.label();
+        let opacity = dry.shown_opacity();
         layers.push(PickedLayer { label, slots: dry.slots, amounts_mm, opacity });
     }
     let amounts_mm = mean_mm(&rows, cell_mm, |row| painting.wet_in(row))?;
@@ -56,7 +57,8 @@ fn mean_mm(
     cell_mm: f64,
     mut read: impl FnMut(Rect) -> Result<Layer, PaintingError>,
 ) -> Result<[f64; SLOTS + 1], PaintingError> {
-    let (mut totals, mut cells) = ([0_u64; SLOTS + 1], 0);
+    let mut totals = [0_u64; SLOTS + 1];
+    let mut cells = 0;
     for &row in rows {
         for (total, more) in totals.iter_mut().zip(read(row)?.totals()) {
             *total += more;
@@ -77,13 +79,15 @@ fn rows(bounds: Rect, cell_mm: f64, place: Place) -> Vec<Rect> {
     let row = |row: usize| {
         let away = row as f64 + 0.5 - y;
         let half = (radius * radius - away * away).max(0.0).sqrt();
-        let (mut first, mut last) = ((x - half - 0.5).ceil(), (x + half - 0.5).floor());
+        let mut first = (x - half - 0.5).ceil();
+        let mut last = (x + half - 0.5).floor();
         if row as f64 == own.1 {
             (first, last) = (first.min(own.0), last.max(own.0));
         } else if away.abs() > radius {
             return Rect::default();
         }
-        let (first, last) = (first.max(0.0), last.min(bounds.width as f64 - 1.0));
+        let first = first.max(0.0);
+        let last = last.min(bounds.width as f64 - 1.0);
         if last < first {
             return Rect::default();
         }

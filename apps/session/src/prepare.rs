@@ -67,7 +67,8 @@ pub(super) fn prepare(
         Origin::Blank { script, library } => prepare_script(&script, &library, backend, undo_bytes),
         Origin::Painting(canvas) => {
             let script = continue_from(&canvas);
-            let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
+            let library = canvas.library.clone();
+            let lighting = canvas.lighting.clone();
             let surfaces = || Ok(script.surfaces_with_table(&library, Some(*canvas), None)?);
             let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
             surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
@@ -80,14 +81,16 @@ pub(super) fn prepare(
         }
         Origin::WithTable { canvas, table } => {
             let script = StrokeScript::continue_with_table(&path_of(&canvas), &canvas, &table);
-            let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
+            let library = canvas.library.clone();
+            let lighting = canvas.lighting.clone();
             let surfaces =
                 || Ok(script.surfaces_with_table(&library, Some(*canvas), Some(*table))?);
             let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
             surfaces.into_session(Beginning::Recorded(&script), backend, undo_bytes)
         }
         Origin::Recovered { canvas, palette, kept } => {
-            let (library, lighting) = (canvas.library.clone(), canvas.lighting.clone());
+            let library = canvas.library.clone();
+            let lighting = canvas.lighting.clone();
             let surfaces = || Ok((*canvas, Some(*palette), Vec::new()));
             let surfaces = Surfaces::new(&library, &lighting, surfaces)?;
             let kept = kept.unwrap_or_default();
@@ -221,7 +224,8 @@ impl Surfaces {
                 })
             },
         );
-        let (canvas, palette) = (canvas?, palette.transpose()?);
+        let canvas = canvas?;
+        let palette = palette.transpose()?;
         let mut session = match beginning {
             Beginning::Recorded(script) => {
                 let mut session = PaintingSession::recorded(canvas, palette, script)?;

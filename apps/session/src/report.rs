@@ -58,7 +58,8 @@ impl Reporter {
     pub(super) fn new(prepared: &PreparedPainting) -> Self {
         let light = Arc::clone(prepared.session.canvas().light());
         let colors = Colors::new(Arc::clone(&prepared.library), light);
-        let (brushes, clean) = (BTreeMap::new(), BTreeMap::new());
+        let brushes = BTreeMap::new();
+        let clean = BTreeMap::new();
         Self { colors, layers: Layers::default(), masks: Masks::default(), brushes, clean }
     }
 
@@ -226,8 +227,10 @@ fn brush_load(session: &mut PaintingSession, name: &str) -> Result<BrushLoad, Se
         Some((session.painting(surface)?, session.brush_id_on(name, surface)?))
     });
     let Some((painting, brush)) = used else { return Ok(clean) };
-    let (head, cell_mm) = (painting.head(brush), painting.cell_mm());
-    let (rows, cell_area) = (head.rows_with_paint().len(), head.paint_cell_area());
+    let head = painting.head(brush);
+    let cell_mm = painting.cell_mm();
+    let rows = head.rows_with_paint().len();
+    let cell_area = head.paint_cell_area();
     let area = (paint.width() * rows).max(1) as f64 * cell_area;
     Ok(BrushLoad {
         head: paint.totals().map(|total| total as f64 / area * mm_from_quanta(1, cell_mm)),

@@ -93,9 +93,12 @@ mod tests {
     }
 
     fn shades(shots: &Shots) -> Vec<Option<u8>> {
-        let shade =
-            |shot: &Option<HistoryShot>| shot.as_ref().map(|shot| shot.picture.pixels[34][0]);
-        shots.report().shots.iter().map(shade).collect()
+        shots
+            .report()
+            .shots
+            .iter()
+            .map(|shot: &Option<HistoryShot>| shot.as_ref().map(|shot| shot.picture.pixels[34][0]))
+            .collect()
     }
 
     #[test]

@@ -23,9 +23,13 @@ impl SrgbBytes {
         for (byte, least) in least.iter_mut().enumerate().take(256) {
             *least = least_giving(byte as u8);
         }
-        let bucket = |index: usize| exact(index as f32 / BUCKETS as f32);
         // One more bucket, for the value 1.
-        Self { lowest: (0..=BUCKETS).map(bucket).collect(), least }
+        Self {
+            lowest: (0..=BUCKETS)
+                .map(|index: usize| exact(index as f32 / BUCKETS as f32))
+                .collect(),
+            least,
+        }
     }
 
     /// Byte of one channel; values outside 0 to 1 are clipped.
@@ -64,7 +68,8 @@ fn exact(linear: f32) -> u8 {
 /// Smallest value from 0 to 1 whose byte is at least `byte`. Bisects the bit patterns, which have
 /// the same order as the non-negative numbers that they represent.
 fn least_giving(byte: u8) -> f32 {
-    let (mut low, mut high) = (0, 1.0_f32.to_bits());
+    let mut low = 0;
+    let mut high = 1.0_f32.to_bits();
     while low < high {
         let middle = low.midpoint(high);
         if exact(f32::from_bits(middle)) >= byte {

@@ -52,9 +52,11 @@ impl StrokeTiming {
         meter: &mut Meter,
         outbox: &mut Outbox,
     ) -> Result<bool, SessionError> {
-        let (known, start) = (session.advance(0)?, Instant::now());
+        let known = session.advance(0)?;
+        let start = Instant::now();
         let waiting = session.advance(meter.slice())?;
-        let (now, painted) = (Instant::now(), known - waiting);
+        let now = Instant::now();
+        let painted = known - waiting;
         meter.add_slice(now, painted, now - start);
         self.painted += painted;
         let reached = session.stroke_progress().map_or(0, OpenStroke::reached);

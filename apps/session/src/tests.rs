@@ -114,7 +114,8 @@ fn two_strokes() -> Vec<Command> {
             volume_mm3: 6.0,
         };
         commands.push(Command::Apply(Action::Squeeze(heap)));
-        let (surface, decimals) = (SurfaceId::Canvas, SampleDecimals::PEN);
+        let surface = SurfaceId::Canvas;
+        let decimals = SampleDecimals::PEN;
         commands.push(Command::PenDown { surface, brush: "round".to_owned(), decimals });
         for step in 0..40 {
             let seconds = f64::from(step) / 100.0;
@@ -146,7 +147,8 @@ fn a_worker_in_turns_paints_like_one_on_a_thread() {
     }
     let worker = Worker::in_turns(options, || {});
     two_strokes().into_iter().for_each(|command| worker.ask(command));
-    let (mut in_turns, mut turns) = (Vec::new(), 0);
+    let mut in_turns = Vec::new();
+    let mut turns = 0;
     while in_turns.len() < 3 {
         // A deadline that is over: one slice or command each turn.
         worker.turn(Instant::now());

@@ -97,8 +97,10 @@ impl Worker {
     /// Events since the last call.
     pub fn events(&self) -> impl Iterator<Item = Event> + '_ {
         let events: Vec<Event> = self.events.try_iter().collect();
-        let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
-        let received = events.iter().filter(paced).count();
+        let received = events
+            .iter()
+            .filter(|event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_))))
+            .count();
         if received > 0 {
             let _ = self.inputs.send(Input::Confirmed(received));
         }

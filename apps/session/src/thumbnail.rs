@@ -49,7 +49,9 @@ impl LayerSummary {
             (0..cells.width()).map(|x| place(x, cells.width(), bounds.width)).collect();
         let rows: Vec<usize> =
             (0..cells.height()).map(|y| place(y, cells.height(), bounds.height)).collect();
-        let (mut sum, mut most, mut painted) = (0_u64, 0_u32, 0_u64);
+        let mut sum = 0_u64;
+        let mut most = 0_u32;
+        let mut painted = 0_u64;
         for top in (0..bounds.height).step_by(TILE) {
             let height = TILE.min(bounds.height - top);
             let strip = read(Rect { x: 0, y: top, width: bounds.width, height })?;
@@ -98,7 +100,8 @@ impl LayerSummary {
 
     /// Picture of the layer alone over the ground, with its opacity, whether it is shown or not.
     fn thumbnail(&self, dry: &DryLayerState, painting: &Painting, bytes: &SrgbBytes) -> Thumbnail {
-        let (columns, rows) = (self.cells.width(), self.cells.height());
+        let columns = self.cells.width();
+        let rows = self.cells.height();
         let layer = DryLayer::new(dry.id, dry.slots, self.cells.clone());
         let layer = DryLayer { opacity: dry.opacity, ..layer };
         let document = document_of(painting, layer);
@@ -107,9 +110,11 @@ impl LayerSummary {
         // meaning.
         scene.lamp.relief = 0.0;
         let picture = scene::picture(&document, &scene);
-        let (width, height) = (columns / PROBES, rows / PROBES);
+        let width = columns / PROBES;
+        let height = rows / PROBES;
         let pixel = |index: usize| {
-            let (x, y) = (index % width * PROBES, index / width * PROBES);
+            let x = index % width * PROBES;
+            let y = index / width * PROBES;
             let probes = (0..PROBES * PROBES).map(|i| (x + i % PROBES, y + i / PROBES));
             let mut sum = [0.0; 4];
             for (x, y) in probes {
@@ -130,7 +135,8 @@ impl LayerSummary {
 
 /// Document of `layer` over the ground of `painting` without relief.
 fn document_of(painting: &Painting, layer: DryLayer) -> Document {
-    let (width, height) = (layer.paint.width(), layer.paint.height());
+    let width = layer.paint.width();
+    let height = layer.paint.height();
     let Ground { name, reflectance, gloss, .. } = painting.ground();
     let level = Ground {
         name: name.clone(),
@@ -138,8 +144,10 @@ fn document_of(painting: &Painting, layer: DryLayer) -> Document {
         reflectance: reflectance.clone(),
         gloss: *gloss,
     };
-    let (cell_mm, library) = (painting.cell_mm(), painting.library().clone());
-    let (medium, lighting) = (painting.medium().clone(), painting.state().lighting.clone());
+    let cell_mm = painting.cell_mm();
+    let library = painting.library().clone();
+    let medium = painting.medium().clone();
+    let lighting = painting.state().lighting.clone();
     let slots = layer.slots;
     let mut document = Document::bare("", cell_mm, level, library, medium, slots, lighting);
     document.dry.push(layer);

@@ -60,11 +60,16 @@ mod tests {
 
     /// A picture with colours inside and outside the gamut.
     fn picture(width: usize, height: usize) -> Field<[f32; 4]> {
-        let color = |index: usize| {
-            let value = |k: usize| ((index * k) % 1009) as f32 / 1000.0 - 0.004;
-            [value(1), value(31), value(577), 1.0]
-        };
-        Field::from_values(width, height, (0..width * height).map(color).collect())
+        Field::from_values(
+            width,
+            height,
+            (0..width * height)
+                .map(|index: usize| {
+                    let value = |k: usize| ((index * k) % 1009) as f32 / 1000.0 - 0.004;
+                    [value(1), value(31), value(577), 1.0]
+                })
+                .collect(),
+        )
     }
 
     fn part(picture: &Field<[f32; 4]>, rect: Rect) -> Field<[f32; 4]> {
@@ -78,14 +83,17 @@ mod tests {
         let picture = picture(150, 70);
         let bounds = picture.bounds();
         let bytes = SrgbBytes::new();
-        let read = |rect| Ok::<_, Infallible>(part(&picture, rect));
-        let tiles = encode(&TileSet::all(bounds), bounds, &bytes, read).unwrap();
+        let tiles = encode(&TileSet::all(bounds), bounds, &bytes, |rect| {
+            Ok::<_, Infallible>(part(&picture, rect))
+        })
+        .unwrap();
         let file = png8(&picture, 0.1).unwrap().bytes;
         let exported = image::load_from_memory(&file).unwrap().into_rgb8();
         let mut cells = 0;
         for TilePixels { rect, pixels } in tiles {
             for (index, [r, g, b, a]) in pixels.into_iter().enumerate() {
-                let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
+                let x = rect.x + index % rect.width;
+                let y = rect.y + index / rect.width;
                 assert_eq!(exported[(x as u32, y as u32)].0, [r, g, b], "column {x}, row {y}");
                 assert_eq!(a, 255, "pictures are opaque");
                 cells += 1;

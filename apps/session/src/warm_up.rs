@@ -66,7 +66,8 @@ impl WarmUp {
         let stroke = samples.map(|(s, x)| Sample::upright(s, x, 0.5 * SIZE_MM.1, 0.5));
         session.stroke(BRUSH, &stroke)?;
         let canvas = session.canvas_mut();
-        let (tiles, bounds) = (canvas.refresh(false)?, canvas.bounds());
+        let tiles = canvas.refresh(false)?;
+        let bounds = canvas.bounds();
         encode(&tiles, bounds, &SrgbBytes::new(), |rect| canvas.picture_in(false, rect))?;
         Ok(())
     }

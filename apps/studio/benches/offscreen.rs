@@ -199,7 +199,8 @@ fn paint(
     [left, top, right, bottom]: [f64; 4],
     seconds: f64,
 ) -> Vec<[f64; 2]> {
-    let (width, height) = (0.8 * (right - left), 0.7 * (bottom - top));
+    let width = 0.8 * (right - left);
+    let height = 0.7 * (bottom - top);
     let speed = MM_PER_SECOND * (right - left) / CANVAS_MM;
     let place = |now: f64| {
         let across = (speed * now + width).rem_euclid(2.0 * width) - width;
@@ -223,7 +224,9 @@ fn paint(
     };
     frame(vec![Event::PointerMoved(place(0.0))]);
     frame(vec![button(place(0.0), true)]);
-    let (began, mut told, mut times) = (Instant::now(), 0.0, Vec::new());
+    let began = Instant::now();
+    let mut told = 0.0;
+    let mut times = Vec::new();
     while told < seconds {
         let now = began.elapsed().as_secs_f64();
         let mut events = Vec::new();

@@ -57,15 +57,21 @@ impl Bench {
     }
 
     fn colored(&self) -> usize {
-        let is_colored = |[red, green, blue, _]: &&[u8; 4]| {
-            red.max(green).max(blue) - red.min(green).min(blue) > 24
-        };
-        self.picture.as_ref().map_or(0, |shown| shown.pixels.iter().filter(is_colored).count())
+        self.picture.as_ref().map_or(0, |shown| {
+            shown
+                .pixels
+                .iter()
+                .filter(|[red, green, blue, _]: &&[u8; 4]| {
+                    red.max(green).max(blue) - red.min(green).min(blue) > 24
+                })
+                .count()
+        })
     }
 
     /// Measures while `act` is called with the seconds that passed.
     fn measure(&mut self, what: &str, mut act: impl FnMut(&Self, f32)) {
-        let (start, pictures) = (Instant::now(), self.pictures);
+        let start = Instant::now();
+        let pictures = self.pictures;
         let first = self.state.as_ref().map_or(0, |state| state.time.step);
         while start.elapsed() < LASTS {
             act(self, start.elapsed().as_secs_f32());
@@ -89,7 +95,9 @@ impl Bench {
         let Some(look) = self.state.as_ref().map(|state| state.look) else { return };
         self.worker.ask(VolumeCommand::Look(Look { inside, ..look }));
         let start = Instant::now();
-        let (mut last, mut longest, mut mixed) = (start, Duration::ZERO, Duration::ZERO);
+        let mut last = start;
+        let mut longest = Duration::ZERO;
+        let mut mixed = Duration::ZERO;
         while start.elapsed() < LASTS {
             self.turn(20.0 * start.elapsed().as_secs_f32());
             let pictures = self.pictures;
@@ -104,7 +112,8 @@ impl Bench {
             }
         }
         let ms = |time: Duration| 1e3 * time.as_secs_f64();
-        let (longest, mixed) = (ms(longest.max(last.elapsed())), ms(mixed));
+        let longest = ms(longest.max(last.elapsed()));
+        let mixed = ms(mixed);
         println!(
             "switching to {inside:?}: at most {longest:.0} ms without a picture, mixed after {mixed:.0} ms"
         );

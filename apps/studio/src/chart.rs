@@ -243,7 +243,8 @@ mod tests {
 
     #[test]
     fn light_lines_are_darkened_on_a_light_background() {
-        let (white, yellow) = (Color32::from_gray(240), Color32::from_rgb(250, 230, 60));
+        let white = Color32::from_gray(240);
+        let yellow = Color32::from_rgb(250, 230, 60);
         for line in [white, yellow] {
             let shown = legible(line, theme::LIGHT.well);
             assert!(contrast(shown, theme::LIGHT.well) > 2.0, "{line:?} as {shown:?}");

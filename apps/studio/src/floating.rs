@@ -91,8 +91,10 @@ pub(crate) fn take_escape(context: &Context) -> bool {
 fn topmost(context: &Context) -> Option<LayerId> {
     context.memory(|memory| {
         let areas = memory.areas();
-        let floats = |layer: &LayerId| layer.order == Order::Middle && areas.is_visible(layer);
-        memory.layer_ids().filter(floats).last()
+        memory
+            .layer_ids()
+            .filter(|layer: &LayerId| layer.order == Order::Middle && areas.is_visible(layer))
+            .last()
     })
 }
 

@@ -8,34 +8,21 @@
 //! Out of scope: measuring and fitting pigments (the program `impasto`).
 
 pub mod theme;
-
 pub mod language;
-
 mod pace;
-
 mod floating;
-
 pub mod arrangement;
-
 pub mod chart;
-
 pub mod recipe_search;
-
 pub mod keymap;
-
 pub mod wheel_maker;
-
 pub mod pen;
-
 pub mod view;
-
 pub mod files;
-
 pub mod panels;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod arguments;
-
 pub mod app;
 
 #[cfg(all(feature = "wgpu", not(target_arch = "wasm32")))]

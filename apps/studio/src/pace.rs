@@ -103,8 +103,12 @@ fn slot_of(millihertz: Option<u32>) -> Duration {
 
 fn change<T>(context: &Context, change: impl FnOnce(&mut Pace) -> T) -> T {
     context.data_mut(|data| {
-        let usual = || Pace { slot: slot_of(None), rare: None, last: None, woken: false };
-        change(data.get_temp_mut_or_insert_with(Id::unique("pace of frames"), usual))
+        change(data.get_temp_mut_or_insert_with(Id::unique("pace of frames"), || Pace {
+            slot: slot_of(None),
+            rare: None,
+            last: None,
+            woken: false,
+        }))
     })
 }
 
@@ -120,7 +124,8 @@ mod tests {
 
     #[test]
     fn a_frame_waits_for_its_slot_and_not_longer() {
-        let (start, slot) = (Instant::now(), 16 * MS);
+        let start = Instant::now();
+        let slot = 16 * MS;
         let after = |ms: u32| delay(Some(start), start + ms * MS, slot);
         assert_eq!(after(0), 16 * MS);
         assert_eq!(after(5), 11 * MS);
@@ -141,7 +146,8 @@ mod tests {
     /// A context with a display of 50 Hz after its first frames, which egui asks for itself, and the
     /// delays of the frames that were asked for.
     fn paced(start: Instant) -> (Context, impl Fn() -> Vec<Duration>) {
-        let (context, asked) = (Context::default(), Arc::new(Mutex::new(Vec::new())));
+        let context = Context::default();
+        let asked = Arc::new(Mutex::new(Vec::new()));
         let noted = Arc::clone(&asked);
         context.set_request_repaint_callback(move |info| noted.lock().unwrap().push(info.delay));
         set_display(&context, Some(50_000));

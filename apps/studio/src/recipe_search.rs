@@ -172,7 +172,8 @@ mod tests {
 
     #[test]
     fn a_new_search_discards_the_result_of_the_older_one() {
-        let (old, new) = (long_request(), request_for(30.0, 1));
+        let old = long_request();
+        let new = request_for(30.0, 1);
         let mut search = RecipeSearch::default();
         let (ended, ends) = channel();
         let of_old = ended.clone();

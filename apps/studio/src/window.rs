@@ -134,14 +134,15 @@ fn options([width, height]: [f32; 2]) -> NativeOptions {
 fn choose(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter, String> {
     let draws =
         |adapter: &&Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
-    let rank = |adapter: &&Adapter| match adapter.get_info().device_type {
-        DeviceType::DiscreteGpu => 0,
-        DeviceType::IntegratedGpu => 1,
-        DeviceType::VirtualGpu => 2,
-        DeviceType::Other => 3,
-        DeviceType::Cpu => 4,
-    };
-    let best = adapters.iter().filter(draws).min_by_key(rank);
+    let best = adapters.iter().filter(draws).min_by_key(|adapter: &&Adapter| {
+        match adapter.get_info().device_type {
+            DeviceType::DiscreteGpu => 0,
+            DeviceType::IntegratedGpu => 1,
+            DeviceType::VirtualGpu => 2,
+            DeviceType::Other => 3,
+            DeviceType::Cpu => 4,
+        }
+    });
     best.cloned().ok_or_else(|| "no Vulkan adapter can draw in this window".to_owned())
 }
 
@@ -168,7 +169,8 @@ fn icon() -> IconData {
     let mut rgba = Vec::with_capacity((4 * SIDE * SIDE) as usize);
     for y in 0..SIDE {
         for x in 0..SIDE {
-            let (x, y) = (x as f32 / SIDE as f32 - 0.5, y as f32 / SIDE as f32 - 0.5);
+            let x = x as f32 / SIDE as f32 - 0.5;
+            let y = y as f32 / SIDE as f32 - 0.5;
             // A disc, and across it a curved, tapering stroke.
             let inside = x.hypot(y) < 0.48;
             let middle = 0.16 * (3.2 * x).sin() - 0.35 * x;

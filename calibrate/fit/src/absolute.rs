@@ -231,11 +231,12 @@ pub(crate) fn errors(
     of: &[usize],
     weights: &TristimulusWeights,
 ) -> Vec<f64> {
-    let error = |&index: &usize| {
-        let predicted = problem.predicted(fit, film, index);
-        delta_e(weights, &problem.films[index].reflectance, &predicted)
-    };
-    of.iter().map(error).collect()
+    of.iter()
+        .map(|&index: &usize| {
+            let predicted = problem.predicted(fit, film, index);
+            delta_e(weights, &problem.films[index].reflectance, &predicted)
+        })
+        .collect()
 }
 
 /// Deals `count` indices in seeded random order into `folds` groups.

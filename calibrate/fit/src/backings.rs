@@ -51,11 +51,12 @@ fn darker(bright: &SwatchFilm, dark: &SwatchFilm) -> Vec<usize> {
     };
     let spread = bright.spread.unwrap_or(0.0).max(dark.spread.unwrap_or(0.0));
     let allowed = READING_ERROR.max(CHANCE * spread);
-    let is_darker = |&at: &usize| {
-        bright_bare[at] - dark_bare[at] > LEAST_CONTRAST
-            && dark.reflectance[at] - bright.reflectance[at] > allowed
-    };
-    (0..bright.reflectance.len()).filter(is_darker).collect()
+    (0..bright.reflectance.len())
+        .filter(|&at: &usize| {
+            bright_bare[at] - dark_bare[at] > LEAST_CONTRAST
+                && dark.reflectance[at] - bright.reflectance[at] > allowed
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -69,12 +69,13 @@ impl Comparison {
         }
         let known = |recipe: &Recipe| recipe.pigments().all(|p| palette.paints().contains(&p));
         let films = self.films.iter().filter(|film| !film.excluded && known(&film.recipe));
-        let sample = |film: &ComparedFilm| MeasuredSample {
-            sample: film.sample.clone(),
-            recipe: film.recipe.clone(),
-            reflectance: film.measured.clone(),
-        };
-        films.map(sample).collect()
+        films
+            .map(|film: &ComparedFilm| MeasuredSample {
+                sample: film.sample.clone(),
+                recipe: film.recipe.clone(),
+                reflectance: film.measured.clone(),
+            })
+            .collect()
     }
 }
 
@@ -115,7 +116,8 @@ impl Comparable {
                 library: library.pigments.iter().map(|p| p.name.clone()).collect(),
             });
         }
-        let (from, to) = (set.grid, library.grid);
+        let from = set.grid;
+        let to = library.grid;
         let same = from == to;
         let covered = from.covers(to.start_nm()) && from.covers(to.end_nm());
         if !(same || covered) {
@@ -158,7 +160,8 @@ impl Comparable {
         let sure = films.iter().filter(|film| !film.unsure);
         let sure = sure.map(|f| (f.sample.clone(), f.measured.as_slice(), f.predicted.clone()));
         let Scores { rms, delta_e, .. } = Scores::of(&weights, sure);
-        let (absent, resampled_from) = (self.absent.clone(), self.resampled_from);
+        let absent = self.absent.clone();
+        let resampled_from = self.resampled_from;
         Ok(Comparison { films, rms, delta_e, absent, resampled_from })
     }
 
@@ -204,12 +207,15 @@ impl Comparable {
     /// Number of mixtures that [`Self::left_out`] would predict.
     #[must_use]
     pub fn mixtures(&self, library: &PigmentLibrary) -> usize {
-        let mixed = |s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1;
         let set = self.fitted_again(library);
-        let films = set.swatches.iter().filter(mixed).map(|s| match library.amounts {
-            AmountKind::Relative => 1,
-            AmountKind::Absolute => s.films.len(),
-        });
+        let films = set
+            .swatches
+            .iter()
+            .filter(|s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1)
+            .map(|s| match library.amounts {
+                AmountKind::Relative => 1,
+                AmountKind::Absolute => s.films.len(),
+            });
         films.sum()
     }
 
@@ -244,8 +250,13 @@ impl Comparable {
                 calibrate_absolute_watched(&set, film, &settings, viewing, watch.quiet())?.state;
             return leave_out_films(&set, film, &plan(state, Some(DEFAULT_FOLDS))).map(Some);
         }
-        let named = |name: &String| set.pigments.iter().position(|p| p == name).map(PigmentId);
-        let Some(reference) = library.reference.as_ref().and_then(named) else { return Ok(None) };
+        let Some(reference) = library
+            .reference
+            .as_ref()
+            .and_then(|name: &String| set.pigments.iter().position(|p| p == name).map(PigmentId))
+        else {
+            return Ok(None);
+        };
         let surface: Surface = library.saunderson;
         let state =
             calibrate_watched(&set, reference, surface, &settings, viewing, watch.quiet())?.state;
@@ -262,8 +273,10 @@ impl Comparable {
 }
 
 fn settings(library: &PigmentLibrary) -> FitSettings {
-    let usual = || FitSettings { below_surface: BelowSurface::Floor, ..FitSettings::default() };
-    library.settings.clone().unwrap_or_else(usual)
+    library.settings.clone().unwrap_or_else(|| FitSettings {
+        below_surface: BelowSurface::Floor,
+        ..FitSettings::default()
+    })
 }
 
 fn film(

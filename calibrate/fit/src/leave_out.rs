@@ -104,10 +104,13 @@ impl FitValidation {
     /// Names the mixtures that could not be left out.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let warning = |sample: &String| {
-            format!("{sample}: not left out, a pigment would not be identified without it")
-        };
-        self.errors.needed.iter().map(warning).collect()
+        self.errors
+            .needed
+            .iter()
+            .map(|sample: &String| {
+                format!("{sample}: not left out, a pigment would not be identified without it")
+            })
+            .collect()
     }
 }
 
@@ -186,8 +189,9 @@ impl PreparedFit {
         };
         let errors = match self.model {
             FilmModel::Relative { reference, surface } => {
-                let selects = |o: &Observation| chosen.selects(&o.shares);
-                leave_out(&self.set, reference, surface, &plan, selects)?
+                leave_out(&self.set, reference, surface, &plan, |o: &Observation| {
+                    chosen.selects(&o.shares)
+                })?
             }
             FilmModel::Absolute(film) => leave_out_films(&self.set, film, &plan)?,
         };
@@ -208,10 +212,12 @@ impl PreparedFit {
         let FilmModel::Relative { reference, surface } = self.model else {
             return Ok(Vec::new());
         };
-        let (set, settings) = (&self.set, &self.settings);
+        let set = &self.set;
+        let settings = &self.settings;
         let observations = observations(set, surface, settings.below_surface);
         let observations = observations.map_err(CalibrationError::from)?;
-        let (state, viewing) = (self.fit_watched(watch.quiet())?.state, self.viewing());
+        let state = self.fit_watched(watch.quiet())?.state;
+        let viewing = self.viewing();
         let plan = ValidationPlan { settings, viewing, state, folds: None, watch };
         let refits = plan.refits(set, &observations, reference, surface);
         let mixtures: Vec<usize> = refits.mixtures().collect();

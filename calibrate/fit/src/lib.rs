@@ -38,55 +38,30 @@ pub use pigment::{
 };
 
 pub mod measurement;
-
 pub mod swatch;
-
 mod reading_options;
-
 mod readings_error;
-
 pub mod readings;
-
 pub mod observation;
-
 mod surface_choice;
-
 mod backings;
-
 pub mod fit;
-
 mod scores;
-
 mod residuals_error;
-
 mod residuals;
-
 mod findings;
-
 pub mod calibration;
-
 pub mod absolute;
-
 pub mod report;
-
 mod fitting_error;
-
 pub mod fitting;
-
 mod refit;
-
 pub mod validation;
-
 pub mod leave_out;
-
 mod told;
-
 pub mod comparison;
-
 mod cards;
-
 pub mod plan;
-
 pub mod synthetic;
 
 pub use fitting::{FilmModel, Fit, FitOptions, PreparedFit, fit};

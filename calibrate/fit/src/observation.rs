@@ -209,7 +209,8 @@ impl SurfaceConversion<'_> {
         };
         let differences = light.0.iter().zip(dark.0).map(|(a, b)| (a - b).abs());
         let largest = differences.fold(0.0, f64::max);
-        let (light, dark) = (over(light)?, over(dark)?);
+        let light = over(light)?;
+        let dark = over(dark)?;
         let ratio = light
             .into_iter()
             .zip(dark)
@@ -263,8 +264,10 @@ pub(crate) fn alike(first: Option<f64>, second: Option<f64>) -> bool {
 /// First of the thickest films; films of unknown thickness count as thin.
 fn thickest(films: &[SwatchFilm]) -> &SwatchFilm {
     let thickness = |film: &SwatchFilm| film.thickness_mm.unwrap_or(0.0);
-    let thicker = |a, b| if thickness(b) > thickness(a) { b } else { a };
-    films.iter().reduce(thicker).expect("a swatch has films")
+    films
+        .iter()
+        .reduce(|a, b| if thickness(b) > thickness(a) { b } else { a })
+        .expect("a swatch has films")
 }
 
 /// Largest difference of readings over different backings; `None` if there is only one backing.

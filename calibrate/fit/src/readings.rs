@@ -181,7 +181,8 @@ impl Readings {
         let references = options.references.as_ref().map(References::open).transpose()?;
         let mut found = Found::default();
         for (file, bytes) in files {
-            let (file, bytes) = (file.as_ref(), bytes.as_ref());
+            let file = file.as_ref();
+            let bytes = bytes.as_ref();
             found.add(of_bytes(file, bytes, options, references.as_ref(), spectra_only)?);
         }
         found.joined(references.as_ref())

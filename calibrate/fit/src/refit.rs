@@ -85,8 +85,9 @@ impl Refit {
     /// Predicted reflectance of `target` in a film that hides, where the amounts of all pigments but its
     /// main one are multiplied by `strength`.
     pub(crate) fn film(&self, target: &Observation, surface: Surface, strength: f64) -> Vec<f64> {
-        let larger = |a: usize, b: usize| if target.shares[b] > target.shares[a] { b } else { a };
-        let main = (0..target.shares.len()).reduce(larger).map(PigmentId);
+        let main = (0..target.shares.len())
+            .reduce(|a: usize, b: usize| if target.shares[b] > target.shares[a] { b } else { a })
+            .map(PigmentId);
         let parts = self.identified.iter().zip(&self.curves).map(|(pigment, curves)| {
             let (absorption, scattering) = curves.as_slices();
             let share = target.shares[pigment.index()];

@@ -167,7 +167,8 @@ impl Residuals {
                     )));
                 }
                 if let Some(at) = values.iter().position(|v| !(0.0..=2.0).contains(v)) {
-                    let (nm, value) = (self.grid.nm(at), values[at]);
+                    let nm = self.grid.nm(at);
+                    let value = values[at];
                     return Err(fault(format!(
                         "{list} at {nm} nm must be a reflectance of 0 to 2, found `{value}`"
                     )));
@@ -194,14 +195,17 @@ impl Residuals {
             let resampled = spectrum.resampled(grid, method, Extrapolation::Refuse);
             Ok(resampled.map_err(|_| outside())?.into_values())
         };
-        let mixture = |mixture: &LeftOutMixture| -> Result<LeftOutMixture, ResidualsError> {
-            Ok(LeftOutMixture {
-                measured: resampled(&mixture.measured)?,
-                predicted: resampled(&mixture.predicted)?,
-                ..mixture.clone()
+        let mixtures = self
+            .mixtures
+            .iter()
+            .map(|mixture: &LeftOutMixture| -> Result<LeftOutMixture, ResidualsError> {
+                Ok(LeftOutMixture {
+                    measured: resampled(&mixture.measured)?,
+                    predicted: resampled(&mixture.predicted)?,
+                    ..mixture.clone()
+                })
             })
-        };
-        let mixtures = self.mixtures.iter().map(mixture).collect::<Result<_, _>>()?;
+            .collect::<Result<_, _>>()?;
         Ok(Self { grid, mixtures, ..self.clone() })
     }
 }

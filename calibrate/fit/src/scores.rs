@@ -20,7 +20,8 @@ impl Scores {
         weights: &TristimulusWeights,
         films: impl IntoIterator<Item = (String, &'a [f64], Vec<f64>)>,
     ) -> Self {
-        let (mut squares, mut count) = (0.0, 0.0);
+        let mut squares = 0.0;
+        let mut count = 0.0;
         let mut per_sample = Vec::new();
         for (sample, measured, predicted) in films {
             squares += predicted.iter().zip(measured).map(|(p, m)| (p - m).powi(2)).sum::<f64>();

@@ -50,7 +50,8 @@ pub(crate) fn check_above_surface(
     k1: f64,
     k2: f64,
 ) -> Result<(), MeasurementError> {
-    let (mut below, mut count) = (0, 0);
+    let mut below = 0;
+    let mut count = 0;
     let mut first = None;
     for swatch in &set.swatches {
         let readings = || swatch.films.iter().flat_map(|film| &film.reflectance);
@@ -89,7 +90,8 @@ mod tests {
         let wavelengths: Vec<String> = (0..16).map(|i| (400 + 20 * i).to_string()).collect();
         let mut text = format!("sample,White,Black,{}\n", wavelengths.join(","));
         for (sample, black) in [("w", 0.0), ("a", 0.1), ("b", 0.5), ("c", 0.9), ("d", 1.0)] {
-            let (k, s) = (0.013 * (1.0 - black) + 20.0 * black, 1.0 - 0.5 * black);
+            let k = 0.013 * (1.0 - black) + 20.0 * black;
+            let s = 1.0 - 0.5 * black;
             let value = scale * spectra::optics::infinite_film_from_ratio(k / s);
             let values = vec![value.to_string(); wavelengths.len()].join(",");
             text += &format!("{sample},{},{black},{values}\n", 1.0 - black);

@@ -163,8 +163,12 @@ fn swatch(
 ) -> Result<Swatch, MeasurementError> {
     let first = readings[0];
     for reading in &readings[1..] {
-        let differs = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs());
-        if let Some(index) = first.amounts.iter().zip(&reading.amounts).position(differs) {
+        if let Some(index) = first
+            .amounts
+            .iter()
+            .zip(&reading.amounts)
+            .position(|(a, b): (&f64, &f64)| (a - b).abs() > 1e-9 * a.abs().max(b.abs()))
+        {
             return Err(MeasurementError::Contradiction {
                 place: CellPlace::new(&reading.file, reading.row, &table.pigments[index]),
                 sample: sample.to_owned(),
@@ -185,10 +189,9 @@ fn swatch(
     }
     let mut films: Vec<SwatchFilm> = Vec::new();
     for reading in readings {
-        let same = |other: &SwatchFilm| {
+        if films.iter().any(|other: &SwatchFilm| {
             *other.backing == *reading.backing && other.thickness_mm == reading.thickness_mm
-        };
-        if films.iter().any(same) {
+        }) {
             continue;
         }
         let group: Vec<&Reading> = readings

@@ -35,8 +35,9 @@ fn errors_json(
     per_sample: &[SampleEvidence],
     warnings: &[String],
 ) -> Map<String, Value> {
-    let entry = |(sample, share): (&str, f64)| json!({ "sample": sample, "share": share });
-    let shares = shares_of_squares(per_sample).into_iter().map(entry);
+    let shares = shares_of_squares(per_sample)
+        .into_iter()
+        .map(|(sample, share): (&str, f64)| json!({ "sample": sample, "share": share }));
     let pairs = [
         ("samples", json!(per_sample.len())),
         ("pigments", json!(pigments)),

@@ -79,7 +79,8 @@ impl ValidationPlan<'_> {
         reference: PigmentId,
         surface: Surface,
     ) -> Refits<'a> {
-        let (settings, state) = (self.settings, self.state);
+        let settings = self.settings;
+        let state = self.state;
         let watch = self.watch.quiet();
         Refits { set, observations, reference, surface, settings, state, watch }
     }
@@ -126,9 +127,17 @@ pub fn leave_out(
             plan.watch.tell(FitStage::LeftOut);
             let target = &observations[index];
             let film = |strength: f64| refit.film(target, surface, strength);
-            let error = |strength: f64| delta_e(&weights, &target.as_read, &film(strength));
-            let prediction = || (film(1.0), Some(least_error(error)));
-            Prediction { index, predicted: refit.identifies(target).then(prediction) }
+            Prediction {
+                index,
+                predicted: refit.identifies(target).then(|| {
+                    (
+                        film(1.0),
+                        Some(least_error(|strength: f64| {
+                            delta_e(&weights, &target.as_read, &film(strength))
+                        })),
+                    )
+                }),
+            }
         });
         Ok(predictions.collect())
     };
@@ -138,9 +147,9 @@ pub fn leave_out(
     });
     let (mixtures, films): (Vec<&Observation>, Vec<LeftOutMixture>) =
         found.map(|(target, film)| (target, left_out_mixture(set, target, film))).unzip();
-    let sample =
-        |index: usize| (observations[index].sample.clone(), observations[index].as_read.as_slice());
-    let errors = summary(set, plan, predictions, sample);
+    let errors = summary(set, plan, predictions, |index: usize| {
+        (observations[index].sample.clone(), observations[index].as_read.as_slice())
+    });
     let by_pigment = by_pigment(set, &mixtures, &errors.per_sample);
     Ok(Validation { by_pigment, mixtures: films, ..errors })
 }
@@ -189,14 +198,13 @@ fn by_pigment(
 ) -> Vec<PigmentError> {
     let square = |error: &SampleEvidence| error.delta_e * error.delta_e;
     let total: f64 = errors.iter().map(square).sum();
-    let of = |(index, name): (usize, &String)| {
+    let all = set.pigments.iter().enumerate().map(|(index, name): (usize, &String)| {
         let pairs = mixtures.iter().zip(errors).filter(|(mixture, _)| mixture.shares[index] > 0.0);
         let (count, sum) =
             pairs.fold((0, 0.0), |(count, sum), (_, error)| (count + 1, sum + square(error)));
         let share = if total > 0.0 { sum / total } else { 0.0 };
         PigmentError { pigment: name.clone(), mixtures: count, share }
-    };
-    let all = set.pigments.iter().enumerate().map(of);
+    });
     let mut found: Vec<PigmentError> = all.filter(|pigment| pigment.mixtures > 0).collect();
     found.sort_by(|a, b| b.share.total_cmp(&a.share));
     found
@@ -228,10 +236,9 @@ pub fn leave_out_films(
         Ok(predictions.collect())
     };
     let predictions = plan.predictions(&candidates, predict)?;
-    let sample = |index: usize| {
+    Ok(summary(set, plan, predictions, |index: usize| {
         (problem.films[index].name.clone(), problem.films[index].reflectance.as_slice())
-    };
-    Ok(summary(set, plan, predictions, sample))
+    }))
 }
 
 /// Prediction of a left-out sample; `None` if a pigment would not be identified without it.
@@ -249,7 +256,8 @@ fn summary<'a>(
 ) -> Validation {
     let weights = plan.viewing.weights(set.grid).expect("the method fits the grid");
     let mut films = Vec::new();
-    let (mut needed, mut strength_free) = (Vec::new(), Vec::new());
+    let mut needed = Vec::new();
+    let mut strength_free = Vec::new();
     for Prediction { index, predicted } in predictions {
         let (name, measured) = sample(index);
         match predicted {

@@ -51,7 +51,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     paintings("eight light pigments, K and S off by 10 %", (&oils, &oils), &light, &stated)?;
     paintings("any eight, K and S off by 10 %", (&oils, &oils), &plan, &stated)?;
     let halves = [prepared.half(0), prepared.half(1)];
-    let (real, known) = (halves[0].fit()?.library, halves[1].fit()?.library);
+    let real = halves[0].fit()?.library;
+    let known = halves[1].fit()?.library;
     let model_error =
         residuals_of(&halves[1].left_out(Watch::default())?).map(ModelError::Residuals);
     let usual = MapSettings { model_error, ..stated.clone() };

@@ -13,28 +13,18 @@
 //! Modules are ordered by dependence: each uses only modules declared above it.
 
 pub mod pixel_maps;
-
 mod kept_numbers;
-
 mod map_error;
-
 mod films;
-
 mod search;
-
 mod mapping;
-
 pub mod accuracy;
-
 pub mod camera;
-
 mod numbers;
 
 #[cfg(feature = "files")]
 mod zarr;
-
 pub mod cube;
-
 mod maps_about;
 
 #[cfg(feature = "files")]
@@ -45,18 +35,13 @@ pub mod truth;
 
 #[cfg(feature = "files")]
 pub mod blocks;
-
 mod surveyed;
 
 #[cfg(feature = "files")]
 mod stored_run;
-
 mod spot;
-
 pub mod pictures;
-
 mod told;
-
 mod told_text;
 
 #[cfg(feature = "files")]

@@ -155,11 +155,12 @@ impl SurveyedScan {
     #[must_use]
     pub fn palette(&self) -> Vec<FoundColumn> {
         let part = |column: &Column| -> f64 {
-            let holds = |place: &u8| {
-                let name = self.book.pigments.get(usize::from(*place));
-                name.is_some_and(|name| column.pigments.contains(name))
-            };
-            let sets = self.book.sets.iter().filter(|set| set.pigments.iter().any(holds));
+            let sets = self.book.sets.iter().filter(|set| {
+                set.pigments.iter().any(|place: &u8| {
+                    let name = self.book.pigments.get(usize::from(*place));
+                    name.is_some_and(|name| column.pigments.contains(name))
+                })
+            });
             // A sum of nothing would be -0.
             sets.fold(0.0, |sum, set| sum + f64::from(set.part))
         };

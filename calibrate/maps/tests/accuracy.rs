@@ -37,7 +37,8 @@ fn left_out_swatches_are_unmixed_better_than_by_linear_methods() {
     assert_eq!(samples.len(), 65, "binary mixtures");
     let groups = oil_groups();
     let trials = swatch_trials(&samples, &MapSettings::default(), &groups).unwrap();
-    let (pigments, joined) = (Scores::of(&trials.pigments), Scores::of(&trials.groups));
+    let pigments = Scores::of(&trials.pigments);
+    let joined = Scores::of(&trials.groups);
     println!("pigments {pigments}, groups {joined}");
     assert!(joined.precision > 0.88 && joined.recall > 0.86, "groups {joined}");
     assert!(joined.share_error < 0.15, "groups {joined}");
@@ -57,7 +58,8 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
     let light = PaintingPlan { palette: light_palette(), ..plan(100) };
     let trials =
         painting_trials((&oils, &oils), &light, 201..211, (&stated(), Told::Nothing)).unwrap();
-    let (searched, mapped) = (Scores::of(&trials.searched), Scores::of(&trials.mapped));
+    let searched = Scores::of(&trials.searched);
+    let mapped = Scores::of(&trials.mapped);
     println!("light palette: searched {searched}, mapped {mapped}, worse {:.3}", trials.worse());
     assert!(searched.precision > 0.95 && searched.recall > 0.90, "searched {searched}");
     assert!(searched.share_error < 0.08, "searched {searched}");
@@ -65,7 +67,8 @@ fn simulated_paintings_are_unmixed_and_told_honestly() {
     assert!(trials.worse() < 0.03, "{}", trials.worse());
     let trials =
         painting_trials((&oils, &oils), &plan(100), 201..221, (&stated(), Told::Nothing)).unwrap();
-    let (searched, mapped) = (Scores::of(&trials.searched), Scores::of(&trials.mapped));
+    let searched = Scores::of(&trials.searched);
+    let mapped = Scores::of(&trials.mapped);
     println!("searched {searched}, mapped {mapped}, worse {:.3}", trials.worse());
     assert!(searched.precision > 0.91 && searched.recall > 0.82, "searched {searched}");
     assert!(searched.share_error < 0.15, "searched {searched}");

@@ -352,8 +352,10 @@ fn few_pigments_and_few_bands_suffice() {
     assert_eq!(one.search(&nm.map(at)).unwrap().mask, [Mask::OutOfGamut], "it holds white too");
     let pure = oils.mix(oils.recipe([("Viridian", 1.0)]).unwrap()).unwrap();
     let pure = pure.hiding(oils.saunderson);
-    let at = |nm: f64| pure[((nm - 400.0) / 10.0) as usize] as f32;
-    assert_eq!(one.search(&nm.map(at)).unwrap().share, [1.0]);
+    assert_eq!(
+        one.search(&nm.map(|nm: f64| pure[((nm - 400.0) / 10.0) as usize] as f32)).unwrap().share,
+        [1.0]
+    );
 }
 
 #[test]

@@ -55,7 +55,8 @@ impl Backing {
             Self::Measured(spectrum) => spectrum,
         };
         let from = spectrum.grid();
-        let (start, end) = (from.start_nm(), from.end_nm());
+        let start = from.start_nm();
+        let end = from.end_nm();
         if start > grid.end_nm() || end < grid.start_nm() {
             return Err(BackingError::Band { start_nm: start, end_nm: end, wanted: grid });
         }

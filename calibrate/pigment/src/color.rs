@@ -135,9 +135,10 @@ impl PigmentLibrary {
     fn reservations(&self, recipe: &Recipe) -> Vec<Remark> {
         let guessed = recipe.pigments().filter(|id| self[*id].guessed);
         let mixed = recipe.pigments().filter(|id| recipe.len() > 1 && !self[*id].identified);
-        let warning =
-            |id| Remark::warning(format!("{}: {}", self[id].name, self[id].notes.join("; ")));
-        guessed.chain(mixed).map(warning).collect()
+        guessed
+            .chain(mixed)
+            .map(|id| Remark::warning(format!("{}: {}", self[id].name, self[id].notes.join("; "))))
+            .collect()
     }
 }
 

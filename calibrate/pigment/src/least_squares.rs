@@ -76,7 +76,8 @@ impl SparseRows {
         runs: &[Range<usize>],
         derivatives: &[[f64; 3]],
     ) {
-        let (before, first) = (self.runs.len(), self.derivatives.len());
+        let before = self.runs.len();
+        let first = self.derivatives.len();
         self.runs.extend_from_slice(runs);
         self.derivatives.extend_from_slice(derivatives);
         self.groups.push(Group { residuals, runs: before..self.runs.len(), first });
@@ -84,11 +85,10 @@ impl SparseRows {
 
     /// Residuals, runs and derivatives of each group.
     fn groups(&self) -> impl Iterator<Item = ([f64; 3], &[Range<usize>], &[[f64; 3]])> {
-        let parts = |group: &Group| {
+        self.groups.iter().map(|group: &Group| {
             let derivatives = &self.derivatives[group.first..];
             (group.residuals, &self.runs[group.runs.clone()], derivatives)
-        };
-        self.groups.iter().map(parts)
+        })
     }
 }
 
@@ -160,7 +160,9 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// Cuts the places of `work` into at most `count` parts of about as much work.
 fn even_parts(work: &[usize], count: usize) -> Vec<Range<usize>> {
     let all: usize = work.iter().sum();
-    let (mut parts, mut begin, mut done) = (Vec::new(), 0, 0);
+    let mut parts = Vec::new();
+    let mut begin = 0;
+    let mut done = 0;
     for (place, more) in work.iter().enumerate() {
         done += more;
         let last = place + 1 == work.len();

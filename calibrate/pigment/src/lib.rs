@@ -26,39 +26,22 @@
 //! by dependence: each uses only modules declared above it.
 
 pub mod digits;
-
 pub mod remark;
-
 pub mod evaluate;
-
 pub mod visible_band;
-
 pub mod appearance;
-
 pub mod curves;
-
 pub mod recipe;
-
 pub mod backing;
-
 mod least_squares;
-
 pub mod smooth_reflectance;
-
 pub mod fit_settings;
-
 pub mod library;
-
 pub mod color;
-
 pub mod curation;
-
 pub mod quadrature;
-
 pub mod palette;
-
 mod illuminant_change;
-
 pub mod matching;
 
 pub use appearance::Appearance;

@@ -205,11 +205,13 @@ mod tests {
     fn recovered(surface: Surface, colors: impl Iterator<Item = Rgb>) -> Vec<(Rgb, Recovered)> {
         let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
-        let recover = |rgb: Rgb| {
-            let xyz = RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
-            (rgb, smoothest_reflectance(&weights, surface, xyz))
-        };
-        colors.map(recover).collect()
+        colors
+            .map(|rgb: Rgb| {
+                let xyz =
+                    RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
+                (rgb, smoothest_reflectance(&weights, surface, xyz))
+            })
+            .collect()
     }
 
     fn random() -> impl Iterator<Item = Rgb> {

@@ -25,7 +25,8 @@ impl BandCoverage {
     /// Coverage of `grid`.
     #[must_use]
     pub fn of(grid: Grid) -> Self {
-        let (start, end) = (grid.start_nm(), grid.end_nm());
+        let start = grid.start_nm();
+        let end = grid.end_nm();
         if end < NEEDED_NM[0] || start > NEEDED_NM[1] {
             Self::Missing
         } else if start > WANTED_NM[0] || end < WANTED_NM[1] {
@@ -42,7 +43,8 @@ impl BandCoverage {
 /// # Errors
 /// [`BandError`] for a grid without any visible wavelength.
 pub fn check_visible_band(grid: Grid) -> Result<Option<Remark>, BandError> {
-    let (start_nm, end_nm) = (grid.start_nm(), grid.end_nm());
+    let start_nm = grid.start_nm();
+    let end_nm = grid.end_nm();
     match BandCoverage::of(grid) {
         BandCoverage::Full => Ok(None),
         BandCoverage::Partial => Ok(Some(Remark::warning(format!(

@@ -6,7 +6,6 @@
     allow(dead_code, unreachable_pub, unused_imports, reason = "tests alone use a part of it")
 )]
 mod memory;
-
 pub mod disk;
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
@@ -25,9 +24,7 @@ use replace_in_memory as replace;
 use replace_in_memory as temporary;
 
 mod signals;
-
 mod input;
-
 mod whole;
 
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]

@@ -161,7 +161,8 @@ mod tests {
     #[test]
     fn a_symbolic_link_is_kept_and_its_target_replaced() {
         let folder = tempfile::tempdir().unwrap();
-        let (file, link) = (folder.path().join("a.txt"), folder.path().join("link.txt"));
+        let file = folder.path().join("a.txt");
+        let link = folder.path().join("link.txt");
         write_whole(&file, b"one").unwrap();
         std::os::unix::fs::symlink(&file, &link).unwrap();
         write_whole(&link, b"two").unwrap();

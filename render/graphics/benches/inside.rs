@@ -32,8 +32,10 @@ impl Scene {
         let mesh = Mesh::still_life(60_000);
         let [low, high] = mesh.bounds();
         let radius = (high - low).max_element() / 12.0 * 0.8;
-        let (ball, places) = (Mesh::sphere(320), mesh.positions.len());
-        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        let ball = Mesh::sphere(320);
+        let places = mesh.positions.len();
+        let mut vertices = Vec::new();
+        let mut triangles = Vec::new();
         for i in 0..count {
             let center = Vec3::from(mesh.positions[i * places / count]);
             let first = vertices.len() as u32;

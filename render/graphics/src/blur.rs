@@ -30,7 +30,8 @@ fn along_rows<const N: usize>(field: &Field<[f32; N]>, sigma: f64) -> Field<[f32
 }
 
 fn transposed<const N: usize>(field: &Field<[f32; N]>) -> Field<[f32; N]> {
-    let (width, height) = (field.width(), field.height());
+    let width = field.width();
+    let height = field.height();
     let mut values = vec![[0.0; N]; width * height];
     values.par_chunks_mut(height).enumerate().for_each(|(x, column)| {
         for (y, value) in column.iter_mut().enumerate() {
@@ -70,7 +71,8 @@ impl RunningMean {
         }
         for (place, out) in out.iter_mut().enumerate() {
             let place = place as isize;
-            let (before, after) = (at(place - radius - 1), at(place + radius + 1));
+            let before = at(place - radius - 1);
+            let after = at(place + radius + 1);
             let first = at(place - radius);
             for i in 0..N {
                 out[i] = (scale * (sum[i] + self.part * (before[i] + after[i]))) as f32;
@@ -94,7 +96,8 @@ mod tests {
             for y in 0..101 {
                 for x in 0..101 {
                     let value = f64::from(spread[(x, y)][0]);
-                    let (dx, dy) = (x as f64 - 50.0, y as f64 - 50.0);
+                    let dx = x as f64 - 50.0;
+                    let dy = y as f64 - 50.0;
                     moments[0] += value;
                     moments[1] += value * dx * dx;
                     moments[2] += value * dy * dy;

@@ -146,7 +146,8 @@ mod tests {
             let mut encoder = PngEncoder::new(&mut clear);
             encoder.set_icc_profile(profile.clone()).unwrap();
             encoder.write_image(&[value, 51].repeat(64), 8, 8, ExtendedColorType::La8).unwrap();
-            let (found, wanted) = (light(&clear), 0.2 * wanted + 0.8);
+            let found = light(&clear);
+            let wanted = 0.2 * wanted + 0.8;
             assert!((found - wanted).abs() < 5e-4, "over white: {found} for {wanted}");
         }
         let mut colored = Vec::new();

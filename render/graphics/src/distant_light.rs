@@ -53,7 +53,8 @@ mod tests {
             near: 0.1,
             far: 10.0,
         };
-        let (front, side) = (camera(Vec3::Z * 3.0), camera(Vec3::X * 3.0));
+        let front = camera(Vec3::Z * 3.0);
+        let side = camera(Vec3::X * 3.0);
         let with_camera = DistantLight::with_camera(0.0, 90.0);
         assert!(with_camera.direction(&front).distance(Vec3::Z) < 1e-6);
         assert!(with_camera.direction(&side).distance(Vec3::X) < 1e-6);

@@ -37,11 +37,15 @@ fn encoded([r, g, b, a]: [f32; 4]) -> [f32; 4] {
 pub fn lab_from_linear(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     let white = RgbSpace::Srgb.white();
     let xyz_from_rgb = RgbSpace::Srgb.xyz_from_linear();
-    let lab = |rgb: &[f32; 3]| {
-        let xyz = xyz_from_rgb.apply(rgb.map(f64::from)).into();
-        Lab::from_xyz(xyz, white).to_array().map(|value| value as f32)
-    };
-    let values = picture.values().par_iter().with_min_len(1024).map(lab).collect();
+    let values = picture
+        .values()
+        .par_iter()
+        .with_min_len(1024)
+        .map(|rgb: &[f32; 3]| {
+            let xyz = xyz_from_rgb.apply(rgb.map(f64::from)).into();
+            Lab::from_xyz(xyz, white).to_array().map(|value| value as f32)
+        })
+        .collect();
     Field::from_values(picture.width(), picture.height(), values)
 }
 
@@ -51,11 +55,15 @@ pub fn lab_from_linear(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
 pub fn linear_from_lab(picture: &Field<[f32; 3]>) -> Field<[f32; 3]> {
     let white = RgbSpace::Srgb.white();
     let rgb_from_xyz = RgbSpace::Srgb.xyz_from_linear().inverse();
-    let rgb = |&[l, a, b]: &[f32; 3]| {
-        let lab = Lab { lightness: f64::from(l), a: f64::from(a), b: f64::from(b) };
-        rgb_from_xyz.apply(lab.to_xyz(white).to_array()).map(|value| value as f32)
-    };
-    let values = picture.values().par_iter().with_min_len(1024).map(rgb).collect();
+    let values = picture
+        .values()
+        .par_iter()
+        .with_min_len(1024)
+        .map(|&[l, a, b]: &[f32; 3]| {
+            let lab = Lab { lightness: f64::from(l), a: f64::from(a), b: f64::from(b) };
+            rgb_from_xyz.apply(lab.to_xyz(white).to_array()).map(|value| value as f32)
+        })
+        .collect();
     Field::from_values(picture.width(), picture.height(), values)
 }
 

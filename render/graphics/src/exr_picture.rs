@@ -104,15 +104,16 @@ fn srgb_from(chromaticities: &Chromaticities) -> Option<Matrix3> {
     let Chromaticities { red, green, blue, white } = chromaticities;
     let srgb = [(0.64, 0.33), (0.30, 0.60), (0.15, 0.06), (0.3127, 0.3290)];
     let own = [red, green, blue, white];
-    let near = |(found, (x, y)): (&&Vec2<f32>, (f32, f32))| {
+    if own.iter().zip(srgb).all(|(found, (x, y)): (&&Vec2<f32>, (f32, f32))| {
         (found.0 - x).abs() < ROUNDING && (found.1 - y).abs() < ROUNDING
-    };
-    if own.iter().zip(srgb).all(near) || own.iter().any(|place| place.1 <= 0.0) {
+    }) || own.iter().any(|place| place.1 <= 0.0)
+    {
         return None;
     }
     // XYZ at luminance 1.
     let xyz = own.map(|&Vec2(x, y)| {
-        let (x, y) = (f64::from(x), f64::from(y));
+        let x = f64::from(x);
+        let y = f64::from(y);
         [x / y, 1.0, (1.0 - x - y) / y]
     });
     let [r, g, b, w] = xyz;
@@ -133,14 +134,16 @@ fn srgb_from(chromaticities: &Chromaticities) -> Option<Matrix3> {
 /// If a side is 0 or longer than that of `picture`.
 #[must_use]
 pub fn reduced(picture: &Picture, width: usize, height: usize) -> Picture {
-    let (columns, rows) = (picture.width(), picture.height());
+    let columns = picture.width();
+    let rows = picture.height();
     assert!((1..=columns).contains(&width) && (1..=rows).contains(&height), "{width} x {height}");
     let edge = |cell: usize, cells: usize, pixels: usize| cell * pixels / cells;
     let mut small = Field::filled(width, height, [0.0_f32; 3]);
     small.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         let lines = edge(y, height, rows)..edge(y + 1, height, rows);
         for (x, out) in row.iter_mut().enumerate() {
-            let (from, to) = (edge(x, width, columns), edge(x + 1, width, columns));
+            let from = edge(x, width, columns);
+            let to = edge(x + 1, width, columns);
             let mut sum = [0.0_f64; 3];
             for line in lines.clone() {
                 for pixel in picture.row(line, from, to - from) {

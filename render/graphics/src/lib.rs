@@ -31,53 +31,29 @@
 //! Modules are declared in order of dependence: each uses only those above it.
 
 pub mod noise;
-
 pub mod tile;
-
 pub mod field;
-
 pub mod lanes;
-
 mod smoothstep;
-
 pub mod blur;
-
 pub mod encoding;
-
 pub mod jpeg_end;
-
 pub mod picture_formats;
-
 pub mod color_profile;
-
 pub mod picture;
-
 pub mod exr_picture;
-
 pub mod orientation;
-
 pub mod tones;
-
 pub mod gpu;
-
 pub mod compute;
-
 pub mod mesh;
-
 pub mod camera;
-
 pub mod distant_light;
-
 pub mod surface;
-
 pub mod coherence;
-
 pub mod morphology;
-
 pub mod segmentation;
-
 mod kernels;
-
 pub mod export;
 
 pub use blur::blurred;

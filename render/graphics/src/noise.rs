@@ -30,19 +30,23 @@ impl Hills {
     pub fn new(random: &mut ChaCha8Rng) -> Self {
         let mut order: Vec<u16> = (0..PERIOD as u16).collect();
         order.shuffle(random);
-        let slope = |_| {
-            let angle = random.random_range(0.0..std::f64::consts::TAU);
-            [angle.cos(), angle.sin()].map(|v| STEEPNESS as f32 * v as f32)
-        };
-        let slopes = (0..PERIOD).map(slope).collect();
+        let slopes = (0..PERIOD)
+            .map(|_| {
+                let angle = random.random_range(0.0..std::f64::consts::TAU);
+                [angle.cos(), angle.sin()].map(|v| STEEPNESS as f32 * v as f32)
+            })
+            .collect();
         Self { order, slopes }
     }
 
     /// The height at `(x, y)`.
     pub fn at(&self, x: f32, y: f32) -> f32 {
-        let (left, top) = (x.floor(), y.floor());
-        let (a, b) = (x - left, y - top);
-        let (column, row) = (left as i64 as usize, top as i64 as usize);
+        let left = x.floor();
+        let top = y.floor();
+        let a = x - left;
+        let b = y - top;
+        let column = left as i64 as usize;
+        let row = top as i64 as usize;
         let corner = |right: usize, down: usize| {
             let first = usize::from(self.order[column.wrapping_add(right) % PERIOD]);
             let index = self.order[first.wrapping_add(row).wrapping_add(down) % PERIOD];
@@ -184,14 +188,16 @@ mod tests {
 
     #[test]
     fn solid_hills_have_the_mean_and_deviation_that_they_say() {
-        let (mut mean, mut square) = (0.0, 0.0);
+        let mut mean = 0.0;
+        let mut square = 0.0;
         for seed in 0..20 {
             for height in heights(seed).into_iter().map(f64::from) {
                 assert!((-1.0..=1.0).contains(&height), "{height}");
                 (mean, square) = (mean + height, square + height * height);
             }
         }
-        let (mean, deviation) = (mean / 160_000.0, (square / 160_000.0).sqrt());
+        let mean = mean / 160_000.0;
+        let deviation = (square / 160_000.0).sqrt();
         assert!(mean.abs() < 0.02 && (deviation - 1.0 / 3.0).abs() < 0.02, "{mean} {deviation}");
     }
 

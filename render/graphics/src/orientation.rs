@@ -27,7 +27,8 @@ impl OrientationField {
     /// deviation `sigma`, in cells.
     #[must_use]
     pub fn from_lab(lab: &Field<[f32; 3]>, sigma: f64) -> Self {
-        let (width, height) = (lab.width(), lab.height());
+        let width = lab.width();
+        let height = lab.height();
         let tensor = tensor(lab);
         let mut sum = blurred(&tensor, sigma);
         let mut wider = 2.0 * sigma.max(0.5);
@@ -65,12 +66,15 @@ impl OrientationField {
 /// Structure tensor: squares and product of the gradient's components, summed over the
 /// channels.
 fn tensor(lab: &Field<[f32; 3]>) -> Field<[f32; 3]> {
-    let (width, height) = (lab.width(), lab.height());
+    let width = lab.width();
+    let height = lab.height();
     let mut tensor = Field::filled(width, height, [0.0; 3]);
     tensor.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-        let (above, below) = (y.saturating_sub(1), (y + 1).min(height - 1));
+        let above = y.saturating_sub(1);
+        let below = (y + 1).min(height - 1);
         for (x, cell) in row.iter_mut().enumerate() {
-            let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
+            let left = x.saturating_sub(1);
+            let right = (x + 1).min(width - 1);
             for channel in 0..3 {
                 // Scharr's weights have the least error in direction (Jaehne 1999).
                 let slope = |a: [(usize, usize); 3], b: [(usize, usize); 3]| {
@@ -125,7 +129,8 @@ mod tests {
         for degrees in [0.0_f64, 30.0, 75.0, 120.0] {
             let (sin, cos) = degrees.to_radians().sin_cos();
             let values = (0..96 * 96).map(|i| {
-                let (x, y) = ((i % 96) as f64, (i / 96) as f64);
+                let x = (i % 96) as f64;
+                let y = (i / 96) as f64;
                 // Waves perpendicular to the direction, within a disc.
                 let inside = (x - 48.0).hypot(y - 48.0) < 24.0;
                 let wave = ((y * cos - x * sin) * 0.7).sin();

@@ -195,7 +195,8 @@ impl Coverage {
         let width = self.scale.max(1.0);
         let middle = self.first + (cell as f64 + 0.5) * self.scale;
         let limit = self.pixels as f64;
-        let (from, to) = ((middle - width / 2.0).max(0.0), (middle + width / 2.0).min(limit));
+        let from = (middle - width / 2.0).max(0.0);
+        let to = (middle + width / 2.0).min(limit);
         let last = (to.ceil() as usize).clamp(1, self.pixels) - 1;
         let first = (from as usize).min(last);
         (first..=last).map(move |pixel| {
@@ -218,12 +219,13 @@ impl LinearDecoder {
     fn new(color: ColorType) -> Self {
         let sample_bytes = sample_bytes(color);
         let last = (1_usize << (8 * sample_bytes)) - 1;
-        let decode = |value: usize| Rgb([value as f64 / last as f64; 3]).linear().0[0];
         Self {
             channels: usize::from(color.channel_count()),
             sample_bytes,
             pixel_bytes: usize::from(color.bytes_per_pixel()),
-            decoded: (0..=last).map(decode).collect(),
+            decoded: (0..=last)
+                .map(|value: usize| Rgb([value as f64 / last as f64; 3]).linear().0[0])
+                .collect(),
         }
     }
 

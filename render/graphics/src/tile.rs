@@ -81,12 +81,17 @@ impl TileSet {
     /// gets the index of a cell, counted row by row.
     #[must_use]
     pub fn with(bounds: Rect, has: impl Fn(usize) -> bool) -> Self {
-        let any = |tile: &Tile| {
-            let rect = tile.rect(bounds);
-            let rows = (rect.y..rect.y + rect.height).map(|y| y * bounds.width + rect.x);
-            rows.into_iter().any(|first| (first..first + rect.width).any(&has))
-        };
-        Self { tiles: Self::all(bounds).tiles.into_iter().filter(any).collect() }
+        Self {
+            tiles: Self::all(bounds)
+                .tiles
+                .into_iter()
+                .filter(|tile: &Tile| {
+                    let rect = tile.rect(bounds);
+                    let rows = (rect.y..rect.y + rect.height).map(|y| y * bounds.width + rect.x);
+                    rows.into_iter().any(|first| (first..first + rect.width).any(&has))
+                })
+                .collect(),
+        }
     }
 
     /// Adds the tiles that `rect` touches.
@@ -117,7 +122,8 @@ impl TileSet {
     pub fn extent(&self, bounds: Rect) -> Rect {
         let tiles = self.tiles.iter().map(|tile| tile.rect(bounds));
         let whole = tiles.reduce(|a, b| {
-            let (x, y) = (a.x.min(b.x), a.y.min(b.y));
+            let x = a.x.min(b.x);
+            let y = a.y.min(b.y);
             let right = (a.x + a.width).max(b.x + b.width);
             let bottom = (a.y + a.height).max(b.y + b.height);
             Rect { x, y, width: right - x, height: bottom - y }

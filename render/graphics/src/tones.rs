@@ -77,11 +77,15 @@ impl ToneRamp {
         let reader = reader.with_guessed_format().map_err(|error| rejected(error.to_string()))?;
         let picture = reader.decode().map_err(|error| rejected(error.to_string()))?.into_rgb16();
         let y = picture.height() / 2;
-        let grey = |x: u32| {
-            let sum: f32 = picture.get_pixel(x, y).0.iter().map(|&value| f32::from(value)).sum();
-            sum / (3.0 * f32::from(u16::MAX))
-        };
-        Self::from_greys(&(0..picture.width()).map(grey).collect::<Vec<_>>())
+        Self::from_greys(
+            &(0..picture.width())
+                .map(|x: u32| {
+                    let sum: f32 =
+                        picture.get_pixel(x, y).0.iter().map(|&value| f32::from(value)).sum();
+                    sum / (3.0 * f32::from(u16::MAX))
+                })
+                .collect::<Vec<_>>(),
+        )
     }
 
     fn from_curve(grey: impl Fn(f32) -> f32) -> Self {

@@ -67,8 +67,11 @@ fn on_a_plane(bencher: Bencher, head: usize) {
 
 #[divan::bench(args = 0..HEADS.len())]
 fn on_a_relief(bencher: Bencher, head: usize) {
-    let waves = |i: usize| ((i % 40) * 40_000) as i32;
     let cells = BOUNDS.width * BOUNDS.height;
-    let floor = Field::from_values(BOUNDS.width, BOUNDS.height, (0..cells).map(waves).collect());
+    let floor = Field::from_values(
+        BOUNDS.width,
+        BOUNDS.height,
+        (0..cells).map(|i: usize| ((i % 40) * 40_000) as i32).collect(),
+    );
     drag(bencher, head, &Relief::from_floor(&floor, CELL_MM));
 }

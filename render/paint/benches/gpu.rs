@@ -45,11 +45,12 @@ fn engine(side: usize) -> Option<(PaintEngine, BrushId)> {
 
 /// `count` sub-steps of a square footprint that moves to the right.
 fn contacts(side: usize, count: usize) -> Vec<Contact> {
-    let touch = |i: usize| {
-        let brush_cell = (i / side * 96 + i % side) as u32;
-        Touch::new(200_000, brush_cell, (200, 40), 256, 1)
-    };
-    let touches: Vec<_> = (0..side * side).map(touch).collect();
+    let touches: Vec<_> = (0..side * side)
+        .map(|i: usize| {
+            let brush_cell = (i / side * 96 + i % side) as u32;
+            Touch::new(200_000, brush_cell, (200, 40), 256, 1)
+        })
+        .collect();
     let rect = |step: usize| Rect { x: 10 + step % 128, y: 20, width: side, height: side };
     (0..count)
         .map(|step| Contact { rect: rect(step), touches: touches.clone(), ..Contact::default() })

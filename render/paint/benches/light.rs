@@ -87,15 +87,17 @@ fn one_layer_to_rgb(bencher: Bencher, threads: usize) {
     let level = Tops::level(WIDTH, 1);
     let cells = document.wet.pigments.values();
     let mut out = vec![[0.0; 4]; cells.len()];
-    let row = |internal: &mut Vec<[f32; NODES]>, (cells, out): (&[[u32; SLOTS]], &mut [_])| {
-        internal.fill(scene.ground);
-        composite_row(&scene.wet, cells, internal);
-        shade_row(&scene, (&level, (0, 0)), internal, &[TopMaterial::Wet; WIDTH], out);
-    };
     bencher.counter(ItemsCount::new(cells.len())).bench_local(|| {
         pool.install(|| {
             let rows = cells.par_chunks(WIDTH).zip(out.par_chunks_mut(WIDTH));
-            rows.for_each_init(|| vec![scene.ground; WIDTH], row);
+            rows.for_each_init(
+                || vec![scene.ground; WIDTH],
+                |internal: &mut Vec<[f32; NODES]>, (cells, out): (&[[u32; SLOTS]], &mut [_])| {
+                    internal.fill(scene.ground);
+                    composite_row(&scene.wet, cells, internal);
+                    shade_row(&scene, (&level, (0, 0)), internal, &[TopMaterial::Wet; WIDTH], out);
+                },
+            );
         });
     });
 }

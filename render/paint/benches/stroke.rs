@@ -58,7 +58,8 @@ fn painting(width: usize, height: usize, dry: usize) -> Painting {
     let library = oils();
     let ground = GroundSpec::default().build(width, height, CELL_MM, &library).expect("linen");
     let slots: Slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
-    let (medium, lighting) = (Medium::default(), Lighting::default());
+    let medium = Medium::default();
+    let lighting = Lighting::default();
     let mut document = Document::bare("", CELL_MM, ground, library, medium, slots, lighting);
     document.wet = paint(width, height, 0);
     for seed in 1..=dry {
@@ -109,7 +110,8 @@ fn wide_flat(bencher: Bencher<'_, '_>) {
     let library = oils();
     let ground = GroundSpec::default().build(1920, 1080, CELL_MM, &library).expect("linen");
     let slots: Slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
-    let (medium, lighting) = (Medium::default(), Lighting::default());
+    let medium = Medium::default();
+    let lighting = Lighting::default();
     let document = Document::bare("", CELL_MM, ground, library, medium, slots, lighting);
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     let mut painting = Painting::open(document, engine, UNDO_BYTES).expect("a painting");
@@ -177,8 +179,13 @@ fn replay_the_color_study(bencher: Bencher<'_, '_>) {
             PaintingSession::new(canvas, None).expect("a canvas alone")
         })
         .bench_values(|mut session| {
-            let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-            script.replay(&mut session, save, || ControlFlow::Continue(())).expect("played");
+            script
+                .replay(
+                    &mut session,
+                    |_: &str, _: &mut Painting| Ok::<_, Infallible>(()),
+                    || ControlFlow::Continue(()),
+                )
+                .expect("played");
             session
         });
 }

@@ -127,7 +127,8 @@ mod tests {
                 let most = MAX_COLUMN >> random.random_range(0..30);
                 random.random_range(1..=most)
             };
-            let (a, b) = (number(), number());
+            let a = number();
+            let b = number();
             for amount in [a, a / b * b, (a / b * b).saturating_sub(1)] {
                 assert_eq!(quotient(amount, b), amount / b, "{amount} / {b}");
                 let part = amount.min(b);

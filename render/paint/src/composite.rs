@@ -96,7 +96,9 @@ const MIN_X: f32 = 1e-5;
 /// Internal reflectance of a film of unit thickness over `backing`.
 #[inline(always)]
 fn film<S: Simd>(absorption: f32, scattering: f32, backing: f32) -> f32 {
-    let (k, s, g) = (absorption, scattering, backing);
+    let k = absorption;
+    let s = scattering;
+    let g = backing;
     let x = greater((k * multiply_add::<S>(2.0, s, k)).sqrt(), MIN_X);
     let (e, rest) = decay::<S>(2.0 * x);
     let through = multiply_add::<S>(e, x, x);
@@ -197,16 +199,14 @@ mod tests {
         for fixed in GRID {
             for pair in GRID.windows(2) {
                 let [less, more] = [pair[0], pair[1]];
-                let (darker, lighter) =
-                    (over(more, fixed, 16384, BACKINGS), over(less, fixed, 16384, BACKINGS));
+                let darker = over(more, fixed, 16384, BACKINGS);
+                let lighter = over(less, fixed, 16384, BACKINGS);
                 for (darker, lighter) in darker.into_iter().zip(lighter) {
                     assert!(darker <= lighter + 2e-7, "K {pair:?}, S {fixed}: {darker} {lighter}");
                 }
                 // Without a backing, where scattering can only add.
-                let (darker, lighter) = (
-                    over(fixed, less, 16384, [0.0; NODES])[0],
-                    over(fixed, more, 16384, [0.0; NODES])[0],
-                );
+                let darker = over(fixed, less, 16384, [0.0; NODES])[0];
+                let lighter = over(fixed, more, 16384, [0.0; NODES])[0];
                 assert!(darker <= lighter + 2e-7, "S {pair:?}, K {fixed}: {darker} {lighter}");
             }
             for pair in over(0.5, fixed, 16384, BACKINGS).windows(2) {

@@ -75,7 +75,8 @@ mod tests {
         let part = whole.cropped(Rect { x: 2, y: 1, width: 3, height: 4 });
         assert_eq!((part.wet.width(), part.wet.height()), (3, 4));
         for (x, y) in [(0, 0), (2, 3), (1, 2)] {
-            let (own, there) = (y * 3 + x, (y + 1) * 8 + x + 2);
+            let own = y * 3 + x;
+            let there = (y + 1) * 8 + x + 2;
             assert_eq!(part.wet.cell(own), whole.wet.cell(there), "wet paint at {x}, {y}");
             assert_eq!(part.dry[0].paint.cell(own), whole.dry[0].paint.cell(there));
             assert_eq!(part.ground.height[(x, y)], whole.ground.height[(x + 2, y + 1)]);

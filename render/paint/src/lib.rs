@@ -41,63 +41,34 @@
 //! Modules are listed in order of dependence: each uses only modules above it.
 
 pub mod amount;
-
 mod pigment_amounts;
-
 pub mod layer;
-
 pub mod dry_layer;
-
 pub mod optics;
-
 pub mod node_pigments;
-
 pub mod light;
-
 pub mod composite;
-
 pub mod shade;
-
 pub mod pose;
-
 pub mod contact;
-
 pub mod motion;
-
 pub mod mask;
-
 pub mod engine;
-
 pub mod ground;
-
 pub mod document;
-
 pub mod crop;
-
 pub mod canvas;
-
 pub mod palette;
-
 pub mod separation;
-
 pub mod brush;
-
 pub mod stroke;
-
 pub mod history;
-
 pub mod scene;
-
 pub mod painting;
-
 pub mod strokes;
-
 pub mod file;
-
 pub mod session;
-
 pub mod export;
-
 pub mod timelapse;
 
 pub use brush::HeadShape;

@@ -90,24 +90,32 @@ impl Mask {
     /// stands for it. The edge of the canvas is no such line.
     #[must_use]
     pub fn outline(&self, step: usize) -> Vec<[(u32, u32); 2]> {
-        let (step, Rect { width, height, .. }) = (step.max(1), self.bounds);
-        let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
+        let step = step.max(1);
+        let Rect { width, height, .. } = self.bounds;
+        let columns = width.div_ceil(step);
+        let rows = height.div_ceil(step);
         let middle = |block: usize, count: usize| (block * step + step / 2).min(count - 1);
         let covers = |x: usize, y: usize| self.covers(middle(y, height) * width + middle(x, width));
         let at_x = |x: usize| (x * step).min(width) as u32;
         let at_y = |y: usize| (y * step).min(height) as u32;
         let mut lines = Vec::new();
         for y in 1..rows {
-            let border = |x: usize| covers(x, y) != covers(x, y - 1);
-            runs(columns, border, |from, to| {
-                lines.push([(at_x(from), at_y(y)), (at_x(to), at_y(y))]);
-            });
+            runs(
+                columns,
+                |x: usize| covers(x, y) != covers(x, y - 1),
+                |from, to| {
+                    lines.push([(at_x(from), at_y(y)), (at_x(to), at_y(y))]);
+                },
+            );
         }
         for x in 1..columns {
-            let border = |y: usize| covers(x, y) != covers(x - 1, y);
-            runs(rows, border, |from, to| {
-                lines.push([(at_x(x), at_y(from)), (at_x(x), at_y(to))]);
-            });
+            runs(
+                rows,
+                |y: usize| covers(x, y) != covers(x - 1, y),
+                |from, to| {
+                    lines.push([(at_x(x), at_y(from)), (at_x(x), at_y(to))]);
+                },
+            );
         }
         lines
     }

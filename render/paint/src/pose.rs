@@ -25,7 +25,9 @@ impl Sample {
     /// A sample of an upright brush.
     #[must_use]
     pub const fn upright(seconds: f64, x_mm: f64, y_mm: f64, pressure: f64) -> Self {
-        let (tilt_x_deg, tilt_y_deg, twist_deg) = (0.0, 0.0, 0.0);
+        let tilt_x_deg = 0.0;
+        let tilt_y_deg = 0.0;
+        let twist_deg = 0.0;
         Self { seconds, x_mm, y_mm, pressure, tilt_x_deg, tilt_y_deg, twist_deg }
     }
 }

@@ -2,13 +2,9 @@
 //! and the contacts of a head along it.
 
 mod decimals;
-
 mod limits;
-
 mod error;
-
 mod piece;
-
 mod path;
 
 pub use decimals::SampleDecimals;
@@ -128,8 +124,10 @@ mod tests {
         let full = steps.iter().filter(|&&step| step > 0.85).count();
         assert!(full + 8 >= steps.len(), "{full} of {}", steps.len());
         for sample in samples {
-            let near = |p: &Pose| (p.x - 10.0 * sample.x_mm).hypot(p.y - 10.0 * sample.y_mm);
-            let nearest = poses.iter().map(near).fold(f64::INFINITY, f64::min);
+            let nearest = poses
+                .iter()
+                .map(|p: &Pose| (p.x - 10.0 * sample.x_mm).hypot(p.y - 10.0 * sample.y_mm))
+                .fold(f64::INFINITY, f64::min);
             assert!(nearest <= 0.5, "{sample:?}: {nearest}");
         }
         assert_eq!((poses[0].x, poses[0].y), (50.0, 50.0));
@@ -180,7 +178,9 @@ mod tests {
             let place = |sample: &Sample| (sample.x_mm, sample.y_mm);
             dabs += usize::from(samples.iter().all(|sample| place(sample) == place(&SAMPLE)));
             let mut path = Path::new(0.1, SIZE_MM).unwrap();
-            let (mut pieces, mut rest, mut lagged) = (Vec::new(), &samples[..], 0);
+            let mut pieces = Vec::new();
+            let mut rest = &samples[..];
+            let mut lagged = 0;
             while !rest.is_empty() {
                 let (now, later) = rest.split_at(random.random_range(0..=rest.len()));
                 path.push(now).unwrap();
@@ -252,7 +252,8 @@ mod tests {
         };
         let poses: Vec<Pose> = substeps(&samples, 0.1, size_mm).unwrap().collect();
         for pair in poses.windows(2) {
-            let (from, to) = (side(&pair[0]), side(&pair[1]));
+            let from = side(&pair[0]);
+            let to = side(&pair[1]);
             let way = (from.0 - to.0).hypot(from.1 - to.1);
             assert!(way <= 1.0 + 1e-9, "{way} cells from {pair:?}");
         }
@@ -290,11 +291,10 @@ mod tests {
         let dab = substeps(&[SAMPLE], 0.1, SIZE_MM).unwrap();
         let dab: Vec<Contact> = contacts(&mut head, dab, &relief, bounds).collect();
         assert_eq!(dab.len(), 2 * 10 - 1);
-        let paints = |contact: &Contact| {
+        assert!(dab.iter().any(|contact: &Contact| {
             let mut touches = contact.touches.iter();
             touches.any(|touch| touch.height < sunk(contact) && touch.transfer_weight() == 256)
-        };
-        assert!(dab.iter().any(paints));
+        }));
     }
 
     #[test]

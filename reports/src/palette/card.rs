@@ -68,7 +68,8 @@ fn cards(subject: &Subject<'_>, palette: &Palette<'_>, drawn: &[Drawdown]) -> Ca
     for (index, drawdown) in drawn.iter().enumerate() {
         let x = margin + (index % COLUMNS) as f64 * (CARD.0 + GAP);
         let y = (index / COLUMNS) as f64 * height + HEAD;
-        let (middle, space) = ((x, y - 2.0 - NAME / 2.0), (CARD.0, NAME));
+        let middle = (x, y - 2.0 - NAME / 2.0);
+        let space = (CARD.0, NAME);
         let name = subject.label(drawdown.paint);
         canvas.name(middle, space, TEXT, Anchor::Start, INK, &name);
         let half = CARD.1 / 2.0;
@@ -76,7 +77,8 @@ fn cards(subject: &Subject<'_>, palette: &Palette<'_>, drawn: &[Drawdown]) -> Ca
         patch(&mut canvas, (x, y), (CARD.0, half), &white);
         patch(&mut canvas, (x, y + half), (CARD.0, half), &black);
         // A drawdown leaves the edge of the card free.
-        let (top, length) = (y + 8.0, half - 8.0);
+        let top = y + 8.0;
+        let length = half - 8.0;
         let step_width = CARD.0 / (THICKNESSES.len() + 1) as f64;
         for (place, step) in drawdown.steps.iter().enumerate() {
             let left = x + place as f64 * step_width + (step_width - STRIPE) / 2.0;

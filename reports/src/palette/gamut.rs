@@ -36,7 +36,8 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
 }
 
 fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure {
-    let (lab, xy) = (gamut.in_lab([0.0, 100.0], SECTORS), gamut.in_xy(SECTORS));
+    let lab = gamut.in_lab([0.0, 100.0], SECTORS);
+    let xy = gamut.in_xy(SECTORS);
     let mut data = Table::new(columns(outline_columns("plane", "u", "v")));
     push_outline(&mut data, palette, gamut, &lab, "a*, b*");
     push_outline(&mut data, palette, gamut, &xy, "x, y");
@@ -102,10 +103,9 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
         let title = format!("L* {low} to {high}");
         let edge = gamut.in_lab(band, BAND_SECTORS);
         push_outline(&mut data, palette, gamut, &edge, &title);
-        let inside = |sample: &GamutSample| {
+        let mut marks = field(gamut, 1.5 * CELLS[0], |sample: &GamutSample| {
             (low..=high).contains(&lightness(sample)).then(|| lab_place(sample))
-        };
-        let mut marks = field(gamut, 1.5 * CELLS[0], inside);
+        });
         marks.push(Mark::Line { points: closed(&whole), color: FAINT, width: HAIR });
         marks.push(outline(&edge, 1.0));
         let few = |axis: &Axis| Axis::linear("", "", axis.low, axis.high, 3).ticks;
@@ -147,12 +147,14 @@ fn field(gamut: &Gamut, cell: f64, place: impl Fn(&GamutSample) -> Option<[f64; 
             *kept = sample;
         }
     }
-    let mark = |((x, y), sample): ((i64, i64), &GamutSample)| {
-        let from = (x as f64 * cell, y as f64 * cell);
-        let color = Color::from_rgb(sample.color.srgb);
-        Mark::Bar { from, to: (from.0 + cell, from.1 + cell), color }
-    };
-    lightest.into_iter().map(mark).collect()
+    lightest
+        .into_iter()
+        .map(|((x, y), sample): ((i64, i64), &GamutSample)| {
+            let from = (x as f64 * cell, y as f64 * cell);
+            let color = Color::from_rgb(sample.color.srgb);
+            Mark::Bar { from, to: (from.0 + cell, from.1 + cell), color }
+        })
+        .collect()
 }
 
 fn closed(boundary: &Boundary) -> Vec<(f64, f64)> {

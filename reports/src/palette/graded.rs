@@ -34,8 +34,9 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
         Some(pair) => vec![pair],
         None => default_pairs(&palette, &measured),
     };
-    let unknown = |p: &PigmentId| !palette.paints().contains(p);
-    if let Some(left_out) = pairs.iter().flat_map(|(a, b)| [*a, *b]).find(unknown) {
+    if let Some(left_out) =
+        pairs.iter().flat_map(|(a, b)| [*a, *b]).find(|p: &PigmentId| !palette.paints().contains(p))
+    {
         return section.with_paragraph(format!(
             "{} takes no part in mixtures: its scattering is not known.",
             subject.label(left_out)
@@ -55,10 +56,11 @@ pub(crate) fn section(subject: &Subject<'_>) -> Section {
 fn rules(subject: &Subject<'_>, palette: &Palette<'_>) -> PainterRules {
     let tried = |count: usize| {
         let mut trials = subject.quadratures.iter();
-        let fits = |trial: &&QuadratureTrial| {
-            trial.method == QuadratureMethod::Library && trial.rule.nodes_nm.len() == count
-        };
-        trials.find(fits).map(|trial| trial.rule.clone())
+        trials
+            .find(|trial: &&QuadratureTrial| {
+                trial.method == QuadratureMethod::Library && trial.rule.nodes_nm.len() == count
+            })
+            .map(|trial| trial.rule.clone())
     };
     match (tried(8), tried(3)) {
         (Some(eight), Some(three)) => PainterRules { eight, three },
@@ -74,7 +76,8 @@ fn figure(
     rules: &PainterRules,
 ) -> Figure {
     let mixture = graded(palette, pair, measured, rules);
-    let (first, second) = (subject.label(pair.0), subject.label(pair.1));
+    let first = subject.label(pair.0);
+    let second = subject.label(pair.1);
     let own = [
         Column::quantity(&format!("share of {second}"), "%", 2),
         Column::text("way"),

@@ -90,7 +90,8 @@ fn shift_rows(lights: &[TestLight], names: &[String], shifts: &[ColorShift]) -> 
             canvas.text((middle, 10.0), SMALL_TEXT, Anchor::Middle, INK, name);
             for (place, light) in lights.iter().enumerate() {
                 let x = x + (place as f64 + 0.5) * side;
-                let (space, name) = ((side, 24.0), &light.name);
+                let space = (side, 24.0);
+                let name = &light.name;
                 canvas.name((x, 27.0), space, SMALL_TEXT, Anchor::Middle, FAINT, name);
             }
         }

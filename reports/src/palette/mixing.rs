@@ -60,7 +60,8 @@ fn chart(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
     rim(&mut canvas, (NAME, head), (side, side));
     for (i, name) in names.iter().enumerate() {
         let middle = (i as f64 + 0.5) * cell;
-        let (beside, above) = ((NAME - 8.0, head + middle), (NAME + middle, head - 6.0));
+        let beside = (NAME - 8.0, head + middle);
+        let above = (NAME + middle, head - 6.0);
         canvas.name(beside, (NAME - 12.0, cell), TEXT, Anchor::End, INK, name);
         canvas.name_upwards(above, (head - 8.0, cell), TEXT, INK, name);
         for j in 0..count {
@@ -107,7 +108,8 @@ fn tints(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
         }
     }
     for (index, ladder) in ladders.iter().enumerate() {
-        let (x, y) = ((index / rows) as f64 * block + NAME, HEAD + (index % rows) as f64 * ROW);
+        let x = (index / rows) as f64 * block + NAME;
+        let y = HEAD + (index % rows) as f64 * ROW;
         let name = subject.label(ladder.paint);
         let space = (NAME - 12.0, ROW);
         canvas.name((x - 8.0, y + ROW / 2.0), space, TEXT, Anchor::End, INK, &name);

@@ -2,23 +2,14 @@
 //! other lights. Their numbers come from `calibrate::palette`.
 
 mod context;
-
 mod cells;
-
 mod patch;
-
 mod bars;
-
 mod card;
-
 mod graded;
-
 mod lights;
-
 mod mixing;
-
 mod gamut;
-
 mod strength;
 
 pub(crate) use gamut::section as gamut;

@@ -127,9 +127,12 @@ pub fn ciede2000_residuals(first: Lab, second: Lab) -> [f64; 3] {
 fn ciede2000_terms(first: Lab, second: Lab) -> [f64; 4] {
     let mean_chroma = f64::midpoint(first.a.hypot(first.b), second.a.hypot(second.b));
     let stretch = 1.0 + 0.5 * (1.0 - seventh_root_share(mean_chroma));
-    let (a1, a2) = (first.a * stretch, second.a * stretch);
-    let (c1, c2) = (a1.hypot(first.b), a2.hypot(second.b));
-    let (h1, h2) = (hue_degrees(a1, first.b), hue_degrees(a2, second.b));
+    let a1 = first.a * stretch;
+    let a2 = second.a * stretch;
+    let c1 = a1.hypot(first.b);
+    let c2 = a2.hypot(second.b);
+    let h1 = hue_degrees(a1, first.b);
+    let h2 = hue_degrees(a2, second.b);
 
     let grey = c1 * c2 == 0.0;
     let turn = h2 - h1;

@@ -40,7 +40,8 @@ impl Rgb {
             let [x, z] = [x, z].map(|end| cubed(grey + chroma * (end - grey)));
             Self(rgb_from_xyz.apply([x, y, z]))
         };
-        let (mut inside, mut outside) = (0.0, 1.0);
+        let mut inside = 0.0;
+        let mut outside = 1.0;
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inside + outside);
             *if at(middle).in_gamut() { &mut inside } else { &mut outside } = middle;
@@ -81,7 +82,8 @@ mod tests {
     fn others_keep_hue_and_lightness_and_come_to_the_edge_of_the_gamut() {
         for rgb in [[-0.1, 0.2, 0.6], [0.7, -0.05, 0.02], [-0.2, 0.5, 0.1], [1.2, 0.6, -0.02]] {
             let mapped = Rgb(rgb).mapped_into_gamut();
-            let (exact, shown) = (lch(Rgb(rgb)), lch(mapped));
+            let exact = lch(Rgb(rgb));
+            let shown = lch(mapped);
             assert!((exact.lightness - shown.lightness).abs() < 1e-3, "{exact:?} {shown:?}");
             assert!((exact.hue_degrees - shown.hue_degrees).abs() < 0.01, "{exact:?} {shown:?}");
             let kept = shown.chroma / exact.chroma;

@@ -36,7 +36,9 @@ impl Lab {
     #[must_use]
     pub fn from_xyz(xyz: Xyz, white: Xyz) -> Self {
         let f = |t: f64| if t > TOE { t.cbrt() } else { (KAPPA * t + 16.0) / 116.0 };
-        let (fx, fy, fz) = (f(xyz.x / white.x), f(xyz.y / white.y), f(xyz.z / white.z));
+        let fx = f(xyz.x / white.x);
+        let fy = f(xyz.y / white.y);
+        let fz = f(xyz.z / white.z);
         Self { lightness: 116.0 * fy - 16.0, a: 500.0 * (fx - fy), b: 200.0 * (fy - fz) }
     }
 
@@ -47,7 +49,9 @@ impl Lab {
             let t = value / white;
             (if t > TOE { t.powf(-2.0 / 3.0) / 3.0 } else { KAPPA / 116.0 }) / white
         };
-        let (x, y, z) = (slope(xyz.x, white.x), slope(xyz.y, white.y), slope(xyz.z, white.z));
+        let x = slope(xyz.x, white.x);
+        let y = slope(xyz.y, white.y);
+        let z = slope(xyz.z, white.z);
         Matrix3([[0.0, 116.0 * y, 0.0], [500.0 * x, -500.0 * y, 0.0], [0.0, 200.0 * y, -200.0 * z]])
     }
 

@@ -41,8 +41,10 @@ impl Matrix3 {
     pub fn inverse(&self) -> Self {
         let m = &self.0;
         let cofactor = |i: usize, j: usize| {
-            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-            let (c, d) = ((j + 1) % 3, (j + 2) % 3);
+            let a = (i + 1) % 3;
+            let b = (i + 2) % 3;
+            let c = (j + 1) % 3;
+            let d = (j + 2) % 3;
             m[a][c] * m[b][d] - m[a][d] * m[b][c]
         };
         let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();

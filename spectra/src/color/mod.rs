@@ -5,27 +5,16 @@
 //! them.
 
 mod matrix;
-
 mod xyz;
-
 mod lab;
-
 mod luv;
-
 mod adaptation;
-
 mod rgb;
-
 mod gamut;
-
 mod values;
-
 mod code;
-
 mod difference;
-
 mod metamerism;
-
 mod whiteness;
 
 pub use adaptation::{Adaptation, adapt};

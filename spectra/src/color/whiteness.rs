@@ -55,8 +55,10 @@ impl Whiteness {
                 return Err(WhitenessError::Observer { observer });
             }
         };
-        let (own, perfect) = (xyz.to_xyy(white), white.to_xyy(white));
-        let (x, y) = (perfect.x - own.x, perfect.y - own.y);
+        let own = xyz.to_xyy(white);
+        let perfect = white.to_xyy(white);
+        let x = perfect.x - own.x;
+        let y = perfect.y - own.y;
         let whiteness = xyz.y + 800.0 * x + 1700.0 * y;
         let tint = of_x * x - 650.0 * y;
         let most = 5.0 * xyz.y - 280.0;

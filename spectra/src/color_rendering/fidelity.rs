@@ -49,10 +49,16 @@ impl ColorFidelity {
         };
         let area = |colors: &[UniformColor]| {
             let filled = bins.iter().filter(|bin| !bin.is_empty());
-            let corner = |bin: &Vec<usize>| {
-                [mean(bin.iter().map(|&at| colors[at].a)), mean(bin.iter().map(|&at| colors[at].b))]
-            };
-            polygon_area(&filled.map(corner).collect::<Vec<[f64; 2]>>())
+            polygon_area(
+                &filled
+                    .map(|bin: &Vec<usize>| {
+                        [
+                            mean(bin.iter().map(|&at| colors[at].a)),
+                            mean(bin.iter().map(|&at| colors[at].b)),
+                        ]
+                    })
+                    .collect::<Vec<[f64; 2]>>(),
+            )
         };
         Ok(Self {
             fidelity: fidelity(mean(differences.iter().copied())),

@@ -2,15 +2,10 @@
 //! ANSI/IES TM-30-18, whose fidelity index is that of CIE 224:2017.
 
 mod samples;
-
 mod reference_light;
-
 mod rendering_index;
-
 mod appearance;
-
 mod fidelity;
-
 mod of_light;
 
 pub use fidelity::ColorFidelity;

@@ -68,7 +68,8 @@ fn adapted(at: [f64; 2], whites: [[f64; 2]; 2]) -> [f64; 2] {
     let c = |[u, v]: [f64; 2]| (4.0 - u - 10.0 * v) / v;
     let d = |[u, v]: [f64; 2]| (1.708 * v + 0.404 - 1.481 * u) / v;
     let [own, reference] = whites;
-    let (c, d) = (c(reference) / c(own) * c(at), d(reference) / d(own) * d(at));
+    let c = c(reference) / c(own) * c(at);
+    let d = d(reference) / d(own) * d(at);
     let below = 16.518 + 1.481 * c - d;
     [(10.872 + 0.404 * c - 4.0 * d) / below, 5.52 / below]
 }

@@ -90,8 +90,8 @@ pub(super) fn read_binary(
     let ordered = ordered(file, points, Duplicates::Refuse)?;
     let mut details = vec![("Integration time".to_owned(), format!("{milliseconds} ms"))];
     details.extend((!comment.is_empty()).then(|| ("Comment".to_owned(), comment)));
-    let (one, many) =
-        ("wavelength without light of the white is", "wavelengths without light of the white are");
+    let one = "wavelength without light of the white is";
+    let many = "wavelengths without light of the white are";
     let remark = format!("{} left out", documents::counted_as(dropped, one, many));
     Ok(vec![MeasuredSpectrum {
         name: stem(file),

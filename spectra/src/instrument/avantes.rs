@@ -22,9 +22,11 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let cells = |line: &'_ str| -> Vec<String> {
         line.trim_end().split([';', '\t']).map(|cell| cell.trim().to_owned()).collect()
     };
-    let (headings, units) = (cells(headings), cells(units));
+    let headings = cells(headings);
+    let units = cells(units);
     if headings.len() != first.len() || units.len() != first.len() {
-        let (expected, text) = ("a value for every heading", lines[row - 1].1);
+        let expected = "a value for every heading";
+        let text = lines[row - 1].1;
         return Err(InstrumentError::line(file, *row, expected, text));
     }
     let counts = ["sample", "dark", "reference", "scope"];

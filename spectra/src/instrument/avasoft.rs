@@ -18,8 +18,8 @@ pub(super) fn of_pixels(
     let points: Vec<Point> = points.filter(|point| point.value.is_finite()).collect();
     let dropped = values.len() - points.len();
     let ordered = ordered(file, points, Duplicates::Average)?;
-    let (one, many) =
-        ("wavelength without light of the white is", "wavelengths without light of the white are");
+    let one = "wavelength without light of the white is";
+    let many = "wavelengths without light of the white are";
     let remark = format!("{} left out", documents::counted_as(dropped, one, many));
     Ok(MeasuredSpectrum {
         name,

@@ -33,7 +33,8 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<MeasuredSpectrum>, In
     if !is_new {
         reader.f32s(SERIAL)?;
     }
-    let (first, last) = (reader.f32()?, reader.f32()?);
+    let first = reader.f32()?;
+    let last = reader.f32()?;
     reader.f32s(SETTINGS[usize::from(is_new)])?;
     let is_pixel = |pixel: f64| pixel.fract() == 0.0 && (0.0..65536.0).contains(&pixel);
     if !(is_pixel(first) && is_pixel(last) && first <= last) {
@@ -55,7 +56,8 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<MeasuredSpectrum>, In
         let quantity = MeasuredQuantity::Transmittance;
         of_counts(file, &stem, quantity, &nm, [&column(0), &column(1), &column(2)])?
     } else {
-        let (counts, values) = (MeasuredQuantity::Counts, reader.f32s(count)?);
+        let counts = MeasuredQuantity::Counts;
+        let values = reader.f32s(count)?;
         vec![of_pixels(file, stem, counts, Role::Main, &nm, &values)?]
     };
     let time = reader.f32()?;

@@ -54,7 +54,8 @@ fn spectrum(
     reader.take(2)?;
     let serial = reader.text(10)?;
     reader.take(65)?;
-    let (first, last) = (reader.u16()?, reader.u16()?);
+    let first = reader.u16()?;
+    let last = reader.u16()?;
     let milliseconds = reader.f32()?;
     reader.take(4)?;
     let averages = reader.u32()?;

@@ -36,7 +36,8 @@ impl<'a> BinaryBytes<'a> {
     pub(super) fn take(&mut self, count: usize) -> Result<&'a [u8], InstrumentError> {
         let end = self.at.checked_add(count).filter(|end| *end <= self.bytes.len());
         let Some(end) = end else {
-            let (has, at) = (self.bytes.len(), self.at);
+            let has = self.bytes.len();
+            let at = self.at;
             return Err(self.faulty(format!("it has {has} bytes, and {count} are needed at {at}")));
         };
         let found = &self.bytes[self.at..end];
@@ -94,7 +95,8 @@ impl<'a> BinaryBytes<'a> {
         if count.saturating_mul(size) <= self.left() {
             return Ok(());
         }
-        let (left, at) = (self.left() / size, self.at);
+        let left = self.left() / size;
+        let at = self.at;
         Err(self.faulty(format!("{count} numbers are needed at byte {at}, and {left} follow")))
     }
 }

@@ -20,7 +20,8 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     (1..width)
         .map(|column| {
             let name = if width > 2 { format!("{} {column}", stem(file)) } else { stem(file) };
-            let (quantity, unit) = (MeasuredQuantity::Unstated, Unit::Unstated);
+            let quantity = MeasuredQuantity::Unstated;
+            let unit = Unit::Unstated;
             let mut record =
                 table.spectrum(file, column, axis, ColumnLabel { name, quantity, unit })?;
             record.remarks.insert(0, remark.clone());

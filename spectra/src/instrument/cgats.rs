@@ -97,8 +97,11 @@ impl Table {
         // Where tabs separate the cells, names may contain spaces without quotes.
         let tabs: Vec<&str> = line.trim_end().split('\t').collect();
         if self.open.is_empty() && tabs.len() == width && width > 1 {
-            let plain = |cell: &str| (number, cell.trim().trim_matches('"').to_owned());
-            self.rows.push(tabs.into_iter().map(plain).collect());
+            self.rows.push(
+                tabs.into_iter()
+                    .map(|cell: &str| (number, cell.trim().trim_matches('"').to_owned()))
+                    .collect(),
+            );
             return Ok(());
         }
         self.open.extend(words.into_iter().map(|word| (number, word)));
@@ -122,7 +125,8 @@ impl Table {
         let stated_count = table.keyword("NUMBER_OF_SETS").and_then(|sets| sets.parse().ok());
         let found = table.rows.len();
         if let Some(expected) = stated_count.filter(|sets| *sets != found) {
-            let (file, what) = (file.to_owned(), "rows (NUMBER_OF_SETS)");
+            let file = file.to_owned();
+            let what = "rows (NUMBER_OF_SETS)";
             return Err(InstrumentError::Count { file, line: end, what, expected, found });
         }
         let Some(fields) = table.fields.as_ref().filter(|fields| fields.has_spectra()) else {
@@ -189,8 +193,14 @@ impl Table {
         if self.keyword("CCSS").is_some() {
             return Power;
         }
-        let describes_a_light = |text: &str| text.to_ascii_lowercase().contains("spectral power");
-        if self.keyword("DESCRIPTOR").is_some_and(describes_a_light) { Power } else { Unstated }
+        if self
+            .keyword("DESCRIPTOR")
+            .is_some_and(|text: &str| text.to_ascii_lowercase().contains("spectral power"))
+        {
+            Power
+        } else {
+            Unstated
+        }
     }
 }
 

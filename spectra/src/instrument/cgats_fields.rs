@@ -42,10 +42,13 @@ impl Fields {
             let follows_nm = column > 0 && upper[column - 1] == "SPECTRAL_NM";
             match wavelength(name) {
                 Some(nm) => {
-                    let same =
-                        |other: &&(usize, WavelengthSource)| other.1 == WavelengthSource::Nm(nm);
-                    if let Some((first, _)) = values.iter().find(same) {
-                        let (line, first) = (names[column].0, names[*first].0);
+                    if let Some((first, _)) =
+                        values.iter().find(|other: &&(usize, WavelengthSource)| {
+                            other.1 == WavelengthSource::Nm(nm)
+                        })
+                    {
+                        let line = names[column].0;
+                        let first = names[*first].0;
                         let file = file.to_owned();
                         return Err(InstrumentError::Duplicate { file, line, nm, first });
                     }
@@ -88,9 +91,8 @@ impl Fields {
     fn restore_exact_wavelengths(&mut self, bands: f64, start: f64, end: f64) {
         let last = (self.values.len().max(2) - 1) as f64;
         let exact = |index: usize| start + (end - start) * index as f64 / last;
-        let agrees = |(index, value): (usize, &(usize, WavelengthSource))| matches!(value.1, WavelengthSource::Nm(nm) if (nm - exact(index)).abs() <= 0.51);
         if self.values.is_empty() {
-        } else if bands == self.values.len() as f64 && self.values.iter().enumerate().all(agrees) {
+        } else if bands == self.values.len() as f64 && self.values.iter().enumerate().all(|(index, value): (usize, &(usize, WavelengthSource))| matches!(value.1, WavelengthSource::Nm(nm) if (nm - exact(index)).abs() <= 0.51)) {
             for (index, value) in self.values.iter_mut().enumerate() {
                 value.1 = WavelengthSource::Nm(exact(index));
             }

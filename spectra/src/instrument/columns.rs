@@ -14,7 +14,8 @@ use super::text::lines;
 /// each is a wavelength.
 pub(super) fn is_column_text(text: &str) -> bool {
     let Some(layout) = Layout::of(content(text).map(|(_, line)| line)) else { return false };
-    let (mut rows, mut others) = (0_usize, 0_usize);
+    let mut rows = 0_usize;
+    let mut others = 0_usize;
     for (number, line) in content(text) {
         if !layout.is_row(line) {
             others += 1;

@@ -142,8 +142,7 @@ impl InstrumentError {
         if short.len() < text.len() {
             short.push_str(" ..");
         }
-        let printable = |c: char| if c.is_control() { ' ' } else { c };
-        let text = short.chars().map(printable).collect();
+        let text = short.chars().map(|c: char| if c.is_control() { ' ' } else { c }).collect();
         Self::Line { file: file.to_owned(), line, expected, text }
     }
 

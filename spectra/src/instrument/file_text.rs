@@ -30,25 +30,26 @@ impl FileText {
         match ContentKind::of(file, bytes)? {
             ContentKind::Text => {
                 let (text, encoding) = decode_text(bytes);
-                let (file, is_sheet, remark) = (file.to_owned(), false, None);
+                let file = file.to_owned();
+                let is_sheet = false;
+                let remark = None;
                 Ok(Some(Self { file, text, encoding, is_sheet, remark }))
             }
             ContentKind::Workbook => {
                 let sheet = workbook::sheet(file, bytes)?;
                 let others = sheet.others.join("`, `");
-                let what = || {
-                    format!(
-                        "sheet `{}` is read, not `{others}`; FILE.xlsx#SHEET names another",
-                        sheet.name
-                    )
-                };
                 let (path, wanted) = workbook::split_file_and_sheet(file);
                 Ok(Some(Self {
                     file: format!("{path}, sheet `{}`", sheet.name),
                     text: sheet.text.clone(),
                     encoding: "UTF-8",
                     is_sheet: true,
-                    remark: (wanted.is_none() && !sheet.others.is_empty()).then(what),
+                    remark: (wanted.is_none() && !sheet.others.is_empty()).then(|| {
+                        format!(
+                            "sheet `{}` is read, not `{others}`; FILE.xlsx#SHEET names another",
+                            sheet.name
+                        )
+                    }),
                 }))
             }
             _ => Ok(None),

@@ -120,8 +120,13 @@ impl Block<'_> {
 
     /// The spectrum of the block, if it has one.
     fn spectrum(&self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
-        let is_data = |field: &&Field<'_>| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str());
-        let Some(data) = self.fields.iter().find(is_data) else { return Ok(None) };
+        let Some(data) = self
+            .fields
+            .iter()
+            .find(|field: &&Field<'_>| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str()))
+        else {
+            return Ok(None);
+        };
         let (line, form) = data.lines[0];
         let scaling = Scaling {
             x: self.number(file, "XFACTOR")?.unwrap_or(1.0),
@@ -148,7 +153,8 @@ impl Block<'_> {
         let found = raw.len();
         if let Some(expected) = scaling.count.filter(|count| *count != found as f64) {
             let line = data.lines[data.lines.len() - 1].0;
-            let (file, what) = (file.to_owned(), "points (NPOINTS)");
+            let file = file.to_owned();
+            let what = "points (NPOINTS)";
             let expected = expected.max(0.0) as usize;
             return Err(InstrumentError::Count { file, line, what, expected, found });
         }

@@ -57,7 +57,8 @@ pub(super) fn pages(file: &str, fields: &[Field<'_>]) -> Result<Vec<Page>, Instr
                 if is_run { runs(file, lines, &scaling)? } else { points(file, lines, &scaling)? };
             let count = points.len();
             if let Some(expected) = scaling.count.filter(|stated| *stated != count as f64) {
-                let (line, what) = (field.lines[field.lines.len() - 1].0, "points (VAR_DIM)");
+                let line = field.lines[field.lines.len() - 1].0;
+                let what = "points (VAR_DIM)";
                 let expected = expected.max(0.0) as usize;
                 let file = file.to_owned();
                 return Err(InstrumentError::Count { file, line, what, expected, found: count });

@@ -19,7 +19,8 @@ impl Layout {
         for separator in [Some(';'), Some('\t'), None, Some(',')] {
             let cells = lines.clone().map(|line| split(line, separator));
             let rows = cells.filter(|cells| is_row(cells));
-            let (mut count, mut commas) = (0, false);
+            let mut count = 0;
+            let mut commas = false;
             for row in rows {
                 count += 1;
                 commas |= row.iter().any(|cell| cell.contains(','));
@@ -83,10 +84,10 @@ fn split(line: &str, separator: Option<char>) -> Vec<&str> {
 }
 
 fn is_row(cells: &[&str]) -> bool {
-    let numeric = |cell: &&str| {
-        number(cell, Decimal::Point).is_some() || number(cell, Decimal::Comma).is_some()
-    };
-    cells.len() > 1 && cells.iter().all(numeric)
+    cells.len() > 1
+        && cells.iter().all(|cell: &&str| {
+            number(cell, Decimal::Point).is_some() || number(cell, Decimal::Comma).is_some()
+        })
 }
 
 #[cfg(test)]

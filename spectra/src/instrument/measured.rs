@@ -120,10 +120,10 @@ impl MeasuredSpectrum {
     /// reading from which they were computed, though it may not name the quantity.
     #[must_use]
     pub fn is_relative_to_white(&self) -> bool {
-        let has_white = |(key, value): &(String, String)| {
-            key == "Reference Spectrum Present" && value.starts_with("Yes")
-        };
-        self.unit != Unit::Unstated || self.details.iter().any(has_white)
+        self.unit != Unit::Unstated
+            || self.details.iter().any(|(key, value): &(String, String)| {
+                key == "Reference Spectrum Present" && value.starts_with("Yes")
+            })
     }
 
     /// The reflectance on a regular grid ([`Grid::suited_to`] the wavelengths, irregular

@@ -5,81 +5,43 @@
 //! `calibrate::measurement`).
 
 mod error;
-
 mod measured;
-
 mod choice;
-
 mod points;
-
 mod text;
-
 mod number;
-
 mod axis;
-
 mod layout;
-
 mod columns;
-
 mod bruker;
-
 mod avantes;
-
 mod binary_bytes;
-
 mod asd;
-
 mod spectral_evolution;
-
 mod svc;
-
 mod uprtek;
-
 mod avasoft;
-
 mod avasoft7;
-
 mod avasoft8;
-
 mod ocean_optics;
-
 mod qtx;
-
 mod cgats_words;
-
 mod cgats_fields;
-
 mod cgats;
-
 mod jcamp_data;
-
 mod jcamp_tuples;
-
 mod jcamp;
-
 mod xml;
-
 mod zip_archive;
-
 mod procspec;
-
 mod workbook;
-
 mod content_kind;
-
 mod file_text;
-
 mod cxf;
-
 mod tm27;
-
 mod sekonic;
-
 mod format;
-
 mod read;
-
 mod open;
 
 pub use choice::{ChoiceError, choose_spectrum, split_file_and_name};

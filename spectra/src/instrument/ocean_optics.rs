@@ -74,7 +74,8 @@ fn spectra(
     let stated_count = detail("Number of Pixels").and_then(|count| count.parse::<usize>().ok());
     let found = table.rows.len();
     if let Some(expected) = stated_count.filter(|count| *count > found) {
-        let (file, what) = (file.to_owned(), "pixels");
+        let file = file.to_owned();
+        let what = "pixels";
         return Err(InstrumentError::Count { file, line: end, what, expected, found });
     }
     let Some((_, first)) = table.rows.first() else { return Ok(Vec::new()) };
@@ -143,8 +144,11 @@ mod tests {
         let text = "Jaz Data File\nProcessed Spectrum Present: Yes\n>>>>>Begin Processed\n\
             W\tD\tR\tS\tP\n400.0\t1\t100\t50\t49.5\n401.0\t1\t100\t20\t19.2\n>>>>>End\n";
         let summary = |text: &str| -> Vec<_> {
-            let summary = |r: MeasuredSpectrum| (r.name, r.quantity, r.role, r.values);
-            read("a.jaz", text).unwrap().into_iter().map(summary).collect()
+            read("a.jaz", text)
+                .unwrap()
+                .into_iter()
+                .map(|r: MeasuredSpectrum| (r.name, r.quantity, r.role, r.values))
+                .collect()
         };
         let counts_of = |number: &str| {
             let counts = |letter: &str, role, values: [f64; 2]| {

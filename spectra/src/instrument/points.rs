@@ -52,7 +52,9 @@ pub(super) fn ordered(
     let falls = direction.is_some_and(|d| d < 0.0);
     let back = |pair: &&[Point]| (pair[1].nm - pair[0].nm) * direction.unwrap_or(1.0) < 0.0;
     if let Some(pair) = points.windows(2).find(back) {
-        let (file, line, nm) = (file.to_owned(), pair[1].line, pair[1].nm);
+        let file = file.to_owned();
+        let line = pair[1].line;
+        let nm = pair[1].nm;
         return Err(InstrumentError::Order { file, line, nm });
     }
     if falls {
@@ -61,19 +63,22 @@ pub(super) fn ordered(
     let mut ordered = Ordered::default();
     let mut repeated = 0;
     for group in points.chunk_by(|a, b| a.nm == b.nm) {
-        let (first, last) = (group[0], group[group.len() - 1]);
+        let first = group[0];
+        let last = group[group.len() - 1];
         if group.len() > 1 && duplicates == Duplicates::Refuse {
             let (line, before) = (first.line.max(last.line), first.line.min(last.line));
             let file = file.to_owned();
             return Err(InstrumentError::Duplicate { file, line, nm: first.nm, first: before });
         }
         let values = || group.iter().map(|point| point.value);
-        let (least, most) =
-            (values().fold(first.value, f64::min), values().fold(first.value, f64::max));
+        let least = values().fold(first.value, f64::min);
+        let most = values().fold(first.value, f64::max);
         if let Duplicates::AverageWithin(apart) = duplicates
             && most - least > apart
         {
-            let (file, line, nm) = (file.to_owned(), first.line.max(last.line), first.nm);
+            let file = file.to_owned();
+            let line = first.line.max(last.line);
+            let nm = first.nm;
             return Err(InstrumentError::Unlike { file, line, nm, least, most });
         }
         repeated += usize::from(group.len() > 1);
@@ -97,8 +102,7 @@ pub(super) fn sorted(mut points: Vec<Point>) -> (Vec<Point>, Option<String>) {
     let rising = points.is_sorted_by(|a, b| a.nm <= b.nm);
     points.sort_by(|a, b| a.nm.total_cmp(&b.nm));
     points.dedup_by(|a, b| a.nm == b.nm && a.value == b.value);
-    let remark = || "its wavelengths were in no order and were sorted".to_owned();
-    (points, (!rising).then(remark))
+    (points, (!rising).then(|| "its wavelengths were in no order and were sorted".to_owned()))
 }
 
 #[cfg(test)]

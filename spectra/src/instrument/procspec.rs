@@ -24,8 +24,12 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<MeasuredSpectrum>, In
     let Some(name) = archive.find(is_spectrum) else {
         return Err(InstrumentError::faulty(file, FORMAT, "it has no file `ps_N.xml`"));
     };
-    let is_text = |byte: &u8| byte.is_ascii_graphic() || b" \n\r\t".contains(byte);
-    let text: String = archive.read(&name)?.into_iter().filter(is_text).map(char::from).collect();
+    let text: String = archive
+        .read(&name)?
+        .into_iter()
+        .filter(|byte: &u8| byte.is_ascii_graphic() || b" \n\r\t".contains(byte))
+        .map(char::from)
+        .collect();
     let root = parse(file, &text)?;
     let white_element = find(&root, "referenceSpectrum", &[]);
     let dark_element = find(&root, "darkSpectrum", &[]);
@@ -40,7 +44,8 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<MeasuredSpectrum>, In
     let counts = |element: Option<&Element>| {
         numbers(element.and_then(|element| find(element, "pixelValues", &[])))
     };
-    let (white, dark) = (counts(white_element)?, counts(dark_element)?);
+    let white = counts(white_element)?;
+    let dark = counts(dark_element)?;
     let quantity = if has_irradiance(&root) {
         MeasuredQuantity::Power
     } else if processed.is_empty() {

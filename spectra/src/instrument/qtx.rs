@@ -68,7 +68,9 @@ impl Section {
         let at = lists[0].0;
         let [count, low, step] =
             ["REFLPOINTS", "REFLLOW", "REFLINTERVAL"].map(|key| self.number(file, at, key));
-        let (count, low, step) = (count?, low?, step?);
+        let count = count?;
+        let low = low?;
+        let step = step?;
         let mut points = Vec::new();
         for &(line, list) in lists {
             // In files joined without a line end the heading of the next section follows here.
@@ -84,7 +86,9 @@ impl Section {
         }
         let found = points.len();
         if found as f64 != count {
-            let (line, file, what) = (lists[lists.len() - 1].0, file.to_owned(), "reflectances");
+            let line = lists[lists.len() - 1].0;
+            let file = file.to_owned();
+            let what = "reflectances";
             let expected = count.max(0.0) as usize;
             return Err(InstrumentError::Count { file, line, what, expected, found });
         }

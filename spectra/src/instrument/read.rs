@@ -135,7 +135,8 @@ mod tests {
         let cell = |name: &str, value: &str| format!("<c r=\"{name}\"><v>{value}</v></c>");
         let heading = "<row r=\"1\"><c r=\"A1\" t=\"str\"><v>nm</v></c><c r=\"B1\" t=\"str\"><v>Reflectance</v></c></row>";
         let row = |row: usize, nm: &str, value: &str| {
-            let (nm, value) = (cell(&format!("A{row}"), nm), cell(&format!("B{row}"), value));
+            let nm = cell(&format!("A{row}"), nm);
+            let value = cell(&format!("B{row}"), value);
             format!("<row r=\"{row}\">{nm}{value}</row>")
         };
         let rows = format!(
@@ -185,8 +186,7 @@ mod tests {
                 if let Err(error) = read(file, &copy, None) {
                     let told = error.to_string();
                     assert!(told.contains(file), "{told}");
-                    let is_plain = |c: char| !c.is_control();
-                    assert!(told.chars().all(is_plain), "{told:?}");
+                    assert!(told.chars().all(|c: char| !c.is_control()), "{told:?}");
                 }
             }
         }

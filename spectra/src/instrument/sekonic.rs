@@ -30,8 +30,9 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
         };
         let nm = nm.trim().trim_end_matches("[nm]");
         let nm = required_number(file, line, "a wavelength in nm", nm, Decimal::Point)?;
-        let number = |cell| required_number(file, line, "a number", cell, decimal);
-        let values = cells.map(number).collect::<Result<Vec<f64>, _>>()?;
+        let values = cells
+            .map(|cell| required_number(file, line, "a number", cell, decimal))
+            .collect::<Result<Vec<f64>, _>>()?;
         // A smaller wavelength starts the next table.
         if nm < last_nm {
             tables.push(Vec::new());
@@ -61,7 +62,8 @@ fn spectrum(
 ) -> Result<MeasuredSpectrum, InstrumentError> {
     let mut points = Vec::new();
     for row in rows {
-        let (line, nm) = (row.line, row.nm);
+        let line = row.line;
+        let nm = row.nm;
         let value = *row
             .values
             .get(column)

@@ -57,13 +57,15 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             (1, white, raw, Unit::Unstated, Role::White),
         ]
     };
-    let record = |(column, name, quantity, unit, role)| {
-        let label = ColumnLabel { name, quantity, unit };
-        let mut record = table.spectrum(file, column, Axis::Nanometres, label)?;
-        record.remarks.extend(overlap.clone());
-        Ok(MeasuredSpectrum { role, details: details.clone(), ..record })
-    };
-    columns.into_iter().map(record).collect()
+    columns
+        .into_iter()
+        .map(|(column, name, quantity, unit, role)| {
+            let label = ColumnLabel { name, quantity, unit };
+            let mut record = table.spectrum(file, column, Axis::Nanometres, label)?;
+            record.remarks.extend(overlap.clone());
+            Ok(MeasuredSpectrum { role, details: details.clone(), ..record })
+        })
+        .collect()
 }
 
 #[cfg(test)]

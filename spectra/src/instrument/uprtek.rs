@@ -58,16 +58,16 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let decimal = Decimal::of(finest.iter().flat_map(|(_, _, cells)| cells.iter().copied()));
     let mut records = Vec::new();
     for column in 0..first.len().max(1) {
-        let point = |(line, nm, cells): &(usize, f64, Vec<&str>)| {
-            let cell = cells.get(column).copied().unwrap_or_default();
-            let value = required_number(file, *line, "a value for every reading", cell, decimal)?;
-            Ok(Point { line: *line, nm: *nm, value })
-        };
-        let points = finest.iter().map(point).collect::<Result<Vec<Point>, InstrumentError>>()?;
+        let points = finest
+            .iter()
+            .map(|(line, nm, cells): &(usize, f64, Vec<&str>)| {
+                let cell = cells.get(column).copied().unwrap_or_default();
+                let value =
+                    required_number(file, *line, "a value for every reading", cell, decimal)?;
+                Ok(Point { line: *line, nm: *nm, value })
+            })
+            .collect::<Result<Vec<Point>, InstrumentError>>()?;
         let ordered = ordered(file, points, Duplicates::Refuse)?;
-        let detail = |(key, cells): &(String, Vec<&str>)| {
-            Some((key.clone(), (*cells.get(column)?).to_owned()))
-        };
         let name = stem(file);
         records.push(MeasuredSpectrum {
             name: if first.len() > 1 { format!("{name} {}", column + 1) } else { name },
@@ -77,7 +77,12 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             wavelengths_nm: ordered.wavelengths_nm,
             values: ordered.values,
             line: *first_line,
-            details: details.iter().filter_map(detail).collect(),
+            details: details
+                .iter()
+                .filter_map(|(key, cells): &(String, Vec<&str>)| {
+                    Some((key.clone(), (*cells.get(column)?).to_owned()))
+                })
+                .collect(),
             remarks: ordered.remarks,
         });
     }

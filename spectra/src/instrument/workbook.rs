@@ -140,7 +140,8 @@ fn text(mut cells: Vec<Cell>) -> Option<String> {
     // Rows of one width, so that empty cells at their ends are not missing.
     let width = cells.iter().map(|cell| cell.column).max().unwrap_or(0);
     let mut text = String::new();
-    let (mut row, mut column) = (0, 0);
+    let mut row = 0;
+    let mut column = 0;
     for cell in cells {
         while row < cell.row {
             if column > 0 {

@@ -62,7 +62,8 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Element, InstrumentError> 
     reader.config_mut().expand_empty_elements = true;
     let mut root = None;
     let mut open: Vec<Element> = Vec::new();
-    let (mut line, mut counted) = (1, 0);
+    let mut line = 1;
+    let mut counted = 0;
     loop {
         let start = reader.buffer_position();
         line += newlines(&text.as_bytes()[counted..start as usize]);

@@ -17,7 +17,8 @@
 #[must_use]
 pub fn infinite_film(absorption: f64, scattering: f64) -> f64 {
     // S / (K + S + sqrt(K (K + 2 S))) has no difference of nearly equal values.
-    let (k, s) = (absorption, scattering);
+    let k = absorption;
+    let s = scattering;
     if k == 0.0 { 1.0 } else { s / (k + s + (k * (k + 2.0 * s)).sqrt()) }
 }
 

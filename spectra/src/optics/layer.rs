@@ -33,7 +33,8 @@ impl Layer {
     /// ```
     #[must_use]
     pub fn new(absorption: f64, scattering: f64, thickness: f64) -> Self {
-        let (k, s) = (absorption, scattering);
+        let k = absorption;
+        let s = scattering;
         let alpha = (k * (k + 2.0 * s)).sqrt();
         let x = alpha * thickness;
         let phi = if x > 0.0 { -(-2.0 * x).exp_m1() / alpha } else { 2.0 * thickness };
@@ -64,7 +65,9 @@ impl Layer {
     /// equation, `K dR/dK + S dR/dS = S - 2 (K + S) R + S R^2`.
     #[must_use]
     pub fn over_with_slopes(absorption: f64, scattering: f64, backing: f64) -> [f64; 3] {
-        let (k, s, g) = (absorption, scattering, backing);
+        let k = absorption;
+        let s = scattering;
+        let g = backing;
         // cosh x, sinh x / x, and the derivative of the latter with respect to y = x^2, each
         // times exp(-x). For small y a series avoids the loss of digits in the difference.
         let y = k * (k + 2.0 * s);
@@ -78,7 +81,8 @@ impl Layer {
             (cosh - sinh) / (2.0 * y)
         };
         let den = (k + s) * sinh + cosh;
-        let (r, t) = (s * sinh / den, decay / den);
+        let r = s * sinh / den;
+        let t = decay / den;
         // Derivatives by K and S: through y, and directly.
         let slopes = |y_slope: f64, own: f64| {
             let den_slope = sinh + ((k + s) * sinh_over_y + sinh / 2.0) * y_slope;
@@ -88,7 +92,8 @@ impl Layer {
         let (r_over_k, t_over_k) = slopes(2.0 * (k + s), 0.0);
         let (r_over_s, t_over_s) = slopes(2.0 * k, 1.0);
         let q = 1.0 / (1.0 - r * g);
-        let (by_r, by_t) = (1.0 + (t * g * q).powi(2), 2.0 * t * g * q);
+        let by_r = 1.0 + (t * g * q).powi(2);
+        let by_t = 2.0 * t * g * q;
         [r + t * t * g * q, by_r * r_over_k + by_t * t_over_k, by_r * r_over_s + by_t * t_over_s]
     }
 }

@@ -4,13 +4,9 @@
 //! [`Surface`] calls them measured.
 
 mod layer;
-
 mod infinite_film;
-
 mod two_backings;
-
 mod surface;
-
 mod uneven_film;
 
 pub use infinite_film::{

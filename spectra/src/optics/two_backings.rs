@@ -32,15 +32,18 @@ pub struct FilmOptics {
 /// are equal, or if the film scatters nothing back over either.
 #[must_use]
 pub fn film_over_two_backings(first: OverBacking, second: OverBacking) -> Option<FilmOptics> {
-    let (r1, g1) = (first.film, first.backing);
-    let (r2, g2) = (second.film, second.backing);
+    let r1 = first.film;
+    let g1 = first.backing;
+    let r2 = second.film;
+    let g2 = second.backing;
     // Subtracting the equations keeps the difference of the films, which may be tiny, out of
     // the denominator.
     let determinant = (r1 + g1) * (r2 - g2) - (r2 + g2) * (r1 - g1);
     if (g1 - g2).abs() < 1e-9 || determinant == 0.0 {
         return None;
     }
-    let (p1, p2) = (1.0 + r1 * g1, 1.0 + r2 * g2);
+    let p1 = 1.0 + r1 * g1;
+    let p2 = 1.0 + r2 * g2;
     let a = (p1 * (r2 - g2) - p2 * (r1 - g1)) / determinant;
     let c = ((r1 + g1) * p2 - (r2 + g2) * p1) / determinant;
     let ratio = (a - 1.0).max(0.0);

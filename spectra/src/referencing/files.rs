@@ -109,7 +109,8 @@ impl ReferenceFiles {
             TileSource::File(file) => Tile::measured(&spectrum(file)?)
                 .map_err(|reason| ReferenceFilesError::Tile { file: file.clone(), reason })?,
         };
-        let (full_scale, least_light) = (self.full_scale, self.least_light);
+        let full_scale = self.full_scale;
+        let least_light = self.least_light;
         let referencing = Referencing { white, dark, tile, full_scale, least_light };
         Ok(OpenedReferences { referencing, files })
     }

@@ -1,17 +1,11 @@
 //! Reflectance from counts: a sample, a white of known reflectance, and the dark.
 
 mod error;
-
 mod integration_time;
-
 mod saturation;
-
 mod tile;
-
 mod reading;
-
 mod reference;
-
 mod files;
 
 pub use error::ReferencingError;

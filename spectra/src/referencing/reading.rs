@@ -29,7 +29,8 @@ impl Reading<'_> {
             value.map_err(|_| ReferencingError::Uncovered { role, nm })
         };
         if let Some(ceiling) = self.ceiling.filter(|&ceiling| self.max_neighbour(nm) >= ceiling) {
-            let (role, name) = (self.role, self.spectrum.name.clone());
+            let role = self.role;
+            let name = self.spectrum.name.clone();
             return Err(ReferencingError::Saturated { role, name, nm, value: ceiling });
         }
         let signal = value(&self.signal, self.role)?;

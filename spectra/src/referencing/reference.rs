@@ -52,7 +52,9 @@ impl Referencing {
     /// estimated from the readings, and the default [`Referencing::least_light`].
     #[must_use]
     pub fn new(white: MeasuredSpectrum, dark: Dark) -> Self {
-        let (tile, full_scale, least_light) = (Tile::Even(1.0), None, LEAST_LIGHT);
+        let tile = Tile::Even(1.0);
+        let full_scale = None;
+        let least_light = LEAST_LIGHT;
         Self { white, dark, tile, full_scale, least_light }
     }
 
@@ -150,7 +152,8 @@ impl Referencing {
         let others =
             std::iter::once(("white", &self.white)).chain(darks.iter().map(|d| ("dark", d)));
         for (role, reading) in std::iter::once(("sample", sample)).chain(others) {
-            let (name, found) = (reading.name.clone(), reading.quantity);
+            let name = reading.name.clone();
+            let found = reading.quantity;
             if !matches!(reading.quantity, Counts | Power | Unstated) {
                 return Err(ReferencingError::Quantity { role, name, found });
             }

@@ -52,7 +52,8 @@ impl Tile {
     pub fn measured(spectrum: &MeasuredSpectrum) -> Result<Self, ReferencingError> {
         use MeasuredQuantity::{Reflectance, Unstated};
         if !matches!(spectrum.quantity, Reflectance | Unstated) {
-            let (name, found) = (spectrum.name.clone(), spectrum.quantity);
+            let name = spectrum.name.clone();
+            let found = spectrum.quantity;
             return Err(ReferencingError::TileQuantity { name, found });
         }
         let scale = if spectrum.is_percent() { 0.01 } else { 1.0 };

@@ -21,7 +21,8 @@ const GREY: u16 = 8;
 /// name.
 pub fn write_aco(palette: &SwatchFile) -> Result<Vec<u8>, SwatchFileError> {
     let Ok(count) = u16::try_from(palette.swatches.len()) else {
-        let (what, found) = ("colours", palette.swatches.len());
+        let what = "colours";
+        let found = palette.swatches.len();
         return Err(SwatchFileError::TooMany { format: ".aco", what, found });
     };
     let mut bytes = Vec::new();

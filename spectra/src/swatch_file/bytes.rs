@@ -17,7 +17,8 @@ impl<'a> Bytes<'a> {
         expected: &'static str,
         found: impl ToString,
     ) -> SwatchFileError {
-        let (file, found) = (self.file.to_owned(), found.to_string());
+        let file = self.file.to_owned();
+        let found = found.to_string();
         SwatchFileError::Bytes { file, offset, expected, found }
     }
 

@@ -10,17 +10,11 @@
 //! arts, under D50 for the 1931 observer.
 
 mod entries;
-
 mod error;
-
 mod bytes;
-
 mod gpl;
-
 mod ase;
-
 mod aco;
-
 mod known;
 
 pub use aco::{read_aco, write_aco};

@@ -92,10 +92,14 @@ impl Easel {
         let library = bench.library.clone();
         let [width, height] = [width_mm, height_mm].map(|mm| (mm / cell_mm).round() as usize);
         let ground = ground.spec(1).build(width, height, cell_mm, &library).expect("a ground");
-        let find = |name: &&str| library.find(name).expect("a pigment of the bench");
-        let slots: Slots = std::array::from_fn(|slot| PIGMENTS.get(slot).map(find));
+        let slots: Slots = std::array::from_fn(|slot| {
+            PIGMENTS
+                .get(slot)
+                .map(|name: &&str| library.find(name).expect("a pigment of the bench"))
+        });
         let engine = PaintEngine::on_cpu(ground.height.clone());
-        let (medium, lighting) = (Medium::default(), Lighting::default());
+        let medium = Medium::default();
+        let lighting = Lighting::default();
         let mut document =
             Document::bare("strokes", cell_mm, ground, library.clone(), medium, slots, lighting);
         for index in 0..width * height {
@@ -174,7 +178,8 @@ impl Easel {
     /// Heights of the wet paint.
     #[must_use]
     pub fn heights(&mut self) -> Heights {
-        let (wet, cell_mm) = (self.wet(), self.painting.cell_mm());
+        let wet = self.wet();
+        let cell_mm = self.painting.cell_mm();
         let cells = 0..wet.width() * wet.height();
         let mm = cells.map(|index| mm_from_quanta(wet.cell(index).volume(), cell_mm)).collect();
         Heights::new(cell_mm, wet.width(), mm)
@@ -183,15 +188,24 @@ impl Easel {
     /// Heights of the bare ground.
     #[must_use]
     pub fn ground(&self) -> Heights {
-        let (height, cell_mm) = (&self.painting.ground().height, self.painting.cell_mm());
-        let mm = |&quanta: &i32| f64::from(quanta) * mm_from_quanta(1, cell_mm);
-        Heights::new(cell_mm, height.width(), height.values().iter().map(mm).collect())
+        let height = &self.painting.ground().height;
+        let cell_mm = self.painting.cell_mm();
+        Heights::new(
+            cell_mm,
+            height.width(),
+            height
+                .values()
+                .iter()
+                .map(|&quanta: &i32| f64::from(quanta) * mm_from_quanta(1, cell_mm))
+                .collect(),
+        )
     }
 
     /// Mean height in mm of the paint over all cells of a head.
     #[must_use]
     pub fn load_mm(&mut self, brush: BrushId) -> f64 {
-        let (paint, cell_mm) = (self.on_brush(brush), self.painting.cell_mm());
+        let paint = self.on_brush(brush);
+        let cell_mm = self.painting.cell_mm();
         let cells = paint.width() * paint.height();
         let sum: f64 =
             (0..cells).map(|index| mm_from_quanta(paint.cell(index).volume(), cell_mm)).sum();
@@ -206,11 +220,14 @@ impl Easel {
     pub fn colors(&mut self) -> Vec<Lab> {
         let matrix = RgbSpace::Srgb.xyz_from_linear();
         let picture = self.painting.flat_picture().expect("a picture");
-        let lab = |rgb: &[f32; 4]| {
-            let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
-            Lab::from_xyz(matrix.apply(linear).into(), RgbSpace::Srgb.white())
-        };
-        picture.values().iter().map(lab).collect()
+        picture
+            .values()
+            .iter()
+            .map(|rgb: &[f32; 4]| {
+                let linear = [rgb[0], rgb[1], rgb[2]].map(f64::from);
+                Lab::from_xyz(matrix.apply(linear).into(), RgbSpace::Srgb.white())
+            })
+            .collect()
     }
 
     /// Pictures of a part of the canvas (ranges in mm) in the default light and in a raking one,
@@ -226,7 +243,8 @@ impl Easel {
         y_mm: Range<f64>,
     ) -> Panel {
         let heights = self.heights();
-        let (columns, rows) = (heights.columns_in(x_mm), heights.rows_in(y_mm));
+        let columns = heights.columns_in(x_mm);
+        let rows = heights.rows_in(y_mm);
         let mut pictures = Vec::new();
         for elevation_deg in [Lighting::default().elevation_deg, 20.0] {
             let lighting = Lighting { elevation_deg, ..Lighting::default() };
@@ -283,7 +301,8 @@ fn first_mark_mm(profile: &[f64], step_mm: f64) -> Option<(f64, f64)> {
 }
 
 fn cut(picture: &Field<[f32; 4]>, columns: Range<usize>, rows: Range<usize>) -> RgbImage {
-    let (left, top) = (columns.start, rows.start);
+    let left = columns.start;
+    let top = rows.start;
     RgbImage::from_fn(columns.len() as u32, rows.len() as u32, |x, y| {
         let at = (top + y as usize) * picture.width() + left + x as usize;
         let [r, g, b, _] = picture.values()[at].map(|value| (255.0 * value).round() as u8);

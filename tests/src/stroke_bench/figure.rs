@@ -112,8 +112,11 @@ mod tests {
     fn bounds_are_met_within_and_never_by_no_number() {
         let figure = |value: f64| Figure::new("film", value, "mm");
         assert_eq!(figure(0.1).is_met(), None);
-        let between = |value: f64| figure(value).at_least(0.1).at_most(0.2).is_met();
-        assert_eq!([0.09, 0.1, 0.2, 0.21].map(between), [false, true, true, false].map(Some));
+        assert_eq!(
+            [0.09, 0.1, 0.2, 0.21]
+                .map(|value: f64| figure(value).at_least(0.1).at_most(0.2).is_met()),
+            [false, true, true, false].map(Some)
+        );
         assert_eq!(figure(f64::NAN).at_most(1.0).is_met(), Some(false));
         assert_eq!(figure(3.0).at_least(1.0).is_met(), Some(true));
     }

@@ -59,7 +59,8 @@ pub fn turning(mut samples: Vec<Sample>) -> Vec<Sample> {
     let last = places.len() - 1;
     let mut before = 0.0;
     for (index, sample) in samples.iter_mut().enumerate() {
-        let ((x0, y0), (x1, y1)) = (places[index.saturating_sub(1)], places[(index + 1).min(last)]);
+        let (x0, y0) = places[index.saturating_sub(1)];
+        let (x1, y1) = places[(index + 1).min(last)];
         let heading = (y1 - y0).atan2(x1 - x0).to_degrees() + 90.0;
         // The nearest equal angle, so that the handle never spins.
         before = heading + 360.0 * ((before - heading) / 360.0).round();

@@ -10,17 +10,10 @@
 //! `docs/guide/strokes.md`.
 
 pub mod heights;
-
 pub mod measure;
-
 pub mod figure;
-
 pub mod hand;
-
 pub mod canvas;
-
 pub mod strokes;
-
 pub mod report;
-
 pub mod sheet;

@@ -44,11 +44,13 @@ pub fn verdict(figure: &Figure) -> &'static str {
 #[must_use]
 pub fn table(reports: &[CaseReport]) -> String {
     let mut text = String::new();
-    let (mut met, mut bounded) = (0, 0);
+    let mut met = 0;
+    let mut bounded = 0;
     for CaseReport { name, title, figures, .. } in reports {
         let _ = writeln!(text, "{name}: {title}");
         for figure in figures {
-            let (value, wanted) = (number(figure.value), bounds(figure.wanted));
+            let value = number(figure.value);
+            let wanted = bounds(figure.wanted);
             let line = format!(
                 "  {:<46} {value:>10} {:<5} {wanted:<16} {}",
                 figure.name,

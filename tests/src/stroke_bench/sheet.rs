@@ -45,7 +45,9 @@ impl Panel {
 
 /// Upper left corners of the panels, which flow in lines, and the lower end of the last line.
 fn places(panels: &[Panel]) -> (Vec<(f64, f64)>, f64) {
-    let (mut x, mut y, mut line) = (MARGIN, HEADER, 0.0);
+    let mut x = MARGIN;
+    let mut y = HEADER;
+    let mut line = 0.0;
     let mut places = Vec::new();
     for panel in panels {
         if x > MARGIN && x + panel.width() > FIGURES - GAP {
@@ -63,7 +65,8 @@ struct Drawing(String);
 
 impl Drawing {
     fn text(&mut self, (x, y): (f64, f64), size: f64, anchor: &str, color: Color, text: &str) {
-        let (color, text) = (color.hex(), escaped(text));
+        let color = color.hex();
+        let text = escaped(text);
         let _ = writeln!(
             self.0,
             r#"<text x="{x:.1}" y="{y:.1}" font-size="{size}" text-anchor="{anchor}" fill="{color}">{text}</text>"#
@@ -89,17 +92,25 @@ impl Drawing {
         let length = curve.step_mm * count as f64;
         let told = format!("{} {length:.0} mm, up to {} mm high", curve.caption, number(highest));
         self.text((x, y + LINE - 3.0), 7.5, "start", FAINT, &told);
-        let (top, bottom) = (y + LINE, y + LINE + CURVE);
+        let top = y + LINE;
+        let bottom = y + LINE + CURVE;
         for level in [top, bottom] {
             self.line(&[(x, level), (x + width, level)], 0.5, GRID);
         }
         let styles = [(0.5, SERIES[1]), (1.1, SERIES[0])];
         for (line, (stroke, color)) in curve.lines.iter().zip(styles) {
-            let at = |(index, mm): (usize, &f64)| {
-                let right = x + width * index as f64 / (count - 1) as f64;
-                (right, bottom - CURVE * mm / highest)
-            };
-            self.line(&line.iter().enumerate().map(at).collect::<Vec<_>>(), stroke, color);
+            self.line(
+                &line
+                    .iter()
+                    .enumerate()
+                    .map(|(index, mm): (usize, &f64)| {
+                        let right = x + width * index as f64 / (count - 1) as f64;
+                        (right, bottom - CURVE * mm / highest)
+                    })
+                    .collect::<Vec<_>>(),
+                stroke,
+                color,
+            );
         }
     }
 
@@ -133,7 +144,8 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
     let figures_end = HEADER + LINE * report.figures.len() as f64;
     let height = (panels_end.max(figures_end) + GAP).ceil();
     let mut drawing = Drawing(opening(WIDTH as u32, height as u32, 1));
-    let (width, paper) = (WIDTH, PAPER.hex());
+    let width = WIDTH;
+    let paper = PAPER.hex();
     let _ = writeln!(drawing.0, r#"<rect width="{width}" height="{height:.0}" fill="{paper}"/>"#);
     drawing.line(&[(0.0, 2.0), (WIDTH, 2.0)], 1.0, GRID);
     drawing.text((MARGIN, 21.0), 13.0, "start", INK, report.title);
@@ -159,7 +171,8 @@ pub fn picture(report: &CaseReport) -> Result<RgbImage, PictureError> {
     let mut sheet = text.to_rgb8();
     for (picture, (x, y), panel) in pictures {
         let pixels = |mm: f64| (SCALE * panel.per_mm() * mm).round() as u32;
-        let (width, height) = (pixels(panel.size_mm.0), pixels(panel.size_mm.1));
+        let width = pixels(panel.size_mm.0);
+        let height = pixels(panel.size_mm.1);
         // Single cells stay squares where they are larger than a pixel.
         let larger = width > 2 * picture.width();
         let filter = if larger { FilterType::Nearest } else { FilterType::Triangle };
@@ -177,7 +190,9 @@ pub fn sheet(reports: &[CaseReport]) -> Result<RgbImage, PictureError> {
     let pictures = reports.iter().map(picture).collect::<Result<Vec<_>, _>>()?;
     let whole: u32 = pictures.iter().map(RgbImage::height).sum();
     let width = (SCALE * WIDTH) as u32;
-    let (mut column, mut y, mut tallest) = (0, 0, 1);
+    let mut column = 0;
+    let mut y = 0;
+    let mut tallest = 1;
     let mut places = Vec::new();
     for picture in &pictures {
         if column < 2 && y > 0 && 3 * (y + picture.height() / 2) > whole {

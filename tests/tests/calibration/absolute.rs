@@ -32,7 +32,8 @@ fn ladders_and_mixtures_without_error_give_back_k_and_s() {
         assert_eq!(pigment.measured_amounts, Some(measured), "{}", pigment.name);
         assert_eq!(again.pigments[index].measured_amounts, Some(measured), "{}", pigment.name);
         for at in 0..library.grid.count() {
-            let (found, truth) = (pigment.absorption[at], made.absorption[index][at]);
+            let found = pigment.absorption[at];
+            let truth = made.absorption[index][at];
             // K below 1 per mL, about a hundredth of the peaks, hardly changes these films.
             if truth > 1.0 {
                 assert!(

@@ -86,9 +86,15 @@ fn leaving_out_in_groups_predicts_every_mixture_once() {
     let count = names.len();
     names.dedup();
     assert_eq!(names.len(), count, "a mixture is predicted twice");
-    let mixtures =
-        |s: &&calibrate::swatch::Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1;
-    assert_eq!(count, set.swatches.iter().filter(mixtures).count());
+    assert_eq!(
+        count,
+        set.swatches
+            .iter()
+            .filter(
+                |s: &&calibrate::swatch::Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1
+            )
+            .count()
+    );
 }
 
 #[test]

@@ -108,7 +108,8 @@ fn unseen_mixtures_are_other_mixtures_for_another_seed() {
 #[test]
 fn names_are_found_exactly_then_without_case_then_by_their_start() {
     let mut library = library();
-    let (red, lake) = (2, 5);
+    let red = 2;
+    let lake = 5;
     library.pigments[lake].name = "Red Lake".to_owned();
     library.pigments[red].name = "Red".to_owned();
     assert_eq!(library.find("Red"), Ok(PigmentId(red)));

@@ -51,7 +51,9 @@ fn five_irregular_wavelengths_are_brought_to_a_grid_by_straight_lines() {
 
 #[test]
 fn the_ratio_of_a_film_that_does_not_hide_comes_from_two_backings() {
-    let (k, s, d) = (0.3, 0.8, 1.1);
+    let k = 0.3;
+    let s = 0.8;
+    let d = 1.1;
     let over = |g: f64| Layer::new(k, s, d).over(g);
     let text = format!(
         "sample,film,backing,W,400\na,paint,white,1,{}\na,paint,black,1,{}\na,none,white,,0.9\na,none,black,,0.04\n",

@@ -14,7 +14,8 @@ fn spectra(folder: &tempfile::TempDir) -> String {
         let values = json.as_array().unwrap().iter();
         values.map(|value| format!(",{value}")).collect()
     };
-    let (standard, batch) = (mixed("12"), mixed("8"));
+    let standard = mixed("12");
+    let batch = mixed("8");
     let csv = format!(
         "sample{}\nstandard{}\nbatch{}\n",
         list(&standard["wavelengths_nm"]),
@@ -31,7 +32,8 @@ fn a_batch_that_lacks_blue_is_told_how_much() {
     let folder = tempfile::tempdir().unwrap();
     let file = spectra(&folder);
     let library = repository("measurements/van-gogh-oils.pigments.json");
-    let (standard, batch) = (format!("{file}#standard"), format!("{file}#batch"));
+    let standard = format!("{file}#standard");
+    let batch = format!("{file}#batch");
     let made = ["--made", "Zinc White=440", "Cobalt Blue=60"];
     let all = [&["correct", &library, &standard, &batch], &made[..]].concat();
     let run = impasto(&all);
@@ -62,7 +64,8 @@ fn faults_name_the_option_and_the_way_out() {
     let folder = tempfile::tempdir().unwrap();
     let file = spectra(&folder);
     let library = repository("measurements/van-gogh-oils.pigments.json");
-    let (standard, batch) = (format!("{file}#standard"), format!("{file}#batch"));
+    let standard = format!("{file}#standard");
+    let batch = format!("{file}#batch");
     for (target, pot, options, status, words) in [
         (standard.as_str(), file.as_str(), vec!["--made", "Zinc White=1"], 2, "holds 2"),
         (&standard, "#808080", vec!["--made", "Zinc White=1"], 2, "a batch is a measured spectrum"),

@@ -35,9 +35,11 @@ fn the_library_records_its_input() {
     // A fit of the same bytes records the same hash, a fit of other bytes another hash.
     let folder = tempfile::tempdir().unwrap();
     let fitted = |bytes: &[u8]| {
-        let (csv, out) = (folder.path().join("a.csv"), folder.path().join("a.json"));
+        let csv = folder.path().join("a.csv");
+        let out = folder.path().join("a.json");
         std::fs::write(&csv, bytes).unwrap();
-        let (csv, out) = (csv.to_str().unwrap(), out.to_str().unwrap());
+        let csv = csv.to_str().unwrap();
+        let out = out.to_str().unwrap();
         let run = impasto(&["fit", csv, "--output", out]);
         assert_eq!(run.status, 0, "{}", run.err);
         let text = std::fs::read_to_string(out).unwrap();

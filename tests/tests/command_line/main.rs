@@ -3,7 +3,6 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod artmap;
-
 mod bad_files;
 mod correction;
 mod demo;

@@ -88,8 +88,8 @@ fn bare_cards_are_targets_only_if_named_or_alone() {
     let cards = "card,none,white,0.9,0.9,0.9,0.9\ncard,none,black,0.05,0.05,0.05,0.05\n";
     let paint = "sand,paint,white,0.3,0.4,0.5,0.55\nsand,paint,black,0.2,0.3,0.4,0.5\n\
                  sand,none,white,0.9,0.9,0.9,0.8\n";
-    let (alone, both) =
-        (written("cards.csv", cards), written("both.csv", &(paint.to_owned() + cards)));
+    let alone = written("cards.csv", cards);
+    let both = written("both.csv", &(paint.to_owned() + cards));
     let names = |target: &str| -> Vec<String> {
         let told = matched(&[target, "--at-most", "2", "--count", "1"]);
         let targets = told.as_array().unwrap().iter();
@@ -215,7 +215,8 @@ fn the_weights_of_lights_count() {
         let differences = told[0]["recipes"][0]["delta_e"].clone();
         (differences["D65"].as_f64().unwrap(), differences["A"].as_f64().unwrap())
     };
-    let (day, lamp) = (under(["D65=9", "A"]), under(["D65", "A=9"]));
+    let day = under(["D65=9", "A"]);
+    let lamp = under(["D65", "A=9"]);
     assert!(day.0 < lamp.0 && lamp.1 < day.1, "{day:?} {lamp:?}");
 }
 

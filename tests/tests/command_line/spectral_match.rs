@@ -26,7 +26,8 @@ fn best(arguments: &[&str]) -> Value {
 fn a_recipe_by_spectrum_is_less_metameric_than_one_by_colour() {
     let lights = ["--illuminant", "D65", "--illuminant", "A=1e-6", "--illuminant", "FL11=1e-6"];
     let by = |by: &str| best(&[&[sample().as_str(), "--by", by], &lights[..]].concat());
-    let (color, spectrum) = (by("color"), by("spectrum"));
+    let color = by("color");
+    let spectrum = by("spectrum");
     let index = |recipe: &Value, at: usize| recipe["metamerism"][at]["index"].as_f64().unwrap();
     let rms = |recipe: &Value| recipe["rms_percent"].as_f64().unwrap();
     let under = |recipe: &Value, light: &str| recipe["delta_e"][light].as_f64().unwrap();

@@ -205,7 +205,8 @@ fn color_shows_the_columns_that_are_asked_for_within_100() {
     let lamp = table(&["--show", "whiteness", "--illuminant", "A"]);
     assert!(lamp.contains("not under A") && !lamp.contains("not white"), "{lamp}");
     let list = json(&["color", file, "--json"]);
-    let (paper, ochre) = (&list[0], &list[1]);
+    let paper = &list[0];
+    let ochre = &list[1];
     assert!(paper["whiteness"].as_f64().unwrap() > 80.0 && paper["tint"].is_f64(), "{paper}");
     assert!(ochre["whiteness"].is_null() && ochre["tint"].is_null(), "{ochre}");
     let note = ochre["whiteness_note"].as_str().unwrap();
@@ -305,7 +306,8 @@ fn a_thick_film_hides_and_a_thin_one_shows_its_ground() {
 #[test]
 fn parts_are_shares_so_that_thickness_keeps_its_meaning() {
     let film = |parts: &str| json(&["mix", &library(), parts, "--thickness", "0.2", "--json"]);
-    let (one, seven) = (film("Viridian=1"), film("Viridian=7"));
+    let one = film("Viridian=1");
+    let seven = film("Viridian=7");
     assert_eq!(one["reflectance"], seven["reflectance"]);
 }
 
@@ -393,7 +395,8 @@ fn absolute_amounts_are_fitted_validated_and_mixed() {
     assert_ne!(white, mix);
     let color = json(&["color", csv, "--sample", "W000", "--json"]);
     for channel in 0..3 {
-        let (a, b) = (&mix["lab"][channel], &color[0]["lab"][channel]);
+        let a = &mix["lab"][channel];
+        let b = &color[0]["lab"][channel];
         assert!((a.as_f64().unwrap() - b.as_f64().unwrap()).abs() < 0.1, "{a} {b}");
     }
 }

@@ -26,9 +26,14 @@ fn done(arguments: &[&str]) -> Run {
 /// Counts of a spectrometer: white, dark and a swatch.
 fn counts(folder: &Path) -> [String; 3] {
     [("white.txt", 20_000.0), ("dark.txt", 200.0), ("swatch.txt", 9_000.0)].map(|(name, light)| {
-        let line = |step: u32| format!("{} {}\n", 400 + 10 * step, light + f64::from(step));
         let path = place(folder, name);
-        std::fs::write(&path, (0..31).map(line).collect::<String>()).unwrap();
+        std::fs::write(
+            &path,
+            (0..31)
+                .map(|step: u32| format!("{} {}\n", 400 + 10 * step, light + f64::from(step)))
+                .collect::<String>(),
+        )
+        .unwrap();
         path
     })
 }
@@ -42,7 +47,8 @@ fn same(new: &[&str], old: &[&str]) {
 fn old_spellings_of_the_laboratory_do_what_the_new_ones_do() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let (oils, library) = (oils(), library());
+    let oils = oils();
+    let library = library();
     let fit = ["fit", &oils, "--method", "weighted", "--csv"];
     same(
         &[&fit[..], &["--white", "Lead White"]].concat(),
@@ -127,8 +133,10 @@ fn old_spellings_of_the_painter_do_what_the_new_ones_do() {
     // With a small map `m.exr`, and a small style.
     let folder = super::painterly::folder();
     let folder = folder.path();
-    let (map, style) = (place(folder, "m.exr"), place(folder, "style.toml"));
-    let (library, photo) = (library(), repository("docs/images/photograph.png"));
+    let map = place(folder, "m.exr");
+    let style = place(folder, "style.toml");
+    let library = library();
+    let photo = repository("docs/images/photograph.png");
     let script = place(folder, "a.json");
     let text = r#"{"format": "strokes", "version": 1, "title": "A",
         "canvas": {"width_mm": 8, "height_mm": 6, "cell_mm": 0.2}, "palette": {"W": "Lead White"},
@@ -164,7 +172,8 @@ fn old_spellings_of_the_painter_do_what_the_new_ones_do() {
         let twice = impasto(&[head, &[&library, option, &library], tail, &["-o", &new]].concat());
         assert_eq!(twice.status, 2, "{head:?}: {}", twice.err);
     }
-    let (new, old) = (place(folder, "new.exr"), place(folder, "old.exr"));
+    let new = place(folder, "new.exr");
+    let old = place(folder, "old.exr");
     let dabs = ["artmap", "paint", "--style", &style, "--tones", "2", "-o"];
     done(&[&dabs[..], &[&new, &library]].concat());
     done(&[&dabs[..], &[&old, "--pigments", &library]].concat());
@@ -188,7 +197,8 @@ fn the_ending_of_the_output_chooses_what_is_written() {
 
 #[test]
 fn every_table_is_csv_too() {
-    let (oils, library) = (oils(), library());
+    let oils = oils();
+    let library = library();
     let cases: [(&[&str], &str, usize); 9] = [
         (&["fit", &oils, "--method", "weighted"], "sample,ciede2000", 83),
         (&["mix", &library, "Viridian=1"], "nm,reflectance", 32),
@@ -229,7 +239,8 @@ fn every_table_is_csv_too() {
 #[test]
 fn a_file_named_twice_and_an_ending_of_another_format_are_told() {
     let folder = tempfile::tempdir().unwrap();
-    let (oils, library) = (oils(), library());
+    let oils = oils();
+    let library = library();
     let twice = done(&["color", &oils, &oils, "--csv"]);
     assert!(twice.err.contains("named twice"), "{}", twice.err);
     let out = place(folder.path(), "oils.gpl");

@@ -84,7 +84,8 @@ fn structs_have_the_same_fields_in_both_languages() {
 
 #[test]
 fn shaders_that_count_faces_are_valid_and_bound_as_they_say() {
-    let (stencil, weighed) = (&STENCIL_FACES, &WEIGHED_FACES);
+    let stencil = &STENCIL_FACES;
+    let weighed = &WEIGHED_FACES;
     let no_structs: &[Layout] = &[];
     let shaders = [
         (stencil.source, stencil.parameters, no_structs, stencil.buffers),

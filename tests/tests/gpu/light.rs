@@ -194,7 +194,8 @@ fn shaded(
     flat: [f64; 3],
 ) -> [f64; 3] {
     let unit = f64::from(QUANTA_PER_CELL);
-    let (relief, ambient) = (f64::from(lamp.relief), f64::from(lamp.ambient));
+    let relief = f64::from(lamp.relief);
+    let ambient = f64::from(lamp.ambient);
     let light = lamp.direction.map(f64::from);
     let slope = |tap: &Tap| {
         let [x, y] = tap.offset.map(|cells| cells as isize);

@@ -8,17 +8,11 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod kernels;
-
 mod reference;
-
 mod motion;
-
 mod rest;
-
 mod light;
-
 mod device;
-
 mod program;
 
 use suite::adapter::device;

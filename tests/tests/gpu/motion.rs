@@ -22,8 +22,12 @@ fn reference(rng: &mut ChaCha8Rng, canvas: Amounts, head: Amounts) -> Reference 
 }
 
 fn contact_on(rng: &mut ChaCha8Rng, at: &Reference, rect: Rect) -> paint::contact::Contact {
-    let top = |x: usize, y: usize| at.floor[(x, y)] + at.wet.cell(y * SIZE.0 + x).volume() as i32;
-    contact(rng, rect, top, (HEAD.0 * HEAD.1) as u32)
+    contact(
+        rng,
+        rect,
+        |x: usize, y: usize| at.floor[(x, y)] + at.wet.cell(y * SIZE.0 + x).volume() as i32,
+        (HEAD.0 * HEAD.1) as u32,
+    )
 }
 
 fn engine(start: &Reference) -> Option<(PaintEngine, paint::BrushId)> {
@@ -124,7 +128,8 @@ fn ten_thousand_sub_steps_keep_every_pigment() {
     let Some((mut engine, brush)) = engine(&start) else { return };
     let contacts: Vec<_> = (0..100)
         .map(|_| {
-            let (x, y) = (rng.random_range(0..SIZE.0 - 12), rng.random_range(0..SIZE.1 - 9));
+            let x = rng.random_range(0..SIZE.0 - 12);
+            let y = rng.random_range(0..SIZE.1 - 9);
             contact_on(&mut rng, &start, Rect { x, y, width: 12, height: 9 })
         })
         .collect();

@@ -34,7 +34,8 @@ impl Reference {
 
     /// Paint on canvas and head in quanta: by slot, vehicle last.
     pub(crate) fn totals(&self) -> [u64; 9] {
-        let (wet, brush) = (self.wet.totals(), self.brush.totals());
+        let wet = self.wet.totals();
+        let brush = self.brush.totals();
         std::array::from_fn(|i| wet[i] + brush[i])
     }
 }

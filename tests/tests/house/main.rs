@@ -3,11 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod files;
-
 mod crates;
-
 mod modules;
-
 mod sources;
-
 mod words;

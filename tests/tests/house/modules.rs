@@ -121,15 +121,17 @@ fn read(modules: &mut Modules, path: Vec<String>, file: &str, folder: &str) {
             if inside.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':') {
                 continue;
             }
-            let letter = |c: char| !(c.is_alphanumeric() || c == '_' || c == ':');
-            let end = code[at..].find(letter).map_or(code.len(), |end| at + end);
+            let end = code[at..]
+                .find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'))
+                .map_or(code.len(), |end| at + end);
             let names = code[at..end].split("::").filter(|name| !name.is_empty());
             module.paths.push(names.map(str::to_owned).collect());
         }
     }
     for child in module.children.clone() {
         let inner = format!("{folder}/{child}");
-        let (flat, nested) = (format!("{inner}.rs"), format!("{inner}/mod.rs"));
+        let flat = format!("{inner}.rs");
+        let nested = format!("{inner}/mod.rs");
         let child_file = [flat, nested].into_iter().find(|file| crate::files::exists(file));
         if let Some(child_file) = child_file {
             let mut child_path = path.clone();
@@ -204,7 +206,8 @@ fn faults(modules: &Modules) -> Vec<String> {
         }
     }
     for (path, target) in edges {
-        let (user, used) = (&modules[path].file, &modules[&target].file);
+        let user = &modules[path].file;
+        let used = &modules[&target].file;
         let shared = path.iter().zip(&target).take_while(|(a, b)| a == b).count();
         if target.len() == shared {
             // An item of a parent module: the parent's own code must not use its children.
@@ -228,12 +231,14 @@ fn faults(modules: &Modules) -> Vec<String> {
 /// Root files of all libraries, and of examples and benches that have several files.
 fn roots() -> Vec<String> {
     let all = files_below("");
-    let root = |path: &&String| {
-        let file = path.rsplit('/').next().unwrap_or_default();
-        let program = path.contains("/examples/") || path.contains("/benches/");
-        path.ends_with("src/lib.rs") || (program && file == "main.rs")
-    };
-    all.iter().filter(root).cloned().collect()
+    all.iter()
+        .filter(|path: &&String| {
+            let file = path.rsplit('/').next().unwrap_or_default();
+            let program = path.contains("/examples/") || path.contains("/benches/");
+            path.ends_with("src/lib.rs") || (program && file == "main.rs")
+        })
+        .cloned()
+        .collect()
 }
 
 #[test]

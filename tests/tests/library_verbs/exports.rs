@@ -37,7 +37,8 @@ fn each_palette_holds_the_colors_that_list_prints() {
 #[test]
 fn lab_of_a_palette_is_the_same_color_under_d50() {
     for format in ["ase", "aco"] {
-        let (lab, rgb) = (exported(format, &["--space", "lab"]), exported(format, &[]));
+        let lab = exported(format, &["--space", "lab"]);
+        let rgb = exported(format, &[]);
         for (lab, rgb) in lab.swatches.iter().zip(&rgb.swatches) {
             let (SwatchColor::Lab(found), SwatchColor::Rgb(rgb)) = (lab.color, rgb.color) else {
                 panic!("{format}: {lab:?}")
@@ -105,10 +106,12 @@ fn what_srgb_cannot_show_is_said() {
 #[test]
 fn a_table_of_curves_makes_the_same_library_again() {
     let shelf = Shelf::new();
-    let (csv, json) = (shelf.path("curves.csv"), shelf.path("again.json"));
+    let csv = shelf.path("curves.csv");
+    let json = shelf.path("again.json");
     done(&["export", &oils(), "--to", "csv", "--output", &csv]);
     done(&["convert", &csv, "--output", &json, "--title", "Oils"]);
-    let (first, again) = (read(&oils()), read(&json));
+    let first = read(&oils());
+    let again = read(&json);
     assert_eq!((again.reference.as_deref(), again.title.as_str()), (Some("Zinc White"), "Oils"));
     assert_eq!((again.grid, again.saunderson), (first.grid, first.saunderson));
     for (a, b) in first.pigments.iter().zip(&again.pigments) {
@@ -123,7 +126,8 @@ fn a_table_of_curves_makes_the_same_library_again() {
 #[test]
 fn a_faulty_table_is_refused_with_its_place() {
     let shelf = Shelf::new();
-    let (csv, json) = (shelf.path("curves.csv"), shelf.path("out.json"));
+    let csv = shelf.path("curves.csv");
+    let json = shelf.path("out.json");
     let head = "pigment,quantity,400,500,600";
     for (text, words) in [
         ("name,quantity,400\n", &["row 1", "`pigment`"][..]),

@@ -18,7 +18,8 @@ fn a_thousand_colors_come_back_from_mixing() {
     let mut library = read(&start);
     let weights = Viewing::default().weights(library.grid).unwrap();
     let mut random = ChaCha8Rng::seed_from_u64(20);
-    let (mut met, mut missed) = (0, 0);
+    let mut met = 0;
+    let mut missed = 0;
     for number in 0..1000 {
         let rgb = Rgb(std::array::from_fn(|_| random.random_range(0.0..1.0)));
         let wanted = RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
@@ -112,7 +113,8 @@ fn a_color_out_of_reach_is_refused_with_the_nearest() {
 #[test]
 fn options_may_stand_between_library_and_color() {
     let shelf = Shelf::new();
-    let (bare, between) = (shelf.path("bare.json"), shelf.path("between.json"));
+    let bare = shelf.path("bare.json");
+    let between = shelf.path("between.json");
     done(&["from-rgb", &oils(), "40,5,-45", "--name", "Sky", "--output", &bare]);
     done(&["from-rgb", &oils(), "--name", "Sky", "lab(40, 5, -45)", "--output", &between]);
     let sky = |path: &str| read(path).pigments.pop().unwrap().absorption;

@@ -11,10 +11,12 @@ const ROUNDING: f64 = 1e-5;
 #[test]
 fn another_reference_keeps_every_mixture_and_back_is_the_same() {
     let shelf = Shelf::new();
-    let (lead, back) = (shelf.path("lead.json"), shelf.path("back.json"));
+    let lead = shelf.path("lead.json");
+    let back = shelf.path("back.json");
     let run = done(&["convert", &oils(), "--reference", "Lead White", "--output", &lead]);
     assert!(run.err.contains("thickness of others is now relative to Lead White"), "{}", run.err);
-    let (first, other) = (read(&oils()), read(&lead));
+    let first = read(&oils());
+    let other = read(&lead);
     assert_eq!(other.reference.as_deref(), Some("Lead White"));
     let white = &other[other.find("Lead White").unwrap()];
     assert!(white.scattering.iter().all(|s| *s == 1.0), "{:?}", white.scattering);
@@ -43,7 +45,8 @@ fn curves(pigment: &Pigment) -> [(String, &Vec<f64>); 4] {
 #[test]
 fn a_merged_library_mixes_as_its_sources_do() {
     let shelf = Shelf::new();
-    let (blues, reds) = (shelf.path("blues.json"), shelf.path("reds.json"));
+    let blues = shelf.path("blues.json");
+    let reds = shelf.path("reds.json");
     let scaled = shelf.path("scaled.json");
     done(&["subset", &oils(), "Zinc White", "Cobalt", "Ultramarine", "--output", &blues]);
     // The second library is relative to lead white and has another name for zinc white.
@@ -154,7 +157,8 @@ fn amounts_become_shares_of_the_same_colors() {
     let shares = shelf.path("shares.json");
     let run = done(&["convert", &washes, "--reference", "lead white", "--output", &shares]);
     assert!(run.err.contains("amounts became shares"), "{}", run.err);
-    let (before, after) = (read(&washes), read(&shares));
+    let before = read(&washes);
+    let after = read(&shares);
     assert_eq!((after.amounts, after.unevenness), (AmountKind::Relative, 0.0));
     assert!(after.evidence.is_none() && furthest(&before, &after) < ROUNDING);
 }
@@ -162,7 +166,8 @@ fn amounts_become_shares_of_the_same_colors() {
 #[test]
 fn other_wavelengths_keep_the_values_they_share() {
     let shelf = Shelf::new();
-    let (fine, back) = (shelf.path("fine.json"), shelf.path("back.json"));
+    let fine = shelf.path("fine.json");
+    let back = shelf.path("back.json");
     let run = done(&["convert", &oils(), "--grid", "400,700,5", "--output", &fine]);
     assert!(run.err.contains("steps of 5 nm"), "{}", run.err);
     assert_eq!(read(&fine).grid.count(), 61);
@@ -181,7 +186,8 @@ fn other_wavelengths_keep_the_values_they_share() {
 #[test]
 fn a_library_on_other_wavelengths_joins_with_a_warning() {
     let shelf = Shelf::new();
-    let (fine, merged) = (shelf.path("fine.json"), shelf.path("merged.json"));
+    let fine = shelf.path("fine.json");
+    let merged = shelf.path("merged.json");
     done(&["convert", &oils(), "--grid", "400,700,5", "--output", &fine]);
     let run = done(&["merge", &oils(), &fine, "--output", &merged]);
     assert!(run.err.contains("to 400 to 700 nm in steps of 10 nm (sprague)"), "{}", run.err);
@@ -205,7 +211,8 @@ fn a_library_on_other_wavelengths_joins_with_a_warning() {
 #[test]
 fn renaming_changes_names_alone() {
     let shelf = Shelf::new();
-    let (there, back) = (shelf.path("there.json"), shelf.path("back.json"));
+    let there = shelf.path("there.json");
+    let back = shelf.path("back.json");
     let names = ["Zinc White=Lead White", "Lead White=Zinc White", "Viridian=PG18 = green"];
     done(&[&["rename", &oils()][..], &names, &["--output", &there]].concat());
     let exchanged = read(&there);
@@ -237,7 +244,8 @@ fn a_subset_keeps_figures_and_says_whose_errors_it_tells() {
         &["`Zinc White` would be left out", "--white"],
     );
     done(&["subset", &oils(), "--without", "Viridian", "--without", "Minium", "--output", &few]);
-    let (all, left) = (read(&oils()), read(&few));
+    let all = read(&oils());
+    let left = read(&few);
     assert_eq!(left.pigments.len(), 18);
     for pigment in &left.pigments {
         assert!(all.pigments.contains(pigment), "{} changed", pigment.name);

@@ -44,12 +44,11 @@ proptest! {
 
     #[test]
     fn gpl_is_read_as_written(rgbs in prop::collection::vec(any::<[u8; 3]>(), 0..9)) {
-        let swatch = |rgb: &[u8; 3]| SwatchEntry {
+        let swatches = rgbs.iter().map(|rgb: &[u8; 3]| SwatchEntry {
             name: format!("Rot {rgb:?} \u{fc}"),
             group: String::new(),
             color: SwatchColor::Rgb(Rgb(rgb.map(|v| f64::from(v) / 255.0))),
-        };
-        let swatches = rgbs.iter().map(swatch).collect();
+        }).collect();
         let palette = SwatchFile { name: "Name: of # all".into(), swatches };
         let text = write_gpl(&palette).unwrap();
         prop_assert_eq!(read_gpl("p.gpl", text.as_bytes()).unwrap(), palette);

@@ -25,7 +25,8 @@ fn lab(rgb: [f32; 3]) -> Lab {
 fn exact_xyz(document: &Document, viewing: &Viewing) -> Vec<Xyz> {
     let spectral = SpectralDocument::full(document);
     let weights = viewing.weights(document.library.grid).unwrap();
-    let (width, height) = (document.wet.width(), document.wet.height());
+    let width = document.wet.width();
+    let height = document.wet.height();
     let cells = (0..width * height).map(|i| (i % width, i / width));
     cells.map(|(x, y)| weights.xyz(&spectral.measured_reflectance(x, y))).collect()
 }
@@ -127,9 +128,10 @@ fn a_mixer_mixes_as_the_library_does() {
     for name in ["D65", "A"] {
         let light = light(&library, name);
         for (first, second) in [(1, 15), (12, 10), (4, 7)] {
-            let (first, second) = (PigmentId(first), PigmentId(second));
-            let (first_recipe, second_recipe) =
-                ([(first, 2.0)], [(second, 1.0), (PigmentId(9), 1.0)]);
+            let first = PigmentId(first);
+            let second = PigmentId(second);
+            let first_recipe = [(first, 2.0)];
+            let second_recipe = [(second, 1.0), (PigmentId(9), 1.0)];
             let mixer = Mixer::new(&library, &light, &first_recipe, &second_recipe).unwrap();
             let shares: Vec<f32> = (0..=100u8).map(|i| f32::from(i) / 100.0).collect();
             let mut found = vec![[0.0; 3]; shares.len()];
@@ -191,7 +193,8 @@ fn opacity_is_thickness_and_a_dried_layer_looks_as_it_did_wet() {
     let light = light(&wet.library, "D65");
     let seen = labs(&wet, &light);
     let mut dried = document(2, 1, &[]);
-    let (slots, paint) = (slots(&dried.library, &names), wet.wet.clone());
+    let slots = slots(&dried.library, &names);
+    let paint = wet.wet.clone();
     dried.push_dry(slots, paint);
     assert_eq!(labs(&dried, &light), seen);
     dried.dry[0].opacity = 0.5;
@@ -206,7 +209,8 @@ fn opacity_is_thickness_and_a_dried_layer_looks_as_it_did_wet() {
 fn a_painting_made_under_one_light_looks_under_another_as_if_made_there() {
     let document = glazes_over_mixtures();
     let under = |name: &str| labs(&document, &light(&document.library, name));
-    let (day, bulb) = (under("D65"), under("A"));
+    let day = under("D65");
+    let bulb = under("A");
     let exact = exact_xyz(&document, &viewing("A"));
     let white = viewing("A").weights(document.library.grid).unwrap().white();
     let errors = |labs: &[Lab]| {
@@ -224,6 +228,7 @@ fn a_painting_made_under_one_light_looks_under_another_as_if_made_there() {
             .collect();
         Summary::of(&each).mean
     };
-    let (relit, not_relit) = (errors(&bulb), errors(&day));
+    let relit = errors(&bulb);
+    let not_relit = errors(&day);
     assert!(relit < 0.3 && not_relit > 1.0, "relit {relit}, not relit {not_relit}");
 }

@@ -38,7 +38,8 @@ fn a_picture_keeps_its_mean() {
     };
     for count in 1..=4 {
         let [coarse, fine] = both(&glazes, count);
-        let (coarse, fine) = (mean(&coarse), mean(&fine));
+        let coarse = mean(&coarse);
+        let fine = mean(&fine);
         assert!((coarse - fine).abs() < 0.01 * coarse, "{count}: {coarse} {fine}");
     }
 }

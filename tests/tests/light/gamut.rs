@@ -19,8 +19,10 @@ fn lch(rgb: Rgb) -> Lch {
 fn thin_films_of_every_pigment_keep_their_hue_on_a_screen() {
     let library = crate::made_up::oils();
     let light = light(&library, "D65");
-    let (mut outside, mut worst) = (0, (0.0, String::new()));
-    let (mut least, mut cut_off) = (1.0f64, 0.0f64);
+    let mut outside = 0;
+    let mut worst = (0.0, String::new());
+    let mut least = 1.0f64;
+    let mut cut_off = 0.0f64;
     let pigments: Vec<_> = library.ids().collect();
     for pigments in pigments.chunks(SLOTS) {
         let mut films = document(FILMS_MM.len(), pigments.len(), &[]);

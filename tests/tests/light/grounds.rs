@@ -56,7 +56,9 @@ fn wood_is_brown_and_shines_and_its_grain_is_long() {
         let values = &wood.reflectance[from..to];
         values.iter().sum::<f64>() / values.len() as f64
     };
-    let (blue, green, red) = (part(4, 9), part(12, 18), part(22, 28));
+    let blue = part(4, 9);
+    let green = part(12, 18);
+    let red = part(22, 28);
     assert!(blue < green && green < red && red < 0.4 && blue > 0.02, "{blue} {green} {red}");
     // From cell to cell heights change less along the fibres than across them.
     let change = |right: usize, down: usize| -> f64 {
@@ -64,7 +66,8 @@ fn wood_is_brown_and_shines_and_its_grain_is_long() {
         let cells = (0..390 * 390).map(|i| (i % 390, i / 390));
         cells.map(|(x, y)| (height(x + right, y + down) - height(x, y)).abs()).sum()
     };
-    let (along, across) = (change(1, 0), change(0, 1));
+    let along = change(1, 0);
+    let across = change(0, 1);
     assert!(along * 4.0 < across, "{along} along, {across} across");
     let own =
         made(r#"{"kind":"wood","reflectance":0.5,"gloss":{"strength":0,"exponent":9}}"#, 2, 2);

@@ -3,15 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod adaptation;
-
 mod color;
-
 mod fine;
-
 mod gamut;
-
 mod grounds;
-
 mod made_up;
-
 mod surface;

@@ -144,7 +144,8 @@ fn the_ground_of_a_furrow_is_darker_than_the_ridge_beside_it() {
             };
             lit_in(&soft, wave, Ground) / level
         };
-        let (ridge, ground) = (furrows(1.0), furrows(-1.0));
+        let ridge = furrows(1.0);
+        let ground = furrows(-1.0);
         assert!(ridge > 0.999 && ground < 0.996, "along {along}: {ridge} {ground}");
     }
 }
@@ -161,8 +162,11 @@ fn no_relief_makes_paint_lighter_than_white() {
             scene.lamp.wet = Gloss { strength: 100.0, exponent: 8.0 };
             let mut lightest = 0.0f32;
             for shift in 0..200 {
-                let rough = |x: f64, y: f64| at(x + 100.0 + f64::from(shift), y);
-                lightest = lightest.max(lit_in(&scene, rough, Wet));
+                lightest = lightest.max(lit_in(
+                    &scene,
+                    |x: f64, y: f64| at(x + 100.0 + f64::from(shift), y),
+                    Wet,
+                ));
             }
             let level = lit(&scene, (0.0, 0.0), Wet);
             assert!(lightest > 1.1 * level && lightest < 1.0, "{level} {lightest}");
@@ -221,7 +225,8 @@ fn a_row_may_be_cut_anywhere() {
     let light = Light::new(&document.library, &Viewing::default()).unwrap();
     let scene = scene(&document, &light);
     let whole = picture(&document, &scene);
-    let (y, width) = (20, 48);
+    let y = 20;
+    let width = 48;
     let mut tops = Tops::level(width, 48);
     tops.set_all(|x, y| {
         let index = y * width + x;

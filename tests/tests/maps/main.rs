@@ -4,11 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod scan;
-
 mod painted;
-
 mod program;
-
 mod residuals;
-
 mod simulated;

@@ -67,7 +67,8 @@ pub(crate) fn lay(
 
 /// The wet paint as a dry layer below an empty wet one.
 pub(crate) fn dried(mut document: Document) -> Document {
-    let (width, height) = (document.wet.width(), document.wet.height());
+    let width = document.wet.width();
+    let height = document.wet.height();
     let paint = std::mem::replace(&mut document.wet, Layer::empty(width, height));
     document.dry.push(DryLayer {
         id: LayerId::FIRST,
@@ -117,7 +118,8 @@ pub(crate) const RECIPES: [&[(&str, f64)]; 12] = [
 pub(crate) fn patches() -> Document {
     let mut document = bare(64, 48, library());
     for (index, recipe) in RECIPES.iter().enumerate() {
-        let (column, row) = (16 * (index % 4), 16 * (index / 4));
+        let column = 16 * (index % 4);
+        let row = 16 * (index / 4);
         let mm: Vec<(&str, f64)> =
             recipe.iter().map(|(name, share)| (*name, 4.0 * share)).collect();
         lay(&mut document.wet, (column..column + 16, row..row + 16), &mm);

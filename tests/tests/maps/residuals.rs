@@ -62,7 +62,8 @@ fn bytes(out: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 fn the_shipped_residuals_are_what_validate_writes_byte_for_byte() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("residuals.json");
-    let (oils, path) = (repository(OILS), out.display().to_string());
+    let oils = repository(OILS);
+    let path = out.display().to_string();
     let surface = ["--saunderson", "0.03,0.6", "--below-surface", "floor"];
     let run = impasto(&[&["validate", &oils, "--residuals", &path][..], &surface].concat());
     assert_eq!(run.status, 0, "{}", run.err);

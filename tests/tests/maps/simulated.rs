@@ -153,7 +153,8 @@ fn bare_ground_is_told_by_a_region_or_a_file_and_no_paint_is() {
     let rows: Vec<String> = (0..31).map(|i| format!("{},0.6", 400 + 10 * i)).collect();
     std::fs::write(path("ground.csv"), format!("nm,ground\n{}\n", rows.join("\n"))).unwrap();
     for (name, ground) in [("region", "2..20,2..14".to_owned()), ("file", path("ground.csv"))] {
-        let (out, truth) = (path(name), path("scan-truth.zarr"));
+        let out = path(name);
+        let truth = path("scan-truth.zarr");
         let run = impasto(
             &[
                 &["map", &path("scan.hdr"), "-o", &out, "--ground", &ground],
@@ -188,15 +189,15 @@ fn bare_ground_is_told_by_a_region_or_a_file_and_no_paint_is() {
 #[test]
 fn halves_of_the_mixtures_have_none_in_common() {
     let readings = repository("measurements/van-gogh-oils.csv");
-    let samples = |more: &[&str]| -> BTreeSet<String> {
-        let usual =
-            ["fit", &readings, "--method", "weighted", "--below-surface", "floor", "--json"];
-        let run = impasto(&[&usual, more].concat());
-        assert_eq!(run.status, 0, "{}", run.err);
-        let rows = run.json()["per_sample"].as_array().unwrap().clone();
-        rows.iter().map(|row| row["sample"].as_str().unwrap().to_owned()).collect()
-    };
-    let [all, first, second] = [&[][..], &["--half", "0"], &["--half", "1"]].map(samples);
+    let [all, first, second] =
+        [&[][..], &["--half", "0"], &["--half", "1"]].map(|more: &[&str]| -> BTreeSet<String> {
+            let usual =
+                ["fit", &readings, "--method", "weighted", "--below-surface", "floor", "--json"];
+            let run = impasto(&[&usual, more].concat());
+            assert_eq!(run.status, 0, "{}", run.err);
+            let rows = run.json()["per_sample"].as_array().unwrap().clone();
+            rows.iter().map(|row| row["sample"].as_str().unwrap().to_owned()).collect()
+        });
     let both: BTreeSet<String> = first.intersection(&second).cloned().collect();
     assert_eq!(first.union(&second).count(), all.len());
     assert!(both.len() < 20, "films of one pigment alone are in both: {both:?}");

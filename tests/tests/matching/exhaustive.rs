@@ -19,13 +19,14 @@ fn shares(count: usize, left: usize) -> Vec<Vec<usize>> {
         return vec![vec![left]];
     }
     let first = 1..=left - (count - 1);
-    let with = |step: usize| {
-        shares(count - 1, left - step).into_iter().map(move |mut rest| {
-            rest.insert(0, step);
-            rest
+    first
+        .flat_map(|step: usize| {
+            shares(count - 1, left - step).into_iter().map(move |mut rest| {
+                rest.insert(0, step);
+                rest
+            })
         })
-    };
-    first.flat_map(with).collect()
+        .collect()
 }
 
 /// Every set of one to four of the pigments.

@@ -12,7 +12,8 @@ use super::{conditions, oils, target_of};
 fn a_glaze_over_a_ground_is_found_with_its_thickness() {
     let library = oils();
     let conditions = conditions(&["D65", "A"]);
-    let (white, blue) = (library.find("Zinc White").unwrap(), library.find("Cobalt Blue").unwrap());
+    let white = library.find("Zinc White").unwrap();
+    let blue = library.find("Cobalt Blue").unwrap();
     let ground: Vec<f64> = library.grid.wavelengths_nm().map(|nm| 0.3 + nm / 1400.0).collect();
     let recipe = [(white, 0.7), (blue, 0.3)];
     let film = library.mix(recipe).unwrap().film(0.6, &ground, library.film());
@@ -64,7 +65,8 @@ fn absolute_amounts_are_found_over_paper() {
     let library = absolute();
     let conditions = conditions(&["D65", "FL11"]);
     let paper = vec![0.85; library.grid.count()];
-    let (red, blue) = (library.find("Vermilion").unwrap(), library.find("Ultramarine").unwrap());
+    let red = library.find("Vermilion").unwrap();
+    let blue = library.find("Ultramarine").unwrap();
     let wash = library.mix([(red, 0.3), (blue, 0.5)]).unwrap().film(1.0, &paper, library.film());
     let target = target_of(&library, &wash, &conditions);
     let film = MatchRequest::usual_film(&library, paper);
@@ -119,8 +121,12 @@ fn absolute_amounts_stay_within_what_was_measured() {
         (request.allowed, request.tolerance, request.count) = (pair.to_vec(), 0.0, 10);
         let found = recipes(&library, &target, &request).unwrap();
         for recipe in &found {
-            let keeps = |amount: &f64| (RANGE[0] - 1e-9..=RANGE[1] + 1e-9).contains(amount);
-            assert!(amounts(recipe).iter().all(keeps), "{wished:?}: {recipe:?}");
+            assert!(
+                amounts(recipe)
+                    .iter()
+                    .all(|amount: &f64| (RANGE[0] - 1e-9..=RANGE[1] + 1e-9).contains(amount)),
+                "{wished:?}: {recipe:?}"
+            );
         }
         let limited = wished.iter().any(|amount| !(RANGE[0]..=RANGE[1]).contains(amount));
         // The nearest may also leave out the pigment whose amount is too small.

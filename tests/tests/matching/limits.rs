@@ -32,7 +32,8 @@ fn colors() -> Vec<Lab> {
 fn every_recipe_keeps_every_limit() {
     let library = oils();
     let conditions = conditions(&["D65"]);
-    let (white, black) = (library.find("Lead White").unwrap(), library.find("Bone Black").unwrap());
+    let white = library.find("Lead White").unwrap();
+    let black = library.find("Bone Black").unwrap();
     let viridian = library.find("Viridian").unwrap();
     for required in [vec![], vec![(white, None)], vec![(white, Some(0.4)), (black, None)]] {
         for (at_most, least) in [(2, 0.02), (3, 0.1), (4, 0.2)] {

@@ -3,17 +3,11 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod corrections;
-
 mod exhaustive;
-
 mod films;
-
 mod limits;
-
 mod order;
-
 mod spectrum;
-
 mod watched;
 
 use calibrate::evaluate::{Viewing, lab};
@@ -25,14 +19,16 @@ use suite::oils::library as oils;
 
 /// Lights by name, with equal weights.
 fn conditions(lights: &[&str]) -> Vec<ViewingCondition> {
-    let condition = |name: &&str| ViewingCondition {
-        viewing: Viewing {
-            illuminant: Illuminant::named(name).unwrap(),
-            observer: Observer::default(),
-        },
-        weight: 1.0,
-    };
-    lights.iter().map(condition).collect()
+    lights
+        .iter()
+        .map(|name: &&str| ViewingCondition {
+            viewing: Viewing {
+                illuminant: Illuminant::named(name).unwrap(),
+                observer: Observer::default(),
+            },
+            weight: 1.0,
+        })
+        .collect()
 }
 
 /// The colour of a reflectance on the library's grid under each condition.

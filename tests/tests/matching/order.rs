@@ -60,7 +60,8 @@ fn lights_that_count_rank_metameric_recipes_lower() {
         let squares: f64 = best.delta_e.iter().map(|difference| difference * difference).sum();
         (best.delta_e[0], (squares / 3.0).sqrt())
     };
-    let (daylight, all) = (apart([1.0, 1e-9, 1e-9]), apart([1.0, 1.0, 1.0]));
+    let daylight = apart([1.0, 1e-9, 1e-9]);
+    let all = apart([1.0, 1.0, 1.0]);
     assert!(daylight.0 < all.0, "under daylight: {daylight:?} {all:?}");
     assert!(all.1 < 0.9 * daylight.1, "over three lights: {all:?} for {daylight:?}");
 }
@@ -82,11 +83,14 @@ fn equally_near_recipes_come_with_few_pigments_first_and_cheapest_first_if_price
     let equals = equal(&found);
     let smallest = |recipe: &RecipeMatch| recipe.shares.iter().map(|s| s.1).fold(1.0, f64::min);
     let steps = |recipe: &RecipeMatch| ((recipe.distance - nearest(&found)) / 0.05).floor();
-    let order = |a: &RecipeMatch, b: &RecipeMatch| {
-        let key = |r: &RecipeMatch| (r.shares.len() as f64, steps(r), -smallest(r));
-        key(a) <= key(b)
-    };
-    assert!(equals.len() > 1 && equals.is_sorted_by(order), "{equals:?}");
+    assert!(
+        equals.len() > 1
+            && equals.is_sorted_by(|a: &RecipeMatch, b: &RecipeMatch| {
+                let key = |r: &RecipeMatch| (r.shares.len() as f64, steps(r), -smallest(r));
+                key(a) <= key(b)
+            }),
+        "{equals:?}"
+    );
 
     request.costs = (0..library.pigments.len()).map(|index| (index * 7 % 11) as f64).collect();
     let priced = recipes(&library, &target, &request).unwrap();

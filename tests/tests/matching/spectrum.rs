@@ -28,8 +28,11 @@ fn measured(library: &PigmentLibrary, recipe: &[(&str, f64)]) -> ColorTarget {
 }
 
 fn shares(library: &PigmentLibrary, found: &RecipeMatch) -> Vec<(String, f64)> {
-    let named = |(id, share): &(PigmentId, f64)| (library[*id].name.clone(), *share);
-    found.shares.iter().map(named).collect()
+    found
+        .shares
+        .iter()
+        .map(|(id, share): &(PigmentId, f64)| (library[*id].name.clone(), *share))
+        .collect()
 }
 
 #[test]

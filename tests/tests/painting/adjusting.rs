@@ -61,8 +61,10 @@ fn no_undo_while_a_slider_is_dragged() {
 fn gloss_changes_what_shines_is_kept_by_the_file_and_undone() {
     for mut painting in on_both(&bare(130, 100)) {
         crossing(&mut painting);
-        let (before, medium) = (painting.picture().unwrap(), painting.medium().clone());
-        let (wet, dry) = (Gloss { strength: 0.9, exponent: 90.0 }, medium.dry);
+        let before = painting.picture().unwrap();
+        let medium = painting.medium().clone();
+        let wet = Gloss { strength: 0.9, exponent: 90.0 };
+        let dry = medium.dry;
         painting.set_gloss(wet, dry).unwrap();
         assert!(painting.picture().unwrap() != before, "the gloss changed nothing");
         let found = painting.document().unwrap().medium;

@@ -53,7 +53,8 @@ fn both_backends_hold_the_same_paint_and_show_it_alike() {
     finished(&mut gpu);
     let check = |cpu: &mut Painting, gpu: &mut Painting, what: &str| {
         let shown = differences(&cpu.picture().unwrap(), &gpu.picture().unwrap());
-        let (mean, high) = (mean(&shown), shown[shown.len() * 999 / 1000]);
+        let mean = mean(&shown);
+        let high = shown[shown.len() * 999 / 1000];
         let largest = shown[shown.len() - 1];
         tell(&format!(
             "CPU against GPU, {what}: mean {mean:.2e}, 99.9th percentile {high:.2e}, largest {largest:.2e} CIEDE2000"
@@ -99,7 +100,8 @@ fn eight_wavelengths_show_a_finished_painting_as_the_full_spectrum_does() {
     });
     let pairs = exact.zip(flat.values());
     let found = sorted(pairs.map(|(exact, rgb)| delta_e_ciede2000(exact, lab(rgb))).collect());
-    let (mean, largest) = (mean(&found), found[found.len() - 1]);
+    let mean = mean(&found);
+    let largest = found[found.len() - 1];
     tell(&format!("8 wavelengths against 31: mean {mean:.3}, largest {largest:.3} CIEDE2000"));
     assert!(mean < 0.3, "mean {mean}");
     assert!(mean > 0.0, "the full spectrum was compared with itself");

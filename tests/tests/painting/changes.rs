@@ -52,7 +52,8 @@ fn relighting_gives_what_a_painting_opened_under_that_light_shows() {
 
 #[test]
 fn a_swapped_pigment_looks_as_if_it_had_been_painted_with() {
-    let (vermilion, minium) = (pigment("Vermilion"), pigment("Minium"));
+    let vermilion = pigment("Vermilion");
+    let minium = pigment("Minium");
     for (painting, mut other) in on_both(&bare(130, 100)).into_iter().zip({
         let mut document = bare(130, 100);
         document.slots = exchanged(document.slots, vermilion, minium);

@@ -40,7 +40,8 @@ fn ten_thousand_substeps_keep_every_pigment_to_the_quantum() {
         let mut random = ChaCha8Rng::seed_from_u64(11);
         let brushes = shapes.map(|shape| painting.add_brush(shape, 4.0).unwrap());
         let mut wanted = [0; SLOTS + 1];
-        let (mut substeps, mut strokes) = (0, 0);
+        let mut substeps = 0;
+        let mut strokes = 0;
         while substeps < 10_000 {
             let brush = brushes[strokes % brushes.len()];
             if strokes % 5 < 4 {

@@ -22,7 +22,8 @@ fn bare_cells(wet: &Layer) -> usize {
 fn mixed(strokes: impl Fn(&mut Painting)) -> Vec<(Lab, f64)> {
     let mut painting = on_cpu(bare_on(r#"{"kind": "panel", "seed": 1}"#, 160, 60));
     strokes(&mut painting);
-    let (picture, wet) = (painting.flat_picture().unwrap(), painting.wet().unwrap());
+    let picture = painting.flat_picture().unwrap();
+    let wet = painting.wet().unwrap();
     let cells = (0..160 * 60).filter_map(|index| {
         let [_, yellow, blue, ..] = wet.cell(index).pigments;
         let share = f64::from(blue) / f64::from(yellow + blue);

@@ -72,7 +72,8 @@ fn two_layers(mut painting: Painting, slots: [usize; 2]) -> Painting {
 fn layers_of_like_paint_become_one_unseen() {
     for painting in on_both(&bare(130, 100)) {
         let mut painting = two_layers(painting, [YELLOW, YELLOW]);
-        let (before, two) = (painting.picture().unwrap(), painting.document().unwrap());
+        let before = painting.picture().unwrap();
+        let two = painting.document().unwrap();
         painting.merge(LayerRef::Dry(0), LayerRef::Dry(1)).unwrap();
         assert_eq!(painting.state().dry.len(), 1);
         let moved = largest(&before, &painting.picture().unwrap());
@@ -90,7 +91,8 @@ fn layers_of_like_paint_become_one_unseen() {
 fn a_merge_that_shows_is_refused_and_changes_nothing() {
     for painting in on_both(&bare(130, 100)) {
         let mut painting = two_layers(painting, [YELLOW, BLUE]);
-        let (before, document) = (painting.picture().unwrap(), painting.document().unwrap());
+        let before = painting.picture().unwrap();
+        let document = painting.document().unwrap();
         let error = painting.merge(LayerRef::Dry(1), LayerRef::Dry(0)).unwrap_err();
         assert!(
             matches!(error, PaintingError::MergeShows { delta_e, .. } if delta_e > MERGE_TOLERANCE),
@@ -113,12 +115,15 @@ fn a_merge_that_shows_is_refused_and_changes_nothing() {
 fn exported_pictures_have_the_colors_that_were_shown() {
     let mut painting = some_painting();
     let shown = painting.picture().unwrap();
-    let in_gamut = |rgb: &[f32; 4]| {
-        let [r, g, b, _] = rgb.map(f64::from);
-        let [r, g, b] = Rgb([r, g, b]).mapped_into_gamut().0.map(|value| value as f32);
-        [r, g, b, 1.0]
-    };
-    let on_screen = shown.values().iter().map(in_gamut).collect();
+    let on_screen = shown
+        .values()
+        .iter()
+        .map(|rgb: &[f32; 4]| {
+            let [r, g, b, _] = rgb.map(f64::from);
+            let [r, g, b] = Rgb([r, g, b]).mapped_into_gamut().0.map(|value| value as f32);
+            [r, g, b, 1.0]
+        })
+        .collect();
     let on_screen = Field::from_values(shown.width(), shown.height(), on_screen);
     for (bytes, within) in [
         // Rounding to 8 bits alone gives up to 1 CIEDE2000 near black.

@@ -64,7 +64,8 @@ fn a_painter_killed_at_any_moment_leaves_the_old_file_or_the_new_one_whole() {
             .contains("status 0")
     );
     let old = std::fs::read(&saved).unwrap();
-    let (mut kept, mut new) = (0, 0);
+    let mut kept = 0;
+    let mut new = 0;
     for moment in 0..12 {
         std::fs::write(&saved, &old).unwrap();
         let mut child = program(&["paint", &endless, "--backend", "cpu"]).spawn().unwrap();

@@ -38,7 +38,8 @@ pub(crate) const BACKENDS: [Backend; 2] =
 /// missing.
 pub(crate) fn set_up(script: &StrokeScript, backend: Backend) -> Option<PaintingSession> {
     let (canvas, palette) = script.surfaces(oils(), None).unwrap();
-    let (engine, palette) = (backend(&canvas)?, palette.unwrap());
+    let engine = backend(&canvas)?;
+    let palette = palette.unwrap();
     let beside = open(palette.clone(), backend(&palette)?, UNDO_BYTES);
     Some(PaintingSession::recorded(open(canvas, engine, UNDO_BYTES), Some(beside), script).unwrap())
 }
@@ -83,7 +84,8 @@ pub(crate) fn surface(random: &mut ChaCha8Rng) -> SurfaceId {
 /// Random pen samples, with more digits than a script file keeps.
 pub(crate) fn wander(random: &mut ChaCha8Rng, samples: usize) -> Vec<Sample> {
     let mut seconds = random.random_range(0.0..100.0);
-    let (mut x_mm, mut y_mm) = (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
+    let mut x_mm = random.random_range(0.0..26.0);
+    let mut y_mm = random.random_range(0.0..20.0);
     let mut next = || {
         seconds += random.random_range(0.0..0.02);
         x_mm += random.random_range(-2.0..2.0);
@@ -157,7 +159,8 @@ pub(crate) fn something(session: &mut PaintingSession, random: &mut ChaCha8Rng) 
             Action::Opacity { layer, value: random.random_range(0.0..2.0) }
         }
         7 => {
-            let (mut from, mut to) = ("Vermilion".to_owned(), "Minium".to_owned());
+            let mut from = "Vermilion".to_owned();
+            let mut to = "Minium".to_owned();
             if random.random_bool(0.5) {
                 std::mem::swap(&mut from, &mut to);
             }

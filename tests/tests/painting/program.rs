@@ -77,7 +77,8 @@ fn the_same_script_gives_the_same_bytes() {
         assert!(told["substeps"].as_u64() > Some(100), "{told}");
     }
     for (a, b) in files[0].iter().zip(&files[1]) {
-        let (a, b) = (std::fs::read(a).unwrap(), std::fs::read(b).unwrap());
+        let a = std::fs::read(a).unwrap();
+        let b = std::fs::read(b).unwrap();
         assert!(a.len() > 1000 && a == b, "{} and {} bytes", a.len(), b.len());
     }
     // `relight` without changes gives the picture that `paint` wrote.
@@ -98,7 +99,8 @@ fn a_painting_is_relit_under_a_lamp_and_opened_again() {
     let lamp = place(folder, "lamp.csv");
     let lines: Vec<String> = (380..=780).step_by(10).map(|nm| format!("{nm},{nm}")).collect();
     std::fs::write(&lamp, lines.join("\n")).unwrap();
-    let (relit, picture) = (place(folder, "b.exr"), place(folder, "b.png"));
+    let relit = place(folder, "b.exr");
+    let picture = place(folder, "b.png");
     done_with_lines(&impasto(&[
         "relight",
         &painting,
@@ -185,13 +187,17 @@ fn pigment_maps_sum_all_layers() {
     let quantum_mm3 = mm_from_quanta(1, document.cell_mm) * document.cell_mm.powi(2);
     for line in recipe.lines().skip(1) {
         let mut fields = line.split(',');
-        let (name, volume) = (fields.next().unwrap(), fields.next().unwrap());
+        let name = fields.next().unwrap();
+        let volume = fields.next().unwrap();
         let volume: f64 = volume.parse().unwrap();
         let held = layers.iter().map(|(slots, paint)| {
-            let named = |slot: &Option<PigmentId>| {
-                slot.is_some_and(|pigment| document.library[pigment].name == name)
+            let place = if name == "vehicle" {
+                Some(SLOTS)
+            } else {
+                slots.iter().position(|slot: &Option<PigmentId>| {
+                    slot.is_some_and(|pigment| document.library[pigment].name == name)
+                })
             };
-            let place = if name == "vehicle" { Some(SLOTS) } else { slots.iter().position(named) };
             place.map_or(0, |place| paint.totals()[place])
         });
         let wanted = held.sum::<u64>() as f64 * quantum_mm3;

@@ -24,8 +24,13 @@ fn read(session: &PaintingSession) -> StrokeScript {
 }
 
 fn replayed(script: &StrokeScript, session: &mut PaintingSession) -> ReplayReport {
-    let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-    script.replay(session, save, || ControlFlow::Continue(())).unwrap()
+    script
+        .replay(
+            session,
+            |_: &str, _: &mut Painting| Ok::<_, Infallible>(()),
+            || ControlFlow::Continue(()),
+        )
+        .unwrap()
 }
 
 /// Asserts equal canvases and palettes, and that the paint on each brush of `painted` is on some
@@ -36,7 +41,8 @@ fn assert_same(painted: &mut Whole, played: &mut Whole, what: &str) {
     // The recording gives every head its own name, whereas the session reuses names for new heads.
     // Brush paints are therefore compared without names.
     let last = |whole: &mut Whole| whole.2.drain(..).flatten().collect::<Vec<_>>();
-    let (painted, played) = (last(painted), last(played));
+    let painted = last(painted);
+    let played = last(played);
     assert!(painted.iter().all(|paint| played.contains(paint)), "{what}: other paint on a brush");
 }
 
@@ -55,7 +61,8 @@ fn paint_at_random(session: &mut PaintingSession, seed: u64, actions: usize) {
             1 => _ = session.redo().unwrap(),
             2 => {
                 let recipe = [("Lead White".to_owned(), 1.0 / 3.0), ("Viridian".to_owned(), 0.1)];
-                let (recipe, vehicle) = (recipe.into(), random.random_range(0.0..1.0));
+                let recipe = recipe.into();
+                let vehicle = random.random_range(0.0..1.0);
                 let amount_mm = random.random_range(0.0..0.4);
                 // Refused if the palette lacks viridian or the brush is full.
                 let load = Load { brush: knife(), recipe, vehicle, amount_mm };
@@ -139,7 +146,8 @@ fn a_session_may_go_on_with_a_painting() {
     script.mixing = header().mixing;
     let set_up = |script: &StrokeScript, start: &Document| {
         let (canvas, palette) = script.surfaces(oils(), Some(start.clone())).unwrap();
-        let (canvas, palette) = (on_cpu_lit(canvas), palette.map(on_cpu_lit));
+        let canvas = on_cpu_lit(canvas);
+        let palette = palette.map(on_cpu_lit);
         PaintingSession::recorded(canvas, palette, script).unwrap()
     };
     let mut session = set_up(&script, &start);
@@ -166,12 +174,15 @@ fn a_replay_ends_where_it_is_told_to() {
     let script = read(&session);
     let mut other = set_up(&script, BACKENDS[0]).unwrap();
     let mut left = 9;
-    let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
     let report = script
-        .replay(&mut other, save, || {
-            left -= 1;
-            if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        })
+        .replay(
+            &mut other,
+            |_: &str, _: &mut Painting| Ok::<_, Infallible>(()),
+            || {
+                left -= 1;
+                if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        )
         .unwrap();
     assert_eq!(report.actions, 9);
     let mut begun = script.clone();
@@ -210,7 +221,8 @@ fn a_header_must_describe_what_is_there() {
     let refused = |change: fn(&mut StrokeScript)| {
         let mut script = header();
         change(&mut script);
-        let (canvas, palette) = (on_cpu(canvas.clone()), palette.clone().map(on_cpu));
+        let canvas = on_cpu(canvas.clone());
+        let palette = palette.clone().map(on_cpu);
         PaintingSession::recorded(canvas, palette, &script)
             .map(|_| ())
             .map_err(|error| error.to_string())

@@ -74,10 +74,8 @@ fn a_script_goes_on_with_what_another_one_painted() {
     let _ = painted(&first, &place(folder, "before/first.exr"));
     let second = format!("{{{HEADER}\"start\": \"before/first.exr\", \"actions\": [{OVER}]}}");
     let second = written(folder, "second.json", &second);
-    let (wanted, found) = (
-        painted(&whole, &place(folder, "whole.exr")),
-        painted(&second, &place(folder, "second.exr")),
-    );
+    let wanted = painted(&whole, &place(folder, "whole.exr"));
+    let found = painted(&second, &place(folder, "second.exr"));
     assert!(wanted.dry.len() == 1 && wanted == found, "differs from painting at once");
 
     let run = paint(&second, &["--output", &place(folder, "no.exr"), "--library", &second]);

@@ -25,7 +25,8 @@ fn fluid_paint_levels_after_a_stroke_and_stiff_paint_keeps_its_furrows() {
         let mut wets = Vec::new();
         for mut painting in on_both(&document) {
             let brush = loaded(&mut painting, HeadShape::Flat, 6.0, BLUE, 1.0);
-            let (bare, before) = (painting.wet().unwrap(), painting.wet_totals_mm().unwrap());
+            let bare = painting.wet().unwrap();
+            let before = painting.wet_totals_mm().unwrap();
             painting.stroke(brush, &along(&[(4.0, 6.0), (36.0, 6.0)], 0.5)).unwrap();
             assert_eq!(painting.wet_totals_mm().unwrap(), before, "paint was lost or made");
             wets.push(painting.wet().unwrap());

@@ -187,7 +187,8 @@ fn light_gloss_stiffness_and_wet_swaps_are_those_of_both_surfaces() {
         let wet = Gloss { strength: 0.5, exponent: 80.0 };
         session.apply(&Action::Gloss { wet, dry: wet }).unwrap();
         session.apply(&Action::Stiffness { value: 0.25 }).unwrap();
-        let (from, to) = ("Viridian".to_owned(), "Cobalt Blue".to_owned());
+        let from = "Viridian".to_owned();
+        let to = "Cobalt Blue".to_owned();
         session.apply(&Action::Swap { layer: LayerRef::Wet, from, to }).unwrap();
         for surface in [SurfaceId::Canvas, SurfaceId::Palette] {
             let painting = session.painting(surface).unwrap();
@@ -332,8 +333,8 @@ fn surfaces_that_do_not_go_together_are_refused() {
     let together = |change: fn(&mut paint::document::Document)| {
         let mut palette = palette.clone();
         change(&mut palette);
-        let (canvas, palette) =
-            (super::studio::on_cpu(canvas.clone()), super::studio::on_cpu(palette));
+        let canvas = super::studio::on_cpu(canvas.clone());
+        let palette = super::studio::on_cpu(palette);
         PaintingSession::new(canvas, Some(palette)).map(|_| ()).map_err(|error| error.to_string())
     };
     assert_eq!(together(|_| ()), Ok(()));

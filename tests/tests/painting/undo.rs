@@ -41,7 +41,8 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
         2 => {
             let layer = random.random_range(0..=layers);
             let coating = if layer == layers { LayerRef::Wet } else { LayerRef::Dry(layer) };
-            let (a, b) = (pigment("Vermilion"), pigment("Minium"));
+            let a = pigment("Vermilion");
+            let b = pigment("Minium");
             painting.swap_pigment(coating, a, b).is_ok()
                 || painting.swap_pigment(coating, b, a).is_ok()
         }
@@ -58,7 +59,8 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
             true
         }
         10 => {
-            let (x_mm, y_mm) = (random.random_range(0.0..26.0), random.random_range(0.0..20.0));
+            let x_mm = random.random_range(0.0..26.0);
+            let y_mm = random.random_range(0.0..20.0);
             let recipe = std::array::from_fn(|slot| if slot < 5 { 1.0 } else { 0.0 });
             painting.squeeze(&recipe, 0.1, x_mm, y_mm, random.random_range(0.1..60.0)).is_ok()
         }
@@ -86,7 +88,8 @@ fn apply(painting: &mut Painting, random: &mut ChaCha8Rng) -> bool {
             true
         }
         15 if layers > 1 => {
-            let (layer, to) = (random.random_range(0..layers), random.random_range(0..layers));
+            let layer = random.random_range(0..layers);
+            let to = random.random_range(0..layers);
             painting.move_layer(LayerRef::Dry(layer), to).unwrap()
         }
         _ => {

@@ -63,7 +63,8 @@ fn anew(painting: &mut Painting, other: Option<&Lighting>) -> Field<[f32; 4]> {
 fn a_window_that_reads_what_changed_shows_what_is_there_under_both_lights() {
     for mut painting in on_both(&bare(WIDTH, HEIGHT)) {
         painting.set_second_light(Some(lamp_light())).unwrap();
-        let (mut first, mut second) = (Window::new(false), Window::new(true));
+        let mut first = Window::new(false);
+        let mut second = Window::new(true);
         let brush = loaded(&mut painting, HeadShape::Flat, 4.0, WHITE, 0.5);
         let blue = loaded(&mut painting, HeadShape::Round, 3.0, BLUE, 0.5);
         let mut check = |painting: &mut Painting, most: usize, after: &str| {
@@ -93,7 +94,8 @@ fn a_window_that_reads_what_changed_shows_what_is_there_under_both_lights() {
         check(&mut painting, 12, "drying");
         painting.set_opacity(LayerRef::Dry(0), 0.5).unwrap();
         check(&mut painting, 15, "opacity");
-        let (from, to) = (pigment("Lead White"), pigment("Zinc White"));
+        let from = pigment("Lead White");
+        let to = pigment("Zinc White");
         painting.swap_pigment(LayerRef::Wet, from, to).unwrap();
         check(&mut painting, 15, "another pigment");
         painting.undo().unwrap();

@@ -39,8 +39,13 @@ fn painted(script: &StrokeScript) -> (ReplayReport, PaintingSession) {
     let engine = PaintEngine::on_cpu(document.ground.height.clone());
     let canvas = Painting::open(document, engine, UNDO_BYTES).unwrap();
     let mut session = PaintingSession::new(canvas, None).unwrap();
-    let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-    let report = script.replay(&mut session, save, || ControlFlow::Continue(())).unwrap();
+    let report = script
+        .replay(
+            &mut session,
+            |_: &str, _: &mut Painting| Ok::<_, Infallible>(()),
+            || ControlFlow::Continue(()),
+        )
+        .unwrap();
     (report, session)
 }
 
@@ -93,8 +98,8 @@ fn the_study_is_the_same_twice_and_yellow_meets_blue_through_green() {
     let cell = |mm: f64| (mm / script.canvas.cell_mm) as usize;
     let green = |x_mm: f64| {
         let cells = first.row(cell(12.0), cell(x_mm), cell(10.0));
-        let is = |c: &&[f32; 4]| c[1] > 1.2 * c[0] && c[1] > 1.2 * c[2];
-        cells.iter().filter(is).count() as f64 / cells.len() as f64
+        cells.iter().filter(|c: &&[f32; 4]| c[1] > 1.2 * c[0] && c[1] > 1.2 * c[2]).count() as f64
+            / cells.len() as f64
     };
     assert!(green(15.0) < 0.05, "pure yellow: {}", green(15.0));
     assert!(green(60.0) > 0.5, "mixed: {}", green(60.0));

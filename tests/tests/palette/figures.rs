@@ -85,7 +85,8 @@ fn figures_show_the_colors_and_tell_the_numbers_that_were_computed() {
 
     let chart = mixing_chart(&palette);
     let drawn = figure(&report, "mixing-chart");
-    let (mut outside, count) = (0, chart.paints.len());
+    let mut outside = 0;
+    let count = chart.paints.len();
     for row in 0..count {
         for column in 0..count {
             let looks = if row < column { &chart.tinted } else { &chart.colors };

@@ -36,7 +36,9 @@ fn the_middle_of_linear_rgb_is_the_mean_of_linear_rgb() {
     let steps = graded(&palette, pair, &[], &rules).steps;
     let linear =
         |at: usize| steps[at].colors[MixingRow::LinearRgb as usize].unwrap().srgb.linear().0;
-    let (first, middle, last) = (linear(0), linear(5), linear(10));
+    let first = linear(0);
+    let middle = linear(5);
+    let last = linear(10);
     let mean: Vec<f64> = first.iter().zip(last).map(|(a, b)| f64::midpoint(*a, b)).collect();
     assert_near("middle", &middle, &mean, 1e-9);
 }

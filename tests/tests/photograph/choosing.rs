@@ -12,9 +12,13 @@ use crate::made::STUDIO;
 
 fn chosen(picture: &Picture) -> ChosenPalette {
     let materials = STUDIO.materials(&[None; SLOTS]);
-    let film =
-        |materials: strokes::FilmMaterials<'_>| PaintFilm::at_nodes(materials, &STUDIO.quadrature);
-    choose_palette(picture, materials, film, &SeparationSettings::default()).unwrap()
+    choose_palette(
+        picture,
+        materials,
+        |materials: strokes::FilmMaterials<'_>| PaintFilm::at_nodes(materials, &STUDIO.quadrature),
+        &SeparationSettings::default(),
+    )
+    .unwrap()
 }
 
 /// Sixty tints and shades of one pigment: mixtures with lead white and bone black.
@@ -24,7 +28,8 @@ fn tints(name: &str) -> Picture {
     slots[..3].copy_from_slice(&[find("Lead White"), find(name), find("Bone Black")]);
     let film = PaintFilm::at_nodes(STUDIO.materials(&slots), &STUDIO.quadrature);
     let colors = (0..60).map(|at| {
-        let (white, black) = (0.28 * (at % 10) as f32 / 10.0, 0.02 * (at / 10) as f32 / 6.0);
+        let white = 0.28 * (at % 10) as f32 / 10.0;
+        let black = 0.02 * (at / 10) as f32 / 6.0;
         let mut heights = [0.0; SLOTS];
         heights[..3].copy_from_slice(&[white, 0.3 - white - black, black]);
         film.rgb(&heights).map(|value| value.clamp(0.0, 1.0))
@@ -64,9 +69,12 @@ fn a_library_of_unknown_scattering_is_refused() {
     library.pigments.iter_mut().for_each(|pigment| pigment.identified = false);
     let materials = STUDIO.materials(&[None; SLOTS]);
     let materials = strokes::FilmMaterials { library: &library, ..materials };
-    let film =
-        |materials: strokes::FilmMaterials<'_>| PaintFilm::at_nodes(materials, &STUDIO.quadrature);
     let picture = Field::filled(2, 2, [0.5; 3]);
-    let found = choose_palette(&picture, materials, film, &SeparationSettings::default());
+    let found = choose_palette(
+        &picture,
+        materials,
+        |materials: strokes::FilmMaterials<'_>| PaintFilm::at_nodes(materials, &STUDIO.quadrature),
+        &SeparationSettings::default(),
+    );
     assert_eq!(found, Err(SeparationError::NoPigment));
 }

@@ -22,7 +22,8 @@ const CELL_MM: f64 = 0.5;
 /// A red disc on blue over ochre, 48 x 36 cells.
 fn target() -> Picture {
     let color = |i: usize| {
-        let (x, y) = ((i % 48) as f32 - 20.0, (i / 48) as f32 - 16.0);
+        let x = (i % 48) as f32 - 20.0;
+        let y = (i / 48) as f32 - 16.0;
         match (x.hypot(y) < 9.0, y > 6.0) {
             (true, _) => [0.5, 0.08 + 0.004 * (x + 10.0), 0.06],
             (_, true) => [0.45, 0.3, 0.12],
@@ -81,8 +82,13 @@ fn painted(plan: &Plan) -> Finished {
 fn replayed(text: &str) -> (Document, ReplayReport) {
     let script = StrokeScript::from_json("disc.json", text.as_bytes()).unwrap();
     let mut session = PaintingSession::new(opened(&script), None).unwrap();
-    let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-    let report = script.replay(&mut session, save, || ControlFlow::Continue(())).unwrap();
+    let report = script
+        .replay(
+            &mut session,
+            |_: &str, _: &mut Painting| Ok::<_, Infallible>(()),
+            || ControlFlow::Continue(()),
+        )
+        .unwrap();
     (session.documents().unwrap().0, report)
 }
 
@@ -148,7 +154,8 @@ fn the_recorded_strokes_paint_the_same_bit_for_bit() {
 #[test]
 fn a_seed_gives_the_same_bytes_and_another_gives_others() {
     let text = |seed| painted(&Plan { seed, ..plan() }).script.to_json().unwrap();
-    let (first, other) = (text(3), text(4));
+    let first = text(3);
+    let other = text(4);
     assert!(first == text(3), "the same seed, another script");
     assert!(first != other, "another seed, the same script");
 }

@@ -19,11 +19,17 @@ const PALETTE: &str = "Zinc White,Vermilion,Prussian Blue";
 
 /// A small photograph in `folder`: red to blue, dark to light, 32 x 24 pixels.
 fn photograph(folder: &Path) -> String {
-    let color = |i: usize| {
-        let (x, y) = ((i % 32) as f32 / 31.0, (i / 32) as f32 / 23.0);
-        [0.1 + 0.5 * (1.0 - x), 0.1 + 0.2 * y, 0.1 + 0.3 * x, 1.0]
-    };
-    let picture = Field::from_values(32, 24, (0..32 * 24).map(color).collect());
+    let picture = Field::from_values(
+        32,
+        24,
+        (0..32 * 24)
+            .map(|i: usize| {
+                let x = (i % 32) as f32 / 31.0;
+                let y = (i / 32) as f32 / 23.0;
+                [0.1 + 0.5 * (1.0 - x), 0.1 + 0.2 * y, 0.1 + 0.3 * x, 1.0]
+            })
+            .collect(),
+    );
     let path = folder.join("ramp.png");
     std::fs::write(&path, png8(&picture, 1.0).unwrap().bytes).unwrap();
     path.display().to_string()
@@ -38,7 +44,9 @@ fn what_cannot_be_painted_is_refused_with_a_way_out() {
     let folder = tempfile::tempdir().unwrap();
     let photo = photograph(folder.path());
     let file = |name: &str| folder.path().join(name).display().to_string();
-    let (missing, text, out) = (file("none.png"), file("text.png"), file("out.png"));
+    let missing = file("none.png");
+    let text = file("text.png");
+    let out = file("out.png");
     std::fs::write(&text, "no picture").unwrap();
     let with = |option, value| paint(&photo, &["--picture", &out, option, value]);
     let refused: [(Run, u8, &str, &str); 11] = [
@@ -122,7 +130,9 @@ fn a_photograph_is_painted_and_its_strokes_paint_it_again() {
     let folder = tempfile::tempdir().unwrap();
     let photo = photograph(folder.path());
     let file = |name: &str| folder.path().join(name).display().to_string();
-    let (first, script, again) = (file("first.exr"), file("strokes.json"), file("again.exr"));
+    let first = file("first.exr");
+    let script = file("strokes.json");
+    let again = file("again.exr");
     let options = [
         ["--palette", PALETTE],
         ["--width-mm", "24"],

@@ -66,7 +66,8 @@ fn an_even_picture_gives_even_maps() {
 
 #[test]
 fn a_graded_picture_gives_maps_without_noise() {
-    let (from, to) = (linear("#b08060"), linear("#d8d0c8"));
+    let from = linear("#b08060");
+    let to = linear("#d8d0c8");
     let graded: Vec<[f32; 3]> = (0..400)
         .map(|at| std::array::from_fn(|i| from[i] + (to[i] - from[i]) * at as f32 / 399.0))
         .collect();
@@ -76,7 +77,8 @@ fn a_graded_picture_gives_maps_without_noise() {
         .windows(2)
         .map(|pair| (0..8).map(|i| (pair[1][i] - pair[0][i]).abs()).sum::<f32>())
         .sum();
-    let (first, last) = (maps[(0, 0)], maps[(399, 0)]);
+    let first = maps[(0, 0)];
+    let last = maps[(399, 0)];
     let apart: f32 = (0..8).map(|i| (last[i] - first[i]).abs()).sum();
     assert!(travelled < 2.5 * apart, "{travelled} mm of change for {apart} mm apart");
 }
@@ -85,11 +87,15 @@ fn a_graded_picture_gives_maps_without_noise() {
 fn few_pigments_are_mixed() {
     let picture = mixtures(14, 500, 0.3);
     let maps = HIDING.separate(&picture);
-    let used = |heights: &[f32; 8]| {
-        let total: f32 = heights.iter().sum();
-        heights.iter().filter(|height| **height > 0.005 * total).count()
-    };
-    let mean = maps.values().iter().map(used).sum::<usize>() as f64 / 500.0;
+    let mean = maps
+        .values()
+        .iter()
+        .map(|heights: &[f32; 8]| {
+            let total: f32 = heights.iter().sum();
+            heights.iter().filter(|height| **height > 0.005 * total).count()
+        })
+        .sum::<usize>() as f64
+        / 500.0;
     assert!(mean < 4.5, "{mean} pigments a colour");
 }
 
@@ -111,7 +117,8 @@ fn out_of_reach_lightness_is_kept_before_chroma() {
 #[test]
 fn films_that_may_be_thin_reach_farther_and_those_that_hide_show_less() {
     let picture = mixtures(15, 1000, 0.03);
-    let (hiding, thin) = (errors(&HIDING, &picture), errors(&THIN, &picture));
+    let hiding = errors(&HIDING, &picture);
+    let thin = errors(&THIN, &picture);
     assert!(thin.out_of_gamut < hiding.out_of_gamut, "{thin:?} {hiding:?}");
     // The colour change of a film over a black ground measures what the film does not hide.
     let black = vec![0.03; STUDIO.library.grid.count()];
@@ -147,7 +154,8 @@ fn shadows_brought_within_reach_keep_their_differences() {
     assert!((0.03..0.05).contains(&HIDING.black()), "{}", HIDING.black());
     assert!((raised[(0, 0)][1] - HIDING.black()).abs() < 1e-6);
     assert_eq!(black_compensated(&Field::filled(1, 1, [1.0; 3]), 0.04)[(0, 0)], [1.0; 3]);
-    let (plain, raised) = (errors(&HIDING, &shadows), errors(&HIDING, &raised));
+    let plain = errors(&HIDING, &shadows);
+    let raised = errors(&HIDING, &raised);
     assert!(raised.mean < 0.3 * plain.mean, "{raised:?} {plain:?}");
 }
 

@@ -24,13 +24,19 @@ fn planned(picture: &Picture, level: usize) -> Vec<PlannedStroke> {
 /// A sine grating of brown and cream; its crests run at `degrees` from x towards y.
 fn grating(degrees: f64) -> Picture {
     let (sin, cos) = degrees.to_radians().sin_cos();
-    let color = |i: usize| {
-        let (x, y) = ((i % 160) as f64, (i / 160) as f64);
-        let share = 0.5 + 0.5 * ((y * cos - x * sin) * 0.25).sin();
-        [(0.2, 0.6), (0.15, 0.5), (0.1, 0.35)]
-            .map(|(low, high)| (low + share * (high - low)) as f32)
-    };
-    Field::from_values(160, 120, (0..160 * 120).map(color).collect())
+    Field::from_values(
+        160,
+        120,
+        (0..160 * 120)
+            .map(|i: usize| {
+                let x = (i % 160) as f64;
+                let y = (i / 160) as f64;
+                let share = 0.5 + 0.5 * ((y * cos - x * sin) * 0.25).sin();
+                [(0.2, 0.6), (0.15, 0.5), (0.1, 0.35)]
+                    .map(|(low, high)| (low + share * (high - low)) as f32)
+            })
+            .collect(),
+    )
 }
 
 #[test]
@@ -41,8 +47,10 @@ fn strokes_follow_a_grating() {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let mut off = Vec::new();
         for stroke in &strokes {
-            let (first, last) = (stroke.samples[0], stroke.samples[stroke.samples.len() - 1]);
-            let (x, y) = (last.x_mm - first.x_mm, last.y_mm - first.y_mm);
+            let first = stroke.samples[0];
+            let last = stroke.samples[stroke.samples.len() - 1];
+            let x = last.x_mm - first.x_mm;
+            let y = last.y_mm - first.y_mm;
             if x.hypot(y) > 3.0 {
                 off.push(((y * cos - x * sin) / x.hypot(y)).abs().asin().to_degrees());
             }
@@ -100,7 +108,9 @@ fn lights_are_thick_and_darks_are_thin() {
         let strokes = planned(&Field::filled(160, 120, [grey; 3]), level);
         strokes.iter().map(|stroke| stroke.height_mm).sum::<f64>() / strokes.len() as f64
     };
-    let (lean, light, dark) = (mean_mm(0, 0.7), mean_mm(1, 0.7), mean_mm(1, 0.05));
+    let lean = mean_mm(0, 0.7);
+    let light = mean_mm(1, 0.7);
+    let dark = mean_mm(1, 0.05);
     assert!(light > 0.15 && dark < light / 1.5, "{light} mm of light, {dark} mm of dark");
     assert!(lean < light, "a first coat of {lean} mm under {light} mm");
 }
@@ -118,7 +128,8 @@ fn no_stroke_bends_tighter_than_its_brush() {
         for four in stroke.samples.windows(3) {
             let way =
                 |at: usize| (four[at + 1].x_mm - four[at].x_mm, four[at + 1].y_mm - four[at].y_mm);
-            let ((a, b), (c, d)) = (way(0), way(1));
+            let (a, b) = way(0);
+            let (c, d) = way(1);
             let turn = (a * d - b * c).atan2(a * c + b * d).abs();
             turned = turned.max(turn / c.hypot(d));
         }
@@ -137,7 +148,8 @@ fn one_level_covers_a_blank_canvas_with_about_two_coats_at_most() {
             area += 4.0 * (pair[1].x_mm - pair[0].x_mm).hypot(pair[1].y_mm - pair[0].y_mm);
         }
         for sample in &stroke.samples {
-            let (x, y) = (sample.x_mm / CELL_MM, sample.y_mm / CELL_MM);
+            let x = sample.x_mm / CELL_MM;
+            let y = sample.y_mm / CELL_MM;
             for row in 0..120 {
                 for column in 0..160 {
                     let apart = (column as f64 + 0.5 - x).hypot(row as f64 + 0.5 - y);

@@ -131,7 +131,8 @@ fn the_optimal_plan_recovers_k_and_s_better_than_the_usual_and_the_usual_than_ch
     let best = optimal(&bench.information, &start, 1, &Cancellation::default()).unwrap();
     let random: Vec<Vec<usize>> = (0..6).map(|seed| bench.random(20, seed)).collect();
     let chance = random.iter().map(|design| bench.typical_error(design)).sum::<f64>() / 6.0;
-    let (best_error, usual_error) = (bench.typical_error(&best), bench.typical_error(&start));
+    let best_error = bench.typical_error(&best);
+    let usual_error = bench.typical_error(&start);
     assert!(best_error < 0.97 * usual_error, "{best_error} for {usual_error}");
     assert!(usual_error < chance, "{usual_error} for {chance}");
     assert!(best_error < 0.9 * chance, "{best_error} for {chance}");
@@ -154,7 +155,8 @@ fn the_predicted_deviations_are_of_the_size_of_the_errors() {
         assert!(pulls.len() > 800, "{} errors", pulls.len());
         pulls.sort_by(f64::total_cmp);
         // The square of a normal deviate has the median 0.455 and the 95th percentile 3.84.
-        let (median, high) = (pulls[pulls.len() / 2], pulls[pulls.len() * 95 / 100]);
+        let median = pulls[pulls.len() / 2];
+        let high = pulls[pulls.len() * 95 / 100];
         assert!((0.25..0.8).contains(&median), "median squared error in deviations: {median}");
         assert!((2.0..8.0).contains(&high), "95 % of squared errors below {high}");
     }
@@ -187,14 +189,16 @@ fn no_single_exchange_improves_the_optimal_plan() {
 fn every_plan_identifies_every_pigment_from_the_least_number_of_swatches_on() {
     let bench = bench();
     let shares = |design: &[usize]| -> Vec<Vec<f64>> {
-        let of = |&index: &usize| {
-            let mut shares = vec![0.0; bench.paints.names.len()];
-            for &(paint, share) in &bench.pool[index].shares() {
-                shares[paint.index()] = share;
-            }
-            shares
-        };
-        design.iter().map(of).collect()
+        design
+            .iter()
+            .map(|&index: &usize| {
+                let mut shares = vec![0.0; bench.paints.names.len()];
+                for &(paint, share) in &bench.pool[index].shares() {
+                    shares[paint.index()] = share;
+                }
+                shares
+            })
+            .collect()
     };
     for count in bench.paints.unknowns()..40 {
         let start = usual(&bench.paints, &bench.pool, count).unwrap();

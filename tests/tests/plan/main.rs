@@ -4,7 +4,6 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod painted;
-
 mod designs;
 mod page;
 mod program;

@@ -9,7 +9,8 @@ use crate::painted::{filled, oils};
 fn parted(full: &str) -> (String, String) {
     let header: Vec<&str> = full.lines().next().unwrap().split(',').collect();
     let first_nm = header.iter().position(|name| *name == "400").unwrap();
-    let (mut spectra, mut amounts) = (String::new(), String::new());
+    let mut spectra = String::new();
+    let mut amounts = String::new();
     let mut last = "";
     for line in full.lines() {
         let cells: Vec<&str> = line.split(',').collect();
@@ -63,8 +64,9 @@ fn every_command_of_the_page_on_measuring_runs() {
     let folder = tempfile::tempdir().unwrap();
     let oils = oils();
     for (name, light) in [("white.txt", 20_000.0), ("dark.txt", 200.0), ("swatch.txt", 9_000.0)] {
-        let count = |step: u32| format!("{} {}\n", 400 + 10 * step, light + f64::from(step));
-        let text: String = (0..31).map(count).collect();
+        let text: String = (0..31)
+            .map(|step: u32| format!("{} {}\n", 400 + 10 * step, light + f64::from(step)))
+            .collect();
         std::fs::write(folder.path().join(name), text).unwrap();
     }
     std::fs::write(folder.path().join("washes.csv"), washes()).unwrap();

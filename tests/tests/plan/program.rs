@@ -52,8 +52,11 @@ fn more_paint_or_a_finer_balance_allows_weaker_tints() {
     let weakest = |more: &[&str]| {
         let json = plan(&[more, &["--json"]].concat()).json();
         let swatches = json["swatches"].as_array().unwrap().clone();
-        let white = |s: &serde_json::Value| s["parts"]["Zinc White"].as_u64().unwrap_or(0);
-        swatches.iter().map(white).max().unwrap()
+        swatches
+            .iter()
+            .map(|s: &serde_json::Value| s["parts"]["Zinc White"].as_u64().unwrap_or(0))
+            .max()
+            .unwrap()
     };
     assert_eq!(weakest(&["--swatches", "50"]), 19);
     assert_eq!(weakest(&["--swatches", "52", "--grams", "40"]), 79);
@@ -109,7 +112,9 @@ fn the_file_asks_for_bare_cards_and_for_every_swatch_over_both() {
 fn a_filled_in_file_gives_k_and_s_back_within_the_predicted_deviations() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
-    let (empty, readings, found) = (path("empty.csv"), path("readings.csv"), path("found.json"));
+    let empty = path("empty.csv");
+    let readings = path("readings.csv");
+    let found = path("found.json");
     plan(&["--output", &empty]);
     let truth = oils();
     let sd = 0.003;
@@ -156,7 +161,8 @@ fn a_filled_in_file_gives_k_and_s_back_within_the_predicted_deviations() {
     }
     assert!(pulls.len() > 150, "{}", pulls.len());
     pulls.sort_by(f64::total_cmp);
-    let (median, high) = (pulls[pulls.len() / 2], pulls[pulls.len() * 95 / 100]);
+    let median = pulls[pulls.len() / 2];
+    let high = pulls[pulls.len() * 95 / 100];
     assert!((0.1..1.0).contains(&median), "median squared error in deviations: {median}");
     assert!(high < 9.0, "95 % of squared errors below {high}");
 }
@@ -175,7 +181,8 @@ fn a_prior_gives_a_better_plan_and_says_by_how_much() {
     let sum = |key: &str| -> f64 {
         ["Cobalt Blue", "Viridian", "Vermilion", "Bone Black"].iter().map(|n| of(key, n).ln()).sum()
     };
-    let (own, usual) = (sum("relative_deviations"), sum("usual_relative_deviations"));
+    let own = sum("relative_deviations");
+    let usual = sum("usual_relative_deviations");
     assert!(own < usual, "{own} for {usual}");
     // Doubling the noise about doubles the predicted deviation.
     let at = |noise: &str| {

@@ -8,8 +8,9 @@ const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 #[test]
 fn a_browser_shows_every_figure_and_complains_of_nothing() {
-    let there = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
-    let Some(browser) = BROWSERS.iter().find(there) else {
+    let Some(browser) =
+        BROWSERS.iter().find(|name: &&&str| Command::new(name).arg("--version").output().is_ok())
+    else {
         eprintln!("skipped: none of {BROWSERS:?} is on this machine");
         return;
     };

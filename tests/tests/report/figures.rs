@@ -82,7 +82,8 @@ fn the_numbers_of_a_figure_are_those_of_fit_and_validate() {
         let samples = told["per_sample"].as_array().unwrap();
         assert!(samples.len() > 10, "{verb}: {} samples", samples.len());
         for sample in samples {
-            let (name, wanted) = (sample["sample"].as_str().unwrap(), &sample["delta_e"]);
+            let name = sample["sample"].as_str().unwrap();
+            let wanted = &sample["delta_e"];
             let row = rows.iter().find(|row| &row[0] == name).unwrap();
             let (found, wanted): (f64, f64) =
                 (row[place].parse().unwrap(), wanted.as_f64().unwrap());
@@ -124,7 +125,8 @@ fn wavelength_axes_are_all_the_same() {
     let [mut short, mut long] = places("samples");
     short.sort_by(f64::total_cmp);
     long.sort_by(f64::total_cmp);
-    let (frame, small) = (8800.0, short[1] - short[0] - 100.0);
+    let frame = 8800.0;
+    let small = short[1] - short[0] - 100.0;
     let shares = [(second - first) / frame, (long[0] - short[0]) / small];
     assert!((shares[0] - shares[1]).abs() < 0.01, "{shares:?}");
 }
@@ -150,7 +152,8 @@ fn the_same_input_gives_the_same_bytes() {
         assert_eq!(run.status, 0, "{}", run.err);
         files(&work.path("out"))
     };
-    let (first, second) = (run(), run());
+    let first = run();
+    let second = run();
     assert!(first.len() > 3 * FIGURES.len(), "{} files", first.len());
     assert_eq!(first.len(), second.len());
     for ((path, first), (_, second)) in first.iter().zip(&second) {

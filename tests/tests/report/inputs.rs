@@ -64,7 +64,8 @@ fn only_the_named_columns_are_pigments() {
     let others = ["sample", "film", "backing"];
     let pigments =
         headings.iter().filter(|name| !others.contains(name) && name.parse::<f64>().is_err());
-    let (all, named) = (with(&[]), with(&pigments.collect::<Vec<&str>>()));
+    let all = with(&[]);
+    let named = with(&pigments.collect::<Vec<&str>>());
     assert_eq!((all.status, named.status), (0, 0), "{}{}", all.err, named.err);
     let samples = |run: &suite::program::Run| run.json()["samples"].as_u64().unwrap();
     assert!(samples(&all) < samples(&named), "the library has no wax");
@@ -92,7 +93,8 @@ fn readings_of_other_pigments_are_refused_before_anything_is_written() {
 #[test]
 fn readings_of_a_narrower_band_are_refused_and_of_a_wider_one_resampled() {
     let work = Work::new();
-    let (csv, json) = (work.text("narrow.csv"), work.text("library.json"));
+    let csv = work.text("narrow.csv");
+    let json = work.text("library.json");
     // Cuts off the last 16 of 31 wavelengths.
     let cut = |line: &str| line.rsplitn(17, ',').last().unwrap().to_owned();
     let narrow: Vec<String> = crate::made::readings().lines().map(cut).collect();
@@ -141,7 +143,8 @@ fn a_pair_is_found_in_the_library_or_refused() {
 #[test]
 fn absolute_amounts_are_held_against_their_films() {
     let work = Work::new();
-    let (csv, json) = (work.text("washes.csv"), work.text("library.json"));
+    let csv = work.text("washes.csv");
+    let json = work.text("library.json");
     let made = Watercolors::exact();
     // All ladders and the first mixtures.
     let some: Vec<&str> = made.csv().lines().take(180).collect();

@@ -32,7 +32,8 @@ impl Work {
     pub(crate) fn new() -> Self {
         let work = Self { folder: tempfile::tempdir().unwrap() };
         std::fs::write(work.path("readings.csv"), readings()).unwrap();
-        let (csv, json) = (work.text("readings.csv"), work.text("library.json"));
+        let csv = work.text("readings.csv");
+        let json = work.text("library.json");
         let fit = impasto(&["fit", &csv, "--output", &json, "--title", HOSTILE]);
         assert_eq!(fit.status, 0, "{}", fit.err);
         work
@@ -48,7 +49,8 @@ impl Work {
 
     /// Runs `impasto report` on the library with the further arguments `more`.
     pub(crate) fn report(&self, out: &str, more: &[&str]) -> Run {
-        let (library, out) = (self.text("library.json"), self.text(out));
+        let library = self.text("library.json");
+        let out = self.text(out);
         impasto(&[&["report", &library, "--out", &out], more].concat())
     }
 }

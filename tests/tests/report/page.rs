@@ -88,7 +88,8 @@ fn legends_of_bands_change_with_the_bands_in_the_dark() {
 #[test]
 fn printed_paper_is_white_in_figures_too() {
     let page = page();
-    let (paper, white) = (reports::style::PAPER.hex(), reports::style::Color([0xFF; 3]).hex());
+    let paper = reports::style::PAPER.hex();
+    let white = reports::style::Color([0xFF; 3]).hex();
     let printed: Vec<&str> = page.split("@media print").skip(1).collect();
     for rule in
         [format!(":root{{--paper:{white}}}"), format!("svg [fill=\"{paper}\"]{{fill:{white}}}")]

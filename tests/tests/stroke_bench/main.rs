@@ -67,7 +67,8 @@ fn thick_paint_hides_the_weave_and_does_not_pile_up_at_the_edge() {
 
 #[test]
 fn a_case_repeats_to_the_bit_and_is_drawn() {
-    let (first, second) = (report("pick-up"), report("pick-up"));
+    let first = report("pick-up");
+    let second = report("pick-up");
     assert_eq!(first.figures, second.figures);
     assert!(
         first.figures.iter().all(|figure| figure.value.is_finite()),

@@ -18,7 +18,9 @@ fn resolved(from: &str, to: &str) -> Result<paint::strokes::Resolved, (String, S
 fn names_and_short_names_become_pigments() {
     let library = library();
     let id = |name: &str| library.find(name).unwrap();
-    let (white, blue, green) = (id("Zinc White"), id("Prussian Blue"), id("Viridian"));
+    let white = id("Zinc White");
+    let blue = id("Prussian Blue");
+    let green = id("Viridian");
     let found = resolved("\"W\": 3", "\"zinc white\": 3").unwrap();
     assert_eq!(found.slots[..3], [Some(white), Some(blue), None]);
     let mut wanted = vec![(white, 3.0), (blue, 1.0)];

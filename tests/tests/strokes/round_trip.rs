@@ -162,10 +162,12 @@ fn numbers(script: &StrokeScript) -> Vec<f64> {
         Action::Stroke(stroke) => Some(&stroke.samples),
         _ => None,
     });
-    let one = |s: &Sample| {
-        [s.seconds, s.x_mm, s.y_mm, s.pressure, s.tilt_x_deg, s.tilt_y_deg, s.twist_deg]
-    };
-    strokes.flatten().flat_map(one).collect()
+    strokes
+        .flatten()
+        .flat_map(|s: &Sample| {
+            [s.seconds, s.x_mm, s.y_mm, s.pressure, s.tilt_x_deg, s.tilt_y_deg, s.twist_deg]
+        })
+        .collect()
 }
 
 proptest! {

@@ -134,7 +134,8 @@ fn continue_from() -> StrokeScript {
 
 #[test]
 fn a_script_goes_on_with_a_painting() {
-    let (library, painting) = (suite::oils::library(), painting());
+    let library = suite::oils::library();
+    let painting = painting();
     let script = continue_from();
     assert_eq!(script.start.as_deref(), Some("before/study.exr"));
     let (canvas, palette) = script.surfaces(&library, Some(painting.clone())).unwrap();

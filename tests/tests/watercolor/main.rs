@@ -8,17 +8,10 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod cameras;
-
 mod meshes;
-
 mod seen;
-
 mod shading;
-
 mod effects;
-
 mod abstraction;
-
 mod coherence;
-
 mod program;

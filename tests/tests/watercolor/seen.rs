@@ -94,10 +94,12 @@ fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64;
         // Depth along the viewing direction, in which `ray` has the component 1.
         let distance = dot(a, normal) / dot(ray, normal);
         let hit = sum([(ray, distance)]);
-        let within =
-            |[from, to]: [Exact; 2]| dot(cross(minus(to, from), minus(hit, from)), normal) >= 0.0;
         let near = distance > f64::from(camera.near) && distance < nearest.0;
-        if near && [[a, b], [b, c], [c, a]].into_iter().all(within) {
+        if near
+            && [[a, b], [b, c], [c, a]].into_iter().all(|[from, to]: [Exact; 2]| {
+                dot(cross(minus(to, from), minus(hit, from)), normal) >= 0.0
+            })
+        {
             nearest = (distance, number);
         }
     }
@@ -107,9 +109,11 @@ fn cast(mesh: &Mesh, camera: &Camera, (width, height): (usize, usize), at: [f64;
 #[test]
 fn every_pixel_shows_the_triangle_that_a_ray_meets_first() {
     let size = (97, 61);
-    let (mut told, mut empty) = (0, 0);
+    let mut told = 0;
+    let mut empty = 0;
     for seed in 0..6 {
-        let (mesh, camera) = (random_triangles(60, seed), inside_them());
+        let mesh = random_triangles(60, seed);
+        let camera = inside_them();
         let found = visible(&mesh, &camera, size.0, size.1);
         for y in 0..size.1 {
             for x in 0..size.0 {
@@ -132,7 +136,8 @@ fn every_pixel_shows_the_triangle_that_a_ray_meets_first() {
 
 #[test]
 fn a_pixel_tells_the_place_that_it_sees() {
-    let (mesh, camera) = (random_triangles(60, 9), inside_them());
+    let mesh = random_triangles(60, 9);
+    let camera = inside_them();
     let found = visible(&mesh, &camera, 96, 64);
     let clip_from_model = camera.clip_from_model(1.5);
     let mut seen = 0;
@@ -199,9 +204,14 @@ fn edges_that_are_shared_are_drawn_once_and_leave_no_hole() {
             let mut rasteriser = Rasteriser::default();
             let places = &mesh.positions;
             rasteriser.draw(clip_from_model, places, triangles, Sides::Both, &mut visible);
-            let shown =
-                |(pixel, seen): (usize, &Fragment)| (seen.triangle != NO_TRIANGLE).then_some(pixel);
-            visible.values().iter().enumerate().filter_map(shown).collect::<BTreeSet<usize>>()
+            visible
+                .values()
+                .iter()
+                .enumerate()
+                .filter_map(|(pixel, seen): (usize, &Fragment)| {
+                    (seen.triangle != NO_TRIANGLE).then_some(pixel)
+                })
+                .collect::<BTreeSet<usize>>()
         };
         let whole = drawn_by(&mesh.triangles);
         let alone: Vec<_> = mesh.triangles.iter().map(|triangle| drawn_by(&[*triangle])).collect();
@@ -225,7 +235,8 @@ fn of_equal_depth_the_first_triangle_is_seen_and_runs_agree() {
     let found = visible(&mesh, &camera, 64, 64);
     assert!(found.values().iter().all(|seen| [0, NO_TRIANGLE].contains(&seen.triangle)));
     assert!(found[(32, 32)].triangle == 0);
-    let (mesh, camera) = (random_triangles(9000, 4), inside_them());
+    let mesh = random_triangles(9000, 4);
+    let camera = inside_them();
     assert_eq!(visible(&mesh, &camera, 200, 100), visible(&mesh, &camera, 200, 100));
 }
 

@@ -193,7 +193,8 @@ fn the_device_sees_what_the_processor_sees() {
     for (mesh, camera, size) in cases {
         let on_cpu = seen(&mut Compute::cpu(), mesh, &camera, size);
         let found = seen(&mut on_gpu, mesh, &camera, size);
-        let (mut differ, mut shown) = (0, 0);
+        let mut differ = 0;
+        let mut shown = 0;
         for (a, b) in on_cpu.values().iter().zip(found.values()) {
             if a.triangle != b.triangle {
                 differ += 1;
@@ -229,7 +230,8 @@ fn the_device_shades_as_the_processor_does() {
             assert!(b.iter().all(|value| (0.0..=1.0).contains(value)), "{b:?}");
             a.iter().zip(*b).any(|(a, b)| (a - b).abs() > 0.01)
         });
-        let (differ, all) = (differ.count(), a.values().len());
+        let differ = differ.count();
+        let all = a.values().len();
         assert!(differ * 200 < all, "{samples} samples: {differ} of {all} pixels differ");
     }
 }
@@ -245,8 +247,12 @@ fn without_strength_surfaces_keep_their_colors() {
     let wanted = [[1.0, 1.0, 1.0, 0.0], [0.25, 0.47, 0.62, 1.0], [0.1, 0.6, 0.3, 1.0]];
     let mut counts = [0; 3];
     for pixel in picture.values() {
-        let near = |wanted: &[f32; 4]| wanted.iter().zip(pixel).all(|(a, b)| (a - b).abs() < 1e-6);
-        counts[wanted.iter().position(near).unwrap_or_else(|| panic!("{pixel:?}"))] += 1;
+        counts[wanted
+            .iter()
+            .position(|wanted: &[f32; 4]| {
+                wanted.iter().zip(pixel).all(|(a, b)| (a - b).abs() < 1e-6)
+            })
+            .unwrap_or_else(|| panic!("{pixel:?}"))] += 1;
     }
     assert!(counts.iter().all(|&count| count > 50), "{counts:?}");
 }

@@ -69,7 +69,8 @@ impl ColorTable {
     /// The colour of `row` under one light, as JSON.
     pub(super) fn entry(&self, row: &Row, light: usize) -> Value {
         let SpectrumColor { xyz, lab, rgb } = &row.colors[light];
-        let (xyy, lch) = (xyz.to_xyy(self.whites[light]), lab.to_lch());
+        let xyy = xyz.to_xyy(self.whites[light]);
+        let lch = lab.to_lch();
         let whiteness = self.whiteness(*xyz, light);
         let mut entry = json!({
             "sample": row.name,
@@ -118,7 +119,8 @@ impl ColorTable {
         if self.standard.is_some() && light > 0 {
             console.line(IlluminantChange::LEGEND)?;
         }
-        let (colors, differences) = (self.heading(), self.differences_heading(light));
+        let colors = self.heading();
+        let differences = self.differences_heading(light);
         let longest = rows.iter().map(|row| row.name.chars().count()).max().unwrap_or(0);
         let patch = if console.screen.colors { PATCH } else { 0 };
         let display = DISPLAY.len() + patch;

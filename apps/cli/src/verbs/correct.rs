@@ -116,8 +116,9 @@ impl Correct {
             tolerance: self.tolerance,
             count: self.count,
         };
-        let search = || library.corrections_for(&target, &batch, &options);
-        let found = waited("searching corrections", console, search)?;
+        let found = waited("searching corrections", console, || {
+            library.corrections_for(&target, &batch, &options)
+        })?;
         console.remarks(&found.remarks)?;
         let report = Report { library: &library, options: &options, grams };
         if self.csv {
@@ -211,7 +212,8 @@ impl Report<'_> {
                 "reflectance of the batch from the target: {rms:.2} % (root mean square)"
             ))?;
         }
-        let (tolerance, unit) = (self.options.tolerance, self.options.metric.unit());
+        let tolerance = self.options.tolerance;
+        let unit = self.options.metric.unit();
         if found.is_near {
             return console
                 .line(format!("within {tolerance} {unit} of the target: nothing to add"));
@@ -280,15 +282,18 @@ impl Report<'_> {
     /// One row for each pigment of each correction.
     fn rows(&self, found: &Corrections) -> Vec<Value> {
         let of = |(rank, correction): (usize, &Correction)| -> Vec<Value> {
-            let row = |(id, grams): &(PigmentId, f64)| {
-                json!({
-                    "correction": rank + 1,
-                    "pigment": self.library[*id].name,
-                    "grams": grams,
-                    "distance": correction.distance,
+            correction
+                .additions
+                .iter()
+                .map(|(id, grams): &(PigmentId, f64)| {
+                    json!({
+                        "correction": rank + 1,
+                        "pigment": self.library[*id].name,
+                        "grams": grams,
+                        "distance": correction.distance,
+                    })
                 })
-            };
-            correction.additions.iter().map(row).collect()
+                .collect()
         };
         found.corrections.iter().enumerate().flat_map(of).collect()
     }

@@ -56,8 +56,11 @@ impl Fit {
         options.title = self.title;
         options.licence = Some(self.licence);
         options.source = Some(self.source);
-        let open = |path| Output::open(path, &self.options.files());
-        let output = self.output.as_deref().map(open).transpose()?;
+        let output = self
+            .output
+            .as_deref()
+            .map(|path| Output::open(path, &self.options.files()))
+            .transpose()?;
         let readings = self.options.readings(console)?;
         let mut prepared = prepare_fit(&readings, &options, console)?;
         if let Some(half) = self.half {

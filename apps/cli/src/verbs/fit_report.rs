@@ -11,6 +11,8 @@ pub(super) fn timed(mut errors: Map<String, Value>, seconds: f64) -> Value {
 
 /// Samples with their colour errors, one row each.
 pub(super) fn rows(per_sample: &[SampleEvidence]) -> Vec<Value> {
-    let row = |s: &SampleEvidence| json!({"sample": s.sample, "ciede2000": s.delta_e});
-    per_sample.iter().map(row).collect()
+    per_sample
+        .iter()
+        .map(|s: &SampleEvidence| json!({"sample": s.sample, "ciede2000": s.delta_e}))
+        .collect()
 }

@@ -101,7 +101,8 @@ impl Described {
 
     /// Figures with a column for each special index and hue.
     fn row(&self) -> Value {
-        let (figures, mut row) = (self.json(), Map::new());
+        let figures = self.json();
+        let mut row = Map::new();
         for (key, value) in figures.as_object().into_iter().flatten() {
             let prefix = match key.as_str() {
                 "samples" => continue,
@@ -130,10 +131,11 @@ impl Described {
             (1..=count).map(|number| format!("{:>5}", format!("{prefix}{number}"))).collect()
         };
         let cells = |values: &mut dyn Iterator<Item = Option<f64>>| -> String {
-            let cell = |value: Option<f64>| {
-                value.map_or_else(|| format!("{:>5}", "-"), |value| format!("{value:5.0}"))
-            };
-            values.map(cell).collect()
+            values
+                .map(|value: Option<f64>| {
+                    value.map_or_else(|| format!("{:>5}", "-"), |value| format!("{value:5.0}"))
+                })
+                .collect()
         };
         console.line(format!("CRI    {}", numbered("R", index.special.len())))?;
         console.line(format!("       {}", cells(&mut special.into_iter())))?;

@@ -67,8 +67,11 @@ impl Mix {
         console.remarks(&color.remarks)?;
         let MixtureColor { recipe, reflectance, xyz, lab, srgb: rgb, .. } = color;
         if self.csv {
-            let row = |(nm, value): (f64, &f64)| json!({"nm": nm, "reflectance": value});
-            let rows = library.grid.wavelengths_nm().zip(reflectance.values()).map(row);
+            let rows = library
+                .grid
+                .wavelengths_nm()
+                .zip(reflectance.values())
+                .map(|(nm, value): (f64, &f64)| json!({"nm": nm, "reflectance": value}));
             return console.csv_rows(&rows.collect::<Vec<_>>());
         }
         if self.json {

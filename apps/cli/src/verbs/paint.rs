@@ -102,7 +102,8 @@ impl Paint {
         inputs.extend(self.library.clone());
         inputs.extend(script.complete_picture_paths(&folder));
         inputs.extend(start.iter().map(|(path, ..)| path.clone()));
-        let (paints, json) = (self.exports.any() || saves, self.json);
+        let paints = self.exports.any() || saves;
+        let json = self.json;
         let exports = self.exports.open(&inputs)?;
         let timelapse = self.timelapse.open(&inputs, |output| exports.writes(output))?;
         if !paints && timelapse.is_none() {
@@ -118,7 +119,8 @@ impl Paint {
             script.surfaces_with_table(&library, start, table.flatten())?;
         let mut summary = Map::new();
         if let (Some(timelapse), Some(plan)) = (&timelapse, &plan) {
-            let (canvas, palette) = (canvas.clone(), palette.clone());
+            let canvas = canvas.clone();
+            let palette = palette.clone();
             let mut session = open_session(&self.engine, canvas, palette, console)?;
             session.take_up(&brushes)?;
             let report = timelapse.write(plan, &mut session, console);
@@ -157,7 +159,8 @@ impl Paint {
             ));
         }
         let path = folder.join(start);
-        let (name, bytes) = (path.display().to_string(), documents::file::read(&path)?);
+        let name = path.display().to_string();
+        let bytes = documents::file::read(&path)?;
         let document = file::read(&name, &bytes)?;
         let table = if script.table { file::read_table(&name, &bytes)? } else { None };
         Ok(Some((path, document, table)))

@@ -189,7 +189,8 @@ fn report(
     console: &mut Console<'_>,
 ) -> Result<()> {
     let PaintedPhotograph { session, levels, error, .. } = painted;
-    let (bounds, backend) = (session.canvas().bounds(), session.canvas().backend());
+    let bounds = session.canvas().bounds();
+    let backend = session.canvas().backend();
     if as_json {
         return console.json(&json!({
             "canvas": [bounds.width, bounds.height],

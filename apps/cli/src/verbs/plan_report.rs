@@ -14,7 +14,8 @@ pub(super) fn print_swatches(plan: &Plan, console: &mut Console<'_>) -> Result<(
     let width = plan.swatches.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
     let recipe_width = recipes.iter().map(|text| text.chars().count()).max().unwrap_or(0);
     for (swatch, recipe) in plan.swatches.iter().zip(&recipes) {
-        let (name, purpose) = (&swatch.name, swatch.recipe.purpose);
+        let name = &swatch.name;
+        let purpose = swatch.recipe.purpose;
         console.line(format!("{name:width$}  {recipe:recipe_width$}  {}", purpose.why()))?;
     }
     Ok(())

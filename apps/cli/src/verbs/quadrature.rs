@@ -84,10 +84,9 @@ impl Quadrature {
         let rule = match (method, &library) {
             (MethodName::Gauss, _) => Rule::gauss(&viewing, self.nodes)?,
             (MethodName::Moments, _) => Rule::moments(&viewing, self.nodes)?,
-            (MethodName::Library, Some(library)) => {
-                let fitted = || Rule::library(&viewing, library, self.nodes);
-                waited("fitting wavelengths", console, fitted)?
-            }
+            (MethodName::Library, Some(library)) => waited("fitting wavelengths", console, || {
+                Rule::library(&viewing, library, self.nodes)
+            })?,
             (MethodName::Library | MethodName::Effective, _) => {
                 return Err(Failure::usage(
                     "--method library and --method effective need a pigment library",
@@ -98,11 +97,11 @@ impl Quadrature {
         let error = match &library {
             Some(library) if self.mixtures > 0 => {
                 let weights = color_weights(&viewing, library.grid, console)?;
-                let compared = || {
-                    let (count, seed) = (self.mixtures, self.seed);
+                Some(waited("comparing mixtures", console, || {
+                    let count = self.mixtures;
+                    let seed = self.seed;
                     rule.error(&MixtureSet::random(library, &weights, count, seed))
-                };
-                Some(waited("comparing mixtures", console, compared))
+                }))
             }
             _ => None,
         };
@@ -126,8 +125,9 @@ impl Quadrature {
         library: &PigmentLibrary,
         console: &mut Console<'_>,
     ) -> Result<()> {
-        let fitted = || EffectiveQuadrature::of(viewing, library, self.nodes);
-        let effective = waited("fitting wavelengths", console, fitted)?;
+        let effective = waited("fitting wavelengths", console, || {
+            EffectiveQuadrature::of(viewing, library, self.nodes)
+        })?;
         let weights = color_weights(viewing, library.grid, console)?;
         let draw = |films: fn(&PigmentLibrary, &TristimulusWeights, usize, u64) -> FilmSet| {
             let count = self.mixtures;
@@ -152,7 +152,8 @@ impl Quadrature {
     }
 
     fn told(&self, [one, many]: [&str; 2], error: &QuadratureError) -> String {
-        let (films, seed) = (documents::counted_as(self.mixtures, one, many), self.seed);
+        let films = documents::counted_as(self.mixtures, one, many);
+        let seed = self.seed;
         let QuadratureError { mean, p95, max } = error;
         format!(
             "CIEDE2000 over {films} (seed {seed}): mean {mean:.3}, 95 % below {p95:.3}, largest {max:.3}"
@@ -168,7 +169,8 @@ fn csv_rows(rule: &Rule) -> Vec<Value> {
 
 /// Prints the wavelengths with their weights.
 fn rows(rule: &Rule, viewing: &Viewing, console: &mut Console<'_>) -> Result<()> {
-    let (count, light) = (rule.nodes_nm.len(), viewing.illuminant.name());
+    let count = rule.nodes_nm.len();
+    let light = viewing.illuminant.name();
     console.line(format!(
         "{} for {light}, observer {}",
         documents::counted(count, "wavelength"),

@@ -47,7 +47,8 @@ impl RecipeReport<'_> {
         let light = self.search.lights().next().unwrap_or_default();
         let lab = decimals::lab(lab);
         console.line(format!("{patch}{}  Lab {lab} ({light}){outside}", target.name))?;
-        let (nearest, unit) = (matched.nearest(), self.search.request.metric.unit());
+        let nearest = matched.nearest();
+        let unit = self.search.request.metric.unit();
         if !matched.is_reached() {
             console.line(format!(
                 "out of reach of these pigments: the nearest is {nearest:.2} {unit} away"

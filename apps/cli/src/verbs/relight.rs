@@ -73,8 +73,8 @@ impl Relight {
             (_, true) => Form::Csv,
             _ => Form::Text,
         };
-        let read = || Document::open(&self.painting);
-        let mut document = waited("reading the painting", console, read)?;
+        let mut document =
+            waited("reading the painting", console, || Document::open(&self.painting))?;
         document.lighting = self.lighting(&document.lighting)?;
         let Lighting { illuminant, observer, .. } = &document.lighting;
         let light = Light::new(&document.library, &viewing(illuminant, observer)?)?;
@@ -189,8 +189,11 @@ fn print(painting: &Painting, form: Form, console: &mut Console<'_>) -> Result<(
     let bounds = painting.bounds();
     let names = |layer| -> Result<Vec<String>> {
         let slots = painting.slots(layer)?;
-        let name = |&pigment| painting.library()[pigment].name.clone();
-        Ok(slots.iter().flatten().map(name).collect())
+        Ok(slots
+            .iter()
+            .flatten()
+            .map(|&pigment| painting.library()[pigment].name.clone())
+            .collect())
     };
     let mut layers = Vec::new();
     for (index, dry) in painting.state().dry.iter().enumerate() {
@@ -219,7 +222,8 @@ fn print(painting: &Painting, form: Form, console: &mut Console<'_>) -> Result<(
             "wavelengths_nm": nodes,
         }));
     }
-    let (width, height) = (bounds.width, bounds.height);
+    let width = bounds.width;
+    let height = bounds.height;
     let cell = at_most(painting.cell_mm(), 4);
     console.line(format!("{width} x {height} cells of {cell} mm"))?;
     for (layer, dry, pigments) in &layers {

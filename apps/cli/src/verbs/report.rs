@@ -106,7 +106,8 @@ impl Report {
             let left_out = measured.map(|set| set.left_out(&library, &viewing, Watch::new(&told)));
             (left_out.transpose(), trials.join().expect("quadrature trials do not panic"))
         });
-        let (validation, quadratures) = (validation?, quadratures?);
+        let validation = validation?;
+        let quadratures = quadratures?;
         let subject = Subject {
             library: &library,
             viewing: &viewing,

@@ -72,8 +72,7 @@ impl SimulateScan {
             return Err(Failure::usage("a scan has two files", "name its header: -o scan.hdr"));
         }
         Output::open(&written_data(&self.output), &inputs)?;
-        let read = || Document::open(&self.painting);
-        let document = waited("reading the painting", console, read)?;
+        let document = waited("reading the painting", console, || Document::open(&self.painting))?;
         let settings = self.settings();
         let exact = SpectralDocument::full(&document);
         let scene = Scene {
@@ -213,8 +212,10 @@ impl<'d> Painting<'d> {
     }
 
     fn names(&self) -> Vec<String> {
-        let name = |&place: &usize| self.document.library.pigments[place].name.clone();
-        self.pigments.iter().map(name).collect()
+        self.pigments
+            .iter()
+            .map(|&place: &usize| self.document.library.pigments[place].name.clone())
+            .collect()
     }
 
     /// Scans rows, and writes them with their truth.

@@ -63,8 +63,11 @@ impl Validate {
         if self.residuals.is_some() && options.fit.amounts == AmountKind::Absolute {
             return Err(FittingError::AbsoluteResiduals.into());
         }
-        let open = |path| Output::open(path, &self.options.files());
-        let residuals = self.residuals.as_deref().map(open).transpose()?;
+        let residuals = self
+            .residuals
+            .as_deref()
+            .map(|path| Output::open(path, &self.options.files()))
+            .transpose()?;
         let readings = self.options.readings(console)?;
         let prepared = prepare_fit(&readings, &options.fit, console)?;
         let mixtures = prepared.mixtures(&options)?;

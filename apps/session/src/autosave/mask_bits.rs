@@ -20,8 +20,8 @@ pub(super) fn bits_of(mask: &Mask) -> Vec<u8> {
 pub(super) fn mask_of(width: usize, height: usize, bytes: &[u8]) -> Option<Mask> {
     let cells = width.checked_mul(height).filter(|&cells| cells <= MOST_CELLS)?;
     let bounds = Rect { x: 0, y: 0, width, height };
-    let open = |cell: usize| bytes[cell / 8] >> (cell % 8) & 1 == 0;
-    (bytes.len() == cells.div_ceil(8)).then(|| Mask::with_open(bounds, open))
+    (bytes.len() == cells.div_ceil(8))
+        .then(|| Mask::with_open(bounds, |cell: usize| bytes[cell / 8] >> (cell % 8) & 1 == 0))
 }
 
 #[cfg(test)]

@@ -26,13 +26,9 @@ use work::{WorkFile, describe};
 pub use work::RecoveredWork;
 
 mod brush_paint;
-
 mod mask_bits;
-
 mod recording_file;
-
 mod session_lock;
-
 mod work;
 
 const PARTIAL: &str = ".partial";
@@ -153,7 +149,8 @@ impl Autosave {
         };
         let kept = if recording.is_some() { self.recording.actions() } else { 0 };
         let (work, brushes) = describe(recording, &painting.brushes, painting.mask.as_deref());
-        let (canvas, palette) = (&painting.snapshot.canvas, &painting.snapshot.palette);
+        let canvas = &painting.snapshot.canvas;
+        let palette = &painting.snapshot.palette;
         let earlier = generation_folder(&folder, self.generation).join(PALETTE);
         let unchanged = disk::is_file(&earlier) && self.palette.as_ref() == Some(palette);
         let palette_file =
@@ -297,11 +294,10 @@ impl LostSession {
             remove(&folder);
             return None;
         }
-        let description = |number: &u64| {
+        let (generation, meta) = numbers.iter().rev().find_map(|number: &u64| {
             let bytes = disk::read(generation_folder(&folder, *number).join(META)).ok()?;
             Some((*number, serde_json::from_slice(&bytes).ok()?))
-        };
-        let (generation, meta) = numbers.iter().rev().find_map(description)?;
+        })?;
         Some(Self { folder, _lock: lock, generation, meta })
     }
 
@@ -325,7 +321,8 @@ impl LostSession {
     /// [`FileFailure`] if a file is missing or was changed.
     pub fn work(&self) -> Result<Option<RecoveredWork>, FileFailure> {
         let folder = generation_folder(&self.folder, self.generation);
-        let (path, brushes) = (folder.join(WORK), folder.join(BRUSHES));
+        let path = folder.join(WORK);
+        let brushes = folder.join(BRUSHES);
         if !disk::exists(&path) {
             return Ok(None);
         }

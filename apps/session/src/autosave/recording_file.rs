@@ -94,7 +94,9 @@ impl RecordingFile {
         }
         lines.into_inner().map_err(std::io::IntoInnerError::into_error)?.sync_all()?;
         (written.bytes, written.actions) = (bytes, written.actions + tail.actions.len());
-        let (header, open, start) = (tail.header.clone(), tail.open.clone(), written.start.clone());
+        let header = tail.header.clone();
+        let open = tail.open.clone();
+        let start = written.start.clone();
         Ok(Some(KeptRecording { file: name, bytes, header, open, start }))
     }
 

@@ -66,7 +66,8 @@ pub(super) fn describe(
 ) -> (WorkFile, Vec<u8>) {
     let mut all = Vec::new();
     let mut keep = |bytes: Vec<u8>, width, height| {
-        let (start, count) = (all.len(), bytes.len());
+        let start = all.len();
+        let count = bytes.len();
         all.extend_from_slice(&bytes);
         Place { width, height, start, bytes: count }
     };

@@ -29,7 +29,8 @@ fn dry(count: usize) -> Vec<Action> {
 
 /// A painting whose recording goes on from action `from` with `count` actions.
 fn painting(from: usize, count: usize) -> KeptPainting {
-    let (canvas, palette) = (Arc::new(document()), Arc::new(document()));
+    let canvas = Arc::new(document());
+    let palette = Arc::new(document());
     let snapshot = Snapshot { number: 1, canvas, palette, brushes: Arc::default(), revision: 1 };
     let mut paint = Layer::empty(2, 3);
     paint.set_cell(4, Cell { pigments: [7; 8], vehicle: count as u32 });
@@ -60,8 +61,9 @@ fn recovered(sessions: &Path) -> (Vec<Action>, RecoveredWork) {
 fn recordings(session: &Autosave) -> Vec<String> {
     let entries = std::fs::read_dir(session.folder()).unwrap();
     let names = entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned());
-    let own = |name: &String| name.starts_with("recording") || name.starts_with("start");
-    let mut names: Vec<_> = names.filter(own).collect();
+    let mut names: Vec<_> = names
+        .filter(|name: &String| name.starts_with("recording") || name.starts_with("start"))
+        .collect();
     names.sort();
     names
 }
@@ -157,7 +159,8 @@ fn a_palette_that_stays_the_same_is_not_written_again() {
         let path = generation_folder(session.folder(), number).join(name);
         std::fs::metadata(path).unwrap().ino()
     };
-    let (mut inodes, held) = (Vec::new(), folder.path().join("held"));
+    let mut inodes = Vec::new();
+    let held = folder.path().join("held");
     for number in 1..=3 {
         let mut painting = painting(0, 1);
         if number == 3 {

@@ -108,11 +108,13 @@ mod tests {
     #[test]
     fn a_power_becomes_points_that_hardly_differ() {
         let worst = |power: f64| {
-            let (curve, points) =
-                (PressureCurve::Power(power), PressureCurve::Power(power).points());
-            let off =
-                |at: i32| (curve.at(f64::from(at) / 1e3) - points.at(f64::from(at) / 1e3)).abs();
-            (0..=1000).map(off).fold(0.0, f64::max)
+            let curve = PressureCurve::Power(power);
+            let points = PressureCurve::Power(power).points();
+            (0..=1000)
+                .map(|at: i32| {
+                    (curve.at(f64::from(at) / 1e3) - points.at(f64::from(at) / 1e3)).abs()
+                })
+                .fold(0.0, f64::max)
         };
         for power in [0.5, 0.625, 0.8, 1.0, 1.6, 2.5] {
             assert!(worst(power) < 0.025, "{power}: {}", worst(power));

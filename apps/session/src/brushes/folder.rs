@@ -31,7 +31,8 @@ pub fn read_sets(folder: &Path) -> (Vec<StoredSet>, Vec<FileFailure>) {
     let mut paths: Vec<PathBuf> =
         paths.filter(|path| path.extension().is_some_and(|ending| ending == "json")).collect();
     paths.sort();
-    let (mut sets, mut failures) = (Vec::new(), Vec::new());
+    let mut sets = Vec::new();
+    let mut failures = Vec::new();
     for path in paths {
         match read_set(&path) {
             Ok(set) => sets.push(StoredSet { path, set }),
@@ -66,10 +67,15 @@ pub fn write_set(stored: &StoredSet) -> Result<(), FileFailure> {
 /// Path for a new set in a folder: its name in lower case, numbered if one of `taken` has it.
 #[must_use]
 pub fn free_path(folder: &Path, name: &str, taken: &[StoredSet]) -> PathBuf {
-    let letter = |letter: char| {
-        if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '-' }
-    };
-    let stem: String = name.chars().take(40).map(letter).collect();
+    let stem: String = name
+        .chars()
+        .take(40)
+        .map(
+            |letter: char| {
+                if letter.is_ascii_alphanumeric() { letter.to_ascii_lowercase() } else { '-' }
+            },
+        )
+        .collect();
     let stem = stem.trim_matches('-').to_owned();
     let stem = if stem.is_empty() { "brushes".to_owned() } else { stem };
     let mut path = folder.join(format!("{stem}.json"));

@@ -3,25 +3,15 @@
 //! Everything here is data and pure functions; only [`folder`] reads and writes files.
 
 mod error;
-
 mod reading;
-
 mod points;
-
 mod curve;
-
 mod stabiliser;
-
 mod options;
-
 mod preset;
-
 mod set;
-
 pub mod folder;
-
 mod myb_file;
-
 mod myb;
 
 #[cfg(test)]

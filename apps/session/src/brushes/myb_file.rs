@@ -38,7 +38,8 @@ fn interpolated(points: &[[f64; 2]], x: f64) -> f64 {
         Some(0) => points[0][1],
         None => points.last().map_or(0.0, |point| point[1]),
         Some(after) => {
-            let ([x0, y0], [x1, y1]) = (points[after - 1], points[after]);
+            let [x0, y0] = points[after - 1];
+            let [x1, y1] = points[after];
             y0 + (y1 - y0) * (x - x0) / (x1 - x0)
         }
     }

@@ -58,7 +58,8 @@ pub struct BrushOptions {
 
 impl Default for BrushOptions {
     fn default() -> Self {
-        let (tilt, twist) = (TiltUse::AsSet, TwistUse::AsSet);
+        let tilt = TiltUse::AsSet;
+        let twist = TwistUse::AsSet;
         Self { tilt, twist, range: [0.0, 1.0], curve: None, stabiliser: None }
     }
 }

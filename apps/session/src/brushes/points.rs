@@ -39,8 +39,10 @@ impl TryFrom<Vec<[f64; 2]>> for CurvePoints {
         if !(Self::LEAST..=Self::MOST).contains(&points.len()) {
             return Err(InvalidCurve::Count(points.len()));
         }
-        let outside = |point: &[f64; 2]| point.iter().any(|part| !(0.0..=1.0).contains(part));
-        if let Some(at) = points.iter().position(outside) {
+        if let Some(at) = points
+            .iter()
+            .position(|point: &[f64; 2]| point.iter().any(|part| !(0.0..=1.0).contains(part)))
+        {
             return Err(InvalidCurve::Range(at + 1));
         }
         for (number, pair) in (2..).zip(points.windows(2)) {
@@ -96,10 +98,12 @@ impl CurvePoints {
 
     /// Height at `x` between the points `left` and `left + 1`.
     fn between(&self, left: usize, x: f64) -> f64 {
-        let ([x0, y0], [x1, y1]) = (self.0[left], self.0[left + 1]);
+        let [x0, y0] = self.0[left];
+        let [x1, y1] = self.0[left + 1];
         let width = x1 - x0;
         let rise = (y1 - y0) / width;
-        let (mut from, mut to) = (self.slope(left), self.slope(left + 1));
+        let mut from = self.slope(left);
+        let mut to = self.slope(left + 1);
         if rise == 0.0 {
             return y0;
         }
@@ -109,7 +113,8 @@ impl CurvePoints {
             (from, to) = (from * 3.0 / steepness, to * 3.0 / steepness);
         }
         let t = (x - x0) / width;
-        let (t2, t3) = (t * t, t * t * t);
+        let t2 = t * t;
+        let t3 = t * t * t;
         let height = (2.0 * t3 - 3.0 * t2 + 1.0) * y0
             + (t3 - 2.0 * t2 + t) * width * from
             + (3.0 * t2 - 2.0 * t3) * y1
@@ -121,7 +126,8 @@ impl CurvePoints {
     /// chords, and 0 beside a level one.
     fn slope(&self, point: usize) -> f64 {
         let chord = |left: usize| {
-            let ([x0, y0], [x1, y1]) = (self.0[left], self.0[left + 1]);
+            let [x0, y0] = self.0[left];
+            let [x1, y1] = self.0[left + 1];
             (y1 - y0) / (x1 - x0)
         };
         let last = self.0.len() - 1;
@@ -129,7 +135,8 @@ impl CurvePoints {
             0 => chord(0),
             end if end == last => chord(last - 1),
             inner => {
-                let (before, after) = (chord(inner - 1), chord(inner));
+                let before = chord(inner - 1);
+                let after = chord(inner);
                 if before * after > 0.0 { 0.5 * (before + after) } else { 0.0 }
             }
         }
@@ -209,10 +216,8 @@ mod tests {
         let curve = curve(&[[0.2, 0.1], [0.5, 0.3], [0.8, 0.9]]);
         assert_eq!((curve.at(0.0), curve.at(-3.0), curve.at(1.0)), (0.1, 0.1, 0.9));
         let step = 1e-6;
-        let (left, right) = (
-            (curve.at(0.5) - curve.at(0.5 - step)) / step,
-            (curve.at(0.5 + step) - curve.at(0.5)) / step,
-        );
+        let left = (curve.at(0.5) - curve.at(0.5 - step)) / step;
+        let right = (curve.at(0.5 + step) - curve.at(0.5)) / step;
         assert!((left - right).abs() < 1e-4, "{left} {right}");
         // The mean of the slopes of both chords.
         assert!((left - 0.5 * (0.2 / 0.3 + 0.6 / 0.3)).abs() < 1e-4, "{left}");

@@ -82,8 +82,11 @@ impl<'a> Object<'a> {
     pub(super) fn need_objects(&mut self, key: &str) -> Result<Vec<Self>, BrushFileError> {
         let values: Vec<Value> = self.need(key)?;
         let path = self.path_of(key);
-        let object = |(at, value)| Self::of_value(value, self.file, format!("{path}[{at}]"));
-        values.into_iter().enumerate().map(object).collect()
+        values
+            .into_iter()
+            .enumerate()
+            .map(|(at, value)| Self::of_value(value, self.file, format!("{path}[{at}]")))
+            .collect()
     }
 
     /// Removes and returns all keys that are left, in the order of their names.
@@ -109,7 +112,8 @@ impl<'a> Object<'a> {
 
     /// The error that this object is at fault.
     pub(super) fn fault(&self, what: impl Into<String>) -> BrushFileError {
-        let (file, key) = (self.file.to_owned(), self.path.clone());
+        let file = self.file.to_owned();
+        let key = self.path.clone();
         let hint = Some(Hint::new("correct the file, or export it again"));
         BrushFileError { file, key, what: what.into(), hint }
     }

@@ -157,7 +157,9 @@ impl BrushSet {
     pub fn to_json(&self) -> String {
         // Names, numbers and lists always have a JSON form.
         let presets = serde_json::to_value(&self.presets).unwrap_or(Value::Null);
-        let (format, version, name) = (Self::FORMAT, Self::VERSION, &self.name);
+        let format = Self::FORMAT;
+        let version = Self::VERSION;
+        let name = &self.name;
         let value =
             json!({ "format": format, "version": version, "name": name, "presets": presets });
         pigment::library::to_text(&value)

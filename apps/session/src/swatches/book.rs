@@ -69,12 +69,15 @@ impl SwatchBook {
     /// `weights` where `library` can mix them, else as they were kept.
     #[must_use]
     pub fn colors(&self, library: &PigmentLibrary, weights: &TristimulusWeights) -> SwatchFile {
-        let entry = |kept: &KeptMixture| {
-            let bytes = kept.screen_color(library, weights);
-            let color = SwatchColor::Rgb(Rgb(bytes.map(|byte| f64::from(byte) / 255.0)));
-            SwatchEntry { name: kept.name.clone(), group: String::new(), color }
-        };
-        let swatches = self.swatches.iter().map(entry).collect();
+        let swatches = self
+            .swatches
+            .iter()
+            .map(|kept: &KeptMixture| {
+                let bytes = kept.screen_color(library, weights);
+                let color = SwatchColor::Rgb(Rgb(bytes.map(|byte| f64::from(byte) / 255.0)));
+                SwatchEntry { name: kept.name.clone(), group: String::new(), color }
+            })
+            .collect();
         SwatchFile { name: format!("{}: kept mixtures", library.title), swatches }
     }
 

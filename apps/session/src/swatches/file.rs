@@ -53,7 +53,8 @@ impl SwatchBook {
         let found = |key: &str| read.get(key).cloned().unwrap_or(Value::Null);
         for (key, expected) in [("format", json!(FORMAT)), ("version", json!(VERSION))] {
             if found(key) != expected {
-                let (expected, found) = (expected.to_string(), found(key).to_string());
+                let expected = expected.to_string();
+                let found = found(key).to_string();
                 return Err(SwatchBookError::Kind { file: named(), key, expected, found });
             }
         }

@@ -64,7 +64,8 @@ impl KeptMixture {
         };
         let name = name.chars().take(LONGEST_NAME).collect();
         let title = library.title.clone();
-        let (color, light_name) = (String::new(), light.1.to_owned());
+        let color = String::new();
+        let light_name = light.1.to_owned();
         let mut kept = Self { name, library: title, recipe, vehicle, color, light: light_name };
         kept.color = shown(kept.appearance(library, light.0)?).to_hex();
         Some(kept)

@@ -1,11 +1,8 @@
 //! Mixtures that a painter keeps: recipes with names, their file, and their colours.
 
 mod error;
-
 mod mixture;
-
 mod book;
-
 mod file;
 
 pub use book::{SwatchBook, SwatchChange};

@@ -42,8 +42,7 @@ pub fn animation(
     let text = Subject::Text { text: recording.text.to_string(), folder: recording.folder.clone() };
     let mut player = Player { scene: Scene::open(&text)?, sight: None };
     let longest = size[0].max(size[1]).max(1);
-    let reduced = |side: usize| (side * longest.min(LONGEST_PX) / longest).max(1);
-    let size = size.map(reduced);
+    let size = size.map(|side: usize| (side * longest.min(LONGEST_PX) / longest).max(1));
     player.sight = player.scene.seen_from().map(|camera| Sight { camera, size });
     let last = player.scene.end() / FRAME_STEPS;
     let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
@@ -66,8 +65,10 @@ struct Player {
 impl Player {
     /// The frame with this number.
     fn frame(&mut self, number: u64) -> Result<Frame, FileFailure> {
-        let no_camera = || FileFailure { what: "the scene has no camera".to_owned(), hint: None };
-        let sight = self.sight.ok_or_else(no_camera)?;
+        let sight = self.sight.ok_or_else(|| FileFailure {
+            what: "the scene has no camera".to_owned(),
+            hint: None,
+        })?;
         self.scene.go_to(number * FRAME_STEPS)?;
         while self.scene.is_behind() {
             self.scene.step()?;

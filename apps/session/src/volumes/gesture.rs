@@ -90,7 +90,8 @@ impl Hand {
         match self.grip.tool {
             SceneTool::Pour => {
                 let rate = self.grip.rate_mm3_s * self.pressure;
-                let (place, quantity) = (Place::At(at), Quantity::Rate(rate));
+                let place = Place::At(at);
+                let quantity = Quantity::Rate(rate);
                 let pour = Pour { place, quantity, recipe: self.recipe.clone(), region: 0 };
                 (rate >= LEAST_RATE).then_some(Action::Pour(pour))
             }
@@ -107,9 +108,10 @@ impl Hand {
                 (rate > 0.0).then_some(Action::Lift(lift))
             }
             SceneTool::Dry => {
-                let again = |last: DVec3| self.place.distance(last) >= DRYING_WAY * radius;
                 let ball = Some(Ball { center: at, radius });
-                self.last.is_none_or(again).then_some(Action::Dry(Dry { ball }))
+                self.last
+                    .is_none_or(|last: DVec3| self.place.distance(last) >= DRYING_WAY * radius)
+                    .then_some(Action::Dry(Dry { ball }))
             }
         }
     }

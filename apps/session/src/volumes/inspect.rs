@@ -33,13 +33,16 @@ pub(super) fn found_at(world: &World, hit: &Hit, profile: FilmProfile) -> Found 
     let Hit { place, normal } = *hit;
     let nearest = world.grid().nearest(place);
     let body = nearest.map_or(0, |(sample, _)| world.grid().samples.bodies[sample]);
-    let of_body = |volume: &&Volume| volume.body == 0 || body == 0 || volume.body == body;
-    let own = world.volumes().iter().filter(of_body);
+    let own = world
+        .volumes()
+        .iter()
+        .filter(|volume: &&Volume| volume.body == 0 || body == 0 || volume.body == body);
     let holding = own.filter(|volume| Inside::of(volume).holds(place));
     let volumes: Vec<Volume> = holding.cloned().collect();
     let samples = &world.grid().samples;
     let lattice = SampleLattice::of(&samples.places, world.cell());
-    let (quantum_mm3, unit_mm) = (world.quantum_mm3(), world.unit_mm());
+    let quantum_mm3 = world.quantum_mm3();
+    let unit_mm = world.unit_mm();
     let scale = FilmScale { quantum_mm3, unit_mm, cell_mm: CELL_MM };
     let surface = (&samples.into(), &lattice);
     let films = Film::of_volumes(&volumes, profile, surface, &scale);

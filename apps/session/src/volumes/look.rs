@@ -109,7 +109,8 @@ impl Look {
     /// The look that a script's settings and regions give.
     pub(super) fn of(script: &Script, settings: &Settings) -> Self {
         let styles = script.region_styles(settings);
-        let (light, hatching) = (&settings.light, &settings.hatching);
+        let light = &settings.light;
+        let hatching = &settings.hatching;
         Self {
             show: Show::Final,
             hatching: hatching.inside > 0.0 || hatching.outside > 0.0,

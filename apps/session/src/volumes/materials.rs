@@ -148,14 +148,16 @@ fn tubes(
     light: &Arc<Light>,
 ) -> Vec<SceneTube> {
     let colors = Colors::new(Arc::clone(library), Arc::clone(light));
-    let (masstones, tints) = (colors.masstones(slots), colors.tints(slots));
+    let masstones = colors.masstones(slots);
+    let tints = colors.tints(slots);
     let names = script.palette.values().zip(masstones).zip(tints);
-    let tube = |((name, masstone), tint): ((&String, _), _)| SceneTube {
-        name: name.clone(),
-        masstone,
-        tint,
-    };
-    names.map(tube).collect()
+    names
+        .map(|((name, masstone), tint): ((&String, _), _)| SceneTube {
+            name: name.clone(),
+            masstone,
+            tint,
+        })
+        .collect()
 }
 
 /// Gives a script the usual tubes of a library. Tubes that are there keep their letters, by which

@@ -11,59 +11,32 @@
 //! the script that is saved agree to the bit.
 
 mod look;
-
 mod tool;
-
 mod subject;
-
 mod state;
-
 mod image;
-
 mod event;
-
 mod command;
-
 mod pacer;
-
 mod ray;
-
 mod gesture;
-
 mod recorded;
-
 mod inbox;
-
 mod materials;
-
 mod opened;
-
 mod header;
-
 mod timeline;
-
 mod inspect;
-
 mod making;
-
 mod painters;
-
 mod scene;
-
 mod hands;
-
 mod pictures;
-
 mod paints;
-
 mod saving;
-
 mod animation;
-
 mod picture_share;
-
 mod worker;
-
 mod thread;
 
 #[cfg(test)]

@@ -45,7 +45,8 @@ fn script(scene: &Scene) -> Script {
 fn a_library_fills_the_tubes_and_poured_paint_is_of_its_pigments() {
     let folder = tempfile::tempdir().unwrap();
     let mut scene = poured();
-    let (before, revision) = (scene.volumes().to_vec(), scene.recorded.revision());
+    let before = scene.volumes().to_vec();
+    let revision = scene.recorded.revision();
     assert_eq!(names(&scene)[5], "Ultramarine");
     let path = library(&folder, "mine.json", &["Vermilion"]);
     scene.set_library(&path).unwrap();

@@ -170,7 +170,8 @@ impl Painters {
         };
         let styles: Vec<RegionStyle> = self.styles.iter().map(style).collect();
         let pigments = self.pigments.clone().filter(|_| kind != Kind::Drawing);
-        let (scene, settings) = (Arc::clone(&self.scene), self.settings.clone());
+        let scene = Arc::clone(&self.scene);
+        let settings = self.settings.clone();
         let making = Making::begin(move || {
             let painter = VolumePainter::new(&scene, &settings, &styles)?;
             match pigments {

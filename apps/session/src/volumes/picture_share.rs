@@ -22,9 +22,9 @@ mod tests {
 
     #[test]
     fn a_moving_picture_is_as_large_as_there_is_time_for() {
-        let share = |milliseconds: f64| share_in_time([800, 500], 1e-3 * milliseconds / 4e5);
         assert_eq!(
-            [0.0, 39.0, 41.0, 71.0, 170.0, 1e9].map(share),
+            [0.0, 39.0, 41.0, 71.0, 170.0, 1e9]
+                .map(|milliseconds: f64| share_in_time([800, 500], 1e-3 * milliseconds / 4e5)),
             [1.0, 1.0, 0.875, 0.75, 0.5, 0.5]
         );
     }

@@ -92,8 +92,10 @@ impl Scene {
         let mut script = self.script();
         script.camera = camera.map(|camera| camera_table(&camera)).or(script.camera);
         let text = script.to_text().map_err(|error| FileFailure::explained(&error))?;
-        let (folder, subject) = (self.folder.clone(), self.file.clone());
-        let (library, revision) = (self.materials.file.clone(), self.recorded.revision());
+        let folder = self.folder.clone();
+        let subject = self.file.clone();
+        let library = self.materials.file.clone();
+        let revision = self.recorded.revision();
         Ok(SceneRecording { text: text.into(), folder, subject, library, revision })
     }
 }

@@ -44,7 +44,8 @@ pub(super) fn surface_at(mesh: &Mesh, camera: &Camera, aspect: f32, at: [f32; 2]
 /// Distance along a ray, in its lengths, at which it meets a triangle from either side (Moller,
 /// Trumbore 1997).
 fn distance([a, b, c]: [Vec3; 3], eye: Vec3, along: Vec3) -> Option<f32> {
-    let (ab, ac) = (b - a, c - a);
+    let ab = b - a;
+    let ac = c - a;
     let across = along.cross(ac);
     let volume = ab.dot(across);
     if volume == 0.0 {
@@ -69,11 +70,13 @@ mod tests {
     #[test]
     fn a_ray_meets_what_the_pixel_shows() {
         let mesh = SampleModel::StillLife.mesh(4000);
-        let (width, height) = (64, 40);
+        let width = 64;
+        let height = 40;
         let aspect = width as f32 / height as f32;
         let camera = Framing { aspect, ..Framing::default() }.camera(mesh.bounds());
         let seen = visible(&mesh, &camera, width, height);
-        let (mut hits, mut misses) = (0, 0);
+        let mut hits = 0;
+        let mut misses = 0;
         for y in 0..height {
             for x in 0..width {
                 let at = [(x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32];

@@ -129,12 +129,14 @@ impl Recorded {
     pub(super) fn events(&self) -> Vec<SceneEvent> {
         let gestures = self.by_time().into_iter().map(|index| &self.gestures[index]);
         let filled = gestures.filter_map(|gesture| Some((gesture, gesture.actions.first()?)));
-        let event = |(gesture, first): (&Gesture, &Timed)| {
-            let (tool, label) = self.words(&first.action);
-            let (from, to) = (gesture.start().into(), gesture.end().into());
-            SceneEvent { tool, label, from, to }
-        };
-        filled.map(event).collect()
+        filled
+            .map(|(gesture, first): (&Gesture, &Timed)| {
+                let (tool, label) = self.words(&first.action);
+                let from = gesture.start().into();
+                let to = gesture.end().into();
+                SceneEvent { tool, label, from, to }
+            })
+            .collect()
     }
 
     fn words(&self, action: &Action) -> (Option<SceneTool>, String) {

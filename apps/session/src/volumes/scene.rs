@@ -58,9 +58,9 @@ impl Scene {
         let OpenedScene { mut script, source, materials, mesh, flat, folder, file } =
             OpenedScene::read(subject)?;
         let mesh = Arc::new(mesh);
-        let located =
-            |fault| FileFailure::explained(&ScriptError::located(&source.0, &source.1, fault));
-        let settings = script.settings().map_err(located)?;
+        let settings = script.settings().map_err(|fault| {
+            FileFailure::explained(&ScriptError::located(&source.0, &source.1, fault))
+        })?;
         let first = first_camera(&script, &mesh, flat);
         let view = FirstView::new(&mesh, &first, first_size(&mesh, flat));
         resolve_picks(&mut script, &mesh, &view);
@@ -72,7 +72,8 @@ impl Scene {
         let look = Look::of(&script, &settings);
         let insides = script.regions.iter().map(|region| region.inside).collect();
         let by_region = look.inside == Inside::ByRegion;
-        let (hand, shown) = (None, None);
+        let hand = None;
+        let shown = None;
         Ok(Self {
             framed: framed(&mesh, flat),
             mesh,
@@ -95,7 +96,9 @@ impl Scene {
 
     /// Changes what is shown.
     pub(super) fn set_look(&mut self, look: Look) {
-        let (before, settings, insides) = (self.look, &self.settings, &self.insides);
+        let before = self.look;
+        let settings = &self.settings;
+        let insides = &self.insides;
         let look = look.rounded();
         self.look = look;
         // The picture that is shown is no part of the script.

@@ -105,11 +105,13 @@ fn a_moment_that_is_gone_to_has_the_bytes_that_it_had() {
     let mut scene = still_life();
     let empty = picture(&mut scene);
     gesture(&mut scene, pour(5), [0.45, 0.5], [0.55, 0.5]);
-    let (moment, then) = (scene.moment(), picture(&mut scene));
+    let moment = scene.moment();
+    let then = picture(&mut scene);
     assert_ne!(then, empty, "colour appears");
     gesture(&mut scene, pour(2), [0.5, 0.55], [0.4, 0.6]);
     (0..100).for_each(|_| scene.step().unwrap());
-    let (last, end) = (scene.moment(), picture(&mut scene));
+    let last = scene.moment();
+    let end = picture(&mut scene);
     assert_ne!(end, then);
     for (step, wanted) in [(moment, &then), (last, &end), (0, &empty), (moment, &then)] {
         scene.go_to(step).unwrap();

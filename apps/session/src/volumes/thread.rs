@@ -36,8 +36,9 @@ impl VolumeWorker {
                 let _ = sender.send(event);
                 wake();
             };
-            let work = || SceneLoop::new(Inbox::new(receiver), &send).run();
-            if catch_unwind(AssertUnwindSafe(work)).is_err() {
+            if catch_unwind(AssertUnwindSafe(|| SceneLoop::new(Inbox::new(receiver), &send).run()))
+                .is_err()
+            {
                 send(VolumeEvent::Message {
                     text: "the scene has stopped by a fault of the program".to_owned(),
                     hint: Some(Hint::new("start it again; it takes up what was saved last")),
@@ -54,11 +55,10 @@ impl VolumeWorker {
     pub fn in_turns(wake: impl Fn() + 'static) -> Self {
         let (inputs, receiver) = channel();
         let (sender, events) = channel();
-        let send = move |event| {
+        let work = SceneLoop::new(Inbox::new(receiver), move |event| {
             let _ = sender.send(event);
             wake();
-        };
-        let work = SceneLoop::new(Inbox::new(receiver), send);
+        });
         Self { inputs, events, works: Works::in_turns(work) }
     }
 
@@ -77,8 +77,10 @@ impl VolumeWorker {
     /// Events since the last call.
     pub fn events(&self) -> impl Iterator<Item = VolumeEvent> + '_ {
         let events: Vec<VolumeEvent> = self.events.try_iter().collect();
-        let pictures = |event: &&VolumeEvent| matches!(event, VolumeEvent::Picture(_));
-        let received = events.iter().filter(pictures).count();
+        let received = events
+            .iter()
+            .filter(|event: &&VolumeEvent| matches!(event, VolumeEvent::Picture(_)))
+            .count();
         if received > 0 {
             let _ = self.inputs.send(Input::Confirmed(received));
         }

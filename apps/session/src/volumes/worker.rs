@@ -199,7 +199,8 @@ impl<'a> SceneLoop<'a> {
             self.playing = false;
             return self.pacer.stop();
         };
-        let (moment, end) = (scene.moment(), scene.end());
+        let moment = scene.moment();
+        let end = scene.end();
         self.stops_at = if moment < end { end } else { moment + RUN_ON };
         self.playing = true;
         self.pacer.start(Instant::now());
@@ -303,7 +304,8 @@ impl<'a> SceneLoop<'a> {
             scene.step()?;
             taken += 1;
         }
-        let (now, moment) = (Instant::now(), scene.moment());
+        let now = Instant::now();
+        let moment = scene.moment();
         if taken > 0 {
             self.pacer.took(taken, now);
             self.state_stale = true;
@@ -340,7 +342,8 @@ impl<'a> SceneLoop<'a> {
         let pixels = scene.pixels(&Sight { size, ..sight }, quality)?;
         self.state_stale |= scene.painters.is_making() != mixed;
         let [width, height] = size;
-        let (step, fine) = (scene.moment(), !moves);
+        let step = scene.moment();
+        let fine = !moves;
         let picture = ScenePicture { width, height, pixels, step, fine };
         (self.send)(VolumeEvent::Picture(Arc::new(picture)));
         self.unconfirmed += 1;

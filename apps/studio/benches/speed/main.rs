@@ -21,9 +21,7 @@ mod screen;
 #[expect(dead_code, reason = "the tests need more of it")]
 #[path = "../../tests/window/program.rs"]
 mod program;
-
 mod paintings;
-
 mod process;
 
 use std::error::Error;
@@ -193,7 +191,8 @@ impl<'a> Hand<'a> {
         let screen = self.program.screen;
         let (left, top) = self.program.at(0.1, 0.15);
         let (right, bottom) = self.program.at(0.9, 0.85);
-        let (width, height) = (f64::from(right - left), f64::from(bottom - top));
+        let width = f64::from(right - left);
+        let height = f64::from(bottom - top);
         let began = Instant::now();
         screen.point((left, top));
         screen.button(true);

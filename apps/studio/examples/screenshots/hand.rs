@@ -49,14 +49,17 @@ impl Hand {
 
     /// Squeezes a heap onto the palette.
     pub(crate) fn squeeze(&mut self, parts: &str, (x_mm, y_mm): Place, volume_mm3: f64) {
-        let (on, recipe, vehicle) = (SurfaceId::Palette, recipe(parts), 0.1);
+        let on = SurfaceId::Palette;
+        let recipe = recipe(parts);
+        let vehicle = 0.1;
         self.actions.push(Action::Squeeze(Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 }));
     }
 
     /// Paints a stroke on the canvas.
     pub(crate) fn stroke(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
-        let (on, tool) = (SurfaceId::Canvas, StrokeTool::Paint);
+        let on = SurfaceId::Canvas;
+        let tool = StrokeTool::Paint;
         let stroke = Stroke { brush: brush.to_owned(), on, tool, samples };
         self.actions.push(Action::Stroke(stroke));
     }
@@ -64,7 +67,8 @@ impl Hand {
     /// Paints a stroke on the palette.
     pub(crate) fn mix(&mut self, brush: &str, along: &[Place], pressure: f64) {
         let samples = samples(along, pressure);
-        let (on, tool) = (SurfaceId::Palette, StrokeTool::Paint);
+        let on = SurfaceId::Palette;
+        let tool = StrokeTool::Paint;
         let stroke = Stroke { brush: brush.to_owned(), on, tool, samples };
         self.actions.push(Action::Stroke(stroke));
     }
@@ -93,7 +97,8 @@ pub(crate) fn samples(along: &[Place], pressure: f64) -> Vec<Sample> {
         let way = share * whole;
         let (x_mm, y_mm) = place(way);
         // Averaged over a few mm, so that the head does not jump at corners.
-        let (behind, ahead) = (place(way - 2.0), place(way + 2.0));
+        let behind = place(way - 2.0);
+        let ahead = place(way + 2.0);
         let course = (ahead.1 - behind.1).atan2(ahead.0 - behind.0);
         let soft = (share.min(1.0 - share) * 6.0).min(1.0);
         Sample {

@@ -8,13 +8,9 @@
 //! `docs/images/`. It needs a graphics adapter; a software one will do.
 
 mod window;
-
 mod hand;
-
 mod study;
-
 mod drawing;
-
 mod scene;
 
 use std::error::Error;

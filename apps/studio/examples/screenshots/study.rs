@@ -68,7 +68,8 @@ pub(crate) fn palette(hand: &mut Hand) {
         let steps = (turns * 12.0) as usize;
         let spiral: Vec<Place> = (0..=steps)
             .map(|step| {
-                let (share, turn) = (step as f64 / steps as f64, TAU * step as f64 / 12.0);
+                let share = step as f64 / steps as f64;
+                let turn = TAU * step as f64 / 12.0;
                 let radius = 1.0 + 3.2 * share;
                 (x + 1.3 * radius * turn.cos(), y + radius * turn.sin())
             })
@@ -111,13 +112,18 @@ fn rows(hand: &mut Hand, mixtures: &[&str], from: f64, to: f64, slope: f64) {
             let long = 14.0 + hand.about(4.0);
             let mixture = mixtures[(turn * 7 + row * 3) % mixtures.len()];
             hand.load("flat", mixture, 0.1, 0.4);
-            let (rise, bow) = (slope * long + hand.about(0.8), hand.about(0.6));
-            let inside =
-                |(x, y): Place| (x.clamp(-2.0, WIDTH + 2.0), y.clamp(from - 1.0, to + 1.0));
+            let rise = slope * long + hand.about(0.8);
+            let bow = hand.about(0.6);
             let along =
                 [(x, y - 0.5 * rise), (x + 0.5 * long, y + bow), (x + long, y + 0.5 * rise)];
             let pressure = 0.5 + hand.about(0.08);
-            hand.stroke("flat", &along.map(inside), pressure);
+            hand.stroke(
+                "flat",
+                &along.map(|(x, y): Place| {
+                    (x.clamp(-2.0, WIDTH + 2.0), y.clamp(from - 1.0, to + 1.0))
+                }),
+                pressure,
+            );
             x += long - 1.5;
             turn += 1;
         }

@@ -101,7 +101,8 @@ impl Studio {
         self.aid_handles.clear();
         let Some(painting) = self.painting.clone() else { return };
         self.aids.fit(Self::canvas_mm(&painting));
-        let (placement, view) = (self.canvas.placement(), self.canvas.rect());
+        let placement = self.canvas.placement();
+        let view = self.canvas.rect();
         let on_canvas = OnCanvas { placement, cell_mm: painting.cell_mm, view };
         let painter = ui.painter_at(view);
         draw_lines(&painter, &on_canvas, &self.aids.lines());

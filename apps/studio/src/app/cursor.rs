@@ -46,8 +46,11 @@ impl Studio {
         let Some(brush) = painting.brushes.iter().find(|brush| brush.name == hover.brush) else {
             return;
         };
-        let is_current = |held: &HoveringHead| held.is_of(&brush.spec, painting.cell_mm);
-        if !self.hovering.as_ref().is_some_and(is_current) {
+        if !self
+            .hovering
+            .as_ref()
+            .is_some_and(|held: &HoveringHead| held.is_of(&brush.spec, painting.cell_mm))
+        {
             self.hovering = HoveringHead::of(&brush.spec, painting.cell_mm);
         }
         let head = self.hovering.as_mut().and_then(|held| held.over(hover));
@@ -98,7 +101,8 @@ impl Studio {
             SurfaceId::Palette => view.is_under_second(),
         };
         let second = view.picture(true).filter(|_| beyond);
-        let (x, y) = (x as usize, y as usize);
+        let x = x as usize;
+        let y = y as usize;
         let cell = second.or(view.picture(false))?.pixels(Rect { x, y, width: 1, height: 1 });
         cell.pixels.first().copied()
     }

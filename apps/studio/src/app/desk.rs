@@ -35,7 +35,8 @@ impl Studio {
         }
         self.aids = desk.aids.unwrap_or(self.aids);
         if let Some(reference) = &desk.reference {
-            let (picture, drawings) = (reference.picture.clone(), reference.drawn());
+            let picture = reference.picture.clone();
+            let drawings = reference.drawn();
             let restored = ReferenceChange::Restore { picture, drawings };
             if let Some(problem) = self.panels.reference.apply(restored, context) {
                 self.files.report(problem);

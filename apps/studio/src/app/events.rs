@@ -56,7 +56,8 @@ impl Studio {
                     let key = row.and_then(|row| row.keys.first());
                     key.map_or_else(String::new, |key| format!(" ({})", key.text()))
                 };
-                let (wash, wipe) = (key("wash"), key("wipe"));
+                let wash = key("wash");
+                let wipe = key("wipe");
                 let hint =
                     tr_format!("wash{wash} or wipe{wipe} it before another colour", wash, wipe);
                 self.show_message(text, Some(hint), false);

@@ -124,7 +124,8 @@ impl Studio {
             self.show_quick_palette(&context);
             self.show_tour(&context);
         }
-        let (keymap, changes) = (&self.keymap, &mut self.files.preferences.keys);
+        let keymap = &self.keymap;
+        let changes = &mut self.files.preferences.keys;
         help::show(&context, &mut self.visible.keys, &mut self.key_editor, keymap, changes);
         self.open_dropped(&context);
         self.files.show(ui);

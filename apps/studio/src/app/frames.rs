@@ -65,7 +65,8 @@ mod tests {
 
     #[test]
     fn frames_of_the_last_second_are_counted() {
-        let (mut frames, start) = (Frames::default(), Instant::now());
+        let mut frames = Frames::default();
+        let start = Instant::now();
         for frame in 0..100 {
             frames.begin(start + frame * 20 * MS, None);
         }
@@ -74,7 +75,8 @@ mod tests {
 
     #[test]
     fn latency_is_from_arrival_to_the_end_of_the_frame() {
-        let (mut frames, start) = (Frames::default(), Instant::now());
+        let mut frames = Frames::default();
+        let start = Instant::now();
         frames.begin(start + 30 * MS, None);
         frames.shows(start + 10 * MS);
         frames.shows(start + 5 * MS);

@@ -45,12 +45,16 @@ pub(super) fn draw_marks(painter: &Painter, button: Rect, marks: &[Mark], color:
             }
             Arc(middle, radius, from, to) => {
                 let middle = place(middle);
-                let at = |step: u8| {
-                    let angle = from + (to - from) * f32::from(step) / 24.0;
-                    let (sin, cos) = angle.to_radians().sin_cos();
-                    pos2(middle.x + radius * cos, middle.y + radius * sin)
-                };
-                painter.line((0..=24).map(at).collect::<Vec<Pos2>>(), stroke);
+                painter.line(
+                    (0..=24)
+                        .map(|step: u8| {
+                            let angle = from + (to - from) * f32::from(step) / 24.0;
+                            let (sin, cos) = angle.to_radians().sin_cos();
+                            pos2(middle.x + radius * cos, middle.y + radius * sin)
+                        })
+                        .collect::<Vec<Pos2>>(),
+                    stroke,
+                );
             }
         }
     }

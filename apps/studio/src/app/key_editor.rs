@@ -94,7 +94,8 @@ impl KeyEditor {
     /// key is waited for.
     pub(super) fn read(&mut self, context: &Context, keymap: &Keymap, changes: &mut Changes) {
         let State::Waits { name, replaced } = &self.state else { return };
-        let (name, replaced) = (name.clone(), *replaced);
+        let name = name.clone();
+        let replaced = *replaced;
         let mut pressed = None;
         context.input_mut(|input| {
             input.events.retain(|event| match event {

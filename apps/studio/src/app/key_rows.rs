@@ -28,7 +28,8 @@ pub fn key_rows() -> Vec<KeyRow> {
         KeyRow::new(name, tr(entry.name), tr(entry.description), tr(group), entry.shortcuts)
     });
     let brushes = (1_u8..).zip(NUMBERS).map(|(number, key)| {
-        let (name, title) = (Intent::Brush(number).name(), tr_format!("Brush {number}", number));
+        let name = Intent::Brush(number).name();
+        let title = tr_format!("Brush {number}", number);
         let description = tr_format!("Selects brush {number} of the list", number);
         KeyRow::new(
             name,

@@ -49,14 +49,16 @@ impl Keys {
             return intents;
         }
         let focused = context.memory(|memory| memory.focused().is_some());
-        let (mut tabbed, table) = (false, table(context));
+        let mut tabbed = false;
+        let table = table(context);
         context.input_mut(|input| {
             self.held.modifiers = input.modifiers;
             if let Some(temporary) = &mut self.temporary {
                 temporary.used |= input.pointer.any_down();
             }
             let now = input.time;
-            let (held, temporary) = (&mut self.held, &mut self.temporary);
+            let held = &mut self.held;
+            let temporary = &mut self.temporary;
             input.events.retain(|event| {
                 let Event::Key { key, pressed, repeat, modifiers, .. } = event else {
                     return true;

@@ -25,7 +25,8 @@ impl Studio {
     /// mode of masks.
     pub(super) fn draw_mask(&mut self, ui: &Ui, response: &Response, mode: Mode) {
         let Some(painting) = self.painting.clone() else { return };
-        let (painter, placement) = (ui.painter_at(self.canvas.rect()), self.canvas.placement());
+        let painter = ui.painter_at(self.canvas.rect());
+        let placement = self.canvas.placement();
         let (now, happens) = ui.input(|input| (input.time, !input.events.is_empty()));
         let (phase, moves) = self.mask_dashes.phase(now, happens);
         if let Some(mask) = &painting.mask {
@@ -64,7 +65,8 @@ impl Studio {
         let Some(now) = held.and_then(|()| response.interact_pointer_pos()) else { return };
         let Some(&first) = self.mask_points.first() else { return };
         if ui.input(|input| input.modifiers.shift) {
-            let (from, to) = (placement.point(first), now);
+            let from = placement.point(first);
+            let to = now;
             let corners = [from, pos2(to.x, from.y), to, pos2(from.x, to.y), from];
             self.mask_points = corners.map(|corner| placement.cell(corner)).to_vec();
             self.mask_points[0] = first;
@@ -103,13 +105,15 @@ fn march(painter: &Painter, [from, to]: [Pos2; 2], phase: f32) {
     // The stairs of an outline are shorter than the line is wide: longer ends close their corners.
     let cap = 0.5 * WIDTH * way.normalized();
     let along = |point: Pos2| point.x + point.y + phase;
-    let (start, end) = (along(from), along(to));
+    let start = along(from);
+    let end = along(to);
     let run = end - start;
     if run.abs() < 0.01 {
         painter.line_segment([from, to], Stroke::new(WIDTH, Color32::WHITE));
         return;
     }
-    let (low, high) = (start.min(end), start.max(end));
+    let low = start.min(end);
+    let high = start.max(end);
     let mut at = low;
     while at < high - 0.001 {
         let dash = (at / DASH).floor();

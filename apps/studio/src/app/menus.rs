@@ -51,8 +51,8 @@ pub(super) fn show(ui: &mut Ui, state: State, title: &str) -> Option<Intent> {
                     if begins_group(entry.intent) {
                         ui.separator();
                     }
-                    let (enabled, checked) =
-                        (enabled(entry.intent, state), checked(entry.intent, state));
+                    let enabled = enabled(entry.intent, state);
+                    let checked = checked(entry.intent, state);
                     let keys = entry.shortcut_text(ui.ctx());
                     let response =
                         menu_item::show(ui, tr(entry.name), &keys, enabled, checked, ticks);

@@ -15,14 +15,16 @@ impl Studio {
         let label = self.panels.brushes.label(&brush).to_owned();
         let preferences = &mut self.files.preferences;
         let mut options = preferences.options_of(&brush);
-        let (settings, options_before) = (&mut preferences.pen, options.clone());
+        let settings = &mut preferences.pen;
+        let options_before = options.clone();
         let cx = PenContext { pen: &self.pen, settings, options: &mut options, brush: &label };
         self.pen_window.show(context, &mut self.visible.pen, cx);
         if options != options_before {
             preferences.set_options(&brush, options);
         }
         if self.visible.brush_sets {
-            let (open, sets) = (&mut self.visible.brush_sets, &mut self.files.brush_sets);
+            let open = &mut self.visible.brush_sets;
+            let sets = &mut self.files.brush_sets;
             if let Some(request) = self.own_brushes.show(context, open, sets) {
                 self.use_own_brushes(request);
             }

@@ -96,8 +96,10 @@ impl Studio {
                 let cut = self.is_stroke_cut();
                 if let Some(twins) = self.twins.take().filter(|_| !cut) {
                     let (tool, brush) = twins.tool();
-                    let down = || down(tool, SurfaceId::Canvas, brush.to_owned());
-                    twins.commands(down).into_iter().for_each(|command| self.ask(command));
+                    twins
+                        .commands(|| down(tool, SurfaceId::Canvas, brush.to_owned()))
+                        .into_iter()
+                        .for_each(|command| self.ask(command));
                     self.ask(Command::EndGroup);
                 }
             }

@@ -68,9 +68,11 @@ impl Studio {
         }
         if hovering {
             let layer = LayerId::new(Order::Foreground, Id::unique("dropping"));
-            let (painter, whole) = (context.layer_painter(layer), context.content_rect());
+            let painter = context.layer_painter(layer);
+            let whole = context.content_rect();
             painter.rect_filled(whole, 0.0, theme::BOARD);
-            let (font, text) = (FontId::proportional(18.0), tr("Drop to open"));
+            let font = FontId::proportional(18.0);
+            let text = tr("Drop to open");
             painter.text(whole.center(), Align2::CENTER_CENTER, text, font, theme::BOARD_TEXT);
         }
     }

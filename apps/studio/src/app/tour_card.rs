@@ -126,8 +126,9 @@ impl Studio {
                     ui.label(RichText::new(tr(step.title())).heading().strong());
                     ui.weak(tr_format!("step {number} of {of}", number = number + 1, of));
                 });
-                let key = |intent: Intent| text(ui.ctx(), &intent.name()).unwrap_or_default();
-                for line in step.lines(key) {
+                for line in
+                    step.lines(|intent: Intent| text(ui.ctx(), &intent.name()).unwrap_or_default())
+                {
                     ui.label(line);
                 }
             }

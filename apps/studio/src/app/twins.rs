@@ -38,22 +38,37 @@ impl TwinStrokes {
         if self.samples.is_empty() {
             return Vec::new();
         }
-        let stroke = |twin: &Twin| {
-            let samples = self.samples.iter();
-            let sample = |of: &PenSample| PenSample { sample: twin.sample(&of.sample), ..*of };
-            [down(), Command::PenMove(samples.map(sample).collect()), Command::PenUp]
-        };
-        self.twins.iter().flat_map(stroke).collect()
+        self.twins
+            .iter()
+            .flat_map(|twin: &Twin| {
+                let samples = self.samples.iter();
+                [
+                    down(),
+                    Command::PenMove(
+                        samples
+                            .map(|of: &PenSample| PenSample {
+                                sample: twin.sample(&of.sample),
+                                ..*of
+                            })
+                            .collect(),
+                    ),
+                    Command::PenUp,
+                ]
+            })
+            .collect()
     }
 
     /// Draws where the twins will be. Cells are `cell_mm` wide.
     pub(super) fn draw(&self, painter: &Painter, placement: &Placement, cell_mm: f64) {
         for twin in &self.twins {
-            let point = |of: &PenSample| {
-                let place = twin.place([of.sample.x_mm, of.sample.y_mm]);
-                placement.point(place.map(|mm| mm / cell_mm))
-            };
-            let points: Vec<_> = self.samples.iter().map(point).collect();
+            let points: Vec<_> = self
+                .samples
+                .iter()
+                .map(|of: &PenSample| {
+                    let place = twin.place([of.sample.x_mm, of.sample.y_mm]);
+                    placement.point(place.map(|mm| mm / cell_mm))
+                })
+                .collect();
             for (width, color) in
                 [(3.0, Color32::from_black_alpha(90)), (1.0, Color32::from_white_alpha(190))]
             {
@@ -88,9 +103,12 @@ mod tests {
             let [Command::BeginGroup, Command::PenMove(samples), Command::PenUp] = twin else {
                 panic!("{twin:?}")
             };
-            let far =
-                |sample: &PenSample| (sample.sample.x_mm - 10.0).hypot(sample.sample.y_mm - 10.0);
-            let fars: Vec<f64> = samples.iter().map(far).collect();
+            let fars: Vec<f64> = samples
+                .iter()
+                .map(|sample: &PenSample| {
+                    (sample.sample.x_mm - 10.0).hypot(sample.sample.y_mm - 10.0)
+                })
+                .collect();
             assert!((fars[0] - 2.0).abs() < 1e-9 && (fars[1] - 4.0).abs() < 1e-9, "{fars:?}");
         }
     }

@@ -84,11 +84,16 @@ impl Arrangement {
     /// Groups of panels in the right column.
     #[must_use]
     pub fn in_right_column(groups: &[&[&str]]) -> Self {
-        let group = |panels: &&[&str]| Group {
-            panels: panels.iter().map(|&key| key.to_owned()).collect(),
-            ..Group::default()
+        let right = Column {
+            groups: groups
+                .iter()
+                .map(|panels: &&[&str]| Group {
+                    panels: panels.iter().map(|&key| key.to_owned()).collect(),
+                    ..Group::default()
+                })
+                .collect(),
+            ..Column::default()
         };
-        let right = Column { groups: groups.iter().map(group).collect(), ..Column::default() };
         Self { right, ..Self::default() }
     }
 

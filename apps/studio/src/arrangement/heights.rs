@@ -60,7 +60,8 @@ mod tests {
 
     #[test]
     fn a_panel_that_should_be_whole_is_and_another_takes_the_rest() {
-        let (brush, light) = (request(510.0, true, 0), request(560.0, false, 1));
+        let brush = request(510.0, true, 0);
+        let light = request(560.0, false, 1);
         assert_eq!(heights(&[brush, light], 880.0), [Some(510.0), Some(370.0)]);
         assert_eq!(heights(&[light, brush], 880.0), [Some(370.0), Some(510.0)]);
         // In a column that is too low for it, it has all of the room while it is in use.
@@ -71,7 +72,8 @@ mod tests {
     #[test]
     fn without_room_the_group_used_last_stays_open() {
         let share = |uses: [u64; 2]| {
-            let (brush, light) = (request(510.0, true, uses[0]), request(800.0, false, uses[1]));
+            let brush = request(510.0, true, uses[0]);
+            let light = request(800.0, false, uses[1]);
             heights(&[brush, light], 680.0)
         };
         assert_eq!(share([2, 1]), [Some(680.0), None]);

@@ -2,9 +2,7 @@
 //! and sharing the height are functions of it.
 
 mod groups;
-
 mod moves;
-
 mod heights;
 
 pub use groups::{Arrangement, Column, Group, Side, WIDTHS};

@@ -55,7 +55,8 @@ impl Arrangement {
     pub fn place_after(&self, key: &str, step: Move) -> Option<Place> {
         let (side, group, _) = self.position(key)?;
         let groups = &self.column(side).groups;
-        let (first, last) = (group == 0, group + 1 == groups.len());
+        let first = group == 0;
+        let last = group + 1 == groups.len();
         let alone = groups[group].panels.len() == 1;
         match step {
             Move::Up if alone => (!first).then(|| Place::Before(side, group - 1)),

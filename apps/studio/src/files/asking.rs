@@ -181,11 +181,10 @@ impl Files {
     /// Answers the topmost dialog with the file at `path`, if it asks for a file to open. Returns
     /// whether it did.
     pub fn choose(&mut self, path: &Path) -> bool {
-        let asks = |dialog: &OpenDialog| match dialog {
+        if !self.dialogs.last().is_some_and(|dialog: &OpenDialog| match dialog {
             OpenDialog::Browser(browser, _) => !browser.is_saving(),
             _ => false,
-        };
-        if !self.dialogs.last().is_some_and(asks) {
+        }) {
             return false;
         }
         if let Some(OpenDialog::Browser(_, purpose)) = self.dialogs.pop() {
@@ -359,6 +358,8 @@ pub(super) fn export_options(kind: ExportKind, title: &str) -> BrowserOptions {
     let linear = kind == ExportKind::Picture(PictureFormat::LinearExr);
     let mark = if linear { ".linear" } else { "" };
     let name = format!("{title}{mark}.{ending}");
-    let (title, ending, others) = (tr("Export"), Some(ending), &[][..]);
+    let title = tr("Export");
+    let ending = Some(ending);
+    let others = &[][..];
     BrowserOptions { title, saving: true, filters, ending, others, name }
 }

@@ -68,10 +68,16 @@ impl Files {
 
     /// Starts writing an autosave.
     pub(super) fn start_autosave(&mut self, kept: &Arc<KeptPainting>) {
-        let (kept, start, desk) = (kept.clone(), self.start.clone(), self.desk.clone());
-        let (revision, epoch) = (kept.snapshot.revision, self.epoch);
-        let (title, path, seconds) = (self.title(), self.path.clone(), now());
-        let (autosave, known) = (self.autosave.clone(), self.reference_digest.clone());
+        let kept = kept.clone();
+        let start = self.start.clone();
+        let desk = self.desk.clone();
+        let revision = kept.snapshot.revision;
+        let epoch = self.epoch;
+        let title = self.title();
+        let path = self.path.clone();
+        let seconds = now();
+        let autosave = self.autosave.clone();
+        let known = self.reference_digest.clone();
         self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
             let picture = desk.reference.as_ref().map(|reference| &reference.picture);
             let digest = known.filter(|(path, _)| Some(path) == picture);

@@ -19,14 +19,17 @@ use session::{Command, Origin, Snapshot};
 impl Files {
     /// Starts to crop the painting of `snapshot`.
     pub(super) fn start_crop(&mut self, rect: Rect, snapshot: &Snapshot) {
-        let (canvas, palette) = (Arc::clone(&snapshot.canvas), Arc::clone(&snapshot.palette));
-        let (revision, epoch) = (snapshot.revision, self.epoch);
+        let canvas = Arc::clone(&snapshot.canvas);
+        let palette = Arc::clone(&snapshot.palette);
+        let revision = snapshot.revision;
+        let epoch = self.epoch;
         self.start_job(JobKind::Shown, tr("cropping the painting").to_owned(), move |progress| {
             let cropped = canvas.cropped(rect);
             progress.report(0.2)?;
             let bytes =
                 paint::file::write(&cropped).map_err(|error| Problem::from_error(&error))?;
-            let (canvas, start) = (Box::new(cropped), Arc::new(bytes));
+            let canvas = Box::new(cropped);
+            let start = Arc::new(bytes);
             Ok(Finished::Cropped { canvas, palette, start, revision, epoch })
         });
     }
@@ -45,8 +48,8 @@ impl Files {
             let text = tr("the painting changed while it was cropped");
             return self.report(Problem::new(text, tr("crop it again")));
         }
-        let mm = |cells: usize| cells as f64 * canvas.cell_mm;
-        let [width, height] = [canvas.wet.width(), canvas.wet.height()].map(mm);
+        let [width, height] = [canvas.wet.width(), canvas.wet.height()]
+            .map(|cells: usize| cells as f64 * canvas.cell_mm);
         let size = tr_format!("cropped to {width:.1} x {height:.1} mm", width, height);
         let mixed = palette.wet.totals().iter().any(|total| *total > 0);
         let (origin, start, text) = if mixed {

@@ -72,15 +72,17 @@ impl DeskReference {
     /// The reference picture in a file, and what is drawn on it; its digest is not known yet.
     #[must_use]
     pub fn new(picture: &Path, drawings: &[DrawnFile]) -> Self {
-        let drawing = |DrawnFile { drawing, path }: &DrawnFile| DeskDrawing {
-            marks: drawing.kind() == DrawingKind::Marks,
-            path: path.clone(),
-            toml: match drawing {
-                Drawing::Marks(marks) => marks.to_toml(),
-                Drawing::Guides(guides) => guides.to_toml(),
-            },
-        };
-        let drawings = drawings.iter().map(drawing).collect();
+        let drawings = drawings
+            .iter()
+            .map(|DrawnFile { drawing, path }: &DrawnFile| DeskDrawing {
+                marks: drawing.kind() == DrawingKind::Marks,
+                path: path.clone(),
+                toml: match drawing {
+                    Drawing::Marks(marks) => marks.to_toml(),
+                    Drawing::Guides(guides) => guides.to_toml(),
+                },
+            })
+            .collect();
         Self { picture: picture.to_owned(), sha256: None, drawings }
     }
 

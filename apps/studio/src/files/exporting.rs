@@ -82,8 +82,10 @@ pub(crate) fn export(
         }
         ExportKind::Layers => {
             let count = (document.dry.len() + 2) as f64;
-            let go_on = |done| progress.report(0.9 * done as f64 / count).is_ok();
-            let file = layers_file(document, light, go_on).map_err(problem)?;
+            let file = layers_file(document, light, |done| {
+                progress.report(0.9 * done as f64 / count).is_ok()
+            })
+            .map_err(problem)?;
             let Some(file) = file else { return Err(JobError::Cancelled) };
             write_whole(path, &file.bytes).map_err(Problem::from)?;
             Ok(file.outside_gamut().map(|outside| gamut_remark(path, outside)))
@@ -91,8 +93,10 @@ pub(crate) fn export(
         ExportKind::Spectral(bands) => {
             let picture = picture(document, &scene(document, light));
             let rows = document.wet.height().max(1) as f64;
-            let go_on = |row| progress.report(0.1 + 0.7 * row as f64 / rows).is_ok();
-            let file = spectral_file(document, light, &picture, bands, go_on).map_err(problem)?;
+            let file = spectral_file(document, light, &picture, bands, |row| {
+                progress.report(0.1 + 0.7 * row as f64 / rows).is_ok()
+            })
+            .map_err(problem)?;
             let Some(bytes) = file else { return Err(JobError::Cancelled) };
             progress.report(0.9)?;
             write_whole(path, &bytes).map_err(Problem::from)?;
@@ -129,7 +133,8 @@ mod tests {
 
     /// A canvas under a thick layer of a green that sRGB cannot show.
     fn green() -> Document {
-        let (cell_mm, ground) = (0.5, GroundSpec::default());
+        let cell_mm = 0.5;
+        let ground = GroundSpec::default();
         let canvas = Canvas { width_mm: 12.0, height_mm: 8.0, cell_mm, ground };
         let palette = PaletteSpec::from_names(["Zinc White", "Emerald Green"]);
         let script = StrokeScript::new("Green", "CC0-1.0", canvas, palette);
@@ -146,7 +151,8 @@ mod tests {
 
     #[test]
     fn colors_that_a_picture_loses_are_told_with_its_path() {
-        let (folder, document) = (tempfile::tempdir().unwrap(), green());
+        let folder = tempfile::tempdir().unwrap();
+        let document = green();
         let light = Light::named(&document.library, "D65", "1931-2").unwrap();
         let pixels = PixelsPerCell::new(1).unwrap();
         for (format, told) in [

@@ -70,7 +70,8 @@ impl Files {
                 let RecoveredWork { session, start } = work.map(|work| *work).unwrap_or_default();
                 let kept = Some(Box::new(session));
                 let commands = vec![Command::Open(Origin::Recovered { canvas, palette, kept })];
-                let (path, start) = (lost.meta.path.clone(), start.map(Arc::new));
+                let path = lost.meta.path.clone();
+                let start = start.map(Arc::new);
                 let origin = FileOrigin { path, lost: Some(lost), start, ..FileOrigin::default() };
                 self.replace(Replacement { commands, origin });
             }

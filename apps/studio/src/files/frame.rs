@@ -120,13 +120,12 @@ impl Files {
         if !self.has_unsaved_changes() && self.unsaved_drawings.is_empty() {
             return true;
         }
-        let asks = |dialog: &OpenDialog| match dialog {
+        if !self.dialogs.iter().any(|dialog: &OpenDialog| match dialog {
             OpenDialog::Unsaved(action) | OpenDialog::UnsavedDrawings(action) => {
                 matches!(action, PendingAction::Close { .. })
             }
             _ => false,
-        };
-        if !self.dialogs.iter().any(asks) {
+        }) {
             self.carry_out_safely(PendingAction::Close { drawings_given_up: false });
         }
         false

@@ -21,7 +21,8 @@ impl Home {
     #[cfg(not(target_arch = "wasm32"))]
     pub fn for_platform() -> Option<Self> {
         let folders = ProjectDirs::from("", "", "impasto")?;
-        let (settings, data) = (folders.config_dir(), folders.data_local_dir());
+        let settings = folders.config_dir();
+        let data = folders.data_local_dir();
         Some(Self { settings: settings.to_owned(), data: data.to_owned() })
     }
 

@@ -162,12 +162,15 @@ mod tests {
     fn a_job_reports_its_progress_and_its_result_once() {
         let (go, wait) = channel();
         let (woken, wakes) = channel();
-        let wake = move || woken.send(()).unwrap_or_default();
-        let mut job = Job::start("counting", wake, move |progress| {
-            progress.report(0.5)?;
-            let _ = wait.recv();
-            Ok(7)
-        });
+        let mut job = Job::start(
+            "counting",
+            move || woken.send(()).unwrap_or_default(),
+            move |progress| {
+                progress.report(0.5)?;
+                let _ = wait.recv();
+                Ok(7)
+            },
+        );
         while job.fraction() != Some(0.5) {
             std::thread::yield_now();
         }
@@ -195,8 +198,11 @@ mod tests {
     #[test]
     fn a_panicking_job_is_reported_and_wakes_the_window() {
         let (woken, wakes) = channel();
-        let wake = move || woken.send(()).unwrap_or_default();
-        let mut job = Job::<()>::start("falling", wake, |_| panic!("on purpose"));
+        let mut job = Job::<()>::start(
+            "falling",
+            move || woken.send(()).unwrap_or_default(),
+            |_| panic!("on purpose"),
+        );
         wakes.recv().expect("the window is woken");
         let ended = loop {
             if let Some(ended) = job.poll() {

@@ -2,95 +2,50 @@
 //! runs on threads of its own.
 
 mod problem;
-
 mod age;
-
 mod page_problem;
-
 mod drawing;
-
 mod desk;
-
 mod reference_change;
-
 mod swatch_format;
-
 mod swatch_list;
-
 mod request;
-
 mod job;
-
 mod home;
-
 mod browser_look;
-
 mod new_canvas;
-
 mod preferences;
-
 mod opened;
-
 mod revisions;
-
 mod revision_list;
-
 mod exporting;
-
 mod scene_file;
-
 mod timelapse;
-
 mod figures_log;
-
 mod default_button;
-
 mod picture_file;
-
 mod browser;
-
 mod dialogs;
-
 mod pending;
-
 mod notice;
-
 mod own_brushes;
-
 mod work;
-
 mod new_dialog;
-
 mod open_dialog;
-
 mod scene_files;
-
 mod state;
-
 mod cropping;
-
 mod tasks;
-
 mod autosaving;
-
 mod drawings;
-
 mod brush_sets;
-
 mod swatches;
-
 mod asking;
-
 mod beginning;
-
 mod scenes;
-
 mod finished;
-
 mod notices;
-
 mod sample;
-
 mod frame;
 
 pub use age::{ago, size};

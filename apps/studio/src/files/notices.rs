@@ -126,13 +126,19 @@ impl Files {
             if job.began.elapsed() < JOB_SHOWN_AFTER {
                 continue;
             }
-            let words = |ui: &mut Ui| bar(ui, job.job.label(), job.job.fraction());
-            card(ui, words, |ui| {
-                let cancel = ui.button(tr("Cancel"));
-                if cancel.on_hover_text(tr("Cancels it; no file is left half written")).clicked() {
-                    *clicked = Some(Clicked::CancelJob(index));
-                }
-            });
+            card(
+                ui,
+                |ui: &mut Ui| bar(ui, job.job.label(), job.job.fraction()),
+                |ui| {
+                    let cancel = ui.button(tr("Cancel"));
+                    if cancel
+                        .on_hover_text(tr("Cancels it; no file is left half written"))
+                        .clicked()
+                    {
+                        *clicked = Some(Clicked::CancelJob(index));
+                    }
+                },
+            );
         }
         if let Some((done, of)) = self.replay {
             let fraction = done as f32 / of.max(1) as f32;

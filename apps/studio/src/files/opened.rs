@@ -87,7 +87,8 @@ pub(crate) fn read(path: &Path, progress: &Progress) -> Result<Opened, JobError>
                     let table = paint::file::read_table(&name, &bytes);
                     let table = table.map_err(|error| Problem::from_error(&error));
                     let table = table.map(|table| table.map(Box::new));
-                    let (document, bytes) = (Box::new(document), Arc::new(bytes));
+                    let document = Box::new(document);
+                    let bytes = Arc::new(bytes);
                     Opened::Painting { document, table, bytes }
                 }
                 // A linear picture of another program.

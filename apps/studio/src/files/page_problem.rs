@@ -61,7 +61,8 @@ impl From<PageProblem> for Problem {
                 Self::new(text, save())
             }
             PageProblem::TooLarge { name, bytes, most } => {
-                let (bytes, most) = (size(bytes), size(most));
+                let bytes = size(bytes);
+                let most = size(most);
                 let text = tr_format!(
                     "{name}: has {bytes}; a page takes at most {most}",
                     name,
@@ -84,7 +85,8 @@ mod tests {
 
     #[test]
     fn each_problem_names_the_way_out() {
-        let (name, reason) = ("big.exr".to_owned(), "gone".to_owned());
+        let name = "big.exr".to_owned();
+        let reason = "gone".to_owned();
         let large = PageProblem::TooLarge { name: name.clone(), bytes: 600 << 20, most: 512 << 20 };
         let problem = Problem::from(large);
         assert_eq!(problem.text, "big.exr: has 629.1 MB; a page takes at most 536.9 MB");

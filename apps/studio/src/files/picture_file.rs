@@ -47,7 +47,8 @@ pub(crate) fn read_picture(
             Photograph::from_bytes(&name, &bytes).map_err(|error| Problem::from_error(&error))?;
         let (own_width, own_height) = photograph.size();
         let (width, height) = reduced_size((own_width, own_height), longest);
-        let (linear, file_size) = (photograph.on_canvas(width, height), [own_width, own_height]);
+        let linear = photograph.on_canvas(width, height);
+        let file_size = [own_width, own_height];
         return Ok(ReadPicture { linear, file_size, scene_linear: false });
     }
     let (linear, scene_linear) = match read_within(&name, &bytes, most_bytes) {
@@ -95,9 +96,9 @@ pub(crate) fn on_screen(
     let shades: Vec<u8> = (0..=SHADES)
         .map(|step| Rgb([step as f64 / SHADES as f64; 3]).encoded().to_bytes()[0])
         .collect();
-    let shade = |value: f32| shades[(value.clamp(0.0, 1.0) * SHADES as f32).round() as usize];
     let pixels = linear.values().par_iter().map(|&rgb| {
-        let [red, green, blue] = change(rgb).map(shade);
+        let [red, green, blue] = change(rgb)
+            .map(|value: f32| shades[(value.clamp(0.0, 1.0) * SHADES as f32).round() as usize]);
         Color32::from_rgb(red, green, blue)
     });
     ColorImage::new([linear.width(), linear.height()], pixels.collect())

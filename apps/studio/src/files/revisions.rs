@@ -84,7 +84,8 @@ pub(super) fn list(path: &Path, progress: &Progress) -> Result<Vec<Revision>, Jo
         progress.report(0.0)?;
         let Ok(file) = disk::metadata(&path) else { continue };
         let thumbnail = read_thumbnail(&path.with_extension("png"));
-        let (bytes, kept) = (file.len(), file.modified().ok());
+        let bytes = file.len();
+        let kept = file.modified().ok();
         revisions.push(Revision { number, path, bytes, kept, thumbnail });
     }
     Ok(revisions)
@@ -127,7 +128,8 @@ fn numbers(folder: &Path) -> Result<Vec<(u32, PathBuf)>, Problem> {
 /// linear light.
 fn thumbnail(document: &Document, light: &Light) -> RgbImage {
     let picture = picture(document, &scene(document, light));
-    let (width, height) = (picture.width() as u32, picture.height() as u32);
+    let width = picture.width() as u32;
+    let height = picture.height() as u32;
     let values = picture.values().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
     let Some(linear) = image::Rgb32FImage::from_raw(width, height, values) else {
         return RgbImage::new(1, 1);

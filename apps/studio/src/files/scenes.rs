@@ -68,7 +68,8 @@ impl Files {
             }
         };
         let name = format!("{}.{ending}", self.scene_stem());
-        let (ending, others) = (Some(ending), filters[0].endings);
+        let ending = Some(ending);
+        let others = filters[0].endings;
         let options = BrowserOptions { title, saving: true, filters, ending, others, name };
         self.browse(options, FilePurpose::Scene(ScenePurpose::Export(export)));
     }
@@ -157,7 +158,8 @@ impl Files {
         self.scenes.autosaved = recording.revision;
         let path = Some(recording.folder.clone());
         let meta = SessionMeta { title, path, seconds: now(), desk: None };
-        let (autosave, text) = (self.scenes.autosave.clone(), recording.text.clone());
+        let autosave = self.scenes.autosave.clone();
+        let text = recording.text.clone();
         self.start_job(JobKind::Autosave, "autosave".to_owned(), move |_| {
             let mut autosave = autosave.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(autosave) = autosave.as_mut() {
@@ -176,8 +178,8 @@ impl Files {
 
     /// Saves the script of a scene in a file.
     pub fn save_scene(&mut self, recording: &SceneRecording, path: PathBuf) {
-        let (recording, label) =
-            (recording.clone(), tr_format!("saving {path}", path = file_name(&path)));
+        let recording = recording.clone();
+        let label = tr_format!("saving {path}", path = file_name(&path));
         self.start_job(JobKind::Saving, label, move |_| {
             recording.save(&path).map_err(Problem::from)?;
             Ok(Finished::SceneSaved { path, revision: recording.revision })
@@ -207,6 +209,5 @@ impl Files {
 
 /// The name of a file without what cannot be in one.
 fn file_stem(title: &str) -> String {
-    let kept = |letter: char| if letter.is_alphanumeric() { letter } else { '-' };
-    title.chars().map(kept).collect()
+    title.chars().map(|letter: char| if letter.is_alphanumeric() { letter } else { '-' }).collect()
 }

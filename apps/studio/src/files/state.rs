@@ -220,12 +220,11 @@ impl Files {
     /// Whether the painting has changes that are in no file.
     #[must_use]
     pub fn has_unsaved_changes(&self) -> bool {
-        let changed = |state: &Arc<PaintingState>| {
+        self.painting.as_ref().is_some_and(|state: &Arc<PaintingState>| {
             self.recovered.is_some()
                 || state.stroke_open
                 || self.saved_revision != Some(state.revision)
-        };
-        self.painting.as_ref().is_some_and(changed)
+        })
     }
 
     /// Number of autosaves of programs that were killed, which are offered.
@@ -247,8 +246,10 @@ impl Files {
 
     /// Whether a painting is being saved.
     pub(super) fn is_saving(&self) -> bool {
-        let saves = |(_, purpose): &(u64, Purpose)| matches!(purpose, Purpose::Save { .. });
-        self.awaited.iter().any(saves) || self.jobs.iter().any(|job| job.kind == JobKind::Saving)
+        self.awaited
+            .iter()
+            .any(|(_, purpose): &(u64, Purpose)| matches!(purpose, Purpose::Save { .. }))
+            || self.jobs.iter().any(|job| job.kind == JobKind::Saving)
     }
 
     /// Starts a job on a thread of its own.

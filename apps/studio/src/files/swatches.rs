@@ -57,7 +57,8 @@ impl Files {
             return;
         }
         self.swatches.written = Some(self.swatches.book.clone());
-        let (book, path) = (self.swatches.book.clone(), self.home.swatches());
+        let book = self.swatches.book.clone();
+        let path = self.home.swatches();
         self.start_job(JobKind::Background, tr("writing kept mixtures").to_owned(), move |_| {
             write_own(&path, &book)?;
             Ok(Finished::Quietly)
@@ -105,7 +106,8 @@ impl Files {
     /// Starts writing all mixtures to a file, with their colours under the light of the painting.
     pub(super) fn export_swatches(&mut self, format: SwatchFormat, path: PathBuf) {
         let Some(PaintingState { library, light, .. }) = self.painting.as_deref() else { return };
-        let (library, light) = (library.clone(), light.clone());
+        let library = library.clone();
+        let light = light.clone();
         let book = self.swatches.book.clone();
         let label = tr_format!("writing {path}", path = file_name(&path));
         self.start_job(JobKind::Shown, label, move |_| {

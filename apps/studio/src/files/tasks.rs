@@ -31,11 +31,13 @@ impl Files {
     /// Starts the job that a snapshot was requested for.
     pub(super) fn start_with_snapshot(&mut self, purpose: Purpose, snapshot: &Snapshot) {
         let canvas = snapshot.canvas.clone();
-        let (revision, epoch) = (snapshot.revision, self.epoch);
+        let revision = snapshot.revision;
+        let epoch = self.epoch;
         match purpose {
             Purpose::Save { path, next, keep_revision } => {
                 let label = tr_format!("saving {path}", path = file_name(&path));
-                let (palette, brushes) = (snapshot.palette.clone(), snapshot.brushes.clone());
+                let palette = snapshot.palette.clone();
+                let brushes = snapshot.brushes.clone();
                 self.start_job(JobKind::Saving, label, move |progress| {
                     write_painting(&path, &canvas, (&palette, &brushes), progress)?;
                     Ok(Finished::Saved { path, revision, epoch, next, keep_revision })
@@ -81,7 +83,8 @@ impl Files {
         script: Arc<StrokeScript>,
     ) {
         let Some(state) = &self.painting else { return };
-        let (library, start) = (state.library.clone(), self.start.clone());
+        let library = state.library.clone();
+        let start = self.start.clone();
         let undo_bytes = self.preferences.undo_mib << 20;
         let recorded = Recorded { script, library, start, undo_bytes };
         let label = tr_format!("timelapse {path}", path = file_name(&path));
@@ -112,7 +115,8 @@ impl Files {
     ) -> impl FnOnce() -> Result<Arc<Light>, Problem> + Send + 'static {
         let document = document.clone();
         let known = self.painting.as_ref().filter(|state| {
-            let (own, current) = (&document.lighting, &state.lighting);
+            let own = &document.lighting;
+            let current = &state.lighting;
             (&own.illuminant, &own.observer) == (&current.illuminant, &current.observer)
                 && *state.library == document.library
         });

@@ -204,12 +204,12 @@ impl Recorded {
         let timelapse =
             Timelapse::new(&self.script, export.settings()).map_err(|error| problem(&error))?;
         let mut session = self.session()?;
-        let report = |done| match progress.report(done) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(_) => ControlFlow::Break(()),
-        };
-        let written =
-            timelapse.write(&mut session, &files, report).map_err(|error| problem(&error))?;
+        let written = timelapse
+            .write(&mut session, &files, |done| match progress.report(done) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
+            })
+            .map_err(|error| problem(&error))?;
         written.map(drop).ok_or(JobError::Cancelled)
     }
 

@@ -52,7 +52,8 @@ impl Keymap {
             for row in table.rows() {
                 for key in &row.keys {
                     if let Some(first) = table.owner(key).filter(|first| first.name != row.name) {
-                        let (key, first) = (key.text(), &first.title);
+                        let key = key.text();
+                        let first = &first.title;
                         faults.push(format!("{key} of {} is the key of {first} too", row.title));
                     }
                 }

@@ -5,13 +5,9 @@
 //! panels look keys up by these names.
 
 mod shortcut;
-
 mod name;
-
 mod table;
-
 mod changes;
-
 mod installed;
 
 pub use changes::{Changes, Keymap, Scope};

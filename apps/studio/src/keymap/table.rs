@@ -31,7 +31,8 @@ impl KeyRow {
         group: &'static str,
         standard: &[Shortcut],
     ) -> Self {
-        let (title, description) = (title.into(), description.into());
+        let title = title.into();
+        let description = description.into();
         let keys = standard.to_vec();
         Self { name, title, description, group, standard: keys.clone(), keys }
     }
@@ -65,8 +66,9 @@ impl KeyTable {
     /// The row that a pressed key belongs to, if it belongs to one; the first of several.
     #[must_use]
     pub fn find(&self, key: Key, modifiers: Modifiers) -> Option<&KeyRow> {
-        let fits = |row: &&KeyRow| row.keys.iter().any(|own| own.matches(key, modifiers));
-        self.rows.iter().find(fits)
+        self.rows
+            .iter()
+            .find(|row: &&KeyRow| row.keys.iter().any(|own| own.matches(key, modifiers)))
     }
 
     /// The row that has a shortcut, if one has.

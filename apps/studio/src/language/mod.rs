@@ -7,13 +7,9 @@
 //! shown.
 
 mod choice;
-
 mod table;
-
 mod current;
-
 mod text;
-
 mod labels;
 
 pub use choice::Language;

@@ -10,8 +10,8 @@ use super::table::table;
 /// `theme|Light`, which is shown as `Light` in English.
 #[must_use]
 pub fn tr(english: &str) -> &str {
-    let plain = || english.split_once('|').map_or(english, |(_, text)| text);
-    translation(english).unwrap_or_else(plain)
+    translation(english)
+        .unwrap_or_else(|| english.split_once('|').map_or(english, |(_, text)| text))
 }
 
 /// An English text of a table, which is translated where it is shown: the same text, so that all

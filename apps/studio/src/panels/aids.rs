@@ -76,7 +76,8 @@ fn guide_rows(ui: &mut Ui, aids: &mut DrawingAids) {
         Some(GuideKind::Ruler) => {
             ui.horizontal_wrapped(|ui| {
                 for (shape, name, tip) in SHAPES {
-                    let (name, tip) = (tr(name), tr(tip));
+                    let name = tr(name);
+                    let tip = tr(tip);
                     ui.selectable_value(&mut aids.ruler.shape, shape, name).on_hover_text(tip);
                 }
             });
@@ -128,7 +129,8 @@ fn symmetry_rows(ui: &mut Ui, aids: &mut DrawingAids) {
     }
     ui.horizontal_wrapped(|ui| {
         for (kind, name, tip) in KINDS {
-            let (name, tip) = (tr(name), tr(tip));
+            let name = tr(name);
+            let tip = tr(tip);
             ui.selectable_value(&mut symmetry.kind, kind, name).on_hover_text(tip);
         }
     });

@@ -84,13 +84,17 @@ pub(super) fn named_button(
 /// Whether buttons of these names fit side by side into the width that is left.
 pub(super) fn buttons_fit(ui: &Ui, names: &[&str]) -> bool {
     let font = TextStyle::Button.resolve(ui.style());
-    let width = |name: &&str| {
-        let text =
-            ui.painter().layout_no_wrap((*name).to_owned(), font.clone(), Color32::PLACEHOLDER);
-        (text.size().x + 2.0 * ui.spacing().button_padding.x).max(theme::target(ui))
-    };
     let gaps = names.len().saturating_sub(1) as f32 * ui.spacing().item_spacing.x;
-    names.iter().map(width).sum::<f32>() + gaps <= ui.available_width()
+    names
+        .iter()
+        .map(|name: &&str| {
+            let text =
+                ui.painter().layout_no_wrap((*name).to_owned(), font.clone(), Color32::PLACEHOLDER);
+            (text.size().x + 2.0 * ui.spacing().button_padding.x).max(theme::target(ui))
+        })
+        .sum::<f32>()
+        + gaps
+        <= ui.available_width()
 }
 
 /// A button as high as a line of text, or high enough to be touched.

@@ -37,7 +37,9 @@ pub fn lines(rate: FrameRate, worker: Performance, backend: &str) -> Vec<(&'stat
 
 /// Draws the figures over the upper left corner of `over`.
 pub fn overlay(ui: &Ui, over: Rect, rate: FrameRate, worker: Performance, backend: &str) {
-    let (size, row, value_at) = (12.0, 16.0, 128.0);
+    let size = 12.0;
+    let row = 16.0;
+    let value_at = 128.0;
     let font = FontId::proportional(size);
     let painter = ui.painter().with_clip_rect(over);
     let lines = lines(rate, worker, backend);

@@ -37,7 +37,8 @@ pub(super) fn keep(cx: &mut PanelContext<'_>, recipe: Recipe, vehicle: f64) {
 /// wood; row by row from the upper left.
 fn candidates(painting: &PaintingState, reach_mm: f64) -> Vec<[f64; 2]> {
     let cells = painting.palette_cells;
-    let (reach, step) = (reach_mm / painting.cell_mm, (reach_mm / painting.cell_mm).max(1.0));
+    let reach = reach_mm / painting.cell_mm;
+    let step = (reach_mm / painting.cell_mm).max(1.0);
     let along = |size: usize| (size as f64 / step) as usize;
     let rim = |[x, y]: [f64; 2]| {
         let turns = (0..16).map(|turn| f64::from(turn) * TAU / 16.0);

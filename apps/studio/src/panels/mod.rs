@@ -1,51 +1,28 @@
 //! The panels. Each shows the state that the worker last reported and queues requests.
 
 mod tools;
-
 mod context;
-
 mod laying;
-
 mod pending_value;
-
 mod controls;
-
 mod search;
-
 mod fitted_text;
-
 mod section;
-
 mod pigments;
-
 pub mod eyedropper;
-
 pub mod wheel;
-
 pub mod swatches;
-
 pub mod history;
-
 pub mod layers;
-
 pub mod light;
-
 pub mod reference;
-
 pub mod tubes;
-
 pub mod brushes;
-
 pub mod pen;
-
 pub mod own_brushes;
-
 pub mod aids;
-
 pub mod figures;
-
 pub mod volumes;
-
 pub mod revisions;
 
 pub use crate::files::FileRequest;

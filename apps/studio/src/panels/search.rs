@@ -20,15 +20,15 @@ pub(super) enum Match {
 impl Match {
     /// How well `name` matches `wanted`, ignoring case.
     pub(super) fn of(name: &str, wanted: &str) -> Self {
-        let (name, wanted) = (name.to_lowercase(), wanted.trim().to_lowercase());
-        let starts_word = |(at, _): (usize, &str)| {
-            name[..at].chars().next_back().is_some_and(|before| !before.is_alphanumeric())
-        };
+        let name = name.to_lowercase();
+        let wanted = wanted.trim().to_lowercase();
         if name == wanted {
             Self::Exact
         } else if name.starts_with(&wanted) {
             Self::Start
-        } else if name.match_indices(&wanted).any(starts_word) {
+        } else if name.match_indices(&wanted).any(|(at, _): (usize, &str)| {
+            name[..at].chars().next_back().is_some_and(|before| !before.is_alphanumeric())
+        }) {
             Self::Word
         } else if name.contains(&wanted) {
             Self::Inside
@@ -62,7 +62,8 @@ impl Highlight {
             return;
         }
         let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
-        let (down, up) = (pressed(Key::ArrowDown), pressed(Key::ArrowUp));
+        let down = pressed(Key::ArrowDown);
+        let up = pressed(Key::ArrowUp);
         self.line = (self.line + down).saturating_sub(up);
         self.moved |= down + up > 0;
     }

@@ -32,16 +32,18 @@ fn hold(x_mm: f64, y_mm: f64) -> PointerState {
 
 /// A wavy stroke to the lower right.
 fn wavy() -> Vec<PointerState> {
-    let at = |step: u8| {
-        let along = 0.7 * f64::from(step);
-        hold(60.0 + along, 50.0 + 0.4 * along + 2.0 * along.sin())
-    };
-    (0..60).map(at).collect()
+    (0..60)
+        .map(|step: u8| {
+            let along = 0.7 * f64::from(step);
+            hold(60.0 + along, 50.0 + 0.4 * along + 2.0 * along.sin())
+        })
+        .collect()
 }
 
 /// Samples of each of the strokes of a pen, one after another.
 fn strokes(pen: &mut Pen, strokes: &[Vec<PointerState>], modifiers: Modifiers) -> Vec<Vec<Sample>> {
-    let (start, transforms) = (Instant::now(), transforms());
+    let start = Instant::now();
+    let transforms = transforms();
     let mut script = Script::new(Device::Pen);
     for holds in strokes {
         script = script.stroke(holds.iter().copied(), Duration::from_millis(5));
@@ -87,12 +89,16 @@ fn perspective() -> Guide {
 
 /// Farthest distance of samples from the line through two places.
 fn off(samples: &[Sample], [from, to]: [[f64; 2]; 2]) -> f64 {
-    let (right, down) = (to[0] - from[0], to[1] - from[1]);
-    let distance = |sample: &Sample| {
-        let (x, y) = (sample.x_mm - from[0], sample.y_mm - from[1]);
-        (x * down - y * right).abs() / right.hypot(down)
-    };
-    samples.iter().map(distance).fold(0.0, f64::max)
+    let right = to[0] - from[0];
+    let down = to[1] - from[1];
+    samples
+        .iter()
+        .map(|sample: &Sample| {
+            let x = sample.x_mm - from[0];
+            let y = sample.y_mm - from[1];
+            (x * down - y * right).abs() / right.hypot(down)
+        })
+        .fold(0.0, f64::max)
 }
 
 #[test]
@@ -118,31 +124,35 @@ fn a_stabilised_stroke_ends_on_the_ruler_too() {
     let mut pen = led_by(Some(ruler()), settings);
     let led = strokes(&mut pen, &[wavy()], Modifiers::NONE).remove(0);
     assert!(off(&led, [[10.0, 20.0], [110.0, 95.0]]) < 1e-9);
-    let (first, last) = (led[0], led[led.len() - 1]);
+    let first = led[0];
+    let last = led[led.len() - 1];
     assert!(last.x_mm - first.x_mm > 30.0, "it catches up: {first:?} {last:?}");
 }
 
 #[test]
 fn perspective_leads_all_samples_to_the_point_of_the_first_direction() {
-    let at = |step: u8| {
-        let along = 0.7 * f64::from(step);
-        hold(60.0 + along, 50.0 + 0.7 * along + 0.8 * (2.0 * along).sin())
-    };
-    let holds: Vec<PointerState> = (0..60).map(at).collect();
+    let holds: Vec<PointerState> = (0..60)
+        .map(|step: u8| {
+            let along = 0.7 * f64::from(step);
+            hold(60.0 + along, 50.0 + 0.7 * along + 0.8 * (2.0 * along).sin())
+        })
+        .collect();
     let led = stroke(Some(perspective()), holds.clone());
     let start = [led[0].x_mm, led[0].y_mm];
     assert_eq!(start, [60.0, 50.0]);
     assert!(off(&led, [[0.0, 0.0], start]) < 1e-9, "away from the first vanishing point");
     assert_eq!(led.len(), stroke(None, holds).len(), "no sample is lost");
     let twists = led.iter().map(|sample| sample.twist_deg);
-    let (least, most) = (twists.clone().fold(360.0, f64::min), twists.fold(-360.0, f64::max));
+    let least = twists.clone().fold(360.0, f64::min);
+    let most = twists.fold(-360.0, f64::max);
     assert!(most - least < 1e-3, "the brush does not turn: {least} to {most}");
 }
 
 #[test]
 fn a_touch_in_perspective_paints_a_dot() {
     let touch = vec![hold(40.0, 40.0), hold(40.5, 40.2), hold(40.2, 40.1)];
-    let (led, free) = (stroke(Some(perspective()), touch.clone()), stroke(None, touch));
+    let led = stroke(Some(perspective()), touch.clone());
+    let free = stroke(None, touch);
     assert!(led.len() >= 3);
     let places = |samples: &[Sample]| {
         samples.iter().map(|sample| [sample.x_mm, sample.y_mm]).collect::<Vec<_>>()
@@ -177,7 +187,8 @@ fn a_line_with_shift_goes_on_parallel_to_the_ruler() {
 fn pens_with_twist_and_mice_are_led_from_the_first_sample_to_the_last() {
     let twisted = wavy().into_iter().map(|state| PointerState { twist_deg: Some(30.0), ..state });
     let led = stroke(Some(perspective()), twisted.collect());
-    let (first, last) = (led[0], led[led.len() - 1]);
+    let first = led[0];
+    let last = led[led.len() - 1];
     let line = [[first.x_mm, first.y_mm], [last.x_mm, last.y_mm]];
     assert!(off(&led, line) < 1e-9 && last.twist_deg == led[5].twist_deg, "{first:?} {last:?}");
     let mouse = wavy().into_iter().map(|state| PointerState { pressure: None, ..state });

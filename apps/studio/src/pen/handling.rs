@@ -84,7 +84,8 @@ mod tests {
     use super::*;
 
     fn state() -> PointerState {
-        let (tilt_deg, twist_deg) = (Some((20.0, -10.0)), Some(70.0));
+        let tilt_deg = Some((20.0, -10.0));
+        let twist_deg = Some(70.0);
         PointerState { tilt_deg, twist_deg, ..PointerState::at(Pos2::ZERO) }
     }
 

@@ -4,20 +4,14 @@
 //! events as [`PenEvent`]s.
 
 mod report;
-
 mod transform;
-
 mod settings;
 
 #[cfg(not(target_arch = "wasm32"))]
 mod clock;
-
 mod speed;
-
 mod stamps;
-
 mod taps;
-
 mod pointer;
 
 #[cfg(target_os = "linux")]
@@ -31,26 +25,17 @@ mod wayland;
 
 #[cfg(not(target_arch = "wasm32"))]
 mod tablet;
-
 mod handling;
-
 mod heading;
-
 mod stabiliser;
-
 mod aids;
-
 mod pen_stroke;
 
 #[cfg(not(target_arch = "wasm32"))]
 mod systems;
-
 mod web;
-
 mod input;
-
 mod test_field;
-
 mod script;
 
 #[cfg(test)]

@@ -128,7 +128,8 @@ impl PenStroke {
         self.state = state;
         self.moved = at;
         self.still = false;
-        let (before, free) = (self.lead.last(), self.stabiliser.is_off() && self.lead.is_off());
+        let before = self.lead.last();
+        let free = self.stabiliser.is_off() && self.lead.is_off();
         let place = self.follow(handling);
         if handling.follows() {
             let step = match before {
@@ -323,8 +324,10 @@ impl PenStroke {
     }
 
     fn pressure(&self, seconds: f64, handling: &Handling<'_>) -> f64 {
-        let by_speed = || handling.pressure_by_speed(self.pressure_model.pressure(seconds));
-        self.state.pressure.map_or_else(by_speed, |measured| handling.pressure(measured))
+        self.state.pressure.map_or_else(
+            || handling.pressure_by_speed(self.pressure_model.pressure(seconds)),
+            |measured| handling.pressure(measured),
+        )
     }
 
     fn add_sample(
@@ -360,6 +363,7 @@ pub(super) fn brush_sample(
     let tilt = transform.surface_tilt(handling.tilt_deg(state));
     let twist = handling.measured_twist(state).unwrap_or(twist);
     let twist_deg = transform.surface_twist(twist);
-    let (tilt_x_deg, tilt_y_deg) = (tilt.0.clamp(-90.0, 90.0), tilt.1.clamp(-90.0, 90.0));
+    let tilt_x_deg = tilt.0.clamp(-90.0, 90.0);
+    let tilt_y_deg = tilt.1.clamp(-90.0, 90.0);
     Sample { seconds: 0.0, x_mm, y_mm, pressure: 0.0, tilt_x_deg, tilt_y_deg, twist_deg }
 }

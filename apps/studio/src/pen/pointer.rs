@@ -153,7 +153,8 @@ impl Pointer {
             }
             match (&mut self.finger, report.kind) {
                 (Finger::Up, ReportKind::Pressed(state)) => {
-                    let (from, since) = (state.at, Some(report.arrived));
+                    let from = state.at;
+                    let since = Some(report.arrived);
                     self.finger = Finger::Undecided { from, since, kept: vec![report] };
                 }
                 (Finger::Undecided { from, kept, .. }, ReportKind::Moved(state)) => {
@@ -215,12 +216,15 @@ mod tests {
     use super::*;
 
     fn touch(id: u64, phase: TouchPhase, x: f32) -> Event {
-        let (device_id, id) = (TouchDeviceId(0), TouchId(id));
+        let device_id = TouchDeviceId(0);
+        let id = TouchId(id);
         Event::Touch { device_id, id, phase, pos: pos2(x, 0.0), force: Some(0.5) }
     }
 
     fn button(pressed: bool) -> Event {
-        let (pos, button, modifiers) = (pos2(1.0, 0.0), PointerButton::Primary, Modifiers::NONE);
+        let pos = pos2(1.0, 0.0);
+        let button = PointerButton::Primary;
+        let modifiers = Modifiers::NONE;
         Event::PointerButton { pos, button, pressed, modifiers }
     }
 

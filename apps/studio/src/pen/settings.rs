@@ -97,7 +97,8 @@ impl Default for PenSettings {
 impl PenSettings {
     /// Replaces values that are out of range by the defaults.
     pub fn bound(&mut self) {
-        let (default, grip) = (Self::default(), &mut self.grip);
+        let default = Self::default();
+        let grip = &mut self.grip;
         // NaN is in no range, so it is replaced too.
         let bound = |value: &mut f64, least: f64, most: f64, default: f64| {
             if !(least..=most).contains(value) {

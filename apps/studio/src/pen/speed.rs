@@ -55,7 +55,8 @@ impl SpeedPressure {
     /// A stroke that starts at a point of the window, at a time in seconds.
     #[must_use]
     pub(super) fn new(at: Pos2, seconds: f64) -> Self {
-        let (speed, full) = (MEDIUM, by_speed(MEDIUM));
+        let speed = MEDIUM;
+        let full = by_speed(MEDIUM);
         Self { speed, full, path: 0.0, step: 0.0, last: at, began: seconds, measured: seconds }
     }
 
@@ -146,7 +147,8 @@ mod tests {
     #[test]
     fn the_report_rate_of_a_mouse_does_not_matter() {
         for speed in [80.0, 900.0] {
-            let (seldom, often) = (steady(speed, 60), steady(speed, 1000));
+            let seldom = steady(speed, 60);
+            let often = steady(speed, 1000);
             assert!((seldom - often).abs() < 0.005, "{speed}: {seldom} {often}");
         }
     }
@@ -158,7 +160,9 @@ mod tests {
         let steps =
             [3.0, 5.0, 0.0, 8.0, 4.0, 3.0, 6.0, 1.0, 7.0, 4.0, 2.0, 5.0, 9.0, 0.0, 4.0, 3.0];
         let mut pressure_model = SpeedPressure::new(Pos2::ZERO, 0.0);
-        let (mut x, mut seconds, mut pressures) = (0.0, 0.0, Vec::new());
+        let mut x = 0.0;
+        let mut seconds = 0.0;
+        let mut pressures = Vec::new();
         for step in steps.iter().cycle().take(240) {
             x += step;
             seconds += 0.008;

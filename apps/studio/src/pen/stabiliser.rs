@@ -70,14 +70,15 @@ impl Stabiliser {
             return Vec::new();
         }
         let length_mm = self.length_mm.min(length(&self.way));
-        let place = |step: usize| {
-            let left = 1.0 - step as f64 / CATCH_UP_STEPS as f64;
-            match method {
-                StabiliserMethod::Average if left > 0.0 => mean(&self.way, length_mm * left),
-                _ => (pen.0 + (brush.0 - pen.0) * left, pen.1 + (brush.1 - pen.1) * left),
-            }
-        };
-        let places = (1..=CATCH_UP_STEPS).map(place).collect();
+        let places = (1..=CATCH_UP_STEPS)
+            .map(|step: usize| {
+                let left = 1.0 - step as f64 / CATCH_UP_STEPS as f64;
+                match method {
+                    StabiliserMethod::Average if left > 0.0 => mean(&self.way, length_mm * left),
+                    _ => (pen.0 + (brush.0 - pen.0) * left, pen.1 + (brush.1 - pen.1) * left),
+                }
+            })
+            .collect();
         self.brush = Some(pen);
         places
     }
@@ -114,7 +115,8 @@ fn pulled(brush: Place, pen: Place, length_mm: f64) -> Place {
 /// shorter.
 fn mean(way: &VecDeque<Place>, length_mm: f64) -> Place {
     let Some(&pen) = way.front() else { return (0.0, 0.0) };
-    let (mut sum, mut reached) = ((0.0, 0.0), 0.0);
+    let mut sum = (0.0, 0.0);
+    let mut reached = 0.0;
     for (&to, &from) in way.iter().zip(way.iter().skip(1)) {
         let whole = distance(from, to);
         let part = whole.min(length_mm - reached);

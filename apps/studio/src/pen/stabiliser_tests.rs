@@ -15,8 +15,9 @@ use super::{
 /// A canvas at 4 points a mm.
 fn canvas() -> [SurfaceTransform; 1] {
     let area = Rect::from_min_size(Pos2::ZERO, vec2(800.0, 600.0));
-    let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
-    [SurfaceTransform::new(SurfaceId::Canvas, area, mm)]
+    [SurfaceTransform::new(SurfaceId::Canvas, area, |at: Pos2| {
+        (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0)
+    })]
 }
 
 fn settings(method: StabiliserMethod, length: f64, unit: LengthUnit) -> PenSettings {
@@ -26,13 +27,14 @@ fn settings(method: StabiliserMethod, length: f64, unit: LengthUnit) -> PenSetti
 
 /// States of a pen that draws a wave from x = 10 to 80 mm.
 fn wave(measures: bool) -> Vec<PointerState> {
-    let state = |at: u8| {
-        let share = f32::from(at) / 100.0;
-        let at = pos2(40.0 + 280.0 * share, 200.0 + 10.0 * (40.0 * share).sin());
-        let pressure = measures.then_some(0.2 + 0.5 * f64::from(share));
-        PointerState { pressure, ..PointerState::at(at) }
-    };
-    (0..=100).map(state).collect()
+    (0..=100)
+        .map(|at: u8| {
+            let share = f32::from(at) / 100.0;
+            let at = pos2(40.0 + 280.0 * share, 200.0 + 10.0 * (40.0 * share).sin());
+            let pressure = measures.then_some(0.2 + 0.5 * f64::from(share));
+            PointerState { pressure, ..PointerState::at(at) }
+        })
+        .collect()
 }
 
 /// Events of a stroke along these states, one report each 5 ms, two in each frame.
@@ -153,7 +155,8 @@ fn the_test_field_draws_what_would_be_painted() {
     }
     let [stroke] = field.strokes() else { panic!("{field:?}") };
     assert!(!field.is_drawing() && stroke.len() >= 101, "{} points", stroke.len());
-    let (first, wanted) = (stroke[0], wave(true)[0].at - area.min.to_vec2());
+    let first = stroke[0];
+    let wanted = wave(true)[0].at - area.min.to_vec2();
     assert!((first.at - wanted).length() < 1e-2, "{first:?}");
     // Half of the range and half of the pressure.
     assert!((first.pressure - 0.6).abs() < 1e-12, "{first:?}");

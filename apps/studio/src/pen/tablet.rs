@@ -49,7 +49,8 @@ impl Tablet {
     /// point.
     pub(super) fn reports(&mut self, zoom: f32, now: Instant) -> Vec<Report> {
         let Some(manager) = &mut self.manager else { return Vec::new() };
-        let (clock, frame) = (&mut self.clock, &mut self.frame);
+        let clock = &mut self.clock;
+        let frame = &mut self.frame;
         // A panic in the library must not end the program and lose the painting.
         let reports = catch_unwind(AssertUnwindSafe(|| {
             let mut reports = Vec::new();

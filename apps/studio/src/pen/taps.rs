@@ -86,9 +86,12 @@ mod tests {
 
     /// Number of fingers of the taps in a script.
     fn taps(script: Script<'_>) -> Vec<usize> {
-        let (mut taps, start) = (Taps::default(), Instant::now());
+        let mut taps = Taps::default();
+        let start = Instant::now();
         let found = script.iter().filter_map(|&(id, ms, x, phase)| {
-            let (device_id, id, pos) = (TouchDeviceId(0), TouchId(id), pos2(x, 0.0));
+            let device_id = TouchDeviceId(0);
+            let id = TouchId(id);
+            let pos = pos2(x, 0.0);
             let event = Event::Touch { device_id, id, phase, pos, force: None };
             taps.read(&event, start + Duration::from_millis(ms)).map(|tap| tap.fingers)
         });

@@ -18,10 +18,11 @@ use session::PenSample;
 fn transforms() -> [SurfaceTransform; 2] {
     let area = |x, width| Rect::from_min_size(pos2(x, 0.0), eframe::egui::vec2(width, 600.0));
     let mm = |at: Pos2| (f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
-    let palette = move |at: Pos2| mm(at - eframe::egui::vec2(800.0, 0.0));
     [
         SurfaceTransform::new(SurfaceId::Canvas, area(0.0, 800.0), mm),
-        SurfaceTransform::new(SurfaceId::Palette, area(800.0, 200.0), palette),
+        SurfaceTransform::new(SurfaceId::Palette, area(800.0, 200.0), move |at: Pos2| {
+            mm(at - eframe::egui::vec2(800.0, 0.0))
+        }),
     ]
 }
 
@@ -60,23 +61,29 @@ fn moved(x: f32, y: f32) -> Event {
 }
 
 fn button(x: f32, y: f32, pressed: bool) -> Event {
-    let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+    let button = PointerButton::Primary;
+    let modifiers = Modifiers::NONE;
     Event::PointerButton { pos: pos2(x, y), button, pressed, modifiers }
 }
 
 fn state(x: f32, pressure: f64) -> PointerState {
-    let (tilt_deg, twist_deg) = (Some((20.0, -10.0)), Some(5.0));
+    let tilt_deg = Some((20.0, -10.0));
+    let twist_deg = Some(5.0);
     PointerState { at: pos2(x, 40.0), pressure: Some(pressure), tilt_deg, twist_deg }
 }
 
 /// All samples of the output, with the rounding of a stroke.
 fn samples(output: &[PenEvent]) -> Vec<PenSample> {
-    let round = |sample: &PenSample| PenSample {
-        sample: SampleDecimals::PEN.round(&sample.sample),
-        ..*sample
-    };
     let moves = output.iter().filter_map(|event| match event {
-        PenEvent::Move(samples) => Some(samples.iter().map(round).collect::<Vec<_>>()),
+        PenEvent::Move(samples) => Some(
+            samples
+                .iter()
+                .map(|sample: &PenSample| PenSample {
+                    sample: SampleDecimals::PEN.round(&sample.sample),
+                    ..*sample
+                })
+                .collect::<Vec<_>>(),
+        ),
         _ => None,
     });
     moves.flatten().collect()
@@ -101,7 +108,8 @@ fn every_sample_between_two_frames_is_reported_in_order_with_its_own_time() {
     let mut test = TestPen::new();
     let holds = (0_u8..200).map(|step| state(f32::from(step) * 3.0, 0.5 + f64::from(step) / 400.0));
     let mut script = Script::new(Device::Pen).stroke(holds, Duration::from_millis(5));
-    let (start, mut all) = (test.start, Vec::new());
+    let start = test.start;
+    let mut all = Vec::new();
     for frame in 0..70 {
         let now = test.at(frame * 16);
         script.due(start, now).into_iter().for_each(|report| test.pen.feed(report));
@@ -261,9 +269,10 @@ fn the_pen_follows_a_transform_that_changes() {
     test.feed(0, ReportKind::Moved(state(40.0, 0.0)));
     assert_eq!(letters(&test.frame(1, &[])), "H");
     assert_eq!(letters(&test.frame(2, &[])), "");
-    let mirrored = |at: Pos2| (100.0 - f64::from(at.x) / 4.0, f64::from(at.y) / 4.0);
     test.transforms[0] =
-        SurfaceTransform::new(SurfaceId::Canvas, test.transforms[0].area, mirrored);
+        SurfaceTransform::new(SurfaceId::Canvas, test.transforms[0].area, |at: Pos2| {
+            (100.0 - f64::from(at.x) / 4.0, f64::from(at.y) / 4.0)
+        });
     let output = test.frame(3, &[]);
     let [PenEvent::Hover { sample, .. }] = output[..] else { panic!("{output:?}") };
     let sample = SampleDecimals::PEN.round(&sample);
@@ -331,8 +340,10 @@ fn the_first_samples_wait_for_the_direction_but_not_long() {
     assert!(waits.is_some_and(|waits| waits <= Duration::from_millis(10)), "{waits:?}");
     let output = samples(&test.frame(80, &[]));
     assert!(output.len() >= 3 && output[0].arrived == test.start, "{output:?}");
-    let across = |sample: &PenSample| sample.sample.twist_deg.rem_euclid(180.0) == 90.0;
-    assert!(output.iter().all(across), "{output:?}");
+    assert!(
+        output.iter().all(|sample: &PenSample| sample.sample.twist_deg.rem_euclid(180.0) == 90.0),
+        "{output:?}"
+    );
     // A press without a way keeps the rotation of the grip.
     test.frame(100, &[button(42.0, 40.0, false)]);
     test.pen.settings.grip.twist_deg = 30.0;
@@ -384,7 +395,8 @@ fn barrel_buttons_are_reported() {
 fn a_tap_beside_a_surface_or_of_a_hand_that_holds_a_pen_is_none() {
     let tap = |x: f32| {
         let touch = |id, phase, x| {
-            let (device_id, id) = (TouchDeviceId(0), TouchId(id));
+            let device_id = TouchDeviceId(0);
+            let id = TouchId(id);
             Event::Touch { device_id, id, phase, pos: pos2(x, 99.0), force: None }
         };
         let both = |phase| [touch(1, phase, x), touch(2, phase, x + 30.0)];

@@ -62,7 +62,8 @@ impl SurfaceTransform {
     /// Converts a displacement on the surface, in mm, to one in the window, in points; 0 if the
     /// surface is shown without extent.
     pub(super) fn way_in_window(&self, (x, y): (f64, f64)) -> Vec2 {
-        let ((a, b), (c, d)) = (self.right, self.down);
+        let (a, b) = self.right;
+        let (c, d) = self.down;
         let area = a * d - b * c;
         if area == 0.0 {
             return Vec2::ZERO;
@@ -72,7 +73,8 @@ impl SurfaceTransform {
 
     /// Millimetres of the surface in a point of the window.
     pub(super) fn mm_per_point(&self) -> f64 {
-        let ((a, b), (c, d)) = (self.right, self.down);
+        let (a, b) = self.right;
+        let (c, d) = self.down;
         (a * d - b * c).abs().sqrt()
     }
 
@@ -117,7 +119,8 @@ mod tests {
     fn turned(degrees: f64, mirrored: bool) -> SurfaceTransform {
         let area = Rect::from_min_max(Pos2::ZERO, pos2(800.0, 600.0));
         SurfaceTransform::new(SurfaceId::Canvas, area, |at| {
-            let (x, y) = (f64::from(at.x) - 300.0, f64::from(at.y) - 200.0);
+            let x = f64::from(at.x) - 300.0;
+            let y = f64::from(at.y) - 200.0;
             let x = if mirrored { -x } else { x };
             let (sin, cos) = degrees.to_radians().sin_cos();
             ((x * cos + y * sin) / 4.0 + 90.0, (y * cos - x * sin) / 4.0 + 50.0)

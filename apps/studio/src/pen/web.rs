@@ -108,8 +108,7 @@ impl PagePens {
             }
         }
         let device = if self.eraser { Device::Eraser } else { Device::Pen };
-        let report = |kind| Report { device, arrived: event.arrived, kind };
-        kinds.into_iter().map(report).collect()
+        kinds.into_iter().map(|kind| Report { device, arrived: event.arrived, kind }).collect()
     }
 
     fn state(&mut self, event: &PagePointer) -> PointerState {
@@ -171,8 +170,11 @@ mod tests {
     use super::*;
 
     fn event(phase: PagePhase, pressure: f64) -> PagePointer {
-        let (tilt_deg, twist_deg, buttons) = ((0.0, 0.0), 0.0, 1);
-        let (at, arrived) = (pos2(3.0, 4.0), Instant::now());
+        let tilt_deg = (0.0, 0.0);
+        let twist_deg = 0.0;
+        let buttons = 1;
+        let at = pos2(3.0, 4.0);
+        let arrived = Instant::now();
         PagePointer { phase, at, pressure, tilt_deg, twist_deg, buttons, arrived }
     }
 

@@ -190,7 +190,8 @@ fn devices(
     window: u32,
 ) -> Result<(Vec<PenEnd>, Vec<u16>), ReplyError> {
     let devices = connection.xinput_xi_query_device(ALL_DEVICES)?.reply()?;
-    let (mut pens, mut mice) = (Vec::new(), Vec::new());
+    let mut pens = Vec::new();
+    let mut mice = Vec::new();
     for device in devices.infos {
         if !matches!(device.type_, DeviceType::SLAVE_POINTER | DeviceType::FLOATING_SLAVE) {
             continue;
@@ -355,7 +356,8 @@ mod tests {
         let (connection, screen) = x11rb::connect(Some(&name)).unwrap();
         let root = connection.setup().roots[screen].root;
         let window = connection.generate_id().unwrap();
-        let (class, looks) = (WindowClass::INPUT_OUTPUT, CreateWindowAux::new());
+        let class = WindowClass::INPUT_OUTPUT;
+        let looks = CreateWindowAux::new();
         connection
             .create_window(24, window, root, 0, 0, 90, 90, 0, class, 0, &looks)
             .unwrap()

@@ -8,7 +8,8 @@ use eframe::egui::Color32;
 /// Source: WCAG 2.2, definitions of "contrast ratio" and "relative luminance".
 #[must_use]
 pub fn contrast(one: Color32, other: Color32) -> f64 {
-    let (one, other) = (luminance(one) + 0.05, luminance(other) + 0.05);
+    let one = luminance(one) + 0.05;
+    let other = luminance(other) + 0.05;
     one.max(other) / one.min(other)
 }
 

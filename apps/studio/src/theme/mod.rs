@@ -3,13 +3,9 @@
 //! themes. All text has a contrast of at least 7:1 (WCAG 2.2, level AAA).
 
 mod contrast;
-
 mod colors;
-
 mod visuals;
-
 mod look;
-
 mod scale;
 
 pub use colors::{BOARD, BOARD_TEXT, Colors, DARK, LIGHT, SURROUND, colors};

@@ -82,7 +82,8 @@ fn rectangle(shape: &RectShape, canvas: &QuadCanvas) -> Vec<Shape> {
     let mut parts = vec![inner];
     if corner > 0.0 {
         let [left, right] = [(rect.left(), inner.left()), (inner.right(), rect.right())];
-        let (top, bottom) = (rect.top() + corner, rect.bottom() - corner);
+        let top = rect.top() + corner;
+        let bottom = rect.bottom() - corner;
         let side = |(from, to)| Rect::from_min_max(pos2(from, top), pos2(to, bottom));
         parts.extend([side(left), side(right)]);
     }
@@ -98,7 +99,8 @@ fn rectangle(shape: &RectShape, canvas: &QuadCanvas) -> Vec<Shape> {
 /// Small rectangles with the four corners, which reach into the quads.
 fn corners(rect: Rect, corner: f32, shape: &RectShape) -> impl Iterator<Item = Shape> {
     let size = Vec2::splat(2.0 * corner);
-    let (fill, radius) = (shape.fill, shape.corner_radius);
+    let fill = shape.fill;
+    let radius = shape.corner_radius;
     let at = [
         rect.min,
         pos2(rect.right() - size.x, rect.top()),
@@ -128,17 +130,21 @@ fn filled(rect: Rect, color: Color32) -> Quad {
 
 /// Whether a mesh has no texture and covers what lies below.
 fn is_opaque(mesh: &Mesh) -> bool {
-    let plain =
-        |vertex: &eframe::egui::epaint::Vertex| vertex.color.is_opaque() && vertex.uv == WHITE_UV;
-    mesh.texture_id == TextureId::default() && mesh.vertices.iter().all(plain)
+    mesh.texture_id == TextureId::default()
+        && mesh.vertices.iter().all(|vertex: &eframe::egui::epaint::Vertex| {
+            vertex.color.is_opaque() && vertex.uv == WHITE_UV
+        })
 }
 
 /// The triangles of a mesh, each as a quad whose last side has no length.
 fn triangles(mesh: &Mesh) -> Vec<Quad> {
-    let corner = |index: u32| {
-        let vertex = &mesh.vertices[index as usize];
-        (vertex.pos, vertex.color)
-    };
     let three = mesh.indices.chunks_exact(3);
-    three.map(|at| Quad::colored([at[0], at[1], at[2], at[2]].map(corner))).collect()
+    three
+        .map(|at| {
+            Quad::colored([at[0], at[1], at[2], at[2]].map(|index: u32| {
+                let vertex = &mesh.vertices[index as usize];
+                (vertex.pos, vertex.color)
+            }))
+        })
+        .collect()
 }

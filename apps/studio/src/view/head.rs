@@ -125,11 +125,12 @@ fn rings(head: &HeadOnCanvas) -> Option<Vec<Ring>> {
 
 /// The end of the handle, which goes on where the head begins.
 fn handle_end(rings: &[Ring]) -> [f32; 3] {
-    let (root, next) = (mean(&rings[0]), mean(&rings[1]));
+    let root = mean(&rings[0]);
+    let next = mean(&rings[1]);
     let along = subtract(root, next);
     let length = norm(along).max(1e-6);
-    let radius = |place: &[f32; 3]| norm(subtract(*place, root));
-    let half = rings[0].iter().map(radius).sum::<f32>() / rings[0].len() as f32;
+    let half = rings[0].iter().map(|place: &[f32; 3]| norm(subtract(*place, root))).sum::<f32>()
+        / rings[0].len() as f32;
     [0, 1, 2].map(|part: usize| root[part] + HANDLE * half * along[part] / length)
 }
 
@@ -139,7 +140,8 @@ fn outside(edge: &[Pos2], root: Pos2, end: Pos2) -> Option<Pos2> {
     let middle = edge.iter().fold(Vec2::ZERO, |sum, at| sum + at.to_vec2()) / edge.len() as f32;
     let is_in = |point: Pos2| {
         (0..edge.len()).all(|at| {
-            let (from, to) = (edge[at], edge[(at + 1) % edge.len()]);
+            let from = edge[at];
+            let to = edge[(at + 1) % edge.len()];
             let side = |point: Pos2| (to - from).rot90().dot(point - from);
             side(point) * side(middle.to_pos2()) >= 0.0
         })

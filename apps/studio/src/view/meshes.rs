@@ -87,7 +87,8 @@ impl MeshDrawer {
         format: TextureFormat,
         visible: Rect,
     ) -> Vec<ClippedShape> {
-        let (mut shapes, mut meshes) = (Vec::new(), Vec::new());
+        let mut shapes = Vec::new();
+        let mut meshes = Vec::new();
         for ClippedPrimitive { clip_rect, primitive } in primitives {
             let other = match primitive {
                 Primitive::Mesh(mesh) if mesh.indices.is_empty() => continue,
@@ -152,7 +153,8 @@ impl DrawMeshes {
 
     /// Indices into the vertices of all meshes: WebGL 2 counts from no other vertex than the first.
     fn indices(&self) -> Vec<[u8; 4]> {
-        let (mut base, mut all) = (0_u32, Vec::new());
+        let mut base = 0_u32;
+        let mut all = Vec::new();
         for ClippedMesh { mesh, .. } in &self.meshes {
             all.extend(mesh.indices.iter().map(|index| (base + index).to_ne_bytes()));
             base += mesh.vertices.len() as u32;
@@ -226,6 +228,7 @@ impl CallbackTrait for DrawMeshes {
 /// A clip rectangle in pixels within the window, rounded as egui does: left, top, right and bottom.
 fn pixels(clip_rect: Rect, density: f32, [width, height]: [u32; 2]) -> [u32; 4] {
     let at = |points: f32, most: u32| ((points * density).round().max(0.0) as u32).min(most);
-    let (x, y) = (at(clip_rect.min.x, width), at(clip_rect.min.y, height));
+    let x = at(clip_rect.min.x, width);
+    let y = at(clip_rect.min.y, height);
     [x, y, at(clip_rect.max.x, width).max(x), at(clip_rect.max.y, height).max(y)]
 }

@@ -35,7 +35,8 @@ impl MipLevels {
     /// A picture of `width` by `height` cells in one colour.
     pub(super) fn new(width: usize, height: usize, color: Color32) -> Self {
         let mut levels = Vec::new();
-        let (mut width, mut height) = (width.max(1), height.max(1));
+        let mut width = width.max(1);
+        let mut height = height.max(1);
         loop {
             levels.push(MipLevel { width, height, pixels: vec![color; width * height] });
             if width.max(height) <= SMALLEST {
@@ -94,7 +95,8 @@ impl MipLevels {
 
 /// The cells of the next level that depend on the cells of `rect`.
 pub(super) fn next_level_rect(rect: Rect) -> Rect {
-    let (x, y) = (rect.x / 2, rect.y / 2);
+    let x = rect.x / 2;
+    let y = rect.y / 2;
     let right = (rect.x + rect.width).div_ceil(2);
     let bottom = (rect.y + rect.height).div_ceil(2);
     Rect { x, y, width: right - x, height: bottom - y }
@@ -103,7 +105,8 @@ pub(super) fn next_level_rect(rect: Rect) -> Rect {
 impl MipLevel {
     fn average(&mut self, below: &Self, changed: Rect) {
         // Bound once, as each access checks whether the tables exist.
-        let (decoded, encoded) = (&*DECODED, &**ENCODED);
+        let decoded = &*DECODED;
+        let encoded = &**ENCODED;
         for y in changed.y..changed.y + changed.height {
             for x in changed.x..changed.x + changed.width {
                 let mut sum = [0.0_f32; 3];
@@ -155,12 +158,16 @@ mod tests {
 
     /// The values of a level of greys; asserts that the channels are equal.
     fn greys_of(levels: &MipLevels, level: usize) -> Vec<u8> {
-        let value = |pixel: &Color32| {
-            let [red, green, blue, _] = pixel.to_array();
-            assert!(red == green && green == blue, "{pixel:?} of greys");
-            green
-        };
-        levels.region(level, levels.bounds(level)).pixels.iter().map(value).collect()
+        levels
+            .region(level, levels.bounds(level))
+            .pixels
+            .iter()
+            .map(|pixel: &Color32| {
+                let [red, green, blue, _] = pixel.to_array();
+                assert!(red == green && green == blue, "{pixel:?} of greys");
+                green
+            })
+            .collect()
     }
 
     #[test]
@@ -190,7 +197,8 @@ mod tests {
     #[test]
     fn writing_in_pieces_equals_writing_at_once() {
         // Odd sizes, and pieces whose edges do not fall on blocks of two by two.
-        let (width, height) = (333, 257);
+        let width = 333;
+        let height = 257;
         let value = |x: usize, y: usize| ((x * 31 + y * 17 + x * y) % 256) as u8;
         let cells = |rect: Rect| -> Vec<[u8; 4]> {
             (rect.y..rect.y + rect.height)

@@ -38,7 +38,8 @@ impl Outline {
     /// Whether a position, in cells, is on the surface.
     #[must_use]
     pub fn contains(self, [x, y]: [f64; 2], cells: (usize, usize)) -> bool {
-        let (width, height) = (cells.0 as f64, cells.1 as f64);
+        let width = cells.0 as f64;
+        let height = cells.1 as f64;
         if !(0.0..width).contains(&x) || !(0.0..height).contains(&y) {
             return false;
         }
@@ -116,12 +117,14 @@ impl Outline {
     /// The edge in cells, clockwise from the upper left. For a palette, four arcs of
     /// `QUARTER + 1` points each.
     fn edge(self, cells: (usize, usize)) -> Vec<[f64; 2]> {
-        let (width, height) = (cells.0 as f64, cells.1 as f64);
+        let width = cells.0 as f64;
+        let height = cells.1 as f64;
         if self == Self::Rectangle {
             return vec![[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]];
         }
         let radius = corner(cells);
-        let (far, low) = (width - radius, height - radius);
+        let far = width - radius;
+        let low = height - radius;
         let middles = [[radius, radius], [far, radius], [far, low], [radius, low]];
         let mut edge = Vec::with_capacity(4 * (QUARTER + 1));
         for (quarter, [x, y]) in middles.into_iter().enumerate() {
@@ -144,9 +147,11 @@ pub(super) fn offset_outwards(edge: &[Pos2], by: f32) -> Vec<Pos2> {
         if normal.dot(from - middle.to_pos2()) < 0.0 { -normal } else { normal }
     };
     let moved = |at: usize| {
-        let (before, here, next) =
-            (edge[(at + count - 1) % count], edge[at], edge[(at + 1) % count]);
-        let (one, other) = (outwards(before, here), outwards(here, next));
+        let before = edge[(at + count - 1) % count];
+        let here = edge[at];
+        let next = edge[(at + 1) % count];
+        let one = outwards(before, here);
+        let other = outwards(here, next);
         // Both adjacent sides move by `by`, so a corner moves further than that.
         here + (one + other) * (by / (1.0 + one.dot(other)))
     };
@@ -198,7 +203,8 @@ mod tests {
             let towards = |by: f64| {
                 [0, 1].map(|axis: usize| middle[axis] + (place[axis] - middle[axis]) * by)
             };
-            let (within, beyond) = (towards(0.999), towards(1.001));
+            let within = towards(0.999);
+            let beyond = towards(1.001);
             assert!(Outline::Palette.contains(within, CELLS), "{within:?}");
             assert!(!Outline::Palette.contains(beyond, CELLS), "{beyond:?}");
         }

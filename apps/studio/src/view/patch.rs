@@ -38,12 +38,15 @@ impl Patch {
         let whole = |points: f32| (points * density).max(0.0);
         let [left, top] = [rect.min.x, rect.min.y].map(|at| whole(at).floor() as usize);
         let [right, bottom] = [rect.max.x, rect.max.y].map(|at| whole(at).ceil() as usize);
-        let (width, height) = (right - left, bottom - top);
+        let width = right - left;
+        let height = bottom - top;
         let place = |x: f32, y: f32| placement.cell(pos2(x / density, y / density));
-        let (x, y) = (left as f32 + 0.5, top as f32 + 0.5);
+        let x = left as f32 + 0.5;
+        let y = top as f32 + 0.5;
         let from = place(x, y);
         let step = |to: [f64; 2]| [(to[0] - from[0]) as f32, (to[1] - from[1]) as f32];
-        let (right, down) = (step(place(x + 1.0, y)), step(place(x, y + 1.0)));
+        let right = step(place(x + 1.0, y));
+        let down = step(place(x, y + 1.0));
         let cells = Cells::new(picture, placement, density);
         let mut rgba = Vec::with_capacity(4 * width * height);
         for row in 0..height {
@@ -115,7 +118,8 @@ impl<'a> Cells<'a> {
             let at = ((at - 0.5).max(0.0) * 256.0) as usize;
             (at >> 8, (at & 255) as u32)
         };
-        let ((column, right), (row, down)) = (along(x), along(y));
+        let (column, right) = along(x);
+        let (row, down) = along(y);
         let [a, b] = [cell(column, row), cell(column + 1, row)];
         let [c, d] = [cell(column, row + 1), cell(column + 1, row + 1)];
         let mixed = |channel: fn(&Color32) -> u8| {

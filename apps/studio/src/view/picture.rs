@@ -161,12 +161,11 @@ impl Picture {
             }
             let (texture, bytes) = chunk.upload(&self.levels, level);
             self.uploaded += bytes;
-            let corner = |at: usize| {
-                let uv = chunk.uv(corners[at].map(|cells| cells / size as f64));
-                Vertex { point: points[at], uv, color: Color32::WHITE }
-            };
             quads.push(Quad {
-                corners: [0, 1, 2, 3].map(corner),
+                corners: [0, 1, 2, 3].map(|at: usize| {
+                    let uv = chunk.uv(corners[at].map(|cells| cells / size as f64));
+                    Vertex { point: points[at], uv, color: Color32::WHITE }
+                }),
                 texture: Some((texture, interpolate)),
             });
         }
@@ -249,7 +248,8 @@ fn is_tight_union(a: Rect, b: Rect) -> bool {
 }
 
 fn union(a: Rect, b: Rect) -> Rect {
-    let (x, y) = (a.x.min(b.x), a.y.min(b.y));
+    let x = a.x.min(b.x);
+    let y = a.y.min(b.y);
     let right = (a.x + a.width).max(b.x + b.width);
     let bottom = (a.y + a.height).max(b.y + b.height);
     Rect { x, y, width: right - x, height: bottom - y }

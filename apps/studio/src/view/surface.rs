@@ -101,7 +101,8 @@ impl SurfaceView {
 
     /// Writes part of the first or the second picture.
     pub fn write(&mut self, second: bool, tile: &TilePixels) {
-        let (name, cells) = (self.name, self.cells());
+        let name = self.name;
+        let cells = self.cells();
         let picture = if second {
             // The first tiles may arrive before the state that names the light.
             self.second.get_or_insert_with(|| Picture::new(name, cells))
@@ -211,8 +212,10 @@ impl SurfaceView {
     /// The part of the window whose picture changed since it was last drawn or taken, in points.
     pub fn take_fresh(&mut self) -> Option<Rect> {
         let cells = self.first.take_fresh()?;
-        let (left, top) = (cells.x as f64, cells.y as f64);
-        let (right, bottom) = (left + cells.width as f64, top + cells.height as f64);
+        let left = cells.x as f64;
+        let top = cells.y as f64;
+        let right = left + cells.width as f64;
+        let bottom = top + cells.height as f64;
         let placement = self.placement();
         let corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
         let points = corners.map(|corner| placement.point(corner));
@@ -229,7 +232,8 @@ impl SurfaceView {
 
     /// Applies drags, wheel and touch gestures to the view.
     fn navigate(&mut self, ui: &Ui, response: &Response, mode: DragMode) {
-        let (rect, density) = (self.rect, self.density);
+        let rect = self.rect;
+        let density = self.density;
         if response.drag_started_by(PointerButton::Middle) {
             self.drag = DragMode::Pan;
         } else if response.drag_started_by(PointerButton::Primary) {
@@ -293,7 +297,8 @@ impl SurfaceView {
 
     /// Draws the line between two lights and lets it be dragged.
     fn split_line(&mut self, ui: &mut Ui, placement: &Placement, split: Split) {
-        let (width, height) = (self.cells().0 as f64, self.cells().1 as f64);
+        let width = self.cells().0 as f64;
+        let height = self.cells().1 as f64;
         let ends = |at: f32| {
             let column = f64::from(at) * width;
             [placement.point([column, 0.0]), placement.point([column, height])]

@@ -46,7 +46,8 @@ impl ViewState {
     /// Fits a surface of `cells` columns and rows into `rect`, with `margin` points around
     /// it, at its current rotation.
     pub fn fit(&mut self, cells: (usize, usize), rect: Rect, margin: f32, density: f32) {
-        let (width, height) = (cells.0 as f64, cells.1 as f64);
+        let width = cells.0 as f64;
+        let height = cells.1 as f64;
         let (sin, cos) = self.rotation.sin_cos();
         let across = width * cos.abs() + height * sin.abs();
         let down = width * sin.abs() + height * cos.abs();
@@ -133,8 +134,11 @@ impl ViewState {
             middle[row] - matrix[row][0] * self.centre[0] - matrix[row][1] * self.centre[1]
         });
         let aligned = quarters == quarters.round() && self.zoom == self.zoom.round();
-        let whole = |points: f64| (points * f64::from(density)).round() / f64::from(density);
-        let snapped = if aligned { offset.map(whole) } else { offset };
+        let snapped = if aligned {
+            offset.map(|points: f64| (points * f64::from(density)).round() / f64::from(density))
+        } else {
+            offset
+        };
         let unsnapped = [offset[0] - snapped[0], offset[1] - snapped[1]];
         Placement { matrix, offset: snapped, unsnapped, rotation, mirror: self.mirror, aligned }
     }
@@ -306,7 +310,8 @@ mod tests {
             view.actual_size();
             let placement = view.placement(RECT, density);
             let at = |cell| placement.point(cell).to_vec2() * density;
-            let (first, next) = (at([0.0, 0.0]), at([1.0, 1.0]));
+            let first = at([0.0, 0.0]);
+            let next = at([1.0, 1.0]);
             assert!((first - first.round()).length() < 1e-3, "{first}");
             assert!((next - first - vec2(1.0, 1.0)).length() < 1e-3, "{first} {next}");
         }

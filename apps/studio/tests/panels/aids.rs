@@ -18,11 +18,12 @@ use super::harness::{Window, button};
 
 /// Places of a wavy stroke from a place in mm.
 fn wavy(x_mm: f64, y_mm: f64) -> Vec<[f64; 2]> {
-    let at = |step: u8| {
-        let along = f64::from(step) / 7.0;
-        [x_mm + along, y_mm + 0.25 * along + 0.5 * (1.3 * along).sin()]
-    };
-    (0..60).map(at).collect()
+    (0..60)
+        .map(|step: u8| {
+            let along = f64::from(step) / 7.0;
+            [x_mm + along, y_mm + 0.25 * along + 0.5 * (1.3 * along).sin()]
+        })
+        .collect()
 }
 
 fn hold(window: &Window, surface: SurfaceId, [x_mm, y_mm]: [f64; 2]) -> PointerState {
@@ -35,7 +36,8 @@ fn paint_on(window: &mut Window, surface: SurfaceId, places: &[[f64; 2]]) {
     let holds: Vec<PointerState> =
         places.iter().map(|&place| hold(window, surface, place)).collect();
     let mut script = Script::new(Device::Pen).stroke(holds, Duration::from_millis(5));
-    let (start, length) = (Instant::now(), script.length());
+    let start = Instant::now();
+    let length = script.length();
     let mut now = start;
     while now <= start + length {
         now += Duration::from_millis(20);
@@ -70,9 +72,12 @@ fn last(window: &Window) -> Vec<Sample> {
 
 /// Places and attitudes of samples. A pen that rests for a moment has another sample there.
 fn ways(samples: &[Sample]) -> Vec<[f64; 6]> {
-    let of =
-        |at: &Sample| [at.x_mm, at.y_mm, at.pressure, at.tilt_x_deg, at.tilt_y_deg, at.twist_deg];
-    let mut ways: Vec<[f64; 6]> = samples.iter().map(of).collect();
+    let mut ways: Vec<[f64; 6]> = samples
+        .iter()
+        .map(|at: &Sample| {
+            [at.x_mm, at.y_mm, at.pressure, at.tilt_x_deg, at.tilt_y_deg, at.twist_deg]
+        })
+        .collect();
     ways.dedup();
     ways
 }
@@ -160,11 +165,14 @@ fn strokes_in_perspective_run_to_a_vanishing_point() {
         let places: Vec<[f64; 2]> = (0..50).map(place).collect();
         paint(&mut window, &places);
         let led = last(&window);
-        let (across, down) = (to[0] - 16.0, to[1] - 17.0);
-        let off = |at: &Sample| {
-            ((at.x_mm - 16.0) * down - (at.y_mm - 17.0) * across).abs() / across.hypot(down)
-        };
-        let worst = led.iter().map(off).fold(0.0, f64::max);
+        let across = to[0] - 16.0;
+        let down = to[1] - 17.0;
+        let worst = led
+            .iter()
+            .map(|at: &Sample| {
+                ((at.x_mm - 16.0) * down - (at.y_mm - 17.0) * across).abs() / across.hypot(down)
+            })
+            .fold(0.0, f64::max);
         assert!(worst < 0.002, "{worst} mm from the line to {to:?}");
         assert_eq!((led[0].x_mm, led[0].y_mm), (16.0, 17.0));
         assert!(extent(&led)[0] > 5.0, "{:?}", extent(&led));
@@ -197,7 +205,8 @@ fn a_stroke_is_painted_mirrored_too_and_undone_with_its_twins() {
     // Nearly as much paint on both sides, and nearly where the mirror has it.
     let differs = |x: usize, y: usize| painted[y * 320 + x] != bare[y * 320 + x];
     let cells = (0..200).flat_map(|y| (0..160).map(move |x| (x, y)));
-    let (mut both, mut either) = (0, 0);
+    let mut both = 0;
+    let mut either = 0;
     for (x, y) in cells {
         let sides = [differs(x, y), differs(319 - x, y)];
         both += usize::from(sides == [true; 2]);
@@ -236,8 +245,13 @@ fn tools_are_repeated_around_the_centre_and_strokes_on_the_palette_are_not() {
     paint(&mut window, &wavy(17.0, 8.0));
     assert_eq!(done(&window).1, 11);
     let strokes = strokes(&window);
-    let erased = |stroke: &&Stroke| matches!(stroke.tool, StrokeTool::Erase { .. });
-    assert_eq!(strokes.iter().filter(erased).count(), 5);
+    assert_eq!(
+        strokes
+            .iter()
+            .filter(|stroke: &&Stroke| matches!(stroke.tool, StrokeTool::Erase { .. }))
+            .count(),
+        5
+    );
     // The ends of the arms have one distance from the centre and even angles.
     let centre = window.studio().aids.symmetry.centre;
     let ends = strokes[1..6].iter().map(|stroke| {

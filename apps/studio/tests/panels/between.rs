@@ -75,7 +75,8 @@ fn parts_between_frames_show_the_pixels_of_the_next_frame() {
         let whole = window.picture().unwrap();
         let head = parts.last().and_then(|part| part.head.bounds()).unwrap().expand(2.0);
         let view = window.studio().canvas.rect();
-        let (mut painted, mut far) = (0, Vec::new());
+        let mut painted = 0;
+        let mut far = Vec::new();
         for (x, y, pixel) in whole.enumerate_pixels() {
             let at = Pos2::new(x as f32 + 0.5, y as f32 + 0.5);
             if !view.contains(at) || head.contains(at) {

@@ -163,9 +163,9 @@ fn egui_draws_what_the_shader_of_quads_draws() {
             let mut harness = shown_by(drawing, surface, vec2(300.0, 200.0), 1.0, split);
             // Tiles change when their textures are there.
             let around = tile::Rect { x: 505, y: 500, width: 40, height: 20 };
-            let dark = |x: usize, y: usize| cell(x, y).map(|channel| channel / 2 + 127);
-            let changed =
-                tiles(dark).into_iter().filter(|tile| !tile.rect.intersection(around).is_empty());
+            let changed = tiles(|x: usize, y: usize| cell(x, y).map(|channel| channel / 2 + 127))
+                .into_iter()
+                .filter(|tile| !tile.rect.intersection(around).is_empty());
             changed.for_each(|tile| harness.state_mut().write(false, &tile));
             harness.run();
             has_adapter().then(|| harness.render().unwrap())
@@ -173,8 +173,10 @@ fn egui_draws_what_the_shader_of_quads_draws() {
         let (Some(own), Some(by_egui)) = (own, by_egui) else { return };
         for (x, y, one) in own.enumerate_pixels() {
             let other = by_egui.get_pixel(x, y);
-            let near = |i: usize| one[i].abs_diff(other[i]) <= 3;
-            assert!((0..4).all(near), "{x} {y} at {zoom}: {one:?}, not {other:?}");
+            assert!(
+                (0..4).all(|i: usize| one[i].abs_diff(other[i]) <= 3),
+                "{x} {y} at {zoom}: {one:?}, not {other:?}"
+            );
         }
         let colors: BTreeSet<[u8; 4]> = own.pixels().map(|pixel| pixel.0).collect();
         assert!(colors.len() > 100, "{} colours at {zoom}", colors.len());
@@ -183,11 +185,12 @@ fn egui_draws_what_the_shader_of_quads_draws() {
 
 #[test]
 fn a_reduced_fine_pattern_keeps_its_mean_light() {
-    let chequered = |x: usize, y: usize| [[0, 0, 0, 255], [255; 4]][(x + y) % 2];
     for zoom in [0.5, 0.37, 0.21] {
         let mut other = SurfaceView::new("Canvas", Outline::Rectangle, 10.0);
         other.open(CELLS);
-        tiles(chequered).iter().for_each(|tile| other.write(false, tile));
+        tiles(|x: usize, y: usize| [[0, 0, 0, 255], [255; 4]][(x + y) % 2])
+            .iter()
+            .for_each(|tile| other.write(false, tile));
         other.view = ViewState { centre: [350.0, 265.0], zoom, rotation: 0.3, ..other.view };
         other.view.fitted = false;
         let (_, picture) = drawn(other, vec2(100.0, 80.0), 1.0, None);
@@ -201,7 +204,8 @@ fn a_reduced_fine_pattern_keeps_its_mean_light() {
 
 #[test]
 fn the_split_line_separates_two_pictures_at_any_rotation() {
-    let (white, black) = ([255; 4], [0, 0, 0, 255]);
+    let white = [255; 4];
+    let black = [0, 0, 0, 255];
     for (rotation, mirror) in [(0.0, false), (1.1, false), (0.4, true)] {
         let mut surface = SurfaceView::new("Canvas", Outline::Rectangle, 10.0);
         surface.open(CELLS);

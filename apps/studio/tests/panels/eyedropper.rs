@@ -44,7 +44,8 @@ fn picked(painting: &PaintingState) -> Picked {
         layer.amounts_mm[SLOTS] = vehicle;
         layer
     };
-    let (white, blue) = (find("Zinc White"), find("Ultramarine"));
+    let white = find("Zinc White");
+    let blue = find("Ultramarine");
     let mixture = library.mix([(white, 3.0), (blue, 1.0)]).unwrap();
     Picked {
         surface: SurfaceId::Canvas,
@@ -72,7 +73,8 @@ fn picked_values_equal_those_of_the_library() {
     let mut stage = with_pick();
     stage.save("eyedropper");
     let painting = &stage.state().painting;
-    let (light, picked) = (Arc::clone(&painting.light), picked(painting));
+    let light = Arc::clone(&painting.light);
+    let picked = picked(painting);
     let weights = light.viewing.weights(painting.library.grid).unwrap();
     let xyz = weights.xyz(&picked.reflectance);
     let lab = Lab::from_xyz(xyz, weights.white());

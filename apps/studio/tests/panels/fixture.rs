@@ -88,11 +88,16 @@ pub(crate) fn painting() -> PaintingState {
 /// Pictures of all states but the last but one, of which each changes a corner.
 fn shots() -> HistoryShots {
     let shot = |state: usize| {
-        let pixel = |index: usize| match (index % 48 < 12 * state, index / 48 < 12) {
-            (true, true) => [200, 40 * state as u8, 60, 255],
-            _ => [225, 222, 214, 255],
+        let picture = Thumbnail {
+            width: 48,
+            height: 30,
+            pixels: (0..1440)
+                .map(|index: usize| match (index % 48 < 12 * state, index / 48 < 12) {
+                    (true, true) => [200, 40 * state as u8, 60, 255],
+                    _ => [225, 222, 214, 255],
+                })
+                .collect(),
         };
-        let picture = Thumbnail { width: 48, height: 30, pixels: (0..1440).map(pixel).collect() };
         let changed = (state > 0).then(|| [12 * (state - 1), 0, 12, 12]);
         HistoryShot { picture: Arc::new(picture), changed }
     };
@@ -134,8 +139,11 @@ fn brush(name: &str, shape: HeadShape, size_mm: f64, color: Option<[u8; 3]>) -> 
 }
 
 fn layer(id: u32, slots: Slots, opacity: f64) -> LayerState {
-    let pixel = |index: usize| [(index * 7 % 256) as u8, 90, 60, 255];
-    let thumbnail = Thumbnail { width: 24, height: 15, pixels: (0..360).map(pixel).collect() };
+    let thumbnail = Thumbnail {
+        width: 24,
+        height: 15,
+        pixels: (0..360).map(|index: usize| [(index * 7 % 256) as u8, 90, 60, 255]).collect(),
+    };
     let thumbnail = Arc::new(thumbnail);
     LayerState {
         id: LayerId(id),

@@ -154,7 +154,8 @@ fn changed(window: &mut Window, at: Pos2, reach: f32, hover: Pos2) -> Option<Vec
     let offsets = (-steps..=steps).flat_map(|y| (-steps..=steps).map(move |x| (x, y)));
     let offsets = offsets.map(|(x, y)| vec2(x as f32, y as f32));
     let pixels = offsets.filter_map(|by| {
-        let (old, new) = (window.color(&before, at + by), window.color(&after, at + by));
+        let old = window.color(&before, at + by);
+        let new = window.color(&after, at + by);
         (old != new).then_some((by, new))
     });
     Some(pixels.collect())

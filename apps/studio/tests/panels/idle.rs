@@ -47,7 +47,8 @@ fn the_dashes_of_a_mask_stand_still_when_nothing_happens() {
 #[test]
 fn a_message_asks_for_one_frame_when_it_is_to_go() {
     let mut window = Window::open("idle-message");
-    let (text, hint) = ("nothing to scrape".to_owned(), None);
+    let text = "nothing to scrape".to_owned();
+    let hint = None;
     window.studio_mut().handle_event(session::Event::Message { text, hint, failed: false });
     pass(&mut window, 1);
     let next = next_frame(&mut window);

@@ -200,7 +200,9 @@ fn german_texts_have_the_placeholders_of_the_english_ones() {
 fn german_window(name: &'static str, size: Vec2) -> Window {
     let mut window = Window::sized(name, size, 1.0);
     let recipe: Recipe = [("Vermilion".to_owned(), 1.0), ("Zinc White".to_owned(), 1.0)].into();
-    let (on, x_mm, y_mm) = (SurfaceId::Canvas, 16.0, 10.0);
+    let on = SurfaceId::Canvas;
+    let x_mm = 16.0;
+    let y_mm = 10.0;
     let heap = Squeeze { on, recipe, vehicle: 0.4, x_mm, y_mm, volume_mm3: 30.0 };
     for action in [
         Action::Squeeze(heap.clone()),
@@ -311,7 +313,8 @@ fn no_german_text_of_a_dialog_is_cut() {
     for (at, (menu, entry)) in DIALOGS.into_iter().enumerate() {
         window.harness().get_all_by_label(menu).next().unwrap().click();
         window.harness().run_steps(3);
-        let (before, _) = (cut(&mut window), window.show(&format!("german-menu-{menu}")));
+        let before = cut(&mut window);
+        let _ = window.show(&format!("german-menu-{menu}"));
         assert!(before.is_empty(), "{menu}: {before:#?}");
         // Left of a control of the panels that has this name.
         let named = window.harness().get_all_by_label(entry);

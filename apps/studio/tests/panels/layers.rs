@@ -262,7 +262,8 @@ fn a_row_is_dragged_to_another_place() {
     };
     let row = |harness: &Panel, label: &str| harness.get_by_label(label).rect();
     let probe = three_layers();
-    let (top, middle) = (row(&probe, "choose Layer 3"), row(&probe, "choose Layer 2"));
+    let top = row(&probe, "choose Layer 3");
+    let middle = row(&probe, "choose Layer 2");
     let low = row(&probe, "choose Layer 1");
     let order = |layer, to| format!("{:?}", [act(Action::Order { layer: id(layer), to })]);
     let debug = |requests: Vec<Request>| format!("{requests:?}");

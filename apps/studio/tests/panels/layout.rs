@@ -145,7 +145,8 @@ fn the_view_follows_drag_wheel_and_held_keys() {
 
     let pointer = middle + vec2(100.0, 50.0);
     window.frame(vec![UiEvent::PointerMoved(pointer)]);
-    let (held, zoom) = (cell(&window, pointer), window.studio().canvas.view.zoom);
+    let held = cell(&window, pointer);
+    let zoom = window.studio().canvas.view.zoom;
     window.frame(vec![UiEvent::MouseWheel {
         unit: MouseWheelUnit::Line,
         delta: vec2(0.0, 2.0),
@@ -212,7 +213,8 @@ fn stroke(window: &mut Window) {
 
 /// Mean colour of the canvas view within 0.5 mm of a position.
 fn seen(window: &Window, second: bool, x_mm: f64, y_mm: f64) -> [i64; 3] {
-    let (x, y) = ((x_mm / 0.1) as usize - 5, (y_mm / 0.1) as usize - 5);
+    let x = (x_mm / 0.1) as usize - 5;
+    let y = (y_mm / 0.1) as usize - 5;
     let rect = tile::Rect { x, y, width: 10, height: 10 };
     let cells = window.studio().canvas.picture(second).unwrap().pixels(rect).pixels;
     let sum = |channel: fn(&Color32) -> u8| cells.iter().map(|c| i64::from(channel(c))).sum();

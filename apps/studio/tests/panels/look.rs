@@ -105,8 +105,10 @@ fn the_brush_panel_is_whole_in_a_window_of_a_thousand_points() {
             show(&mut window, Tab::Light);
             show(&mut window, Tab::Brush);
             let heads = ["Fold Light", "Unfold Light"];
-            let top = |name| Some(window.harness().query_by_label(name)?.rect().top());
-            let bottom = heads.into_iter().find_map(top).unwrap();
+            let bottom = heads
+                .into_iter()
+                .find_map(|name| Some(window.harness().query_by_label(name)?.rect().top()))
+                .unwrap();
             window.show(&format!("brush-panel-{look:?}-{}", size.y));
             for label in labels {
                 let rect = window.harness().get_by_label(label).rect();
@@ -236,7 +238,9 @@ pub(super) fn small(window: &mut Window) -> Vec<Target> {
 fn everything_that_is_touched_is_44_points_wide_and_high() {
     let mut window = Window::sized("touch", vec2(1440.0, 1000.0), 1.0);
     let recipe = [("Vermilion".to_owned(), 1.0)].into();
-    let (on, x_mm, y_mm) = (SurfaceId::Canvas, 16.0, 10.0);
+    let on = SurfaceId::Canvas;
+    let x_mm = 16.0;
+    let y_mm = 10.0;
     let heap = Squeeze { on, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3: 30.0 };
     for action in [Action::Squeeze(heap), Action::Dry { fraction: 1.0 }] {
         window.studio_mut().ask(Command::Apply(action));

@@ -67,8 +67,10 @@ fn the_interface_looks_alike_with_either_shader() {
         assert!(colors.len() > 60, "a picture with {} colours", colors.len());
         for (x, y, pixel) in by_egui.enumerate_pixels() {
             let other = by_quads.get_pixel(x, y);
-            let near = |i: usize| pixel[i].abs_diff(other[i]) <= NEAR;
-            assert!((0..3).all(near), "({x}, {y}) at {density}: {pixel:?}, not {other:?}");
+            assert!(
+                (0..3).all(|i: usize| pixel[i].abs_diff(other[i]) <= NEAR),
+                "({x}, {y}) at {density}: {pixel:?}, not {other:?}"
+            );
         }
     }
 }

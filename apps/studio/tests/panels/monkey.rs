@@ -2,15 +2,9 @@
 //! at the end of which no paint may be lost.
 
 mod dice;
-
 mod controls;
-
 mod refusals;
-
 mod paws;
-
 mod acts;
-
 mod accounts;
-
 mod runs;

@@ -42,7 +42,8 @@ fn the_canvas_has_half_of_a_phones_window_and_all_controls_are_within_it() {
         window.studio_mut().files.preferences.touch_targets = large;
         window.harness().run_ok();
         window.show(if large { "narrow-touch" } else { "narrow" });
-        let (whole, canvas) = (window.whole(), window.studio().canvas.rect());
+        let whole = window.whole();
+        let canvas = window.studio().canvas.rect();
         let share = canvas.area() / whole.area();
         assert!(share >= 0.5, "the canvas has {share} of the window, large targets: {large}");
         for label in ["File", "Help", "Panels", "Canvas", "Palette", "Paint", "tube of Vermilion"] {

@@ -46,8 +46,8 @@ fn the_reference_lies_over_the_canvas_and_is_never_painted() {
     let mut window = overlaid("over-canvas");
     let history = window.studio().painting().unwrap().history.clone();
     // Fitted: as wide as the canvas of 32 x 20 mm, and 10.7 mm high.
-    let (inside, beside) =
-        (window.point(SurfaceId::Canvas, 25.0, 10.0), window.point(SurfaceId::Canvas, 25.0, 2.0));
+    let inside = window.point(SurfaceId::Canvas, 25.0, 10.0);
+    let beside = window.point(SurfaceId::Canvas, 25.0, 2.0);
     if let Some(picture) = window.picture() {
         let [red, green, _] = window.color(&picture, inside);
         assert!(

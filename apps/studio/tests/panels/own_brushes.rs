@@ -161,6 +161,5 @@ fn sets_are_exported_and_imported_and_brushes_of_mypaint_taken_over() {
 
     std::fs::write(&ink, "{}").unwrap();
     import(&mut window, &ink);
-    let told = |window: &Window| window.shows("key `version`: is missing");
-    until(&mut window, "the problem", told);
+    until(&mut window, "the problem", |window: &Window| window.shows("key `version`: is missing"));
 }

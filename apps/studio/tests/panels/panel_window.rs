@@ -48,7 +48,8 @@ impl<P> PanelWindow<P> {
                     frame.show(ui, |ui| {
                         ui.take_available_space();
                         show(panel, ui, &mut cx);
-                        let (used, given) = (ui.min_rect().width(), ui.max_rect().width());
+                        let used = ui.min_rect().width();
+                        let given = ui.max_rect().width();
                         assert!(used <= given + 0.5, "{used} points wide, of {given}");
                     });
                 },

@@ -58,12 +58,15 @@ fn more_pressure_paints_a_broader_stroke() {
         stroke(&mut window, y_mm, pressure);
     }
     // The cursor must not cover the paint.
-    let (device, arrived, kind) = (Device::Pen, Instant::now(), ReportKind::Gone);
+    let device = Device::Pen;
+    let arrived = Instant::now();
+    let kind = ReportKind::Gone;
     window.studio_mut().pen.feed(Report { device, arrived, kind });
     window.settle();
     let after = window.picture().expect("it was there before");
     let pixels = |y_mm| painted(&window, &before, &after, y_mm);
-    let (heavy, light) = (pixels(5.0), pixels(15.0));
+    let heavy = pixels(5.0);
+    let light = pixels(15.0);
     assert!(light > 200, "{light} pixels of a light stroke");
     assert!(heavy as f64 > 1.5 * light as f64, "{heavy} pixels pressed, {light} not");
 }

@@ -67,7 +67,8 @@ fn points_of_the_curve_are_added_dragged_and_removed() {
     let point = window.harness().get_by_label("curve point 2").rect().center();
     let modifiers = Modifiers::NONE;
     let secondary = |pressed| {
-        let (pos, button) = (point, PointerButton::Secondary);
+        let pos = point;
+        let button = PointerButton::Secondary;
         Event::PointerButton { pos, button, pressed, modifiers }
     };
     window.frame(vec![Event::PointerMoved(point)]);
@@ -84,7 +85,8 @@ fn the_right_button_removes_a_point() {
     window.click("Firm");
     let before = points(&window).len();
     let point = window.harness().get_by_label("curve point 3").rect().center();
-    let (modifiers, button) = (Modifiers::NONE, PointerButton::Secondary);
+    let modifiers = Modifiers::NONE;
+    let button = PointerButton::Secondary;
     window.frame(vec![Event::PointerMoved(point)]);
     for pressed in [true, false] {
         window.frame(vec![Event::PointerButton { pos: point, button, pressed, modifiers }]);
@@ -178,8 +180,9 @@ fn a_recorded_stabilised_stroke_replays_to_the_bit() {
     settings.stabiliser.method = StabiliserMethod::String;
     let mut pen = Pen::new(settings);
     let area = eframe::egui::Rect::from_min_size(Pos2::ZERO, vec2(320.0, 200.0));
-    let mm = |at: Pos2| (f64::from(at.x) / 10.0, f64::from(at.y) / 10.0);
-    let surfaces = [SurfaceTransform::new(SurfaceId::Canvas, area, mm)];
+    let surfaces = [SurfaceTransform::new(SurfaceId::Canvas, area, |at: Pos2| {
+        (f64::from(at.x) / 10.0, f64::from(at.y) / 10.0)
+    })];
     let states = (0..120_u8).map(|at| {
         let x = 20.0 + 2.3 * f32::from(at);
         let at = Pos2::new(x, 100.0 + 30.0 * (0.1 * x).sin());
@@ -198,7 +201,8 @@ fn a_recorded_stabilised_stroke_replays_to_the_bit() {
         for event in pen.process_frame(&[], Modifiers::NONE, now, &targets) {
             match event {
                 PenEvent::Down { surface, .. } => {
-                    let (brush, decimals) = ("round".to_owned(), SampleDecimals::PEN);
+                    let brush = "round".to_owned();
+                    let decimals = SampleDecimals::PEN;
                     worker.ask(Command::PenDown { surface, brush, decimals });
                 }
                 PenEvent::Move(samples) => worker.ask(Command::PenMove(samples)),

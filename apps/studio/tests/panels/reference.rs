@@ -105,7 +105,8 @@ fn pictures_of_every_format_have_their_colors() {
 #[test]
 fn dragging_shows_the_color_and_picks_it_on_release() {
     let mut stage = stage("drag.png");
-    let (from, to) = (at(&stage, 0.25, 0.25), at(&stage, 0.75, 0.75));
+    let from = at(&stage, 0.25, 0.25);
+    let to = at(&stage, 0.75, 0.75);
     stage.harness.hover_at(from);
     stage.harness.drag_at(from);
     stage.harness.hover_at(to);
@@ -124,7 +125,8 @@ fn the_mean_over_the_radius_is_in_linear_light() {
     click(&mut stage, middle);
     let found = stage.state().tools.reference_color.take().unwrap();
     let linear = |bytes: [u8; 3]| Rgb(bytes.map(|byte| f64::from(byte) / 255.0)).linear().0;
-    let (left, right) = (linear(FIELDS[0]), linear(FIELDS[1]));
+    let left = linear(FIELDS[0]);
+    let right = linear(FIELDS[1]);
     for ((found, left), right) in found.iter().zip(left).zip(right) {
         // Equal numbers of pixels on both sides, except at the rim.
         let share = (found - left) / (right - left);

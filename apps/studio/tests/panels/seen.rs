@@ -84,11 +84,13 @@ pub(crate) fn targets(root: &Node<'_>) -> Vec<Target> {
         let is_clicked = inner.data().supports_action(Action::Click);
         (is_clicked && !is_bar) || inner.role() == Role::Slider
     };
-    let describe = |node: Node<'_>| {
-        let inner = node.accesskit_node();
-        let name = inner.label().or(inner.value());
-        let name = name.unwrap_or_else(|| format!("{:?} without a name", inner.role()));
-        Target { name, size: node.rect().size(), right: node.rect().right() }
-    };
-    root.children_recursive().filter(touched).map(describe).collect()
+    root.children_recursive()
+        .filter(touched)
+        .map(|node: Node<'_>| {
+            let inner = node.accesskit_node();
+            let name = inner.label().or(inner.value());
+            let name = name.unwrap_or_else(|| format!("{:?} without a name", inner.role()));
+            Target { name, size: node.rect().size(), right: node.rect().right() }
+        })
+        .collect()
 }

@@ -17,7 +17,8 @@ use super::fixture::{
 fn kept(name: &str, library: &str, parts: &[(&str, f64)]) -> KeptMixture {
     let recipe: Recipe = parts.iter().map(|(name, part)| ((*name).to_owned(), *part)).collect();
     let color = "#4a7d8c".to_owned();
-    let (name, library) = (name.to_owned(), library.to_owned());
+    let name = name.to_owned();
+    let library = library.to_owned();
     KeptMixture { name, library, recipe, vehicle: 0.25, color, light: "D65".to_owned() }
 }
 

@@ -13,7 +13,8 @@ use studio::theme::TOUCH_TARGET;
 use super::harness::{Window, button};
 
 fn touch(id: u64, phase: TouchPhase, pos: Pos2) -> Event {
-    let (device_id, id) = (TouchDeviceId(0), TouchId(id));
+    let device_id = TouchDeviceId(0);
+    let id = TouchId(id);
     Event::Touch { device_id, id, phase, pos, force: Some(0.5) }
 }
 
@@ -115,7 +116,8 @@ fn right(window: &Window) -> Vec2 {
 fn two_fingers_move_zoom_and_turn_the_view_and_paint_nothing() {
     let mut window = painted("touch-view");
     let middle = window.point(SurfaceId::Canvas, 16.0, 10.0);
-    let (before, place) = (right(&window), middle);
+    let before = right(&window);
+    let place = middle;
     let mut at = around(&window, &[-50.0, 50.0]);
     window.frame(fingers(TouchPhase::Start, &at));
     let go = |window: &mut Window, at: &[Pos2]| {

@@ -107,11 +107,16 @@ fn another_painting_is_not_taken_for_the_painters_work() {
 
 /// Draws a line on a surface, in mm.
 fn draw(window: &mut Window, surface: SurfaceId, from: (f64, f64), to: (f64, f64)) {
-    let at = |step: u32| {
-        let share = f64::from(step) / 12.0;
-        window.point(surface, from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
-    };
-    let along: Vec<_> = (0..=12).map(at).collect();
+    let along: Vec<_> = (0..=12)
+        .map(|step: u32| {
+            let share = f64::from(step) / 12.0;
+            window.point(
+                surface,
+                from.0 + share * (to.0 - from.0),
+                from.1 + share * (to.1 - from.1),
+            )
+        })
+        .collect();
     window.pen_stroke(&along);
     window.settle();
 }

@@ -28,7 +28,8 @@ fn pure(name: &str) -> Recipe {
 }
 
 fn of(name: &str) -> Load {
-    let (brush, recipe) = ("round".to_owned(), pure(name));
+    let brush = "round".to_owned();
+    let recipe = pure(name);
     Load { brush, recipe, vehicle: 0.15, amount_mm: 0.3 }
 }
 

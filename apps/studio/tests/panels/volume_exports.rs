@@ -105,14 +105,16 @@ fn an_animation_is_exported_as_a_gif_or_an_animated_png() {
     let frames: Vec<_> = frames.collect_frames().unwrap();
     // One for each 24th of a second, from the start on.
     assert_eq!(frames.len() as u64, last / 5 + 1);
-    let colors = |frame: &image::Frame| {
-        let colored = |pixel: &&image::Rgba<u8>| {
-            let [red, green, blue, _] = pixel.0;
-            red.max(green).max(blue) - red.min(green).min(blue) > 24
-        };
-        frame.buffer().pixels().filter(colored).count()
-    };
-    let [first, end] = [&frames[0], frames.last().unwrap()].map(colors);
+    let [first, end] = [&frames[0], frames.last().unwrap()].map(|frame: &image::Frame| {
+        frame
+            .buffer()
+            .pixels()
+            .filter(|pixel: &&image::Rgba<u8>| {
+                let [red, green, blue, _] = pixel.0;
+                red.max(green).max(blue) - red.min(green).min(blue) > 24
+            })
+            .count()
+    });
     assert!(first == 0 && end > 100, "colour comes: {first}, {end}");
     let path = export(&mut window, "Animation...", folder.path(), "all.gif");
     let bytes = std::fs::read(path).unwrap();
@@ -131,7 +133,8 @@ fn the_painting_and_its_layers_spectra_and_maps_are_exported() {
     let document: Document = paint::file::read("painting.exr", &bytes).unwrap();
     assert_eq!(document.title, "village");
     assert_eq!([document.wet.width(), document.wet.height()], shown_size(&window));
-    let (light, document) = (light(&document), &document);
+    let light = light(&document);
+    let document = &document;
     let shown = picture(document, &scene(document, &light));
     let seen = &volumes(&window).picture().unwrap().pixels;
     let bytes = graphics::export::frame_of(&graphics::encoding::encoded_from_linear(&shown));

@@ -65,7 +65,8 @@ fn the_dryer_dries_below_the_pen_and_its_key_dries_all() {
     assert_eq!(volumes(&window).tools.grip.tool, SceneTool::Dry);
     assert!(window.harness().query_all_by_label("Radius").next().is_some(), "it has a radius");
     window.save("volumes-dry");
-    let (from, to) = (at(&window, 0.5, 0.55), at(&window, 0.56, 0.58));
+    let from = at(&window, 0.5, 0.55);
+    let to = at(&window, 0.56, 0.58);
     window.pen_stroke(&[from, from + 0.5 * (to - from), to]);
     wait(&mut window, "an event", |volumes| volumes.state().unwrap().events.len() == 2);
     assert_eq!(volumes(&window).state().unwrap().events[1].label, "dry");
@@ -82,7 +83,8 @@ fn the_pen_pushes_and_lifts_paint_and_the_list_takes_events_back() {
     let mut window = scene("volumes-push");
     pour(&mut window);
     let drag = |window: &mut Window, label: &'static str, number: usize| {
-        let (from, to) = (at(window, 0.5, 0.55), at(window, 0.56, 0.58));
+        let from = at(window, 0.5, 0.55);
+        let to = at(window, 0.56, 0.58);
         window.frame(vec![Event::PointerMoved(from)]);
         window.frame(vec![button(from, true)]);
         let begun = volumes(window).state().unwrap().time.step;

@@ -45,15 +45,22 @@ pub(super) fn at(window: &Window, x: f32, y: f32) -> Pos2 {
 
 /// Number of pixels of the last picture with a colour.
 fn colored(volumes: &Volumes) -> usize {
-    let is_colored =
-        |[red, green, blue, _]: &&[u8; 4]| red.max(green).max(blue) - red.min(green).min(blue) > 24;
-    volumes.picture().map_or(0, |picture| picture.pixels.iter().filter(is_colored).count())
+    volumes.picture().map_or(0, |picture| {
+        picture
+            .pixels
+            .iter()
+            .filter(|[red, green, blue, _]: &&[u8; 4]| {
+                red.max(green).max(blue) - red.min(green).min(blue) > 24
+            })
+            .count()
+    })
 }
 
 /// A point of the window in the middle of the colour.
 fn in_color(window: &Window) -> Pos2 {
     let picture = volumes(window).picture().unwrap();
-    let (width, height) = (picture.width, picture.height);
+    let width = picture.width;
+    let height = picture.height;
     let is_colored = |x: usize, y: usize| {
         let [red, green, blue, _] = picture.pixels[y * width + x];
         red.max(green).max(blue) - red.min(green).min(blue) > 24

@@ -87,7 +87,8 @@ fn the_brush_tab_shows_the_settings_of_the_tool() {
 fn drag(window: &mut Window, places: &[(f64, f64)], modifiers: Modifiers) {
     let points: Vec<Pos2> =
         places.iter().map(|&(x, y)| window.point(SurfaceId::Canvas, x, y)).collect();
-    let (first, last) = (points[0], points[points.len() - 1]);
+    let first = points[0];
+    let last = points[points.len() - 1];
     let held = |at: Pos2, pressed: bool| match button(at, pressed) {
         Event::PointerButton { pos, button, pressed, .. } => {
             Event::PointerButton { pos, button, pressed, modifiers }

@@ -25,14 +25,16 @@ pub(crate) fn exported(document: &Document) -> Pixels {
     let picture = scene::picture(document, &scene);
     let png = png8(&picture, document.cell_mm).expect("a picture can be exported");
     let picture = image::load_from_memory(&png.bytes).expect("a PNG").into_rgb8();
-    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let width = picture.width() as usize;
+    let height = picture.height() as usize;
     Pixels { width, height, rows: picture.pixels().map(|pixel| pixel.0).collect() }
 }
 
 /// Waits until the visible part of the canvas equals `picture`, one cell per pixel, to
 /// the bit. Returns the number of pixels compared.
 pub(crate) fn shows(program: &Program<'_>, picture: &Pixels) -> usize {
-    let (screen, (x, y)) = (program.screen, &program.room);
+    let screen = program.screen;
+    let (x, y) = &program.room;
     screen.aside();
     let began = Instant::now();
     until("the screen shows the picture of the file", || {
@@ -41,7 +43,8 @@ pub(crate) fn shows(program: &Program<'_>, picture: &Pixels) -> usize {
         let shown = screen.still(x.clone(), y.clone());
         let found = seen(program, picture).filter(|seen| *seen == shown);
         if found.is_none() && began.elapsed() > Duration::from_secs(60) {
-            let (on_screen, in_file) = (shown.keep("shown"), picture.keep("exported"));
+            let on_screen = shown.keep("shown");
+            let in_file = picture.keep("exported");
             let differing = seen(program, picture).map(|seen| seen.differing(&shown));
             panic!("{differing:?} pixels differ: see {on_screen} and {in_file}");
         }
@@ -62,7 +65,8 @@ fn seen(program: &Program<'_>, picture: &Pixels) -> Option<Pixels> {
     let mut rows = Vec::with_capacity(x.len() * y.len());
     for row in y.clone() {
         for column in x.clone() {
-            let (column, row) = (cell(column, left)?, cell(row, top)?);
+            let column = cell(column, left)?;
+            let row = cell(row, top)?;
             let inside = column < picture.width && row < picture.height;
             rows.push(inside.then(|| picture.at(column, row))?);
         }

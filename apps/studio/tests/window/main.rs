@@ -7,17 +7,11 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod screen;
-
 mod program;
-
 mod export;
-
 mod painting;
-
 mod recovery;
-
 mod scene;
-
 mod painter;
 
 use std::io::Write;

@@ -4,13 +4,8 @@
 #[expect(dead_code, reason = "the tests of the panels need more of it")]
 #[path = "../panels/harness.rs"]
 mod harness;
-
 mod hand;
-
 mod tour;
-
 mod tools;
-
 mod dialogs;
-
 mod walk;

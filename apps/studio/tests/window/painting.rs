@@ -10,7 +10,8 @@ use crate::screen::{CONTROL, Pixels, RETURN, SHIFT, until};
 fn same(what: &str, before: &Pixels, after: &Pixels) {
     let differing = before.differing(after);
     if differing > 0 {
-        let (before, after) = (before.keep("before"), after.keep("after"));
+        let before = before.keep("before");
+        let after = after.keep("after");
         panic!("{what}: {differing} pixels differ, see {before} and {after}");
     }
 }

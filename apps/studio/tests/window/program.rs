@@ -83,7 +83,8 @@ impl<'a> Program<'a> {
     fn fitted(&self) -> Option<(Range<usize>, Range<usize>)> {
         let [left, top, right, bottom] = self.canvas()?;
         let whole = |from: f64, to: f64| from.ceil() as usize..to.floor() as usize;
-        let (x, y) = (whole(left, right), whole(top, bottom));
+        let x = whole(left, right);
+        let y = whole(top, bottom);
         // The window gets its size shortly after it appears.
         let (width, height) = self.screen.size();
         let wide = x.len() > width / 2;

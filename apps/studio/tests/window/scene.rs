@@ -9,11 +9,12 @@ use studio::files::Home;
 /// Number of pixels with a colour.
 fn colored(pixels: &Pixels) -> usize {
     let places = (0..pixels.height).flat_map(|y| (0..pixels.width).map(move |x| (x, y)));
-    let is_colored = |&(x, y): &(usize, usize)| {
-        let [red, green, blue] = pixels.at(x, y);
-        red.max(green).max(blue) - red.min(green).min(blue) > 24
-    };
-    places.filter(is_colored).count()
+    places
+        .filter(|&(x, y): &(usize, usize)| {
+            let [red, green, blue] = pixels.at(x, y);
+            red.max(green).max(blue) - red.min(green).min(blue) > 24
+        })
+        .count()
 }
 
 /// Text of the autosaved script below `home`, if there is one.

@@ -65,7 +65,8 @@ impl Pixels {
     /// Saves the picture as a PNG.
     pub(crate) fn save(&self, path: &Path) {
         let bytes: Vec<u8> = self.rows.iter().flatten().copied().collect();
-        let (width, height) = (self.width as u32, self.height as u32);
+        let width = self.width as u32;
+        let height = self.height as u32;
         let saved = image::save_buffer(path, &bytes, width, height, image::ColorType::Rgb8);
         saved.expect("a picture is written");
     }
@@ -86,7 +87,9 @@ impl Screen {
         let (connection, screen) = x11rb::connect(Some(&name)).expect("the server answers");
         connection.xtest_get_version(2, 2).unwrap().reply().expect("the server has XTEST");
         let setup = connection.setup();
-        let (root, first, last) = (setup.roots[screen].root, setup.min_keycode, setup.max_keycode);
+        let root = setup.roots[screen].root;
+        let first = setup.min_keycode;
+        let last = setup.max_keycode;
         let map =
             connection.get_keyboard_mapping(first, last - first + 1).unwrap().reply().unwrap();
         let of_each = usize::from(map.keysyms_per_keycode);
@@ -195,7 +198,8 @@ impl Screen {
 
     /// Captures columns `x` and rows `y`.
     pub(crate) fn pixels(&self, x: std::ops::Range<usize>, y: std::ops::Range<usize>) -> Pixels {
-        let (width, height) = (x.len(), y.len());
+        let width = x.len();
+        let height = y.len();
         assert!(x.end <= self.size.0.into() && y.end <= self.size.1.into(), "beyond the screen");
         let whole = |length: usize| u16::try_from(length).expect("a screen is small");
         let image = self
@@ -250,8 +254,9 @@ impl Screen {
 
     fn code(&self, writes: u32) -> (u8, bool) {
         let plain = self.keys.iter().find(|key| key.1 == writes).map(|key| (key.0, false));
-        let shifted = || self.keys.iter().find(|key| key.2 == writes).map(|key| (key.0, true));
-        plain.or_else(shifted).unwrap_or_else(|| panic!("no key writes {writes:#x}"))
+        plain
+            .or_else(|| self.keys.iter().find(|key| key.2 == writes).map(|key| (key.0, true)))
+            .unwrap_or_else(|| panic!("no key writes {writes:#x}"))
     }
 
     fn fake(&self, kind: u8, detail: u8) {

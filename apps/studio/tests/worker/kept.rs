@@ -45,7 +45,8 @@ fn recovered(folder: &Path) -> Window {
     let [canvas, palette] = lost.files();
     let kept = lost.work().unwrap().map(|work| Box::new(work.session));
     let mut window = Window::new(BackendChoice::Cpu);
-    let (canvas, palette) = (read(&canvas), read(&palette));
+    let canvas = read(&canvas);
+    let palette = read(&palette);
     window.ask(Command::Open(Origin::Recovered { canvas, palette, kept }));
     window.wait("the painting", |event| matches!(event, Event::Opened(_)).then_some(()));
     window
@@ -56,8 +57,13 @@ fn assert_replays(window: &mut Window, when: &str) {
     let text = window.recording().to_json().unwrap();
     let script = StrokeScript::from_json("recording", text.as_bytes()).unwrap();
     let mut player = session();
-    let saved = |_: &str, _: &mut _| Ok::<_, Infallible>(());
-    script.replay(&mut player, saved, || ControlFlow::Continue(())).unwrap();
+    script
+        .replay(
+            &mut player,
+            |_: &str, _: &mut _| Ok::<_, Infallible>(()),
+            || ControlFlow::Continue(()),
+        )
+        .unwrap();
     assert_same(&window.snapshot(), &mut player, when);
 }
 
@@ -126,7 +132,8 @@ fn a_session_lost_within_a_stroke_keeps_what_was_painted_of_it() {
     let mut autosave = Autosave::begin(folder.path()).unwrap();
     let mut window = Window::open(BackendChoice::Cpu);
     window.act(load("round", "Ultramarine"));
-    let (surface, decimals) = (SurfaceId::Canvas, SampleDecimals::RECORDING);
+    let surface = SurfaceId::Canvas;
+    let decimals = SampleDecimals::RECORDING;
     window.ask(Command::PenDown { surface, brush: "round".to_owned(), decimals });
     let arrived = Instant::now();
     let samples = wander(3, 40, 32.0, 20.0).into_iter();

@@ -19,11 +19,10 @@ fn layers_report_height_coverage_and_thumbnail() {
     window.stroke(SurfaceId::Canvas, "round", [&wander(42, 50, 32.0, 20.0)[..]]);
     window.act(Action::Dry { fraction: 0.5 });
     let snapshot = window.snapshot();
-    let looked = |window: &Window| {
+    window.wait_until("both layers", |window: &Window| {
         let layers = &window.state().layers;
         layers.len() == 2 && layers.iter().all(|layer| layer.max_mm > 0.0)
-    };
-    window.wait_until("both layers", looked);
+    });
     for (reported, layer) in window.state().layers.iter().zip(&snapshot.canvas.dry) {
         let cells = layer.paint.vehicle.values().len();
         let volumes = (0..cells).map(|index| layer.paint.cell(index).volume());
@@ -53,7 +52,8 @@ fn layers_report_height_coverage_and_thumbnail() {
     };
     assert!(reddest(&window) > Some(40), "vermilion is red: {:?}", reddest(&window));
     let layer = LayerRef::Dry(0);
-    let (from, to) = ("Vermilion".to_owned(), "Emerald Green".to_owned());
+    let from = "Vermilion".to_owned();
+    let to = "Emerald Green".to_owned();
     window.act(Action::Swap { layer, from, to });
     window.wait_until("another colour", |window| reddest(window) < Some(0));
     // Undo changes the paint of a layer, so its thumbnail must be updated.

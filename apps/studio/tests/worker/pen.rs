@@ -9,7 +9,8 @@ pub(crate) fn wander(seed: u64, count: usize, width_mm: f64, height_mm: f64) -> 
     let phase = seed as f64 * 1.7;
     let sample = |index: usize| {
         let seconds = index as f64 / 120.0;
-        let (a, b) = (phase + 2.1 * seconds, 1.3 * phase + 1.7 * seconds);
+        let a = phase + 2.1 * seconds;
+        let b = 1.3 * phase + 1.7 * seconds;
         Sample {
             seconds,
             x_mm: width_mm * (0.5 + 0.45 * a.sin()),

@@ -27,10 +27,12 @@ fn a_pick_equals_an_instrument_reading() {
     window.act(load("round", "Ultramarine"));
     let over = wander(51, 60, 32.0, 20.0);
     window.stroke(SurfaceId::Canvas, "round", [&over[..]]);
-    let (x_mm, y_mm) = (over[30].x_mm, over[30].y_mm);
+    let x_mm = over[30].x_mm;
+    let y_mm = over[30].y_mm;
     let snapshot = window.snapshot();
     let spectral = SpectralDocument::full(&snapshot.canvas);
-    let (column, row) = ((x_mm / 0.1) as usize, (y_mm / 0.1) as usize);
+    let column = (x_mm / 0.1) as usize;
+    let row = (y_mm / 0.1) as usize;
     let one = pick(&mut window, x_mm, y_mm, 0.0);
     let wanted = spectral.measured_reflectance(column, row);
     let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
@@ -42,9 +44,11 @@ fn a_pick_equals_an_instrument_reading() {
     // Mean over a disc, computed cell by cell.
     let radius = 0.35;
     let disc = pick(&mut window, x_mm, y_mm, radius);
-    let (mut sum, mut count) = (vec![0.0; wanted.len()], 0.0);
+    let mut sum = vec![0.0; wanted.len()];
+    let mut count = 0.0;
     for index in 0..320 * 200 {
-        let (x, y) = (index % 320, index / 320);
+        let x = index % 320;
+        let y = index / 320;
         let away = (0.1 * x as f64 + 0.05 - x_mm).hypot(0.1 * y as f64 + 0.05 - y_mm);
         if away <= radius {
             count += 1.0;

@@ -36,8 +36,13 @@ fn varied_actions() -> Vec<Action> {
 fn assert_replay(pace: Pace) {
     let (script, library) = script(varied_actions());
     let mut session = session();
-    let saved = |_: &str, _: &mut _| Ok::<_, Infallible>(());
-    script.replay(&mut session, saved, || ControlFlow::Continue(())).unwrap();
+    script
+        .replay(
+            &mut session,
+            |_: &str, _: &mut _| Ok::<_, Infallible>(()),
+            || ControlFlow::Continue(()),
+        )
+        .unwrap();
     let mut window = Window::new(BackendChoice::Cpu);
     let of = script.actions.len();
     let began = Instant::now();
@@ -91,7 +96,8 @@ fn a_recording_of_the_worker_replays_to_the_same_painting() {
             action => window.act(action),
         }
     }
-    let (snapshot, script) = (window.snapshot(), window.recording());
+    let snapshot = window.snapshot();
+    let script = window.recording();
     let script =
         StrokeScript::from_json("recording", script.to_json().unwrap().as_bytes()).unwrap();
     let Origin::Blank { library, .. } = small() else { panic!("a bare canvas") };

@@ -90,7 +90,8 @@ fn pictures_stay_with_their_actions_through_undo_and_adjustments() {
     let before: Vec<_> = shots(&window).into_iter().map(Option::<&HistoryShot>::cloned).collect();
     assert_eq!(window.state().history_done, 1);
     let turned = |azimuth_deg| Action::Light(Lighting { azimuth_deg, ..Lighting::default() });
-    let (first, last) = (turned(10.0), turned(200.0));
+    let first = turned(10.0);
+    let last = turned(200.0);
     window.ask(Command::Adjust(first));
     window.ask(Command::Adjust(last));
     window.ask(Command::EndAdjustment);

@@ -92,8 +92,9 @@ fn a_snapshot_does_not_wait_for_the_pen() {
     });
     let moves = |samples: &[Sample]| {
         let arrived = Instant::now();
-        let sample = |&sample| session::PenSample { sample, arrived };
-        Command::PenMove(samples.iter().map(sample).collect())
+        Command::PenMove(
+            samples.iter().map(|&sample| session::PenSample { sample, arrived }).collect(),
+        )
     };
     window.ask(moves(&samples[..90]));
     let midway = window.snapshot();
@@ -122,8 +123,11 @@ fn a_window_that_does_not_poll_gets_few_tiles_and_then_all_changes() {
     std::thread::sleep(Duration::from_millis(1500));
     window.events.clear();
     window.handle_events();
-    let paced = |event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_)));
-    let waiting = window.events.iter().filter(paced).count();
+    let waiting = window
+        .events
+        .iter()
+        .filter(|event: &&Event| matches!(event, Event::Tiles { .. } | Event::Head(Some(_))))
+        .count();
     assert!((1..=4).contains(&waiting), "{waiting} events are queued");
     let snapshot = window.snapshot();
     super::pictures::assert_pictures(&mut window, &snapshot);
@@ -175,11 +179,14 @@ fn the_head_is_reported_while_down_and_removed_when_lifted() {
     assert_eq!(head.surface, SurfaceId::Canvas);
     assert_eq!(head.vertices.len(), head.around * head.along);
     let tip = head.vertices.last().expect("a head has a tip");
-    let near = |sample: &Sample| {
-        let (x, y) = (f64::from(tip[0]), f64::from(tip[1]));
-        (10.0 * sample.x_mm - x).hypot(10.0 * sample.y_mm - y)
-    };
-    let nearest = samples.iter().map(near).fold(f64::INFINITY, f64::min);
+    let nearest = samples
+        .iter()
+        .map(|sample: &Sample| {
+            let x = f64::from(tip[0]);
+            let y = f64::from(tip[1]);
+            (10.0 * sample.x_mm - x).hypot(10.0 * sample.y_mm - y)
+        })
+        .fold(f64::INFINITY, f64::min);
     assert!(nearest < 100.0, "the tip is {nearest} cells off the path");
     window.wait("the lifted head", |event| matches!(event, Event::Head(None)).then_some(()));
 }

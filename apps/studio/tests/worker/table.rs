@@ -58,7 +58,8 @@ fn a_painting_opens_as_it_was_left_and_its_recording_replays() {
 
     today.stroke(SurfaceId::Canvas, "round", [&wander(53, 40, 32.0, 20.0)[..]]);
     today.stroke(SurfaceId::Palette, "flat", [&wander(54, 40, 10.0, 8.0)[..]]);
-    let (painted, mut script) = (today.snapshot(), today.recording());
+    let painted = today.snapshot();
+    let mut script = today.recording();
     let folder = tempfile::tempdir().unwrap();
     let start = folder.path().join("start.exr");
     std::fs::write(&start, bytes).unwrap();

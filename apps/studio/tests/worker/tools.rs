@@ -48,8 +48,12 @@ fn tools_and_masks_of_the_worker_are_those_of_the_session_and_replay_to_the_bit(
     let read = paint::StrokeScript::from_json("recording", text.as_bytes()).unwrap();
     assert_eq!(read, recording, "it is read as it was written");
     let mut again = super::strokes::session();
-    let save = |_: &str, _: &mut _| Ok::<(), std::io::Error>(());
-    read.replay(&mut again, save, || ControlFlow::Continue(())).unwrap();
+    read.replay(
+        &mut again,
+        |_: &str, _: &mut _| Ok::<(), std::io::Error>(()),
+        || ControlFlow::Continue(()),
+    )
+    .unwrap();
     assert_same(&snapshot, &mut again, "after a replay");
     // The worker plays it too.
     let library = session.canvas().library().clone();

@@ -137,9 +137,13 @@ fn village() -> Subject {
 
 /// Number of pixels with a colour.
 fn colored(picture: &ScenePicture) -> usize {
-    let is_colored =
-        |[red, green, blue, _]: &&[u8; 4]| red.max(green).max(blue) - red.min(green).min(blue) > 24;
-    picture.pixels.iter().filter(is_colored).count()
+    picture
+        .pixels
+        .iter()
+        .filter(|[red, green, blue, _]: &&[u8; 4]| {
+            red.max(green).max(blue) - red.min(green).min(blue) > 24
+        })
+        .count()
 }
 
 #[test]
@@ -157,7 +161,8 @@ fn colour_comes_where_the_pen_is_held_and_stays_when_time_stops() {
     assert!(state.tally.poured_mm3 > 1.0 && state.tally.volumes > 0, "{:?}", state.tally);
     let spilled = state.tally.on_surfaces_mm3 + state.tally.lifted_mm3;
     assert!((state.tally.poured_mm3 - spilled).abs() < 1e-9, "{:?}", state.tally);
-    let (step, pictures) = (state.time.step, client.pictures);
+    let step = state.time.step;
+    let pictures = client.pictures;
     std::thread::sleep(Duration::from_millis(300));
     client.receive();
     assert_eq!(client.state().time.step, step, "time stands");
@@ -243,11 +248,11 @@ fn an_animation_is_written_whole_or_not_at_all() {
     for (name, start) in [("a.gif", &b"GIF89a"[..]), ("b.png", &b"\x89PNG\r\n\x1a\n"[..])] {
         let path = folder.path().join(name);
         let mut shares = Vec::new();
-        let report = |share| {
+        session::volumes::animation(&recording, [80, 60], &path, |share| {
             shares.push(share);
             true
-        };
-        session::volumes::animation(&recording, [80, 60], &path, report).unwrap();
+        })
+        .unwrap();
         let bytes = std::fs::read(&path).unwrap();
         assert!(bytes.starts_with(start), "{name} has {} bytes", bytes.len());
         assert!(shares.len() > 4 && shares.is_sorted(), "{shares:?}");
@@ -265,7 +270,8 @@ fn time_runs_on_and_pictures_come_while_paint_is_mixed() {
     let inside = Inside::Glaze;
     client.ask(VolumeCommand::Look(Look { inside, ..client.state().look }));
     client.wait(|client| client.state().prepares);
-    let (step, pictures) = (client.state().time.step, client.pictures);
+    let step = client.state().time.step;
+    let pictures = client.pictures;
     // What takes long is done beside the scene: it is not awaited.
     client.wait(|client| client.pictures > pictures + 1 || !client.state().prepares);
     assert!(client.state().prepares, "a picture comes before the paint is mixed");

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
 use documents::file::disk;
+use serde::Deserialize;
 use spectra::referencing::{DarkFiles, ReferenceFiles, TileSource};
 
 use crate::failure::{Result, setting};

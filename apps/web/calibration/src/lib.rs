@@ -4,25 +4,15 @@
 //! Errors reach the page as the crate `told` says.
 
 mod failure;
-
 mod remarks;
-
 mod viewing;
-
 mod files;
-
 mod counts;
-
 mod readings;
-
 mod library;
-
 mod fitting;
-
 mod targets;
-
 mod matching;
-
 mod report;
 
 pub use fitting::Fit;

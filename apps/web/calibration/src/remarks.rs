@@ -7,12 +7,14 @@ use crate::failure::hint_text;
 
 /// A list of `warning`, `text` and `hint` of each remark.
 pub(crate) fn remarks<'a>(remarks: impl IntoIterator<Item = &'a Remark>) -> Value {
-    let told = |remark: &Remark| {
-        json!({
-            "warning": remark.kind == RemarkKind::Warning,
-            "text": remark.text,
-            "hint": remark.hint.as_ref().map(hint_text),
+    remarks
+        .into_iter()
+        .map(|remark: &Remark| {
+            json!({
+                "warning": remark.kind == RemarkKind::Warning,
+                "text": remark.text,
+                "hint": remark.hint.as_ref().map(hint_text),
+            })
         })
-    };
-    remarks.into_iter().map(told).collect()
+        .collect()
 }

@@ -41,7 +41,8 @@ impl Library {
         subject.comparison = Some(comparable.with(library, &viewing).told()?);
         subject.cards = comparable.set.cards(&subject.weights);
         if validate {
-            let (done, of) = (AtomicUsize::new(0), comparable.mixtures(library));
+            let done = AtomicUsize::new(0);
+            let of = comparable.mixtures(library);
             let told = |_: FitStage| {
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                 told::stage(&format!("mixture left out, {} of {of}", done.min(of)));

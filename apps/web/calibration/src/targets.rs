@@ -52,7 +52,9 @@ impl Targets {
 
 impl Targets {
     fn of_swatches(file: spectra::swatch_file::SwatchFile) -> Result<Self> {
-        let (mut targets, mut hex, mut inks) = (Vec::new(), Vec::new(), 0);
+        let mut targets = Vec::new();
+        let mut hex = Vec::new();
+        let mut inks = 0;
         for swatch in file.swatches {
             let Some(color) = swatch.color.srgb() else {
                 inks += 1;
@@ -82,7 +84,8 @@ impl Targets {
         if averaged.spectra.iter().any(|spectrum| spectrum.film == Film::Paint) {
             averaged.spectra.retain(|spectrum| spectrum.film == Film::Paint);
         }
-        let (mut targets, mut hex) = (Vec::new(), Vec::new());
+        let mut targets = Vec::new();
+        let mut hex = Vec::new();
         for spectrum in averaged.spectra {
             let measured =
                 Spectrum::<Reflectance>::new(averaged.grid, spectrum.reflectance).told()?;

@@ -59,7 +59,8 @@ impl Decoder {
         target: &mut [u8],
         last: bool,
     ) -> (DecoderResult, usize, usize) {
-        let (room, mut written) = (target.len(), 0);
+        let room = target.len();
+        let mut written = 0;
         let (result, read) = self.decode(source, last, room, |found| {
             written += found.encode_utf8(&mut target[written..]).len();
         });
@@ -135,7 +136,8 @@ mod tests {
             assert_eq!(encoding.decode_without_bom_handling(&bytes), (TEXT.into(), false));
             for size in 1..bytes.len() {
                 let mut decoder = encoding.new_decoder_without_bom_handling();
-                let (mut found, mut target) = (Vec::new(), [0; 5]);
+                let mut found = Vec::new();
+                let mut target = [0; 5];
                 for piece in bytes.chunks(size) {
                     let mut rest = piece;
                     loop {

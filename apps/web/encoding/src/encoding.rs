@@ -40,7 +40,9 @@ impl Encoding {
             let replaced = matches!(text, Cow::Owned(_));
             return (text, replaced);
         }
-        let (mut text, mut at, mut replaced) = (String::with_capacity(bytes.len()), 0, false);
+        let mut text = String::with_capacity(bytes.len());
+        let mut at = 0;
+        let mut replaced = false;
         loop {
             let length = match next(self.kind, &bytes[at..]) {
                 Next::End => return (text.into(), replaced),

@@ -5,13 +5,9 @@
 //! reader of workbooks, which are UTF-8 but might say otherwise. Text in any other encoding is an error here.
 
 mod characters;
-
 mod encoding;
-
 mod decoder;
-
 mod names;
-
 mod lookup;
 
 pub use decoder::{Decoder, DecoderResult};

@@ -11,9 +11,10 @@ impl Encoding {
     pub fn for_label(label: &[u8]) -> Option<&'static Self> {
         let label = label.trim_ascii();
         let known = LABELS.iter().find(|known| known.name().as_bytes().eq_ignore_ascii_case(label));
-        let short = || label.eq_ignore_ascii_case(b"utf8").then_some(UTF_8);
-        let plain = || label.eq_ignore_ascii_case(b"utf-16").then_some(UTF_16LE);
-        known.copied().or_else(short).or_else(plain)
+        known
+            .copied()
+            .or_else(|| label.eq_ignore_ascii_case(b"utf8").then_some(UTF_8))
+            .or_else(|| label.eq_ignore_ascii_case(b"utf-16").then_some(UTF_16LE))
     }
 
     /// The encoding that a byte order mark tells, and the mark's length.

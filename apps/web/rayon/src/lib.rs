@@ -5,9 +5,7 @@
 //! what the crates of the pages call; the compiler tells what else they come to need.
 
 mod iterator;
-
 mod sources;
-
 mod threads;
 
 /// The traits that a user imports together.

@@ -5,13 +5,9 @@
 //! Errors reach the page as the crate `told` says.
 
 mod failure;
-
 mod slices;
-
 mod options;
-
 mod mapped;
-
 mod scan;
 
 pub use mapped::Mapped;

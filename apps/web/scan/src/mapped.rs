@@ -24,7 +24,8 @@ impl Mapped {
         every: usize,
     ) -> Result<Self> {
         let drawn = MapPictures::of(scan, overview, library).told()?;
-        let (mut pictures, mut named) = (Vec::new(), Vec::new());
+        let mut pictures = Vec::new();
+        let mut named = Vec::new();
         for of in drawn.pigments {
             named.push(json!({
                 "pigment": overview.pigments[of.place],

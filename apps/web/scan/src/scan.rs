@@ -42,7 +42,8 @@ impl Scan {
     #[wasm_bindgen(constructor)]
     pub fn open(names: Vec<String>, sizes: &[f64], reading: &str) -> Result<Scan> {
         let reading: ReadingOptions = options(reading)?;
-        let (files, options) = (scan_files(names, sizes), reading.cube_options());
+        let files = scan_files(names, sizes);
+        let options = reading.cube_options();
         let cube = Cube::of_files(&files, &options).told()?;
         let told = json!({
             "name": cube.path().display().to_string(),
@@ -101,15 +102,18 @@ impl Scan {
 
 /// Maps every pixel of the surveyed region, or those at the distance `every`, in blocks of rows.
 fn map_all(scan: &SurveyedScan, every: usize) -> Result<OverviewSums> {
-    let (rows, columns) = (scan.about().rows.clone(), scan.about().columns.clone());
-    let (height, width) = (rows.len().div_ceil(every), columns.len().div_ceil(every));
+    let rows = scan.about().rows.clone();
+    let columns = scan.about().columns.clone();
+    let height = rows.len().div_ceil(every);
+    let width = columns.len().div_ceil(every);
     let pigments = &scan.about().pigments;
     let mut sums =
         OverviewSums::new(pigments, (height, width), longest((height, width), pigments.len()));
     let together = scan.cube().rows_within(BLOCK_BYTES, columns.len());
     let together = together.min((MOST_PIXELS / width).max(1));
     let told = Percent::new("mapping", height * width);
-    let (mut block, mut row) = (Block::default(), Block::default());
+    let mut block = Block::default();
+    let mut row = Block::default();
     for start in (0..height).step_by(together) {
         let end = (start + together).min(height);
         let first = rows.start + start * every;

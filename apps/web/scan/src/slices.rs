@@ -39,9 +39,10 @@ impl ReadAt for Slices {
 /// The worker's files, in the order of their numbers.
 pub(crate) fn scan_files(names: Vec<String>, sizes: &[f64]) -> Vec<ScanFile> {
     let files = names.into_iter().zip(sizes).zip(0..);
-    let file = |((name, bytes), file): ((String, &f64), u32)| ScanFile {
-        name: PathBuf::from(name),
-        contents: Arc::new(Slices { file, bytes: *bytes as u64 }),
-    };
-    files.map(file).collect()
+    files
+        .map(|((name, bytes), file): ((String, &f64), u32)| ScanFile {
+            name: PathBuf::from(name),
+            contents: Arc::new(Slices { file, bytes: *bytes as u64 }),
+        })
+        .collect()
 }

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use documents::file::disk;
 use eframe::egui::{Context, RawInput, Ui, Visuals};
 use eframe::{App, CreationContext, Frame, WebOptions};
 use js_sys::Function;
 use session::{WorkerOptions, initial_commands};
-use documents::file::disk;
 use studio::app::{Between, Parts, StartedWorker, Studio};
 use studio::files::{Files, Home, Preferences, Problem};
 use studio::pen::{Pen, PenSettings};

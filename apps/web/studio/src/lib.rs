@@ -5,21 +5,18 @@
 //! ([`Page::put`], [`Page::changes`]) and styluses ([`Page::pen`]).
 
 mod page_fonts;
-
 mod framed;
-
 mod told;
-
 mod shown;
 
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
+use documents::file::disk;
 use eframe::WebRunner;
 use eframe::egui::pos2;
 use js_sys::{Array, Function, Object, Uint8Array};
 use session::warm_up::WarmUp;
-use documents::file::disk;
 use studio::files::{PageProblem, Problem};
 use studio::language::{Language, set_system};
 use studio::pen::{PagePens, PagePhase, PagePointer};

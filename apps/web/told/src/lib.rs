@@ -3,7 +3,6 @@
 //! Every error reaches a page as JSON: `message`, `causes`, `hint`, `fault`.
 
 mod refusal;
-
 mod stages;
 
 pub use refusal::{Controls, Result, hint_text, options, refusal, setting};

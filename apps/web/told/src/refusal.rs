@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
-use serde_json::json;
 use documents::hint::{Explain, Fault, Hint};
+use serde_json::json;
 use wasm_bindgen::JsValue;
 
 /// Result of a call of a page.

@@ -46,9 +46,14 @@ impl<'a> ColorTerm<'a> {
 
     /// Movement of the colour, in CIEDE2000, per unit of reflectance at each wavelength, by sample.
     pub(super) fn sensitivity(&self, target: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let length = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
         (0..self.targets.len())
-            .map(|index| self.linear(index, &target[index]).slopes.iter().map(length).collect())
+            .map(|index| {
+                self.linear(index, &target[index])
+                    .slopes
+                    .iter()
+                    .map(|v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt())
+                    .collect()
+            })
             .collect()
     }
 

@@ -107,7 +107,8 @@ pub(super) fn share_of_scattering_known<F: Forward>(
     let matrix = objective.local(unknowns).matrix;
     let share = |pigment: usize, at: usize| {
         let Some(place) = layout.scattering(pigment) else { return 1.0 };
-        let (k, s) = (at * layout.per_wavelength() + pigment, at * layout.per_wavelength() + place);
+        let k = at * layout.per_wavelength() + pigment;
+        let s = at * layout.per_wavelength() + place;
         let of_k = (matrix.diagonal(k) - objective.ridge(k)).max(f64::MIN_POSITIVE);
         let of_s = matrix.diagonal(s) - objective.ridge(s);
         let information = (of_s - matrix.at(s, k).powi(2) / of_k).max(0.0);
@@ -131,7 +132,8 @@ pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
     // The program may set a pigment to 0, where the slopes are not finite.
     let curves = CurveTable::off_zero(curves, [LEAST, LEAST]);
     let data = Data::hiding(problem);
-    let (layout, linear) = (data.layout, data.linear(&curves));
+    let layout = data.layout;
+    let linear = data.linear(&curves);
     let unknowns = layout.per_wavelength();
     let freedom = problem.recipes.len().saturating_sub(unknowns).max(1) as f64;
     let zeros = || vec![vec![0.0; layout.wavelengths]; layout.pigments];

@@ -174,7 +174,9 @@ impl Start<'_> {
         let knee = START_KNEE;
         let sums = |log: f64| {
             let k = log.exp();
-            let (mut cost, mut gradient, mut curvature) = (0.0, 0.0, 0.0);
+            let mut cost = 0.0;
+            let mut gradient = 0.0;
+            let mut curvature = 0.0;
             for &(index, amount) in own {
                 let [value, over_k, _] = self.film.reflectance_with_slopes(
                     amount * k,
@@ -191,7 +193,8 @@ impl Start<'_> {
             }
             (cost, gradient, curvature)
         };
-        let (low, high) = (START_K[0].ln(), START_K[1].ln());
+        let low = START_K[0].ln();
+        let high = START_K[1].ln();
         let mut log = near.unwrap_or_else(|| {
             let last = f64::from(COARSE_STEPS - 1);
             let candidates = (0..COARSE_STEPS).map(|i| low + (high - low) * f64::from(i) / last);

@@ -132,14 +132,17 @@ impl<'a, F: Forward> Data<'a, F> {
 
     /// Predicted measured reflectance by sample and wavelength.
     pub(super) fn values(&self, curves: &CurveTable) -> Vec<Vec<f64>> {
-        let of_sample = |index: usize| -> Vec<f64> {
-            let at_one = |at: usize| {
-                let (k, s) = self.mixed(curves, index, at);
-                self.forward.reflectance(index, at, k, s)
-            };
-            (0..self.layout.wavelengths).map(at_one).collect()
-        };
-        (0..self.recipes.len()).into_par_iter().map(of_sample).collect()
+        (0..self.recipes.len())
+            .into_par_iter()
+            .map(|index: usize| -> Vec<f64> {
+                (0..self.layout.wavelengths)
+                    .map(|at: usize| {
+                        let (k, s) = self.mixed(curves, index, at);
+                        self.forward.reflectance(index, at, k, s)
+                    })
+                    .collect()
+            })
+            .collect()
     }
 
     /// Linearises the model at `curves`, with slopes over log K and log S.
@@ -151,7 +154,8 @@ impl<'a, F: Forward> Data<'a, F> {
 
     /// Values and slopes of one sample.
     fn linear_of_sample(&self, curves: &CurveTable, index: usize) -> (Vec<f64>, Vec<f64>) {
-        let (recipe, wavelengths) = (&self.recipes[index], self.layout.wavelengths);
+        let recipe = &self.recipes[index];
+        let wavelengths = self.layout.wavelengths;
         let mut values = Vec::with_capacity(wavelengths);
         let mut slopes = Vec::with_capacity(wavelengths * self.places[index].len());
         for at in 0..wavelengths {

@@ -12,35 +12,20 @@
 //! layer equation.
 
 mod stage;
-
 mod curves;
-
 mod problem;
-
 mod program;
-
 mod weighted;
-
 mod banded;
-
 mod forward;
-
 mod color_term;
-
 mod noise;
-
 mod objective;
-
 mod deviations;
-
 mod refined;
-
 mod finite;
-
 mod expected;
-
 mod identification;
-
 mod condition;
 
 pub use condition::{Condition, condition};

@@ -128,7 +128,9 @@ impl Noise {
             })
             .collect();
         let score = |ratio: f64| {
-            let (mut sum, mut logs, mut count) = (0.0, 0.0, 0.0);
+            let mut sum = 0.0;
+            let mut logs = 0.0;
+            let mut count = 0.0;
             for (residual, slope) in residuals.iter().flatten().zip(self.slope.iter().flatten()) {
                 let sd = (1.0 + (ratio * slope).powi(2)).sqrt();
                 sum += (residual / sd).abs();

@@ -154,7 +154,8 @@ impl<F: Forward> Objective<'_, F> {
                     let slope = share * over_value * slopes[a];
                     gradient[place] += slope * residual;
                     for (b, &other) in places[..=a].iter().enumerate() {
-                        let (row, column) = (place.max(other), place.min(other));
+                        let row = place.max(other);
+                        let column = place.min(other);
                         matrix.add(row, column, slope * over_value * slopes[b]);
                     }
                 }
@@ -175,7 +176,8 @@ impl<F: Forward> Objective<'_, F> {
         let per = self.data.layout.per_wavelength();
         let places = self.data.places(index);
         (0..self.data.layout.wavelengths).flat_map(move |at| {
-            let (value, weight) = (linear.values[index][at], self.weights[index][at]);
+            let value = linear.values[index][at];
+            let weight = self.weights[index][at];
             let root = value.cbrt();
             let residual = weight * (root - self.data.roots[index][at]);
             let (_, share) = robust(residual * residual, self.knee);
@@ -253,15 +255,14 @@ impl<F: Forward> Objective<'_, F> {
             return Some(step);
         }
         let factor = self.spare.copy(&matrix).cholesky()?;
-        let product = |v: &[f64]| {
+        let step = conjugate_gradients(&right, &factor, |v: &[f64]| {
             let mut product = matrix.times(v);
             self.add_color_product(local, v, &mut product);
             for i in (0..v.len()).filter(|&i| held[i]) {
                 product[i] = v[i];
             }
             product
-        };
-        let step = conjugate_gradients(&right, &factor, product);
+        });
         self.spare.keep(matrix);
         self.spare.keep(factor.into_matrix());
         Some(step)

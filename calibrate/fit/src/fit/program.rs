@@ -96,11 +96,11 @@ impl Program {
             })
             .collect();
         let free: Vec<usize> = (0..2 * n).filter(|&i| i != reference).collect();
-        let entry = |row: usize, column: usize| {
-            let (i, j) = (free[row], free[column]);
+        let quadratic = DMatrix::from_fn(free.len(), free.len(), |row: usize, column: usize| {
+            let i = free[row];
+            let j = free[column];
             form[i * 2 * n + j] * scale[i] * scale[j]
-        };
-        let quadratic = DMatrix::from_fn(free.len(), free.len(), entry);
+        });
         let linear = free.iter().map(|&i| form[i * 2 * n + reference] * scale[i]);
         let linear = DVector::from_iterator(free.len(), linear);
         Self { free, reference, scale, quadratic, linear }
@@ -185,7 +185,8 @@ mod tests {
                 let x = DVector::from_iterator(program.free.len(), scaled);
                 0.5 * x.dot(&(&program.quadratic * &x)) + program.linear.dot(&x)
             };
-            let (free, solved) = (cost(&free), cost(&solved));
+            let free = cost(&free);
+            let solved = cost(&solved);
             assert!(
                 (free - 1e-9..free + 1e-6).contains(&solved),
                 "wavelength {at}: {free} {solved}"

@@ -210,7 +210,8 @@ pub(super) fn refine<F: Forward>(
     objective.color = None;
 
     let curves = layout.curves(&unknowns);
-    let (mut deviations, mut scattering_known) = (None, Vec::new());
+    let mut deviations = None;
+    let mut scattering_known = Vec::new();
     how.watch.check()?;
     if how.deviations {
         let table = standard_deviations(&objective, &unknowns, &curves, how.watch);
@@ -258,7 +259,9 @@ fn likeliest_smoothness<F: Forward>(objective: &Objective<'_, F>, unknowns: &[f6
     // The trace of inverse x D'D, from the three diagonals of D'D.
     let mut trace = 0.0;
     for i in 0..unknowns.len() - 2 * per {
-        let (a, b, c) = (i, i + per, i + 2 * per);
+        let a = i;
+        let b = i + per;
+        let c = i + 2 * per;
         trace += inverse.at(a, a) + 4.0 * inverse.at(b, b) + inverse.at(c, c)
             - 4.0 * inverse.at(b, a)
             - 4.0 * inverse.at(c, b)

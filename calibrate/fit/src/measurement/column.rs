@@ -62,7 +62,8 @@ pub(super) fn columns(
             continue;
         }
         if name.is_empty() {
-            let (CellPlace { file, row, .. }, number) = (place(index), index + 1);
+            let CellPlace { file, row, .. } = place(index);
+            let number = index + 1;
             return Err(MeasurementError::UnnamedColumn { file, row, number });
         }
         if let Some(before) = headers[..index].iter().position(|h| h.trim() == name) {
@@ -85,16 +86,20 @@ pub(super) fn columns(
             _ if has_included && excludes_specular(name) => Some(Column::Ignored),
             _ => column(name, letters),
         };
-        let out_of_range = || MeasurementError::WavelengthRange { place: place(index) };
         let is_named = |names: &[String]| names.iter().any(|pigment| pigment == name);
-        columns.push(match (column.ok_or_else(out_of_range)?, pigments) {
-            (Column::Pigment(_) | Column::Ignored, Some(names)) if is_named(names) => {
-                Column::Pigment(name.to_owned())
-            }
-            (Column::Pigment(_), Some(_)) => Column::Ignored,
-            (Column::Pigment(_), None) if is_coordinate(headers, index) => Column::Ignored,
-            (column, _) => column,
-        });
+        columns.push(
+            match (
+                column.ok_or_else(|| MeasurementError::WavelengthRange { place: place(index) })?,
+                pigments,
+            ) {
+                (Column::Pigment(_) | Column::Ignored, Some(names)) if is_named(names) => {
+                    Column::Pigment(name.to_owned())
+                }
+                (Column::Pigment(_), Some(_)) => Column::Ignored,
+                (Column::Pigment(_), None) if is_coordinate(headers, index) => Column::Ignored,
+                (column, _) => column,
+            },
+        );
     }
     if !columns.contains(&Column::Sample) {
         return Err(MeasurementError::Sheet(CsvTableError::MissingColumn {
@@ -115,7 +120,8 @@ pub(super) fn columns(
     }
     let falls = wavelengths.len() > 1 && wavelengths[1].1 < wavelengths[0].1;
     for pair in wavelengths.windows(2) {
-        let ((_, before), (index, nm)) = (pair[0], pair[1]);
+        let (_, before) = pair[0];
+        let (index, nm) = pair[1];
         if nm == before {
             return Err(MeasurementError::RepeatedWavelength { place: place(index), nm });
         }

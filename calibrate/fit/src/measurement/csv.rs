@@ -90,7 +90,9 @@ pub fn is_measurement_csv(text: &str) -> bool {
 #[must_use]
 pub fn begins_with_samples(text: &str) -> bool {
     let first = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
-    let is_sample =
-        |cell: &str| cell.trim().trim_matches('"').trim().eq_ignore_ascii_case("sample");
-    [',', ';', '\t'].into_iter().any(|separator| first.split(separator).any(is_sample))
+    [',', ';', '\t'].into_iter().any(|separator| {
+        first
+            .split(separator)
+            .any(|cell: &str| cell.trim().trim_matches('"').trim().eq_ignore_ascii_case("sample"))
+    })
 }

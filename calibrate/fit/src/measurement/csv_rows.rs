@@ -62,10 +62,9 @@ fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> boo
         Column::Pigment(_) | Column::Thickness => separator != b',',
         _ => false,
     };
-    let has_comma = |row: &CsvRow| {
+    rows.iter().any(|row: &CsvRow| {
         row.cells.iter().zip(columns).any(|(cell, column)| decides(column) && cell.contains(','))
-    };
-    rows.iter().any(has_comma)
+    })
 }
 
 /// Largest amount of a pigment; beyond it sums lose their small terms.
@@ -104,7 +103,8 @@ impl CsvRows {
             let found = "a binary file of an instrument";
             return Err(MeasurementError::NoTable { file: file.to_owned(), found });
         };
-        let (file, text) = (content.file.as_str(), &content.text);
+        let file = content.file.as_str();
+        let text = &content.text;
         if text.trim_start().starts_with('{') {
             return Err(MeasurementError::NoTable { file: file.to_owned(), found: "JSON" });
         }
@@ -126,8 +126,8 @@ impl CsvRows {
         take_filled_names(&headers, &mut columns, &rows);
         let decimal_comma = has_decimal_commas(separator, &columns, &rows);
         if pigments.is_none() {
-            let number = |cell: &str| parsed(cell, decimal_comma);
-            for place in without_amounts(&columns, &rows, number) {
+            for place in without_amounts(&columns, &rows, |cell: &str| parsed(cell, decimal_comma))
+            {
                 columns[place] = Column::Ignored;
             }
         }
@@ -192,14 +192,16 @@ impl CsvRows {
             .filter(|(name, _)| !excludes_specular(name))
             .map(|(name, _)| name.as_str())
             .collect();
-        let what = || {
-            format!(
-                "{}: columns that hold no amounts of a pigment are ignored: {}",
-                self.file,
-                ignored.join(", ")
-            )
-        };
-        (!ignored.is_empty()).then(what).into_iter().collect()
+        (!ignored.is_empty())
+            .then(|| {
+                format!(
+                    "{}: columns that hold no amounts of a pigment are ignored: {}",
+                    self.file,
+                    ignored.join(", ")
+                )
+            })
+            .into_iter()
+            .collect()
     }
 
     /// One reading for every row.
@@ -214,7 +216,8 @@ impl CsvRows {
         csv_row: &CsvRow,
         backings: &mut BTreeSet<Arc<str>>,
     ) -> Result<Reading, MeasurementError> {
-        let (row, record) = (csv_row.number, &csv_row.cells);
+        let row = csv_row.number;
+        let record = &csv_row.cells;
         let surplus_is_empty = record.iter().skip(self.columns.len()).all(str::is_empty);
         if record.len() < self.columns.len() || !surplus_is_empty {
             return Err(MeasurementError::Sheet(CsvTableError::RowLength {

@@ -6,41 +6,23 @@
 //! Readings without amounts take them from a CSV of recipes.
 
 mod darker_film;
-
 mod error;
-
 mod error_hint;
-
 mod scale;
-
 mod table;
-
 mod coordinates;
-
 mod csv_row;
-
 mod name_column;
-
 mod column;
-
 mod heading_row;
-
 mod raw_rows;
-
 mod common_grid;
-
 mod no_amounts;
-
 mod csv_rows;
-
 mod csv;
-
 mod pieces;
-
 mod averaged;
-
 mod recipes;
-
 mod records;
 
 pub use averaged::{AveragedSpectra, AveragedSpectrum, SpectrumNameError};

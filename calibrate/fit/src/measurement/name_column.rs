@@ -58,10 +58,13 @@ pub(super) fn name_column(
 
 /// The first of the columns `places` in which every row has a name; the first one if none has.
 pub(super) fn filled_column(places: &[usize], rows: &[CsvRow]) -> Option<usize> {
-    let is_filled = |place: &&usize| {
-        rows.iter().all(|row| row.cells.get(**place).is_some_and(|name| !name.is_empty()))
-    };
-    places.iter().find(is_filled).or(places.first()).copied()
+    places
+        .iter()
+        .find(|place: &&usize| {
+            rows.iter().all(|row| row.cells.get(**place).is_some_and(|name| !name.is_empty()))
+        })
+        .or(places.first())
+        .copied()
 }
 
 #[cfg(test)]

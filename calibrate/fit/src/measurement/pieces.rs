@@ -258,13 +258,15 @@ mod tests {
     fn pieces_give_the_table_of_the_whole_file() {
         let mut text = "\r\nsample,film,Note,White,Red,Lux,400,500\r\n".to_owned();
         for row in 0..40 {
-            let (white, red) = (f64::from(row % 5) / 4.0, f64::from(4 - row % 5) / 4.0);
+            let white = f64::from(row % 5) / 4.0;
+            let red = f64::from(4 - row % 5) / 4.0;
             let blank = if row % 7 == 0 { "\r\n" } else { "" };
             let note = if row % 20 > 16 { "\"two\r\nlines\"" } else { "" };
             text += &format!("s{row},,{note},{white},{red},{row}9,{}.5,30\r\n{blank}", row % 3);
         }
         let [pieces, whole] = both(&text);
-        let (pieces, whole) = (pieces.unwrap(), whole.unwrap());
+        let pieces = pieces.unwrap();
+        let whole = whole.unwrap();
         assert_eq!(pieces, whole);
         assert_eq!(whole.pigments, ["White", "Red"]);
     }
@@ -277,7 +279,8 @@ mod tests {
             (0..40).for_each(|at| text += &row(at, if at == place { value } else { "40" }));
             let text = text.replace("0.5,30", "0.5,0.4");
             let [pieces, whole] = both(&text);
-            let (pieces, whole) = (pieces.unwrap_err(), whole.unwrap_err());
+            let pieces = pieces.unwrap_err();
+            let whole = whole.unwrap_err();
             assert_eq!(pieces, whole);
             assert!(whole.to_string().contains(&format!("row {}", place + 2)), "{whole}");
         }

@@ -49,7 +49,8 @@ impl RawRows {
         let rows = records.filter(|cells| cells.iter().any(|cell| !cell.is_empty())).map(|cells| {
             CsvRow { number: numbers.at(heading.offset as u64 + byte(&cells)), cells }
         });
-        let (rows, separator) = (rows.collect(), heading.separator);
+        let rows = rows.collect();
+        let separator = heading.separator;
         Self { separator, heading_row, headings, rows, heading_rows: None }
     }
 
@@ -69,27 +70,30 @@ impl RawRows {
         let Self { separator, heading_row, headings: names, rows, .. } = Self::below(text, first);
         let label = |row: &CsvRow| plain_heading(row.cells.get(0).unwrap_or_default());
         let wavelengths = rows.iter().filter(|row| is_wavelength_heading(&label(row))).count();
-        let fits = |row: &CsvRow| {
-            let surplus = row.cells.iter().skip(names.len());
-            !label(row).is_empty() && surplus.into_iter().all(str::is_empty)
-        };
-        if names.len() < 2 || wavelengths < 2 || wavelengths == rows.len() || !rows.iter().all(fits)
+        if names.len() < 2
+            || wavelengths < 2
+            || wavelengths == rows.len()
+            || !rows.iter().all(|row: &CsvRow| {
+                let surplus = row.cells.iter().skip(names.len());
+                !label(row).is_empty() && surplus.into_iter().all(str::is_empty)
+            })
         {
             return None;
         }
         let headings = std::iter::once("sample".to_owned()).chain(rows.iter().map(label)).collect();
         let heading_rows = std::iter::once(heading_row).chain(rows.iter().map(|row| row.number));
-        let sample = |column: usize| {
-            let values = rows.iter().map(|row| row.cells.get(column).unwrap_or_default());
-            let cells = std::iter::once(names[column].as_str()).chain(values).collect();
-            CsvRow { number: heading_row, cells }
-        };
         Some(Self {
             separator,
             heading_row,
             headings,
             heading_rows: Some(heading_rows.collect()),
-            rows: (1..names.len()).map(sample).collect(),
+            rows: (1..names.len())
+                .map(|column: usize| {
+                    let values = rows.iter().map(|row| row.cells.get(column).unwrap_or_default());
+                    let cells = std::iter::once(names[column].as_str()).chain(values).collect();
+                    CsvRow { number: heading_row, cells }
+                })
+                .collect(),
         })
     }
 }

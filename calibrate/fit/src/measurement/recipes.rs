@@ -49,8 +49,11 @@ impl Recipes {
     ) -> Result<Self, RecipesError> {
         let table_rows = CsvRows::open(file, bytes, TableKind::Recipes, pigments)?;
         let position = |wanted: Column| table_rows.columns.iter().position(|c| *c == wanted);
-        let is_wavelength = |column: &Column| matches!(column, Column::Wavelength(_));
-        if let Some(index) = table_rows.columns.iter().position(is_wavelength) {
+        if let Some(index) = table_rows
+            .columns
+            .iter()
+            .position(|column: &Column| matches!(column, Column::Wavelength(_)))
+        {
             let place = table_rows.header_place(index);
             return Err(RecipesError::Wavelength { place });
         }
@@ -66,7 +69,8 @@ impl Recipes {
                 reading.and_then(|index| cells.cells.get(index)).filter(|name| !name.is_empty());
             let key = key.unwrap_or(&row.sample).to_owned();
             if let Some(&first) = places.get(&key) {
-                let (file, second) = (file.to_owned(), row.row);
+                let file = file.to_owned();
+                let second = row.row;
                 return Err(RecipesError::Repeated { file, name: key, first, second });
             }
             places.insert(key.clone(), row.row);
@@ -147,8 +151,10 @@ impl Recipes {
             })
         };
         let readings: Vec<Reading> = table.readings.into_iter().filter_map(join).collect();
-        let empty = |r: &&Reading| r.film == Film::Paint && r.amounts.iter().all(|a| *a == 0.0);
-        if let Some(reading) = readings.iter().find(empty) {
+        if let Some(reading) = readings
+            .iter()
+            .find(|r: &&Reading| r.film == Film::Paint && r.amounts.iter().all(|a| *a == 0.0))
+        {
             let row = self.rows.iter().find(|(_, row)| row.sample == reading.sample);
             return Err(MeasurementError::NoRecipe {
                 file: self.file.clone(),

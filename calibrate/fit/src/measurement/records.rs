@@ -147,13 +147,15 @@ fn reflectances<'a>(
             }
         }
     }
-    let spectrum = |record: &'a MeasuredSpectrum| Spectrum {
-        record,
-        wavelengths_nm: record.wavelengths_nm.clone(),
-        values: record.values.clone(),
-        scale: Scale::Fraction,
-    };
-    Ok(kept.into_iter().map(spectrum).collect())
+    Ok(kept
+        .into_iter()
+        .map(|record: &'a MeasuredSpectrum| Spectrum {
+            record,
+            wavelengths_nm: record.wavelengths_nm.clone(),
+            values: record.values.clone(),
+            scale: Scale::Fraction,
+        })
+        .collect())
 }
 
 /// Determines the unit of every spectrum; returns that of the first.
@@ -174,7 +176,8 @@ fn scale(
         let largest = spectrum.largest();
         spectrum.scale = stated(spectrum.record).unwrap_or(found);
         if stated(spectrum.record).is_none() && found == Scale::Percent && largest <= 1.0 {
-            let (file, row) = (file.to_owned(), spectrum.record.line as u64);
+            let file = file.to_owned();
+            let row = spectrum.record.line as u64;
             return Err(MeasurementError::MixedScale { file, row, largest });
         }
     }
@@ -197,7 +200,8 @@ impl Spectrum<'_> {
     }
 
     fn cut_to_band(&mut self, file: &str) -> Result<(), MeasurementError> {
-        let (start, end) = (*BAND.start(), *BAND.end());
+        let start = *BAND.start();
+        let end = *BAND.end();
         let from = self.wavelengths_nm.partition_point(|nm| *nm < start);
         let to = self.wavelengths_nm.partition_point(|nm| *nm <= end);
         if from >= to {
@@ -235,7 +239,8 @@ impl Spectrum<'_> {
                 bad,
             });
         }
-        let (mut from, mut to) = (0, self.values.len());
+        let mut from = 0;
+        let mut to = self.values.len();
         let has_middle = self.wavelengths_nm.iter().any(|nm| SOUND.contains(nm));
         for (index, (&nm, &value)) in self.wavelengths_nm.iter().zip(&self.values).enumerate() {
             if is_valid(value) {
@@ -267,7 +272,8 @@ impl Spectrum<'_> {
         let below = self.values.iter().filter(|value| **value < 0.0).count();
         if below > 0 {
             let name = name(&self.record.name);
-            let (one, many) = ("reading just below zero counts", "readings just below zero count");
+            let one = "reading just below zero counts";
+            let many = "readings just below zero count";
             remarks.push(format!("{name}: {} as 0", documents::counted_as(below, one, many)));
         }
         self.values.iter_mut().for_each(|value| *value = (*value * factor).max(0.0));
@@ -288,7 +294,8 @@ fn overlap(file: &str, spectra: &[Spectrum<'_>]) -> Result<(Grid, usize), Measur
         earliest = if last_nm(spectrum) < last_nm(earliest) { spectrum } else { earliest };
         coarsest = if step(spectrum) > step(coarsest) { spectrum } else { coarsest };
     }
-    let (start_nm, end_nm) = (first_nm(latest), last_nm(earliest));
+    let start_nm = first_nm(latest);
+    let end_nm = last_nm(earliest);
     let shared = coarsest.wavelengths_nm.iter().filter(|nm| (start_nm..=end_nm).contains(*nm));
     let shared: Vec<f64> = shared.copied().collect();
     if shared.is_empty() {

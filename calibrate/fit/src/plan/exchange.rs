@@ -36,7 +36,8 @@ pub fn optimal(
         greedy.push(best);
     }
     let exchanged = |design| exchanged(information, design, kept, cancellation);
-    let (mut first, mut second) = (exchanged(start.to_vec())?, exchanged(greedy)?);
+    let mut first = exchanged(start.to_vec())?;
+    let mut second = exchanged(greedy)?;
     first[kept..].sort_unstable();
     second[kept..].sort_unstable();
     let better = information.log_determinant(&second) > information.log_determinant(&first);

@@ -48,10 +48,12 @@ impl Information {
             reference: PaintSet::WHITE,
             curves: pigments.iter().map(|id| library.curves(*id)).collect(),
         };
-        let shares = |recipe: &SwatchRecipe| -> Vec<(usize, f64)> {
-            recipe.shares().iter().map(|&(paint, share)| (paint.index(), share)).collect()
-        };
-        let recipes = pool.iter().map(shares).collect();
+        let recipes = pool
+            .iter()
+            .map(|recipe: &SwatchRecipe| -> Vec<(usize, f64)> {
+                recipe.shares().iter().map(|&(paint, share)| (paint.index(), share)).collect()
+            })
+            .collect();
         let slopes = Slopes::of(&paints, recipes, noise);
         Self { slopes, paints: pigments.len(), grid: library.grid }
     }
@@ -93,35 +95,42 @@ impl Information {
     pub fn log_deviations(&self, design: &[usize]) -> Vec<Curves> {
         let covariances = self.covariances(design);
         let by_wavelength = |place: Option<usize>| -> Vec<f64> {
-            let sd = |c: &DMatrix<f64>| place.map_or(0.0, |place| c[(place, place)].sqrt());
-            covariances.iter().map(sd).collect()
+            covariances
+                .iter()
+                .map(|c: &DMatrix<f64>| place.map_or(0.0, |place| c[(place, place)].sqrt()))
+                .collect()
         };
-        let of_paint = |paint: usize| Curves {
-            grid: self.grid,
-            absorption: by_wavelength(Some(paint)),
-            scattering: by_wavelength(self.slopes.scattering(paint)),
-        };
-        (0..self.paints).map(of_paint).collect()
+        (0..self.paints)
+            .map(|paint: usize| Curves {
+                grid: self.grid,
+                absorption: by_wavelength(Some(paint)),
+                scattering: by_wavelength(self.slopes.scattering(paint)),
+            })
+            .collect()
     }
 
     /// Median over wavelength of these standard deviations, by paint.
     #[must_use]
     pub fn deviations(&self, design: &[usize]) -> Vec<RelativeDeviation> {
-        let median = |(paint, Curves { absorption, scattering, .. }): (usize, &Curves)| {
-            let is_white = paint == PaintSet::WHITE.index();
-            RelativeDeviation {
-                absorption: percentile(absorption, 50.0),
-                scattering: (!is_white).then(|| percentile(scattering, 50.0)),
-            }
-        };
-        self.log_deviations(design).iter().enumerate().map(median).collect()
+        self.log_deviations(design)
+            .iter()
+            .enumerate()
+            .map(|(paint, Curves { absorption, scattering, .. }): (usize, &Curves)| {
+                let is_white = paint == PaintSet::WHITE.index();
+                RelativeDeviation {
+                    absorption: percentile(absorption, 50.0),
+                    scattering: (!is_white).then(|| percentile(scattering, 50.0)),
+                }
+            })
+            .collect()
     }
 
     fn matrix(&self, design: &[usize], at: usize) -> DMatrix<f64> {
         let unknowns = self.slopes.unknowns();
         let mut matrix = DMatrix::from_diagonal_element(unknowns, unknowns, PRIOR_INFORMATION);
         for &index in design {
-            let (places, slopes) = (&self.slopes.places[index], self.slopes.at(index, at));
+            let places = &self.slopes.places[index];
+            let slopes = self.slopes.at(index, at);
             for (&row, a) in places.iter().zip(slopes) {
                 for (&column, b) in places.iter().zip(slopes) {
                     matrix[(row, column)] += a * b;

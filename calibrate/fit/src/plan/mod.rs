@@ -5,25 +5,15 @@
 //! of similar paint (D-optimality: Fedorov 1972, Theory of Optimal Experiments). [`plan`] does it all.
 
 mod error;
-
 mod paints;
-
 mod swatch_recipe;
-
 mod candidates;
-
 mod weighing;
-
 mod usual;
-
 mod information;
-
 mod exchange;
-
 mod form;
-
 mod planned;
-
 mod told;
 
 pub use candidates::candidates;

@@ -125,7 +125,8 @@ pub fn plan_until<N: AsRef<str>>(
     let pool = candidates(&paints, weighing.least_share());
     let count = options.swatches.unwrap_or_else(|| usual_count(&paints, &pool));
     let mut design = usual(&paints, &pool, count)?;
-    let (mut forecast, mut remarks) = (None, Vec::new());
+    let mut forecast = None;
+    let mut remarks = Vec::new();
     if let Some(prior) = &options.prior {
         let ids =
             paints.names.iter().map(|name| prior.find(name)).collect::<Result<Vec<_>, _>>()?;
@@ -186,13 +187,12 @@ fn paint_set<N: AsRef<str>>(
 
 fn reservations(prior: &PigmentLibrary, ids: &[PigmentId]) -> Vec<Remark> {
     let unknown = ids.iter().filter(|id| !prior[**id].identified);
-    let warning = |id: &PigmentId| {
+    unknown.map(|id: &PigmentId| {
         Remark::warning(format!(
             "{}: the prior does not know its scattering, so that its swatches are chosen by a guess",
             prior[*id].name
         ))
-    };
-    unknown.map(warning).collect()
+    }).collect()
 }
 
 /// The design of greatest information by `prior`, and its predictions.

@@ -29,7 +29,8 @@ pub fn usual(
     pool: &[SwatchRecipe],
     swatches: usize,
 ) -> Result<Vec<usize>, PlanError> {
-    let (least, most) = (paints.unknowns(), pool.len());
+    let least = paints.unknowns();
+    let most = pool.len();
     if !(least..=most).contains(&swatches) {
         return Err(PlanError::Swatches { paints: paints.names.len(), least, most, swatches });
     }
@@ -82,8 +83,10 @@ fn rounds(paints: &PaintSet, pool: &[SwatchRecipe]) -> Vec<usize> {
         &|recipe| recipe.purpose == Purpose::Shade && Some(shade(recipe)) == strongest_shade,
         &linked,
     ];
-    let of_round = |selects: &dyn Fn(&SwatchRecipe) -> bool| -> Vec<usize> {
-        (0..pool.len()).filter(|&index| selects(&pool[index])).collect()
-    };
-    rounds.into_iter().flat_map(of_round).collect()
+    rounds
+        .into_iter()
+        .flat_map(|selects: &dyn Fn(&SwatchRecipe) -> bool| -> Vec<usize> {
+            (0..pool.len()).filter(|&index| selects(&pool[index])).collect()
+        })
+        .collect()
 }

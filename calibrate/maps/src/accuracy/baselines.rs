@@ -48,24 +48,30 @@ impl Baseline {
     #[must_use]
     pub fn unmix(self, paints: &Paints, reflectance: &[f64]) -> Unmixed {
         let space = |reflectance: &[f64]| -> Vec<f64> {
-            let value = |&r: &f64| match self {
-                Self::Reflectance | Self::Angle => r,
-                Self::Absorbance => -r.max(1e-3).ln(),
-                Self::Ratio => {
-                    let internal = paints.surface.internal_from_measured(r).unwrap_or(0.0);
-                    absorption_over_scattering(internal.clamp(1e-3, 1.0))
-                }
-            };
-            reflectance.iter().map(value).collect()
+            reflectance
+                .iter()
+                .map(|&r: &f64| match self {
+                    Self::Reflectance | Self::Angle => r,
+                    Self::Absorbance => -r.max(1e-3).ln(),
+                    Self::Ratio => {
+                        let internal = paints.surface.internal_from_measured(r).unwrap_or(0.0);
+                        absorption_over_scattering(internal.clamp(1e-3, 1.0))
+                    }
+                })
+                .collect()
         };
         let mut target = space(reflectance);
         let masstones = (0..paints.count()).map(|p| space(&paints.reflectance(&[(p, 1.0)])));
         let mut columns: Vec<Vec<f64>> = masstones.collect();
         if self == Self::Angle {
             let cosine = |column: &Vec<f64>| dot(column, &target) / dot(column, column).sqrt();
-            let nearer =
-                |a: usize, b: usize| if cosine(&columns[b]) > cosine(&columns[a]) { b } else { a };
-            let nearest = (0..columns.len()).reduce(nearer).unwrap_or(0);
+            let nearest = (0..columns.len())
+                .reduce(
+                    |a: usize, b: usize| {
+                        if cosine(&columns[b]) > cosine(&columns[a]) { b } else { a }
+                    },
+                )
+                .unwrap_or(0);
             let shares = (0..columns.len()).map(|p| f64::from(u8::from(p == nearest))).collect();
             return Unmixed { shares };
         }

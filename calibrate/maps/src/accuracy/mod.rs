@@ -5,13 +5,9 @@
 //! methods that are in common use stand beside them.
 
 mod scores;
-
 mod baselines;
-
 mod swatches;
-
 mod simulated;
-
 mod oils;
 
 pub use baselines::{Baseline, Unmixed};

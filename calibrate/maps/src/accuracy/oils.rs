@@ -22,11 +22,13 @@ pub fn oil_groups() -> Vec<PigmentGroup> {
     let lakes = ["Eosin Lake (wax)", "Eosin Lake", "Eosin Lake (lead, wax)", "Cochineal Lake"];
     let chromes = ["Chrome Yellow", "Chrome Yellow (Otero)"];
     let named = [("whites", &whites[..]), ("red lakes", &lakes), ("chrome yellows", &chromes)];
-    let group = |(name, pigments): (&str, &[&str])| PigmentGroup {
-        name: name.to_owned(),
-        pigments: pigments.iter().map(|&name| name.to_owned()).collect(),
-    };
-    named.into_iter().map(group).collect()
+    named
+        .into_iter()
+        .map(|(name, pigments): (&str, &[&str])| PigmentGroup {
+            name: name.to_owned(),
+            pigments: pigments.iter().map(|&name| name.to_owned()).collect(),
+        })
+        .collect()
 }
 
 /// Eight of the Van Gogh oils that a painter sets out, without black and Prussian blue, in whose mixtures
@@ -160,7 +162,8 @@ pub fn missing_pigment(
     settings: &MapSettings,
 ) -> Result<Missing, MapError> {
     let nm: Vec<f64> = library.grid.wavelengths_nm().collect();
-    let (mut chi2, mut wrong) = ([Vec::new(), Vec::new()], [0.0, 0.0]);
+    let mut chi2 = [Vec::new(), Vec::new()];
+    let mut wrong = [0.0, 0.0];
     for seed in seeds {
         let painting = Painting::simulate(library, library, &PaintingPlan { seed, ..plan.clone() });
         let alike = |name: &String| settings.groups.iter().any(|g| g.pigments.contains(name));

@@ -179,8 +179,11 @@ pub fn reliability<'a>(
     ends: &[f64],
 ) -> Vec<Reliability> {
     let range = |index: usize| {
-        let (from, to) = (ends[index], ends.get(index + 1).copied().unwrap_or(f64::INFINITY));
-        let (mut count, mut told, mut is_true) = (0, 0.0, 0.0);
+        let from = ends[index];
+        let to = ends.get(index + 1).copied().unwrap_or(f64::INFINITY);
+        let mut count = 0;
+        let mut told = 0.0;
+        let mut is_true = 0.0;
         for trial in trials.clone() {
             for (index, &probability) in trial.probability.iter().enumerate() {
                 if let (Some(is_there), true) =
@@ -211,7 +214,8 @@ pub struct Coverage {
 /// because their share is 1 by definition.
 #[must_use]
 pub fn coverage<'a>(trials: impl IntoIterator<Item = &'a Trial>) -> Coverage {
-    let (mut count, mut within) = (0, 0);
+    let mut count = 0;
+    let mut within = 0;
     for trial in trials {
         let (more, inside) = covered(trial);
         count += more;

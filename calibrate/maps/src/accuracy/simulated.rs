@@ -108,7 +108,8 @@ impl Painting {
             ids.iter().map(|&id| (off(&real[id].absorption), off(&real[id].scattering))).collect();
         let recipes: Vec<Vec<(usize, f64)>> =
             (0..plan.recipes).map(|_| recipe(&mut random, ids.len(), plan)).collect();
-        let (mut truth, mut spectra) = (Vec::new(), Vec::new());
+        let mut truth = Vec::new();
+        let mut spectra = Vec::new();
         for _ in 0..plan.pixels {
             let mut shares = recipes[random.random_range(0..recipes.len())].clone();
             for (_, share) in &mut shares {
@@ -154,8 +155,9 @@ impl Painting {
     /// Trials of all pixels in `maps`, which `mapper` made.
     #[must_use]
     pub fn trials(&self, mapper: &Mapper, maps: &BlockMaps) -> Vec<Trial> {
-        let of = |index| Trial::of_map(maps, index, &self.truth_by_column(mapper, index));
-        (0..self.truth.len()).map(of).collect()
+        (0..self.truth.len())
+            .map(|index| Trial::of_map(maps, index, &self.truth_by_column(mapper, index)))
+            .collect()
     }
 
     /// Compares the best set of a whole search of each pixel with its true pigments, whose shares are refined.
@@ -168,12 +170,15 @@ impl Painting {
             named.collect::<Vec<(&str, f64)>>()
         });
         let gaps = mapper.gaps_to_truth(&self.spectra, &true_sets.collect::<Vec<_>>())?;
-        let of = |gap: Gap| BesideTruth {
-            is_worse: gap.score > EQUAL,
-            is_right: gap.is_right,
-            chi2: f64::from(gap.chi2),
-        };
-        Ok(gaps.into_iter().flatten().map(of).collect())
+        Ok(gaps
+            .into_iter()
+            .flatten()
+            .map(|gap: Gap| BesideTruth {
+                is_worse: gap.score > EQUAL,
+                is_right: gap.is_right,
+                chi2: f64::from(gap.chi2),
+            })
+            .collect())
     }
 }
 

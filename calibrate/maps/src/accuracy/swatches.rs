@@ -81,7 +81,8 @@ impl SwatchTrials {
             let told = named.list(paints.names.iter().map(String::as_str).zip(shares));
             let truth = named.list(true_shares(sample));
             let present = told.iter().map(|share| *share > least).collect();
-            let (probability, sd) = (Vec::new(), Vec::new());
+            let probability = Vec::new();
+            let sd = Vec::new();
             Some(Trial { truth, told, present, probability, sd, chi2: f64::NAN, least: 0.0 })
         };
         let pigments: Vec<Trial> = samples.iter().filter_map(trial).collect();
@@ -207,10 +208,11 @@ pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choic
         others(&trials.groups) + others(&trials.pigments)
     };
     let best = |fold: usize| {
-        let better = |a: usize, b: usize| {
-            if value(&of_penalty[b].1, fold) > value(&of_penalty[a].1, fold) { b } else { a }
-        };
-        (0..of_penalty.len()).reduce(better).unwrap_or(0)
+        (0..of_penalty.len())
+            .reduce(|a: usize, b: usize| {
+                if value(&of_penalty[b].1, fold) > value(&of_penalty[a].1, fold) { b } else { a }
+            })
+            .unwrap_or(0)
     };
     let chosen: Vec<usize> = (0..folds).map(best).collect();
     for index in 0..count {

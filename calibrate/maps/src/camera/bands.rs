@@ -16,7 +16,8 @@ impl CameraBands {
     /// `count` bands over what `grid` has of the range of the camera.
     pub(crate) fn new(grid: Grid, count: usize) -> Result<Self, CameraError> {
         let outside = || CameraError::Wavelengths { grid };
-        let (first, last) = (grid.start_nm().max(RANGE_NM[0]), grid.end_nm().min(RANGE_NM[1]));
+        let first = grid.start_nm().max(RANGE_NM[0]);
+        let last = grid.end_nm().min(RANGE_NM[1]);
         if first >= last {
             return Err(outside());
         }
@@ -31,15 +32,17 @@ impl CameraBands {
         });
         let units = units.collect::<Result<Vec<_>, _>>()?;
         let method = Interpolation::best_for(grid);
-        let row = |nm: &f64| {
-            let weights = units.iter().map(|unit| unit.at(*nm, method, Extrapolation::Refuse));
-            let weights = weights.collect::<Result<Vec<f64>, _>>().map_err(|_| outside())?;
-            let is_used = |weight: &f64| *weight != 0.0;
-            let first = weights.iter().position(is_used).unwrap_or(0);
-            let end = weights.iter().rposition(is_used).map_or(first, |last| last + 1);
-            Ok((first, weights[first..end].to_vec()))
-        };
-        let rows = nm.iter().map(row).collect::<Result<_, CameraError>>()?;
+        let rows = nm
+            .iter()
+            .map(|nm: &f64| {
+                let weights = units.iter().map(|unit| unit.at(*nm, method, Extrapolation::Refuse));
+                let weights = weights.collect::<Result<Vec<f64>, _>>().map_err(|_| outside())?;
+                let is_used = |weight: &f64| *weight != 0.0;
+                let first = weights.iter().position(is_used).unwrap_or(0);
+                let end = weights.iter().rposition(is_used).map_or(first, |last| last + 1);
+                Ok((first, weights[first..end].to_vec()))
+            })
+            .collect::<Result<_, CameraError>>()?;
         Ok(Self { nm, rows })
     }
 

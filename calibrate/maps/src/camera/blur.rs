@@ -58,7 +58,8 @@ impl Blur {
         let mut down: Vec<f64> = whole.iter().map(|value| self.weights[0] * value).collect();
         for (distance, weight) in self.weights.iter().enumerate().skip(1) {
             let at = |offset: i64| of(mirrored(line as i64 + offset, lines));
-            let (above, below) = (at(-(distance as i64)), at(distance as i64));
+            let above = at(-(distance as i64));
+            let below = at(distance as i64);
             for ((sum, a), b) in down.iter_mut().zip(above).zip(below) {
                 *sum += weight * (a + b);
             }
@@ -71,7 +72,8 @@ impl Blur {
             };
             pixel.iter_mut().zip(at(0)).for_each(|(sum, v)| *sum = self.weights[0] * v);
             for (distance, weight) in self.weights.iter().enumerate().skip(1) {
-                let (left, right) = (at(-(distance as i64)), at(distance as i64));
+                let left = at(-(distance as i64));
+                let right = at(distance as i64);
                 for ((sum, a), b) in pixel.iter_mut().zip(left).zip(right) {
                     *sum += weight * (a + b);
                 }
@@ -110,7 +112,8 @@ mod tests {
                 let sum = |all: &[Vec<f64>]| -> f64 {
                     all.iter().flat_map(|line| line.iter().skip(number).step_by(2)).sum()
                 };
-                let (before, after) = (sum(&picture), sum(&found));
+                let before = sum(&picture);
+                let after = sum(&found);
                 assert!((before - after).abs() < 1e-9 * before.max(1.0), "{before} {after}");
             }
         }

@@ -8,15 +8,10 @@
 //! blocks of any size.
 
 mod settings;
-
 mod surface_variation;
-
 mod blur;
-
 mod bands;
-
 mod sensor;
-
 mod scan;
 
 pub use blur::Blur;

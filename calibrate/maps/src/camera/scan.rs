@@ -115,12 +115,15 @@ impl Camera {
                 let pixels = values.chunks_exact(count);
                 let seen: Vec<f64> = pixels.flat_map(|pixel| self.bands.values(pixel)).collect();
                 let bands = self.bands.nm.len();
-                let mean = |pixel: &[f64]| (pixel.iter().sum::<f64>() / bands as f64) as f32;
-                let means = seen.chunks_exact(bands).map(mean).collect();
+                let means = seen
+                    .chunks_exact(bands)
+                    .map(|pixel: &[f64]| (pixel.iter().sum::<f64>() / bands as f64) as f32)
+                    .collect();
                 (self.sensor.told(&seen, line, lines), means)
             })
             .collect();
-        let (mut told, mut mean) = (Vec::new(), Vec::new());
+        let mut told = Vec::new();
+        let mut mean = Vec::new();
         for (values, means) in each {
             told.extend(values);
             mean.extend(means);
@@ -141,8 +144,13 @@ impl Camera {
         let known: BTreeMap<usize, Vec<f64>> =
             needed.into_par_iter().map(|line| (line, of(line))).collect();
         let nothing: &[f64] = &[];
-        let line = |line| known.get(&line).map_or(nothing, Vec::as_slice);
-        rows.into_par_iter().map(|at| self.blur.line(at, (lines, samples), line)).collect()
+        rows.into_par_iter()
+            .map(|at| {
+                self.blur.line(at, (lines, samples), |line| {
+                    known.get(&line).map_or(nothing, Vec::as_slice)
+                })
+            })
+            .collect()
     }
 }
 

@@ -34,11 +34,14 @@ impl SurfaceVariation {
             random.set_stream(STREAMS + at as u64);
             StandardNormal.sample_iter(&mut random).take(corners).collect()
         };
-        let (above, down) = (line / PATCH_PX, smooth(line % PATCH_PX));
+        let above = line / PATCH_PX;
+        let down = smooth(line % PATCH_PX);
         let rows = [row(above), row(above + 1)];
         let factor = |sample: usize| {
-            let (left, across) = (sample / PATCH_PX, smooth(sample % PATCH_PX));
-            let (mut sum, mut squares) = (0.0, 0.0);
+            let left = sample / PATCH_PX;
+            let across = smooth(sample % PATCH_PX);
+            let mut sum = 0.0;
+            let mut squares = 0.0;
             for (row, down) in rows.iter().zip([1.0 - down, down]) {
                 for (at, across) in [(left, 1.0 - across), (left + 1, across)] {
                     sum += down * across * row[at];

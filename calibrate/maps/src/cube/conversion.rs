@@ -59,7 +59,8 @@ impl Conversion {
             Terms::Columns { dark, gain } => {
                 let bands = values.len();
                 let start = if dark.len() == bands { 0 } else { column * bands };
-                let (dark, gain) = (&dark[start..start + bands], &gain[start..start + bands]);
+                let dark = &dark[start..start + bands];
+                let gain = &gain[start..start + bands];
                 let terms = values.iter_mut().zip(dark.iter().zip(gain));
                 self.each(terms.map(|(value, (dark, gain))| (value, *dark, *gain)))
             }

@@ -98,7 +98,8 @@ pub(crate) fn interpret(
     let ignore = scan.ignore.map(|value| value as f32);
     let largest = sample.largest(ignore);
     check_has_light(scan, &largest)?;
-    let (mut white_sd, mut black_sd) = (None, None);
+    let mut white_sd = None;
+    let mut black_sd = None;
     let terms = match referenced {
         Some(referenced) => {
             remarks.extend(referenced.remarks);

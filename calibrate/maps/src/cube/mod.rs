@@ -5,25 +5,15 @@
 //! scan: plain files are read by position, on a disk or by the caller ([`ReadAt`]), packed images are unpacked into a temporary file first.
 
 mod error;
-
 mod positional;
-
 mod wavelengths;
-
 mod conversion;
-
 mod window;
-
 mod block;
-
 mod options;
-
 mod opened;
-
 mod readings;
-
 mod interpret;
-
 mod raw_file;
 
 #[cfg(feature = "files")]
@@ -31,7 +21,6 @@ mod spool;
 
 #[cfg(feature = "files")]
 mod wavelength_file;
-
 pub mod envi;
 
 #[cfg(feature = "files")]
@@ -45,15 +34,10 @@ mod stack;
 
 #[cfg(feature = "files")]
 mod zarr_cube;
-
 mod scan;
-
 mod sampling;
-
 mod kinds;
-
 mod reading_files;
-
 mod listed;
 
 #[cfg(feature = "files")]

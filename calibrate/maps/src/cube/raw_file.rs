@@ -47,7 +47,9 @@ impl Layout {
     pub(crate) fn position(&self, line: usize, sample: usize, band: usize) -> u64 {
         let [lines, samples, bands] =
             [self.lines, self.samples, self.bands].map(|size| size as u64);
-        let (line, sample, band) = (line as u64, sample as u64, band as u64);
+        let line = line as u64;
+        let sample = sample as u64;
+        let band = band as u64;
         let number = match self.interleave {
             Interleave::Bsq => (band * lines + line) * samples + sample,
             Interleave::Bil => (line * bands + band) * samples + sample,
@@ -106,8 +108,11 @@ impl RawFile {
         raw.resize(row_bytes * if is_whole { count } else { bands.len() }, 0);
         if is_whole {
             self.file.read_at(raw, self.layout.position(line, 0, first))?;
-            let row = |band: usize| &raw[(bands[band] - first) * row_bytes..][..row_bytes];
-            self.transpose(row, bands.len(), values);
+            self.transpose(
+                |band: usize| &raw[(bands[band] - first) * row_bytes..][..row_bytes],
+                bands.len(),
+                values,
+            );
         } else {
             for (row, &band) in raw.chunks_exact_mut(row_bytes).zip(bands) {
                 let position = self.layout.position(line, window.columns.start, band);
@@ -173,8 +178,11 @@ impl RawFile {
         })?;
         pixels.rows(window, bands.len()).for_each(|(line, row)| {
             let start = (line - window.rows.start) * row_bytes;
-            let plane = |band: usize| &raw[band * plane_bytes + start..][..row_bytes];
-            self.transpose(plane, bands.len(), row.values);
+            self.transpose(
+                |band: usize| &raw[band * plane_bytes + start..][..row_bytes],
+                bands.len(),
+                row.values,
+            );
             conversion.row(window.columns.start, row.values, row.mask);
         });
         *self.planes.lock().unwrap_or_else(PoisonError::into_inner) = raw;

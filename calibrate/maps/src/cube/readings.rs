@@ -62,7 +62,8 @@ impl Reading {
     }
 
     fn averaged(opened: &Opened) -> Result<Self, CubeError> {
-        let (columns, bands) = (opened.samples, opened.bands);
+        let columns = opened.samples;
+        let bands = opened.bands;
         let all: Vec<usize> = (0..bands).collect();
         let row_values = columns * bands;
         let rows = (BLOCK_BYTES / 4 / row_values).clamp(1, opened.lines);
@@ -158,7 +159,8 @@ impl Readings {
         let dim =
             (0..nm.len()).find(|&at| scan.good[at] && !good[at] && VISIBLE_NM.contains(&nm[at]));
         if let Some(at) = dim {
-            let (nm, mean) = (nm[at], means[at]);
+            let nm = nm[at];
+            let mean = means[at];
             return Err(fault(
                 format!(
                     "of this scan has too little light at {nm} nm: `{mean}` above its dark, expected {least}"

@@ -39,11 +39,13 @@ fn headers(folder: &Path) -> Vec<(String, PathBuf)> {
     let is_header = |path: &PathBuf| {
         path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("hdr")) && path.is_file()
     };
-    let named = |path: PathBuf| {
-        let name = path.file_stem()?.to_str()?.to_uppercase();
-        Some((name, path))
-    };
-    let mut found: Vec<_> = paths.filter(is_header).filter_map(named).collect();
+    let mut found: Vec<_> = paths
+        .filter(is_header)
+        .filter_map(|path: PathBuf| {
+            let name = path.file_stem()?.to_str()?.to_uppercase();
+            Some((name, path))
+        })
+        .collect();
     found.sort();
     found
 }
@@ -74,11 +76,10 @@ pub(crate) fn find(folder: &Path) -> Result<SpecimScan, CubeError> {
         };
         return Err(CubeError::format(folder, problem, "name the .hdr file of one scan"));
     };
-    let of = |start: &str| {
+    let [white_dark, white, dark] = READINGS.map(|start: &str| {
         let wanted = format!("{start}{name}");
         captured.iter().find(|(name, _)| *name == wanted).map(|(_, path)| path.clone())
-    };
-    let [white_dark, white, dark] = READINGS.map(of);
+    });
     let remark = format!("counts are read with the camera's white and dark: {}", scan.display());
     Ok(SpecimScan { scan: scan.clone(), white, dark, white_dark, remark })
 }

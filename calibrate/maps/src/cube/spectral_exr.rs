@@ -42,14 +42,17 @@ fn channel_nm(name: &str) -> Option<f64> {
 
 /// Layer and channels of reflectance: index of the channel in the layer, and nm, rising.
 fn channels(meta: &MetaData) -> Option<(usize, Vec<(usize, f64)>)> {
-    let of_header = |header: &Header| -> Vec<(usize, f64)> {
-        let names = header.channels.list.iter().map(|channel| channel.name.to_string());
-        let mut found: Vec<_> =
-            names.enumerate().filter_map(|(at, name)| Some((at, channel_nm(&name)?))).collect();
-        found.sort_by(|a, b| a.1.total_cmp(&b.1));
-        found
-    };
-    let layers = meta.headers.iter().map(of_header).enumerate();
+    let layers = meta
+        .headers
+        .iter()
+        .map(|header: &Header| -> Vec<(usize, f64)> {
+            let names = header.channels.list.iter().map(|channel| channel.name.to_string());
+            let mut found: Vec<_> =
+                names.enumerate().filter_map(|(at, name)| Some((at, channel_nm(&name)?))).collect();
+            found.sort_by(|a, b| a.1.total_cmp(&b.1));
+            found
+        })
+        .enumerate();
     layers.into_iter().find(|(_, channels)| !channels.is_empty())
 }
 
@@ -73,7 +76,8 @@ pub(crate) fn open(path: &Path, options: &CubeOptions) -> Result<Opened, CubeErr
         return Err(CubeError::format(path, problem, "export each wavelength once"));
     }
     let header = reader.headers()[layer].clone();
-    let (samples, lines) = (header.layer_size.0, header.layer_size.1);
+    let samples = header.layer_size.0;
+    let lines = header.layer_size.1;
     let list = &header.channels.list;
     if found.iter().any(|(channel, _)| list[*channel].sampling.0 * list[*channel].sampling.1 != 1) {
         let problem = "has channels of a lower resolution";
@@ -84,10 +88,11 @@ pub(crate) fn open(path: &Path, options: &CubeOptions) -> Result<Opened, CubeErr
     let size = (lines, samples, found.len());
     let scratch = options.scratch.as_deref();
     let mut spool = Spool::new(scratch, size, NumberType::F32, Interleave::Bil)?;
-    let wanted = |_: &MetaData, _: TileCoordinates, block: BlockIndex| {
-        block.layer == layer && block.level.0 == 0 && block.level.1 == 0
-    };
-    let chunks = reader.filter_chunks(false, wanted).map_err(fault)?;
+    let chunks = reader
+        .filter_chunks(false, |_: &MetaData, _: TileCoordinates, block: BlockIndex| {
+            block.layer == layer && block.level.0 == 0 && block.level.1 == 0
+        })
+        .map_err(fault)?;
     let meta = chunks.meta_data().clone();
     for chunk in chunks {
         let block =

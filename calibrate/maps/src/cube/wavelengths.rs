@@ -74,7 +74,8 @@ impl Wavelengths {
         let mut order: Vec<usize> = (0..nm.len()).collect();
         order.sort_by(|&a, &b| nm[a].total_cmp(&nm[b]));
         if let Some(pair) = order.windows(2).find(|pair| nm[pair[0]] >= nm[pair[1]]) {
-            let (a, b) = (pair[0].min(pair[1]) + 1, pair[0].max(pair[1]) + 1);
+            let a = pair[0].min(pair[1]) + 1;
+            let b = pair[0].max(pair[1]) + 1;
             return Err(format!("has `{}` twice, as numbers {a} and {b}", values[pair[0]]));
         }
         Ok(Self { nm, factor, remark })

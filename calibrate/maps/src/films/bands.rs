@@ -60,7 +60,8 @@ impl Bands {
     pub fn new(nm: &[f64], grid: Grid) -> Result<Self, MapError> {
         let disorder = (1..nm.len()).find(|&i| nm[i].partial_cmp(&nm[i - 1]) != Some(Greater));
         if let Some(index) = disorder {
-            let (before, after) = (nm[index - 1], nm[index]);
+            let before = nm[index - 1];
+            let after = nm[index];
             return Err(MapError::Order { band: index + 1, before, after });
         }
         let inside: Vec<f64> = nm.iter().copied().filter(|&nm| grid.covers(nm)).collect();
@@ -75,7 +76,8 @@ impl Bands {
             return Err(overlap);
         }
         // A band beyond the grid still tells of the grid's end, if there is one on its other side.
-        let (first, last) = (nm[0].max(grid.start_nm()), nm[nm.len() - 1].min(grid.end_nm()));
+        let first = nm[0].max(grid.start_nm());
+        let last = nm[nm.len() - 1].min(grid.end_nm());
         let wanted = grid.step_nm().max((last - first) / (MOST_BANDS - 1) as f64);
         let own = median_step(&inside);
         let centers = if own >= FINER * wanted && inside.len() <= MOST_BANDS {
@@ -168,7 +170,9 @@ fn rows(nm: &[f64], centers: &[f64], reach: f64) -> Vec<Option<Row>> {
         });
         let near: Vec<(usize, f64, f64)> = near.collect();
         let moment = |power: i32| near.iter().map(|(_, x, w)| w * x.powi(power)).sum::<f64>();
-        let (s0, s1, s2) = (moment(0), moment(1), moment(2));
+        let s0 = moment(0);
+        let s1 = moment(1);
+        let s2 = moment(2);
         let determinant = s0 * s2 - s1 * s1;
         let is_line = determinant > 1e-9 * s0 * s0;
         let weight = |x: f64, w: f64| {

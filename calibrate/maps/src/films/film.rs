@@ -57,8 +57,10 @@ pub(crate) struct Difference {
 
 impl Films {
     pub(crate) fn new(paints: &Paints) -> Self {
-        let (pigments, bands) = (paints.count(), paints.bands());
-        let (blocks, columns) = (bands.div_ceil(LANES), pigments.div_ceil(LANES));
+        let pigments = paints.count();
+        let bands = paints.bands();
+        let blocks = bands.div_ceil(LANES);
+        let columns = pigments.div_ceil(LANES);
         let by_pigment = |curves: &[Vec<f64>]| -> Vec<f32x8> {
             let value = |p: usize, b: usize| if b < bands { curves[p][b] as f32 } else { 1.0 };
             let block = |p: usize, block: usize| {
@@ -96,8 +98,10 @@ impl Films {
     /// A pixel of these measured reflectances, one for each band, whose errors are like `noise`.
     pub(crate) fn pixel(&self, noise: &WhiteningNoise, reflectance: &[f32]) -> Pixel {
         let measured = spectrum(&reflectance[..self.bands], 0.3);
-        let (mut internal, mut slope) = (measured, measured);
-        let (low, high) = (f32x8::splat(INTERNAL[0]), f32x8::splat(INTERNAL[1]));
+        let mut internal = measured;
+        let mut slope = measured;
+        let low = f32x8::splat(INTERNAL[0]);
+        let high = f32x8::splat(INTERNAL[1]);
         for block in 0..self.blocks {
             let above = (measured[block] - self.floor).fast_max(f32x8::ZERO);
             let r = above / (self.through + self.k2 * above);
@@ -112,10 +116,13 @@ impl Films {
     /// Internal reflectance and 1/S of a film, by band.
     pub(crate) fn film(&self, shares: &[(usize, f32)]) -> (Spectrum, Spectrum) {
         let half = [f32x8::HALF; MOST_BLOCKS];
-        let (mut internal, mut inverse) = (half, half);
-        let (low, high) = (f32x8::splat(INTERNAL[0]), f32x8::splat(INTERNAL[1]));
+        let mut internal = half;
+        let mut inverse = half;
+        let low = f32x8::splat(INTERNAL[0]);
+        let high = f32x8::splat(INTERNAL[1]);
         for block in 0..self.blocks {
-            let (mut k, mut s) = (f32x8::ZERO, f32x8::ZERO);
+            let mut k = f32x8::ZERO;
+            let mut s = f32x8::ZERO;
             for &(pigment, share) in shares {
                 k += f32x8::splat(share) * self.absorption[pigment * self.blocks + block];
                 s += f32x8::splat(share) * self.scattering[pigment * self.blocks + block];
@@ -145,7 +152,8 @@ impl Films {
         shares: [f32; N],
     ) -> Difference {
         let blocks = self.blocks;
-        let (zero, one) = (v.splat(0.0), v.splat(1.0));
+        let zero = v.splat(0.0);
+        let one = v.splat(1.0);
         let [through, floor, k2] = [self.through, self.floor, self.k2].map(|x| v.load(x));
         let curves = members.map(|p| p * blocks..(p + 1) * blocks);
         let absorption = curves.clone().map(|range| &self.absorption[range]);
@@ -155,7 +163,8 @@ impl Films {
         let mut slopes = [residual; N];
         let mut squares = zero;
         for block in 0..blocks {
-            let (mut k, mut s) = (zero, zero);
+            let mut k = zero;
+            let mut s = zero;
             for i in 0..N {
                 k = k + shares[i] * v.load(absorption[i][block]);
                 s = s + shares[i] * v.load(scattering[i][block]);
@@ -166,7 +175,8 @@ impl Films {
             let rest = v.load(pixel.measured[block]) - (floor + through * inside * out);
             // One division for the slopes over K and over S: it takes as long as many products.
             let over_both = slope / ((one + inside) * (k * s));
-            let (over_k, over_s) = (over_both * s, over_both * k);
+            let over_k = over_both * s;
+            let over_s = over_both * k;
             residual[block] = rest;
             squares = squares + rest * rest * v.load(self.inside[block]);
             for i in 0..N {
@@ -212,17 +222,21 @@ impl Films {
         for block in 0..self.blocks {
             // The secant of K/S between two internal reflectances is exact in this form, without a
             // difference of nearly equal numbers, and finite where the pixel is black.
-            let (m, r) = (v.load(pixel.internal[block]), v.load(internal[block]));
+            let m = v.load(pixel.internal[block]);
+            let r = v.load(internal[block]);
             let inverse = v.load(inverse[block]);
             let weight = v.load(pixel.white.scale[block]) * through * r * inverse
                 / ((one - k2 * m) * (one - k2 * r) * (one - m * r));
-            let (by_s, by_k) = (weight * (one - m) * (one - m), weight * (m + m));
+            let by_s = weight * (one - m) * (one - m);
+            let by_k = weight * (m + m);
             whole = whole + by_s / inverse;
-            let (by_s, by_k) = (by_s.store().to_array(), by_k.store().to_array());
+            let by_s = by_s.store().to_array();
+            let by_k = by_k.store().to_array();
             for (lane, (by_s, by_k)) in by_s.into_iter().zip(by_k).enumerate() {
                 let band = block * LANES + lane;
                 let at = band * self.columns..(band + 1) * self.columns;
-                let (by_s, by_k) = (v.splat(by_s), v.splat(by_k));
+                let by_s = v.splat(by_s);
+                let by_k = v.splat(by_k);
                 let curves = self.absorption_of_band[at.clone()].iter();
                 let curves = curves.zip(&self.scattering_of_band[at.clone()]);
                 let row = work.white[at].iter_mut().zip(&mut work.sizes);
@@ -323,7 +337,8 @@ impl Work {
     /// Product of the rows of two pigments, of which `a` is not after `b`.
     #[inline(always)]
     pub(crate) fn product(&self, a: usize, b: usize) -> f32 {
-        let (a, b) = (a + self.before, b + self.before);
+        let a = a + self.before;
+        let b = b + self.before;
         self.products[a * self.sizes.len() + b / LANES].as_array()[b % LANES]
     }
 

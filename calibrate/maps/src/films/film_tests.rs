@@ -50,7 +50,8 @@ fn residuals() -> Residuals {
         (0..31).map(|i| scale * (1.1 + wave(i))).collect()
     };
     let mixture = |number: usize| {
-        let (measured, error) = (curve(number, 0.3), curve(number + 3, 0.01));
+        let measured = curve(number, 0.3);
+        let error = curve(number + 3, 0.01);
         LeftOutMixture {
             sample: number.to_string(),
             shares: BTreeMap::new(),

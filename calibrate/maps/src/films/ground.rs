@@ -28,17 +28,20 @@ impl Ground {
     pub fn new(nm: Vec<f64>, reflectance: Vec<f64>) -> Result<Self, MapError> {
         let fault = |problem: String| MapError::Ground { problem };
         if nm.len() != reflectance.len() || nm.len() < 2 {
-            let (nm, values) = (nm.len(), reflectance.len());
+            let nm = nm.len();
+            let values = reflectance.len();
             return Err(fault(format!("has {nm} wavelengths and {values} reflectances")));
         }
         let rises = |pair: &[f64]| pair[0] < pair[1];
         if let Some(place) = nm.windows(2).position(|pair| !rises(pair)) {
-            let (before, after) = (nm[place], nm[place + 1]);
+            let before = nm[place];
+            let after = nm[place + 1];
             return Err(fault(format!("has {after} nm after {before} nm")));
         }
         let is_reflectance = |value: &f64| (0.0..=1.5).contains(value);
         if let Some(place) = reflectance.iter().position(|value| !is_reflectance(value)) {
-            let (value, nm) = (reflectance[place], nm[place]);
+            let value = reflectance[place];
+            let nm = nm[place];
             return Err(fault(format!("reflects {value} at {nm} nm")));
         }
         Ok(Self { nm, reflectance })
@@ -79,8 +82,9 @@ impl BareGround {
         let mut of_scan = vec![0.0; wavelengths.len()];
         for band in needed {
             let nm = wavelengths[band];
-            let missing = || MapError::Ground { problem: format!("tells nothing of {nm} nm") };
-            of_scan[band] = ground.at(nm).ok_or_else(missing)?;
+            of_scan[band] = ground
+                .at(nm)
+                .ok_or_else(|| MapError::Ground { problem: format!("tells nothing of {nm} nm") })?;
         }
         let reflectance = bands.fold_scan(&of_scan);
         let own = reflectance.iter().zip(sensor);
@@ -107,7 +111,8 @@ impl BareGround {
 
     /// Chi-square per band of a pixel, if it is bare ground.
     pub(crate) fn chi2(&self, reflectance: &[f32]) -> f64 {
-        let (mut sum, mut common) = (0.0, [0.0; 2]);
+        let mut sum = 0.0;
+        let mut common = [0.0; 2];
         for (band, (own, value)) in self.reflectance.iter().zip(reflectance).enumerate() {
             let difference = f64::from(*value) - own;
             sum += difference * difference * self.weights[band];

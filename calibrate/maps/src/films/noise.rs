@@ -134,10 +134,12 @@ fn correlation(nm: &[f64]) -> DMatrix<f64> {
             return 1.0;
         }
         let distance = nm[i] - nm[j];
-        let part = |(length, part): (f64, f64)| {
-            part * (-distance * distance / (2.0 * length * length)).exp()
-        };
-        SMOOTH.into_iter().map(part).sum()
+        SMOOTH
+            .into_iter()
+            .map(|(length, part): (f64, f64)| {
+                part * (-distance * distance / (2.0 * length * length)).exp()
+            })
+            .sum()
     })
 }
 
@@ -149,8 +151,8 @@ fn root_covariance(bands: &Bands, residuals: &Residuals) -> DMatrix<f64> {
     for mixture in &residuals.mixtures {
         let pairs = mixture.measured.iter().zip(&mixture.predicted);
         let residual: Vec<f64> = pairs.map(|(measured, predicted)| measured - predicted).collect();
-        let (reflectance, residual) =
-            (bands.fold_library(&mixture.measured), bands.fold_library(&residual));
+        let reflectance = bands.fold_library(&mixture.measured);
+        let residual = bands.fold_library(&residual);
         let roots = reflectance.iter().zip(&residual);
         let roots: Vec<f64> = roots.map(|(r, e)| e / (4.0 * r.max(1e-4).powf(0.75))).collect();
         // The mean square of some is a hundred times that of others, which would not count.

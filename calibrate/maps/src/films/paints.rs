@@ -37,15 +37,18 @@ impl Paints {
         bands: &Bands,
     ) -> Result<Self, MapError> {
         let mut chosen: Vec<PigmentId> = if palette.is_empty() {
-            let is_known = |id: &PigmentId| library[*id].identified && !library[*id].guessed;
-            library.ids().filter(is_known).collect()
+            library
+                .ids()
+                .filter(|id: &PigmentId| library[*id].identified && !library[*id].guessed)
+                .collect()
         } else {
             palette.iter().map(|name| library.find(name)).collect::<Result<_, RecipeError>>()?
         };
         chosen.sort_unstable();
         chosen.dedup();
         if !(1..=BlockMaps::MOST_PIGMENTS).contains(&chosen.len()) {
-            let (found, most) = (chosen.len(), BlockMaps::MOST_PIGMENTS);
+            let found = chosen.len();
+            let most = BlockMaps::MOST_PIGMENTS;
             return Err(MapError::Pigments { found, most });
         }
         let folded = |values: &[f64]| {

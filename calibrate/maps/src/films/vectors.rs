@@ -238,7 +238,8 @@ mod tests {
             b[row % 8] = a[row % 8];
             let both = || All([f32x8::new(a), f32x8::new(b)]);
             let single: [[f32; 6]; 8] = std::array::from_fn(|i| {
-                let (a, b) = (a[i], b[i]);
+                let a = a[i];
+                let b = b[i];
                 [a + b, a - b, a * 3.7 * b, a / b, a.sqrt(), if a > b { a } else { b }]
             });
             let above = (0..8).fold(0, |bits, i| bits | u32::from(a[i] > b[i]) << i);

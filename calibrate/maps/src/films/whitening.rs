@@ -209,7 +209,8 @@ impl Whitening {
         others: &mut [[V::Eight; MOST_BLOCKS]; N],
     ) {
         let zero = v.splat(0.0);
-        let (mut common, mut common_of) = ([zero; 2], [[zero; 2]; N]);
+        let mut common = [zero; 2];
+        let mut common_of = [[zero; 2]; N];
         for block in 0..blocks {
             let scale = v.load(self.scale[block]);
             values[block] = values[block] * scale;
@@ -231,7 +232,8 @@ impl Whitening {
         let common = (common[0] + common[1]).store().to_array();
         let common_of = common_of.map(|halves| (halves[0] + halves[1]).store().to_array());
         for block in 0..blocks {
-            let (mut sum, mut sums) = (zero, [zero; N]);
+            let mut sum = zero;
+            let mut sums = [zero; N];
             for curve in 0..CURVES {
                 let removed = v.load(self.removed[curve][block]);
                 sum = sum + removed * v.splat(common[curve]);

@@ -101,15 +101,14 @@ impl Book {
                 && set.windows(2).all(|pair| pair[0] < pair[1])
                 && set.iter().all(|&p| usize::from(p) < book.pigments.len())
         };
-        let is_set = |set: &BookSet| {
-            known(&set.pigments)
-                && set.shares.len() == set.pigments.len()
-                && set.shares.iter().all(|share| (0.0..=1.0).contains(share))
-        };
         let is_entry = |entry: &BookEntry| {
             entry.point.len() == crate::search::nearest::DIMENSIONS
                 && entry.point.iter().all(|value| value.is_finite())
-                && entry.sets.iter().all(is_set)
+                && entry.sets.iter().all(|set: &BookSet| {
+                    known(&set.pigments)
+                        && set.shares.len() == set.pigments.len()
+                        && set.shares.iter().all(|share| (0.0..=1.0).contains(share))
+                })
         };
         if let Some(index) = book.entries.iter().position(|entry| !is_entry(entry)) {
             return Err(MapError::Book { reason: format!("entry {} is not valid", index + 1) });

@@ -87,7 +87,8 @@ fn taken_for(engine: &Engine, paints: &Paints, a: usize, b: usize) -> f64 {
         let ratio = paints.strength(a) / paints.strength(other);
         for part in COMPANION_PARTS {
             let weight = ratio * part / (1.0 - part);
-            let (own, with) = (1.0 / (1.0 + weight), weight / (1.0 + weight));
+            let own = 1.0 / (1.0 + weight);
+            let with = weight / (1.0 + weight);
             let start = [(b, own), (other, with)];
             found.push(probability(engine, paints, &[(a, own), (other, with)], &start));
         }
@@ -155,7 +156,8 @@ pub(crate) fn columns(
             // A pigment outside the palette takes no part.
             let Some(place) = paints.place(&name) else { continue };
             if let Some(first) = group_of[place].filter(|&first| first != names.len()) {
-                let (first, second) = (names[first].clone(), group.name.clone());
+                let first = names[first].clone();
+                let second = group.name.clone();
                 return Err(MapError::TwoGroups { pigment: name, first, second });
             }
             group_of[place] = Some(names.len());

@@ -80,8 +80,12 @@ impl Mapper {
         prepared.entries.retain(|entry| !groups.iter().any(|group| group.contains(&entry[0])));
         prepared.entries.extend(groups.iter().cloned());
         let alike = if settings.group_alike { groups } else { Vec::new() };
-        let find = |name: &str| library.find(name).map(|id| library[id].name.clone());
-        let columns = columns(&prepared.paints, &settings.groups, find, &alike)?;
+        let columns = columns(
+            &prepared.paints,
+            &settings.groups,
+            |name: &str| library.find(name).map(|id| library[id].name.clone()),
+            &alike,
+        )?;
         let column = |name: &String| columns.iter().position(|c| c.pigments.contains(name));
         let column_of =
             prepared.paints.names.iter().map(|name| column(name).unwrap_or(0)).collect();
@@ -164,7 +168,8 @@ impl Mapper {
     pub fn open_book(&self, book: &Book) -> Result<OpenBook, MapError> {
         let model_error = self.model_error.words();
         if book.model_error != model_error {
-            let (found, expected) = (book.model_error.clone(), model_error);
+            let found = book.model_error.clone();
+            let expected = model_error;
             return Err(MapError::OtherModelError { found, expected });
         }
         OpenBook::new(&self.prepared, &self.identity, book)
@@ -293,7 +298,8 @@ impl Mapper {
                         match folded {
                             Ok(folded) => {
                                 find(&folded, scratch);
-                                let (pixel, found) = (&folded.pixel, &scratch.found);
+                                let pixel = &folded.pixel;
+                                let found = &scratch.found;
                                 told.sum(engine, pixel, found, &self.column_of);
                                 if told.chi2 > OUT_OF_GAMUT {
                                     maps.push_masked(Mask::OutOfGamut, told.chi2, told.rms);

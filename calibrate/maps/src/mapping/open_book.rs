@@ -39,14 +39,16 @@ impl OpenBook {
     /// [`MapError::OtherBook`] if it was made with another library, other wavelengths or other settings.
     pub(crate) fn new(prepared: &Prepared, identity: &str, book: &Book) -> Result<Self, MapError> {
         if book.identity != identity || book.pigments != prepared.paints.names {
-            let (found, expected) = (book.identity.clone(), identity.to_owned());
+            let found = book.identity.clone();
+            let expected = identity.to_owned();
             return Err(MapError::OtherBook { found, expected });
         }
         let point = |values: &Vec<f32>| -> Point {
             std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0))
         };
         let points: Vec<Point> = book.entries.iter().map(|entry| point(&entry.point)).collect();
-        let (mut ends, mut sets) = (Vec::new(), Vec::new());
+        let mut ends = Vec::new();
+        let mut sets = Vec::new();
         for entry in &book.entries {
             for set in &entry.sets {
                 let parts = set.pigments.iter().zip(&set.shares);

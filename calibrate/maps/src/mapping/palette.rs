@@ -81,18 +81,27 @@ impl Survey {
     fn new(found: &[Vec<SetFit>], numbers: &[usize], excess: f32) -> Self {
         let mut places = BTreeMap::new();
         let mut sizes = Vec::new();
-        let place = |number: &usize| {
-            let place = *places.entry(*number).or_insert_with(|| {
-                sizes.push(0.0);
-                sizes.len() - 1
-            });
-            sizes[place] += 1.0;
-            place
-        };
-        let paints = numbers.iter().map(place).collect();
+        let paints = numbers
+            .iter()
+            .map(|number: &usize| {
+                let place = *places.entry(*number).or_insert_with(|| {
+                    sizes.push(0.0);
+                    sizes.len() - 1
+                });
+                sizes[place] += 1.0;
+                place
+            })
+            .collect();
         let bits = |set: &SetFit| set.parts().fold(0, |bits, (member, _)| bits | 1 << member);
-        let of_pixel = |sets: &Vec<SetFit>| sets.iter().map(|set| (bits(set), set.score)).collect();
-        Self { sets: found.iter().map(of_pixel).collect(), paints, sizes, counted: 1.0 / excess }
+        Self {
+            sets: found
+                .iter()
+                .map(|sets: &Vec<SetFit>| sets.iter().map(|set| (bits(set), set.score)).collect())
+                .collect(),
+            paints,
+            sizes,
+            counted: 1.0 / excess,
+        }
     }
 
     /// Rise of the score if `palette` loses each of `parts`, in the paints that need it most.
@@ -110,11 +119,13 @@ impl Survey {
             }
         }
         let counted = if self.sizes.len() < MANY { 1 } else { PAINTS };
-        let most = |mut rises: Vec<f32>| {
-            rises.sort_by(|a, b| b.total_cmp(a));
-            rises.iter().take(counted).sum::<f32>() / counted as f32
-        };
-        rises.into_iter().map(most).collect()
+        rises
+            .into_iter()
+            .map(|mut rises: Vec<f32>| {
+                rises.sort_by(|a, b| b.total_cmp(a));
+                rises.iter().take(counted).sum::<f32>() / counted as f32
+            })
+            .collect()
     }
 }
 
@@ -124,12 +135,13 @@ mod tests {
 
     /// Sets of a pixel with their scores, the best first.
     fn pixel(sets: &[(&[usize], f32)]) -> Vec<SetFit> {
-        let set = |(members, score): &(&[usize], f32)| {
-            let share = 1.0 / members.len() as f32;
-            let parts: Vec<(usize, f32)> = members.iter().map(|&m| (m, share)).collect();
-            SetFit { score: *score, ..SetFit::of_parts(&parts).unwrap() }
-        };
-        sets.iter().map(set).collect()
+        sets.iter()
+            .map(|(members, score): &(&[usize], f32)| {
+                let share = 1.0 / members.len() as f32;
+                let parts: Vec<(usize, f32)> = members.iter().map(|&m| (m, share)).collect();
+                SetFit { score: *score, ..SetFit::of_parts(&parts).unwrap() }
+            })
+            .collect()
     }
 
     /// Entries of pigments none of which look alike.
@@ -163,9 +175,10 @@ mod tests {
         assert!(often[1] > 0.9, "one of two paints: {often:?}");
         // Of many paints two must need it.
         let many = |needing: usize| {
-            let pixel = |paint| if paint < needing { needed.clone() } else { not.clone() };
             palette(
-                &(0..MANY).map(pixel).collect::<Vec<_>>(),
+                &(0..MANY)
+                    .map(|paint| if paint < needing { needed.clone() } else { not.clone() })
+                    .collect::<Vec<_>>(),
                 &(0..MANY).collect::<Vec<_>>(),
                 &apart(3),
                 1.0,
@@ -211,8 +224,8 @@ mod tests {
     #[test]
     fn a_library_that_errs_more_than_it_says_tells_no_palette() {
         let needed = pixel(&[(&[0, 1], 5.0), (&[0, 2], 24.0)]);
-        let of = |excess: f32| palette(std::slice::from_ref(&needed), &[1], &apart(3), excess);
-        let [sure, less, unsure] = [1.0, 1.2, 1.5].map(of);
+        let [sure, less, unsure] = [1.0, 1.2, 1.5]
+            .map(|excess: f32| palette(std::slice::from_ref(&needed), &[1], &apart(3), excess));
         assert!(sure[1] > 0.9 && sure[2] < 0.01, "{sure:?}");
         assert!((0.5..0.9).contains(&less[1]) && less[2] < 0.01, "{less:?}");
         assert_eq!(unsure, [0.5; 3]);

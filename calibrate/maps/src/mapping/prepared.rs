@@ -64,7 +64,9 @@ impl Prepared {
             scores: Scores::new((paints.count(), bands.count()), settings.penalty, noise.tail),
             strength_sd: 0.0,
         };
-        let (mut ends, mut terms, mut used) = (Vec::new(), Vec::new(), Vec::new());
+        let mut ends = Vec::new();
+        let mut terms = Vec::new();
+        let mut used = Vec::new();
         for row in &bands.from_scan {
             terms.extend(row.terms.iter().map(|&(band, weight)| (band as u32, weight as f32)));
             used.extend(row.terms.iter().map(|&(band, _)| band));

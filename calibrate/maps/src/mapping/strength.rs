@@ -32,7 +32,8 @@ fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
     let start: Vec<(usize, f32)> = parts.iter().map(|&(p, share)| (p, share as f32)).collect();
     let mut set = SetFit::of_parts(&start).filter(|set| set.len() > 1)?;
     let fold = |values: &[f64]| prepared.bands.fold_library(values);
-    let (measured, predicted) = (fold(&mixture.measured), fold(&mixture.predicted));
+    let measured = fold(&mixture.measured);
+    let predicted = fold(&mixture.predicted);
     // This library's film, off as that of the fit without the mixture was.
     let film = prepared.paints.reflectance(&parts);
     let ratios = measured.iter().zip(&predicted).map(|(m, p)| m / p.max(LEAST));
@@ -42,7 +43,8 @@ fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
     let pixel = engine.films.pixel(&engine.noise, &off);
     let truth = set.shares;
     let difference = set.refine(&engine.films, &pixel, STEPS);
-    let (excess, covariance) = (engine.scores.excess(set.chi2), set.covariance(&difference));
+    let excess = engine.scores.excess(set.chi2);
+    let covariance = set.covariance(&difference);
     let shares: Vec<f64> = set.parts().map(|(_, share)| f64::from(share)).collect();
     let needed = (0..shares.len()).map(|i| {
         let slope = |(j, share): (usize, &f64)| {

@@ -4,11 +4,8 @@ mod overview;
 
 #[cfg(feature = "files")]
 mod stored_overview;
-
 mod ramp;
-
 mod encoded;
-
 mod of_maps;
 
 pub use encoded::{PictureError, picture_png};

@@ -57,7 +57,8 @@ impl OverviewSums {
     #[must_use]
     pub fn new(pigments: &[String], (rows, columns): (usize, usize), longest: usize) -> Self {
         let step = rows.max(columns).div_ceil(longest.max(1)).max(1);
-        let (width, height) = (columns.div_ceil(step), rows.div_ceil(step));
+        let width = columns.div_ceil(step);
+        let height = rows.div_ceil(step);
         let field = || vec![0.0; width * height];
         Self {
             step,
@@ -112,14 +113,17 @@ impl OverviewSums {
             // No pixel gives 0 / 0, which is NaN.
             pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
         };
-        let of_all = |field: &Vec<f64>| field.iter().sum::<f64>() / mapped.max(1) as f64;
         let part = |pixels: u64| pixels as f64 / mapped.max(1) as f64;
         Overview {
             step: self.step,
             width: self.width,
             height: self.height,
             pigments: self.pigments,
-            mean_share: self.share.iter().map(of_all).collect(),
+            mean_share: self
+                .share
+                .iter()
+                .map(|field: &Vec<f64>| field.iter().sum::<f64>() / mapped.max(1) as f64)
+                .collect(),
             present: self.present.into_iter().map(part).collect(),
             // One field after another, so that sums and means of all never lie side by side.
             share: self.share.into_iter().map(|field| means_of(field, &self.counts)).collect(),

@@ -13,7 +13,8 @@ impl Overview {
     /// # Errors
     /// [`StoreError`] if a shard cannot be read.
     pub fn of(maps: &StoredMaps, longest: usize) -> Result<Self, StoreError> {
-        let (rows, columns) = (maps.rows(), maps.columns());
+        let rows = maps.rows();
+        let columns = maps.columns();
         let mut sums = OverviewSums::new(maps.pigments(), (rows.len(), columns.len()), longest);
         for start in rows.clone().step_by(ROWS) {
             let end = (start + ROWS).min(rows.end);

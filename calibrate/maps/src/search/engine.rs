@@ -81,8 +81,14 @@ impl Engine {
         for index in 0..REFINED[0].min(scratch.shortlist.len()) {
             self.add_refined(pixel, index, scratch);
         }
-        let best = |a: SetFit, b: SetFit| if b.score < a.score { b } else { a };
-        let Some(winner) = scratch.found.iter().copied().reduce(best) else { return };
+        let Some(winner) = scratch
+            .found
+            .iter()
+            .copied()
+            .reduce(|a: SetFit, b: SetFit| if b.score < a.score { b } else { a })
+        else {
+            return;
+        };
         let parts: Vec<(usize, f32)> = winner.parts().collect();
         let (internal, inverse) = self.films.film(&parts);
         self.films.products(pixel, (&internal, &inverse), &mut scratch.work);
@@ -186,9 +192,9 @@ impl Engine {
         let best = if least.is_finite() { *least } else { best };
         let far = best + FAR * self.scores.steepest();
         shortlist.retain(|set| set.score < far);
-        let order =
-            |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
-        shortlist.sort_unstable_by(order);
+        shortlist.sort_unstable_by(|a: &SetFit, b: &SetFit| {
+            a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()))
+        });
     }
 }
 
@@ -246,7 +252,8 @@ mod tests {
     fn exact_films_are_explained_by_their_own_pigments() {
         let (engine, paints) = oils(3);
         let place = |name: &str| paints.place(name).unwrap();
-        let (white, black) = (place("Zinc White"), place("Bone Black"));
+        let white = place("Zinc White");
+        let black = place("Bone Black");
         for truth in [
             vec![(place("Viridian"), 1.0)],
             vec![(white, 0.8), (place("Viridian"), 0.2)],

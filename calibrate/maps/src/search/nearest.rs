@@ -107,8 +107,9 @@ fn split(list: &[Point], order: &mut [u32], start: usize, nodes: &mut Vec<Node>)
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
         ends.1 - ends.0
     };
-    let wider = |a: usize, b: usize| if spread(b) > spread(a) { b } else { a };
-    let dimension = (0..DIMENSIONS).reduce(wider).unwrap_or(0);
+    let dimension = (0..DIMENSIONS)
+        .reduce(|a: usize, b: usize| if spread(b) > spread(a) { b } else { a })
+        .unwrap_or(0);
     let differs = spread(dimension) > 0.0;
     if order.len() <= LEAF || !differs {
         return;

@@ -45,11 +45,10 @@ impl Quadratic {
     pub(crate) fn read(&mut self, work: &Work) {
         self.rows.copy_from_slice(&work.products);
         for (block, own) in self.own.iter_mut().enumerate() {
-            let product = |lane: usize| {
+            *own = f32x8::new(std::array::from_fn(|lane: usize| {
                 let place = (block * LANES + lane).checked_sub(self.before);
                 place.map_or(0.0, |place| work.product(place, place))
-            };
-            *own = f32x8::new(std::array::from_fn(product));
+            }));
         }
         for a in 0..self.count {
             self.sizes[a] = f64::from(work.size(a));
@@ -91,8 +90,11 @@ impl Quadratic {
     /// Shares of two pigments where the sum of squares is least; `None` if one is 0 or less.
     #[inline(always)]
     pub(crate) fn pair(&self, a: usize, b: usize) -> Option<(f64, f64)> {
-        let (aa, ab, bb) = (self.at(a, a), self.at(a, b), self.at(b, b));
-        let (to_a, to_b) = (bb - ab, aa - ab);
+        let aa = self.at(a, a);
+        let ab = self.at(a, b);
+        let bb = self.at(b, b);
+        let to_a = bb - ab;
+        let to_b = aa - ab;
         let share = to_a / (to_a + to_b);
         (to_a > 0.0 && to_b > 0.0).then_some((share, bb - share * to_a))
     }
@@ -135,7 +137,8 @@ impl Quadratic {
                 return None;
             }
         }
-        let (mut sum, mut saved) = (0.0, 0.0);
+        let mut sum = 0.0;
+        let mut saved = 0.0;
         for i in 0..N - 1 {
             sum += x[i];
             saved += x[i] * right[i];

@@ -70,13 +70,15 @@ impl Scores {
     /// for that and the penalty, and those inside it no penalty: it guards against pigments that are not there.
     pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
         let size: f64 = palette.iter().map(|p| f64::from(*p)).sum();
-        let cost = |&inside: &f32| {
-            let likely = LEAST_LIKELY + (1.0 - LEAST_LIKELY) * inside;
-            self.penalty as f32 * (1.0 - inside) - 2.0 * likely.ln()
-        };
         Self {
             of_count: Self::never_likelier(Self::of_count(size, 0.0)),
-            of_pigment: palette.iter().map(cost).collect(),
+            of_pigment: palette
+                .iter()
+                .map(|&inside: &f32| {
+                    let likely = LEAST_LIKELY + (1.0 - LEAST_LIKELY) * inside;
+                    self.penalty as f32 * (1.0 - inside) - 2.0 * likely.ln()
+                })
+                .collect(),
             ..self.clone()
         }
     }

@@ -35,13 +35,15 @@ impl Table {
                 projection.of(&reflectance.iter().map(|r| *r as f32).collect::<Vec<f32>>())
             })
             .collect();
-        let film = |recipe: &Vec<(usize, f64)>| {
-            let shares: Vec<(usize, f32)> =
-                recipe.iter().map(|&(p, share)| (p, share as f32)).collect();
-            films.film(&shares)
-        };
         Self {
-            films: recipes.iter().map(film).collect(),
+            films: recipes
+                .iter()
+                .map(|recipe: &Vec<(usize, f64)>| {
+                    let shares: Vec<(usize, f32)> =
+                        recipe.iter().map(|&(p, share)| (p, share as f32)).collect();
+                    films.film(&shares)
+                })
+                .collect(),
             projection,
             nearest: Nearest::new(&points),
         }

@@ -68,7 +68,8 @@ impl Quadratic {
         marks: &mut Marks,
         mut found: impl FnMut([usize; 3], [f64; 3], f64) -> f64,
     ) {
-        let (count, columns) = (self.count, self.own.len());
+        let count = self.count;
+        let columns = self.own.len();
         for a in 0..count {
             let base = self.at(a, a);
             // All sets are marked before one is looked at: branches that depend on each would cost more than
@@ -105,8 +106,10 @@ impl Quadratic {
 
     #[inline(always)]
     fn line(&self, a: usize, b: usize) -> Line {
-        let (base, across) = (self.at(a, a), self.at(a, b));
-        let (square, to_b) = (self.at(b, b) - 2.0 * across + base, base - across);
+        let base = self.at(a, a);
+        let across = self.at(a, b);
+        let square = self.at(b, b) - 2.0 * across + base;
+        let to_b = base - across;
         Line { square, to_b, inverse: 1.0 / square, of_pair: base - to_b * to_b / square }
     }
 
@@ -125,12 +128,14 @@ impl Quadratic {
         });
         let shift = splat(to_b);
         let slope = splat(inverse);
-        let (base_of_all, square_of_all) = (splat(base), splat(square));
+        let base_of_all = splat(base);
+        let square_of_all = splat(square);
         let saved = splat(of_pair - 1.01 * limit - 1e-6 * base);
         let after = b + 1 + self.before;
         let mut kept = if spans_a_line { u32::MAX << (after % LANES) } else { 0 };
         for block in after / LANES..columns {
-            let (with_a, with_b) = (v.load(of_a[block]), v.load(of_b[block]));
+            let with_a = v.load(of_a[block]);
+            let with_b = v.load(of_b[block]);
             let along = (with_b - with_a + shift) * slope;
             let rest = v.load(self.own[block]) - with_a - with_a + base_of_all
                 - along * along * square_of_all;

@@ -117,9 +117,10 @@ impl MapStore {
         let parts = ["/attributes", "/consolidated_metadata/metadata"];
         for part in parts {
             let map = |of: &Value| of.pointer(part).and_then(Value::as_object).cloned();
-            let (found, expected) = (map(found), map(expected));
-            let (found, expected) =
-                (found.as_ref().unwrap_or(&nothing), expected.as_ref().unwrap_or(&nothing));
+            let found = map(found);
+            let expected = map(expected);
+            let found = found.as_ref().unwrap_or(&nothing);
+            let expected = expected.as_ref().unwrap_or(&nothing);
             let keys: BTreeSet<&String> = found.keys().chain(expected.keys()).collect();
             for key in keys {
                 if found.get(key) != expected.get(key) {

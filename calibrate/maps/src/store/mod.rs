@@ -4,15 +4,10 @@
 //! a run that was ended at any moment can be resumed, and several processes can write one store.
 
 mod tiles;
-
 mod error;
-
 mod arrays;
-
 mod create;
-
 mod shard_writer;
-
 mod stored;
 
 pub use crate::maps_about::MapsAbout;

@@ -36,8 +36,10 @@ impl MapStore {
     pub fn writer(&self, shard: &Shard) -> ShardWriter<'_> {
         let tiles = self.tiles();
         let chunks = tiles.down.chunks * tiles.across.chunks;
-        let row = |array| Row { array, chunks: Vec::new(), shard: ShardBuilder::new(chunks) };
-        let rows = MapArray::ALL.map(row).into_iter().collect();
+        let rows = MapArray::ALL
+            .map(|array| Row { array, chunks: Vec::new(), shard: ShardBuilder::new(chunks) })
+            .into_iter()
+            .collect();
         ShardWriter { store: self, shard: shard.clone(), rows, next: shard.rows.start }
     }
 }

@@ -197,7 +197,8 @@ fn stored(
     columns: &Range<usize>,
 ) -> Result<Vec<u8>, StoreError> {
     let about = &array.about;
-    let (down, across) = (about.chunk[0], about.chunk[1]);
+    let down = about.chunk[0];
+    let across = about.chunk[1];
     let numbers = about.chunk.get(2).copied().unwrap_or(1);
     let pixel = numbers * about.number_type.bytes();
     let mut bytes = vec![0; rows.len() * columns.len() * pixel];
@@ -209,11 +210,13 @@ fn stored(
             (columns.start / across..=(columns.end - 1) / across).map(move |c| (row, c))
         })
         .collect();
-    let read = |&(row, column): &(usize, usize)| {
-        let at = [row, column, 0];
-        array.chunk(&at[..about.shape.len()]).map(|chunk| ((row, column), chunk))
-    };
-    let chunks: Result<Vec<_>, ChunkError> = places.par_iter().map(read).collect();
+    let chunks: Result<Vec<_>, ChunkError> = places
+        .par_iter()
+        .map(|&(row, column): &(usize, usize)| {
+            let at = [row, column, 0];
+            array.chunk(&at[..about.shape.len()]).map(|chunk| ((row, column), chunk))
+        })
+        .collect();
     for ((row, column), chunk) in chunks.map_err(store_error)? {
         let Some(chunk) = chunk else {
             return Err(StoreError::Damaged {

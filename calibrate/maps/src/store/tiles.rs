@@ -23,7 +23,8 @@ pub struct Shard {
 
 impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (rows, columns) = (&self.rows, &self.columns);
+        let rows = &self.rows;
+        let columns = &self.columns;
         write!(
             f,
             "rows {} to {} and columns {} to {}",
@@ -83,12 +84,13 @@ impl Tiles {
     /// All shards, of maps that begin at this row and column of the scan.
     pub(crate) fn shards(&self, (row, column): (usize, usize)) -> Vec<Shard> {
         let across = self.across.shards();
-        let shard = |index: usize| {
-            let at = (index / across, index % across);
-            let rows = self.down.range(at.0, row);
-            Shard { index, rows, columns: self.across.range(at.1, column), at }
-        };
-        (0..self.down.shards() * across).map(shard).collect()
+        (0..self.down.shards() * across)
+            .map(|index: usize| {
+                let at = (index / across, index % across);
+                let rows = self.down.range(at.0, row);
+                Shard { index, rows, columns: self.across.range(at.1, column), at }
+            })
+            .collect()
     }
 }
 

@@ -98,7 +98,8 @@ const KINDS: [(&str, &[PaintClass], Option<usize>); 8] = [
 /// # Errors
 /// [`TruthError`] if one of both cannot be read, or they are of different scans.
 pub fn compare(maps: &StoredMaps, truth: &Truth, least: f64) -> Result<Comparison, TruthError> {
-    let (rows, columns) = (maps.rows(), maps.columns());
+    let rows = maps.rows();
+    let columns = maps.columns();
     if rows.end > truth.lines() || columns.end > truth.samples() {
         return Err(TruthError::Size {
             path: truth.path().to_owned(),
@@ -121,7 +122,8 @@ pub fn compare(maps: &StoredMaps, truth: &Truth, least: f64) -> Result<Compariso
         for index in 0..told.pixels() {
             let line = inside.start + index / columns.len() - block.start;
             let at = line * truth.samples() + columns.start + index % columns.len();
-            let (class, tone) = (known.class[at], tone(known.mean_reflectance[at]));
+            let class = known.class[at];
+            let tone = tone(known.mean_reflectance[at]);
             let mut shares = vec![0.0; count];
             let own = &known.share[at * known.pigments..][..known.pigments];
             for (share, &column) in own.iter().zip(&columns_of) {

@@ -1,17 +1,11 @@
 //! Truth of a simulated scan: which paint really is at each pixel, and how near maps come to it.
 
 mod paint_class;
-
 mod seen;
-
 mod error;
-
 mod arrays;
-
 mod stored;
-
 mod written;
-
 mod comparison;
 
 pub use comparison::{CHI2_RISEN, Comparison, ComparisonRow, PigmentFigures, compare};

@@ -58,7 +58,8 @@ impl Truth {
             let about = &group["consolidated_metadata"]["metadata"][array.name()];
             let opened = ZarrArray::new(&path.join(array.name()), about)
                 .map_err(|fault| damaged(format!("`{}` {}", array.name(), fault.problem)))?;
-            let (shape, chunk) = (&opened.about.shape, &opened.about.chunk);
+            let shape = &opened.about.shape;
+            let chunk = &opened.about.chunk;
             let first = arrays.first().map_or(&opened, |(_, first)| first);
             let (Some(&lines), Some(&samples)) =
                 (first.about.shape.first(), first.about.shape.get(1))
@@ -125,7 +126,8 @@ impl Truth {
 
     /// Blocks of rows that are stored together, which are best read one after another.
     pub fn blocks(&self) -> impl Iterator<Item = Range<usize>> {
-        let (lines, rows) = (self.lines, self.rows);
+        let lines = self.lines;
+        let rows = self.rows;
         (0..lines.div_ceil(rows)).map(move |at| at * rows..((at + 1) * rows).min(lines))
     }
 
@@ -166,12 +168,15 @@ impl Truth {
                 TruthArray::Ground => truth.ground = singles(pixels),
                 TruthArray::MeanReflectance => truth.mean_reflectance = singles(pixels),
                 TruthArray::Class => {
-                    let class = |code: &u8| {
-                        PaintClass::from_code(*code).ok_or_else(|| {
-                            damaged(format!("holds the class `{code}`, which has no meaning"))
+                    truth.class = bytes
+                        .iter()
+                        .take(pixels)
+                        .map(|code: &u8| {
+                            PaintClass::from_code(*code).ok_or_else(|| {
+                                damaged(format!("holds the class `{code}`, which has no meaning"))
+                            })
                         })
-                    };
-                    truth.class = bytes.iter().take(pixels).map(class).collect::<Result<_, _>>()?;
+                        .collect::<Result<_, _>>()?;
                 }
             }
         }

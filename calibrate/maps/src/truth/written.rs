@@ -195,10 +195,16 @@ fn check(path: &Path) -> Result<(), TruthError> {
     let exists = || TruthError::Exists { path: path.to_owned() };
     let held = entries(path).map_err(|_| exists())?;
     let arrays = TruthArray::ALL.map(TruthArray::name);
-    let is_own = |name: &String| {
-        let own = arrays.contains(&name.as_str()) || ["y", "x", "pigment"].contains(&name.as_str());
-        own || name == GROUP || name.starts_with(".impasto-")
-    };
     let is_other = held.contains(GROUP) && !is_truth(path);
-    if is_other || !held.iter().all(is_own) { Err(exists()) } else { Ok(()) }
+    if is_other
+        || !held.iter().all(|name: &String| {
+            let own =
+                arrays.contains(&name.as_str()) || ["y", "x", "pigment"].contains(&name.as_str());
+            own || name == GROUP || name.starts_with(".impasto-")
+        })
+    {
+        Err(exists())
+    } else {
+        Ok(())
+    }
 }

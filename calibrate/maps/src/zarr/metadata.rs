@@ -83,8 +83,12 @@ impl ArrayMetadata {
                 let codecs = settings["codecs"].as_array().unwrap_or(&none);
                 let chain = Chain::of(codecs, axes)?;
                 let at_end = check_index(settings)?;
-                let fits = |(outer, inner): (&usize, &usize)| *inner > 0 && outer % inner == 0;
-                if inner.len() != axes || outer.len() != axes || !outer.iter().zip(&inner).all(fits)
+                if inner.len() != axes
+                    || outer.len() != axes
+                    || !outer
+                        .iter()
+                        .zip(&inner)
+                        .all(|(outer, inner): (&usize, &usize)| *inner > 0 && outer % inner == 0)
                 {
                     let problem = format!("has shards of {outer:?} and chunks of {inner:?}");
                     return Err(ZarrFault::unread(problem));

@@ -1,15 +1,10 @@
 //! Arrays of Zarr, format 3: the part of it that scans and maps need.
 
 mod fault;
-
 mod chain;
-
 mod shard;
-
 mod metadata;
-
 mod array;
-
 mod document;
 
 pub(crate) use array::{ChunkError, ZarrArray};

@@ -215,8 +215,11 @@ fn tiled(is_planar: bool) -> Vec<u8> {
             (0..BANDS).map(|band| places().map(|(l, s)| number(band, l, s)).collect()).collect()
         }
         false => {
-            let pixel = |(l, s)| (0..BANDS).map(move |band| number(band, l, s));
-            vec![places().flat_map(pixel).collect()]
+            vec![
+                places()
+                    .flat_map(|(l, s)| (0..BANDS).map(move |band| number(band, l, s)))
+                    .collect(),
+            ]
         }
     };
     let mut bytes = b"II*\0\0\0\0\0".to_vec();
@@ -237,7 +240,8 @@ fn tiled(is_planar: bool) -> Vec<u8> {
             at
         }
     };
-    let (offsets_at, sizes_at) = (place(&mut bytes, &offsets), place(&mut bytes, &sizes));
+    let offsets_at = place(&mut bytes, &offsets);
+    let sizes_at = place(&mut bytes, &sizes);
     let shorts = |bytes: &mut Vec<u8>, value: u16, count: usize| {
         let at = bytes.len() as u32;
         bytes.extend((0..count).flat_map(|_| value.to_le_bytes()));
@@ -246,7 +250,8 @@ fn tiled(is_planar: bool) -> Vec<u8> {
     let bits_at = shorts(&mut bytes, 16, BANDS);
     let extra_at = shorts(&mut bytes, 0, BANDS);
     let count = tiles.len() as u32;
-    let (short, long) = (3_u16, 4_u16);
+    let short = 3_u16;
+    let long = 4_u16;
     let planar = if is_planar { 2 } else { 1 };
     let entries: [(u16, u16, u32, u32); 12] = [
         (256, long, 1, SAMPLES as u32),
@@ -282,7 +287,9 @@ fn with_directory(mut bytes: Vec<u8>, entries: &[(u16, u16, u32, u32)]) -> Vec<u
 
 #[test]
 fn strips_that_are_too_large_are_told() {
-    let (short, long, side) = (3_u16, 4_u16, 20_000_u32);
+    let short = 3_u16;
+    let long = 4_u16;
+    let side = 20_000_u32;
     let entries = [
         (256, long, 1, side),
         (257, long, 1, side),

@@ -114,7 +114,9 @@ fn an_overview_holds_the_means_of_squares() {
     let overview = Overview::of(&maps, 100).unwrap();
     assert_eq!((overview.step, overview.width, overview.height), (6, 89, 50));
     let all = maps.read(maps.rows(), maps.columns()).unwrap();
-    let (mut sum, mut chi2, mut count) = (0.0, 0.0, 0.0);
+    let mut sum = 0.0;
+    let mut chi2 = 0.0;
+    let mut count = 0.0;
     for row in 12..18 {
         for column in 24..30 {
             let pixel = row * COLUMNS + column;

@@ -109,7 +109,8 @@ fn missing_chunks_hold_the_fill_value() {
     let cube = Cube::open(folder.path()).unwrap();
     let block = cube.read_rows(0..LINES).unwrap();
     for (at, mask) in block.mask.iter().enumerate() {
-        let (line, sample) = (at / SAMPLES, at % SAMPLES);
+        let line = at / SAMPLES;
+        let sample = at % SAMPLES;
         let is_missing = line < 2 && (3..6).contains(&sample);
         assert_eq!(*mask == Mask::NotFinite, is_missing, "line {line}, sample {sample}");
     }

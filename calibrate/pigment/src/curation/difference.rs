@@ -73,7 +73,8 @@ pub fn difference(
     let names = |library: &PigmentLibrary| -> Vec<String> {
         library.pigments.iter().map(|pigment| pigment.name.clone()).collect()
     };
-    let (in_first, in_second) = (names(first), names(second));
+    let in_first = names(first);
+    let in_second = names(second);
     let without = |names: &[String], others: &[String]| -> Vec<String> {
         names.iter().filter(|name| !others.contains(name)).cloned().collect()
     };

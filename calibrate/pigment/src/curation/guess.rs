@@ -90,11 +90,13 @@ pub fn guessed_pigment(
             surface.measured_from_internal(internal)
         })
         .collect();
-    let (white, xyz) = (weights.white(), weights.xyz(&film));
+    let white = weights.white();
+    let xyz = weights.xyz(&film);
     let delta_e = delta_e_ciede2000(Lab::from_xyz(wanted, white), Lab::from_xyz(xyz, white));
     let hex = RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford).to_hex();
     if delta_e >= SAME_COLOR && !nearest {
-        let (k1, k2) = (surface.k1, surface.k2);
+        let k1 = surface.k1;
+        let k2 = surface.k2;
         return Err(CurationError::OutOfReach { k1, k2, nearest: hex, delta_e });
     }
     Ok(Guess { pigment, delta_e, hex })
@@ -134,7 +136,8 @@ pub fn add_guessed(
 /// Returns the K of a film of unit thickness with S = `scattering` that reflects `internal` over white,
 /// by bisection in the logarithm of K, since the reflectance falls with K.
 fn glaze_absorption(internal: f64, scattering: f64) -> f64 {
-    let (mut low, mut high) = (-25.0f64, 15.0f64);
+    let mut low = -25.0f64;
+    let mut high = 15.0f64;
     for _ in 0..80 {
         let middle = f64::midpoint(low, high);
         if Layer::new(middle.exp(), scattering, 1.0).over(1.0) > internal {

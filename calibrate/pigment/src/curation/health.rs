@@ -108,7 +108,8 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
     let mut found = |severity, what: String| {
         findings.push(Finding { severity, pigment: None, what });
     };
-    let (start, end) = (library.grid.start_nm(), library.grid.end_nm());
+    let start = library.grid.start_nm();
+    let end = library.grid.end_nm();
     match BandCoverage::of(library.grid) {
         BandCoverage::Full => {}
         BandCoverage::Partial => found(
@@ -137,7 +138,8 @@ fn of_library(library: &PigmentLibrary) -> Vec<Finding> {
         (AmountKind::Relative, Some(white)) => {
             let off = white.scattering.iter().position(|s| (s - 1.0).abs() > UNIT_ROUNDING);
             if let Some(at) = off {
-                let (nm, s) = (library.grid.nm(at), white.scattering[at]);
+                let nm = library.grid.nm(at);
+                let s = white.scattering[at];
                 let what = format!("S of the reference {} is {s} at {nm} nm, not 1", white.name);
                 found(Severity::Fault, what);
             }
@@ -221,13 +223,15 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
 /// Adds findings for pigments that look alike, alone and with the white.
 fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: &mut Vec<Finding>) {
     let white = library.reference_id();
-    let look = |recipe: Recipe| lab(weights, &hiding(library, &recipe));
-    let masstone_and_tint = |id| {
-        let masstone = Recipe::single(id);
-        let tint = white.map_or(masstone.clone(), |white| Recipe::from([(id, 1.0), (white, 9.0)]));
-        [masstone, tint].map(look)
-    };
-    let colors: Vec<[Lab; 2]> = library.ids().map(masstone_and_tint).collect();
+    let colors: Vec<[Lab; 2]> = library
+        .ids()
+        .map(|id| {
+            let masstone = Recipe::single(id);
+            let tint =
+                white.map_or(masstone.clone(), |white| Recipe::from([(id, 1.0), (white, 9.0)]));
+            [masstone, tint].map(|recipe: Recipe| lab(weights, &hiding(library, &recipe)))
+        })
+        .collect();
     for (second, pigment) in library.pigments.iter().enumerate() {
         for (first, other) in library.pigments[..second].iter().enumerate() {
             let plain = |name: &str| {
@@ -274,7 +278,8 @@ fn jump(curve: &[f64]) -> Option<usize> {
     let least = 1e-3 * range(curve)[1];
     let log = |index: usize| curve[index].max(least).ln();
     (1..curve.len().saturating_sub(1)).find(|&at| {
-        let (left, right) = (log(at) - log(at - 1), log(at) - log(at + 1));
+        let left = log(at) - log(at - 1);
+        let right = log(at) - log(at + 1);
         left * right > 0.0 && left.abs().min(right.abs()) > JUMP.ln()
     })
 }

@@ -123,7 +123,8 @@ impl Merged {
         other: &Source,
         settings: &MergeSettings,
     ) -> Result<PigmentLibrary, CurationError> {
-        let (base, file) = (&self.library, &other.file);
+        let base = &self.library;
+        let file = &other.file;
         check_amounts(base, first, other, settings.same_unit)?;
         self.warnings.extend(check_surface(base, first, other, settings.any_surface)?);
         let mut library = other.library.clone();
@@ -259,7 +260,8 @@ fn check_surface(
             other.file
         )));
     }
-    let (first, file) = (first.file.clone(), other.file.clone());
+    let first = first.file.clone();
+    let file = other.file.clone();
     Err(CurationError::Surface { what, first, wanted, file, found })
 }
 

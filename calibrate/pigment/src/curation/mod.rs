@@ -2,23 +2,14 @@
 //! health, and the difference of two libraries.
 
 mod error;
-
 mod rescale;
-
 mod resample;
-
 mod select;
-
 mod merge;
-
 mod table;
-
 mod guess;
-
 mod health;
-
 mod difference;
-
 mod swatches;
 
 pub use difference::{Difference, PigmentDifference, PigmentPair, difference};

@@ -70,7 +70,8 @@ pub fn subset(
     let found = |names: &[String]| -> Result<Vec<PigmentId>, CurationError> {
         names.iter().map(|name| find(file, library, name)).collect()
     };
-    let (kept, dropped) = (found(keep)?, found(without)?);
+    let kept = found(keep)?;
+    let dropped = found(without)?;
     let stays = |id: &PigmentId| (keep.is_empty() || kept.contains(id)) && !dropped.contains(id);
     let ids: Vec<PigmentId> = library.ids().filter(stays).collect();
     if ids.is_empty() {

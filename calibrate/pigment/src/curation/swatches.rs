@@ -76,7 +76,8 @@ impl Swatches {
                 add(format!("{} 1:{parts}", pigment.name), &[(id, 1.0), (white, *parts)]);
             }
         }
-        let (title, grouped) = (library.title.clone(), !tints.is_empty());
+        let title = library.title.clone();
+        let grouped = !tints.is_empty();
         Ok(Self { swatches, title, white: weights.white(), grouped })
     }
 

@@ -45,7 +45,8 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
     for pigment in &library.pigments {
         let ratio = || pigment.absorption.iter().zip(&pigment.scattering).map(|(k, s)| k / s);
         let curves = if pigment.identified {
-            let (k, s) = (pigment.absorption.clone(), pigment.scattering.clone());
+            let k = pigment.absorption.clone();
+            let s = pigment.scattering.clone();
             [k, s, pigment.absorption_sd.clone(), pigment.scattering_sd.clone(), Vec::new()]
         } else {
             [vec![], vec![], vec![], vec![], ratio().map(rounded).collect()]
@@ -82,7 +83,8 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
             continue;
         }
         if record.len() != header.len() {
-            let (wanted, found) = (header.len(), record.len());
+            let wanted = header.len();
+            let found = record.len();
             return Err(TableError::Sheet(CsvTableError::RowLength {
                 file: file.to_owned(),
                 row,
@@ -97,7 +99,8 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
                 text: record[column].to_owned(),
             })
         };
-        let (name, quantity) = (&record[columns.0], &record[columns.1]);
+        let name = &record[columns.0];
+        let quantity = &record[columns.1];
         if name.is_empty() || name.contains(char::is_control) {
             return Err(wrong(columns.0, "a pigment's name"));
         }

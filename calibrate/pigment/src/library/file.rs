@@ -130,7 +130,8 @@ impl PigmentLibrary {
             ];
             for (curve, values, may_lack) in curves {
                 if values.len() != self.grid.count() && !(may_lack && values.is_empty()) {
-                    let (wanted, found) = (self.grid.count(), values.len());
+                    let wanted = self.grid.count();
+                    let found = values.len();
                     return Err(fault(
                         name,
                         format!(
@@ -140,7 +141,8 @@ impl PigmentLibrary {
                     ));
                 }
                 if let Some(at) = values.iter().position(|v| !(v.is_finite() && *v >= 0.0)) {
-                    let (nm, value) = (self.grid.nm(at), values[at]);
+                    let nm = self.grid.nm(at);
+                    let value = values[at];
                     return Err(fault(
                         name,
                         format!("{curve} at {nm} nm must be 0 and up, found `{value}`"),

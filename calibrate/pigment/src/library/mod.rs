@@ -1,13 +1,9 @@
 //! The pigment library: its data, its JSON file and the library that ships.
 
 mod recipe_error;
-
 mod pigment_library;
-
 mod json;
-
 mod file;
-
 mod shipped;
 
 pub use file::LibraryError;

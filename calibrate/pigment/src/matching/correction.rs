@@ -277,7 +277,8 @@ impl CorrectionOptions {
             }
         }
         if !(1..MAX_PIGMENTS).contains(&self.at_most) {
-            let (what, hint) = ("a correction adds 1 to 7 pigments", "try [at_most=3]");
+            let what = "a correction adds 1 to 7 pigments";
+            let hint = "try [at_most=3]";
             return Err(MatchError::Number { what, value: self.at_most as f64, hint });
         }
         if self.count == 0 {
@@ -287,7 +288,8 @@ impl CorrectionOptions {
         }
         let (least, most) = self.range(batch.grams);
         if least > most {
-            let (what, hint) = ("the least addition exceeds the greatest", "lower [least]");
+            let what = "the least addition exceeds the greatest";
+            let hint = "lower [least]";
             return Err(MatchError::Number { what, value: least, hint });
         }
         Ok(())
@@ -316,13 +318,15 @@ impl CorrectionOptions {
         let mut stock = vec![f64::INFINITY; known.pigments.len()];
         for (name, limit) in &self.stock {
             if !(*limit >= 0.0 && *limit < 1e9) {
-                let (what, hint) = ("a stock is 0 g or more", "try [stock=\"Cobalt Blue=20\"]");
+                let what = "a stock is 0 g or more";
+                let hint = "try [stock=\"Cobalt Blue=20\"]";
                 return Err(MatchError::Number { what, value: *limit, hint });
             }
             stock[known.find(name)?.index()] = limit / grams;
         }
         let (least, most) = self.range(grams);
-        let (least, most) = (least / grams, most / grams);
+        let least = least / grams;
+        let most = most / grams;
         allowed.retain(|id| !without.contains(id) && stock[id.index()] >= least);
         allowed.sort_unstable();
         allowed.dedup();
@@ -357,11 +361,14 @@ fn correction(
     let mut scratch = Scratch::default();
     let reflectance = forward.reflectance(&mixture.pigments, &mixture.shares, 1.0, &mut scratch);
     let labs: Vec<Lab> = forward.weights.iter().map(|w| lab(w, &reflectance)).collect();
-    let is_all = |(pigment, amount): &&(PigmentId, f64)| {
-        *amount >= additions.stock[pigment.index()] * (1.0 - AT_LIMIT)
-    };
     Correction {
-        out_of_stock: amounts.iter().filter(is_all).map(|(pigment, _)| *pigment).collect(),
+        out_of_stock: amounts
+            .iter()
+            .filter(|(pigment, amount): &&(PigmentId, f64)| {
+                *amount >= additions.stock[pigment.index()] * (1.0 - AT_LIMIT)
+            })
+            .map(|(pigment, _)| *pigment)
+            .collect(),
         additions: amounts.iter().map(|(pigment, amount)| (*pigment, amount * grams)).collect(),
         grams: total,
         delta_e: labs.iter().zip(&target.lab).map(|(f, w)| delta_e_ciede2000(*w, *f)).collect(),

@@ -111,7 +111,8 @@ fn descend_within(
         cost
     };
     let cost = descend_within_bounds(&mut cost_at, &mut point, &bounds, STEPS);
-    let (shares, thickness) = (point[..shares].to_vec(), thickness_at(&point));
+    let shares = point[..shares].to_vec();
+    let thickness = thickness_at(&point);
     let distance = if has_limits {
         forward.distance(target, pigments, &shares, thickness, scratch)
     } else {

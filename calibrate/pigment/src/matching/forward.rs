@@ -90,7 +90,8 @@ impl<'a> Forward<'a> {
         }
         let surface = self.film.surface;
         for at in 0..count {
-            let (k, s) = (over_absorption[at], over_scattering[at]);
+            let k = over_absorption[at];
+            let s = over_scattering[at];
             let [value, by_k, by_s] = match &self.ground {
                 Some(ground) => self.film.reflectance_with_slopes(k, s, ground[at]),
                 None => {

@@ -181,14 +181,17 @@ impl Additions<'_> {
         let share = 1.0 / (1.0 + added);
         let request = self.request(Some(share));
         let others = (set.len() - 1) as f64;
-        let of = |&pigment: &PigmentId| {
-            let known = near.map(|near| near.share(pigment) / (1.0 - near.share(self.pot())));
-            let part = known.unwrap_or(1.0 / others);
-            if pigment == self.pot() { share } else { part * (1.0 - share) }
-        };
         let start = Candidate {
             pigments: set.to_vec(),
-            shares: set.iter().map(of).collect(),
+            shares: set
+                .iter()
+                .map(|&pigment: &PigmentId| {
+                    let known =
+                        near.map(|near| near.share(pigment) / (1.0 - near.share(self.pot())));
+                    let part = known.unwrap_or(1.0 / others);
+                    if pigment == self.pot() { share } else { part * (1.0 - share) }
+                })
+                .collect(),
             thickness: 1.0,
             distance: f64::INFINITY,
         };

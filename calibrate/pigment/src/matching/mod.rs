@@ -6,45 +6,25 @@
 //! of a set with one pigment fewer.
 
 mod viewing_condition;
-
 mod bounded_step;
-
 mod bounded_descent;
-
 mod spectral_target;
-
 mod target;
-
 mod film;
-
 mod error;
-
 mod request;
-
 mod candidate;
-
 mod forward;
-
 mod descent;
-
 mod search_control;
-
 mod search;
-
 mod whole_parts;
-
 mod ranking;
-
 mod prices;
-
 mod options;
-
 mod recipe_search;
-
 mod told;
-
 mod least_addition;
-
 mod correction;
 
 pub use bounded_descent::{Cost, descend_within_bounds};

@@ -221,7 +221,8 @@ impl MatchOptions {
             });
             of_those.map(|id| library[id].name.as_str()).collect()
         };
-        let (used, left_out) = (unknown(true), unknown(false));
+        let used = unknown(true);
+        let left_out = unknown(false);
         if !used.is_empty() {
             let text =
                 format!("S is not known of {}; recipes with it are a guess", used.join(", "));

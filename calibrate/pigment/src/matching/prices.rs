@@ -66,7 +66,8 @@ impl PriceList {
             let found = headers.iter().position(|header| header.eq_ignore_ascii_case(column));
             found.ok_or_else(|| PriceError::MissingColumn { file: file.to_owned(), column })
         };
-        let (pigment, price) = (column("pigment")?, column("price")?);
+        let pigment = column("pigment")?;
+        let price = column("price")?;
         let mut numbers = RowNumbers::of(bytes);
         for record in reader.records() {
             let record = record.map_err(broken)?;

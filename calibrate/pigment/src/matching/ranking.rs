@@ -225,9 +225,9 @@ fn recipe(
 fn metamerism(forward: &Forward<'_>, target: &Target, found: &[Lab]) -> Vec<Option<f64>> {
     let whites: Vec<Xyz> = forward.weights.iter().map(TristimulusWeights::white).collect();
     let pair = |labs: &[Lab], at: usize| [0, at].map(|at| labs[at].to_xyz(whites[at]));
-    let index =
-        |at: usize| metamerism_index(pair(&target.lab, at), pair(found, at), whites[at]).ok();
-    (1..whites.len()).map(index).collect()
+    (1..whites.len())
+        .map(|at: usize| metamerism_index(pair(&target.lab, at), pair(found, at), whites[at]).ok())
+        .collect()
 }
 
 /// The limit of amounts at which the pigment at one place of a recipe lies.

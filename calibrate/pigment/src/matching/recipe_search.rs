@@ -253,7 +253,8 @@ mod tests {
             let tolerance = Some(tolerance);
             search("45,10,20", MatchOptions { tolerance, count: 1, ..MatchOptions::default() })
         };
-        let (fine, coarse) = (of(0.0), of(2.0));
+        let fine = of(0.0);
+        let coarse = of(2.0);
         assert!((fine.nearest() - coarse.nearest()).abs() < 1e-9);
         assert!(coarse.recipes[0].distance > coarse.nearest(), "{:?}", coarse.recipes[0]);
         assert!(coarse.recipes[0].distance <= coarse.nearest() + 2.0);

@@ -78,13 +78,15 @@ pub(super) fn search(
 fn expected(request: &MatchRequest) -> usize {
     let fixed = request.required.len();
     let free = request.allowed.len() - fixed.min(request.allowed.len());
-    let of_size = |added: usize| {
-        let sets = (0..added)
-            .fold(1_usize, |sets, i| sets.saturating_mul(free.saturating_sub(i)) / (i + 1));
-        sets.min(MOST_SETS)
-    };
     let sizes = usize::from(fixed == 0)..=request.at_most.saturating_sub(fixed);
-    sizes.map(of_size).sum::<usize>() * if request.whole_parts.is_some() { 2 } else { 1 }
+    sizes
+        .map(|added: usize| {
+            let sets = (0..added)
+                .fold(1_usize, |sets, i| sets.saturating_mul(free.saturating_sub(i)) / (i + 1));
+            sets.min(MOST_SETS)
+        })
+        .sum::<usize>()
+        * if request.whole_parts.is_some() { 2 } else { 1 }
 }
 
 type Sets = BTreeMap<Vec<PigmentId>, Option<Candidate>>;
@@ -131,11 +133,15 @@ const LEAST_START: f64 = 1e-3;
 
 /// Mean of K + S over wavelength, by pigment: a measure of how much a share of it changes the colour.
 fn strengths(forward: &Forward<'_>) -> Vec<f64> {
-    let mean = |pigment: &crate::library::Pigment| {
-        let sum: f64 = pigment.absorption.iter().chain(&pigment.scattering).sum();
-        (sum / pigment.absorption.len() as f64).max(LEAST_STRENGTH)
-    };
-    forward.library.pigments.iter().map(mean).collect()
+    forward
+        .library
+        .pigments
+        .iter()
+        .map(|pigment: &crate::library::Pigment| {
+            let sum: f64 = pigment.absorption.iter().chain(&pigment.scattering).sum();
+            (sum / pigment.absorption.len() as f64).max(LEAST_STRENGTH)
+        })
+        .collect()
 }
 
 /// Starting points for the descent of a set: the smaller recipe with a small share of the new pigment, and
@@ -161,11 +167,12 @@ fn starts(
 /// Starting points at which one pigment of the set has as much as the bounds allow.
 fn corners(request: &MatchRequest, set: &[PigmentId]) -> Vec<Candidate> {
     let (thinnest, thickest) = request.thickness();
-    let most_of = |main: &PigmentId| {
-        let wished: Vec<f64> = set.iter().map(|p| f64::from(u8::from(p == main))).collect();
-        candidate(request, set, &wished, (thinnest * thickest).sqrt())
-    };
-    set.iter().filter_map(most_of).collect()
+    set.iter()
+        .filter_map(|main: &PigmentId| {
+            let wished: Vec<f64> = set.iter().map(|p| f64::from(u8::from(p == main))).collect();
+            candidate(request, set, &wished, (thinnest * thickest).sqrt())
+        })
+        .collect()
 }
 
 /// Shares within their bounds, as near to the proportions of `wished` as those allow.

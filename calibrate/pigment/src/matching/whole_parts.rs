@@ -49,11 +49,17 @@ pub(super) fn in_whole_parts(
     let mut distances: Vec<f64> = rounded.iter().flatten().map(|found| found.1.distance).collect();
     distances.sort_by(f64::total_cmp);
     let enough = distances.get(wanted.max(1) - 1).copied().unwrap_or(f64::INFINITY);
-    let nearest = |scratch: &mut Scratch, (candidate, rounded): (&Candidate, _)| {
-        let few = count(candidate.pigments.len() as u32, most) <= MOST_RECIPES;
-        if few && candidate.distance <= enough { search(scratch, candidate, true) } else { rounded }
-    };
-    let all = candidates.par_iter().zip(rounded).map_init(Scratch::default, nearest);
+    let all = candidates.par_iter().zip(rounded).map_init(
+        Scratch::default,
+        |scratch: &mut Scratch, (candidate, rounded): (&Candidate, _)| {
+            let few = count(candidate.pigments.len() as u32, most) <= MOST_RECIPES;
+            if few && candidate.distance <= enough {
+                search(scratch, candidate, true)
+            } else {
+                rounded
+            }
+        },
+    );
     all.flatten().collect()
 }
 
@@ -154,8 +160,10 @@ pub fn few_parts(shares: &[f64], most: u32, tolerance: f64) -> Option<Vec<u32>> 
     let sum: f64 = shares.iter().sum();
     let wished: Vec<f64> = shares.iter().map(|share| share / sum).collect();
     (shares.len() as u32..=most).map(|total| rounded(&wished, total)).find(|parts| {
-        let near = |(found, wished): (f64, &f64)| (found - wished).abs() <= tolerance;
-        self::shares(parts).into_iter().zip(&wished).all(near)
+        self::shares(parts)
+            .into_iter()
+            .zip(&wished)
+            .all(|(found, wished): (f64, &f64)| (found - wished).abs() <= tolerance)
     })
 }
 

@@ -75,8 +75,7 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
         let whites = WHITES.iter().filter(|&&parts| !(plain && parts == 0.0));
         recipes.extend(whites.map(|&parts| palette.thinned(&recipe, parts)));
         if palette.white().is_none() {
-            let stronger = |&times: &f64| recipe.scaled(times);
-            recipes.extend(STRONGER.iter().map(stronger));
+            recipes.extend(STRONGER.iter().map(|&times: &f64| recipe.scaled(times)));
         }
         if recipe.pigments().all(|p| p != black) {
             recipes.extend(BLACKS.iter().map(|parts| with(&recipe, black, *parts)));
@@ -126,9 +125,9 @@ impl Boundary {
         let mut boundary = Self { center, sectors: Vec::new() };
         for (place, index) in places {
             let sector = boundary.sector(place, outer.len());
-            let further =
-                |(kept, _): ([f64; 2], usize)| boundary.distance(place) > boundary.distance(kept);
-            if outer[sector].is_none_or(further) {
+            if outer[sector].is_none_or(|(kept, _): ([f64; 2], usize)| {
+                boundary.distance(place) > boundary.distance(kept)
+            }) {
                 outer[sector] = Some((place, index));
             }
         }

@@ -138,14 +138,13 @@ pub fn graded(
             || (own(MixingRow::Spectrum), MixingRow::Spectrum),
             |lab| (Some(lab), MixingRow::Measured),
         );
-        let error = |other: MixingRow| {
-            let lab: Lab = own(other).filter(|_| other != row)?;
-            Some(delta_e_ciede2000(truth?, lab))
-        };
         GradedStep {
             share,
             sample: sample.map(|sample| sample.sample.clone()),
-            errors: MixingRow::ALL.map(error),
+            errors: MixingRow::ALL.map(|other: MixingRow| {
+                let lab: Lab = own(other).filter(|_| other != row)?;
+                Some(delta_e_ciede2000(truth?, lab))
+            }),
             colors,
         }
     };
@@ -160,10 +159,13 @@ pub fn default_pairs(
     palette: &Palette<'_>,
     measured: &[MeasuredSample],
 ) -> Vec<(PigmentId, PigmentId)> {
-    let counted =
-        |(a, b)| (steps_of((a, b), measured).filter(|(s, _)| *s > 0.0 && *s < 1.0).count(), (a, b));
-    let mut pairs: Vec<(usize, (PigmentId, PigmentId))> =
-        palette.pairs().map(counted).filter(|(count, _)| *count > 0).collect();
+    let mut pairs: Vec<(usize, (PigmentId, PigmentId))> = palette
+        .pairs()
+        .map(|(a, b)| {
+            (steps_of((a, b), measured).filter(|(s, _)| *s > 0.0 && *s < 1.0).count(), (a, b))
+        })
+        .filter(|(count, _)| *count > 0)
+        .collect();
     // The sort is stable: pairs with equal counts stay in the library's order.
     pairs.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
     // If one of the two paints is the white, it comes second.
@@ -172,8 +174,10 @@ pub fn default_pairs(
         pairs.iter().take(2).map(|(_, p)| ordered(*p)).collect();
     let tinted = |paint: PigmentId, parts: f64| palette.color(&palette.tint(paint, parts)).lab.b;
     let extreme = |sign: f64| {
-        let reach = |&p: &PigmentId| (p, [0.0, 3.0, 9.0].map(|n| sign * tinted(p, n)));
-        let most = palette.paints().iter().map(reach);
+        let most = palette
+            .paints()
+            .iter()
+            .map(|&p: &PigmentId| (p, [0.0, 3.0, 9.0].map(|n| sign * tinted(p, n))));
         most.map(|(p, b)| (p, b.into_iter().fold(f64::NEG_INFINITY, f64::max)))
             .reduce(|a, b| if b.1 > a.1 { b } else { a })
             .map(|(p, _)| p)
@@ -209,7 +213,8 @@ fn steps_of(
     measured: &[MeasuredSample],
 ) -> impl Iterator<Item = (f64, &MeasuredSample)> {
     measured.iter().filter_map(move |sample| {
-        let (first, second) = (sample.recipe.parts_of(pair.0), sample.recipe.parts_of(pair.1));
+        let first = sample.recipe.parts_of(pair.0);
+        let second = sample.recipe.parts_of(pair.1);
         (first + second > 1.0 - 1e-9).then_some((second, sample))
     })
 }

@@ -64,8 +64,11 @@ impl Hides {
 /// the ratio may fall with thickness in a film that is clear at some wavelengths.
 #[must_use]
 pub fn hiding_powers(palette: &Palette<'_>) -> Vec<HidingPower> {
-    let power = |&paint: &PigmentId| HidingPower { paint, hides: hides(palette, paint) };
-    palette.paints().iter().map(power).collect()
+    palette
+        .paints()
+        .iter()
+        .map(|&paint: &PigmentId| HidingPower { paint, hides: hides(palette, paint) })
+        .collect()
 }
 
 /// S of the library's reference white per mm of height with which its film hides from 0.05 mm on

@@ -59,11 +59,12 @@ pub struct TintLadder {
 #[must_use]
 pub fn tint_ladders(palette: &Palette<'_>) -> Vec<TintLadder> {
     let paints = palette.paints().iter().filter(|&&p| Some(p) != palette.white());
-    let ladder = |&paint: &PigmentId| TintLadder {
-        paint,
-        colors: TINTS.iter().map(|&parts| palette.color(&palette.tint(paint, parts))).collect(),
-    };
-    paints.map(ladder).collect()
+    paints
+        .map(|&paint: &PigmentId| TintLadder {
+            paint,
+            colors: TINTS.iter().map(|&parts| palette.color(&palette.tint(paint, parts))).collect(),
+        })
+        .collect()
 }
 
 /// A film of one thickness over both cards.
@@ -98,14 +99,16 @@ pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
         let mixture = palette.mixture(&Recipe::single(paint));
         let over =
             |thickness: f64, card: &[f64]| palette.appearance(&mixture.film(thickness, card, film));
-        let step = |&thickness: &f64| DrawdownStep {
-            thickness,
-            over_black: over(thickness, &cards.black),
-            over_white: over(thickness, &cards.white),
-        };
         Drawdown {
             paint,
-            steps: thicknesses.iter().map(step).collect(),
+            steps: thicknesses
+                .iter()
+                .map(|&thickness: &f64| DrawdownStep {
+                    thickness,
+                    over_black: over(thickness, &cards.black),
+                    over_white: over(thickness, &cards.white),
+                })
+                .collect(),
             masstone: palette.appearance(&mixture.hiding(film.surface)),
         }
     };

@@ -7,27 +7,16 @@
 //! Pigments whose scattering is not identified take no part in any mixture.
 
 mod cards;
-
 mod paints;
-
 mod samples;
-
 mod hiding_power;
-
 mod tinting_strength;
-
 mod mixing_chart;
-
 mod between;
-
 mod gamut;
-
 mod wheel;
-
 mod constancy;
-
 mod metamers;
-
 mod graded;
 
 pub use crate::appearance::Appearance;

@@ -226,12 +226,14 @@ impl<'a> Palette<'a> {
 
     /// Largest K + S of any paint, which sets the scale of thickness.
     pub(super) fn strongest(&self) -> f64 {
-        let both = |&p: &PigmentId| {
-            let pigment = &self.library[p];
-            let pairs = pigment.absorption.iter().zip(&pigment.scattering);
-            pairs.map(|(k, s)| k + s).fold(0.0, f64::max)
-        };
-        self.paints.iter().map(both).fold(0.0, f64::max)
+        self.paints
+            .iter()
+            .map(|&p: &PigmentId| {
+                let pigment = &self.library[p];
+                let pairs = pigment.absorption.iter().zip(&pigment.scattering);
+                pairs.map(|(k, s)| k + s).fold(0.0, f64::max)
+            })
+            .fold(0.0, f64::max)
     }
 
     fn white_paint(&self) -> PigmentId {
@@ -241,8 +243,8 @@ impl<'a> Palette<'a> {
 
     /// First paint in the order `better` of the luminance of films.
     fn by_luminance(&self, better: impl Fn(f64, f64) -> bool) -> PigmentId {
-        let luminance = |&p: &PigmentId| (p, self.color(&Recipe::single(p)).xyz.y);
-        let all = self.paints.iter().map(luminance);
+        let all =
+            self.paints.iter().map(|&p: &PigmentId| (p, self.color(&Recipe::single(p)).xyz.y));
         all.reduce(|a, b| if better(a.1, b.1) { b } else { a }).expect("a palette has a paint").0
     }
 
@@ -259,8 +261,10 @@ impl<'a> Palette<'a> {
         let bare = self.cards.white[at];
         let card = film.surface.internal_from_measured(bare).unwrap_or(0.0).min(1.0);
         let reading = |amount: f64| film.reflectance(amount * k, amount * s, card);
-        let (thin, thick) = (1e-6 / (k + s), 1e6 / (k + s));
-        let (start, end) = (reading(0.0), reading(thick));
+        let thin = 1e-6 / (k + s);
+        let thick = 1e6 / (k + s);
+        let start = reading(0.0);
+        let end = reading(thick);
         let wanted = start + WASH_DEPTH * (end - start);
         crossing(thin, thick, |amount| (reading(amount) - wanted) * (end - start) >= 0.0)
     }
@@ -269,7 +273,8 @@ impl<'a> Palette<'a> {
 /// Returns the value between `thin` and `thick` at which `reached` turns true, by 60 bisections of the
 /// logarithm. The error is far below the rounding of values in a file.
 pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> f64 {
-    let (mut below, mut above) = (thin.ln(), thick.ln());
+    let mut below = thin.ln();
+    let mut above = thick.ln();
     for _ in 0..60 {
         let middle = f64::midpoint(below, above);
         if reached(middle.exp()) {

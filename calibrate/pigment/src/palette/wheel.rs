@@ -122,7 +122,8 @@ mod tests {
             let masstone =
                 |paint| wheel.masstones.iter().find(|(of, _)| *of == paint).expect("a tube").1.lab;
             for MixingLine { pair: [first, second], colors } in &wheel.lines {
-                let (start, end) = (colors[0].1.lab, colors[colors.len() - 1].1.lab);
+                let start = colors[0].1.lab;
+                let end = colors[colors.len() - 1].1.lab;
                 assert!(distance(start, masstone(*second)) < 1e-9, "{first:?} {second:?}");
                 assert!(distance(end, masstone(*first)) < 1e-9, "{first:?} {second:?}");
                 assert!(colors.windows(2).all(|two| two[0].0 < two[1].0), "shares rise");

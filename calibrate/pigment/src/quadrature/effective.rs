@@ -59,11 +59,14 @@ impl EffectiveQuadrature {
 
     /// Colour error of each film.
     pub(super) fn errors(&self, library: &PigmentLibrary, films: &FilmSet) -> Vec<f64> {
-        let error = |film: &Film| {
-            let found = Lab::from_xyz(self.xyz(library, film), self.rule.white);
-            delta_e_ciede2000(found, Lab::from_xyz(film.xyz, films.white))
-        };
-        films.films.par_iter().map(error).collect()
+        films
+            .films
+            .par_iter()
+            .map(|film: &Film| {
+                let found = Lab::from_xyz(self.xyz(library, film), self.rule.white);
+                delta_e_ciede2000(found, Lab::from_xyz(film.xyz, films.white))
+            })
+            .collect()
     }
 
     fn xyz(&self, library: &PigmentLibrary, film: &Film) -> Xyz {

@@ -103,8 +103,8 @@ impl Problem {
     /// The fit from `point`, or where it stands once it was cancelled.
     pub(super) fn solve(&self, point: DVector<f64>, nodes: Nodes, stop: Stop<'_>) -> DVector<f64> {
         let (lower, upper) = self.bounds(nodes);
-        let (build, cost) = (|point: &_| self.equations(point), |point: &_| self.cost(point));
-        minimise(point, (&lower, &upper), stop, build, cost).point
+        let build = |point: &_| self.equations(point);
+        minimise(point, (&lower, &upper), stop, build, |point: &_| self.cost(point)).point
     }
 
     fn bounds(&self, nodes: Nodes) -> (DVector<f64>, DVector<f64>) {
@@ -198,12 +198,12 @@ impl Problem {
         let (residual, slopes) = self.residual(index, sum(&at_nodes, &found.rule.weights));
         let mut sorted = parts.clone();
         sorted.sort_by_key(|(pigment, _)| *pigment);
-        let of_pigment = |(pigment, _): &(PigmentId, f64)| {
-            let first = self.place(pigment.index(), 0);
-            first..first + 2 * n
-        };
-        let runs: Vec<Range<usize>> =
-            std::iter::once(0..self.shared()).chain(sorted.iter().map(of_pigment)).collect();
+        let runs: Vec<Range<usize>> = std::iter::once(0..self.shared())
+            .chain(sorted.iter().map(|(pigment, _): &(PigmentId, f64)| {
+                let first = self.place(pigment.index(), 0);
+                first..first + 2 * n
+            }))
+            .collect();
         let slopes = slopes.0;
         let mut derivatives = Vec::with_capacity(runs.iter().map(|run| run.len()).sum());
         for [value, ..] in &at_nodes[..n - 1] {
@@ -219,8 +219,8 @@ impl Problem {
             derivatives.push(along.map(|along| along * over_nm));
         }
         for (pigment, part) in &sorted {
-            let (absorption, scattering) =
-                (&found.absorption[pigment.index()], &found.scattering[pigment.index()]);
+            let absorption = &found.absorption[pigment.index()];
+            let scattering = &found.scattering[pigment.index()];
             for (node, ([_, over_k, over_s, _], along)) in at_nodes.iter().zip(&along).enumerate() {
                 derivatives.push(along.map(|along| along * over_k * part * absorption[node]));
                 derivatives.push(along.map(|along| along * over_s * part * scattering[node]));

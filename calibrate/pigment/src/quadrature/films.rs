@@ -228,8 +228,9 @@ fn internal(curves: &Curves) -> Vec<f64> {
 
 fn over_ground(curves: &Curves, thickness: f64, ground: &[f64], surface: Surface) -> Vec<f64> {
     let pairs = curves.absorption.iter().zip(&curves.scattering).zip(ground);
-    let seen = |((&k, &s), &below): ((&f64, &f64), &f64)| {
-        surface.measured_from_internal(Layer::new(k, s, thickness).over(below))
-    };
-    pairs.map(seen).collect()
+    pairs
+        .map(|((&k, &s), &below): ((&f64, &f64), &f64)| {
+            surface.measured_from_internal(Layer::new(k, s, thickness).over(below))
+        })
+        .collect()
 }

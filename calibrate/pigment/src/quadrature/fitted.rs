@@ -72,11 +72,18 @@ struct Problem<'a> {
 
 impl<'a> Problem<'a> {
     fn new(start: &'a Quadrature, training: &'a MixtureSet) -> Self {
-        let target = |xyz: &Xyz| {
-            let lab = Lab::from_xyz(*xyz, training.white);
-            (lab, ciede2000_metric(lab))
-        };
-        Self { start, training, targets: training.xyz.iter().map(target).collect() }
+        Self {
+            start,
+            training,
+            targets: training
+                .xyz
+                .iter()
+                .map(|xyz: &Xyz| {
+                    let lab = Lab::from_xyz(*xyz, training.white);
+                    (lab, ciede2000_metric(lab))
+                })
+                .collect(),
+        }
     }
 
     /// Fits from these nodes and returns the cost with the quadrature.

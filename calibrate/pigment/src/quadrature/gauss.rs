@@ -30,8 +30,10 @@ impl GaussRule {
             return None;
         }
         // On -1..1 the polynomials stay bounded.
-        let (low, high) = (points[0], points[points.len() - 1]);
-        let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0);
+        let low = points[0];
+        let high = points[points.len() - 1];
+        let middle = f64::midpoint(low, high);
+        let half = (high - low) / 2.0;
         let t: Vec<f64> = points.iter().map(|p| (p - middle) / half).collect();
 
         let total: f64 = weight.iter().sum();
@@ -71,11 +73,13 @@ impl GaussRule {
         // length is the root of the weight.
         let at_nodes = (0..count)
             .map(|k| {
-                let value = |&i: &usize| {
-                    let first = eigen.eigenvectors[(0, i)];
-                    eigen.eigenvectors[(k, i)] / (first * total.sqrt())
-                };
-                order.iter().map(value).collect()
+                order
+                    .iter()
+                    .map(|&i: &usize| {
+                        let first = eigen.eigenvectors[(0, i)];
+                        eigen.eigenvectors[(k, i)] / (first * total.sqrt())
+                    })
+                    .collect()
             })
             .collect();
         let nodes = order.iter().map(|&i| middle + half * eigen.eigenvalues[i]).collect();

@@ -75,8 +75,14 @@ impl MixtureSet {
     /// Every pigment by itself as a film that hides.
     #[must_use]
     pub fn masstones(library: &PigmentLibrary, weights: &TristimulusWeights) -> Self {
-        let alone = |id| library.mix([(id, 1.0)]).expect("one part makes a mixture");
-        Self::of(library, weights, library.ids().map(alone).collect())
+        Self::of(
+            library,
+            weights,
+            library
+                .ids()
+                .map(|id| library.mix([(id, 1.0)]).expect("one part makes a mixture"))
+                .collect(),
+        )
     }
 
     /// Appends the mixtures of `other`.

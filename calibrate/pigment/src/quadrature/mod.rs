@@ -14,23 +14,14 @@
 //! at the nodes. Painting computes with it.
 
 mod gauss;
-
 mod mixtures;
-
 mod rule;
-
 mod films;
-
 mod effective;
-
 mod fitted;
-
 mod effective_problem;
-
 mod effective_fit;
-
 mod trial;
-
 mod told;
 
 pub use effective::EffectiveQuadrature;

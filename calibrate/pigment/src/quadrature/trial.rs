@@ -64,8 +64,10 @@ impl QuadratureTrial {
     ) -> Result<Vec<Self>, QuadratureFailure> {
         let weights = viewing.weights(library.grid).expect("the method fits the grid");
         let mixtures = MixtureSet::random(library, &weights, MIXTURES, SEED);
-        let each = |method| counts.clone().map(move |count| (method, count));
-        let pairs: Vec<_> = QuadratureMethod::ALL.into_iter().flat_map(each).collect();
+        let pairs: Vec<_> = QuadratureMethod::ALL
+            .into_iter()
+            .flat_map(|method| counts.clone().map(move |count| (method, count)))
+            .collect();
         let trials = pairs.into_par_iter().map(|(method, count)| {
             let rule = match method {
                 QuadratureMethod::Gauss => Quadrature::gauss(viewing, count)?,

@@ -4,11 +4,8 @@
 //! the browser's storage, for which [`take_changes`] tells it what has changed.
 
 mod tree;
-
 mod metadata;
-
 mod open_file;
-
 mod calls;
 
 pub use calls::*;

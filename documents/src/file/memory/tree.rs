@@ -147,7 +147,8 @@ impl Tree {
     }
 
     pub(super) fn rename(&mut self, from: &Path, to: &Path) -> io::Result<()> {
-        let (from, to) = (from_root(from), from_root(to));
+        let from = from_root(from);
+        let to = from_root(to);
         let (node, _) = self.find(&from)?;
         self.is_folder(to.parent().ok_or(io::ErrorKind::AlreadyExists)?)?;
         match (node, self.find(&to)) {

@@ -67,10 +67,12 @@ impl Framing {
         let Reach { right, up } = reaches.fold(Reach::default(), Reach::or);
         // The axis of rotation stays in the centre.
         let reach = Reach { right: [right[0].max(right[1]); 2], up };
-        let (distance, shift) = (reach.distance(self.tangents()), reach.shift());
+        let distance = reach.distance(self.tangents());
+        let shift = reach.shift();
         let step = 360.0 / frames.max(1) as f32;
-        let camera = |frame| turned(frame as f32 * step).shifted(bounds, distance, shift);
-        (0..frames).map(camera).collect()
+        (0..frames)
+            .map(|frame| turned(frame as f32 * step).shifted(bounds, distance, shift))
+            .collect()
     }
 
     /// Half the width and height that fit into the picture at distance 1.

@@ -2,11 +2,8 @@
 //! keyframes.
 
 mod perspective;
-
 mod framing;
-
 mod path;
-
 mod picture_view;
 
 pub use framing::Framing;

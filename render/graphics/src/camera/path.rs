@@ -222,12 +222,11 @@ impl CameraPath {
         let count = self.keyframes.len() as i64;
         let first = (time.floor() as i64).min(if self.closed { count } else { (count - 2).max(0) });
         let share = time - first as f32;
-        let keyframe = |offset: i64| {
+        let around = [-1, 0, 1, 2].map(|offset: i64| {
             let at = first + offset;
             let at = if self.closed { at.rem_euclid(count) } else { at.clamp(0, count - 1) };
             &self.keyframes[at as usize]
-        };
-        let around = [-1, 0, 1, 2].map(keyframe);
+        });
         let [eye, target, up] = [
             around.map(|at| at.eye.into()),
             around.map(|at| at.target.into()),
@@ -262,7 +261,8 @@ impl CameraPath {
 
 /// Catmull-Rom segment from the second point (share 0) to the third (share 1).
 fn spline([a, b, c, d]: [Vec3; 4], share: f32) -> Vec3 {
-    let (square, cube) = (share * share, share * share * share);
+    let square = share * share;
+    let cube = share * share * share;
     let linear = (c - a) * share;
     let quadratic = (a * 2.0 - b * 5.0 + c * 4.0 - d) * square;
     let cubic = (b * 3.0 - a - c * 3.0 + d) * cube;

@@ -43,10 +43,14 @@ pub fn draw_anchored(
 
 /// The value of a repeating texture at (x, y), bilinear between its four nearest texels.
 fn bilinear(texture: &Field<f32>, x: f32, y: f32) -> f32 {
-    let (left, top) = (x.floor(), y.floor());
-    let (right, down) = (x - left, y - top);
-    let (columns, rows) = (texture.width() - 1, texture.height() - 1);
-    let (i, j) = (left as i32 as usize, top as i32 as usize);
+    let left = x.floor();
+    let top = y.floor();
+    let right = x - left;
+    let down = y - top;
+    let columns = texture.width() - 1;
+    let rows = texture.height() - 1;
+    let i = left as i32 as usize;
+    let j = top as i32 as usize;
     let values = texture.values();
     let upper = (j & rows) * texture.width();
     let lower = (j.wrapping_add(1) & rows) * texture.width();
@@ -70,7 +74,8 @@ fn copy(texture: &Field<f32>, anchor: &Anchor, octaves: usize, right: f32, down:
 }
 
 fn draw_anchored_on_cpu(depth: &Field<f32>, texture: &Field<f32>, anchors: &Anchors) -> Field<f32> {
-    let (width, height) = (depth.width(), depth.height());
+    let width = depth.width();
+    let height = depth.height();
     let mut blended = Field::filled(width, height, 0.5);
     let rows = blended.values_mut().par_chunks_mut(width.max(1)).enumerate();
     rows.for_each_init(
@@ -104,12 +109,14 @@ fn blend(
         *distance = position.distance_squared(anchor.position.into());
         nearest = nearest.min(*distance);
     }
-    let (mut sum, mut squares) = (0.0, 0.0);
+    let mut sum = 0.0;
+    let mut squares = 0.0;
     for (distance, anchor) in distances.iter().zip(&anchors.each) {
         let near = 1.0 - (distance - nearest) / anchors.reach_squared;
         if near > 0.0 {
             let weight = near * near * anchor.presence;
-            let (right, down) = (at[0] - anchor.x, at[1] - anchor.y);
+            let right = at[0] - anchor.x;
+            let down = at[1] - anchor.y;
             sum += weight * copy(texture, anchor, anchors.octaves, right, down);
             squares += weight * weight;
         }

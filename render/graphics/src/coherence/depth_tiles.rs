@@ -33,7 +33,8 @@ struct Level {
 impl Level {
     /// Squares of twice the width and height.
     fn coarser(&self) -> Self {
-        let (across, down) = (self.across.div_ceil(2), self.down.div_ceil(2));
+        let across = self.across.div_ceil(2);
+        let down = self.down.div_ceil(2);
         let mut farthest = vec![BARE; across * down];
         for (row, depths) in self.farthest.chunks(self.across.max(1)).enumerate() {
             for (column, depth) in depths.iter().enumerate() {
@@ -54,10 +55,13 @@ fn range(depths: impl Iterator<Item = f32>) -> Option<[f32; 2]> {
 
 impl DepthTiles {
     pub(super) fn new(depth: &Field<f32>) -> Self {
-        let (width, height) = (depth.width(), depth.height());
-        let (across, down) = (width.div_ceil(SIDE), height.div_ceil(SIDE));
+        let width = depth.width();
+        let height = depth.height();
+        let across = width.div_ceil(SIDE);
+        let down = height.div_ceil(SIDE);
         let squares = (0..across * down).into_par_iter().map(|square| {
-            let (x, y) = (square % across * SIDE, square / across * SIDE);
+            let x = square % across * SIDE;
+            let y = square / across * SIDE;
             let rows = y..height.min(y + SIDE);
             range(rows.flat_map(|y| depth.row(y, x, SIDE.min(width - x)).iter().copied()))
         });
@@ -112,11 +116,16 @@ mod tests {
 
     /// Depths of a picture with bare corners, each pixel different.
     fn depths(width: usize, height: usize) -> Field<f32> {
-        let depth = |i: usize| match (i % width, i / width) {
-            (x, y) if x + y < 20 => 1.0,
-            _ => 0.2 + 0.6 * ((i * 7919) % 1009) as f32 / 1009.0,
-        };
-        Field::from_values(width, height, (0..width * height).map(depth).collect())
+        Field::from_values(
+            width,
+            height,
+            (0..width * height)
+                .map(|i: usize| match (i % width, i / width) {
+                    (x, y) if x + y < 20 => 1.0,
+                    _ => 0.2 + 0.6 * ((i * 7919) % 1009) as f32 / 1009.0,
+                })
+                .collect(),
+        )
     }
 
     #[test]
@@ -128,13 +137,16 @@ mod tests {
                 let at = |k: usize, size: usize| {
                     ((i * k) % 97) as f32 / 97.0 * (size as f32 + 40.0) - 20.0
                 };
-                let (x, y) = (at(31, width), at(17, height));
-                let (right, bottom) = (x + at(13, 60).abs(), y + at(41, 60).abs());
+                let x = at(31, width);
+                let y = at(17, height);
+                let right = x + at(13, 60).abs();
+                let bottom = y + at(41, 60).abs();
                 let found = tiles.farthest([x, right], [y, bottom]);
                 // All pixels that the limits touch, and those of the squares around them.
                 let within = |around: f32| {
                     let seen = (0..width * height).filter(|i| {
-                        let (column, row) = ((i % width) as f32, (i / width) as f32);
+                        let column = (i % width) as f32;
+                        let row = (i / width) as f32;
                         column + 1.0 > x - around
                             && column <= right + around
                             && row + 1.0 > y - around

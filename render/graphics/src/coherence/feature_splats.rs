@@ -15,7 +15,8 @@ impl Features {
     #[must_use]
     pub fn splats(&self, projection: &Projection, noise: FeatureNoise) -> Vec<Splat> {
         let octaves = Octaves::new(noise);
-        let (end, margin_px) = (octaves.end(), octaves.largest_px());
+        let end = octaves.end();
+        let margin_px = octaves.largest_px();
         let in_sight = InSight::new(projection, Density::Screen, end, margin_px);
         self.selected(&in_sight, |feature, splats| {
             splats.extend(projected(projection, &octaves, feature).into_iter().flatten());
@@ -54,7 +55,8 @@ impl Features {
         surfaces: &DepthTiles,
     ) -> Vec<Splat> {
         let octaves = Octaves::new(noise);
-        let (end, margin_px) = (octaves.end(), octaves.largest_px());
+        let end = octaves.end();
+        let margin_px = octaves.largest_px();
         let in_sight = InSight::new(projection, Density::Screen, end, margin_px);
         self.selected(&in_sight.before(surfaces, &octaves), |feature, splats| {
             let drawn = projected(projection, &octaves, feature).into_iter().flatten();
@@ -85,11 +87,13 @@ fn projected(
         return None;
     }
     let [slope_x, slope_y] = projection.slope(feature.normal, towards);
-    let (size, sign) = ([projection.width, projection.height], sign(feature));
+    let size = [projection.width, projection.height];
+    let sign = sign(feature);
     let near = |at: f32, size: usize, r: f32| at > -r && at < size as f32 + r;
     let seen = move |radius: f32| near(at.x, size[0], radius) && near(at.y, size[1], radius);
     let parts = octaves.parts(rank).filter(move |[radius, _]| seen(*radius));
-    let (scale, away) = (projection.depth_scale(), projection.focal_px * at.distance);
+    let scale = projection.depth_scale();
+    let away = projection.focal_px * at.distance;
     Some(parts.map(move |[radius, amplitude]| Splat {
         x: at.x,
         y: at.y,
@@ -170,7 +174,8 @@ mod tests {
                 near: 0.05,
                 far: 8.0,
             };
-            let (width, height) = (203, 150);
+            let width = 203;
+            let height = 150;
             let projection = Projection::new(&camera, width, height);
             let depth = depth_field(&visible(&mesh, &camera, width, height));
             let surfaces = DepthTiles::new(&depth);

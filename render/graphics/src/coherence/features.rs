@@ -142,7 +142,9 @@ impl Features {
                 priority,
             });
         }
-        let (mut subtrees, mut above, mut patch) = (Vec::new(), Vec::new(), 0);
+        let mut subtrees = Vec::new();
+        let mut above = Vec::new();
+        let mut patch = 0;
         while patch < patches.len() {
             let small = patches[patch].end - patch <= SUBTREE_PATCHES;
             if small { &mut subtrees } else { &mut above }.push(patch);

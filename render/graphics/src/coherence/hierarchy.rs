@@ -140,7 +140,8 @@ impl Hierarchy {
     /// A uniformly distributed point of a patch, and the face it is on.
     pub(super) fn point_on(&self, patch: usize, seed: Seed) -> (Vec3, &Face) {
         let faces = &self.patches[patch].faces;
-        let (low, high) = (self.area_before[faces.start], self.area_before[faces.end]);
+        let low = self.area_before[faces.start];
+        let high = self.area_before[faces.end];
         let wanted = low + (high - low) * f64::from(seed.unit(0));
         let inside = &self.area_before[faces.start + 1..faces.end];
         let face = &self.faces[faces.start + inside.partition_point(|&area| area <= wanted)];
@@ -155,13 +156,14 @@ fn halve(faces: &mut [Face], area: f64, radius: f32) -> usize {
         0..3 => face.center()[axis],
         _ => face.normal[axis - 3] * radius * FACING,
     };
-    let spread = |axis: usize| {
+    let spreads = [0, 1, 2, 3, 4, 5].map(|axis: usize| {
         let mean =
             faces.iter().map(|face| face.area * f64::from(value(face, axis))).sum::<f64>() / area;
-        let error = |face: &Face| face.area * (f64::from(value(face, axis)) - mean).powi(2);
-        faces.iter().map(error).sum::<f64>()
-    };
-    let spreads = [0, 1, 2, 3, 4, 5].map(spread);
+        faces
+            .iter()
+            .map(|face: &Face| face.area * (f64::from(value(face, axis)) - mean).powi(2))
+            .sum::<f64>()
+    });
     let axis = (0..6).max_by(|&a, &b| spreads[a].total_cmp(&spreads[b])).unwrap_or(0);
     faces.sort_by(|a, b| value(a, axis).total_cmp(&value(b, axis)).then(a.number.cmp(&b.number)));
     let mut before = 0.0;
@@ -205,8 +207,10 @@ mod tests {
         let mut count = 0;
         for patch in small {
             let faces = &hierarchy.faces[patch.faces.clone()];
-            let dot = |face: &Face| face.normal.dot(faces[0].normal);
-            let least = faces.iter().map(dot).fold(1.0, f32::min);
+            let least = faces
+                .iter()
+                .map(|face: &Face| face.normal.dot(faces[0].normal))
+                .fold(1.0, f32::min);
             assert!(least > 0.7, "{least}");
             // The radius of a disc of the same area.
             let round = (patch.area / std::f64::consts::PI).sqrt() as f32;

@@ -7,33 +7,19 @@
 //! work pixel by pixel.
 
 mod projection;
-
 mod depths;
-
 mod depth_tiles;
-
 mod random;
-
 mod hierarchy;
-
 mod octaves;
-
 mod splat;
-
 mod features;
-
 mod selection;
-
 mod feature_splats;
-
 mod seen;
-
 mod repeating_noise;
-
 mod particles;
-
 mod anchored;
-
 mod popping;
 
 pub use anchored::{ANCHOR_TEXTURES, draw_anchored};

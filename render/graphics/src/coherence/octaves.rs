@@ -76,7 +76,8 @@ impl Octaves {
     fn features(&self, octave: usize) -> f32 {
         const STEPS: usize = 400;
         let share = |level: f32| self.share(octave, level).powi(2);
-        let (low, high) = (-6.0, self.each.len() as f32 + 1.0);
+        let low = -6.0;
+        let high = self.each.len() as f32 + 1.0;
         let step = (high - low) / STEPS as f32;
         let levels = (0..STEPS).map(|i| low + (i as f32 + 0.5) * step);
         let above: f32 = levels.map(|level| share(level) * 4.0f32.powf(level)).sum();

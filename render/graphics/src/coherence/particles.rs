@@ -103,7 +103,8 @@ impl Particles {
         if hierarchy.faces.is_empty() {
             return Self { positions: vec![Vec3::ZERO], spacing_squared: 1.0 };
         }
-        let (center, half) = ((low + high) / 2.0, (high - low) / 2.0);
+        let center = (low + high) / 2.0;
+        let half = (high - low) / 2.0;
         let sides = [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
         let mut positions: Vec<Vec3> =
             sides.iter().take(count.max(1)).map(|side| center + *side * half).collect();
@@ -154,7 +155,8 @@ impl Particles {
         let anchor = |(number, &position): (usize, &Vec3)| {
             let at = projection.project_clamped(position);
             let zoom = (projection.focal_px / at.distance * self.spacing_squared.sqrt()).log2();
-            let (whole, part) = (zoom.floor(), zoom - zoom.floor());
+            let whole = zoom.floor();
+            let part = zoom - zoom.floor();
             let near = projection.camera.near;
             let presence = ((at.along - near) / near).clamp(1e-3, 1.0);
             let mut anchor = Anchor {
@@ -245,7 +247,8 @@ mod tests {
         };
         for step in 0..2000 {
             let distance = 2.0 + 0.01 * step as f32;
-            let (before, after) = (shown(at(distance)), shown(at(distance * 1.0005)));
+            let before = shown(at(distance));
+            let after = shown(at(distance * 1.0005));
             let squares: f32 = before.iter().map(|octave| octave.2 * octave.2).sum();
             assert!((squares - 1.0).abs() < 1e-3, "{squares}");
             for (right, texels, weight) in before {

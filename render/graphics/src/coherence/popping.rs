@@ -82,13 +82,16 @@ fn noise_before(
     depth: f32,
 ) -> Option<f32> {
     let at = before.projection.project(projection.unproject(pixel, depth))?;
-    let (left, top) = ((at.x - 0.5).floor(), (at.y - 0.5).floor());
+    let left = (at.x - 0.5).floor();
+    let top = (at.y - 0.5).floor();
     let inside = |at: f32, size: usize| at >= 0.0 && at < size as f32 - 1.0;
     if !inside(left, before.projection.width) || !inside(top, before.projection.height) {
         return None;
     }
-    let (x, y) = (left as usize, top as usize);
-    let (right, down) = (at.x - 0.5 - left, at.y - 0.5 - top);
+    let x = left as usize;
+    let y = top as usize;
+    let right = at.x - 0.5 - left;
+    let down = at.y - 0.5 - top;
     let mix = |field: &Field<f32>| {
         let row = |y| field[(x, y)] * (1.0 - right) + field[(x + 1, y)] * right;
         row(y) * (1.0 - down) + row(y + 1) * down

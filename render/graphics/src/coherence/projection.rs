@@ -148,7 +148,8 @@ impl Projection {
         let [right, up] = self.axes;
         let forward = up.cross(right);
         let away = direction.dot(forward);
-        let (from_x, from_y) = (x - self.width as f32 / 2.0, y - self.height as f32 / 2.0);
+        let from_x = x - self.width as f32 / 2.0;
+        let from_y = y - self.height as f32 / 2.0;
         let [x, y] = [direction.dot(right), -direction.dot(up)];
         [
             (self.focal_px * x - from_x * away) / distance,

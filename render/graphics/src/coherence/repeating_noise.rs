@@ -31,20 +31,27 @@ pub fn repeating_noise(wave_texels: usize, seed: u64) -> Field<f32> {
     };
     let splines: Vec<[f32; 4]> = (0..step).map(|i| spline(i as f32 / step as f32)).collect();
     let rows = (0..SIDE).into_par_iter().flat_map_iter(|y| {
-        let (j, down) = (y / step, &splines[y % step]);
+        let j = y / step;
+        let down = &splines[y % step];
         let column = |i: usize| -> f32 { (0..4).map(|k| down[k] * value(i, j + k)).sum() };
         let columns: Vec<f32> = (0..nodes + 3).map(column).collect();
         let splines = &splines;
         (0..SIDE).map(move |x| {
-            let (i, right) = (x / step, &splines[x % step]);
+            let i = x / step;
+            let right = &splines[x % step];
             (0..4).map(|k| right[k] * columns[i + k]).sum::<f32>()
         })
     });
     let mut texture = Field::from_values(SIDE, SIDE, rows.collect());
     let count = (SIDE * SIDE) as f64;
     let mean = texture.values().iter().map(|&value| f64::from(value)).sum::<f64>() / count;
-    let square = |&value: &f32| (f64::from(value) - mean).powi(2);
-    let spread = (texture.values().iter().map(square).sum::<f64>() / count).sqrt();
+    let spread = (texture
+        .values()
+        .iter()
+        .map(|&value: &f32| (f64::from(value) - mean).powi(2))
+        .sum::<f64>()
+        / count)
+        .sqrt();
     let gain = f64::from(SPREAD) / spread;
     for value in texture.values_mut() {
         *value = (0.5 + (f64::from(*value) - mean) * gain) as f32;

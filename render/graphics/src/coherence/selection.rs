@@ -279,7 +279,9 @@ mod tests {
             near: 0.01,
             ..Camera::framing(mesh.bounds(), 0.0, 0.0, 40.0)
         };
-        let (size, margin_px, end) = ([160, 120], 6.0, 0.02);
+        let size = [160, 120];
+        let margin_px = 6.0;
+        let end = 0.02;
         let projection = Projection::new(&camera, size[0], size[1]);
         for density in [Density::Screen, Density::Facing, Density::Surface { px_per_unit: 90.0 }] {
             let reaches = |position: Vec3| {

@@ -87,10 +87,12 @@ impl Splat {
         let radius = 1.0 / self.narrowness;
         // Where it and the pixels of the square overlap, to both sides of its centre.
         let overlap = |first: usize, at: f32| {
-            let (low, high) = (first as f32 + 0.5 - at, (first + SIDE) as f32 - 0.5 - at);
+            let low = first as f32 + 0.5 - at;
+            let high = (first + SIDE) as f32 - 0.5 - at;
             [low.max(-radius), high.min(radius)]
         };
-        let ([left, right], [above, below]) = (overlap(column, self.x), overlap(row, self.y));
+        let [left, right] = overlap(column, self.x);
+        let [above, below] = overlap(row, self.y);
         if left > right || above > below {
             return false;
         }
@@ -132,7 +134,8 @@ impl Lists {
         for place in 0..places {
             starts[place + 1] += starts[place];
         }
-        let (mut next, mut splats) = (starts.clone(), vec![0; pairs.len()]);
+        let mut next = starts.clone();
+        let mut splats = vec![0; pairs.len()];
         for [place, splat] in pairs {
             let next = &mut next[*place as usize];
             splats[*next as usize] = *splat;
@@ -211,7 +214,8 @@ pub(super) fn draw_splats_on_tiles(
     surfaces: &DepthTiles,
     splats: &[Splat],
 ) -> Field<f32> {
-    let (width, height) = (depth.width(), depth.height());
+    let width = depth.width();
+    let height = depth.height();
     let mut sums = Field::filled(width, height, 0.5);
     let bands = Bands::new(width, height, splats);
     let rows = sums.values_mut().par_chunks_mut((SIDE * width).max(1)).enumerate();
@@ -222,7 +226,8 @@ pub(super) fn draw_splats_on_tiles(
             if list.is_empty() {
                 continue;
             }
-            let (x, y) = (square * SIDE, band * SIDE);
+            let x = square * SIDE;
+            let y = band * SIDE;
             let columns = SIDE.min(width - x);
             let mut depths = [[1.0; SIDE]; SIDE];
             for (row, depths) in depths.iter_mut().enumerate().take(height - y) {
@@ -260,7 +265,8 @@ impl pulp::WithSimd for Gather<'_> {
         let Self { list, splats, first, depths, sum } = self;
         for &index in list {
             let splat = splats[index as usize];
-            let (left, above) = (first[0] - splat.x, first[1] - splat.y);
+            let left = first[0] - splat.x;
+            let above = first[1] - splat.y;
             for ((down, sums), depths) in PLACES.iter().zip(sum.iter_mut()).zip(depths) {
                 let down = above + down;
                 let squared = down * down * splat.narrowness * splat.narrowness;

@@ -17,9 +17,7 @@
 //! ```
 
 mod plane;
-
 mod image;
-
 mod gpu_compute;
 
 pub use gpu_compute::GpuCompute;

@@ -47,7 +47,8 @@ impl<'a, W: Write> Gif<'a, W> {
         let mut encoder =
             gif::Encoder::new(to, width as u16, height as u16, &colors).map_err(failed)?;
         encoder.set_repeat(gif::Repeat::Infinite).map_err(failed)?;
-        let (shown, written) = (Vec::new(), vec![0; width * height]);
+        let shown = Vec::new();
+        let written = vec![0; width * height];
         Ok(Self { encoder, rate, table, size: [width, height], elapsed: 0, shown, written })
     }
 
@@ -233,14 +234,20 @@ mod tests {
 
     /// A red square that moves over white paper.
     fn frames() -> Vec<Frame> {
-        let frame = |at: usize| {
-            let pixel = |i: usize| match (i % 8).abs_diff(at) < 2 && i / 8 < 4 {
-                true => [180, 20, 30],
-                false => [250, 248, 240 + (i % 3) as u8],
-            };
-            Field::from_values(8, 6, (0..48).map(pixel).collect())
-        };
-        (0..5).map(frame).collect()
+        (0..5)
+            .map(|at: usize| {
+                Field::from_values(
+                    8,
+                    6,
+                    (0..48)
+                        .map(|i: usize| match (i % 8).abs_diff(at) < 2 && i / 8 < 4 {
+                            true => [180, 20, 30],
+                            false => [250, 248, 240 + (i % 3) as u8],
+                        })
+                        .collect(),
+                )
+            })
+            .collect()
     }
 
     fn check(decoded: Vec<image::Frame>, tolerance: u8) {

@@ -36,7 +36,8 @@ impl CompressedFrame {
     #[must_use]
     pub fn from_png(bytes: &[u8]) -> Option<Self> {
         let mut rest = bytes.strip_prefix(&SIGNATURE)?;
-        let (mut size, mut zlib) = (None, Vec::new());
+        let mut size = None;
+        let mut zlib = Vec::new();
         loop {
             let (name, content);
             (name, content, rest) = chunk(rest)?;

@@ -37,12 +37,18 @@ pub fn exr_parts(
     cell_mm: f64,
     parts: Vec<ExrPart>,
 ) -> Result<Vec<u8>, ExportError> {
-    let named = |(name, channels): ExrPart| {
-        let channels = channels.into_iter();
-        let channels = channels.map(|(name, values)| (name, FlatSamples::F32(values)));
-        (LayerAttributes::named(name.as_str()), channels.collect())
-    };
-    encoded(size, cell_mm, parts.into_iter().map(named).collect())
+    encoded(
+        size,
+        cell_mm,
+        parts
+            .into_iter()
+            .map(|(name, channels): ExrPart| {
+                let channels = channels.into_iter();
+                let channels = channels.map(|(name, values)| (name, FlatSamples::F32(values)));
+                (LayerAttributes::named(name.as_str()), channels.collect())
+            })
+            .collect(),
+    )
 }
 
 fn encoded(
@@ -52,15 +58,17 @@ fn encoded(
 ) -> Result<Vec<u8>, ExportError> {
     check_size(width, height)?;
     check_cell(cell_mm)?;
-    let layer = |(attributes, channels): (LayerAttributes, Vec<(String, FlatSamples)>)| {
-        let channels =
-            channels.into_iter().map(|(name, samples)| AnyChannel::new(name.as_str(), samples));
-        let attributes =
-            LayerAttributes { horizontal_density: Some((25.4 / cell_mm) as f32), ..attributes };
-        let channels = AnyChannels::sort(channels.collect());
-        Layer::new((width, height), attributes, Encoding::SMALL_LOSSLESS, channels)
-    };
-    let layers: Layers<_> = parts.into_iter().map(layer).collect();
+    let layers: Layers<_> = parts
+        .into_iter()
+        .map(|(attributes, channels): (LayerAttributes, Vec<(String, FlatSamples)>)| {
+            let channels =
+                channels.into_iter().map(|(name, samples)| AnyChannel::new(name.as_str(), samples));
+            let attributes =
+                LayerAttributes { horizontal_density: Some((25.4 / cell_mm) as f32), ..attributes };
+            let channels = AnyChannels::sort(channels.collect());
+            Layer::new((width, height), attributes, Encoding::SMALL_LOSSLESS, channels)
+        })
+        .collect();
     let window = IntegerBounds::from_dimensions((width, height));
     let mut attributes = ImageAttributes::new(window);
     attributes.chromaticities = Some(chromaticities());

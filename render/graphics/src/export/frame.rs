@@ -120,8 +120,9 @@ impl FrameRate {
 /// Converts encoded sRGB in 0..1 to a frame; the fourth value is ignored.
 #[must_use]
 pub fn frame_of(picture: &Field<[f32; 4]>) -> Frame {
-    let byte = |value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8;
-    let pixels = picture.values().par_iter().map(|&[r, g, b, _]| [r, g, b].map(byte));
+    let pixels = picture.values().par_iter().map(|&[r, g, b, _]| {
+        [r, g, b].map(|value: f32| (value.clamp(0.0, 1.0) * 255.0).round() as u8)
+    });
     Field::from_values(picture.width(), picture.height(), pixels.collect())
 }
 
@@ -157,7 +158,8 @@ pub fn read_frame(file: impl BufRead + Seek) -> Result<Frame, FrameError> {
     if kind != (ColorType::Rgb, BitDepth::Eight) {
         return Err(broken(format!("expected 8 bits of red, green and blue, found `{kind:?}`")));
     }
-    let (width, height) = (reader.info().width as usize, reader.info().height as usize);
+    let width = reader.info().width as usize;
+    let height = reader.info().height as usize;
     let bytes = reader.output_buffer_size().ok_or_else(|| broken("it is too large".to_owned()))?;
     let mut samples = vec![0; bytes];
     reader.next_frame(&mut samples).map_err(|error| broken(error.to_string()))?;

@@ -43,7 +43,8 @@ pub fn rgb_channels(picture: &Field<[f32; 4]>) -> Result<Vec<(String, FlatSample
     if let Some((index, found)) =
         values.iter().enumerate().find_map(|(index, rgb)| Some((index, not_finite(rgb)?)))
     {
-        let (x, y) = (index % picture.width(), index / picture.width());
+        let x = index % picture.width();
+        let y = index / picture.width();
         return Err(ExportError::NotFinite { what: "the colour".into(), x, y, found });
     }
     let channel =

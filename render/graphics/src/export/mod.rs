@@ -5,37 +5,21 @@
 //! caller writes the files. Only [`Sequence`] works on a folder.
 
 mod error;
-
 mod exr_part;
-
 mod linear_exr;
-
 mod srgb_samples;
-
 mod reduced;
-
 mod png;
-
 mod tiff16;
-
 mod open_raster;
-
 mod ply;
-
 mod picture_file;
-
 mod frame;
-
 mod compressed;
-
 mod color_table;
-
 mod animation;
-
 mod sequence_error;
-
 mod sequence;
-
 mod animation_file;
 
 pub use animation::{Apng, Gif};

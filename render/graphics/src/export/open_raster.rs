@@ -104,7 +104,8 @@ impl OpenRaster {
 
     /// Content of `stack.xml`.
     fn stack(&self) -> std::io::Result<Vec<u8>> {
-        let (width, height) = (self.size.0.to_string(), self.size.1.to_string());
+        let width = self.size.0.to_string();
+        let height = self.size.1.to_string();
         let per_inch = (25.4 / self.cell_mm).round().max(1.0).to_string();
         let mut xml = Writer::new_with_indent(Vec::new(), b' ', 1);
         xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
@@ -191,7 +192,8 @@ mod tests {
         ];
         assert_eq!(names, wanted);
         let text = String::from_utf8(entry(&mut archive, "stack.xml")).unwrap();
-        let (upper, lower) = (text.find("layer001").unwrap(), text.find("layer000").unwrap());
+        let upper = text.find("layer001").unwrap();
+        let lower = text.find("layer000").unwrap();
         assert!(upper < lower, "the uppermost comes first: {text}");
         assert!(text.contains("w=\"400\" h=\"2\" xres=\"254\" yres=\"254\""), "{text}");
         assert!(text.contains("Red &amp; &quot;blue&quot; &lt;1&gt;"), "{text}");

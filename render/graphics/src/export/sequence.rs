@@ -78,8 +78,9 @@ impl Sequence {
                 sequence.write_manifest()?;
             }
         }
-        let missing = |index: &usize| !sequence.is_complete(*index);
-        sequence.remaining = (0..sequence.settings.frames).filter(missing).collect();
+        sequence.remaining = (0..sequence.settings.frames)
+            .filter(|index: &usize| !sequence.is_complete(*index))
+            .collect();
         Ok(sequence)
     }
 
@@ -121,8 +122,10 @@ impl Sequence {
     ) -> Result<(), E> {
         let mut made: Option<(usize, Frame)> = None;
         for index in self.remaining.clone() {
-            let (mut written, before) = (Ok(()), made.take());
-            let (sequence, result) = (&mut *self, &mut written);
+            let mut written = Ok(());
+            let before = made.take();
+            let sequence = &mut *self;
+            let result = &mut written;
             let next = rayon::in_place_scope(|scope| {
                 if let Some((index, frame)) = before {
                     scope.spawn(move |_| *result = sequence.write_frame(index, &frame));
@@ -161,8 +164,8 @@ impl Sequence {
         (0..self.settings.frames).map(|index| {
             let path = self.path(index);
             let bytes = fs::read(&path).map_err(at(&path))?;
-            let unpacked = || CompressedFrame::new(&read_frame(Cursor::new(&bytes))?);
-            let frame = CompressedFrame::from_png(&bytes).map_or_else(unpacked, Ok);
+            let frame = CompressedFrame::from_png(&bytes)
+                .map_or_else(|| CompressedFrame::new(&read_frame(Cursor::new(&bytes))?), Ok);
             frame.map_err(|source| SequenceError::Frame { path, source })
         })
     }
@@ -281,7 +284,8 @@ mod tests {
     #[test]
     fn a_removed_sequence_leaves_what_is_not_its_own() {
         let folder = tempfile::tempdir().unwrap();
-        let (empty, shared) = (folder.path().join("empty"), folder.path().join("shared"));
+        let empty = folder.path().join("empty");
+        let shared = folder.path().join("shared");
         for path in [&empty, &shared] {
             let mut sequence = Sequence::open(path, settings("a")).unwrap();
             sequence.write_frame(1, &frame(3)).unwrap();

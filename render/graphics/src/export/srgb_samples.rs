@@ -46,7 +46,8 @@ pub(super) fn encoded<T: Send>(
 ) -> Result<(Field<T>, usize), ExportError> {
     let width = picture.width();
     let rows = (0..picture.height()).into_par_iter().map(|y| {
-        let (mut pixels, mut outside) = (Vec::with_capacity(width), 0);
+        let mut pixels = Vec::with_capacity(width);
+        let mut outside = 0;
         for (x, &[r, g, b, _]) in picture.row(y, 0, width).iter().enumerate() {
             if let Some(&found) = [r, g, b].iter().find(|value| !value.is_finite()) {
                 return Err(ExportError::NotFinite { what: "the colour".into(), x, y, found });
@@ -59,7 +60,8 @@ pub(super) fn encoded<T: Send>(
         Ok((pixels, outside))
     });
     let rows: Vec<_> = rows.collect();
-    let (mut all, mut outside) = (Vec::with_capacity(picture.values().len()), 0);
+    let mut all = Vec::with_capacity(picture.values().len());
+    let mut outside = 0;
     for row in rows {
         let (pixels, more) = row?;
         all.extend(pixels);

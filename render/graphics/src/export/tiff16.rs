@@ -39,7 +39,8 @@ pub fn tiff16(picture: &Field<[f32; 4]>, cell_mm: f64) -> Result<Tiff, ExportErr
         let mut encoder = TiffEncoder::new(&mut bytes)?
             .with_compression(Compression::Deflate(DeflateLevel::Balanced))
             .with_predictor(Predictor::Horizontal);
-        let (width, height) = (pixels.width() as u32, pixels.height() as u32);
+        let width = pixels.width() as u32;
+        let height = pixels.height() as u32;
         let mut image = encoder.new_image::<RGB16>(width, height)?;
         image.resolution(ResolutionUnit::Inch, per_inch);
         image.encoder().write_tag(Tag::IccProfile, &profile[..])?;
@@ -74,8 +75,11 @@ mod tests {
     use super::*;
 
     fn picture() -> Field<[f32; 4]> {
-        let pixel = |i: usize| [i as f32 / 11.0, 0.25, 1.0 - i as f32 / 11.0, 1.0];
-        Field::from_values(4, 3, (0..12).map(pixel).collect())
+        Field::from_values(
+            4,
+            3,
+            (0..12).map(|i: usize| [i as f32 / 11.0, 0.25, 1.0 - i as f32 / 11.0, 1.0]).collect(),
+        )
     }
 
     #[test]

@@ -75,7 +75,8 @@ pub struct Adapter {
 
 impl Adapter {
     fn new(inner: wgpu::Adapter) -> Self {
-        let (info, found) = (inner.get_info(), inner.limits());
+        let info = inner.get_info();
+        let found = inner.limits();
         let limits = Limits {
             binding_bytes: found.max_storage_buffer_binding_size.min(found.max_buffer_size),
             groups: found.max_compute_workgroups_per_dimension,
@@ -144,15 +145,14 @@ pub fn adapters() -> Vec<Adapter> {
 /// The adapter of `adapters` that `choice` selects. `None` means the processor.
 #[must_use]
 pub fn best(adapters: &[Adapter], choice: BackendChoice) -> Option<&Adapter> {
-    let fits = |adapter: &&Adapter| {
+    adapters.iter().find(|adapter: &&Adapter| {
         adapter.unfit.is_none()
             && match choice {
                 BackendChoice::Auto => adapter.is_hardware(),
                 BackendChoice::Cpu => false,
                 BackendChoice::Gpu => true,
             }
-    };
-    adapters.iter().find(fits)
+    })
 }
 
 #[cfg(test)]

@@ -78,7 +78,8 @@ impl Device {
             reason: format!("{}: {error}", adapter.name),
         })?;
         let reported = Arc::new(Mutex::new(Reported::default()));
-        let (for_loss, for_errors) = (Arc::clone(&reported), Arc::clone(&reported));
+        let for_loss = Arc::clone(&reported);
+        let for_errors = Arc::clone(&reported);
         inner.set_device_lost_callback(move |_, reason| {
             let mut reported = for_loss.lock().unwrap_or_else(PoisonError::into_inner);
             reported.lost.get_or_insert(reason);

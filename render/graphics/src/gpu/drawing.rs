@@ -20,9 +20,10 @@ impl Device {
         if self.raster_pipelines.contains_key(&(shader.name, front_only)) {
             return Ok(());
         }
-        let what = || format!("raster shader `{}`", shader.name);
-        let compile = |device: &wgpu::Device| RasterPipeline::compile(device, shader, front_only);
-        let pipeline = self.compile(what, compile)?;
+        let pipeline = self.compile(
+            || format!("raster shader `{}`", shader.name),
+            |device: &wgpu::Device| RasterPipeline::compile(device, shader, front_only),
+        )?;
         self.check(shader.name)?;
         self.raster_pipelines.insert((shader.name, front_only), pipeline);
         Ok(())

@@ -5,43 +5,24 @@
 //! and 32-bit numbers. Buffers may be as large as the adapter allows.
 
 mod error;
-
 mod layout;
-
 mod kernel;
-
 mod raster;
-
 mod stencil;
-
 mod binding;
-
 mod pipeline;
-
 mod raster_pipeline;
-
 mod stencil_pipeline;
-
 mod rows;
-
 mod adapter;
-
 mod device;
-
 mod choose;
-
 mod target;
-
 mod stencil_target;
-
 mod recording;
-
 mod transfer;
-
 mod drawing;
-
 mod stencil_drawing;
-
 mod submission;
 
 pub use adapter::{Adapter, BackendChoice, Kind, Limits, adapters, best};

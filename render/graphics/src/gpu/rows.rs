@@ -39,7 +39,8 @@ impl Rows {
     /// Offset and length in bytes of each piece to transfer, for values of `bytes` each. Rows
     /// longer than [`CHUNK`] are cut into several pieces.
     pub(super) fn pieces(self, bytes: usize) -> impl Iterator<Item = (u64, u64)> {
-        let (row, stride) = ((self.length * bytes) as u64, (self.stride * bytes) as u64);
+        let row = (self.length * bytes) as u64;
+        let stride = (self.stride * bytes) as u64;
         let first = (self.first * bytes) as u64;
         (0..self.count as u64).flat_map(move |y| {
             let cuts = (0..row.div_ceil(CHUNK)).map(|cut| cut * CHUNK);

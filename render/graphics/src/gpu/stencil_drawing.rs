@@ -20,8 +20,10 @@ impl Device {
         if self.stencil_pipelines.contains_key(shader.name) {
             return Ok(());
         }
-        let what = || format!("stencil shader `{}`", shader.name);
-        let pipeline = self.compile(what, |device| StencilPipeline::compile(device, shader))?;
+        let pipeline = self.compile(
+            || format!("stencil shader `{}`", shader.name),
+            |device| StencilPipeline::compile(device, shader),
+        )?;
         self.check(shader.name)?;
         self.stencil_pipelines.insert(shader.name, pipeline);
         Ok(())
@@ -38,8 +40,10 @@ impl Device {
         if self.scatter_pipelines.contains_key(shader.name) {
             return Ok(());
         }
-        let what = || format!("shader `{}`", shader.name);
-        let pipeline = self.compile(what, |device| ScatterPipeline::compile(device, shader))?;
+        let pipeline = self.compile(
+            || format!("shader `{}`", shader.name),
+            |device| ScatterPipeline::compile(device, shader),
+        )?;
         self.check(shader.name)?;
         self.scatter_pipelines.insert(shader.name, pipeline);
         Ok(())
@@ -137,7 +141,8 @@ fn copy_stencil(encoder: &mut wgpu::CommandEncoder, target: &StencilTarget) {
         rows_per_image: None,
     };
     let to = wgpu::TexelCopyBufferInfo { buffer: &target.rows().inner, layout };
-    let (width, height) = (target.width, target.height);
+    let width = target.width;
+    let height = target.height;
     let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
     encoder.copy_texture_to_buffer(from, to, size);
 }

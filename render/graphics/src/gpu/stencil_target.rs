@@ -72,7 +72,8 @@ impl Device {
             let reason = "this adapter has no stencil that can be read back".to_owned();
             return Err(DeviceError::Refused { what: what(), reason });
         }
-        let (width, height) = (width as u32, height as u32);
+        let width = width as u32;
+        let height = height as u32;
         let bytes = u64::from(row_bytes(width)) * u64::from(height);
         let rows = self.buffer("rows of a stencil", bytes)?;
         let filters = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory];

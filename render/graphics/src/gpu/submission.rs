@@ -23,8 +23,10 @@ impl Device {
         if self.pipelines.contains_key(kernel.name) {
             return Ok(());
         }
-        let what = || format!("kernel `{}`", kernel.name);
-        let pipeline = self.compile(what, |device| Pipeline::compile(device, kernel))?;
+        let pipeline = self.compile(
+            || format!("kernel `{}`", kernel.name),
+            |device| Pipeline::compile(device, kernel),
+        )?;
         self.check(kernel.name)?;
         self.pipelines.insert(kernel.name, pipeline);
         Ok(())

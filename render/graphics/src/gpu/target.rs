@@ -38,7 +38,8 @@ impl Device {
         }
         let filters = [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory];
         let scopes = filters.map(|filter| self.inner.push_error_scope(filter));
-        let (width, height) = (width as u32, height as u32);
+        let width = width as u32;
+        let height = height as u32;
         let texture = |label, format, usage| {
             self.inner.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),

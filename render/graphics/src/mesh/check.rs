@@ -117,7 +117,9 @@ impl Mesh {
                 return Err(MeshFault::Color { material: index, found: material.color });
             }
             let Some(texture) = &material.texture else { continue };
-            let (width, height, texels) = (texture.width, texture.height, texture.texels.len());
+            let width = texture.width;
+            let height = texture.height;
+            let texels = texture.texels.len();
             if texels == 0 || width as usize * height as usize != texels {
                 return Err(MeshFault::Texture { material: index, texels, width, height });
             }

@@ -163,7 +163,8 @@ mod tests {
     fn seams_do_not_show() {
         let whole = Mesh::torus_knot(3000);
         let apart = ragged(&whole);
-        let (whole_curvatures, apart_curvatures) = (whole.curvatures(2), apart.curvatures(2));
+        let whole_curvatures = whole.curvatures(2);
+        let apart_curvatures = apart.curvatures(2);
         let corners = whole.triangles.iter().flat_map(|triangle| triangle.corners);
         for (corner, apart) in corners.zip(&apart_curvatures) {
             assert_eq!(whole_curvatures[corner as usize], *apart, "vertex {corner}");

@@ -2,29 +2,17 @@
 //! glTF, PLY) and sample models made by code.
 
 mod model;
-
 mod weld;
-
 mod check;
-
 mod neighbours;
-
 mod closed_parts;
-
 mod normals;
-
 mod places;
-
 mod tangent_plane;
-
 mod shape_tensor;
-
 mod curvature;
-
 mod directions;
-
 mod file;
-
 mod shapes;
 
 #[cfg(test)]

@@ -41,8 +41,10 @@ impl Mesh {
             return self.normals.clone();
         }
         let (welded, count) = self.weld();
-        let place = |corner: u32| welded[corner as usize];
-        let triangles = self.triangles.iter().map(|triangle| triangle.corners.map(place));
+        let triangles = self
+            .triangles
+            .iter()
+            .map(|triangle| triangle.corners.map(|corner: u32| welded[corner as usize]));
         let neighbours = Neighbours::of_triangles(triangles, count);
         let mut normals = vec![Vec3::ZERO; count];
         for (&vertex, &normal) in welded.iter().zip(&self.normals) {

@@ -120,7 +120,8 @@ fn stiffness(triangles: &[[u32; 3]], positions: &[DVec3], neighbours: &Neighbour
         let at = corners.map(|corner| positions[corner as usize]);
         for i in 0..3 {
             let [next, last] = [(i + 1) % 3, (i + 2) % 3];
-            let (to_next, to_last) = (at[next] - at[i], at[last] - at[i]);
+            let to_next = at[next] - at[i];
+            let to_last = at[last] - at[i];
             let cotangent = to_next.dot(to_last) / to_next.cross(to_last).length();
             if !cotangent.is_finite() {
                 continue;

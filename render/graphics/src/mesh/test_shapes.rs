@@ -37,7 +37,8 @@ pub(super) fn cylinder(triangles: usize, radius: f32) -> Mesh {
 /// Ellipsoid with these half axes.
 pub(super) fn ellipsoid(triangles: usize, axes: Vec3) -> Mesh {
     surface(GridSize::for_triangles(triangles, 2.0), |uv| {
-        let (around, down) = (Vec2::from_angle(uv.x * TAU), Vec2::from_angle(uv.y * PI));
+        let around = Vec2::from_angle(uv.x * TAU);
+        let down = Vec2::from_angle(uv.y * PI);
         axes * Vec3::new(around.y * down.y, down.x, around.x * down.y)
     })
 }
@@ -52,7 +53,8 @@ pub(super) fn square(triangles: usize) -> Mesh {
 /// A round ridge along the diagonal x = y of that square.
 pub(super) fn ridge(triangles: usize, height: f32) -> Mesh {
     surface(GridSize::for_triangles(triangles, 1.0), |uv| {
-        let (x, y) = (2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.y);
+        let x = 2.0 * uv.x - 1.0;
+        let y = 1.0 - 2.0 * uv.y;
         let across = ((x - y) / 0.4).clamp(-1.0, 1.0);
         Vec3::new(x, y, height * (1.0 - across * across).powi(3))
     })

@@ -28,8 +28,8 @@ pub fn extremum(
     match compute {
         Compute::Cpu => {
             let (width, height) = color.size();
-            let fresh = || Field::filled(width, height, [0.0; 4]);
-            let mut result = spare.map_or_else(fresh, Image::into_host);
+            let mut result =
+                spare.map_or_else(|| Field::filled(width, height, [0.0; 4]), Image::into_host);
             extremum_into(color.host(), element, which, &mut result);
             Ok(result.into())
         }

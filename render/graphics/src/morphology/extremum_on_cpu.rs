@@ -23,7 +23,8 @@ pub(super) fn extremum_into(
     which: Extremum,
     result: &mut Field<[f32; 4]>,
 ) {
-    let (width, height) = (field.width(), field.height());
+    let width = field.width();
+    let height = field.height();
     let found = (result.width(), result.height());
     assert_eq!(found, (width, height), "the result must have the size of the picture");
     if width == 0 {

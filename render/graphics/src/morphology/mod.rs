@@ -11,11 +11,8 @@
 //! both forms of [`crate::compute::Compute`] agree bit for bit.
 
 mod structuring_element;
-
 mod extremum_on_cpu;
-
 mod extremum;
-
 mod operators;
 
 pub use extremum::{EXTREMUM, extremum};

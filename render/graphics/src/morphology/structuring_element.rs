@@ -108,8 +108,10 @@ mod tests {
         for radius in 1..=40u32 {
             let element = StructuringElement::round(radius);
             assert_eq!(element.reach(), radius);
-            let (reach, square) = (radius as i32, f64::from(radius).powi(2));
-            let (mut pixels, mut inside) = (0, 0);
+            let reach = radius as i32;
+            let square = f64::from(radius).powi(2);
+            let mut pixels = 0;
+            let mut inside = 0;
             for y in -reach..=reach {
                 for x in -reach..=reach {
                     pixels += i32::from(element.covers(x, y));
@@ -142,10 +144,12 @@ mod tests {
                     let own: Vec<_> = segment(crossing.along, crossing.reach_along)
                         .chain(segment(crossing.across, crossing.reach_across))
                         .collect();
-                    let moved = |&(x, y): &(i32, i32)| {
-                        own.clone().into_iter().map(move |(dx, dy)| (x + dx, y + dy))
-                    };
-                    points = points.iter().flat_map(moved).collect();
+                    points = points
+                        .iter()
+                        .flat_map(|&(x, y): &(i32, i32)| {
+                            own.clone().into_iter().map(move |(dx, dy)| (x + dx, y + dy))
+                        })
+                        .collect();
                 }
                 let area = (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| (x, y)));
                 let wanted = area.filter(|&(x, y)| element.covers(x, y)).collect();

@@ -30,7 +30,8 @@ const TILE: usize = 64;
 
 /// The mode of every pixel. `meeting` is usually [`MEETING`]; with 0 no path joins another.
 pub(super) fn modes(planes: &LuvPlanes, bandwidth: Bandwidth, meeting: f32) -> Field<Mode> {
-    let (width, height) = (planes.width, planes.height);
+    let width = planes.width;
+    let height = planes.height;
     let mut modes = Field::filled(width, height, Mode::default());
     let bands = modes.values_mut().par_chunks_mut(width * TILE).enumerate();
     bands.for_each(|(band, rows)| {
@@ -83,7 +84,8 @@ impl pulp::WithSimd for Tile<'_> {
         let mut of_pixels = Vec::with_capacity(width * height);
         let mut path: Vec<(usize, [f32; 3])> = Vec::new();
         for pixel in 0..width * height {
-            let (x, y) = (left + pixel % width, top + pixel / width);
+            let x = left + pixel % width;
+            let y = top + pixel / width;
             let mut at = Mode { x: x as f32, y: y as f32, color: planes.at(x, y) };
             let mut met = None;
             path.clear();
@@ -96,7 +98,8 @@ impl pulp::WithSimd for Tile<'_> {
                     break;
                 }
                 // Means of pixel positions are never below 0.
-                let (x, y) = ((at.x + 0.5) as usize, (at.y + 0.5) as usize);
+                let x = (at.x + 0.5) as usize;
+                let y = (at.y + 0.5) as usize;
                 let (Some(x), Some(y)) = (x.checked_sub(left), y.checked_sub(top)) else {
                     continue;
                 };
@@ -159,10 +162,14 @@ mod tests {
         let planes = planes();
         let walked = modes(&planes, BANDWIDTH, 0.0);
         let met = modes(&planes, BANDWIDTH, MEETING);
-        let apart = |(a, b): (&Mode, &Mode)| {
-            squared([0, 1, 2].map(|i| a.color[i] - b.color[i])).sqrt() / BANDWIDTH.range
-        };
-        let off: Vec<f32> = met.values().iter().zip(walked.values()).map(apart).collect();
+        let off: Vec<f32> = met
+            .values()
+            .iter()
+            .zip(walked.values())
+            .map(|(a, b): (&Mode, &Mode)| {
+                squared([0, 1, 2].map(|i| a.color[i] - b.color[i])).sqrt() / BANDWIDTH.range
+            })
+            .collect();
         let beyond = |limit: f32| off.iter().filter(|&&off| off > limit).count();
         let share = |limit: f32| beyond(limit) as f32 / off.len() as f32;
         assert!(share(0.5) < 0.01, "{}", share(0.5));
@@ -203,7 +210,8 @@ mod tests {
             let pixels: Vec<_> = case.bytes.chunks_exact(3).map(pixel).collect();
             let height = pixels.len() / case.width;
             let picture = Field::from_values(case.width, height, pixels);
-            let (spatial_px, range) = (case.spatial_radius_px, case.range_radius);
+            let spatial_px = case.spatial_radius_px;
+            let range = case.range_radius;
             let planes = LuvPlanes::new(&picture, spatial_px as usize + 17);
             let found = modes(&planes, Bandwidth { spatial_px, range }, 0.0);
             for (&pixel, wanted) in case.pixels.iter().zip(&case.modes) {

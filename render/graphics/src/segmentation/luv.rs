@@ -22,7 +22,8 @@ pub(super) struct LuvPlanes {
 impl LuvPlanes {
     /// Converts encoded sRGB with coverage, composited on white. `margin` is in cells.
     pub(super) fn new(picture: &Field<[f32; 4]>, margin: usize) -> Self {
-        let (width, height) = (picture.width(), picture.height());
+        let width = picture.width();
+        let height = picture.height();
         let stride = width + 2 * margin;
         let luv = LuvOfSrgb::new();
         let mut values = [(); 3].map(|()| vec![NOWHERE; stride * (height + 2 * margin)]);
@@ -81,7 +82,8 @@ impl LuvOfSrgb {
         let linear = rgb.map(|value| {
             let place = value.clamp(0.0, 1.0) * STEPS as f32;
             let step = place as usize;
-            let (low, high) = (self.linear[step], self.linear[step + 1]);
+            let low = self.linear[step];
+            let high = self.linear[step + 1];
             low + (place - step as f32) * (high - low)
         });
         let [x, y, z] =

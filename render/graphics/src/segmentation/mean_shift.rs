@@ -50,7 +50,8 @@ pub(super) fn step<S: Simd>(
     const LANES: [f32; MOST_LANES] =
         [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
     let lane = S::as_simd_f32s(&LANES).0[0];
-    let (zero, one) = (simd.splat_f32s(0.0), simd.splat_f32s(1.0));
+    let zero = simd.splat_f32s(0.0);
+    let one = simd.splat_f32s(1.0);
     let lanes = simd.splat_f32s(S::F32_LANES as f32);
     let [at_l, at_u, at_v] = at.color.map(|value| simd.splat_f32s(value));
     let most = simd.splat_f32s(range * range);
@@ -71,7 +72,8 @@ pub(super) fn step<S: Simd>(
         let [l, u, v] =
             [0, 1, 2].map(|plane| S::as_simd_f32s(&planes.values[plane][start..start + cells]).0);
         let mut dx = simd.add_f32s(lane, simd.splat_f32s(left - at.x));
-        let (half, dy) = (simd.splat_f32s(half), simd.splat_f32s(dy));
+        let half = simd.splat_f32s(half);
+        let dy = simd.splat_f32s(dy);
         for ((&l, &u), &v) in l.iter().zip(u).zip(v) {
             let l = simd.sub_f32s(l, at_l);
             let u = simd.sub_f32s(u, at_u);

@@ -6,19 +6,12 @@
 //! pixels with nearby modes form a region. Small regions are merged into a neighbour.
 
 mod luv;
-
 mod mean_shift;
-
 mod climb;
-
 mod regions;
-
 mod region_graph;
-
 mod pruning;
-
 mod tones;
-
 mod segment;
 
 pub use segment::{Segmentation, SegmentationError, SegmentationSettings, segment};

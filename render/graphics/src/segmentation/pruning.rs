@@ -52,7 +52,8 @@ pub(super) fn join_alike(graph: &mut RegionGraph, range: f64) {
         for other in graph.around(whole).to_vec() {
             let apart = graph.apart(whole, other);
             if apart <= range {
-                let (one, other) = (whole.min(other), whole.max(other));
+                let one = whole.min(other);
+                let other = whole.max(other);
                 pairs.push(Reverse((apart.to_bits(), one, other)));
             }
         }

@@ -119,7 +119,8 @@ fn neighbours(labels: &Field<u32>, count: usize) -> Vec<Vec<u32>> {
     pairs.dedup();
     let mut neighbours = vec![Vec::new(); count];
     for pair in pairs {
-        let (a, b) = ((pair >> 32) as u32, pair as u32);
+        let a = (pair >> 32) as u32;
+        let b = pair as u32;
         neighbours[a as usize].push(b);
         neighbours[b as usize].push(a);
     }

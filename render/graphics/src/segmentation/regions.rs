@@ -26,8 +26,10 @@ impl Sets {
 
     /// Unites the sets of two members. Returns the smallest member of the union.
     pub(super) fn join(&mut self, one: u32, other: u32) -> u32 {
-        let (one, other) = (self.least(one), self.least(other));
-        let (least, greater) = (one.min(other), one.max(other));
+        let one = self.least(one);
+        let other = self.least(other);
+        let least = one.min(other);
+        let greater = one.max(other);
         self.parents[greater as usize] = least;
         least
     }
@@ -64,13 +66,16 @@ pub(super) fn linked(
     painted: impl Fn(usize) -> bool,
     bandwidth: Bandwidth,
 ) -> (Field<u32>, usize) {
-    let (width, height) = (modes.width(), modes.height());
+    let width = modes.width();
+    let height = modes.height();
     let [near_px, near] = [bandwidth.spatial_px.powi(2), (LINK * bandwidth.range).powi(2)];
     let values = modes.values();
     let alike = |one: usize, other: usize| {
-        let (a, b) = (&values[one], &values[other]);
+        let a = &values[one];
+        let b = &values[other];
         let [l, u, v] = [0, 1, 2].map(|i| a.color[i] - b.color[i]);
-        let (x, y) = (a.x - b.x, a.y - b.y);
+        let x = a.x - b.x;
+        let y = a.y - b.y;
         (l * l + u * u + v * v <= near)
             & (x * x + y * y <= near_px)
             & (painted(one) == painted(other))

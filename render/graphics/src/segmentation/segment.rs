@@ -56,8 +56,13 @@ impl Segmentation {
     /// The picture with each region in its mean colour.
     #[must_use]
     pub fn flat(&self) -> Field<[f32; 4]> {
-        let color = |&label: &u32| self.colors[label as usize];
-        let values = self.labels.values().par_iter().with_min_len(4096).map(color).collect();
+        let values = self
+            .labels
+            .values()
+            .par_iter()
+            .with_min_len(4096)
+            .map(|&label: &u32| self.colors[label as usize])
+            .collect();
         Field::from_values(self.labels.width(), self.labels.height(), values)
     }
 }
@@ -114,17 +119,19 @@ fn means(picture: &Field<[f32; 4]>, labels: &Field<u32>, count: usize) -> Vec<[f
         }
         *pixels += 1;
     }
-    let mean = |([r, g, b, coverage], pixels): ([f64; 4], u32)| {
-        let color = [r, g, b].map(|sum| if coverage > 0.0 { sum / coverage } else { 1.0 });
-        let [r, g, b] = color.map(|value| value as f32);
-        [r, g, b, (coverage / f64::from(pixels)) as f32]
-    };
-    sums.into_iter().map(mean).collect()
+    sums.into_iter()
+        .map(|([r, g, b, coverage], pixels): ([f64; 4], u32)| {
+            let color = [r, g, b].map(|sum| if coverage > 0.0 { sum / coverage } else { 1.0 });
+            let [r, g, b] = color.map(|value| value as f32);
+            [r, g, b, (coverage / f64::from(pixels)) as f32]
+        })
+        .collect()
 }
 
 impl SegmentationSettings {
     fn bandwidth(&self) -> Result<Bandwidth, SegmentationError> {
-        let (spatial_px, range) = (self.spatial_radius_px, self.range_radius);
+        let spatial_px = self.spatial_radius_px;
+        let range = self.range_radius;
         if !(1.0..=Self::MAX_SPATIAL_PX).contains(&spatial_px) {
             return Err(SegmentationError::SpatialRadius { found: spatial_px });
         }

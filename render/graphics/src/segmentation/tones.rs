@@ -37,10 +37,12 @@ pub(super) fn cut(
     for (number, part) in (0u32..).zip(parts.iter().flatten()) {
         part.iter().for_each(|&pixel| part_of[pixel as usize] = number);
     }
-    let (width, height) = (labels.width(), labels.height());
+    let width = labels.width();
+    let height = labels.height();
     let mut sets = Sets::new(part_of.len());
     for pixel in 0..part_of.len() {
-        let (x, y) = (pixel % width, pixel / width);
+        let x = pixel % width;
+        let y = pixel / width;
         if x > 0 && part_of[pixel] == part_of[pixel - 1] {
             sets.join(pixel as u32, pixel as u32 - 1);
         }

@@ -24,7 +24,8 @@ impl Shape {
     }
 
     pub(super) fn cut(triangle: u32, corners: [Corner; 3], weights: [[f32; 2]; 3]) -> Self {
-        let ([a, b, c], [at_a, at_b, at_c]) = (corners, weights);
+        let [a, b, c] = corners;
+        let [at_a, at_b, at_c] = weights;
         let twice_area = i64::from(b.x - a.x) * i64::from(c.y - a.y)
             - i64::from(c.x - a.x) * i64::from(b.y - a.y);
         match twice_area < 0 {

@@ -5,23 +5,14 @@
 //! colour where a pixel shows the mesh.
 
 mod visibility;
-
 mod packed;
-
 mod screen;
-
 mod fill;
-
 mod bands;
-
 mod raster;
-
 mod surface_point;
-
 mod four_points;
-
 mod model;
-
 mod inside;
 
 pub use bands::Sides;

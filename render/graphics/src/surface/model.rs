@@ -105,7 +105,8 @@ const MADE_BY_HOST: &str = "a graphics device was handed a model in the processo
 fn visible_sides(closed: bool, bounds: [glam::Vec3; 2], camera: &Camera) -> Sides {
     let [low, high] = bounds;
     // The near plane may cut the surface open for a camera just outside the bounds.
-    let (low, high) = (low - camera.near, high + camera.near);
+    let low = low - camera.near;
+    let high = high + camera.near;
     let inside = camera.eye.cmpge(low).all() && camera.eye.cmple(high).all();
     if closed && !inside { Sides::Front } else { Sides::Both }
 }

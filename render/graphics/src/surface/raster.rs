@@ -74,7 +74,8 @@ impl Rasteriser {
         sides: Sides,
         visible: &mut VisibilityBuffer,
     ) {
-        let (width, height) = (visible.width(), visible.height());
+        let width = visible.width();
+        let height = visible.height();
         if width * height == 0 {
             return;
         }
@@ -83,8 +84,9 @@ impl Rasteriser {
         let bands = visible.values_mut().par_chunks_mut(width * BAND).enumerate();
         bands.for_each(|(band, pixels)| {
             pixels.fill(Fragment::EMPTY);
-            let fill = |shape: &Shape| fill(shape, band * BAND, width, pixels);
-            self.bands.for_each_shape(band, triangles, fill);
+            self.bands.for_each_shape(band, triangles, |shape: &Shape| {
+                fill(shape, band * BAND, width, pixels)
+            });
         });
     }
 }

@@ -117,7 +117,8 @@ impl<'a> SurfacePoint<'a> {
     /// The texture's colour at `place`, where (0, 0) is its upper left corner and (1, 1)
     /// its lower right.
     fn textured(&self, place: Vec2) -> Vec3 {
-        let (width, height) = (self.material.width, self.material.height);
+        let width = self.material.width;
+        let height = self.material.height;
         let place = place - place.floor();
         // Centres of texels lie at halves.
         let x = place.x * width as f32 - 0.5;
@@ -129,7 +130,8 @@ impl<'a> SurfacePoint<'a> {
             let [r, g, b, _] = self.texels[at as usize].to_le_bytes();
             Vec3::new(f32::from(r), f32::from(g), f32::from(b))
         };
-        let (right, down) = (x - x.floor(), y - y.floor());
+        let right = x - x.floor();
+        let down = y - y.floor();
         let above = texel(0, 0) + (texel(0, 1) - texel(0, 0)) * right;
         let below = texel(1, 0) + (texel(1, 1) - texel(1, 0)) * right;
         (above + (below - above) * down) / 255.0

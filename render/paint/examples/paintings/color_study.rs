@@ -124,7 +124,8 @@ fn shapes(script: &mut ScriptBuilder) {
         script.wash(name);
         let (recipe, vehicle) = if name == "rigger" { ("K1P1", 0.3) } else { ("V1W3", 0.05) };
         script.load(name, recipe, vehicle, 0.6);
-        let (left, y) = (if number < 3 { 10.0 } else { 78.0 }, 75.0 + 9.0 * (number % 3) as f64);
+        let left = if number < 3 { 10.0 } else { 78.0 };
+        let y = 75.0 + 9.0 * (number % 3) as f64;
         let places: Vec<_> =
             (0..8).map(|i| (left + 8.5 * f64::from(i), y + 1.2 * f64::from(i).sin())).collect();
         script.stroke(name, &places, if name == "fan" { 0.75 } else { 0.55 });

@@ -49,7 +49,8 @@ pub(crate) fn script() -> StrokeScript {
 /// two pulls of the knife below.
 fn relief(script: &mut ScriptBuilder) {
     for number in 0..3 {
-        let (x, y) = (18.0 + 32.0 * f64::from(number), 27.0);
+        let x = 18.0 + 32.0 * f64::from(number);
+        let y = 27.0;
         for petal in 0..11 {
             let turn = f64::from(petal) * 2.0 * PI / 11.0 + script.about(0.06);
             let at = |out: f64, bend: f64| -> Place {
@@ -65,8 +66,9 @@ fn relief(script: &mut ScriptBuilder) {
     for pass in 0..5 {
         script.wash("round");
         script.load("round", "W1", 0.0, 0.6);
-        let wave = |i: i32| (4.0 + 5.1 * f64::from(i), 58.0 + 2.5 * f64::from(i % 2));
-        let places: Vec<Place> = (0..19).map(wave).collect();
+        let places: Vec<Place> = (0..19)
+            .map(|i: i32| (4.0 + 5.1 * f64::from(i), 58.0 + 2.5 * f64::from(i % 2)))
+            .collect();
         script.even("round", &places, 0.7);
         if pass > 2 {
             script.wash("knife");

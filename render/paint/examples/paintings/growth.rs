@@ -135,7 +135,8 @@ pub(crate) fn wheat(script: &mut ScriptBuilder) {
             continue;
         }
         script.fresh("rigger", recipe, 0.3, 0.22);
-        let (lean, tall) = (5.0 + script.about(3.0), 11.0 + script.about(4.0));
+        let lean = 5.0 + script.about(3.0);
+        let tall = 11.0 + script.about(4.0);
         script.even(
             "rigger",
             &[(x, y), (x + 0.3 * lean, y - 0.6 * tall), (x + lean, y - tall)],

@@ -2,15 +2,10 @@
 //! `cargo run -p impasto-render --example paintings -- paintings`.
 
 mod script_builder;
-
 mod color_study;
-
 mod glaze;
-
 mod field_path;
-
 mod growth;
-
 mod landscape;
 
 use std::path::PathBuf;

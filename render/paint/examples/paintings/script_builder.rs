@@ -108,7 +108,8 @@ impl ScriptBuilder {
         let mut twist = 0.0;
         let mut samples = Vec::with_capacity(places.len());
         for (i, &(x, y)) in places.iter().enumerate() {
-            let (from, to) = (places[i.saturating_sub(1)], places[(i + 1).min(last)]);
+            let from = places[i.saturating_sub(1)];
+            let to = places[(i + 1).min(last)];
             let way = (to.1 - from.1).atan2(to.0 - from.0);
             if i > 0 {
                 seconds += (x - places[i - 1].0).hypot(y - places[i - 1].1) / 80.0;
@@ -154,8 +155,12 @@ impl ScriptBuilder {
 }
 
 fn palette(pigments: &[(&str, &str)]) -> PaletteSpec {
-    let named = |(short, name): &(&str, &str)| (Some((*short).to_owned()), (*name).to_owned());
-    PaletteSpec { pigments: pigments.iter().map(named).collect() }
+    PaletteSpec {
+        pigments: pigments
+            .iter()
+            .map(|(short, name): &(&str, &str)| (Some((*short).to_owned()), (*name).to_owned()))
+            .collect(),
+    }
 }
 
 /// Parses a recipe such as `W10C1.5`.

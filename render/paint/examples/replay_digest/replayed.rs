@@ -20,7 +20,10 @@ pub(crate) fn digest(script: &[u8], actions: usize) -> Result<String, Box<dyn Er
         Painting::open(document, engine, UNDO_BYTES)
     };
     let mut session = PaintingSession::new(opened(document)?, palette.map(opened).transpose()?)?;
-    let save = |_: &str, _: &mut Painting| Ok::<_, Infallible>(());
-    script.replay(&mut session, save, || ControlFlow::Continue(()))?;
+    script.replay(
+        &mut session,
+        |_: &str, _: &mut Painting| Ok::<_, Infallible>(()),
+        || ControlFlow::Continue(()),
+    )?;
     Ok(session.documents()?.0.digest_of_paint())
 }

@@ -49,7 +49,8 @@ struct Facet {
 impl Footprint {
     /// A footprint of a head of `width` x `height` paint cells with hair on these facets.
     pub(super) fn new(width: usize, height: usize, hair: Vec<bool>) -> Self {
-        let (sharers, width) = (vec![0; width * height], width as u32);
+        let sharers = vec![0; width * height];
+        let width = width as u32;
         Self { hair, facets: Vec::new(), sharers, spans: Vec::new(), width }
     }
 
@@ -76,7 +77,8 @@ impl Footprint {
         }
         let first = ((out.rect.x as i64 - origin.0) as f32, (out.rect.y as i64 - origin.1) as f32);
         let (cells_around, cells_along) = surface.cells_of_facet();
-        let (around, along) = (cells_around as f32 * ONE, cells_along as f32 * ONE);
+        let around = cells_around as f32 * ONE;
+        let along = cells_along as f32 * ONE;
         let most = (cells_around as i32 - 1, cells_along as i32 - 1);
         for facet in &self.facets {
             let [a, b, c, d] = facet.corners.map(|i| &surface.vertices[i as usize]);
@@ -243,8 +245,10 @@ impl Canvas<'_> {
     /// to the triangle right of it or below it.
     #[inline(always)]
     fn triangle(&mut self, a: &Corner, b: &Corner, c: &Corner) {
-        let (bx, by) = (b.x - a.x, b.y - a.y);
-        let (cx, cy) = (c.x - a.x, c.y - a.y);
+        let bx = b.x - a.x;
+        let by = b.y - a.y;
+        let cx = c.x - a.x;
+        let cy = c.y - a.y;
         let area = bx * cy - by * cx;
         if area <= 0.0 {
             return;
@@ -263,20 +267,23 @@ impl Canvas<'_> {
         let highest = greater(greater(heights[0], heights[1]), heights[2]);
         for y in top..bottom {
             let middle = y as f32 + 0.5;
-            let (mut from, mut to) = (0.0_f32, self.width as f32);
+            let mut from = 0.0_f32;
+            let mut to = self.width as f32;
             for edge in &edges {
                 let x = edge.x + (middle - edge.y) * edge.slope;
                 from = if edge.side < 0.0 { greater(from, x) } else { from };
                 to = if edge.side > 0.0 { lesser(to, x) } else { to };
             }
-            let (start, end) = (first_middle(from, self.width), first_middle(to, self.width));
+            let start = first_middle(from, self.width);
+            let end = first_middle(to, self.width);
             if start >= end {
                 continue;
             }
             let span = &mut self.spans[y];
             let first = if span.end == 0 { start } else { span.start.min(start) };
             *span = first..span.end.max(end);
-            let (x, y_off) = (start as f32 + 0.5 - a.x, middle - a.y);
+            let x = start as f32 + 0.5 - a.x;
+            let y_off = middle - a.y;
             let mut begin = a.values;
             for i in 0..8 {
                 begin[i] += right[i] * x + down[i] * y_off;
@@ -306,9 +313,11 @@ impl Canvas<'_> {
 /// Change of the values per cell along x and along y.
 #[inline(always)]
 fn slopes(a: &Corner, b: &Corner, c: &Corner, [bx, by, cx, cy]: [f32; 4]) -> (Point, Point) {
-    let (mut right, mut down) = ([0.0; 8], [0.0; 8]);
+    let mut right = [0.0; 8];
+    let mut down = [0.0; 8];
     for i in 0..8 {
-        let (to_b, to_c) = (b.values[i] - a.values[i], c.values[i] - a.values[i]);
+        let to_b = b.values[i] - a.values[i];
+        let to_c = c.values[i] - a.values[i];
         right[i] = to_b * cy - to_c * by;
         down[i] = to_c * bx - to_b * cx;
     }

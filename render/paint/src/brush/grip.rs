@@ -98,7 +98,8 @@ fn handle(tilt_x_deg: f64, tilt_y_deg: f64, farthest_deg: f64) -> Vector {
     let (sin_y, cos_y) = libm::sincos(tilt_y_deg.clamp(-90.0, 90.0).to_radians());
     // Proportional to (tan x, tan y, 1), but finite at 90 degrees. If both tilts are 90
     // degrees, the handle lies between the x and y axes.
-    let (mut x, mut y) = (sin_x * cos_y, sin_y * cos_x);
+    let mut x = sin_x * cos_y;
+    let mut y = sin_y * cos_x;
     let z = cos_x * cos_y;
     if libm::hypot(x, y) + z < 1e-9 {
         (x, y) = (sin_x, sin_y);

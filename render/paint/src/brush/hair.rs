@@ -62,13 +62,14 @@ impl Hair<'_> {
     /// Distance from the ferrule down to the lowest point of hair that nothing presses.
     pub(super) fn lowest(&self) -> f32 {
         let segment = self.length / (NODES - 1) as f32;
-        let (mut down, mut lowest) = (0.0, 0.0_f32);
+        let mut down = 0.0;
+        let mut lowest = 0.0_f32;
         for level in 1..NODES {
             let along = -self.direction(level, 0.0);
             down += segment * along.z;
             let broad = self.broad.across(along).unit_or(self.broad);
-            let (a, b) =
-                (self.section[level].0 * broad.z, self.section[level].1 * along.cross(broad).z);
+            let a = self.section[level].0 * broad.z;
+            let b = self.section[level].1 * along.cross(broad).z;
             lowest = lowest.max(down + (a * a + b * b).sqrt());
         }
         lowest
@@ -78,11 +79,12 @@ impl Hair<'_> {
     /// length.
     pub(super) fn drop(&self, share: f32) -> f32 {
         let segment = self.length / (NODES - 1) as f32;
-        let of = |level: usize| {
-            let part = (share * (NODES - 1) as f32 - (level - 1) as f32).clamp(0.0, 1.0);
-            -self.direction(level, 0.0).z * part * segment
-        };
-        (1..NODES).map(of).sum()
+        (1..NODES)
+            .map(|level: usize| {
+                let part = (share * (NODES - 1) as f32 - (level - 1) as f32).clamp(0.0, 1.0);
+                -self.direction(level, 0.0).z * part * segment
+            })
+            .sum()
     }
 
     /// Lays a spine from `ferrule` over the heights `floor`; `rest` are the distances of its nodes
@@ -128,7 +130,9 @@ impl Hair<'_> {
             (self.length * level as f32 / (NODES - 1) as f32, 0.0)
         });
         let Laid { places, lying } = self.laid(Vector::UP * high, &rest, |_, _| 0.0);
-        let (mut sum, mut whole, mut last) = (Vector::ZERO, 0.0, places[0] + self.axis);
+        let mut sum = Vector::ZERO;
+        let mut whole = 0.0;
+        let mut last = places[0] + self.axis;
         let beyond = places[NODES - 1] * 2.0 - places[NODES - 2];
         let before = places[0] * 2.0 - places[1];
         let at = |level: isize| match usize::try_from(level) {

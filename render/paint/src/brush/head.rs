@@ -301,7 +301,8 @@ fn tufts(surface: &LimitSurface, spines: usize) -> Vec<bool> {
     let (around, along) = surface.facets();
     let in_span = surface.facets_of_span();
     let hair = |i: usize| {
-        let (column, down) = (i % around, (i / around) as f32 / along as f32);
+        let column = i % around;
+        let down = (i / around) as f32 / along as f32;
         // Columns of the net lie on spines, so a gap is between two columns.
         let span = column / in_span;
         if span == 0 || span == spines || span == spines + 1 || span == 2 * spines + 1 {

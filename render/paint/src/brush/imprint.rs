@@ -94,7 +94,8 @@ impl Imprint {
         let plane = lowest == highest;
         let mut extent = Extent::new(hold.grip.tip, hold.moved);
         let touching = (highest + TOUCHING_MM / self.cell_mm as f32) * QUANTA_PER_CELL as f32;
-        let (facets, cells) = (self.surface.facets().1, self.surface.cells_of_facet().1);
+        let facets = self.surface.facets().1;
+        let cells = self.surface.cells_of_facet().1;
         let row_mm = cells as f64 * self.cell_mm;
         let fade = (row_mm / TIP_MM) as f32;
         let pressed = hold.pressed;

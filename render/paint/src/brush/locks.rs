@@ -112,7 +112,9 @@ impl Locks {
     }
 
     fn change(&mut self) {
-        let (hills, along, most) = (&self.hills, self.along, self.most);
+        let hills = &self.hills;
+        let along = self.along;
+        let most = self.most;
         for (column, lock) in self.columns.iter_mut().enumerate() {
             // A slow slant keeps lattice lines of the noise from being furrows.
             let across = column as f32 * self.column + 0.37 * along;
@@ -139,7 +141,8 @@ mod tests {
     fn after_a_stroke(mut locks: Locks, x: f64) -> Vec<Lock> {
         locks.lift();
         for step in 0..50 {
-            let (x, pressure) = (x + f64::from(step), 0.5);
+            let x = x + f64::from(step);
+            let pressure = 0.5;
             let pose =
                 Pose { x, y: 70.4, pressure, tilt_x_deg: 0.0, tilt_y_deg: 0.0, twist_deg: 0.0 };
             locks.follow(&Grip::new(&pose, HeadShape::Flat.proportions()).unwrap());
@@ -161,11 +164,13 @@ mod tests {
 
     #[test]
     fn locks_change_along_a_stroke_and_differ_across_it() {
-        let (near, far) = (after_a_stroke(locks(1), 90.3), locks(1).columns);
+        let near = after_a_stroke(locks(1), 90.3);
+        let far = locks(1).columns;
         assert_ne!(near, far);
         for locks in [near, far] {
             let releases = || locks.iter().map(|lock| lock.release >> 9);
-            let (low, high) = (releases().min().unwrap(), releases().max().unwrap());
+            let low = releases().min().unwrap();
+            let high = releases().max().unwrap();
             assert!(low < 32 && high > 32 && high < 128, "{low} to {high}");
         }
     }

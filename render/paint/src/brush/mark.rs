@@ -47,7 +47,9 @@ impl ContactMark {
         let relief = Relief::flat(side, side, cell_mm);
         let bounds = Rect { x: 0, y: 0, width: side, height: side };
         let at = middle as f64;
-        let (tilt_x_deg, tilt_y_deg, twist_deg) = (0.0, 0.0, 0.0);
+        let tilt_x_deg = 0.0;
+        let tilt_y_deg = 0.0;
+        let twist_deg = 0.0;
         let pose = Pose { x: at, y: at, pressure, tilt_x_deg, tilt_y_deg, twist_deg };
         let mut contact = Contact::default();
         head.set_down(&pose, (0.0, 0.0), &relief);
@@ -59,12 +61,15 @@ impl ContactMark {
 
     /// The touched cells of a contact whose pen is at `at` cells along x and y.
     fn cut(contact: &Contact, at: f64, cell_mm: f64) -> Self {
-        let touches = |touch: &Touch| {
-            let coat = coat(&contact.rates, *touch, 0);
-            penetration(&contact.rates, *touch, (0, 0), 0, coat) != NO_CONTACT
-        };
         let Rect { x: left, y: top, width, .. } = contact.rect;
-        let held: Vec<bool> = contact.touches.iter().map(touches).collect();
+        let held: Vec<bool> = contact
+            .touches
+            .iter()
+            .map(|touch: &Touch| {
+                let coat = coat(&contact.rates, *touch, 0);
+                penetration(&contact.rates, *touch, (0, 0), 0, coat) != NO_CONTACT
+            })
+            .collect();
         let places = held.iter().enumerate().filter(|(_, held)| **held);
         let places = places.map(|(index, _)| (index % width, index / width));
         let mut extent: Option<[usize; 4]> = None;
@@ -100,10 +105,10 @@ mod tests {
     #[test]
     fn a_mark_grows_with_the_pressure_and_ends_at_its_outermost_cells() {
         for shape in HeadShape::ALL {
-            let area =
-                |mark: &ContactMark| mark.cells.values().iter().filter(|held| **held).count();
             let marks = [0.15, 0.5, 1.0].map(|pressure| mark(shape, 6.0, pressure));
-            let areas = marks.each_ref().map(area);
+            let areas = marks
+                .each_ref()
+                .map(|mark: &ContactMark| mark.cells.values().iter().filter(|held| **held).count());
             assert!(
                 areas[0] > 0 && areas[0] < areas[1] && areas[1] < areas[2],
                 "{shape}: {areas:?}"

@@ -81,15 +81,18 @@ fn mark(shape: HeadShape, size_mm: f64, hand: Hand) -> Mark {
         }
     };
     head.set_down(&pose(0), (cos, sin), &relief);
-    let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
-    let (mut behind, mut areas) = (Vec::new(), Vec::new());
+    let mut left = f64::INFINITY;
+    let mut right = f64::NEG_INFINITY;
+    let mut behind = Vec::new();
+    let mut areas = Vec::new();
     for step in 0..=WAY.0 {
         let pose = pose(step);
         head.advance(&pose, &relief, BOUNDS, &mut contact);
         if step < WAY.1 {
             continue;
         }
-        let (mut along, mut count) = (0.0, 0.0);
+        let mut along = 0.0;
+        let mut count = 0.0;
         for (i, touch) in contact.touches.iter().enumerate() {
             if touches(&contact.rates, touch) {
                 let x = (contact.rect.x + i % contact.rect.width) as f64 + 0.5 - pose.x;

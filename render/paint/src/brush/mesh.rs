@@ -28,19 +28,25 @@ impl HeadMesh {
     pub(super) fn of(net: &Net, origin: (i64, i64)) -> Self {
         let steps = AROUND.div_ceil(net.columns);
         let weights: Vec<_> = (0..steps).map(|i| b_spline(i as f32 / steps as f32)).collect();
-        let (around, along) = (net.columns * steps, SPANS * ALONG + 1);
+        let around = net.columns * steps;
+        let along = SPANS * ALONG + 1;
         let mut vertices = Vec::with_capacity(around * along);
         let mut line = vec![[0.0; 3]; net.columns];
         for row in 0..along {
             let span = (row / ALONG).min(SPANS - 1);
             let here = b_spline((row - span * ALONG) as f32 / ALONG as f32);
             for (column, point) in line.iter_mut().enumerate() {
-                let place = |i: usize| first(&net.points[(span + i) * net.columns + column]);
-                *point = combined(here, std::array::from_fn(place));
+                *point = combined(
+                    here,
+                    std::array::from_fn(|i: usize| {
+                        first(&net.points[(span + i) * net.columns + column])
+                    }),
+                );
             }
             for column in 0..net.columns {
-                let beside = |i: usize| line[(column + net.columns - 1 + i) % net.columns];
-                let four = std::array::from_fn(beside);
+                let four = std::array::from_fn(|i: usize| {
+                    line[(column + net.columns - 1 + i) % net.columns]
+                });
                 vertices.extend(weights.iter().map(|weights| {
                     let [x, y, z] = combined(*weights, four);
                     [x + origin.0 as f32, y + origin.1 as f32, z]
@@ -130,8 +136,10 @@ mod tests {
             // Hair that gives way is drawn below the canvas, by up to half its thickness.
             assert!((-20.0..0.5).contains(&height.0), "{shape}: {height:?}");
             let rect = contact.rect;
-            let (left, right) = (rect.x as f32, (rect.x + rect.width) as f32);
-            let (top, bottom) = (rect.y as f32, (rect.y + rect.height) as f32);
+            let left = rect.x as f32;
+            let right = (rect.x + rect.width) as f32;
+            let top = rect.y as f32;
+            let bottom = (rect.y + rect.height) as f32;
             assert!(x.0 <= left + 2.0 && x.1 >= right - 2.0, "{shape}: {x:?} over {rect:?}");
             assert!(y.0 <= top + 2.0 && y.1 >= bottom - 2.0, "{shape}: {y:?} over {rect:?}");
             head.lift();

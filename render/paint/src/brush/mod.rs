@@ -6,45 +6,25 @@
 //! springs. Each sub-step the surface gives one [`Contact`](super::contact::Contact).
 
 mod error;
-
 mod vector;
-
 mod b_spline;
-
 mod shape;
-
 mod relief;
-
 mod grip;
-
 mod hair;
-
 mod spines;
-
 mod net;
-
 mod surface;
-
 mod mesh;
-
 mod locks;
-
 mod uptake;
-
 mod sides;
-
 mod footprint;
-
 mod imprint;
-
 mod head;
-
 mod tool;
-
 mod tool_contact;
-
 mod side_by_side;
-
 mod mark;
 
 pub use error::BrushError;

@@ -75,7 +75,8 @@ impl Net {
                 }
             }
         }
-        let (tip, end) = (NODES, self.columns);
+        let tip = NODES;
+        let end = self.columns;
         for column in 0..end {
             let at = |row: usize, column: usize| {
                 let p = self.points[row * end + column];
@@ -85,7 +86,8 @@ impl Net {
             // The row beyond the tip is the row before it with opposite columns
             // exchanged, which closes the end bluntly. That would draw the end
             // inwards; `last` moves it back to `ends`.
-            let (here, there) = (at(tip - 1, column), at(tip - 1, self.opposite(column)));
+            let here = at(tip - 1, column);
+            let there = at(tip - 1, self.opposite(column));
             let last = self.ends[column] * 1.5 - (here + there) * 0.25;
             self.set(0, column, first);
             self.set(tip, column, last);
@@ -131,7 +133,8 @@ impl Ring {
             let sum = (0..count).fold(Vector::ZERO, |sum, k| sum + spines.node(k, level));
             sum * (1.0 / count as f32)
         };
-        let (above, under) = (centre(level.saturating_sub(1)), centre((level + 1).min(NODES - 1)));
+        let above = centre(level.saturating_sub(1));
+        let under = centre((level + 1).min(NODES - 1));
         let along = (above - under).unit_or(grip.axis);
         let across = spines.node(count - 1, level) - spines.node(0, level);
         let held = grip.broad.across(along).unit_or(grip.thin);

@@ -73,8 +73,10 @@ impl Relief {
 
 /// Mean plus one standard deviation of one block, in cells.
 fn crest(floor: &Field<i32>, column: usize, row: usize) -> f32 {
-    let (x, y) = (column * BLOCK, row * BLOCK);
-    let (width, height) = (BLOCK.min(floor.width() - x), BLOCK.min(floor.height() - y));
+    let x = column * BLOCK;
+    let y = row * BLOCK;
+    let width = BLOCK.min(floor.width() - x);
+    let height = BLOCK.min(floor.height() - y);
     let cells = (y..y + height).flat_map(|y| floor.row(y, x, width));
     let lowest = f64::from(floor[(x, y)]);
     let (sum, squares) = cells.fold((0.0, 0.0), |(sum, squares), &quanta| {
@@ -99,10 +101,12 @@ impl ReliefView<'_> {
     /// Height at `(x, y)` in cells; outside the canvas that of its edge.
     #[inline(always)]
     pub(super) fn height(&self, x: f32, y: f32) -> f32 {
-        let (x, y) =
-            (x * (1.0 / BLOCK as f32) + self.shift.0, y * (1.0 / BLOCK as f32) + self.shift.1);
-        let (column, row) = (floor_of(x), floor_of(y));
-        let (right, down) = (x - column as f32, y - row as f32);
+        let x = x * (1.0 / BLOCK as f32) + self.shift.0;
+        let y = y * (1.0 / BLOCK as f32) + self.shift.1;
+        let column = floor_of(x);
+        let row = floor_of(y);
+        let right = x - column as f32;
+        let down = y - row as f32;
         let upper = self.between(column, row, right);
         let lower = self.between(column, row + 1, right);
         upper + (lower - upper) * down

@@ -63,12 +63,13 @@ impl HeadShape {
     #[must_use]
     pub fn contour(self) -> Vec<(f32, f32)> {
         let of = self.proportions();
-        let point = |node: usize| {
-            let share = node as f32 / (NODES - 1) as f32;
-            let spread = of.root + (1.0 - of.root) * share;
-            (of.length * share, 0.5 * of.width[node] * spread)
-        };
-        (0..NODES).map(point).collect()
+        (0..NODES)
+            .map(|node: usize| {
+                let share = node as f32 / (NODES - 1) as f32;
+                let spread = of.root + (1.0 - of.root) * share;
+                (of.length * share, 0.5 * of.width[node] * spread)
+            })
+            .collect()
     }
 
     pub(super) fn proportions(self) -> &'static Proportions {

@@ -97,7 +97,8 @@ impl Border {
         cell_mm: f32,
     ) {
         let across = &self.across;
-        let (low, high) = (across.low, across.high);
+        let low = across.low;
+        let high = across.high;
         let reach = (REACH_MM / cell_mm).min(0.25 * (high - low)).max(1.0);
         let left = (contact.rect.x as i64 - origin.0) as f32 + 0.5;
         let top = (contact.rect.y as i64 - origin.1) as f32 + 0.5;

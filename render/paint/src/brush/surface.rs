@@ -90,7 +90,8 @@ impl LimitSurface {
 
     /// Number of paint cells of the head, around and along.
     pub(super) fn cells(&self) -> (usize, usize) {
-        let (facets, cells) = (self.facets(), self.cells_of_facet());
+        let facets = self.facets();
+        let cells = self.cells_of_facet();
         (facets.0 * cells.0, facets.1 * cells.1)
     }
 
@@ -204,7 +205,8 @@ mod tests {
         let of_a_long_span = Span::new(96.0, AROUND, SPAN_AROUND);
         assert_eq!((of_a_long_span.facets, of_a_long_span.cells), (8, 12), "twice as long");
         let large = LimitSurface::new(8, 6000.0, 5000.0);
-        let (around, along) = (large.facets(), large.cells_of_facet());
+        let around = large.facets();
+        let along = large.cells_of_facet();
         let cells = around.0 * along.0 * around.1 * along.1;
         assert!(cells < 1_100_000, "{cells}");
     }

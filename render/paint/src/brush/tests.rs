@@ -28,7 +28,8 @@ fn nothing() -> Contact {
 
 /// Contact of a new head that is set down in `pose`.
 fn set_down(shape: HeadShape, pose: Pose) -> Contact {
-    let (mut head, mut contact) = (head(shape), nothing());
+    let mut head = head(shape);
+    let mut contact = nothing();
     head.set_down(&pose, (0.0, 0.0), &plane());
     head.advance(&pose, &plane(), BOUNDS, &mut contact);
     contact
@@ -66,7 +67,8 @@ fn every_shape_touches_when_pressed_and_never_at_no_pressure() {
 fn the_smallest_heads_touch_too() {
     for shape in HeadShape::ALL {
         for cell_mm in [0.1, 0.5] {
-            let (mut head, mut contact) = (Head::new(shape, 0.2, cell_mm).unwrap(), nothing());
+            let mut head = Head::new(shape, 0.2, cell_mm).unwrap();
+            let mut contact = nothing();
             let relief = Relief::flat(320, 240, cell_mm);
             head.advance(&Pose { pressure: 1.0, ..POSE }, &relief, BOUNDS, &mut contact);
             assert!(!under(&contact, 0.0).is_empty(), "{shape} over {cell_mm}");
@@ -96,7 +98,8 @@ fn pressure_widens_the_footprint() {
 fn the_tip_trails_behind_the_motion() {
     for shape in HeadShape::ALL.into_iter().filter(|&shape| shape != HeadShape::Knife) {
         for way in [1.0, -1.0] {
-            let (mut head, mut contact) = (head(shape), nothing());
+            let mut head = head(shape);
+            let mut contact = nothing();
             // The head is set down bent for the opposite motion.
             let pose = |step: f64| Pose { x: 160.0 + way * (step - 90.0), twist_deg: 90.0, ..POSE };
             head.set_down(&pose(0.0), (-way, 0.0), &plane());
@@ -114,13 +117,15 @@ fn the_tip_trails_behind_the_motion() {
 
 #[test]
 fn the_surface_moves_with_the_handle() {
-    let (mut head, mut contact) = (head(HeadShape::Flat), nothing());
+    let mut head = head(HeadShape::Flat);
+    let mut contact = nothing();
     for step in 0..100 {
         let pose = Pose { x: 60.0 + f64::from(step), twist_deg: 90.0, ..POSE };
         head.advance(&pose, &plane(), BOUNDS, &mut contact);
     }
     let rows = under(&contact, 0.0).into_iter().map(|(_, y, _)| y);
-    let (first, last) = (rows.clone().min().unwrap(), rows.max().unwrap());
+    let first = rows.clone().min().unwrap();
+    let last = rows.max().unwrap();
     // At its sides the surface is slowed, see `sides`.
     for (x, y, touch) in
         under(&contact, 0.0).into_iter().filter(|(_, y, _)| (first + 2..last - 1).contains(y))
@@ -129,9 +134,16 @@ fn the_surface_moves_with_the_handle() {
         let grasp = touch.transfer_weight() as i32;
         assert!((right - grasp).abs() < 8 && down.abs() < 8, "{x} {y}: {right} {down}, {grasp}");
     }
-    let whole = |cell: &&(usize, usize, Touch)| cell.2.transfer_weight() == 256;
     let cells = under(&contact, 0.0);
-    assert!(cells.iter().filter(whole).count() * 2 > cells.len(), "hair hardly grasps paint");
+    assert!(
+        cells
+            .iter()
+            .filter(|cell: &&(usize, usize, Touch)| cell.2.transfer_weight() == 256)
+            .count()
+            * 2
+            > cells.len(),
+        "hair hardly grasps paint"
+    );
     // At rest the head exchanges no paint.
     let rest = Pose { x: 159.0, twist_deg: 90.0, ..POSE };
     for _ in 0..100 {
@@ -154,7 +166,8 @@ fn a_head_set_down_leaning_lies_away_from_the_lean() {
 
 #[test]
 fn a_blade_that_turns_over_does_not_sweep_the_paint() {
-    let (mut head, mut contact) = (head(HeadShape::Knife), nothing());
+    let mut head = head(HeadShape::Knife);
+    let mut contact = nothing();
     for tilt_y_deg in [20.0, -20.0, -20.0] {
         head.advance(&Pose { tilt_y_deg, ..POSE }, &plane(), BOUNDS, &mut contact);
     }
@@ -166,10 +179,12 @@ fn a_blade_that_turns_over_does_not_sweep_the_paint() {
 #[test]
 fn whole_cells_of_way_move_the_contact_and_nothing_else() {
     let played = |right: i32, down: i32| {
-        let (mut head, mut contact) = (head(HeadShape::Filbert), nothing());
+        let mut head = head(HeadShape::Filbert);
+        let mut contact = nothing();
         for step in 0..40 {
             let t = f64::from(step);
-            let (x, y) = (70.3 + f64::from(right) + 0.83 * t, 90.7 + f64::from(down) + 0.4 * t);
+            let x = 70.3 + f64::from(right) + 0.83 * t;
+            let y = 90.7 + f64::from(down) + 0.4 * t;
             let pose = Pose { x, y, tilt_x_deg: t, twist_deg: 2.0 * t, ..POSE };
             head.advance(&pose, &plane(), BOUNDS, &mut contact);
         }
@@ -197,7 +212,8 @@ fn touches_over_the_edge_are_cut_off_and_the_rest_stays() {
         let whole = under(&set_down(shape, pose), 0.0);
         let edge = mean_x(&whole) as usize;
         let half = Rect { x: 0, y: 0, width: edge, height: 240 };
-        let (mut head, mut cut) = (head(shape), nothing());
+        let mut head = head(shape);
+        let mut cut = nothing();
         head.set_down(&pose, (0.0, 0.0), &plane());
         head.advance(&pose, &plane(), half, &mut cut);
         assert!(cut.rect.x + cut.rect.width <= edge, "{shape}: {:?}", cut.rect);
@@ -215,7 +231,8 @@ fn touches_over_the_edge_are_cut_off_and_the_rest_stays() {
 
 #[test]
 fn paint_flows_along_the_hair_off_the_canvas_but_not_in_the_air() {
-    let (mut head, mut contact) = (head(HeadShape::Flat), nothing());
+    let mut head = head(HeadShape::Flat);
+    let mut contact = nothing();
     let off = Rect { x: 4000, ..BOUNDS };
     head.advance(&POSE, &plane(), off, &mut contact);
     assert!(contact.wicking.share > 0 && contact.rect.is_empty(), "{contact:?}");
@@ -232,7 +249,8 @@ fn hair_is_uneven_across_a_flat_and_a_blade_is_not() {
             beside.map(|w| f64::from((w[0].2.height - w[1].2.height).abs())).collect();
         steps.iter().sum::<f64>() / steps.len() as f64 / f64::from(QUANTA_PER_CELL)
     };
-    let (flat, knife) = (unevenness(HeadShape::Flat), unevenness(HeadShape::Knife));
+    let flat = unevenness(HeadShape::Flat);
+    let knife = unevenness(HeadShape::Knife);
     assert!(flat > 0.02 && flat > 2.0 * knife, "{flat} cells, {knife}");
 }
 
@@ -268,17 +286,28 @@ fn a_round_leaves_no_hole_in_its_footprint() {
 
 #[test]
 fn light_pressure_spares_the_valleys_of_a_weave_and_full_pressure_fills_most() {
-    let weave = |i: usize| {
-        if (i % 320 / 2 + i / 320 / 2).is_multiple_of(2) { 0 } else { QUANTA_PER_CELL as i32 }
-    };
-    let floor = graphics::field::Field::from_values(320, 240, (0..320 * 240).map(weave).collect());
+    let floor = graphics::field::Field::from_values(
+        320,
+        240,
+        (0..320 * 240)
+            .map(|i: usize| {
+                if (i % 320 / 2 + i / 320 / 2).is_multiple_of(2) {
+                    0
+                } else {
+                    QUANTA_PER_CELL as i32
+                }
+            })
+            .collect(),
+    );
     let relief = Relief::from_floor(&floor, 0.1);
     let touched = |pressure: f64| {
-        let (mut head, mut contact) = (head(HeadShape::Flat), nothing());
+        let mut head = head(HeadShape::Flat);
+        let mut contact = nothing();
         let pose = Pose { pressure, ..POSE };
         head.set_down(&pose, (0.0, 1.0), &relief);
         head.advance(&pose, &relief, BOUNDS, &mut contact);
-        let (cells, sink) = (under(&contact, 10.0), contact.rates.sink as i32);
+        let cells = under(&contact, 10.0);
+        let sink = contact.rates.sink as i32;
         let of = |valley: bool| {
             let side = cells.iter().filter(|c| (floor[(c.0, c.1)] == 0) == valley);
             side.filter(|c| c.2.height - sink <= floor[(c.0, c.1)]).count()
@@ -303,8 +332,10 @@ fn heads_stay_finite_and_alike_in_hostile_hands() {
     let relief = Relief::from_floor(&floor, 0.1);
     for round in 0..1000 {
         let shape = HeadShape::ALL[round % 8];
-        let (mut one, mut contact) = (Head::new(shape, 1.5, 0.1).unwrap(), nothing());
-        let (mut two, mut again) = (one.clone(), nothing());
+        let mut one = Head::new(shape, 1.5, 0.1).unwrap();
+        let mut contact = nothing();
+        let mut two = one.clone();
+        let mut again = nothing();
         for _ in 0..12 {
             let mut number = |scale: f64, middle: f64| match random.random_range(0..12) {
                 0 => odd[random.random_range(0..odd.len())],
@@ -362,11 +393,14 @@ fn sub_steps_drawn_side_by_side_are_those_drawn_one_after_another() {
         for step in 0..120 {
             let pressure = if step % 37 == 20 { 0.0 } else { random.random_range(0.3..1.0) };
             let far = if step > 60 { 100.0 } else { 0.0 };
-            let (x, y) = (60.0 + far + 0.8 * f64::from(step), 120.0 + 0.3 * f64::from(step % 40));
+            let x = 60.0 + far + 0.8 * f64::from(step);
+            let y = 120.0 + 0.3 * f64::from(step % 40);
             poses.push(Pose { x, y, pressure, twist_deg: 0.5 * f64::from(step), ..POSE });
         }
-        let (mut one, mut other) = (head(shape), head(shape));
-        let (mut several, mut place) = (SideBySide::default(), 0);
+        let mut one = head(shape);
+        let mut other = head(shape);
+        let mut several = SideBySide::default();
+        let mut place = 0;
         while place < poses.len() {
             let now = &poses[place..(place + random.random_range(1..6)).min(poses.len())];
             let mut drawn = vec![nothing(); now.len()];

@@ -109,11 +109,13 @@ fn blend(contact: &mut Contact, strength: f64, cell_mm: f64, paint_cell_area: f6
 /// Lets the hair sway: each touch meets the hair `columns` columns further around a head of
 /// `width` x `height` cells. Only the tip exchanges paint.
 fn sway(contact: &mut Contact, (width, height): (usize, usize), columns: i32) {
-    let (width, first_row) = (width as u32, (height - height.div_ceil(TIP)) as u32);
+    let width = width as u32;
+    let first_row = (height - height.div_ceil(TIP)) as u32;
     let further = columns.rem_euclid(width as i32) as u32;
     contact.wicking.first_row = contact.wicking.first_row.max(first_row);
     for touch in contact.touches.iter_mut().filter(|touch| touch.height != Touch::NONE.height) {
-        let (row, column) = (touch.brush_cell / width, touch.brush_cell % width);
+        let row = touch.brush_cell / width;
+        let column = touch.brush_cell % width;
         touch.brush_cell = row * width + (column + further) % width;
         if row < first_row {
             touch.set_transfer_weight(0);

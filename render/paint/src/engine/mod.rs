@@ -12,15 +12,10 @@
 //! is, which tiles an undo needs and which light is used.
 
 mod ids;
-
 mod cpu;
-
 mod gpu;
-
 mod paint_engine;
-
 mod dry_layers;
-
 mod tiles;
 
 pub use cpu::CpuPaint;

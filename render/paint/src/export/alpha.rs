@@ -54,7 +54,8 @@ mod tests {
         for below in values {
             for above in values {
                 for hiding in [0.0, 1e-6, 0.02, 0.5, 0.99, 1.0] {
-                    let (below, above) = ([below, 9000, 65_535], [above, 9000, 60_000]);
+                    let below = [below, 9000, 65_535];
+                    let above = [above, 9000, 60_000];
                     let layer = over(below, above, hiding);
                     for (found, wanted) in composited(below, layer).into_iter().zip(above) {
                         let error = (found - f64::from(wanted)).abs();

@@ -94,8 +94,7 @@ fn name(own: &str, usual: &str, (slots, paint): (&Slots, &Layer), document: &Doc
 }
 
 fn opaque(pixels: &Field<[u16; 3]>) -> Field<[u16; 4]> {
-    let pixel = |&[r, g, b]: &[u16; 3]| [r, g, b, u16::MAX];
-    let values = pixels.values().iter().map(pixel).collect();
+    let values = pixels.values().iter().map(|&[r, g, b]: &[u16; 3]| [r, g, b, u16::MAX]).collect();
     Field::from_values(pixels.width(), pixels.height(), values)
 }
 

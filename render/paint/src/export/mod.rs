@@ -4,15 +4,10 @@
 //! encode a document in memory; the same document always gives the same bytes.
 
 mod pigment_maps;
-
 mod spectral_exr;
-
 mod painting;
-
 mod alpha;
-
 mod layers;
-
 mod save;
 
 pub use layers::layers_file;

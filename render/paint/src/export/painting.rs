@@ -52,7 +52,8 @@ pub fn spectral_file(
 /// vehicle comes last. Pigments in no slot of any layer are left out.
 #[must_use]
 pub fn painting_maps(document: &Document) -> Vec<PigmentMap> {
-    let (width, height) = (document.wet.width(), document.wet.height());
+    let width = document.wet.width();
+    let height = document.wet.height();
     let mut sums: Vec<Option<Vec<u64>>> = vec![None; document.library.pigments.len() + 1];
     let vehicle = sums.len() - 1;
     let dry = document.dry.iter().map(|layer| (&layer.slots, &layer.paint));
@@ -62,8 +63,13 @@ pub fn painting_maps(document: &Document) -> Vec<PigmentMap> {
     let mut found = Vec::new();
     for (index, sum) in sums.into_iter().enumerate() {
         let Some(sum) = sum else { continue };
-        let mm = |&quanta: &u64| (quanta as f64 * mm_from_quanta(1, document.cell_mm)) as f32;
-        let height_mm = Field::from_values(width, height, sum.iter().map(mm).collect());
+        let height_mm = Field::from_values(
+            width,
+            height,
+            sum.iter()
+                .map(|&quanta: &u64| (quanta as f64 * mm_from_quanta(1, document.cell_mm)) as f32)
+                .collect(),
+        );
         let name = document.library.pigments.get(index).map_or("vehicle", |p| &p.name).to_owned();
         found.push(PigmentMap { name, height_mm });
     }

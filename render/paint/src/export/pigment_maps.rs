@@ -103,7 +103,10 @@ fn check_map(map: &PigmentMap, width: usize, height: usize) -> Result<(), Export
     let Some(at) = height_mm.values().iter().position(|mm| !(mm.is_finite() && *mm >= 0.0)) else {
         return Ok(());
     };
-    let (x, y, found, what) = (at % width, at / width, height_mm.values()[at], name.clone());
+    let x = at % width;
+    let y = at / width;
+    let found = height_mm.values()[at];
+    let what = name.clone();
     Err(if found < 0.0 && found.is_finite() {
         ExportError::Negative { what, x, y, found }
     } else {

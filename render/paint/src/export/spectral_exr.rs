@@ -26,7 +26,8 @@ pub fn spectral_exr(
     planes: &[Field<f32>],
     cell_mm: f64,
 ) -> Result<Vec<u8>, ExportError> {
-    let (width, height) = (picture.width(), picture.height());
+    let width = picture.width();
+    let height = picture.height();
     if wavelengths_nm.len() != planes.len() {
         let found = format!("{} wavelengths", wavelengths_nm.len());
         return Err(ExportError::Wavelength { plane: planes.len(), found });
@@ -43,7 +44,9 @@ pub fn spectral_exr(
             return Err(ExportError::Differs { plane: name, width, height });
         }
         if let Some(at) = plane.values().iter().position(|value| !value.is_finite()) {
-            let (x, y, found) = (at % width, at / width, plane.values()[at]);
+            let x = at % width;
+            let y = at / width;
+            let found = plane.values()[at];
             let what = format!("the reflectance at {nm} nm");
             return Err(ExportError::NotFinite { what, x, y, found });
         }

@@ -200,7 +200,8 @@ impl FileHeader {
         if self.width == 0 || self.height == 0 {
             return Err(format!("a canvas has cells, found `{} x {}`", self.width, self.height));
         }
-        let (found, wanted) = (self.ground.reflectance.len(), library.grid.count());
+        let found = self.ground.reflectance.len();
+        let wanted = library.grid.count();
         if found != wanted {
             return Err(format!(
                 "the ground has `{found}` reflectances for the library's {wanted} wavelengths"
@@ -212,7 +213,8 @@ impl FileHeader {
                 return Err(format!("layer {index} is `{wanted}`, found `{}`", layer.part));
             }
             if !(0.0..=1e6).contains(&layer.opacity) {
-                let (part, found) = (&layer.part, layer.opacity);
+                let part = &layer.part;
+                let found = layer.opacity;
                 return Err(format!("opacity of `{part}` is 0 to 1000000, found `{found}`"));
             }
             layer.slots(library)?;

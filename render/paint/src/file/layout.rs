@@ -45,12 +45,15 @@ struct Fault<'a> {
 
 impl Fault<'_> {
     fn part(&self, reason: String) -> PaintingFileError {
-        let (file, part) = (self.file.to_owned(), self.part.to_owned());
+        let file = self.file.to_owned();
+        let part = self.part.to_owned();
         PaintingFileError::Part { file, part, reason }
     }
 
     fn channel(&self, channel: String, reason: &str) -> PaintingFileError {
-        let (file, part, reason) = (self.file.to_owned(), self.part.to_owned(), reason.to_owned());
+        let file = self.file.to_owned();
+        let part = self.part.to_owned();
+        let reason = reason.to_owned();
         PaintingFileError::Channel { file, part, channel, reason }
     }
 }
@@ -140,7 +143,8 @@ fn window(
     room: Option<(usize, usize)>,
 ) -> Result<Rect, PaintingFileError> {
     let canvas = part.shared_attributes.display_window;
-    let (width, height) = (header.width, header.height);
+    let width = header.width;
+    let height = header.height;
     let sizes = (canvas.size.width(), canvas.size.height());
     if (canvas.position.x(), canvas.position.y()) != (0, 0) || sizes != (width, height) {
         let found = format!("{} x {}", sizes.0, sizes.1);
@@ -154,7 +158,10 @@ fn window(
     let size = part.layer_size;
     let place = part.own_attributes.layer_position;
     let outside = || {
-        let (w, h, x, y) = (size.width(), size.height(), place.x(), place.y());
+        let w = size.width();
+        let h = size.height();
+        let x = place.x();
+        let y = place.y();
         let wanted = if whole { "is not" } else { "leaves" };
         fault.part(format!(
             "{wanted} the canvas of {width} x {height}: data window `{w} x {h} at {x}, {y}`"

@@ -37,31 +37,18 @@
 //! the sum of both.
 
 mod error;
-
 mod millimetres;
-
 mod names;
-
 mod ascii;
-
 mod pigments;
-
 mod header;
-
 mod layer_attribute;
-
 mod table_attribute;
-
 mod channels;
-
 mod parts;
-
 mod layout;
-
 mod read;
-
 mod write;
-
 mod saved;
 
 #[cfg(test)]

@@ -58,7 +58,8 @@ pub(super) fn parts<'a>(
 /// Smallest rectangle that contains all paint; one cell if there is none, since a data
 /// window cannot be empty.
 fn covered(paint: &Layer) -> Rect {
-    let (width, height) = (paint.width(), paint.height());
+    let width = paint.width();
+    let height = paint.height();
     let painted = |index: usize| {
         paint.vehicle.values()[index] > 0 || paint.pigments.values()[index] != [0; SLOTS]
     };
@@ -80,7 +81,8 @@ fn covered(paint: &Layer) -> Rect {
 impl Part<'_> {
     /// Samples of the rows in block `index`, channel by channel within each row.
     pub(super) fn block(&self, index: BlockIndex, scale: Millimetres) -> UncompressedBlock {
-        let (rows, width) = (index.pixel_size.height(), index.pixel_size.width());
+        let rows = index.pixel_size.height();
+        let width = index.pixel_size.width();
         let mut data = Vec::with_capacity(rows * width * self.channels.len() * size_of::<f32>());
         for row in 0..rows {
             let y = self.window.y + index.pixel_position.y() + row;

@@ -56,11 +56,10 @@ pub fn read_within(file: &str, bytes: &[u8], limit: u64) -> Result<Document, Pai
 /// # Errors
 /// [`PaintingFileError`] in the cases of [`read`], for the palette and the brushes.
 pub fn read_table(file: &str, bytes: &[u8]) -> Result<Option<SideTable>, PaintingFileError> {
-    let damaged = |error: exr::error::Error| PaintingFileError::Container {
-        file: file.to_owned(),
-        reason: error.to_string(),
-    };
-    let reader = exr::block::read(Cursor::new(bytes), false).map_err(damaged)?;
+    let reader =
+        exr::block::read(Cursor::new(bytes), false).map_err(|error: exr::error::Error| {
+            PaintingFileError::Container { file: file.to_owned(), reason: error.to_string() }
+        })?;
     let Some(table) = table_bytes(reader.headers()) else { return Ok(None) };
     let (palette, brushes) = decode(&format!("{file}: palette"), table, MEMORY_LIMIT)?;
     Ok(Some(SideTable { palette, brushes }))
@@ -80,7 +79,8 @@ fn decode(
     let (header, library) = FileHeader::from_json(file, &json(file, reader.headers())?)?;
     let parts = layout(file, reader.headers(), &header, bytes.len(), limit)?;
 
-    let (width, height) = (header.width, header.height);
+    let width = header.width;
+    let height = header.height;
     let mut ground = Field::filled(width, height, 0);
     let sizes = header.paints().into_iter().map(|paint| paint.size);
     let mut paints: Vec<_> = sizes.map(|(width, height)| Layer::empty(width, height)).collect();
@@ -105,7 +105,8 @@ fn decode(
                 let row = y + row;
                 if std::mem::replace(&mut filled[part][row], true) {
                     let reason = format!("has row `{}` twice", window.y + row);
-                    let (file, part) = (file.to_owned(), name.clone());
+                    let file = file.to_owned();
+                    let part = name.clone();
                     return Err(PaintingFileError::Part { file, part, reason });
                 }
                 let width = layer.map_or(width, |layer| paints[layer].width());
@@ -129,7 +130,8 @@ fn decode(
     for (part, rows) in parts.iter().zip(&filled) {
         if let Some(row) = rows.iter().position(|filled| !filled) {
             let reason = format!("lacks row `{}`", part.window.y + row);
-            let (file, part) = (file.to_owned(), part.name.clone());
+            let file = file.to_owned();
+            let part = part.name.clone();
             return Err(PaintingFileError::Part { file, part, reason });
         }
     }
@@ -148,13 +150,15 @@ fn decode(
 /// The brushes of the header with their loads.
 fn brushes(headers: &[BrushHeader], loads: Vec<Layer>) -> Vec<KeptBrush> {
     let mut loads = loads.into_iter();
-    let brush = |header: &BrushHeader| KeptBrush {
-        name: header.name.clone(),
-        spec: header.spec.clone(),
-        at: header.at,
-        paint: header.paint.as_ref().and_then(|_| loads.next()),
-    };
-    headers.iter().map(brush).collect()
+    headers
+        .iter()
+        .map(|header: &BrushHeader| KeptBrush {
+            name: header.name.clone(),
+            spec: header.spec.clone(),
+            at: header.at,
+            paint: header.paint.as_ref().and_then(|_| loads.next()),
+        })
+        .collect()
 }
 
 fn part_name(part: &Header) -> String {
@@ -198,13 +202,16 @@ fn rows(
     let damaged = |reason: String| PaintingFileError::Container { file: file.to_owned(), reason };
     let block = UncompressedBlock::decompress_chunk(chunk, meta, false);
     let UncompressedBlock { index, data } = block.map_err(|error| damaged(error.to_string()))?;
-    let (part, y) = (index.layer, index.pixel_position.y());
+    let part = index.layer;
+    let y = index.pixel_position.y();
     let layout = &parts[part];
-    let (width, height) = (layout.window.width, index.pixel_size.height());
+    let width = layout.window.width;
+    let height = index.pixel_size.height();
     let line = width * size_of::<f32>();
     let wanted = line * layout.channels * height;
     if index.pixel_size.width() != width || data.len() != wanted {
-        let (part, found) = (&layout.name, data.len());
+        let part = &layout.name;
+        let found = data.len();
         return Err(damaged(format!("block of part `{part}` with `{found}` bytes for {wanted}")));
     }
     let mut values = vec![Cell::default(); width * height];

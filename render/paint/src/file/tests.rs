@@ -29,7 +29,8 @@ fn document(width: usize, height: usize) -> Document {
     let library = PigmentLibrary::van_gogh_oils();
     let ground = GroundSpec::default().build(width, height, 0.2, &library).unwrap();
     let slots: Slots = std::array::from_fn(|slot| (slot < 4).then_some(PigmentId(slot)));
-    let (medium, lighting) = (Medium::default(), Lighting::default());
+    let medium = Medium::default();
+    let lighting = Lighting::default();
     let mut document = Document::bare("table", 0.2, ground, library, medium, slots, lighting);
     document.wet = paint(width, height, 1);
     document.push_dry(slots, paint(width, height, 2));
@@ -74,8 +75,11 @@ fn layers_keep_identity_name_and_visibility() {
 #[test]
 fn a_file_of_an_earlier_version_has_its_layers_numbered_from_the_lowest() {
     let document = read("earlier.exr", EARLIER).unwrap();
-    let about = |layer: &crate::document::DryLayer| (layer.id, layer.name.clone(), layer.visible);
-    let found: Vec<_> = document.dry.iter().map(about).collect();
+    let found: Vec<_> = document
+        .dry
+        .iter()
+        .map(|layer: &crate::document::DryLayer| (layer.id, layer.name.clone(), layer.visible))
+        .collect();
     assert_eq!(found, [1, 2].map(|id| (LayerId(id), String::new(), true)));
     assert_eq!((document.dry[0].opacity, document.next_layer), (0.0, LayerId(3)));
     assert!(document.wet.totals()[1] > 0, "half of the second stroke is wet");
@@ -109,7 +113,8 @@ fn layers_whose_attributes_another_program_dropped_are_numbered_anew() {
 
 #[test]
 fn palette_and_brushes_come_back_and_the_painting_is_the_same_without_them() {
-    let (canvas, table) = (document(50, 40), table());
+    let canvas = document(50, 40);
+    let table = table();
     let bytes = with_table(&canvas, &table).unwrap();
     assert!(read("a.exr", &bytes).unwrap() == canvas, "not the same canvas");
     assert!(read_table("a.exr", &bytes).unwrap() == Some(table.clone()), "not the same table");
@@ -119,7 +124,8 @@ fn palette_and_brushes_come_back_and_the_painting_is_the_same_without_them() {
 
 #[test]
 fn a_damaged_table_is_told_of_and_leaves_the_painting_readable() {
-    let (canvas, table) = (document(50, 40), table());
+    let canvas = document(50, 40);
+    let table = table();
     let bytes = with_table(&canvas, &table).unwrap();
     let inner = write::encode(&table.palette, &table.brushes, None).unwrap();
     let at = bytes.windows(inner.len()).position(|window| window == inner).unwrap();

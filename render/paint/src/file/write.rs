@@ -137,7 +137,8 @@ fn check(document: &Document, brushes: &[KeptBrush]) -> Result<(), PaintingFileE
     for (name, slots, paint) in std::iter::once(wet).chain(dry) {
         let sizes = [paint.pigments.bounds(), paint.vehicle.bounds()];
         if let Some(size) = sizes.into_iter().find(|size| *size != bounds) {
-            let (width, height) = (size.width, size.height);
+            let width = size.width;
+            let height = size.height;
             let canvas = format!("{} x {}", bounds.width, bounds.height);
             return Err(unwritable(format!(
                 "layer `{name}` has `{width} x {height}` cells, the canvas {canvas}"
@@ -159,7 +160,8 @@ fn check(document: &Document, brushes: &[KeptBrush]) -> Result<(), PaintingFileE
 fn check_paint(slots: &Slots, paint: &Layer) -> Result<(), String> {
     for index in 0..paint.vehicle.values().len() {
         let cell = paint.cell(index);
-        let (x, y) = (index % paint.width(), index / paint.width());
+        let x = index % paint.width();
+        let y = index / paint.width();
         let amounts = cell.pigments.iter().chain([&cell.vehicle]).map(|&q| u64::from(q));
         let volume: u64 = amounts.sum();
         if volume > u64::from(MAX_COLUMN) {

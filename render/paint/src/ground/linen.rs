@@ -98,7 +98,8 @@ impl Threads {
             let step = pitch * random.random_range(0.82..1.18);
             middles.push(middles[middles.len() - 1] + step);
         }
-        let (wander, thickness) = (Hills::new(random), Hills::new(random));
+        let wander = Hills::new(random);
+        let thickness = Hills::new(random);
         let pitch = pitch as f32;
         let thread = |(number, middle): (usize, &f64)| {
             let row = number as f32 * 7.31;

@@ -5,25 +5,15 @@
 //! give equal grounds.
 
 mod error;
-
 mod bare_surface;
-
 mod relief;
-
 mod toned;
-
 mod primer;
-
 mod linen;
-
 mod panel;
-
 mod paper;
-
 mod wood;
-
 mod picture_relief;
-
 mod spec;
 
 pub use bare_surface::Ground;

@@ -39,7 +39,8 @@ impl Panel {
         let [marks, fine, sway, rub] = [(); 4].map(|()| Hills::new(&mut random));
         let mm = cell_mm as f32;
         Ok(relief::heights_mm(width, height, |x, y| {
-            let (x, y) = (mm * x as f32, mm * y as f32);
+            let x = mm * x as f32;
+            let y = mm * y as f32;
             // Strokes are not quite straight; marks of bristles are long and thin.
             let across = y + 1.5 * sway.at(x / 60.0, y / 25.0);
             let bristles =

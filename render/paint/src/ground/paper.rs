@@ -118,7 +118,8 @@ impl Paper {
             (Hills::new(&mut random), share, [cos * step, sin * step].map(|v| v as f32))
         });
         Ok(relief::heights_mm(width, height, |x, y| {
-            let (x, y) = (x as f32, y as f32);
+            let x = x as f32;
+            let y = y as f32;
             let sum: f32 = octaves
                 .iter()
                 .map(|(hills, share, [c, s])| share * hills.at(x * c - y * s, x * s + y * c))

@@ -38,19 +38,22 @@ impl PictureRelief {
     pub fn heights_mm(&self, width: usize, height: usize) -> Result<Field<f32>, GroundError> {
         let depth = check_range("depth_mm", " mm", self.depth_mm, [0.0, 20.0])? as f32;
         let picture = self.read()?;
-        let (columns, rows) = (picture.width() as usize, picture.height() as usize);
+        let columns = picture.width() as usize;
+        let rows = picture.height() as usize;
         // For each cell: two neighbouring pixels, and the share of the second.
         let interpolation = |cells: usize, pixels: usize| -> Vec<(usize, usize, f32)> {
             let last = pixels as f64 - 1.0;
-            let place = |cell: usize| {
-                let place = (cell as f64 + 0.5) / cells as f64 * pixels as f64 - 0.5;
-                let place = place.clamp(0.0, last);
-                let first = place as usize;
-                (first, (first + 1).min(pixels - 1), (place - first as f64) as f32)
-            };
-            (0..cells).map(place).collect()
+            (0..cells)
+                .map(|cell: usize| {
+                    let place = (cell as f64 + 0.5) / cells as f64 * pixels as f64 - 0.5;
+                    let place = place.clamp(0.0, last);
+                    let first = place as usize;
+                    (first, (first + 1).min(pixels - 1), (place - first as f64) as f32)
+                })
+                .collect()
         };
-        let (across, down) = (interpolation(width, columns), interpolation(height, rows));
+        let across = interpolation(width, columns);
+        let down = interpolation(height, rows);
         let values = picture.as_raw();
         let scale = depth / f32::from(u16::MAX);
         let mut heights = Field::filled(width, height, 0.0);

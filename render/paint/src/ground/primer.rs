@@ -88,7 +88,8 @@ impl Primer {
                 let color =
                     Rgb::from_hex(rgb).ok_or_else(|| GroundError::Color { text: rgb.clone() })?;
                 let weights = Viewing::default().weights(grid)?;
-                let (white, surface) = (weights.white(), library.saunderson);
+                let white = weights.white();
+                let surface = library.saunderson;
                 let xyz = RgbSpace::Srgb.xyz_from_encoded(color, white, Adaptation::Bradford);
                 let found = smoothest_reflectance(&weights, surface, xyz).internal;
                 Ok(found.into_iter().map(|r| surface.measured_from_internal(r)).collect())
@@ -96,7 +97,8 @@ impl Primer {
             Self::Toned(toned) => toned.over(&Self::library_white(library), library),
             Self::Measured(MeasuredPrimer { spectrum }) => {
                 let PrimerSpectrum { grid: own, values } = spectrum;
-                let (start_nm, end_nm) = (own.start_nm(), own.end_nm());
+                let start_nm = own.start_nm();
+                let end_nm = own.end_nm();
                 if start_nm > grid.end_nm() || end_nm < grid.start_nm() {
                     let library = grid.to_string();
                     return Err(GroundError::Band { start_nm, end_nm, library });

@@ -208,12 +208,15 @@ impl GroundRelief {
 fn quanta(heights_mm: &Field<f32>, cell_mm: f64) -> Result<Vec<i32>, GroundError> {
     let highest_mm = HIGHEST_CELLS * cell_mm;
     let quanta_per_mm = f64::from(QUANTA_PER_CELL) / cell_mm;
-    let quanta = |&mm: &f32| {
-        let mm = f64::from(mm);
-        if mm > highest_mm {
-            return Err(GroundError::TooHigh { mm, highest_mm });
-        }
-        Ok((mm * quanta_per_mm).round() as i32)
-    };
-    heights_mm.values().iter().map(quanta).collect()
+    heights_mm
+        .values()
+        .iter()
+        .map(|&mm: &f32| {
+            let mm = f64::from(mm);
+            if mm > highest_mm {
+                return Err(GroundError::TooHigh { mm, highest_mm });
+            }
+            Ok((mm * quanta_per_mm).round() as i32)
+        })
+        .collect()
 }

@@ -56,7 +56,8 @@ impl Wood {
         let [sway, drift, fibres, fine, pores, open] = [(); 6].map(|()| Hills::new(&mut random));
         let mm = cell_mm as f32;
         Ok(relief::heights_mm(width, height, |x, y| {
-            let (x, y) = (mm * x as f32, mm * y as f32);
+            let x = mm * x as f32;
+            let y = mm * y as f32;
             // Fibres follow the rings, which sway along the trunk.
             let across =
                 y + 9.0 * sway.at(x / 160.0, y / 50.0) + 1.2 * drift.at(x / 45.0, y / 12.0);

@@ -9,7 +9,6 @@
 //! counts towards the limit, which is exceeded at most during one call.
 
 mod action;
-
 mod undo_history;
 
 #[cfg(test)]

@@ -85,7 +85,8 @@ fn act(
         2 => {
             history.dry(engine, random.random_range(0..=65536)).unwrap();
             let count = engine.dry_layer_count();
-            let (from, to) = (random.random_range(0..count), random.random_range(0..count));
+            let from = random.random_range(0..count);
+            let to = random.random_range(0..count);
             history.move_dry_layer(engine, from, to);
         }
         4 => {
@@ -137,7 +138,8 @@ fn memory_stays_within_its_limit_and_slots_are_used_again() {
     let mut engine = engine(random);
     let limit = 12 * TILE_BYTES;
     let mut history = History::new(limit);
-    let (mut most, mut states) = (0, Vec::new());
+    let mut most = 0;
+    let mut states = Vec::new();
     for now in 0..60 {
         states.push(state(&mut engine, now));
         history.begin(now);

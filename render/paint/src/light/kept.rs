@@ -56,7 +56,8 @@ impl KeptQuadratures {
         let quadrature = fit()?;
         let mut kept = lock();
         if place(&kept).is_none() {
-            let (library, viewing) = (library.clone(), viewing.clone());
+            let library = library.clone();
+            let viewing = viewing.clone();
             kept.push(Kept { library, viewing, quadrature: quadrature.clone() });
             let more = kept.len().saturating_sub(KEPT);
             kept.drain(..more);
@@ -87,11 +88,15 @@ mod tests {
         let ask = |library: &PigmentLibrary, light: &str| {
             let mut own = model.clone();
             own.rule.weights[0][0] = library.pigments[0].absorption[3] + light.len() as f64;
-            let fit = || {
-                fits.set(fits.get() + 1);
-                Ok(own.clone())
-            };
-            assert_eq!(kept.get(library, &viewing(light), fit).as_ref(), Ok(&own), "{light}");
+            assert_eq!(
+                kept.get(library, &viewing(light), || {
+                    fits.set(fits.get() + 1);
+                    Ok(own.clone())
+                })
+                .as_ref(),
+                Ok(&own),
+                "{light}"
+            );
             fits.get()
         };
         assert_eq!([ask(&oils, "D65"), ask(&oils, "D65")], [1, 1]);

@@ -35,7 +35,8 @@ impl Mixer {
         first: &[(PigmentId, f64)],
         second: &[(PigmentId, f64)],
     ) -> Result<Self, RecipeError> {
-        let (first, second) = (library.parts(first)?, library.parts(second)?);
+        let first = library.parts(first)?;
+        let second = library.parts(second)?;
         let [k_first, s_first] = light.quadrature.mixed(&first);
         let [k_second, s_second] = light.quadrature.mixed(&second);
         let pair = |first: &[f64], second: &[f64]| {

@@ -2,9 +2,7 @@
 //! two paints under it.
 
 mod kept;
-
 mod node_light;
-
 mod mixer;
 
 pub use mixer::Mixer;

@@ -48,8 +48,9 @@ impl Light {
             return self.rgb_from_nodes;
         }
         let rgb = rgb_from_nodes(&self.quadrature.rule, degree);
-        let white = |channel: usize| rgb.iter().map(|rgb| rgb[channel]).sum::<f64>();
-        let greatest = (0..3).map(white).fold(f64::MIN_POSITIVE, f64::max);
+        let greatest = (0..3)
+            .map(|channel: usize| rgb.iter().map(|rgb| rgb[channel]).sum::<f64>())
+            .fold(f64::MIN_POSITIVE, f64::max);
         rgb.map(|rgb| rgb.map(|value| (value / greatest) as f32))
     }
 
@@ -71,7 +72,8 @@ impl Light {
 
 /// Linear sRGB of reflectance 1 at each wavelength, adapted to D65 by `degree`.
 fn rgb_from_nodes(quadrature: &Quadrature, degree: f64) -> [[f64; 3]; NODES] {
-    let (space, white) = (RgbSpace::Srgb, quadrature.white);
+    let space = RgbSpace::Srgb;
+    let white = quadrature.white;
     let adapted = Adaptation::Bradford.partial_matrix(white, space.white(), degree);
     let from_xyz = space.xyz_from_linear().inverse();
     std::array::from_fn(|i| from_xyz.apply(adapted.apply(quadrature.weights[i])))

@@ -33,7 +33,8 @@ pub fn mobile_share(motion: &MotionConstants, volume: u32) -> u32 {
 #[inline(always)]
 #[must_use]
 pub fn outflow(mobile: u32, speed: (u32, u32)) -> Outflow {
-    let (x, y) = (4 * speed.0, 4 * speed.1);
+    let x = 4 * speed.0;
+    let y = 4 * speed.1;
     let sideways = share_of_65536(mobile, x);
     let diagonal = share_of_65536(sideways, y);
     let in_y = share_of_65536(mobile - sideways, y);

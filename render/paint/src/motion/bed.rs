@@ -24,7 +24,8 @@ pub fn block_height(sum: i32, count: i32) -> i32 {
 #[must_use]
 pub fn between(place: usize, blocks: usize) -> (usize, usize, i32) {
     let shifted = place + BLOCK / 2;
-    let (second, cell) = (shifted / BLOCK, shifted % BLOCK);
+    let second = shifted / BLOCK;
+    let cell = shifted % BLOCK;
     (second.saturating_sub(1), second.min(blocks - 1), 2 * cell as i32 + 1)
 }
 

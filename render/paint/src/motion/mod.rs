@@ -35,15 +35,10 @@
 //! advection leaves every column below [`crate::amount::MAX_COLUMN`].
 
 mod constants;
-
 pub mod bed;
-
 pub mod press;
-
 pub mod advect;
-
 pub mod transfer;
-
 pub mod wick;
 
 pub use constants::{MotionConstants, levelling_sub_steps};

@@ -134,7 +134,8 @@ fn with_sign_of(sign: i32, size: i32) -> i32 {
 #[inline(always)]
 #[must_use]
 pub fn velocity(head: i32, volume: u32, before: i32, after: i32) -> i32 {
-    let (forward, back) = (after.max(0), (-before).max(0));
+    let forward = after.max(0);
+    let back = (-before).max(0);
     let flow = (forward.max(back) as u32).min(volume);
     let cells = (ratio_of_65536(flow, volume) / 4).min(FASTEST_FLOW) as i32;
     let flowing = if forward >= back { cells } else { -cells };
@@ -206,7 +207,8 @@ mod tests {
                 let penetration = [penetration, NO_CONTACT][random.random_range(0..2)];
                 Column { top, pressure: pressure(&motion, penetration) }
             };
-            let (here, next) = (column(tops[1]), column(tops[2]));
+            let here = column(tops[1]);
+            let next = column(tops[2]);
             let there = flow(&motion, tops[0], here, next, tops[3]);
             let back = flow(&motion, tops[3], next, here, tops[0]);
             // Halves and shares are rounded.

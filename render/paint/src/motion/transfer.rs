@@ -87,11 +87,13 @@ mod tests {
     /// Film after 60 sub-steps on a flat ground, from `film` quanta, and the paint that the head
     /// has won. All in quanta; the head's coat is `coat` quanta thick and does not change.
     fn painted(rates: &ExchangeRates, coat: u32, film: u32) -> (u32, i64) {
-        let (mut canvas, mut brush) = (film, 50_000_000_u32);
+        let mut canvas = film;
+        let mut brush = 50_000_000_u32;
         for _ in 0..60 {
             let Exchange { down, up } =
                 exchange(rates, TOUCH, canvas as i32, coat, canvas, brush, 0);
-            let (laid, taken) = (share_of_65536(brush, down), share_of_65536(canvas, up));
+            let laid = share_of_65536(brush, down);
+            let taken = share_of_65536(canvas, up);
             (canvas, brush) = (canvas - taken + laid, brush - laid + taken);
         }
         (canvas, i64::from(brush) - 50_000_000)
@@ -134,7 +136,8 @@ mod tests {
     fn a_full_head_takes_no_more() {
         let rates = ExchangeRates { pick_up: 65536, ..ExchangeRates::default() };
         let shared = Touch { weights: 256 | 3 << 16, ..TOUCH };
-        let (canvas, room) = (80_000_000, 30_000_000);
+        let canvas = 80_000_000;
+        let room = 30_000_000;
         let found = |brush: u32| exchange(&rates, shared, canvas as i32, 0, canvas, brush, 256);
         assert_eq!(found(MAX_COLUMN).up, 0);
         let taken = share_of_65536(canvas, found(MAX_COLUMN - room).up);

@@ -60,7 +60,8 @@ impl Batch {
         bounds: Rect,
     ) {
         self.count = 0;
-        let (mut cells, mut last) = (0, 0);
+        let mut cells = 0;
+        let mut last = 0;
         while self.count < BATCH && cells < BATCH_CELLS {
             let rest = &mut self.contacts[self.count..];
             let count = abreast(last, rayon::current_num_threads()).min(rest.len());

@@ -51,7 +51,8 @@ impl Heap {
 
     /// Relative height at the centre of a cell, 1 at the top.
     fn height(&self, x: i64, y: i64) -> f64 {
-        let (right, down) = (x as f64 + 0.5 - self.middle.0, y as f64 + 0.5 - self.middle.1);
+        let right = x as f64 + 0.5 - self.middle.0;
+        let down = y as f64 + 0.5 - self.middle.1;
         profile((right * right + down * down) / (self.radius * self.radius))
     }
 
@@ -68,7 +69,8 @@ impl Heap {
             let end = end as i64;
             (range.start.clamp(0, end) as usize, range.end.clamp(0, end) as usize)
         };
-        let ((x, right), (y, bottom)) = (cut(columns, bounds.width), cut(rows, bounds.height));
+        let (x, right) = cut(columns, bounds.width);
+        let (y, bottom) = cut(rows, bounds.height);
         Rect { x, y, width: right - x, height: bottom - y }
     }
 
@@ -79,7 +81,8 @@ impl Heap {
         let [columns, rows] = self.reach();
         let cells = || rows.clone().flat_map(|y| columns.clone().map(move |x| (x, y)));
         let whole: f64 = cells().map(|(x, y)| self.height(x, y)).sum();
-        let (mut so_far, mut spent) = (0.0, [0_u64; SLOTS + 1]);
+        let mut so_far = 0.0;
+        let mut spent = [0_u64; SLOTS + 1];
         for (x, y) in cells() {
             let height = self.height(x, y);
             if height == 0.0 {
@@ -142,8 +145,10 @@ impl Painting {
         let mut paint = self.engine.wet_in(rect)?;
         let mut too_high = false;
         heap.spread(shares.map(|share| (share * quanta).round()), |x, y, more| {
-            let (x, y) = (x - rect.x as i64, y - rect.y as i64);
-            let (width, height) = (rect.width as i64, rect.height as i64);
+            let x = x - rect.x as i64;
+            let y = y - rect.y as i64;
+            let width = rect.width as i64;
+            let height = rect.height as i64;
             if !((0..width).contains(&x) && (0..height).contains(&y)) {
                 return;
             }
@@ -203,7 +208,8 @@ impl Painting {
             if let Some(mask) = &painting.mask {
                 let before = painting.engine.wet_in(rect)?;
                 for index in 0..rect.width * rect.height {
-                    let (x, y) = (rect.x + index % rect.width, rect.y + index / rect.width);
+                    let x = rect.x + index % rect.width;
+                    let y = rect.y + index / rect.width;
                     if mask.covers(y * bounds.width + x) {
                         left.set_cell(index, before.cell(index));
                     }
@@ -226,7 +232,8 @@ mod tests {
             let heap = Heap::new((300.0, 300.0), volume * quanta, HIGHEST_HEAP);
             let mut totals = [0.0; SLOTS + 1];
             totals[3] = (volume * quanta).round();
-            let (mut highest, mut sum) = (0, 0);
+            let mut highest = 0;
+            let mut sum = 0;
             heap.spread(totals, |_, _, cell| {
                 highest = highest.max(cell.volume());
                 sum += u64::from(cell.volume());

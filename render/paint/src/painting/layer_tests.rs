@@ -45,7 +45,8 @@ fn painting(films: &[(usize, u32, Rect)]) -> Painting {
         3 => Some(blue),
         _ => others.next(),
     });
-    let (medium, lighting) = (Medium::default(), Lighting::default());
+    let medium = Medium::default();
+    let lighting = Lighting::default();
     let mut document = Document::bare("", 0.1, ground, library, medium, slots, lighting);
     for &(slot, amount, rect) in films {
         document.push_dry(slots, film(slot, amount, rect));
@@ -75,7 +76,8 @@ const THICK: u32 = 1 << 20;
 fn a_moved_layer_covers_what_it_lies_over_and_the_relief_stays() {
     let mut painting =
         painting(&[(0, THICK, rect(5, 40)), (3, THICK, rect(25, 40)), (5, THICK, rect(10, 70))]);
-    let (before, whole) = (painting.picture().unwrap(), painting.document().unwrap());
+    let before = painting.picture().unwrap();
+    let whole = painting.document().unwrap();
     let floor = painting.engine.floor().unwrap();
     assert!(painting.move_layer(id(1), 2).unwrap(), "it lay below");
     assert_eq!(ids(&painting), [2, 3, 1]);
@@ -97,7 +99,8 @@ fn a_moved_layer_covers_what_it_lies_over_and_the_relief_stays() {
 fn a_hidden_layer_keeps_opacity_and_relief() {
     let mut painting = painting(&[(0, THICK, rect(5, 40)), (3, THICK, rect(25, 40))]);
     painting.set_opacity(id(2), 0.7).unwrap();
-    let (shown, floor) = (painting.picture().unwrap(), painting.engine.floor().unwrap());
+    let shown = painting.picture().unwrap();
+    let floor = painting.engine.floor().unwrap();
     painting.show_layer(id(2), false).unwrap();
     assert!(painting.picture().unwrap() != shown, "nothing was hidden");
     assert_as_new(&mut painting, "hiding");
@@ -138,10 +141,12 @@ fn an_identity_is_not_given_again_after_a_merge() {
 
 #[test]
 fn layers_apart_merge_past_films_that_they_do_not_touch() {
-    let (left, right) = (rect(5, 20), rect(30, 20));
+    let left = rect(5, 20);
+    let right = rect(30, 20);
     let mut painting = painting(&[(0, THICK, left), (3, THICK, right), (5, THICK, rect(70, 10))]);
     painting.name_layer(id(3), "edge").unwrap();
-    let (picture, whole) = (painting.picture().unwrap(), painting.document().unwrap());
+    let picture = painting.picture().unwrap();
+    let whole = painting.document().unwrap();
     painting.merge(id(1), id(3)).unwrap();
     assert_eq!(ids(&painting), [1, 2]);
     assert_eq!(painting.state().dry[0].name, "edge", "the lower had no name");
@@ -181,7 +186,8 @@ fn opacities_become_part_of_the_merged_paint() {
     let mut painting = painting(&[(0, THICK, rect(5, 40)), (0, THICK, rect(30, 40))]);
     painting.set_opacity(id(1), 0.25).unwrap();
     painting.set_opacity(id(2), 0.5).unwrap();
-    let (picture, floor) = (painting.picture().unwrap(), painting.engine.floor().unwrap());
+    let picture = painting.picture().unwrap();
+    let floor = painting.engine.floor().unwrap();
     painting.merge(id(1), id(2)).unwrap();
     let layer = &painting.document().unwrap().dry[0];
     let cell = |x: usize| layer.paint.cell(30 * WIDTH + x);

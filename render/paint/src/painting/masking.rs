@@ -68,8 +68,9 @@ impl Painting {
                 for index in 0..self.state.dry.len() {
                     layers.push(self.dry_in(index, bounds)?);
                 }
-                let painted = |cell| layers.iter().any(|layer| layer.cell(cell).volume() > 0);
-                Some(Mask::with_open(bounds, painted))
+                Some(Mask::with_open(bounds, |cell| {
+                    layers.iter().any(|layer| layer.cell(cell).volume() > 0)
+                }))
             }
         };
         self.apply_action(|painting| painting.hold_mask(next.map(Arc::new)))?;

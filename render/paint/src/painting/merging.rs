@@ -62,7 +62,8 @@ impl Painting {
     fn possible_merge(&mut self, a: LayerRef, b: LayerRef) -> Result<Merge, PaintingError> {
         let wet = PaintingError::WetLayer { what: "layer to merge with" };
         let (Some(a), Some(b)) = (self.dry_index(a)?, self.dry_index(b)?) else { return Err(wet) };
-        let (lower, upper) = (a.min(b), a.max(b));
+        let lower = a.min(b);
+        let upper = a.max(b);
         if lower == upper {
             return Err(PaintingError::SameLayer);
         }
@@ -96,7 +97,8 @@ impl Painting {
         (lower, below): (usize, &Layer),
         (upper, above): (usize, &Layer),
     ) -> Result<usize, PaintingError> {
-        let (mut down, mut up) = (None, None);
+        let mut down = None;
+        let mut up = None;
         for index in lower + 1..upper {
             let film = self.engine.dry_layer(index)?;
             down = down.or_else(|| overlap(&film, above).then_some(index));

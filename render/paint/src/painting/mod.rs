@@ -6,41 +6,23 @@
 //! as it is painted.
 
 mod failure;
-
 mod layer_ref;
-
 mod views;
-
 mod state;
-
 mod undo;
-
 mod brushes;
-
 mod tip_load;
-
 mod batch;
-
 mod taken;
-
 mod clean_head;
-
 mod open_stroke;
-
 mod strokes;
-
 mod heaps;
-
 mod layers;
-
 mod stack;
-
 mod merging;
-
 mod masking;
-
 mod lights;
-
 mod pictures;
 
 #[cfg(test)]

@@ -198,10 +198,13 @@ impl OpenStroke {
         let Some(brush) = self.brush else { return Ok(0) };
         let open = painting.stroke_brush;
         assert_eq!(open, Some(brush), "the stroke was begun on another painting");
-        let (bounds, motion) = (painting.engine.bounds(), painting.motion());
+        let bounds = painting.engine.bounds();
+        let motion = painting.motion();
         let tool = &mut painting.brushes[brush.0];
-        let (head, relief) = (&mut tool.head, &painting.relief);
-        let (engine, history) = (&mut painting.engine, &mut painting.history);
+        let head = &mut tool.head;
+        let relief = &painting.relief;
+        let engine = &mut painting.engine;
+        let history = &mut painting.history;
         self.set_down(head, relief);
         let mut left = if self.down { most_substeps } else { 0 };
         while left > 0 {
@@ -210,8 +213,11 @@ impl OpenStroke {
             let now = &rest[..left.min(rest.len()).min(room)];
             let all = now.len() == rest.len();
             let touching = now.iter().filter(|contact| !contact.rect.is_empty());
-            let (path, next) = (&mut self.path, &mut self.next);
-            let (noted, clean, as_tool) = (&mut self.noted, &mut self.clean, self.tool);
+            let path = &mut self.path;
+            let next = &mut self.next;
+            let noted = &mut self.noted;
+            let clean = &mut self.clean;
+            let as_tool = self.tool;
             let (result, ()) = rayon::join(
                 || {
                     for contact in touching.clone() {
@@ -306,7 +312,8 @@ impl OpenStroke {
     /// Lets fluid paint level where the head was.
     fn level(&self, painting: &mut Painting) -> Result<(), PaintingError> {
         let Some(brush) = self.brush else { return Ok(()) };
-        let (bounds, motion) = (painting.engine.bounds(), painting.motion().everywhere());
+        let bounds = painting.engine.bounds();
+        let motion = painting.motion().everywhere();
         let stiffness = painting.state.medium.stiffness;
         let sub_steps = levelling_sub_steps(painting.cell_mm, stiffness);
         if sub_steps == 0 {

@@ -150,7 +150,8 @@ impl Painting {
 
     fn compute(&mut self, view: View, scene: &Scene) -> Result<(), PaintingError> {
         let pending = self.pending_of(view);
-        let (dry, wet) = (pending.dry.clone(), pending.wet.clone());
+        let dry = pending.dry.clone();
+        let wet = pending.wet.clone();
         self.engine.render(view, scene, &dry, &wet)?;
         let pending = self.pending_of(view);
         (pending.dry, pending.wet) = Default::default();
@@ -188,7 +189,8 @@ mod tests {
     fn bare() -> Painting {
         let library = PigmentLibrary::van_gogh_oils();
         let ground = GroundSpec::default().build(300, 200, 0.1, &library).unwrap();
-        let (medium, lighting) = (Medium::default(), Lighting::default());
+        let medium = Medium::default();
+        let lighting = Lighting::default();
         let slots = std::array::from_fn(|slot| Some(PigmentId(slot)));
         opened(Document::bare("", 0.1, ground, library, medium, slots, lighting))
     }

@@ -159,7 +159,8 @@ impl Painting {
     ) -> Result<Self, PaintingError> {
         check_heights(&document)?;
         let Document { title, cell_mm, ground, library, medium, mut dry, slots, .. } = document;
-        let (wet, lighting) = (document.wet, document.lighting);
+        let wet = document.wet;
+        let lighting = document.lighting;
         let ids = dry.iter_mut().map(|layer| &mut layer.id);
         let next_layer = distinct_ids(ids, document.next_layer);
         let mut states = Vec::with_capacity(dry.len());

@@ -22,7 +22,8 @@ impl TipLoad {
     /// `paint_cell_area` is the area of a cell of the head, in cells of the canvas.
     #[must_use]
     pub fn of(paint: &Layer, rows: usize, cell_mm: f64, paint_cell_area: f64) -> Self {
-        let (width, height) = (paint.width(), paint.height());
+        let width = paint.width();
+        let height = paint.height();
         let rows = rows.min(height.div_ceil(TIP));
         let mut quanta = [0_u64; SLOTS + 1];
         for index in (height - rows) * width..height * width {
@@ -56,7 +57,8 @@ impl Painting {
     pub fn tip_load(&mut self, brush: BrushId) -> Result<TipLoad, PaintingError> {
         let cell_mm = self.cell_mm();
         let head = self.head(brush);
-        let (rows, area) = (head.rows_with_paint().len(), head.paint_cell_area());
+        let rows = head.rows_with_paint().len();
+        let area = head.paint_cell_area();
         Ok(TipLoad::of(&self.brush_paint(brush)?, rows, cell_mm, area))
     }
 }

@@ -77,10 +77,12 @@ impl<'a> Appearance<'a> {
 
 /// Internal reflectance of a ground with the given measured reflectance.
 pub(super) fn internal_ground(library: &PigmentLibrary, reflectance: &[f64]) -> Vec<f64> {
-    let internal = |&measured: &f64| {
-        library.saunderson.internal_from_measured(measured).unwrap_or(0.0).min(1.0)
-    };
-    reflectance.iter().map(internal).collect()
+    reflectance
+        .iter()
+        .map(|&measured: &f64| {
+            library.saunderson.internal_from_measured(measured).unwrap_or(0.0).min(1.0)
+        })
+        .collect()
 }
 
 /// Unit vector towards the light: x right, y down, z towards the viewer.

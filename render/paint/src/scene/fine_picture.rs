@@ -71,7 +71,8 @@ impl PixelsPerCell {
 pub fn fine_picture(document: &Document, scene: &Scene, pixels: PixelsPerCell) -> Field<[f32; 4]> {
     let count = pixels.count();
     let cells = Cells::of(document, scene);
-    let (width, height) = (document.wet.width() * count, document.wet.height() * count);
+    let width = document.wet.width() * count;
+    let height = document.wet.height() * count;
     let mut picture = Field::filled(width, height, [0.0; 4]);
     if picture.values().is_empty() {
         return picture;
@@ -112,7 +113,8 @@ struct Cells {
 
 impl Cells {
     fn of(document: &Document, scene: &Scene) -> Self {
-        let (width, height) = (document.wet.width(), document.wet.height());
+        let width = document.wet.width();
+        let height = document.wet.height();
         let mut colors = Field::filled(width, height, [0.0; 4]);
         let mut materials = Field::filled(width, height, TopMaterial::Ground);
         if width > 0 {
@@ -132,7 +134,8 @@ impl Cells {
     /// Colour and topmost material of a pixel: that which covers most of it.
     fn between(&self, between: &Between, x: usize, y: usize) -> ([f32; 4], TopMaterial) {
         let from = self.colors[between.cell(x, y)];
-        let (mut more, mut shares) = ([0.0; 4], [0.0f32; 3]);
+        let mut more = [0.0; 4];
+        let mut shares = [0.0f32; 3];
         between.around(x, y, |weight, cell| {
             let there = &self.colors[cell];
             for i in 0..4 {
@@ -177,7 +180,8 @@ impl Between {
     /// edges of the canvas its last cells go on.
     fn around(&self, x: usize, y: usize, mut add: impl FnMut(f32, (usize, usize))) {
         let count = self.weights.len();
-        let (across, down) = (&self.weights[x % count], &self.weights[y % count]);
+        let across = &self.weights[x % count];
+        let down = &self.weights[y % count];
         let (x, y) = self.cell(x, y);
         for (j, down) in down.iter().enumerate() {
             let row = (y + j).saturating_sub(2).min(self.height - 1);

@@ -2,11 +2,8 @@
 //! picture without a paint engine, and the exact spectrum of every cell.
 
 mod appearance;
-
 mod picture;
-
 mod fine_picture;
-
 mod spectral;
 
 pub use appearance::{Appearance, scene};

@@ -209,7 +209,8 @@ impl<'a> SpectralDocument<'a> {
     /// computed on all CPU cores. After each row `go_on` is called with the number of rows
     /// done; if it returns `false`, the result is `None`.
     pub fn planes(&self, mut go_on: impl FnMut(usize) -> bool) -> Option<Vec<Field<f32>>> {
-        let (width, height) = (self.document.wet.width(), self.document.wet.height());
+        let width = self.document.wet.width();
+        let height = self.document.wet.height();
         let mut planes = vec![Field::filled(width, height, 0.0); self.count()];
         for y in 0..height {
             let columns = (0..width).into_par_iter();

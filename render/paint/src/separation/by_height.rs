@@ -38,7 +38,8 @@ impl SeparationByHeight {
         let heights_mm: Vec<f64> = (0..=steps).map(height).collect();
         // Recipes spread from the middle, where a film hides and is not yet a masstone.
         let middle = steps / 2;
-        let (least_mm, most_mm) = (heights_mm[middle], heights_mm[middle]);
+        let least_mm = heights_mm[middle];
+        let most_mm = heights_mm[middle];
         let first = Separation::new(film, &SeparationSettings { least_mm, most_mm, ..*settings })?;
         let mut tables = vec![first.clone()];
         for &height_mm in &heights_mm[middle + 1..] {
@@ -64,7 +65,8 @@ impl SeparationByHeight {
     pub fn heights_mm(&self, rgb: [f32; 3], height_mm: f32) -> [f32; SLOTS] {
         let last = self.tables.len() - 1;
         let above = self.heights_mm.partition_point(|mm| *mm < f64::from(height_mm));
-        let (lower, upper) = (above.saturating_sub(1).min(last), above.min(last));
+        let lower = above.saturating_sub(1).min(last);
+        let upper = above.min(last);
         let shares = |at: usize| (self.tables[at].heights_mm(rgb), self.heights_mm[at]);
         let (thin, thin_mm) = shares(lower);
         let own = f64::from(height_mm);
@@ -126,7 +128,9 @@ mod tests {
         let light = Light::named(&library, &illuminant, &observer).unwrap();
         let ground = GroundKind::Panel.spec(1).reflectance(&library).unwrap();
         let scattering_per_mm = Medium::of(&library).scattering_per_mm / 30.0;
-        let (library, slots, ground) = (&library, &slots, &ground[..]);
+        let library = &library;
+        let slots = &slots;
+        let ground = &ground[..];
         let materials = FilmMaterials { library, slots, ground, scattering_per_mm };
         PaintFilm::at_nodes(materials, &light.quadrature)
     }
@@ -140,13 +144,15 @@ mod tests {
             let total: f32 = parts.iter().sum();
             std::array::from_fn(|slot| parts.get(slot).map_or(0.0, |part| part / total * height_mm))
         };
-        let difference = |at: usize| {
-            let rgb = film.rgb(&mixed(at));
-            let scale = f64::from(height_mm / recipe_mm);
-            let found = films.heights_mm(rgb, recipe_mm).map(|mm| scale * f64::from(mm));
-            delta_e_ciede2000(film.lab_from_rgb(rgb), film.lab(&found))
-        };
-        (0..100).map(difference).sum::<f64>() / 100.0
+        (0..100)
+            .map(|at: usize| {
+                let rgb = film.rgb(&mixed(at));
+                let scale = f64::from(height_mm / recipe_mm);
+                let found = films.heights_mm(rgb, recipe_mm).map(|mm| scale * f64::from(mm));
+                delta_e_ciede2000(film.lab_from_rgb(rgb), film.lab(&found))
+            })
+            .sum::<f64>()
+            / 100.0
     }
 
     #[test]

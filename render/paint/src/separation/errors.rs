@@ -85,8 +85,12 @@ impl Outside {
         colors.par_sort_unstable();
         colors.dedup();
         let middle = |bits: u16| f32::from_bits(u32::from(bits) << 16 | 0x8000);
-        let is_outside = |color: &[u16; 3]| separation.is_out_of_gamut(color.map(middle));
-        Self { colors: colors.into_par_iter().filter(is_outside).collect() }
+        Self {
+            colors: colors
+                .into_par_iter()
+                .filter(|color: &[u16; 3]| separation.is_out_of_gamut(color.map(middle)))
+                .collect(),
+        }
     }
 
     fn holds(&self, color: [f32; 3]) -> bool {

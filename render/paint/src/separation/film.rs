@@ -72,7 +72,8 @@ impl PaintFilm {
             library.grid.count(),
             "the ground's reflectance is not on the library's grid"
         );
-        let (surface, white) = (library.saunderson, quadrature.rule.white);
+        let surface = library.saunderson;
+        let white = quadrature.rule.white;
         let ground = quadrature.rule.at_nodes(library.grid, ground);
         let mut bands: Vec<Band> = quadrature
             .rule
@@ -160,7 +161,8 @@ impl PaintFilm {
             let [internal, by_k, by_s] = Layer::over_with_slopes(k, s, lit * band.ground);
             let slope = self.surface.measured_slope(internal);
             let seen = self.surface.measured_from_internal(internal);
-            let (by_k, by_s) = (slope * by_k, slope * by_s);
+            let by_k = slope * by_k;
+            let by_s = slope * by_s;
             let by_slot: [f64; SLOTS] =
                 std::array::from_fn(|i| by_k * band.absorption[i] + by_s * band.scattering[i]);
             for (channel, &weight) in band.weights.iter().enumerate() {

@@ -128,7 +128,8 @@ impl FilmSearch {
             return 0.0;
         }
         let heights = mixed.heights_mm();
-        let (ground, black) = (self.film.lab(&heights), self.film.lab_over_black(&heights));
+        let ground = self.film.lab(&heights);
+        let black = self.film.lab_over_black(&heights);
         self.hiding * delta_e_cie76(ground, black)
     }
 

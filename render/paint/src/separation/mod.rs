@@ -5,17 +5,11 @@
 //! for a picture.
 
 mod film;
-
 mod film_search;
-
 mod sampled_films;
-
 mod table;
-
 mod by_height;
-
 mod errors;
-
 mod selection;
 
 pub use by_height::SeparationByHeight;

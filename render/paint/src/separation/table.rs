@@ -112,14 +112,14 @@ impl Separation {
     /// its colour allows.
     pub(super) fn at_height(&self, height_mm: f64) -> Self {
         let search = self.search.at_height(height_mm);
-        let shifted = |(index, heights): (usize, &[f32; SLOTS])| {
-            let own = FilmMix::of(heights.map(f64::from), search.film.used()[0]);
-            let start = FilmMix { height_mm, ..own };
-            let anchor = Anchor { mixed: start, strength: NEIGHBOURS };
-            let target = search.target(color(&search, self.lattice, index));
-            search.minimize(&target, &start, Some(&anchor), STEPS).1
-        };
-        let films = self.heights.par_iter().enumerate().map(shifted);
+        let films =
+            self.heights.par_iter().enumerate().map(|(index, heights): (usize, &[f32; SLOTS])| {
+                let own = FilmMix::of(heights.map(f64::from), search.film.used()[0]);
+                let start = FilmMix { height_mm, ..own };
+                let anchor = Anchor { mixed: start, strength: NEIGHBOURS };
+                let target = search.target(color(&search, self.lattice, index));
+                search.minimize(&target, &start, Some(&anchor), STEPS).1
+            });
         let heights = films.map(|mixed| mixed.heights_mm().map(|height| height as f32)).collect();
         Self { search, heights, ..*self }
     }
@@ -276,7 +276,8 @@ impl SeparationSettings {
         }
         let range = self.least_mm > 0.0 && self.least_mm <= self.most_mm && self.most_mm <= 100.0;
         if !range {
-            let (least_mm, most_mm) = (self.least_mm, self.most_mm);
+            let least_mm = self.least_mm;
+            let most_mm = self.most_mm;
             return Err(SeparationError::Heights { least_mm, most_mm });
         }
         Ok(())

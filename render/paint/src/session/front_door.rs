@@ -49,7 +49,8 @@ impl PaintingSession {
         amount_mm: f64,
     ) -> Result<(), SessionError> {
         let parts: Vec<(&str, f64)> = recipe.into_iter().collect();
-        let (library, slots) = (self.canvas.library(), self.canvas.state().slots);
+        let library = self.canvas.library();
+        let slots = self.canvas.state().slots;
         let mut names = pigment_names(&slots, library);
         let before = names.len();
         for (name, _) in &parts {

@@ -24,7 +24,8 @@ const HEADER: &str = r#"{"format": "strokes", "version": 1, "brushes": {}, "acti
 
 fn opened(canvas: Document, palette: Option<Document>) -> (Painting, Option<Painting>) {
     let engine = |document: &Document| PaintEngine::on_cpu(document.ground.height.clone());
-    let (on_canvas, on_palette) = (engine(&canvas), palette.as_ref().map(engine));
+    let on_canvas = engine(&canvas);
+    let on_palette = palette.as_ref().map(engine);
     let canvas = Painting::open(canvas, on_canvas, 1 << 26).unwrap();
     let palette = palette.zip(on_palette).map(|(palette, engine)| {
         Painting::open_under(palette, Arc::clone(canvas.light()), engine, 1 << 26).unwrap()
@@ -47,11 +48,12 @@ fn begun() -> PaintingSession {
 
 /// A way over a surface with a bend, of `count` samples.
 fn way(y_mm: f64, count: usize) -> Vec<Sample> {
-    let sample = |index: usize| {
-        let share = index as f64 / 20.0;
-        Sample::upright(share, 2.0 + 9.0 * share, y_mm + 2.0 * share * share, 0.3 + 0.4 * share)
-    };
-    (0..count).map(sample).collect()
+    (0..count)
+        .map(|index: usize| {
+            let share = index as f64 / 20.0;
+            Sample::upright(share, 2.0 + 9.0 * share, y_mm + 2.0 * share * share, 0.3 + 0.4 * share)
+        })
+        .collect()
 }
 
 fn stroke(session: &mut PaintingSession, on: SurfaceId, brush: &str, y_mm: f64) {
@@ -62,8 +64,11 @@ fn stroke(session: &mut PaintingSession, on: SurfaceId, brush: &str, y_mm: f64) 
 
 /// Loads, mixing on the palette, a head that replaces another, undo, and drying.
 fn first_half(session: &mut PaintingSession) {
-    let (recipe, vehicle) = ([("Lead White".to_owned(), 1.0)].into(), 0.1);
-    let (x_mm, y_mm, volume_mm3) = (5.0, 4.0, 20.0);
+    let recipe = [("Lead White".to_owned(), 1.0)].into();
+    let vehicle = 0.1;
+    let x_mm = 5.0;
+    let y_mm = 4.0;
+    let volume_mm3 = 20.0;
     let on = SurfaceId::Palette;
     let heap = Squeeze { on, recipe, vehicle, x_mm, y_mm, volume_mm3 };
     session.apply(&Action::Squeeze(heap)).unwrap();
@@ -97,7 +102,8 @@ fn restored(session: &mut PaintingSession, known: usize) -> PaintingSession {
     assert_eq!(tail.from, known, "it follows what is known");
     let mut recording = tail.header;
     recording.actions = earlier.into_iter().chain(tail.actions).chain(tail.open).collect();
-    let (brushes, mask) = (session.kept_heads().unwrap(), session.canvas().mask().cloned());
+    let brushes = session.kept_heads().unwrap();
+    let mask = session.canvas().mask().cloned();
     let (canvas, palette) = session.documents().unwrap();
     let (canvas, palette) = opened(canvas, palette);
     let kept = KeptSession { brushes, recording: Some(recording), mask };
@@ -112,8 +118,9 @@ fn replayed(session: &PaintingSession) -> PaintingSession {
     let (canvas, palette) = script.surfaces(&library, None).unwrap();
     let (canvas, palette) = opened(canvas, palette);
     let mut player = PaintingSession::new(canvas, palette).unwrap();
-    let step = || ControlFlow::Continue(());
-    script.replay(&mut player, |_, _| Ok::<(), Infallible>(()), step).unwrap();
+    script
+        .replay(&mut player, |_, _| Ok::<(), Infallible>(()), || ControlFlow::Continue(()))
+        .unwrap();
     player
 }
 

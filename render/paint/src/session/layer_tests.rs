@@ -34,7 +34,8 @@ fn session_on(script: &StrokeScript, start: Option<(Document, SideTable)>) -> Pa
     let library = PigmentLibrary::van_gogh_oils();
     let (start, table) = start.unzip();
     let (canvas, palette, brushes) = script.surfaces_with_table(&library, start, table).unwrap();
-    let (canvas, palette) = (painting(canvas), palette.map(painting));
+    let canvas = painting(canvas);
+    let palette = palette.map(painting);
     let mut session = PaintingSession::recorded(canvas, palette, script).unwrap();
     assert_eq!(session.take_up(&brushes).unwrap(), Vec::<String>::new());
     for (name, shape) in [("flat", HeadShape::Flat), ("knife", HeadShape::Knife)] {
@@ -91,8 +92,13 @@ fn whole(session: &mut PaintingSession) -> Whole {
 fn assert_replays(session: &mut PaintingSession, mut again: PaintingSession) {
     let text = session.recording().unwrap().to_json().unwrap();
     let script = StrokeScript::from_json("a.json", text.as_bytes()).unwrap();
-    let save = |_: &str, _: &mut Painting| Ok::<(), Infallible>(());
-    script.replay(&mut again, save, || ControlFlow::Continue(())).unwrap();
+    script
+        .replay(
+            &mut again,
+            |_: &str, _: &mut Painting| Ok::<(), Infallible>(()),
+            || ControlFlow::Continue(()),
+        )
+        .unwrap();
     assert!(whole(&mut again) == whole(session), "not the same paint");
 }
 

@@ -18,33 +18,19 @@
 //! a script of the format `strokes/1`.
 
 mod failure;
-
 mod brushes;
-
 mod history;
-
 mod record;
-
 mod label;
-
 mod layers;
-
 mod state;
-
 mod actions;
-
 mod adjusting;
-
 mod open_stroke;
-
 mod undo;
-
 mod replay;
-
 mod table;
-
 mod kept;
-
 mod front_door;
 
 #[cfg(test)]

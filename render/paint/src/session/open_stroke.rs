@@ -67,7 +67,8 @@ impl PaintingSession {
         if let Some(tool) = self.brushes.find(brush) {
             let size_mm = self.brushes.tools[tool].spec.size_mm;
             let stroke = OpenStroke::new(self.canvas.cell_mm(), size_mm, working)?;
-            let (samples, from) = (Vec::new(), None);
+            let samples = Vec::new();
+            let from = None;
             self.stroke =
                 Some(SessionStroke { on, tool, decimals, working, samples, from, stroke });
         }
@@ -104,12 +105,14 @@ impl PaintingSession {
     /// Opens the stroke in its painting, and moves the brush there with its paint.
     fn open_in_painting(&mut self) -> Result<(), SessionError> {
         let open = self.stroke.as_ref().ok_or(SessionError::NoStroke)?;
-        let (on, tool) = (open.on, open.tool);
+        let on = open.on;
+        let tool = open.tool;
         let from = self.brushes.tools[tool].at;
         let (id, paint) = if from == on {
             (self.brush_id(tool, on)?, None)
         } else {
-            let (away, here) = (self.brush_id(tool, from)?, self.brush_id(tool, on)?);
+            let away = self.brush_id(tool, from)?;
+            let here = self.brush_id(tool, on)?;
             (here, Some(self.surface_mut(from)?.take_brush_paint(away)?))
         };
         let (open, painting) = self.stroke_and_painting()?;

@@ -100,10 +100,11 @@ impl PaintingSession {
     pub(super) fn limit_history(&mut self) {
         self.drop_unreachable();
         let reserved = if self.palette.is_some() { self.undo_limit / RESERVED } else { 0 };
-        let (canvas, palette) =
-            (self.used_bytes(SurfaceId::Canvas), self.used_bytes(SurfaceId::Palette));
+        let canvas = self.used_bytes(SurfaceId::Canvas);
+        let palette = self.used_bytes(SurfaceId::Palette);
         let left = |other: u64| self.undo_limit.saturating_sub(other.max(reserved));
-        let (for_canvas, for_palette) = (left(palette), left(canvas));
+        let for_canvas = left(palette);
+        let for_palette = left(canvas);
         self.canvas.set_undo_bytes(for_canvas);
         if let Some(palette) = &mut self.palette {
             palette.set_undo_bytes(for_palette);
@@ -115,7 +116,8 @@ impl PaintingSession {
         let count = |of: fn(&Painting) -> usize| {
             PerSurface::from_fn(|surface| self.painting(surface).map_or(0, of))
         };
-        let (undo, redo) = (count(Painting::undo_count), count(Painting::redo_count));
+        let undo = count(Painting::undo_count);
+        let redo = count(Painting::redo_count);
         self.history.limit_to(undo, redo);
         if self.stroke.is_some() {
             // The move of its brush is in a painting's history already, and in this one later.

@@ -23,9 +23,7 @@
 //! highlight; what its specular reflection adds to a reading is already in Saunderson's k1.
 
 mod tops;
-
 mod relief_lamp;
-
 mod row;
 
 pub use relief_lamp::{MOST, REACH_MM, ReliefLamp, SOFT, Tap, reach};

@@ -61,7 +61,8 @@ pub fn relieve_row(
     if scene.lamp.relief == 0.0 {
         return;
     }
-    let ((x, y), (width, height)) = (first, tops.size());
+    let (x, y) = first;
+    let (width, height) = tops.size();
     assert!(x + count <= width && y < height, "cells must lie within {width} x {height}");
     let lamp = ReliefLamp::new(scene);
     for (block, out) in out.chunks_mut(BLOCK).enumerate() {
@@ -169,9 +170,11 @@ impl pulp::WithSimd for Shade<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { light, seen, out } = self;
-        let (lamp, count) = (light.lamp, light.count.min(BLOCK));
+        let lamp = light.lamp;
+        let count = light.count.min(BLOCK);
         let here = &light.heights([0, 0])[..count];
-        let (mut hidden, mut sky) = ([0.0f32; BLOCK], [0.0f32; BLOCK]);
+        let mut hidden = [0.0f32; BLOCK];
+        let mut sky = [0.0f32; BLOCK];
         for tap in &lamp.shadow {
             let there = &light.heights(tap.offset)[..count];
             for i in 0..count {

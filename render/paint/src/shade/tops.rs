@@ -61,7 +61,8 @@ impl Tops {
                     *value = top(x, y);
                 }
             }
-            let (left, right) = (values[MARGIN], values[MARGIN + width - 1]);
+            let left = values[MARGIN];
+            let right = values[MARGIN + width - 1];
             values[..MARGIN].fill(left);
             values[MARGIN + width..].fill(right);
         });

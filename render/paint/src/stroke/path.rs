@@ -221,7 +221,8 @@ impl Path {
 
     /// Refuses impossible samples.
     fn check(&self, sample: &Sample) -> Result<(), StrokeError> {
-        let (index, farthest) = (self.samples, FARTHEST * self.cell_mm);
+        let index = self.samples;
+        let farthest = FARTHEST * self.cell_mm;
         let fields = [
             ("seconds", sample.seconds, f64::INFINITY),
             ("x_mm", sample.x_mm, farthest),
@@ -241,7 +242,8 @@ impl Path {
             }
         }
         if sample.seconds < self.seconds {
-            let (found, before) = (sample.seconds, self.seconds);
+            let found = sample.seconds;
+            let before = self.seconds;
             return Err(StrokeError::Backwards { sample: index, found, before });
         }
         Ok(())

@@ -41,7 +41,8 @@ impl Piece {
         let turn = (to.twist_deg - from.twist_deg) % 360.0;
         to.twist_deg = from.twist_deg + turn - 360.0 * (turn / 360.0).round();
         let place = |pose: &Pose| (pose.x, pose.y);
-        let (b, c) = (place(&from), place(&to));
+        let b = place(&from);
+        let c = place(&to);
         let before = before.map_or_else(|| mirrored(c, b), |pose| place(&pose));
         let after = after.map_or_else(|| mirrored(b, c), |pose| place(&pose));
         let points = [b, handle(before, b, c), handle(after, c, b), c];
@@ -114,8 +115,10 @@ fn mirrored(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 /// point before.
 fn handle(last: (f64, f64), here: (f64, f64), next: (f64, f64)) -> (f64, f64) {
     // Centripetal: knot distances are square roots of point distances.
-    let (d, e) = (distance(last, here), distance(here, next));
-    let (root_d, root_e) = (d.sqrt(), e.sqrt());
+    let d = distance(last, here);
+    let e = distance(here, next);
+    let root_d = d.sqrt();
+    let root_e = e.sqrt();
     let whole = 3.0 * root_d * (root_d + root_e);
     if whole == 0.0 {
         return here;

@@ -178,8 +178,7 @@ pub(crate) fn check_brush<'a>(
     if known.clone().any(|name| name == brush) {
         return Ok(());
     }
-    let declare = || Some(Hint::new("declare it under `brushes`"));
-    let hint = did_you_mean(brush, known).or_else(declare);
+    let hint = did_you_mean(brush, known).or_else(|| Some(Hint::new("declare it under `brushes`")));
     Err(at.invalid("brush", "one of `brushes`", &brush, hint))
 }
 

@@ -35,7 +35,8 @@ impl CheckContext {
         found: &dyn std::fmt::Display,
         hint: Option<Hint>,
     ) -> Box<InvalidValue> {
-        let (action, sample) = (self.action, self.sample);
+        let action = self.action;
+        let sample = self.sample;
         let location = ValueLocation { action, sample, field: field.to_owned() };
         Box::new(InvalidValue {
             location,

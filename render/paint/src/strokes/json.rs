@@ -18,7 +18,8 @@ impl StrokeScript {
     pub fn from_json(file: &str, bytes: &[u8]) -> Result<Self, ScriptError> {
         let named = || file.to_owned();
         if bytes.len() > MAX_FILE_BYTES {
-            let (bytes, limit) = (bytes.len(), MAX_FILE_BYTES);
+            let bytes = bytes.len();
+            let limit = MAX_FILE_BYTES;
             return Err(ScriptError::TooLong { file: named(), bytes, limit });
         }
         let text = std::str::from_utf8(bytes).map_err(|error| {

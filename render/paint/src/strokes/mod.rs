@@ -46,43 +46,24 @@
 //! folder that the caller chooses.
 
 mod limits;
-
 mod names;
-
 mod error;
-
 mod check_context;
-
 mod palette;
-
 mod surface_id;
-
 mod sample_rows;
-
 mod stroke_action;
-
 mod action;
-
 mod rounding;
-
 mod script;
-
 mod side_table;
-
 mod unloaded;
-
 mod save_path;
-
 mod action_limits;
-
 mod script_check;
-
 mod json;
-
 mod resolve;
-
 mod start;
-
 mod named_files;
 
 #[cfg(test)]

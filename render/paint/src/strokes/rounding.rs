@@ -73,12 +73,15 @@ impl Action {
 }
 
 fn round_stroke(stroke: &Stroke) -> Stroke {
-    let round = |sample: &Sample| SampleDecimals::RECORDING.round(sample);
     Stroke {
         brush: stroke.brush.clone(),
         on: stroke.on,
         tool: stroke.tool.map(six_digits),
-        samples: stroke.samples.iter().map(round).collect(),
+        samples: stroke
+            .samples
+            .iter()
+            .map(|sample: &Sample| SampleDecimals::RECORDING.round(sample))
+            .collect(),
     }
 }
 

@@ -134,8 +134,8 @@ impl StrokeScript {
             let hint = "save the painting in the studio, or leave `table` out";
             return Err(wrong("a painting saved with its palette and brushes", "none", hint));
         };
-        let (wanted, found) =
-            (self.mixing.as_ref().map(Canvas::cells), palette.wet.vehicle.bounds());
+        let wanted = self.mixing.as_ref().map(Canvas::cells);
+        let found = palette.wet.vehicle.bounds();
         if wanted != Some((found.width, found.height)) {
             let found = format!("{} x {}", found.width, found.height);
             return Err(wrong("a palette of the size of `mixing`", &found, "describe its size"));

@@ -18,7 +18,8 @@ pub(super) fn shown(actions: &[Action], with_undone: bool) -> Vec<bool> {
 
 /// Indices of the actions of the history that are done at the end of a script.
 fn done_at_end(actions: &[Action]) -> Vec<usize> {
-    let (mut done, mut undone) = (Vec::new(), Vec::new());
+    let mut done = Vec::new();
+    let mut undone = Vec::new();
     for (index, action) in actions.iter().enumerate() {
         match action {
             Action::Undo {} => undone.extend(done.pop()),

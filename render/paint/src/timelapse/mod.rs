@@ -5,15 +5,10 @@
 //! continues, and joins them to one file. The same script gives the same frames.
 
 mod error;
-
 mod settings;
-
 mod kept;
-
 mod moments;
-
 mod plan;
-
 mod write;
 
 #[cfg(test)]

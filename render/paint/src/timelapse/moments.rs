@@ -57,7 +57,8 @@ fn times(every: f64, seconds: f64) -> Vec<f64> {
 /// Moments at `times` of painting, in seconds, rising.
 fn at_times(actions: &[Action], changes: &[usize], times: &[f64]) -> Vec<Moment> {
     let mut found = Vec::new();
-    let (mut times, mut before) = (times.iter().copied().peekable(), 0.0);
+    let mut times = times.iter().copied().peekable();
+    let mut before = 0.0;
     for &index in changes {
         let Some(Stroke { samples, .. }) = actions[index].stroke() else { continue };
         let length = duration(&actions[index]);
@@ -86,8 +87,9 @@ mod tests {
 
     /// A stroke of 2 s with five samples, half a second apart.
     fn stroke(on: SurfaceId) -> Action {
-        let sample = |index| Sample::upright(3.0 + 0.5 * f64::from(index), 1.0, 1.0, 0.5);
-        let samples = (0..5).map(sample).collect();
+        let samples = (0..5)
+            .map(|index| Sample::upright(3.0 + 0.5 * f64::from(index), 1.0, 1.0, 0.5))
+            .collect();
         Action::Stroke(Stroke { brush: "round".to_owned(), on, tool: StrokeTool::Paint, samples })
     }
 

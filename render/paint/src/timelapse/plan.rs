@@ -92,7 +92,8 @@ impl<'a> Timelapse<'a> {
         let mut taking = Taking { timelapse: self, wanted, put };
         let mut used = BTreeSet::new();
         let weights: Vec<usize> = self.script.actions.iter().map(weight).collect();
-        let (mut done, all) = (0, weights.iter().sum::<usize>().max(1));
+        let mut done = 0;
+        let all = weights.iter().sum::<usize>().max(1);
         for (index, action) in self.script.actions.iter().enumerate() {
             taking.take_until(session, Moment { action: index, samples: 0 })?;
             if taking.wanted.is_empty() {

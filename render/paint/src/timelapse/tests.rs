@@ -50,12 +50,13 @@ fn frames(script: &StrokeScript, settings: TimelapseSettings) -> Vec<Frame> {
     let wanted: Vec<usize> = (0..timelapse.frames()).collect();
     let mut found = Vec::new();
     let step = |_| ControlFlow::Continue(());
-    let put = |index, frame| {
-        assert_eq!(index, found.len(), "in their order");
-        found.push(frame);
-        Ok(())
-    };
-    let _ = timelapse.play(&mut blank(), &wanted, step, put).unwrap();
+    let _ = timelapse
+        .play(&mut blank(), &wanted, step, |index, frame| {
+            assert_eq!(index, found.len(), "in their order");
+            found.push(frame);
+            Ok(())
+        })
+        .unwrap();
     found
 }
 
@@ -83,7 +84,8 @@ fn an_undone_passage_is_shown_on_request_only() {
         let settings = TimelapseSettings { with_undone, ..settings(Interval::Actions(1)) };
         frames(&script, settings)
     };
-    let (without, with) = (shown(false), shown(true));
+    let without = shown(false);
+    let with = shown(true);
     assert_eq!((without.len(), with.len()), (3, 5));
     assert!(without[2] == end && with[4] == end);
     assert!(with[3] == with[1] && with[2] != with[1], "the second stroke comes and goes");
@@ -179,7 +181,8 @@ fn an_action_that_fails_is_named() {
     script.actions.push(Action::Merge { layer: LayerRef::Dry(1), with: None });
     let timelapse = Timelapse::new(&script, TimelapseSettings::default()).unwrap();
     let last = timelapse.frames() - 1;
-    let step = |_| ControlFlow::Continue(());
-    let error = timelapse.play(&mut blank(), &[last], step, |_, _| Ok(())).unwrap_err();
+    let error = timelapse
+        .play(&mut blank(), &[last], |_| ControlFlow::Continue(()), |_, _| Ok(()))
+        .unwrap_err();
     assert!(error.to_string().contains("(merge)"), "{error}");
 }

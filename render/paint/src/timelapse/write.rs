@@ -41,7 +41,8 @@ impl TimelapseFiles {
         if (0.0..=60.0).contains(&found) {
             return Ok(());
         }
-        let (name, wanted) = ("hold", "0 to 60 s");
+        let name = "hold";
+        let wanted = "0 to 60 s";
         Err(TimelapseError::Setting { name, wanted, found })
     }
 }
@@ -61,15 +62,18 @@ impl Timelapse<'_> {
         mut report: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Option<usize>, TimelapseError> {
         files.check()?;
-        let ((width, height), frames) = (self.size(session), self.frames());
+        let (width, height) = self.size(session);
+        let frames = self.frames();
         let settings = self.digest(session)?;
         let settings = SequenceSettings { settings, frames, width, height };
         let mut sequence = Sequence::open(&files.frames, settings)?;
         let missing = sequence.remaining().to_vec();
-        let playing = |done: f64| report(PLAYING * done);
-        let played = self.play(session, &missing, playing, |index, frame| {
-            Ok(sequence.write_frame(index, &frame)?)
-        })?;
+        let played = self.play(
+            session,
+            &missing,
+            |done: f64| report(PLAYING * done),
+            |index, frame| Ok(sequence.write_frame(index, &frame)?),
+        )?;
         if played.is_break() || report(PLAYING).is_break() {
             if !files.keep_frames {
                 sequence.remove()?;

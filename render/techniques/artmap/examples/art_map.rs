@@ -40,8 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for key in &map.keys {
         let sample = samples.samples.iter().find(|sample| sample.name == key.name);
         let sample = sample.ok_or("a tile has no sample")?;
-        let (tile, whole) =
-            (Texture::tiled(&key.tile.color), Texture::masked(&sample.color, &sample.mask));
+        let tile = Texture::tiled(&key.tile.color);
+        let whole = Texture::masked(&sample.color, &sample.mask);
         let (width, height) = sample.size();
         let half = |right: bool| {
             let inside = (0..width * height).map(|at| (at % width >= width / 2) == right);

@@ -25,7 +25,8 @@ pub(crate) fn slopes(
     mm_per_texel: f64,
 ) -> Field<[f32; 2]> {
     assert_eq!(height_mm.bounds(), mask.bounds(), "heights and mask of one sample");
-    let (width, height) = (height_mm.width(), height_mm.height());
+    let width = height_mm.width();
+    let height = height_mm.height();
     let step = mm_per_texel as f32;
     let row = |y: usize| {
         let slopes = move |x: usize| {
@@ -50,7 +51,8 @@ pub(crate) fn slopes(
 /// Tangent of the elevation of a light that shows the relief of all surfaces: the flatter they are,
 /// the lower the light, from 40 down to 2 degrees.
 pub(crate) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 2]>>) -> f32 {
-    let (mut sum, mut count) = (0.0, 0.0);
+    let mut sum = 0.0;
+    let mut count = 0.0;
     for [across, down] in surfaces.flat_map(|surface| surface.values()) {
         sum += f64::from(across * across + down * down) / 2.0;
         count += 1.0;
@@ -65,12 +67,15 @@ pub(crate) fn raking_tangent<'a>(surfaces: impl Iterator<Item = &'a Field<[f32; 
 pub(crate) fn raked(slopes: &Field<[f32; 2]>, tangent: f32) -> Picture {
     // Half of the light's way along the canvas is from the left, half from above.
     let along = 0.5_f32.sqrt() / tangent;
-    let grey = |&[across, down]: &[f32; 2]| {
-        let facing = 1.0 + along * (across + down);
-        let length = (1.0 + across * across + down * down).sqrt();
-        [(LEVEL * facing / length).clamp(0.0, 1.0); 3]
-    };
-    let values = slopes.values().par_iter().map(grey).collect();
+    let values = slopes
+        .values()
+        .par_iter()
+        .map(|&[across, down]: &[f32; 2]| {
+            let facing = 1.0 + along * (across + down);
+            let length = (1.0 + across * across + down * down).sqrt();
+            [(LEVEL * facing / length).clamp(0.0, 1.0); 3]
+        })
+        .collect();
     Field::from_values(slopes.width(), slopes.height(), values)
 }
 
@@ -80,8 +85,13 @@ mod tests {
 
     /// A plane of 9 x 9 texels that rises by `across` and `down`.
     fn plane(across: f32, down: f32) -> Field<[f32; 2]> {
-        let height = |i: usize| 5.0 + 0.5 * (across * (i % 9) as f32 + down * (i / 9) as f32);
-        let heights = Field::from_values(9, 9, (0..81).map(height).collect());
+        let heights = Field::from_values(
+            9,
+            9,
+            (0..81)
+                .map(|i: usize| 5.0 + 0.5 * (across * (i % 9) as f32 + down * (i / 9) as f32))
+                .collect(),
+        );
         slopes(&heights, &Field::filled(9, 9, true), 0.5)
     }
 

@@ -6,13 +6,15 @@ use graphics::field::Field;
 /// Blurs a field that tiles in both directions by a Gaussian of standard deviation `sigma`, in
 /// cells. The cells on opposite borders are neighbours.
 pub(crate) fn blurred_tile(field: &Field<f32>, sigma: f64) -> Field<f32> {
-    let (width, height) = (field.width(), field.height());
+    let width = field.width();
+    let height = field.height();
     // The blur repeats the cells at the border; four deviations keep that out of the tile.
     let margin = (4.0 * sigma).ceil() as usize;
     let wrapped = |index: usize, size: usize| {
         (index as isize - margin as isize).rem_euclid(size as isize) as usize
     };
-    let (wide, high) = (width + 2 * margin, height + 2 * margin);
+    let wide = width + 2 * margin;
+    let high = height + 2 * margin;
     let mut repeated = Vec::with_capacity(wide * high);
     for y in 0..high {
         for x in 0..wide {

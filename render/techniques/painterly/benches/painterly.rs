@@ -238,7 +238,8 @@ fn lit_painting_light(bencher: Bencher<'_, '_>) {
 fn paint_of_colors(bencher: Bencher<'_, '_>) {
     let (mut painter, camera) = painter(PAINTED);
     let painted = painter.paint(&camera, PAINTED.size, 0.0).unwrap();
-    let (paint, film) = (color_paint(), FilmHeight::of(map()));
+    let paint = color_paint();
+    let film = FilmHeight::of(map());
     bencher.bench_local(|| paint_layer(&paint.amounts(black_box(&painted), film), 0.25));
 }
 
@@ -259,12 +260,19 @@ fn color_paint() -> ColorPaint {
 /// time too. Published: nothing.
 #[divan::bench(sample_count = 5)]
 fn photograph(bencher: Bencher<'_, '_>) {
-    let pixel = |at: usize| {
-        let (x, y) = (at % 1224, at / 1224);
-        let wave = (x as f32 * 0.02).sin() * (y as f32 * 0.013).cos();
-        [128.0 + 90.0 * wave, 120.0 - 70.0 * wave, (x % 97) as f32 + 60.0].map(|value| value as u8)
-    };
-    let pixels = Field::from_values(1224, 817, (0..1224 * 817).map(pixel).collect());
+    let pixels = Field::from_values(
+        1224,
+        817,
+        (0..1224 * 817)
+            .map(|at: usize| {
+                let x = at % 1224;
+                let y = at / 1224;
+                let wave = (x as f32 * 0.02).sin() * (y as f32 * 0.013).cos();
+                [128.0 + 90.0 * wave, 120.0 - 70.0 * wave, (x % 97) as f32 + 60.0]
+                    .map(|value| value as u8)
+            })
+            .collect(),
+    );
     let photograph = Photograph::from_bytes("bench", &frame_png(&pixels).unwrap()).unwrap();
     let camera = PictureView::of(photograph.size()).camera();
     bencher.bench_local(|| {

@@ -26,60 +26,66 @@ pub(super) fn amounts(
     paint: &PaintTones,
     overlap: &OverlapSettings,
 ) -> Field<Amounts> {
-    let (width, height) = (depth.width(), depth.height());
+    let width = depth.width();
+    let height = depth.height();
     let lists = Lists::new(width, height, splats);
     let mut found = Field::filled(width, height, [0.0; SLOTS + 1]);
     let bands = found.values_mut().par_chunks_mut((SIDE * width).max(1)).enumerate();
-    let memory = || (Gathered::new(), [SquareSums::default(); 2]);
-    bands.for_each_init(memory, |(gathered, sums), (band, amounts)| {
-        for column in 0..lists.across {
-            let list = lists.of(band * lists.across + column);
-            if list.is_empty() {
-                continue;
-            }
-            let (x, y) = (column * SIDE, band * SIDE);
-            let square = Square::new(depth, x, y);
-            let (tones, furrow) = (divide.tones, 1.0 - overlap.ridges);
-            let squarings = overlap.sharpness.max(1).ilog2();
-            graphics::lanes::vectorized(Gather {
-                square: &square,
-                list,
-                splats,
-                tones,
-                squarings,
-                furrow,
-                colored: false,
-                textured: false,
-                into: &mut *gathered,
-            });
-            let surfaces = [&mut gathered.on, &mut gathered.before];
-            for (surface, sums) in surfaces.into_iter().zip(&mut *sums) {
-                if surface.any() {
-                    let square = &square;
-                    let sum = Sum { square, splats, tones, furrow, paint, surface, sums };
-                    graphics::lanes::vectorized(sum);
+    bands.for_each_init(
+        || (Gathered::new(), [SquareSums::default(); 2]),
+        |(gathered, sums), (band, amounts)| {
+            for column in 0..lists.across {
+                let list = lists.of(band * lists.across + column);
+                if list.is_empty() {
+                    continue;
                 }
-            }
-            let columns = SIDE.min(width - x);
-            for (row, amounts) in amounts.chunks_mut(width).enumerate() {
-                for column in 0..columns {
-                    let (covered, at) = (square.depths[row][column] < 1.0, (row, column));
-                    let [over, rest] = divide.shares(gathered, covered, at);
-                    let of = |share: f32, sums: &SquareSums, surface: &Sums| {
-                        let weight = surface.weight[row][column];
-                        (share > 0.0 && weight > LOST)
-                            .then(|| paint.amounts(&sums[row][column], weight / share))
-                    };
-                    let before = of(over, &sums[1], &gathered.before);
-                    let on = of(rest, &sums[0], &gathered.on);
-                    let own = &mut amounts[x + column];
-                    for part in [before, on].into_iter().flatten() {
-                        own.iter_mut().zip(part).for_each(|(own, mm)| *own += mm);
+                let x = column * SIDE;
+                let y = band * SIDE;
+                let square = Square::new(depth, x, y);
+                let tones = divide.tones;
+                let furrow = 1.0 - overlap.ridges;
+                let squarings = overlap.sharpness.max(1).ilog2();
+                graphics::lanes::vectorized(Gather {
+                    square: &square,
+                    list,
+                    splats,
+                    tones,
+                    squarings,
+                    furrow,
+                    colored: false,
+                    textured: false,
+                    into: &mut *gathered,
+                });
+                let surfaces = [&mut gathered.on, &mut gathered.before];
+                for (surface, sums) in surfaces.into_iter().zip(&mut *sums) {
+                    if surface.any() {
+                        let square = &square;
+                        let sum = Sum { square, splats, tones, furrow, paint, surface, sums };
+                        graphics::lanes::vectorized(sum);
+                    }
+                }
+                let columns = SIDE.min(width - x);
+                for (row, amounts) in amounts.chunks_mut(width).enumerate() {
+                    for column in 0..columns {
+                        let covered = square.depths[row][column] < 1.0;
+                        let at = (row, column);
+                        let [over, rest] = divide.shares(gathered, covered, at);
+                        let of = |share: f32, sums: &SquareSums, surface: &Sums| {
+                            let weight = surface.weight[row][column];
+                            (share > 0.0 && weight > LOST)
+                                .then(|| paint.amounts(&sums[row][column], weight / share))
+                        };
+                        let before = of(over, &sums[1], &gathered.before);
+                        let on = of(rest, &sums[0], &gathered.on);
+                        let own = &mut amounts[x + column];
+                        for part in [before, on].into_iter().flatten() {
+                            own.iter_mut().zip(part).for_each(|(own, mm)| *own += mm);
+                        }
                     }
                 }
             }
-        }
-    });
+        },
+    );
     found
 }
 

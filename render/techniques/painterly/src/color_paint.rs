@@ -146,8 +146,13 @@ impl ColorPaint {
             ground: &ground,
             scattering_per_mm: Medium::of(library).scattering_per_mm,
         };
-        let film = |materials: FilmMaterials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
-        Ok(choose_palette(&colors, materials, film, &settings.films)?.slots)
+        Ok(choose_palette(
+            &colors,
+            materials,
+            |materials: FilmMaterials<'_>| PaintFilm::at_nodes(materials, &light.quadrature),
+            &settings.films,
+        )?
+        .slots)
     }
 
     /// Library of the pigments.
@@ -203,18 +208,20 @@ impl ColorPaint {
 
 /// Linear values of encoded ones from 0 to 1, and one more.
 fn linear_values() -> Vec<f32> {
-    let linear = |step: usize| {
-        let value = step.min(STEPS) as f64 / STEPS as f64;
-        Rgb([value; 3]).linear().0[0] as f32
-    };
-    (0..=STEPS + 1).map(linear).collect()
+    (0..=STEPS + 1)
+        .map(|step: usize| {
+            let value = step.min(STEPS) as f64 / STEPS as f64;
+            Rgb([value; 3]).linear().0[0] as f32
+        })
+        .collect()
 }
 
 /// Linear sRGB of an encoded colour, black raised to `black`.
 fn target(table: &[f32], black: f32, [r, g, b, _]: [f32; 4]) -> [f32; 3] {
     [r, g, b].map(|value| {
         let place = value.clamp(0.0, 1.0) * STEPS as f32;
-        let (step, rest) = (place as usize, place.fract());
+        let step = place as usize;
+        let rest = place.fract();
         let linear = table[step] + rest * (table[step + 1] - table[step]);
         black + (1.0 - black) * linear
     })

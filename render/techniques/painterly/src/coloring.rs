@@ -80,11 +80,10 @@ impl Coloring {
             (true, ColorSpace::Yuv) => Coordinates::Yuv,
         };
         let rgb_from_xyz = RgbSpace::Srgb.xyz_from_linear().inverse();
-        let column = |axis: usize| {
+        let columns = [0, 1, 2].map(|axis: usize| {
             let unit = std::array::from_fn(|i| if i == axis { 1.0 } else { 0.0 });
             rgb_from_xyz.apply(unit).map(|value| value as f32)
-        };
-        let columns = [0, 1, 2].map(column);
+        });
         let encoded = |step: usize| {
             let value = step as f64 / STEPS as f64;
             Rgb([value; 3]).encoded().0[0] as f32
@@ -208,14 +207,13 @@ impl Coloring {
             let below = 3.0 * KNEE * KNEE * (root - 4.0 / 29.0);
             xyz[axis] = self.white[axis] * if root > KNEE { above } else { below };
         }
-        let value = |row: [f32; 3]| {
+        Vec3::from(self.rgb_from_xyz.map(|row: [f32; 3]| {
             let linear = row[0] * xyz[0] + row[1] * xyz[1] + row[2] * xyz[2];
             let at = linear.clamp(0.0, 1.0) * STEPS as f32;
             let step = at as usize;
             let [low, high] = [self.encoded[step], self.encoded[step + 1]];
             low + (high - low) * (at - step as f32)
-        };
-        Vec3::from(self.rgb_from_xyz.map(value))
+        }))
     }
 }
 

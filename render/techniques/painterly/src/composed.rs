@@ -10,7 +10,8 @@ use super::passes::PaintedPicture;
 pub(super) fn over(mut lower: PaintedPicture, upper: &PaintedPicture) -> PaintedPicture {
     let colors = lower.color.values_mut().par_iter_mut().zip(upper.color.values());
     colors.for_each(|(lower, upper)| {
-        let (share, rest) = (upper[3], lower[3] * (1.0 - upper[3]));
+        let share = upper[3];
+        let rest = lower[3] * (1.0 - upper[3]);
         let cover = share + rest;
         if share > 0.0 {
             for channel in 0..3 {

@@ -29,15 +29,18 @@ fn painted_map() -> ArtMap {
     let slots = palette_slots(&names.map(str::to_owned), &library).unwrap();
     for (tone, key) in map.keys.iter_mut().enumerate() {
         let heights = key.tile.height_mm.as_ref().unwrap();
-        let texel = |mm: &f32| {
-            let share = (mm / 0.2).clamp(0.0, 1.0);
-            let tone = tone as f32 / 3.0;
-            let mut pigments_mm = [0.0; SLOTS];
-            let parts = [0.1 + tone, share, 0.3 * (1.0 - share), 0.4 - 0.3 * tone, 0.2 * tone];
-            pigments_mm.iter_mut().zip(parts).for_each(|(own, part)| *own = part * (0.01 + mm));
-            TexelPaint { pigments_mm, vehicle_mm: 0.01 }
-        };
-        let texels = heights.values().iter().map(texel).collect();
+        let texels = heights
+            .values()
+            .iter()
+            .map(|mm: &f32| {
+                let share = (mm / 0.2).clamp(0.0, 1.0);
+                let tone = tone as f32 / 3.0;
+                let mut pigments_mm = [0.0; SLOTS];
+                let parts = [0.1 + tone, share, 0.3 * (1.0 - share), 0.4 - 0.3 * tone, 0.2 * tone];
+                pigments_mm.iter_mut().zip(parts).for_each(|(own, part)| *own = part * (0.01 + mm));
+                TexelPaint { pigments_mm, vehicle_mm: 0.01 }
+            })
+            .collect();
         key.tile.paint = Some(Field::from_values(heights.width(), heights.height(), texels));
     }
     map.paint = Some(PaintOfSamples { library: Arc::new(library), slots });
@@ -56,7 +59,8 @@ fn differences(document: &Document) -> Vec<f64> {
         Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white())
     };
     let cell = |index: usize| {
-        let (x, y) = (index % seen.width(), index / seen.width());
+        let x = index % seen.width();
+        let y = index / seen.width();
         let xyz = weights.xyz(&spectral.measured_reflectance(x, y));
         let white = light.quadrature.rule.white;
         let exact = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford).0;

@@ -63,7 +63,8 @@ mod tests {
                 let [from, to] = [from, to].map(|phase| moved(strength, phase, 3));
                 (from - to).rem_euclid(1.0)
             };
-            let (inside, over) = (step(0.25, 0.5), step(0.75, 0.0));
+            let inside = step(0.25, 0.5);
+            let over = step(0.75, 0.0);
             assert!((inside - over).abs() < 1e-6, "{strength}: {inside}, {over}");
         }
     }

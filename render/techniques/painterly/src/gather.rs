@@ -227,7 +227,8 @@ pub(super) fn shown<'a>(
         let offset = splat.offset.map(|at| at - 0.5 / size);
         let left = square.first[0] - splat.x;
         for row in 0..SIDE {
-            let (weight, least) = (&part[row], &least[row]);
+            let weight = &part[row];
+            let least = &least[row];
             let mut matters = false;
             for column in 0..SIDE {
                 matters |= weight[column] > least[column];
@@ -260,7 +261,9 @@ pub(super) fn shown<'a>(
                 let texel = texels.between(u, v, a, b);
                 let high = furrow + texel[3] * ridges;
                 let own_weight = own_weight * high * high;
-                let (pixel, place, share) = ([row, column], [u, v], [a, b]);
+                let pixel = [row, column];
+                let place = [u, v];
+                let share = [a, b];
                 with(Part { splat, pixel, place, share, texel, weight: own_weight });
             }
         }

@@ -19,8 +19,9 @@ pub(super) fn joined(
         for (slot, pigment) in paint.slots.iter().enumerate() {
             let Some(pigment) = pigment else { continue };
             let found = slots.iter().position(|own| own.as_ref() == Some(pigment));
-            let free = || slots.iter().position(Option::is_none);
-            of[slot] = found.or_else(free).ok_or(PaintOfMapsError::Pigments)?;
+            of[slot] = found
+                .or_else(|| slots.iter().position(Option::is_none))
+                .ok_or(PaintOfMapsError::Pigments)?;
             slots[of[slot]] = Some(*pigment);
         }
         moves.push(of);
@@ -79,7 +80,8 @@ mod tests {
 
     #[test]
     fn more_than_eight_pigments_and_other_libraries_are_refused() {
-        let (many, more) = (paint(&[0, 1, 2, 3, 4]), paint(&[5, 6, 7, 8]));
+        let many = paint(&[0, 1, 2, 3, 4]);
+        let more = paint(&[5, 6, 7, 8]);
         assert_eq!(joined(&[&many, &more]).unwrap_err(), PaintOfMapsError::Pigments);
         let mut other = PigmentLibrary::van_gogh_oils();
         other.title = "another".into();

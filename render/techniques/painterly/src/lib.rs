@@ -18,13 +18,9 @@
 //! (`passes_on_device`) and agrees to rounding.
 
 mod settings;
-
 pub mod guides;
-
 mod splat;
-
 mod flow;
-
 mod regions;
 
 #[cfg(test)]
@@ -32,75 +28,40 @@ mod made_up;
 
 #[cfg(test)]
 mod test_device;
-
 mod coloring;
-
 mod tones;
-
 mod joined_paint;
-
 mod paint_tones;
-
 mod places;
-
 mod grid;
-
 mod roots;
-
 mod offsets;
-
 mod strokes;
-
 mod silhouette;
-
 mod lists;
-
 mod square;
-
 mod depths;
-
 mod gather;
-
 mod divided;
-
 mod device_tones;
-
 mod passes_on_device;
-
 mod amounts;
-
 mod passes;
-
 mod paint_layer;
-
 mod color_paint;
-
 mod error;
-
 mod brushwork;
-
 mod composed;
-
 mod built_ground;
-
 mod subject;
-
 mod painter;
-
 mod painting;
-
 mod stages;
-
 mod compositing;
-
 mod model;
-
 mod picture_form;
-
 mod picture_layers;
-
 mod picture;
-
 mod kernels;
 
 pub use brushwork::Brushwork;

@@ -18,7 +18,8 @@ pub(super) struct Lists {
 
 impl Lists {
     pub(super) fn new(width: usize, height: usize, splats: &[StrokeSplat]) -> Self {
-        let (across, down) = (width.div_ceil(SIDE), height.div_ceil(SIDE));
+        let across = width.div_ceil(SIDE);
+        let down = height.div_ceil(SIDE);
         let mut reached = Vec::with_capacity(24 * splats.len());
         let mut starts = vec![0_u32; across * down + 1];
         for (splat, number) in splats.iter().zip(0..) {
@@ -72,12 +73,14 @@ fn squares(at: f32, reach: f32, count: usize) -> std::ops::Range<usize> {
 fn reaches(splat: &StrokeSplat, column: usize, row: usize) -> bool {
     const HALF: f32 = SIDE as f32 / 2.0;
     let middle = |square: usize| (square * SIDE) as f32 + HALF;
-    let (right, down) = (middle(column) - splat.x, middle(row) - splat.y);
+    let right = middle(column) - splat.x;
+    let down = middle(row) - splat.y;
     let part = |[x, y]: [f32; 2]| {
         let most = (HALF - 0.5) * (x.abs() + y.abs());
         ((x * right + y * down).abs() - most).max(0.0)
     };
-    let (across, along) = (part(splat.across), part(splat.along));
+    let across = part(splat.across);
+    let along = part(splat.along);
     across * across + along * along < 1.0
 }
 
@@ -94,11 +97,13 @@ mod tests {
                 splat(at, [4.0 + (i % 5) as f32, 13.0], i as f32 * 0.4)
             })
             .collect();
-        let (width, height) = (83, 61);
+        let width = 83;
+        let height = 61;
         let lists = Lists::new(width, height, &splats);
         let mut spare = 0;
         for square in 0..lists.across * height.div_ceil(SIDE) {
-            let (left, top) = (square % lists.across * SIDE, square / lists.across * SIDE);
+            let left = square % lists.across * SIDE;
+            let top = square / lists.across * SIDE;
             let list = lists.of(square);
             assert!(list.windows(2).all(|pair| pair[0] < pair[1]));
             for (splat, number) in splats.iter().zip(0..) {

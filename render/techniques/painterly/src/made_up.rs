@@ -44,11 +44,13 @@ fn key(name: &str, tone: f32) -> KeyMap {
 /// Strokes that wrap around the edges, each of its own shade, with a ridge along its middle. They
 /// are drawn in fine texels and averaged.
 fn tile(tone: f32) -> Tile {
-    let (size, spacing) = (FINE * SIZE, FINE * SPACING);
+    let size = FINE * SIZE;
+    let spacing = FINE * SPACING;
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let mut fine = Field::filled(size, size, [tone, 0.0]);
     for _ in 0..SIZE * SIZE / (SPACING * SPACING) {
-        let (x, y) = (random.random_range(0..size), random.random_range(0..size));
+        let x = random.random_range(0..size);
+        let y = random.random_range(0..size);
         let length = random.random_range(3 * spacing..5 * spacing);
         let shade = 1.0 + 0.9 * (random.random::<f32>() - 0.5);
         let bend = 0.15 * (random.random::<f32>() - 0.5);
@@ -62,7 +64,8 @@ fn tile(tone: f32) -> Tile {
         }
     }
     let mean = |index: usize, part: usize| {
-        let (x, y) = (FINE * (index % SIZE), FINE * (index / SIZE));
+        let x = FINE * (index % SIZE);
+        let y = FINE * (index / SIZE);
         let all = (0..FINE * FINE).map(|at| fine[(x + at % FINE, y + at / FINE)][part]);
         all.sum::<f32>() / (FINE * FINE) as f32
     };

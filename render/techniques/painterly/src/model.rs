@@ -93,7 +93,8 @@ fn subject(
     let maps = brushwork.art_maps();
     let coloring = Coloring::new(&maps, &colors, &settings.color, SubjectKind::Model);
     let lightness = (settings.light.tone == ToneSource::Color).then_some([0.0, 100.0]);
-    let (regions, units) = (Arc::new(regions), 2.0 * radius(mesh) / FILLED);
+    let regions = Arc::new(regions);
+    let units = 2.0 * radius(mesh) / FILLED;
     let surface = |layer: u32| {
         let detail = match layer.checked_sub(1) {
             None => Detail::Everywhere,

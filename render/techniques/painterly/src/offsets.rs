@@ -235,14 +235,16 @@ impl Matching<'_> {
 
     /// What the placed neighbours show at the places of a stroke.
     fn probes(&self, index: usize, beside: &[(usize, Start)], greys: &Greys) -> Vec<Probe> {
-        let (radii, widths_per_unit) = (self.radii(index), self.widths_per_unit(index));
+        let radii = self.radii(index);
+        let widths_per_unit = self.widths_per_unit(index);
         let beside: Vec<(usize, Vec2)> =
             beside.iter().map(|(other, start)| (*other, start.at(widths_per_unit))).collect();
         let place = &self.roots[index].place;
         let center = self.features[index].position;
         let probe = |[a, b]: [f32; 2]| {
             let at = center + place.across() * (a * radii[0]) + place.along * (b * radii[1]);
-            let (mut sum, mut total) = (0.0, 0.0);
+            let mut sum = 0.0;
+            let mut total = 0.0;
             for &(other, offset) in &beside {
                 let there = &self.roots[other].place;
                 let from = at - self.features[other].position;

@@ -13,7 +13,8 @@ const CELLS: usize = 4096;
 /// The layer with the amounts of each cell, rounded to whole quanta. Cells are `cell_mm` wide.
 #[must_use]
 pub fn paint_layer(amounts: &Field<Amounts>, cell_mm: f64) -> Layer {
-    let (width, height) = (amounts.width(), amounts.height());
+    let width = amounts.width();
+    let height = amounts.height();
     let mut layer = Layer::empty(width, height);
     let cells = layer.pigments.values_mut().par_iter_mut().zip(layer.vehicle.values_mut());
     let laid = cells.zip(amounts.values()).with_min_len(CELLS);
@@ -35,8 +36,13 @@ mod tests {
 
     #[test]
     fn cells_have_the_nearest_whole_quanta_of_their_amounts() {
-        let amount = |at: usize| std::array::from_fn(|slot| 0.001 * (at * slot) as f32 - 0.002);
-        let amounts = Field::from_values(7, 3, (0..21).map(amount).collect());
+        let amounts = Field::from_values(
+            7,
+            3,
+            (0..21)
+                .map(|at: usize| std::array::from_fn(|slot| 0.001 * (at * slot) as f32 - 0.002))
+                .collect(),
+        );
         let layer = paint_layer(&amounts, 0.2);
         for (index, amounts) in amounts.values().iter().enumerate() {
             let Cell { pigments, vehicle } = layer.cell(index);

@@ -160,12 +160,20 @@ fn amounts(texel: &TexelPaint, moves: &[usize; SLOTS]) -> Amounts {
 
 fn halved(paint: &Field<Amounts>) -> Field<Amounts> {
     let half = paint.width() / 2;
-    let mean = |index: usize| -> Amounts {
-        let (x, y) = (2 * (index % half), 2 * (index / half));
-        let four = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
-        std::array::from_fn(|at| four.iter().map(|&place| paint[place][at]).sum::<f32>() / 4.0)
-    };
-    Field::from_values(half, half, (0..half * half).map(mean).collect())
+    Field::from_values(
+        half,
+        half,
+        (0..half * half)
+            .map(|index: usize| -> Amounts {
+                let x = 2 * (index % half);
+                let y = 2 * (index / half);
+                let four = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)];
+                std::array::from_fn(|at| {
+                    four.iter().map(|&place| paint[place][at]).sum::<f32>() / 4.0
+                })
+            })
+            .collect(),
+    )
 }
 
 #[cfg(test)]
@@ -186,14 +194,18 @@ mod tests {
         let mut map = map(2);
         for key in &mut map.keys {
             let heights = key.tile.height_mm.as_ref().unwrap();
-            let texel = |(index, mm): (usize, &f32)| {
-                let mut pigments_mm = [0.0; SLOTS];
-                for slot in (1..SLOTS).step_by(2) {
-                    pigments_mm[slot] = mm * (1.0 + ((index * slot) % 97) as f32);
-                }
-                TexelPaint { pigments_mm, vehicle_mm: 0.01 + mm / 3.0 }
-            };
-            let texels = heights.values().iter().enumerate().map(texel).collect();
+            let texels = heights
+                .values()
+                .iter()
+                .enumerate()
+                .map(|(index, mm): (usize, &f32)| {
+                    let mut pigments_mm = [0.0; SLOTS];
+                    for slot in (1..SLOTS).step_by(2) {
+                        pigments_mm[slot] = mm * (1.0 + ((index * slot) % 97) as f32);
+                    }
+                    TexelPaint { pigments_mm, vehicle_mm: 0.01 + mm / 3.0 }
+                })
+                .collect();
             key.tile.paint = Some(Field::from_values(SIZE, SIZE, texels));
         }
         let library = Arc::new(PigmentLibrary::van_gogh_oils());

@@ -94,7 +94,8 @@ impl Painter {
             tones.nearest(number, map.keys[map.first.min(map.keys.len() - 1)].tone as f32)
         };
         let slices: Vec<usize> = maps.iter().enumerate().map(first).collect();
-        let (mut strokes, mut continued) = (0, 0.0);
+        let mut strokes = 0;
+        let mut continued = 0.0;
         let mut layers = Vec::new();
         for (surface, number) in surfaces.into_iter().zip(0..) {
             let own = settings.of_layer(number);
@@ -169,7 +170,8 @@ impl Painter {
         };
         let mut whole = None;
         for (layer, splats) in layers.iter().enumerate() {
-            let (overlap, seen) = (&self.settings.overlap, (&depth, splats.as_slice()));
+            let overlap = &self.settings.overlap;
+            let seen = (&depth, splats.as_slice());
             let divide = divide(&self.tones, &self.layers[layer], layer, overlap);
             let own = painted(&mut self.compute, seen, &divide, &self.memory, overlap)?;
             whole = Some(match whole {
@@ -238,7 +240,8 @@ impl Painter {
         splats: &[StrokeSplat],
         layer: usize,
     ) -> Result<PaintedPicture, DeviceError> {
-        let (seen, divide) = ((depth, splats), self.divide(layer));
+        let seen = (depth, splats);
+        let divide = self.divide(layer);
         painted(&mut Compute::cpu(), seen, &divide, &ToneMemory::Host, &self.settings.overlap)
     }
 
@@ -291,9 +294,10 @@ impl Painter {
     /// The library of pigments for the colours of the subject: the one that was set, that of the
     /// maps, or the Van Gogh oils; and the palette, if one was set.
     pub(super) fn pigments(&self) -> (Arc<PigmentLibrary>, Option<Slots>) {
-        let of_maps = || Some((Arc::clone(&self.paint.as_ref().ok()?.as_ref()?.of.library), None));
-        let oils = || (Arc::new(PigmentLibrary::van_gogh_oils()), None);
-        self.pigments.clone().or_else(of_maps).unwrap_or_else(oils)
+        self.pigments
+            .clone()
+            .or_else(|| Some((Arc::clone(&self.paint.as_ref().ok()?.as_ref()?.of.library), None)))
+            .unwrap_or_else(|| (Arc::new(PigmentLibrary::van_gogh_oils()), None))
     }
 
     /// Films of the subject's own colours.

@@ -92,8 +92,10 @@ impl Painter {
         let layers = layers.map(|(layer, splats)| self.painted(&depth, splats, layer));
         let layers = layers.collect::<Result<Vec<_>, _>>()?;
         let whole = layers[1..].iter().fold(layers[0].clone(), over);
-        let ((library, palette), lighting) = (self.pigments(), Lighting::default());
-        let (under, settings) = ((ground, &lighting), ColorPaintSettings::default());
+        let (library, palette) = self.pigments();
+        let lighting = Lighting::default();
+        let under = (ground, &lighting);
+        let settings = ColorPaintSettings::default();
         let slots = match palette {
             Some(slots) => slots,
             None => ColorPaint::palette(&whole, &library, under, &settings)?,

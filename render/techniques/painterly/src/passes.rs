@@ -65,7 +65,8 @@ fn painted_on_cpu(
 ) -> PaintedPicture {
     let Divide { tones, coloring, .. } = *divide;
     let colored = coloring.of_model();
-    let (width, height) = (depth.width(), depth.height());
+    let width = depth.width();
+    let height = depth.height();
     let lists = Lists::new(width, height, splats);
     let mut color = Field::filled(width, height, [0.0; 4]);
     let mut relief = Field::filled(width, height, 0.0);
@@ -78,12 +79,14 @@ fn painted_on_cpu(
             if list.is_empty() {
                 continue;
             }
-            let (x, y) = (column * SIDE, band * SIDE);
+            let x = column * SIDE;
+            let y = band * SIDE;
             let square = Square::new(depth, x, y);
             let squarings = overlap.sharpness.max(1).ilog2();
             let furrow = 1.0 - overlap.ridges;
             let into = &mut *gathered;
-            let (square, textured) = (&square, true);
+            let square = &square;
+            let textured = true;
             let gather =
                 Gather { square, list, splats, tones, squarings, furrow, colored, textured, into };
             graphics::lanes::vectorized(gather);

@@ -138,9 +138,9 @@ pub(super) fn painted_on_device(
     // Rounded up, so that the strokes of the next frame fit the same memory.
     let strokes = gpu.plane(packed.len().max(1).next_power_of_two(), 1)?;
     gpu.write(&strokes, &packed)?;
-    let (colors, heights) = (gpu.plane(width, height)?, gpu.plane(width, height)?);
+    let colors = gpu.plane(width, height)?;
+    let heights = gpu.plane(width, height)?;
     let coloring = divide.coloring;
-    let padded = |[x, y, z]: [f32; 3]| [x, y, z, 0.0];
     let params = PassesParams {
         size: [width as u32, height as u32],
         starts: gpu.batch(lists.starts()),
@@ -151,7 +151,7 @@ pub(super) fn painted_on_device(
         thin: divide.thin,
         low: divide.tones.low,
         step: divide.tones.step,
-        rgb_from_xyz: coloring.rgb_from_xyz.map(padded),
+        rgb_from_xyz: coloring.rgb_from_xyz.map(|[x, y, z]: [f32; 3]| [x, y, z, 0.0]),
         white: coloring.white,
         coordinates: coloring.coordinates as u32,
     };

@@ -96,16 +96,20 @@ fn subject(
     mesh.normals = mesh.smoothed_normals(settings.light.smoothing_rounds as usize);
     let directions =
         directions(&mesh, &layers[0], (&brushwork.regions, &regions, size_px), form, settings)?;
-    let (directions, regions) = (Arc::new(directions), Arc::new(regions));
+    let directions = Arc::new(directions);
+    let regions = Arc::new(regions);
     let mesh = Arc::new(mesh);
     let lightness = (settings.light.tone != ToneSource::Light).then(|| layers[0].range());
     let colors: Vec<(Vec3, f64)> = {
         let texture = layers[0].texture();
-        let color = |texel: &u32| {
-            let [r, g, b, _] = texel.to_le_bytes().map(|byte| f32::from(byte) / 255.0);
-            (Vec3::new(r, g, b), 1.0)
-        };
-        texture.texels.iter().map(color).collect()
+        texture
+            .texels
+            .iter()
+            .map(|texel: &u32| {
+                let [r, g, b, _] = texel.to_le_bytes().map(|byte| f32::from(byte) / 255.0);
+                (Vec3::new(r, g, b), 1.0)
+            })
+            .collect()
     };
     let maps = brushwork.art_maps();
     let coloring = Coloring::new(&maps, &colors, &settings.color, SubjectKind::Picture);
@@ -134,7 +138,8 @@ fn plane(view: PictureView, depth: Option<&Field<f32>>, settings: &Settings, lar
     let most = MOST_VERTICES[usize::from(depth.is_some())];
     let strokes = settings.reference_px / settings.strokes.width_px;
     let longer = if depth.is_some() { most } else { strokes.clamp(8.0, most) };
-    let (sides, eye) = (view.sides(), view.distance());
+    let sides = view.sides();
+    let eye = view.distance();
     let [_, length_px] = settings.strokes.radii_px();
     let margin = (largest * length_px / settings.reference_px).min(MOST_MARGIN);
     let [columns, rows] =
@@ -176,7 +181,8 @@ fn directions(
     form: &PictureForm,
     settings: &Settings,
 ) -> Result<Directions, PainterError> {
-    let (width, height) = (layer.lab.width(), layer.lab.height());
+    let width = layer.lab.width();
+    let height = layer.lab.height();
     let cells = width.max(height) as f32 * settings.strokes.width_px / settings.reference_px;
     let edges = OrientationField::from_lab(&layer.lab, TENSOR * f64::from(cells));
     let own_px = Vec2::from(regions.size_px.unwrap_or(size_px).map(|px| px as f32));
@@ -186,7 +192,8 @@ fn directions(
     for (vertex, share) in mesh.texture_coordinates.iter().enumerate() {
         let share = Vec2::from(*share);
         let cell = |at: f32, count: usize| ((at * count as f32) as usize).min(count - 1);
-        let (x, y) = (cell(share.x, width), cell(share.y, height));
+        let x = cell(share.x, width);
+        let y = cell(share.y, height);
         let mut line =
             (Vec2::from(edges.direction(x, y).map(|part| part as f32)), edges.agreement(x, y));
         if let Some(flow) = &form.flow {

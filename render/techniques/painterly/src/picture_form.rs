@@ -39,11 +39,13 @@ impl PictureForm {
         let guides = Guides::open(path)?;
         let [width, height] = guides.size_px;
         let samples = guides.on_picture(width as usize, height as usize)?;
-        let guide = |sample: GuideSample| {
-            let share = [sample.x / f64::from(width), sample.y / f64::from(height)];
-            [share, sample.along].map(|pair| pair.map(|value| value as f32))
-        };
-        Ok(samples.into_iter().map(guide).collect())
+        Ok(samples
+            .into_iter()
+            .map(|sample: GuideSample| {
+                let share = [sample.x / f64::from(width), sample.y / f64::from(height)];
+                [share, sample.along].map(|pair| pair.map(|value| value as f32))
+            })
+            .collect())
     }
 
     /// Depth of a picture whose white is near and whose black is far.
@@ -68,13 +70,16 @@ impl FlowPicture {
     pub fn open(path: &Path) -> Result<Self, PhotographError> {
         let picture = Photograph::open(path)?;
         let (width, height) = picture.size();
-        let arrow = |&[red, green, blue, opacity]: &[f32; 4]| {
-            let way = Vec2::new(red - 0.5, 0.5 - green);
-            let way = if way.abs().max_element() < STILL { Vec2::ZERO } else { way };
-            (way.normalize_or_zero() * blue * opacity).to_array()
-        };
         let encoded = picture.with_opacity(width, height);
-        let arrows = encoded.values().iter().map(arrow).collect();
+        let arrows = encoded
+            .values()
+            .iter()
+            .map(|&[red, green, blue, opacity]: &[f32; 4]| {
+                let way = Vec2::new(red - 0.5, 0.5 - green);
+                let way = if way.abs().max_element() < STILL { Vec2::ZERO } else { way };
+                (way.normalize_or_zero() * blue * opacity).to_array()
+            })
+            .collect();
         Ok(Self { arrows: Field::from_values(width, height, arrows) })
     }
 
@@ -87,7 +92,8 @@ impl FlowPicture {
     /// The arrow at a place, 0 to 1 over width and height.
     pub(super) fn at(&self, share: Vec2) -> Vec2 {
         let cell = |share: f32, count: usize| ((share * count as f32) as usize).min(count - 1);
-        let (width, height) = (self.arrows.width(), self.arrows.height());
+        let width = self.arrows.width();
+        let height = self.arrows.height();
         self.arrows[(cell(share.x, width), cell(share.y, height))].into()
     }
 }

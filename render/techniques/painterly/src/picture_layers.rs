@@ -52,15 +52,19 @@ pub(super) fn layer_colors(photograph: &Photograph, settings: &Settings) -> Vec<
 impl LayerColors {
     /// The colours as a texture.
     pub(super) fn texture(&self) -> Texture {
-        let texel = |rgb: &[f32; 3]| {
-            let linear = rgb.map(|value| f64::from(value.clamp(0.0, 1.0)));
-            let [r, g, b] = Rgb(linear).encoded().to_bytes();
-            u32::from_le_bytes([r, g, b, 255])
-        };
         Texture {
             width: self.picture.width() as u32,
             height: self.picture.height() as u32,
-            texels: self.picture.values().par_iter().map(texel).collect(),
+            texels: self
+                .picture
+                .values()
+                .par_iter()
+                .map(|rgb: &[f32; 3]| {
+                    let linear = rgb.map(|value| f64::from(value.clamp(0.0, 1.0)));
+                    let [r, g, b] = Rgb(linear).encoded().to_bytes();
+                    u32::from_le_bytes([r, g, b, 255])
+                })
+                .collect(),
         }
     }
 

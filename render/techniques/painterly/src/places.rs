@@ -85,10 +85,17 @@ impl Directions {
             Mat3::from_cols_array_2d(&[0, 1, 2].map(|i| (direction * direction[i]).to_array()))
                 * curvature
         };
-        let bend = |own: &Curvature| {
-            along(own.along_least, own.least) + along(own.along_greatest, own.greatest)
-        };
-        Self { lines, arrows, bends: curvatures.iter().map(bend).collect(), strengths: None }
+        Self {
+            lines,
+            arrows,
+            bends: curvatures
+                .iter()
+                .map(|own: &Curvature| {
+                    along(own.along_least, own.least) + along(own.along_greatest, own.greatest)
+                })
+                .collect(),
+            strengths: None,
+        }
     }
 
     /// These directions with a factor of the flow's strength, 0 to 1, for each vertex.
@@ -173,7 +180,8 @@ fn size_of(bend: &Mat3) -> f32 {
 pub(super) fn interpolated(field: &Field<f32>, share: Vec2) -> f32 {
     let last = Vec2::new(field.width() as f32 - 1.0, field.height() as f32 - 1.0);
     let at = (share * (last + 1.0) - 0.5).clamp(Vec2::ZERO, last);
-    let (whole, part) = (at.floor(), at - at.floor());
+    let whole = at.floor();
+    let part = at - at.floor();
     let [x, y] = [whole.x as usize, whole.y as usize];
     let [right, below] = [(x + 1).min(field.width() - 1), (y + 1).min(field.height() - 1)];
     let row = |y: usize| field[(x, y)] + (field[(right, y)] - field[(x, y)]) * part.x;
@@ -189,7 +197,9 @@ impl Place {
 
 /// Barycentric weights, not negative and of sum 1, of a point of a triangle.
 fn barycentric([a, b, c]: [Vec3; 3], point: Vec3) -> [f32; 3] {
-    let (second, third, to) = (b - a, c - a, point - a);
+    let second = b - a;
+    let third = c - a;
+    let to = point - a;
     let normal = second.cross(third);
     let square = normal.length_squared();
     if square <= 0.0 {
@@ -203,15 +213,20 @@ fn barycentric([a, b, c]: [Vec3; 3], point: Vec3) -> [f32; 3] {
 
 /// The colours of a mesh without light, encoded sRGB, each with its area.
 pub(super) fn colors(mesh: &Mesh, packed: &PackedMesh) -> Vec<(Vec3, f64)> {
-    let color = |(number, triangle): (usize, &graphics::mesh::Triangle)| {
-        let [a, b, c] = triangle.corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
-        let area = f64::from((b - a).cross(c - a).length()) / 2.0;
-        let third = 1.0 / 3.0;
-        let triangle = number as u32;
-        let middle = Fragment { triangle, second: third, third, depth: 0.0 };
-        (SurfacePoint::new(packed, middle).albedo(), area)
-    };
-    mesh.triangles.iter().enumerate().map(color).filter(|(_, area)| area.is_finite()).collect()
+    mesh.triangles
+        .iter()
+        .enumerate()
+        .map(|(number, triangle): (usize, &graphics::mesh::Triangle)| {
+            let [a, b, c] =
+                triangle.corners.map(|corner| Vec3::from(mesh.positions[corner as usize]));
+            let area = f64::from((b - a).cross(c - a).length()) / 2.0;
+            let third = 1.0 / 3.0;
+            let triangle = number as u32;
+            let middle = Fragment { triangle, second: third, third, depth: 0.0 };
+            (SurfacePoint::new(packed, middle).albedo(), area)
+        })
+        .filter(|(_, area)| area.is_finite())
+        .collect()
 }
 
 #[cfg(test)]
@@ -238,7 +253,8 @@ mod tests {
         let packed = Arc::new(PackedMesh::new(&mesh));
         let settings = Settings::default();
         let regions = RegionMap::of_mesh(&Regions::default(), &mesh, &["m"], &settings).unwrap();
-        let (mesh, regions) = (Arc::new(mesh), Arc::new(regions));
+        let mesh = Arc::new(mesh);
+        let regions = Arc::new(regions);
         // Half of a radian, over which the ball turns within half a unit, is too little to show.
         let detail = Detail::Bends(0.5, LayerSettings { detail: 0.3, ..settings.layers });
         let surface = Surface { mesh: Arc::clone(&mesh), packed, directions, detail, regions };

@@ -95,7 +95,9 @@ impl Roots {
         coloring: Arc<Coloring>,
         lightness: Option<[f32; 2]>,
     ) -> Self {
-        let (seeds, kept, features) = (Vec::new(), Vec::new(), Vec::new());
+        let seeds = Vec::new();
+        let kept = Vec::new();
+        let features = Vec::new();
         Self { surface, coloring, lightness, seeds, kept, features, grid: None }
     }
 

@@ -60,10 +60,12 @@ pub(super) fn outlines(
         }
     };
     let seen = features.seen_where(sight.projection, Density::Facing, end, radii[1], near);
-    let splat = |seen: &SeenFeature| {
-        outline(seen, (&roots.single(&seen.feature), roots), tones, sight, (radii, end))
-    };
-    seen.par_iter().with_min_len(256).filter_map(splat).collect()
+    seen.par_iter()
+        .with_min_len(256)
+        .filter_map(|seen: &SeenFeature| {
+            outline(seen, (&roots.single(&seen.feature), roots), tones, sight, (radii, end))
+        })
+        .collect()
 }
 
 fn outline(

@@ -95,7 +95,8 @@ impl Square {
             if down.abs() >= splat.reach[1] {
                 continue;
             }
-            let (first_a, first_b) = (ax * left + ay * down, bx * left + by * down);
+            let first_a = ax * left + ay * down;
+            let first_b = bx * left + by * down;
             for (column, value) in values.iter_mut().enumerate() {
                 let a = first_a + ax * column as f32;
                 let b = first_b + bx * column as f32;

@@ -43,11 +43,14 @@ impl Painter {
         for (number, splats) in layers.iter().enumerate() {
             let strongest = strongest(depth.host(), splats);
             let mut shown = |name: &str, color: &dyn Fn(&StrokeSplat) -> Vec3| {
-                let pixel = |index: &Option<u32>| match index {
-                    Some(index) => color(&splats[*index as usize]).extend(1.0).to_array(),
-                    None => [0.0; 4],
-                };
-                let values = strongest.values().iter().map(pixel).collect();
+                let values = strongest
+                    .values()
+                    .iter()
+                    .map(|index: &Option<u32>| match index {
+                        Some(index) => color(&splats[*index as usize]).extend(1.0).to_array(),
+                        None => [0.0; 4],
+                    })
+                    .collect();
                 let picture = Field::from_values(size.0, size.1, values);
                 named.push((format!("layer-{}-{name}", number + 1), picture));
             };
@@ -71,7 +74,8 @@ impl Painter {
 
 /// The strongest splat on the subject at each pixel.
 pub(super) fn strongest(depth: &Field<f32>, splats: &[StrokeSplat]) -> Field<Option<u32>> {
-    let (width, height) = (depth.width(), depth.height());
+    let width = depth.width();
+    let height = depth.height();
     let lists = Lists::new(width, height, splats);
     let mut strongest = Field::filled(width, height, None);
     for y in 0..height {
@@ -98,25 +102,36 @@ pub(super) fn strongest(depth: &Field<f32>, splats: &[StrokeSplat]) -> Field<Opt
 /// Depth as grey: the nearest white, nothing bare.
 fn greys(depth: &Field<f32>) -> Field<[f32; 4]> {
     let seen = || depth.values().iter().copied().filter(|depth| *depth < 1.0);
-    let (near, far) = (seen().fold(1.0, f32::min), seen().fold(0.0, f32::max));
-    let grey = |&depth: &f32| {
-        if depth >= 1.0 {
-            return [0.0; 4];
-        }
-        let grey = 1.0 - (1.0 - FAR) * (depth - near) / (far - near).max(1e-6);
-        [grey, grey, grey, 1.0]
-    };
-    Field::from_values(depth.width(), depth.height(), depth.values().iter().map(grey).collect())
+    let near = seen().fold(1.0, f32::min);
+    let far = seen().fold(0.0, f32::max);
+    Field::from_values(
+        depth.width(),
+        depth.height(),
+        depth
+            .values()
+            .iter()
+            .map(|&depth: &f32| {
+                if depth >= 1.0 {
+                    return [0.0; 4];
+                }
+                let grey = 1.0 - (1.0 - FAR) * (depth - near) / (far - near).max(1e-6);
+                [grey, grey, grey, 1.0]
+            })
+            .collect(),
+    )
 }
 
 /// Height as grey: the highest white.
 fn heights(heights: &Field<f32>) -> Field<[f32; 4]> {
     let most = heights.values().iter().copied().fold(1e-6, f32::max);
-    let grey = |height: &f32| {
-        let grey = height / most;
-        [grey, grey, grey, 1.0]
-    };
-    let values = heights.values().iter().map(grey).collect();
+    let values = heights
+        .values()
+        .iter()
+        .map(|height: &f32| {
+            let grey = height / most;
+            [grey, grey, grey, 1.0]
+        })
+        .collect();
     Field::from_values(heights.width(), heights.height(), values)
 }
 

@@ -83,11 +83,13 @@ pub(super) fn splats(
     let [_, end] = ranks(sight.settings);
     let [least, most] = roots.sizes();
     let seen = features.seen(sight.projection, density, end / (least * least), along * most);
-    let splat = |seen: &SeenFeature| {
-        let root = sight.may_see(seen).then(|| roots.of(&seen.feature))?;
-        splat(seen, (&root, roots), tones, sight)
-    };
-    seen.par_iter().with_min_len(256).filter_map(splat).collect()
+    seen.par_iter()
+        .with_min_len(256)
+        .filter_map(|seen: &SeenFeature| {
+            let root = sight.may_see(seen).then(|| roots.of(&seen.feature))?;
+            splat(seen, (&root, roots), tones, sight)
+        })
+        .collect()
 }
 
 /// The splat of one feature; `None` if it has no weight.
@@ -98,7 +100,8 @@ fn splat(
     sight: &Sight<'_>,
 ) -> Option<StrokeSplat> {
     let Sight { projection, settings, .. } = sight;
-    let (place, style) = (&root.place, roots.style(root));
+    let place = &root.place;
+    let style = roots.style(root);
     let (normal, across) = match seen.facing < 0.0 {
         true => (-place.normal, -place.across()),
         false => (place.normal, place.across()),

@@ -31,7 +31,8 @@ pub(super) fn device() -> Option<Compute> {
 pub(super) fn differences(one: &PaintedPicture, other: &PaintedPicture) -> ([f32; 3], usize) {
     let size = |picture: &PaintedPicture| (picture.color.width(), picture.color.height());
     assert_eq!(size(one), size(other));
-    let (mut most, mut compared) = ([0.0_f32; 3], 0);
+    let mut most = [0.0_f32; 3];
+    let mut compared = 0;
     for (a, b) in one.color.values().iter().zip(other.color.values()) {
         let off: Vec<f32> = a.iter().zip(b).map(|(a, b)| (a - b).abs()).collect();
         assert!(off.iter().all(|off| off.is_finite()), "{a:?} {b:?}");

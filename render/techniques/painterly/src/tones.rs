@@ -71,22 +71,33 @@ impl Tones {
     /// Lays out the tones of maps of at least one tile each.
     pub(super) fn new(maps: &[&ArtMap], between: Between, coloring: &Coloring) -> Self {
         let mut laid: Vec<(f32, Vec<(usize, Values)>)> = Vec::new();
-        let lay = |(number, map): (usize, &&ArtMap)| {
-            let tiles = tone_tiles(map, between);
-            let first = laid.len();
-            let tone = |tile: &Tile| (tile.tone() as f32, sizes(tile, coloring, number));
-            laid.par_extend(tiles.par_iter().map(tone));
-            LaidMap { slices: first..laid.len(), size: map.size(), spacing: map.spacing as f32 }
-        };
-        let maps = maps.iter().enumerate().map(lay).collect();
+        let maps = maps
+            .iter()
+            .enumerate()
+            .map(|(number, map): (usize, &&ArtMap)| {
+                let tiles = tone_tiles(map, between);
+                let first = laid.len();
+                laid.par_extend(
+                    tiles
+                        .par_iter()
+                        .map(|tile: &Tile| (tile.tone() as f32, sizes(tile, coloring, number))),
+                );
+                LaidMap { slices: first..laid.len(), size: map.size(), spacing: map.spacing as f32 }
+            })
+            .collect();
         let whole = || laid.iter().flat_map(|(_, sizes)| &sizes[0].1);
         let (mut low, mut step) = range(whole());
         (low[3], step[3]) = usual_heights(whole().map(|value| value[3]), [low[3], step[3]]);
-        let pack = |(tone, sizes): (f32, Vec<(usize, Values)>)| Slice {
-            tone,
-            sizes: sizes.iter().map(|(size, values)| packed(*size, values, low, step)).collect(),
-        };
-        let slices = laid.into_par_iter().map(pack).collect();
+        let slices = laid
+            .into_par_iter()
+            .map(|(tone, sizes): (f32, Vec<(usize, Values)>)| Slice {
+                tone,
+                sizes: sizes
+                    .iter()
+                    .map(|(size, values)| packed(*size, values, low, step))
+                    .collect(),
+            })
+            .collect();
         Self { slices, maps, low, step }
     }
 
@@ -165,11 +176,13 @@ pub(super) fn tone_tiles(map: &ArtMap, between: Between) -> Vec<Tile> {
         .collect();
     let transitions: Vec<_> =
         (0..map.keys.len()).into_par_iter().map(|lower| map.transition(lower, between)).collect();
-    let tile = |(lower, share): (usize, f64)| match &transitions[lower] {
-        Some(transition) if share > 0.0 => transition.at(share as f32),
-        _ => map.keys[lower].tile.clone(),
-    };
-    shares.into_par_iter().map(tile).collect()
+    shares
+        .into_par_iter()
+        .map(|(lower, share): (usize, f64)| match &transitions[lower] {
+            Some(transition) if share > 0.0 => transition.at(share as f32),
+            _ => map.keys[lower].tile.clone(),
+        })
+        .collect()
 }
 
 impl Texels {
@@ -188,8 +201,10 @@ impl Texels {
         let at = row.wrapping_mul(stride).wrapping_add(column);
         let above = pair(&self.packed, at);
         let below = pair(&self.packed, at.wrapping_add(stride));
-        let (right, lower) = (u64::from(across), u64::from(down));
-        let (left, upper) = (256_u64.wrapping_sub(right), 256_u64.wrapping_sub(lower));
+        let right = u64::from(across);
+        let lower = u64::from(down);
+        let left = 256_u64.wrapping_sub(right);
+        let upper = 256_u64.wrapping_sub(lower);
         // Two mixes of whole numbers in lanes of 16 bits; the first is rounded to 8 bits again.
         let mix = |a: u64, b: u64, low: u64, high: u64| {
             a.wrapping_mul(low).wrapping_add(b.wrapping_mul(high))
@@ -227,7 +242,8 @@ fn sizes(tile: &Tile, coloring: &Coloring, map: usize) -> Vec<(usize, Values)> {
         .map_or_else(|| vec![0.0; tile.size() * tile.size()], |height| height.values().to_vec());
     let mut laid = Vec::new();
     let mean = coloring.mean(map, &tile.color);
-    let (mut color, mut heights) = (tile.color.clone(), heights);
+    let mut color = tile.color.clone();
+    let mut heights = heights;
     loop {
         let size = color.width();
         let details = coloring.details(map, mean, &color).into_iter().zip(&heights);
@@ -240,19 +256,26 @@ fn sizes(tile: &Tile, coloring: &Coloring, map: usize) -> Vec<(usize, Values)> {
 }
 
 fn halved(color: &Picture, heights: &[f32]) -> (Picture, Vec<f32>) {
-    let (size, half) = (color.width(), color.width() / 2);
+    let size = color.width();
+    let half = color.width() / 2;
     let corners = |index: usize| {
-        let (x, y) = (2 * (index % half), 2 * (index / half));
+        let x = 2 * (index % half);
+        let y = 2 * (index / half);
         [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)]
     };
     let mean_color = |index| {
         let sum: Vec3 = corners(index).map(|at| Vec3::from(color[at])).iter().sum();
         (sum / 4.0).to_array()
     };
-    let mean_height =
-        |index| corners(index).map(|(x, y)| heights[y * size + x]).iter().sum::<f32>() / 4.0;
     let colors = (0..half * half).map(mean_color).collect();
-    (Field::from_values(half, half, colors), (0..half * half).map(mean_height).collect())
+    (
+        Field::from_values(half, half, colors),
+        (0..half * half)
+            .map(|index| {
+                corners(index).map(|(x, y)| heights[y * size + x]).iter().sum::<f32>() / 4.0
+            })
+            .collect(),
+    )
 }
 
 /// Value of a byte of 0 and change from byte to byte, by channel.
@@ -286,12 +309,17 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
         0.0 => 0,
         step => ((value - low[channel]) / step).round().clamp(0.0, 255.0) as u8,
     };
-    let texel = |index: usize| {
-        let (x, y) = (index % (size + 1) % size, index / (size + 1) % size);
-        let value = values[y * size + x];
-        u32::from_le_bytes([0, 2, 1, 3].map(|channel| byte(value[channel], channel)))
-    };
-    Texels { size, packed: (0..(size + 1) * (size + 1)).map(texel).collect() }
+    Texels {
+        size,
+        packed: (0..(size + 1) * (size + 1))
+            .map(|index: usize| {
+                let x = index % (size + 1) % size;
+                let y = index / (size + 1) % size;
+                let value = values[y * size + x];
+                u32::from_le_bytes([0, 2, 1, 3].map(|channel| byte(value[channel], channel)))
+            })
+            .collect(),
+    }
 }
 
 #[cfg(test)]

@@ -108,7 +108,8 @@ fn shaded(balls: &[Ball], from: Vector, way: Vector, random: &mut ChaCha8Rng) ->
             mirrored += dot(normal, unit(bounced)).max(0.0).powi(60);
         }
     }
-    let (light, mirrored) = (light / RAYS as f64, shine * mirrored / RAYS as f64);
+    let light = light / RAYS as f64;
+    let mirrored = shine * mirrored / RAYS as f64;
     // Ambient light of the room, and warm light reflected by the table.
     let room = 0.1 + 0.06 * normal[1];
     let table = 0.08 * (0.5 - 0.5 * normal[1]);

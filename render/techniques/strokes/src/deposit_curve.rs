@@ -84,8 +84,10 @@ impl<'a> Trial<'a> {
     ) -> Result<Self, PaintingError> {
         let head = Head::new(shape, size_mm, cell_mm)?;
         let size = size_mm / cell_mm;
-        let (width, height) = (((LENGTH + 3.0) * size).ceil(), (3.0 * size).ceil());
-        let (width, height) = (width as usize, height as usize);
+        let width = ((LENGTH + 3.0) * size).ceil();
+        let height = (3.0 * size).ceil();
+        let width = width as usize;
+        let height = height as usize;
         let mut engine = PaintEngine::on_cpu(Field::filled(width, height, 0));
         let (around, along) = head.paint_grid();
         let brush = engine.add_brush(around, along)?;
@@ -168,7 +170,8 @@ mod tests {
         painting.load(brush, &white, 0.0, load_mm).unwrap();
         painting.stroke(brush, &poses(&path, plan, size, CELL_MM)).unwrap();
         let wet = painting.wet().unwrap();
-        let (mut sum, mut cells) = (0.0, 0);
+        let mut sum = 0.0;
+        let mut cells = 0;
         for y in ((1.5 - COVER / 2.0) * size) as usize..((1.5 + COVER / 2.0) * size) as usize {
             for x in
                 ((1.5 + 0.25 * length) * size) as usize..((1.5 + 0.75 * length) * size) as usize

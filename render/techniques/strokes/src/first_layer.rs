@@ -56,7 +56,8 @@ pub fn first_layer(photograph: &Photograph, document: &Document) -> Result<Layer
     let materials =
         FilmMaterials { library, slots, ground: &ground.reflectance, scattering_per_mm };
     let separation = Separation::new(PaintFilm::at_nodes(materials, &light.quadrature), &THIN)?;
-    let (columns, rows) = (document.wet.width(), document.wet.height());
+    let columns = document.wet.width();
+    let rows = document.wet.height();
     let Rect { x, y, width, height } = fitted(photograph.size(), (columns, rows));
     let seen = photograph.on_canvas(width, height);
     let heights = separation.separate(&black_compensated(&seen, separation.black()));
@@ -74,7 +75,8 @@ fn fitted(size: (usize, usize), (columns, rows): (usize, usize)) -> Rect {
     let scale = (columns as f64 / size.0 as f64).min(rows as f64 / size.1 as f64);
     let side =
         |pixels: usize, most: usize| ((pixels as f64 * scale).round() as usize).clamp(1, most);
-    let (width, height) = (side(size.0, columns), side(size.1, rows));
+    let width = side(size.0, columns);
+    let height = side(size.1, rows);
     Rect { x: (columns - width) / 2, y: (rows - height) / 2, width, height }
 }
 

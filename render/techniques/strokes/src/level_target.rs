@@ -66,7 +66,8 @@ impl LevelTarget {
         let differences = all.map(|((&target, &reached), &painted)| {
             distance(target, painted).min(distance(reached, painted))
         });
-        let (width, height) = (painted.width(), painted.height());
+        let width = painted.width();
+        let height = painted.height();
         let mut differences = Field::from_values(width, height, differences.collect());
         if self.level > 1 {
             leave_smooth_alone(&mut differences, &self.lab, self.size);
@@ -78,12 +79,16 @@ impl LevelTarget {
 /// Reduces the difference where the target is smooth at the scale of a brush `size` cells wide:
 /// there the strokes of broader brushes may stay as they are.
 fn leave_smooth_alone(difference: &mut Field<f32>, target_lab: &Field<[f32; 3]>, size: f64) {
-    let (width, height) = (target_lab.width(), target_lab.height());
+    let width = target_lab.width();
+    let height = target_lab.height();
     let reach = (size / 2.0).ceil() as usize;
     let change = |at: usize| {
-        let (x, y) = (at % width, at / width);
-        let (left, right) = (x.saturating_sub(reach), (x + reach).min(width - 1));
-        let (above, below) = (y.saturating_sub(reach), (y + reach).min(height - 1));
+        let x = at % width;
+        let y = at / width;
+        let left = x.saturating_sub(reach);
+        let right = (x + reach).min(width - 1);
+        let above = y.saturating_sub(reach);
+        let below = (y + reach).min(height - 1);
         let across = distance(target_lab[(left, y)], target_lab[(right, y)]);
         let down = distance(target_lab[(x, above)], target_lab[(x, below)]);
         [across.max(down)]

@@ -8,25 +8,15 @@
 //! structure of the picture; [`Painter`] paints them, coarse to fine.
 
 mod tones;
-
 mod first_layer;
-
 mod plan;
-
 mod trace;
-
 mod level_target;
-
 mod planned;
-
 mod deposit_curve;
-
 mod painter;
-
 mod stroke_settings;
-
 mod stroke_painter;
-
 mod separated_files;
 
 pub use first_layer::{FirstLayerError, first_layer};

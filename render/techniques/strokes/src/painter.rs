@@ -191,10 +191,15 @@ fn shape(size_mm: f64) -> HeadShape {
 /// White where `picture` is dark and black elsewhere, so that the first coat also covers a ground
 /// that looks like the picture.
 fn unlike(picture: &Picture) -> Picture {
-    let far = |&[red, green, blue]: &[f32; 3]| {
-        if red + green + blue < 0.6 { [1.0; 3] } else { [0.0; 3] }
-    };
-    let values = picture.values().iter().map(far).collect();
+    let values = picture
+        .values()
+        .iter()
+        .map(
+            |&[red, green, blue]: &[f32; 3]| {
+                if red + green + blue < 0.6 { [1.0; 3] } else { [0.0; 3] }
+            },
+        )
+        .collect();
     Field::from_values(picture.width(), picture.height(), values)
 }
 
@@ -256,13 +261,16 @@ fn play(
     progress: &mut impl FnMut(PaintProgress),
 ) -> Result<ReplayReport, PainterError> {
     let mut kinds = round.actions.iter().map(Action::kind);
-    let step = || {
-        if kinds.next() == Some("stroke") {
-            progress(PaintProgress::Stroke);
-        }
-        ControlFlow::Continue(())
-    };
-    let report = round.replay(session, |_, _| Ok(()), step)?;
+    let report = round.replay(
+        session,
+        |_, _| Ok(()),
+        || {
+            if kinds.next() == Some("stroke") {
+                progress(PaintProgress::Stroke);
+            }
+            ControlFlow::Continue(())
+        },
+    )?;
     script.brushes.extend(round.brushes);
     script.actions.extend(round.actions);
     Ok(report)

@@ -29,9 +29,11 @@ impl StrokePainter {
     /// # Errors
     /// [`ExportError`] if a file cannot be encoded.
     pub fn separate(&self) -> Result<SeparatedFiles, ExportError> {
-        let (separation, target) = (self.separation(), self.target());
+        let separation = self.separation();
+        let target = self.target();
         let heights = separation.separate(target);
-        let (width, height) = (target.width(), target.height());
+        let width = target.width();
+        let height = target.height();
         let map = |(slot, name): (usize, &String)| {
             let values = heights.values().iter().map(|cell| cell[slot]).collect();
             PigmentMap { name: name.clone(), height_mm: Field::from_values(width, height, values) }

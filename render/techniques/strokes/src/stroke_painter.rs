@@ -108,7 +108,8 @@ impl StrokePainter {
         script.medium = Some(Medium::of(library));
         let resolved = script.resolve(library)?;
         let ground = script.canvas.ground(library)?;
-        let (library, plan) = (library.clone(), settings.plan());
+        let library = library.clone();
+        let plan = settings.plan();
         Ok(Self { script, resolved, library, ground, pigments, separation, target, plan })
     }
 

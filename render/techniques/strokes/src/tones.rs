@@ -19,8 +19,12 @@ const TONE: f64 = 0.4;
 /// there is a palette, the surface reflection of the library.
 #[must_use]
 pub fn black_compensated(picture: &Picture, black: f32) -> Picture {
-    let raised = |rgb: &[f32; 3]| rgb.map(|value| black + (1.0 - black) * value);
-    let values = picture.values().par_iter().with_min_len(4096).map(raised).collect();
+    let values = picture
+        .values()
+        .par_iter()
+        .with_min_len(4096)
+        .map(|rgb: &[f32; 3]| rgb.map(|value| black + (1.0 - black) * value))
+        .collect();
     Field::from_values(picture.width(), picture.height(), values)
 }
 

@@ -49,7 +49,8 @@ fn half_path(
 ) -> Vec<[f64; 2]> {
     let step = (input.size / 4.0).max(0.5);
     let steps = |sizes: f64| (sizes * input.size / 2.0 / step).round() as usize;
-    let (least, most) = (steps(plan.shortest).max(1), steps(plan.longest).max(1));
+    let least = steps(plan.shortest).max(1);
+    let most = steps(plan.longest).max(1);
     let mut painted = 0.0;
     let mut points = Vec::new();
     let mut place = start;
@@ -89,7 +90,8 @@ fn turned_to(heading: [f64; 2], to: [f64; 2], most: f64) -> [f64; 2] {
 
 /// Distance of a point from the canvas in cells, 0 or less within it.
 fn beyond(input: &TraceInput<'_>, [x, y]: [f64; 2]) -> f64 {
-    let (width, height) = (input.target.width() as f64, input.target.height() as f64);
+    let width = input.target.width() as f64;
+    let height = input.target.height() as f64;
     (-x).max(x - width).max(-y).max(y - height)
 }
 

@@ -92,7 +92,8 @@ impl Scene {
         settings.picture.samples = 1;
         (settings.hatching.inside, settings.hatching.outside) = (hatching, hatching);
         let tints = (0..=shells.len()).map(|shell| shell as f32 / shells.len() as f32).collect();
-        let (shells, stain) = (shells.to_vec(), "#ffffff".to_owned());
+        let shells = shells.to_vec();
+        let stain = "#ffffff".to_owned();
         let style = RegionStyle { name: String::new(), inside, shells, tints, stain };
         VolumePainter::new(&self.mesh, &settings, &[style]).unwrap()
     }

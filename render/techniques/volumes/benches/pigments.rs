@@ -88,9 +88,15 @@ fn scene() -> &'static Scene {
             [r, g, b, 0.2 * r + 0.7 * g + 0.1 * b]
         });
         let color = Field::from_values(width, height, lit.collect());
-        let hatch = |at: usize| if (at % width + at / width) % 9 < 3 { 0.7 } else { 0.0 };
-        let ink = Field::from_values(width, height, (0..width * height).map(hatch).collect());
-        let (surfaces, facets) = (VolumeSurfaces::of(&volumes), Facets::of(&mesh));
+        let ink = Field::from_values(
+            width,
+            height,
+            (0..width * height)
+                .map(|at: usize| if (at % width + at / width) % 9 < 3 { 0.7 } else { 0.0 })
+                .collect(),
+        );
+        let surfaces = VolumeSurfaces::of(&volumes);
+        let facets = Facets::of(&mesh);
         Scene {
             mesh,
             facets,
@@ -167,10 +173,14 @@ fn heights_along_rays(bencher: Bencher<'_, '_>) {
 #[divan::bench(args = ["glaze", "both"])]
 fn picture(bencher: Bencher<'_, '_>, inside: &str) {
     let inside = if inside == "both" { InsidePaint::Both } else { InsidePaint::Glaze };
-    let (scene, (painter, view)) = (scene(), painter(inside));
+    let scene = scene();
+    let (painter, view) = painter(inside);
     let films = heights(scene);
-    let held = |heights: &FilmHeights| f32::from(u8::from(*heights != FilmHeights::default()));
-    let tint = films.values().iter().map(held).collect();
+    let tint = films
+        .values()
+        .iter()
+        .map(|heights: &FilmHeights| f32::from(u8::from(*heights != FilmHeights::default())))
+        .collect();
     let tint = Field::from_values(SIZE.0, SIZE.1, tint);
     let drawing = Drawing {
         color: &scene.color,
@@ -185,14 +195,16 @@ fn picture(bencher: Bencher<'_, '_>, inside: &str) {
 /// All that films add to a frame.
 #[divan::bench]
 fn frame(bencher: Bencher<'_, '_>) {
-    let (scene, (painter, view)) = (scene(), painter(InsidePaint::Glaze));
+    let scene = scene();
+    let (painter, view) = painter(InsidePaint::Glaze);
     let Scene { mesh, volumes, samples, camera, visible, color, ink, .. } = scene;
     let surface = SampledSurface::from(samples);
     let side = samples.lattice.cell;
     let mut counter = FilmCounter::new(mesh, &surface, side, FilmProfile::default(), SCALE);
     bencher.bench_local(|| {
         let films = counter.heights((mesh, &surface), volumes, FilmKind::Surface, camera, visible);
-        let (films, ink) = (Some(&films), Some(ink));
+        let films = Some(&films);
+        let ink = Some(ink);
         let drawing = Drawing { color, cover: None, ink, tint: None, films };
         view.picture(&painter, &drawing).unwrap()
     });

@@ -39,21 +39,23 @@ impl Crowd {
     /// Volumes on the plane y = 0, one a cell, that keep growing and so never rest.
     fn volumes(self) -> Vec<Volume> {
         let side = (self.count as f64).sqrt().ceil() as usize;
-        let ball = |i: usize| {
-            let center = Vec3::new((i % side) as f32 + 0.5, 0.0, (i / side) as f32 + 0.5);
-            let mut ball = Volume::ball(center, 0.6, self.detail, i as u64);
-            ball.target_radius = 1e6;
-            kick(&mut ball, 0.3, 0);
-            ball
-        };
-        (0..self.count).map(ball).collect()
+        (0..self.count)
+            .map(|i: usize| {
+                let center = Vec3::new((i % side) as f32 + 0.5, 0.0, (i / side) as f32 + 0.5);
+                let mut ball = Volume::ball(center, 0.6, self.detail, i as u64);
+                ball.target_radius = 1e6;
+                kick(&mut ball, 0.3, 0);
+                ball
+            })
+            .collect()
     }
 
     /// The plane below them, with 64 samples a cell.
     fn floor(self) -> Vec<Vec3> {
         let side = 8 * (self.count as f64).sqrt().ceil() as usize;
-        let at = |i: usize| Vec3::new((i % side) as f32, 0.0, (i / side) as f32) / 8.0;
-        (0..side * side).map(at).collect()
+        (0..side * side)
+            .map(|i: usize| Vec3::new((i % side) as f32, 0.0, (i / side) as f32) / 8.0)
+            .collect()
     }
 
     fn run(self, bencher: Bencher, surroundings: &Surroundings) {

@@ -52,13 +52,14 @@ fn level(side: f32) -> Mesh {
 fn wet(pigments: usize) -> (Grid, Spilling, Vec<Cell>) {
     let grid = Grid::of(&level(400.0), 1.0, SAMPLES_PER_CELL, 1).unwrap();
     let spilling = Spilling::new(&grid.cells, 1.0, 0.04, 0.0).unwrap();
-    let amount = |cell: usize| {
-        let mut own = Cell::default();
-        let films = 2 + (cell as u32).wrapping_mul(2_654_435_761) % 12;
-        own.pigments[..pigments].fill(grid.cells.capacities[cell] * films / pigments as u32);
-        own
-    };
-    let paint = (0..grid.cells.len()).map(amount).collect();
+    let paint = (0..grid.cells.len())
+        .map(|cell: usize| {
+            let mut own = Cell::default();
+            let films = 2 + (cell as u32).wrapping_mul(2_654_435_761) % 12;
+            own.pigments[..pigments].fill(grid.cells.capacities[cell] * films / pigments as u32);
+            own
+        })
+        .collect();
     (grid, spilling, paint)
 }
 

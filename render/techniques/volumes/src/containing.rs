@@ -207,7 +207,9 @@ fn cell_of(ray: DVec3, side: usize) -> usize {
 
 /// A ray through the middle of a square.
 fn middle_of(cell: usize, side: usize) -> DVec3 {
-    let (plane, v, u) = (cell / (side * side), cell / side % side, cell % side);
+    let plane = cell / (side * side);
+    let v = cell / side % side;
+    let u = cell % side;
     let [u, v] = [u, v].map(|at| (2.0 * at as f64 + 1.0) / side as f64 - 1.0);
     let axis = plane / 2;
     let mut ray = [0.0; 3];
@@ -229,13 +231,14 @@ mod tests {
     /// How often the faces of a volume wind around a point (van Oosterom and Strackee 1983).
     fn winding_number(volume: &Volume, at: DVec3) -> f64 {
         let [x, y, z] = &volume.particles.places;
-        let from = |i: u32| {
-            let i = i as usize;
-            volume.center.as_dvec3() + Vec3::new(x[i], y[i], z[i]).as_dvec3() - at
-        };
         let solid = volume.mesh().faces.iter().map(|face| {
-            let [a, b, c] = face.map(from);
-            let (la, lb, lc) = (a.length(), b.length(), c.length());
+            let [a, b, c] = face.map(|i: u32| {
+                let i = i as usize;
+                volume.center.as_dvec3() + Vec3::new(x[i], y[i], z[i]).as_dvec3() - at
+            });
+            let la = a.length();
+            let lb = b.length();
+            let lc = c.length();
             let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
             2.0 * a.dot(b.cross(c)).atan2(below)
         });
@@ -254,15 +257,20 @@ mod tests {
         for (detail, count) in [(0, 10_000), (1, 38_000), (2, 38_000), (3, 12_000), (4, 2000)] {
             let volume = bumpy(Vec3::new(0.3, -1.2, 0.7), 0.8, detail, 5 + u64::from(detail));
             let inside = Inside::of(&volume);
-            let check = |&at: &Vec3| {
-                let holds = inside.holds(at);
-                let distance = (at.as_dvec3() - inside.center).length();
-                let from_skin = (distance - inside.exit(at).distance).abs();
-                let winding = winding_number(&volume, at.as_dvec3()) > 0.5;
-                assert!(holds == winding || from_skin < 1e-5 * f64::from(volume.radius), "{at}");
-                usize::from(holds)
-            };
-            held += points(&volume, count, 3).par_iter().map(check).sum::<usize>();
+            held += points(&volume, count, 3)
+                .par_iter()
+                .map(|&at: &Vec3| {
+                    let holds = inside.holds(at);
+                    let distance = (at.as_dvec3() - inside.center).length();
+                    let from_skin = (distance - inside.exit(at).distance).abs();
+                    let winding = winding_number(&volume, at.as_dvec3()) > 0.5;
+                    assert!(
+                        holds == winding || from_skin < 1e-5 * f64::from(volume.radius),
+                        "{at}"
+                    );
+                    usize::from(holds)
+                })
+                .sum::<usize>();
         }
         // About an eighth of a cube that is 3.2 radii wide.
         assert!((10_000..16_000).contains(&held), "{held}");

@@ -10,9 +10,7 @@
 //! Modules are declared in order of dependence: each uses only those above it.
 
 pub mod saved;
-
 pub mod sphere_mesh;
-
 pub mod volume;
 
 #[cfg(test)]
@@ -23,35 +21,20 @@ mod test_surfaces;
 
 #[cfg(test)]
 mod test_device;
-
 mod device_memory;
-
 pub mod containing;
-
 pub mod surfaces;
-
 pub mod motion;
-
 pub mod wetting;
-
 pub mod world;
-
 pub mod hatching;
-
 pub mod drawing;
-
 pub mod pigments;
-
 pub mod toml_text;
-
 pub mod settings;
-
 pub mod script;
-
 pub mod performance;
-
 pub mod painter;
-
 mod kernels;
 
 pub use kernels::kernels;

@@ -76,10 +76,13 @@ impl VolumeSurfaces {
     pub fn add(&mut self, volume: &Volume, scale: f32, surface: u32) {
         let first = self.vertices.len() as u32;
         let center = volume.center;
-        let scaled = |at: [f32; 3]| (center + (Vec3::from(at) - center) * scale).to_array();
         match scale == 1.0 {
             true => self.vertices.extend(volume.vertices()),
-            false => self.vertices.extend(volume.vertices().map(scaled)),
+            false => self.vertices.extend(
+                volume
+                    .vertices()
+                    .map(|at: [f32; 3]| (center + (Vec3::from(at) - center) * scale).to_array()),
+            ),
         }
         let corners = |face: &[u32; 3]| face.map(|corner| first + corner);
         let faces = volume.mesh().faces.iter();

@@ -25,7 +25,8 @@ pub(crate) fn device() -> Option<Compute> {
 /// Greatest difference of two pictures, and the share of pixels that differ by more than 1/255.
 pub(crate) fn far(one: &Field<[f32; 4]>, other: &Field<[f32; 4]>) -> (f32, f32) {
     assert_eq!((one.width(), one.height()), (other.width(), other.height()));
-    let (mut most, mut over) = (0.0_f32, 0);
+    let mut most = 0.0_f32;
+    let mut over = 0;
     for (a, b) in one.values().iter().zip(other.values()) {
         let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
         assert!(off.is_finite(), "{a:?} {b:?}");

@@ -29,9 +29,10 @@ pub(crate) fn bumpy(center: Vec3, radius: f32, detail: u8, seed: u64) -> Volume 
         let moved = ((along + aside) * place.length() * times).as_vec3();
         [x[i], y[i], z[i]] = moved.to_array();
     }
-    let places = |i: u32| volume.vertices().nth(i as usize).map(Vec3::from).unwrap() - center;
     for face in volume.mesh().faces.iter().take(200) {
-        let [a, b, c] = face.map(places).map(Vec3::as_dvec3);
+        let [a, b, c] = face
+            .map(|i: u32| volume.vertices().nth(i as usize).map(Vec3::from).unwrap() - center)
+            .map(Vec3::as_dvec3);
         assert!(a.cross(b).dot(c) > 0.0, "a cone is turned inside out");
     }
     volume
@@ -43,16 +44,18 @@ pub(crate) fn plane(count: usize) -> Mesh {
     let at = |i: usize| [i % side, i / side].map(|at| 4.0 * at as f32 / count as f32);
     let positions: Vec<[f32; 3]> = (0..side * side).map(|i| [at(i)[0], at(i)[1], 0.0]).collect();
     let squares = (0..count * count).map(|i| (i % count + i / count * side) as u32);
-    let (right, up) = (1, side as u32);
-    let pair = |a: u32| {
-        let corners = [[a, a + right, a + right + up], [a, a + right + up, a + up]];
-        corners.map(|corners| Triangle { corners, material: 0 })
-    };
+    let right = 1;
+    let up = side as u32;
     Mesh {
         texture_coordinates: (0..side * side).map(|i| at(i).map(|value| value / 4.0)).collect(),
         colors: vec![[1.0; 3]; side * side],
         normals: vec![[0.0, 0.0, 1.0]; side * side],
-        triangles: squares.flat_map(pair).collect(),
+        triangles: squares
+            .flat_map(|a: u32| {
+                let corners = [[a, a + right, a + right + up], [a, a + right + up, a + up]];
+                corners.map(|corners| Triangle { corners, material: 0 })
+            })
+            .collect(),
         materials: vec![Material::plain([1.0; 3])],
         positions,
     }

@@ -59,16 +59,21 @@ impl Volume {
     pub fn ball(center: Vec3, radius: f32, detail: u8, seed: u64) -> Self {
         let mesh = SphereMesh::of_detail(detail);
         let scale = radius / mesh.inradius;
-        let along = |axis: usize| mesh.directions.iter().map(|at| at[axis] * scale).collect();
         let still = vec![0.0; mesh.directions.len()];
         let particles = Particles {
-            places: std::array::from_fn(along),
+            places: std::array::from_fn(|axis: usize| {
+                mesh.directions.iter().map(|at| at[axis] * scale).collect()
+            }),
             velocities: std::array::from_fn(|_| still.clone()),
             samples: vec![u32::MAX; still.len()],
         };
         let paint = Cell::default();
-        let (region, cell, dry) = (0, None, false);
-        let (target_radius, normal, rests_under) = (radius, Vec3::ZERO, 0);
+        let region = 0;
+        let cell = None;
+        let dry = false;
+        let target_radius = radius;
+        let normal = Vec3::ZERO;
+        let rests_under = 0;
         Self {
             center,
             target_center: center,

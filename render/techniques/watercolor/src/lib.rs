@@ -11,32 +11,20 @@
 //! about equal.
 
 mod settings;
-
 mod wash;
-
 mod abstraction;
-
 mod shadow_map;
-
 mod toon;
 
 #[cfg(test)]
 mod shadow_tests;
-
 mod textures;
-
 mod effects;
-
 mod photograph;
-
 mod pipeline;
-
 mod photograph_painter;
-
 mod model_painter;
-
 mod glaze;
-
 mod kernels;
 
 pub use abstraction::{

@@ -154,7 +154,8 @@ impl PhotographPainter {
         prepared: &PreparedPhotograph,
         observer: Option<StageObserver<'_>>,
     ) -> Result<Field<[f32; 4]>, DeviceError> {
-        let (wash, textures) = (prepared.wash.clone(), prepared.textures.clone());
+        let wash = prepared.wash.clone();
+        let textures = prepared.textures.clone();
         self.paint_wash(wash, textures, &prepared.settings, observer)
     }
 

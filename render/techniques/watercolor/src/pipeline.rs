@@ -169,7 +169,8 @@ pub(super) fn paint_layer(
     let layer = |(stage, texture, strength, pivot): (_, Option<_>, _, _)| {
         (stage, texture.map(|texture| DensityLayer { texture, strength, pivot }))
     };
-    let (layers, overall) = (layers.map(layer), settings.wash.density);
+    let layers = layers.map(layer);
+    let overall = settings.wash.density;
     if observer.is_some() {
         for (stage, layer) in layers {
             let overall = if stage == Stage::Edges { overall } else { 1.0 };
@@ -182,7 +183,8 @@ pub(super) fn paint_layer(
     }
     let reach = dry_brush_reach(&paper.texture, touch.map(|(_, own)| own), settings);
     let touched = touch.map_or(heights, |(image, _)| image);
-    let (outlines, dry_brush) = (outlines.as_ref(), dry_brush.as_ref());
+    let outlines = outlines.as_ref();
+    let dry_brush = dry_brush.as_ref();
     color = apply_dry_brush(compute, color, touched, flow, reach, outlines, dry_brush)?;
     report(observer, compute, Stage::DryBrush, &color)?;
     Ok(color)

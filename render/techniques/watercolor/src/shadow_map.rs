@@ -107,14 +107,16 @@ impl ShadowView {
         cosine: f32,
     ) -> f32 {
         let clip = self.clip_from_model * (place + normal * (OFFSET_PX * self.pixel)).extend(1.0);
-        let (side, soft) = (map.width() as f32, self.soft as f32);
+        let side = map.width() as f32;
+        let soft = self.soft as f32;
         let x = (clip.x / clip.w + 1.0) / 2.0 * side - 0.5;
         let y = (1.0 - clip.y / clip.w) / 2.0 * side - 0.5;
         let inside = |at: f32| at >= soft && at < side - 1.0 - soft;
         if !(inside(x) && inside(y)) {
             return 1.0;
         }
-        let (left, top) = (x as usize, y as usize);
+        let left = x as usize;
+        let top = y as usize;
         let [near, far] = self.planes;
         let distance = clip.w - OFFSET_PX * self.pixel;
         // Depth of the surface here, and its change for a pixel to the right and downwards.
@@ -128,8 +130,8 @@ impl ShadowView {
             let first = map[(column, row)].depth;
             if first < 1.0 && first < own { 0.0 } else { 1.0 }
         };
-        let (columns, rows) =
-            (left - self.soft..=left + self.soft + 1, top - self.soft..=top + self.soft + 1);
+        let columns = left - self.soft..=left + self.soft + 1;
+        let rows = top - self.soft..=top + self.soft + 1;
         // Most places lie wholly in the light or in the shadow.
         let [first, last] = [*columns.start(), *columns.end()];
         let [upper, lower] = [*rows.start(), *rows.end()];
@@ -140,7 +142,8 @@ impl ShadowView {
         if sum == 0.0 || sum == 9.0 {
             return sum / 9.0;
         }
-        let (a, b) = (x - left as f32, y - top as f32);
+        let a = x - left as f32;
+        let b = y - top as f32;
         let share = |at: usize, [first, last]: [usize; 2], part: f32| match at {
             at if at == first => 1.0 - part,
             at if at == last => part,

@@ -83,14 +83,13 @@ fn light_comes_back_evenly_over_the_border_of_a_shadow() {
             let far_off = away.abs() > far;
             assert!(!far_off || (lit - wanted).abs() < 1e-3, "{side}: {lit} at {away}");
         }
-        let mean = |from: f32| {
+        let means = [-1.0, -0.5, 0.0, 0.5].map(|from: f32| {
             let between = (from * half)..((from + 0.5) * half);
             let lit = found.iter().filter(|[away, _]| between.contains(away));
             let (sum, count) = lit.fold((0.0, 0), |(sum, n), [_, lit]| (sum + lit, n + 1));
             assert!(count > 20, "{side}: {count} pixels from {from}");
             sum / count as f32
-        };
-        let means = [-1.0, -0.5, 0.0, 0.5].map(mean);
+        });
         let wanted = [0.125, 0.375, 0.625, 0.875];
         let even = means.iter().zip(wanted).all(|(lit, wanted)| (lit - wanted).abs() < 0.12);
         assert!(even, "{side}: {means:?}");

@@ -73,7 +73,8 @@ pub fn shade_toon(
     toon: &Toon,
     shadows: Option<&ShadowMap>,
 ) -> Result<ColorImage, DeviceError> {
-    let ((width, height), samples) = (visible.size(), toon.samples);
+    let (width, height) = visible.size();
+    let samples = toon.samples;
     let whole = samples > 0 && width.is_multiple_of(samples) && height.is_multiple_of(samples);
     assert!(whole, "a visibility buffer of {width} x {height} for {samples} samples a pixel");
     let size = (width / samples, height / samples);
@@ -128,7 +129,8 @@ fn shade_toon_on_cpu(
                 *pixel = shader.mean_color(&points).extend(1.0).into();
                 continue;
             }
-            let (mut sum, mut last) = (Vec4::ZERO, None);
+            let mut sum = Vec4::ZERO;
+            let mut last = None;
             for line in 0..toon.samples {
                 let y = y * toon.samples + line;
                 for fragment in visible.row(y, x * toon.samples, toon.samples) {
@@ -214,12 +216,11 @@ impl Shader<'_> {
         }
         let greys = Vec4::from_array(cosines.to_array().map(|at| self.toon.tones.grey(at)));
         let excess = (self.toon.strength * (Vec4::splat(0.5) - greys)).max(Vec4::splat(-1.0));
-        let mean = |own: Vec4| {
+        Vec3::from(albedo.map(|own: Vec4| {
             let color = own * (Vec4::ONE - (Vec4::ONE - own) * excess);
             let [a, b, c, d] = color.clamp(Vec4::ZERO, Vec4::ONE).to_array();
             (a + b + c + d) / 4.0
-        };
-        Vec3::from(albedo.map(mean))
+        }))
     }
 }
 
@@ -348,11 +349,13 @@ mod tests {
         let mesh = model.host().mesh();
         for shadows in [None, Some((map.view(), map.fragments.host()))] {
             let shader = Shader { mesh, eye: camera.eye, light, toon: &toon, shadows };
-            let (mut fours, mut shaded) = (0, 0);
+            let mut fours = 0;
+            let mut shaded = 0;
             for (x, y) in (0..120).flat_map(|y| (0..160).map(move |x| (2 * x, 2 * y))) {
                 let at = [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)].map(|at| seen[at]);
                 let Some(points) = FourPoints::new(mesh, at) else { continue };
-                let (mut sum, mut last) = (Vec3::ZERO, None);
+                let mut sum = Vec3::ZERO;
+                let mut last = None;
                 at.iter().for_each(|fragment| sum += shader.color(*fragment, &mut last));
                 let bits = |color: Vec3| color.to_array().map(f32::to_bits);
                 assert_eq!(bits(shader.mean_color(&points)), bits(sum / 4.0), "{x} {y}");

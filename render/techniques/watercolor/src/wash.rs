@@ -44,11 +44,14 @@ impl Masks {
     pub fn controls(&self, width: usize, height: usize) -> Controls {
         let control = |mask: &Photograph| {
             let picture = mask.on_canvas(width, height);
-            let grey = |rgb: &[f32; 3]| {
-                let encoded = Rgb(rgb.map(f64::from)).encoded().0;
-                (encoded.iter().sum::<f64>() / 3.0) as f32
-            };
-            let values = picture.values().par_iter().map(grey).collect();
+            let values = picture
+                .values()
+                .par_iter()
+                .map(|rgb: &[f32; 3]| {
+                    let encoded = Rgb(rgb.map(f64::from)).encoded().0;
+                    (encoded.iter().sum::<f64>() / 3.0) as f32
+                })
+                .collect();
             Field::from_values(width, height, values)
         };
         Controls {
@@ -92,7 +95,8 @@ impl WashImages {
     ) -> Result<Self, DeviceError> {
         let mut grey =
             |field: &Option<_>| field.as_ref().map(|field| compute.upload(field)).transpose();
-        let (dry_brush, density) = (grey(&controls.dry_brush)?, grey(&controls.density)?);
+        let dry_brush = grey(&controls.dry_brush)?;
+        let density = grey(&controls.density)?;
         Ok(Self { color, dry_brush, density })
     }
 }

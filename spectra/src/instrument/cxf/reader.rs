@@ -184,12 +184,14 @@ fn number(
 
 /// Values with a wavelength for each.
 fn irregular(file: &str, element: &Element) -> Result<Vec<Point>, InstrumentError> {
-    let point = |child: &Element| {
-        let nm = number(file, child.line, NM, child.attribute("WL").unwrap_or_default())?;
-        let value = number(file, child.line, NUMBER, &child.text)?;
-        Ok(Point { nm, value, line: child.line })
-    };
-    element.all("SpectralPoint").map(point).collect()
+    element
+        .all("SpectralPoint")
+        .map(|child: &Element| {
+            let nm = number(file, child.line, NM, child.attribute("WL").unwrap_or_default())?;
+            let value = number(file, child.line, NUMBER, &child.text)?;
+            Ok(Point { nm, value, line: child.line })
+        })
+        .collect()
 }
 
 /// Makes names unique for spectra of one object under several specifications (M0 and M1,

@@ -108,11 +108,13 @@ fn whole_start_and_step(grid: Grid) -> Option<(u32, u32)> {
 /// Escapes text for an element or an attribute. Characters that would be read back as a space
 /// are written by number.
 fn escaped(text: &str) -> String {
-    let held = |c: char| match c {
-        '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'.. => c,
-        _ => '\u{fffd}',
-    };
-    let text: String = text.chars().map(held).collect();
+    let text: String = text
+        .chars()
+        .map(|c: char| match c {
+            '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'.. => c,
+            _ => '\u{fffd}',
+        })
+        .collect();
     escape(text).replace('\n', "&#10;").replace('\t', "&#9;")
 }
 

@@ -74,11 +74,13 @@ impl Mark {
     /// of a column crosses a tenth of the median of all covered columns.
     #[must_use]
     pub fn within(heights: &Heights, x_mm: Range<f64>) -> Option<Self> {
-        let (cell_mm, part) = (heights.cell_mm(), heights.columns_in(x_mm));
+        let cell_mm = heights.cell_mm();
+        let part = heights.columns_in(x_mm);
         let columns = &heights.along(0..heights.rows())[part.clone()];
         let (from, to) = extent_at_mm(columns, cell_mm, 0.1)?;
         let left_mm = part.start as f64 * cell_mm;
-        let (start_mm, end_mm) = (left_mm + from, left_mm + to);
+        let start_mm = left_mm + from;
+        let end_mm = left_mm + to;
         if end_mm - start_mm < SETTLED_MM.0 + SETTLED_MM.1 + SHORTEST_MM {
             return None;
         }
@@ -183,7 +185,8 @@ mod tests {
         let mark = Mark::along_x(&heights).unwrap();
         let (from, to) = mark.ends_mm(&heights).unwrap();
         assert_near("ends", &[from, to], &[8.0, 62.3], 0.05);
-        let (first, last) = (mark.film_in(&heights, 9.0..11.0), mark.film_in(&heights, 49.0..51.0));
+        let first = mark.film_in(&heights, 9.0..11.0);
+        let last = mark.film_in(&heights, 49.0..51.0);
         assert_near("film falls", &[first, last], &[falling(18.0), falling(58.0)], 1e-3);
     }
 

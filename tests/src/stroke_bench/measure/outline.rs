@@ -16,12 +16,14 @@ use super::waves::smoothed;
 pub fn edge_deviations_mm(heights: &Heights, columns: Range<usize>) -> Option<[f64; 2]> {
     let cell_mm = heights.cell_mm();
     let profiles: Vec<Vec<f64>> = columns.map(|x| heights.across(x..x + 1)).collect();
-    let film = |profile: &Vec<f64>| {
-        let (top, bottom) = extent_mm(profile, cell_mm)?;
-        let narrow = 0.2 * (bottom - top);
-        Some(mean(&profile[heights.rows_in(top + narrow..bottom - narrow)]))
-    };
-    let films = profiles.iter().map(film).collect::<Option<Vec<_>>>()?;
+    let films = profiles
+        .iter()
+        .map(|profile: &Vec<f64>| {
+            let (top, bottom) = extent_mm(profile, cell_mm)?;
+            let narrow = 0.2 * (bottom - top);
+            Some(mean(&profile[heights.rows_in(top + narrow..bottom - narrow)]))
+        })
+        .collect::<Option<Vec<_>>>()?;
     let levels = smoothed(&films, cell_mm, 5.0);
     let edges = |find: fn(&[f64], f64, f64) -> Option<f64>| {
         let pairs = profiles.iter().zip(&levels);

@@ -78,8 +78,10 @@ pub fn fitted<const N: usize>(places: &[f64], values: &[f64]) -> Vec<f64> {
     }
     let factor =
         |row: usize| if rows[row][row] == 0.0 { 0.0 } else { rows[row][N] / rows[row][row] };
-    let value = |x: &f64| powers(*x).iter().enumerate().map(|(i, power)| factor(i) * power).sum();
-    places.iter().map(value).collect()
+    places
+        .iter()
+        .map(|x: &f64| powers(*x).iter().enumerate().map(|(i, power)| factor(i) * power).sum())
+        .collect()
 }
 
 /// Series minus its nearest parabola.
@@ -93,7 +95,8 @@ pub fn without_parabola(series: &[f64]) -> Vec<f64> {
 /// Pearson's correlation of two series of one length; 0 if one is constant.
 #[must_use]
 pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
-    let (mean_a, mean_b) = (mean(a), mean(b));
+    let mean_a = mean(a);
+    let mean_b = mean(b);
     let pairs = || a.iter().zip(b).map(|(a, b)| (a - mean_a, b - mean_b));
     let covariance: f64 = pairs().map(|(a, b)| a * b).sum();
     let power: f64 =
@@ -105,7 +108,8 @@ pub fn correlation(a: &[f64], b: &[f64]) -> f64 {
 /// shows in `b`.
 #[must_use]
 pub fn slope(a: &[f64], b: &[f64]) -> f64 {
-    let (mean_a, mean_b) = (mean(a), mean(b));
+    let mean_a = mean(a);
+    let mean_b = mean(b);
     let covariance: f64 = a.iter().zip(b).map(|(a, b)| (a - mean_a) * (b - mean_b)).sum();
     let variance: f64 = a.iter().map(|a| (a - mean_a) * (a - mean_a)).sum();
     if variance > 0.0 { covariance / variance } else { 0.0 }
@@ -116,7 +120,8 @@ pub fn slope(a: &[f64], b: &[f64]) -> f64 {
 #[must_use]
 pub fn autocorrelation(all: &[Vec<f64>], lags: std::ops::Range<usize>) -> Vec<f64> {
     let product = |lag: usize| {
-        let (mut sum, mut count) = (0.0, 0.0);
+        let mut sum = 0.0;
+        let mut count = 0.0;
         for series in all {
             for (a, b) in series.iter().zip(series.iter().skip(lag)) {
                 sum += a * b;

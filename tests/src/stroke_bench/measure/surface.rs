@@ -15,7 +15,8 @@ pub fn second_differences_mm(
     columns: Range<usize>,
     rows: Range<usize>,
 ) -> [f64; 2] {
-    let (mut along, mut across) = (Vec::new(), Vec::new());
+    let mut along = Vec::new();
+    let mut across = Vec::new();
     for y in rows.start.max(1)..rows.end.min(heights.rows().saturating_sub(1)) {
         for x in columns.start.max(1)..columns.end.min(heights.columns() - 1) {
             let twice = 2.0 * heights.at(x, y);
@@ -31,7 +32,8 @@ pub fn second_differences_mm(
 #[must_use]
 pub fn pits(heights: &Heights, inside: impl Fn(usize, usize) -> bool) -> f64 {
     let reach = (1.0 / heights.cell_mm()).round() as usize;
-    let (mut low, mut count) = (0_usize, 0_usize);
+    let mut low = 0_usize;
+    let mut count = 0_usize;
     for y in 0..heights.rows() {
         for x in (0..heights.columns()).filter(|&x| inside(x, y)) {
             let columns = x.saturating_sub(reach)..(x + reach + 1).min(heights.columns());

@@ -16,7 +16,8 @@ pub fn smoothed(profile: &[f64], step_mm: f64, cut_mm: f64) -> Vec<f64> {
     let at = |index: usize| {
         let first = index.saturating_sub(reach);
         let last = (index + reach).min(profile.len() - 1);
-        let (mut sum, mut whole) = (0.0, 0.0);
+        let mut sum = 0.0;
+        let mut whole = 0.0;
         for (other, value) in profile.iter().enumerate().take(last + 1).skip(first) {
             let weight = weights[index.abs_diff(other)];
             sum += weight * value;
@@ -37,7 +38,8 @@ pub fn rough(profile: &[f64], step_mm: f64, cut_mm: f64) -> Vec<f64> {
 /// Power of the wave of `per_mm` waves a mm in a profile, under a Hann window.
 fn power(profile: &[f64], step_mm: f64, per_mm: f64) -> f64 {
     let count = profile.len() as f64;
-    let (mut real, mut imaginary) = (0.0, 0.0);
+    let mut real = 0.0;
+    let mut imaginary = 0.0;
     for (index, value) in profile.iter().enumerate() {
         let window = 0.5 - 0.5 * ((index as f64 + 0.5) / count * TAU).cos();
         let (sin, cos) = (index as f64 * step_mm * per_mm * TAU).sin_cos();
@@ -74,8 +76,9 @@ mod tests {
     use crate::near::assert_near;
 
     fn wave(length_mm: f64, wavelength_mm: f64, height_mm: f64) -> Vec<f64> {
-        let value = |index: usize| height_mm * (index as f64 * 0.1 / wavelength_mm * TAU).sin();
-        (0..(length_mm / 0.1) as usize).map(value).collect()
+        (0..(length_mm / 0.1) as usize)
+            .map(|index: usize| height_mm * (index as f64 * 0.1 / wavelength_mm * TAU).sin())
+            .collect()
     }
 
     #[test]

@@ -10,8 +10,10 @@ use super::super::measure::mark::Mark;
 /// Highest cell at the edge over the film, and the share of the last load that is neither on the
 /// canvas nor on the brush.
 pub(super) fn edge(bench: &Bench) -> CaseReport {
-    let (mut figures, mut panels) = (Vec::new(), Vec::new());
-    let (width_mm, height_mm) = (60.0, 24.0);
+    let mut figures = Vec::new();
+    let mut panels = Vec::new();
+    let width_mm = 60.0;
+    let height_mm = 24.0;
     let strokes = [
         ("over the edge and back", 1, vec![(10.0, 12.0), (75.0, 12.0), (10.0, 12.0)]),
         ("8 pulls over the edge", 8, vec![(10.0, 12.0), (75.0, 12.0)]),
@@ -20,7 +22,8 @@ pub(super) fn edge(bench: &Bench) -> CaseReport {
     for (name, pulls, points) in strokes {
         let mut easel = bench.panel((width_mm, height_mm));
         let brush = easel.brush(HeadShape::Flat, 10.0);
-        let (mut gone, mut loaded) = (0, 0);
+        let mut gone = 0;
+        let mut loaded = 0;
         for _ in 0..pulls {
             easel.load(brush, &BODY, 1.0);
             let before = easel.quanta(&[brush]).iter().sum::<i64>();

@@ -10,11 +10,11 @@ use super::super::hand::{Hand, PRESSURE};
 
 /// A clean flat once through a heap.
 pub(super) fn pick_up(bench: &Bench) -> CaseReport {
-    let heap = |x: f64, y: f64| {
-        let mm = 1.0 - ((x - 25.0).powi(2) + (y - 12.0).powi(2)) / 7.5f64.powi(2);
-        (mm > 0.0).then_some((BLUE_SLOT, mm))
-    };
-    let mut easel = Easel::new(bench, bench.cell_mm, (60.0, 24.0), GroundKind::Panel, heap);
+    let mut easel =
+        Easel::new(bench, bench.cell_mm, (60.0, 24.0), GroundKind::Panel, |x: f64, y: f64| {
+            let mm = 1.0 - ((x - 25.0).powi(2) + (y - 12.0).powi(2)) / 7.5f64.powi(2);
+            (mm > 0.0).then_some((BLUE_SLOT, mm))
+        });
     let brush = easel.brush(HeadShape::Flat, 5.0);
     easel.stroke(brush, &Hand::across(PRESSURE).along(&[(12.0, 12.0), (45.0, 12.0)]));
     let load = easel.load_mm(brush);
@@ -30,7 +30,8 @@ const BAND_MM: f64 = 8.0;
 
 /// Share of blue in all paint of a layer.
 fn share_of_blue<'a>(cells: impl Iterator<Item = &'a [u32; 8]>) -> f64 {
-    let (mut blue, mut all) = (0.0, 0.0);
+    let mut blue = 0.0;
+    let mut all = 0.0;
     for pigments in cells {
         blue += f64::from(pigments[BLUE_SLOT]);
         all += pigments.iter().map(|&amount| f64::from(amount)).sum::<f64>();
@@ -40,11 +41,11 @@ fn share_of_blue<'a>(cells: impl Iterator<Item = &'a [u32; 8]>) -> f64 {
 
 /// A yellow brush across three wet blue bands.
 pub(super) fn wet_in_wet(bench: &Bench) -> CaseReport {
-    let bands = |x: f64, _: f64| {
-        let inside = BANDS_MM.iter().any(|&left| (left..left + BAND_MM).contains(&x));
-        inside.then_some((BLUE_SLOT, 0.2))
-    };
-    let mut easel = Easel::new(bench, bench.cell_mm, (90.0, 24.0), GroundKind::Panel, bands);
+    let mut easel =
+        Easel::new(bench, bench.cell_mm, (90.0, 24.0), GroundKind::Panel, |x: f64, _: f64| {
+            let inside = BANDS_MM.iter().any(|&left| (left..left + BAND_MM).contains(&x));
+            inside.then_some((BLUE_SLOT, 0.2))
+        });
     let brush = easel.brush(HeadShape::Flat, 10.0);
     easel.load(brush, &YELLOW, 1.0);
     let before = easel.quanta(&[brush]);

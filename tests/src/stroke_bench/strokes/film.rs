@@ -57,7 +57,8 @@ fn paint(bench: &Bench, (shape, size_mm): (HeadShape, f64), pressure: f64, load_
 
 /// Films over loads and pressures of all heads.
 pub(super) fn film(bench: &Bench) -> CaseReport {
-    let (mut figures, mut panels) = (Vec::new(), Vec::new());
+    let mut figures = Vec::new();
+    let mut panels = Vec::new();
     let heads = if bench.small { &HEADS[..2] } else { &HEADS };
     for &(shape, size_mm) in heads {
         let flat = shape == HeadShape::Flat;
@@ -108,7 +109,9 @@ pub(super) fn film(bench: &Bench) -> CaseReport {
 /// One stroke on cells of four sizes.
 pub(super) fn cell(bench: &Bench) -> CaseReport {
     let sizes: &[f64] = if bench.small { &[0.1, 0.2, 0.4] } else { &[0.05, 0.1, 0.2, 0.4] };
-    let (mut figures, mut panels, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
+    let mut figures = Vec::new();
+    let mut panels = Vec::new();
+    let mut volumes = Vec::new();
     for &cell_mm in sizes {
         let mut easel = Easel::new(bench, cell_mm, (70.0, 20.0), GroundKind::Panel, |_, _| None);
         let brush = easel.brush(HeadShape::Flat, 10.0);

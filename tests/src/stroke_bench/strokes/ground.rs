@@ -18,10 +18,12 @@ pub(super) fn weave(bench: &Bench) -> CaseReport {
         let samples = Hand::across(PRESSURE).along(&[(START_MM, 12.0), (START_MM + 60.0, 12.0)]);
         easel.stroke(brush, &samples);
     }
-    let (paint, ground) = (easel.heights(), easel.ground());
+    let paint = easel.heights();
+    let ground = easel.ground();
     let sums = paint.values().iter().zip(ground.values()).map(|(paint, ground)| paint + ground);
     let top = Heights::new(ground.cell_mm(), ground.columns(), sums.collect());
-    let (columns, rows) = (ground.columns_in(20.0..60.0), ground.rows_in(9.0..15.0));
+    let columns = ground.columns_in(20.0..60.0);
+    let rows = ground.rows_in(9.0..15.0);
     let part = |heights: &Heights| heights.part(columns.clone(), rows.clone());
     let shown = slope(&part(&ground), &part(&top));
     let film = mean(&part(&paint));
@@ -53,7 +55,8 @@ pub(super) fn fill(bench: &Bench) -> CaseReport {
     }
     let heights = easel.heights();
     // The wall without its rim of 3 mm.
-    let (columns, rows) = (heights.columns_in(13.0..67.0), heights.rows_in(11.0..45.0));
+    let columns = heights.columns_in(13.0..67.0);
+    let rows = heights.rows_in(11.0..45.0);
     let wall = heights.part(columns.clone(), rows.clone());
     let bare = wall.iter().filter(|&&mm| mm < 0.002).count() as f64 / wall.len() as f64;
     let lines = &heights.across(columns)[rows];

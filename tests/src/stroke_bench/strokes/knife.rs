@@ -38,12 +38,16 @@ fn spread(bench: &Bench) -> Part {
 
 /// Scrapes a film off linen.
 fn scrape(bench: &Bench) -> Part {
-    let film = |_: f64, _: f64| Some((BLUE_SLOT, 0.2));
-    let mut easel = Easel::new(bench, bench.cell_mm, (60.0, 30.0), GroundKind::Linen, film);
+    let mut easel =
+        Easel::new(bench, bench.cell_mm, (60.0, 30.0), GroundKind::Linen, |_: f64, _: f64| {
+            Some((BLUE_SLOT, 0.2))
+        });
     let knife = easel.brush(HeadShape::Knife, 20.0);
     easel.stroke(knife, &Hand::across(0.9).along(&[(8.0, 15.0), (52.0, 15.0)]));
-    let (heights, ground) = (easel.heights(), easel.ground());
-    let (columns, rows) = (heights.columns_in(20.0..42.0), heights.rows_in(9.0..21.0));
+    let heights = easel.heights();
+    let ground = easel.ground();
+    let columns = heights.columns_in(20.0..42.0);
+    let rows = heights.rows_in(9.0..21.0);
     let left = heights.part(columns.clone(), rows.clone());
     let threads = ground.part(columns, rows);
     let [low, high] = [0.25, 0.75].map(|share| quantile(&threads, share));
@@ -51,7 +55,8 @@ fn scrape(bench: &Bench) -> Part {
         let cells = left.iter().zip(&threads).filter(|(_, ground)| chosen(**ground));
         mean(&cells.map(|(paint, _)| *paint).collect::<Vec<_>>())
     };
-    let (crests, valleys) = (of(&|ground| ground > high), of(&|ground| ground < low));
+    let crests = of(&|ground| ground > high);
+    let valleys = of(&|ground| ground < low);
     let figures = vec![
         Figure::new("scraped linen: paint left on crests", crests, "mm"),
         Figure::new("scraped linen: paint left in valleys", valleys, "mm"),
@@ -64,8 +69,10 @@ fn scrape(bench: &Bench) -> Part {
 /// Scratches lines through a film.
 fn scratch(bench: &Bench) -> Part {
     const FILM_MM: f64 = 0.3;
-    let film = |_: f64, _: f64| Some((BLUE_SLOT, FILM_MM));
-    let mut easel = Easel::new(bench, bench.cell_mm, (60.0, 24.0), GroundKind::Panel, film);
+    let mut easel =
+        Easel::new(bench, bench.cell_mm, (60.0, 24.0), GroundKind::Panel, |_: f64, _: f64| {
+            Some((BLUE_SLOT, FILM_MM))
+        });
     let edge_on = Hand { twist_deg: 0.0, ..Hand::across(0.6) };
     let tools = [
         ("knife 5 edge-on", HeadShape::Knife, 5.0, edge_on, 7.0),

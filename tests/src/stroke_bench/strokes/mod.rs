@@ -1,21 +1,13 @@
 //! The strokes of the bench, one file a case or two.
 
 mod film;
-
 mod relief;
-
 mod thick;
-
 mod exchange;
-
 mod palette;
-
 mod knife;
-
 mod outline;
-
 mod edge;
-
 mod ground;
 
 use super::canvas::Bench;

@@ -33,7 +33,8 @@ fn edge_deviations(heights: &Heights) -> [f64; 2] {
 
 /// Edges of a wide stroke, and of strokes at 10 degrees.
 pub(super) fn outline(bench: &Bench) -> CaseReport {
-    let (mut figures, mut panels) = (Vec::new(), Vec::new());
+    let mut figures = Vec::new();
+    let mut panels = Vec::new();
     let wide = (HeadShape::Flat, 25.0);
     let points = [(25.0, 20.0), (85.0, 20.0)];
     let mut easel = painted(bench, wide, Hand::across(PRESSURE), (100.0, 40.0), &points);
@@ -65,7 +66,8 @@ pub(super) fn outline(bench: &Bench) -> CaseReport {
 
 /// Where marks begin and end under the pen, upright and leaning.
 pub(super) fn lag(bench: &Bench) -> CaseReport {
-    let (mut figures, mut panels) = (Vec::new(), Vec::new());
+    let mut figures = Vec::new();
+    let mut panels = Vec::new();
     let heads = [
         (HeadShape::Flat, 10.0),
         (HeadShape::Round, 6.0),

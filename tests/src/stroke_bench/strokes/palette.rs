@@ -18,15 +18,16 @@ const COVERED_MM: f64 = 0.05;
 
 /// Path of `count` circles about the middle, whose centres move by 2 mm.
 fn circles(count: usize) -> Vec<(f64, f64)> {
-    let circle = |index: usize| {
-        let (sin, cos) = (index as f64 / count as f64 * TAU).sin_cos();
-        let centre = (MIDDLE_MM.0 + 2.0 * cos, MIDDLE_MM.1 + 2.0 * sin);
-        (0..48).map(move |step| {
-            let (sin, cos) = (f64::from(step) / 48.0 * TAU).sin_cos();
-            (centre.0 + RADIUS_MM * cos, centre.1 + RADIUS_MM * sin)
+    (0..count)
+        .flat_map(|index: usize| {
+            let (sin, cos) = (index as f64 / count as f64 * TAU).sin_cos();
+            let centre = (MIDDLE_MM.0 + 2.0 * cos, MIDDLE_MM.1 + 2.0 * sin);
+            (0..48).map(move |step| {
+                let (sin, cos) = (f64::from(step) / 48.0 * TAU).sin_cos();
+                (centre.0 + RADIUS_MM * cos, centre.1 + RADIUS_MM * sin)
+            })
         })
-    };
-    (0..count).flat_map(circle).collect()
+        .collect()
 }
 
 /// Mixes with one tool.

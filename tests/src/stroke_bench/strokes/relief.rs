@@ -32,12 +32,13 @@ fn stroke(easel: &mut Easel, brush: BrushId, y_mm: f64, length_mm: f64) {
 fn furrow_profiles(heights: &Heights, y_mm: f64, x_mm: Range<f64>) -> Vec<Vec<f64>> {
     let rows = heights.rows_in(y_mm - 0.3 * SIZE_MM..y_mm + 0.3 * SIZE_MM);
     let count = (x_mm.end - x_mm.start) as usize;
-    let profile = |index: usize| {
-        let from = x_mm.start + index as f64;
-        let columns = heights.columns_in(from..from + 1.0);
-        rough(&heights.across(columns)[rows.clone()], heights.cell_mm(), LONGEST_MM)
-    };
-    (0..count).map(profile).collect()
+    (0..count)
+        .map(|index: usize| {
+            let from = x_mm.start + index as f64;
+            let columns = heights.columns_in(from..from + 1.0);
+            rough(&heights.across(columns)[rows.clone()], heights.cell_mm(), LONGEST_MM)
+        })
+        .collect()
 }
 
 /// Relief of one stroke across and along it.
@@ -52,8 +53,13 @@ pub(super) fn furrows(bench: &Bench) -> CaseReport {
     if let Some(Mark { steady, middle, film_mm, .. }) = mark {
         let columns = steady.clone().map(|x| heights.across(x..x + 1)[middle.clone()].to_vec());
         let profiles: Vec<Vec<f64>> = columns.collect();
-        let relief = |profile: &Vec<f64>| rms(&without_parabola(profile)) / mean(profile);
-        across = 100.0 * mean(&profiles.iter().map(relief).collect::<Vec<_>>());
+        across = 100.0
+            * mean(
+                &profiles
+                    .iter()
+                    .map(|profile: &Vec<f64>| rms(&without_parabola(profile)) / mean(profile))
+                    .collect::<Vec<_>>(),
+            );
         wavelength = peak_wavelength_mm(&profiles, cell_mm);
         let line = &heights.along(middle.clone())[steady.clone()];
         along = 100.0 * rms(&without_parabola(line)) / film_mm;
@@ -77,7 +83,8 @@ pub(super) fn furrows(bench: &Bench) -> CaseReport {
 
 /// Furrows of the same stroke in paint from stand oil to putty.
 pub(super) fn stiffness(bench: &Bench) -> CaseReport {
-    let (mut figures, mut panels) = (Vec::new(), Vec::new());
+    let mut figures = Vec::new();
+    let mut panels = Vec::new();
     let mut softer = 0.0;
     for stiffness in [0.0, 0.35, 0.7, 1.0] {
         let mut easel = bench.panel((80.0, 20.0));
@@ -86,11 +93,15 @@ pub(super) fn stiffness(bench: &Bench) -> CaseReport {
         stroke(&mut easel, brush, 10.0, 60.0);
         let heights = easel.heights();
         let across = Mark::along_x(&heights).map_or(f64::NAN, |Mark { steady, middle, .. }| {
-            let relief = |x: usize| {
-                let profile = &heights.across(x..x + 1)[middle.clone()];
-                rms(&without_parabola(profile)) / mean(profile)
-            };
-            100.0 * mean(&steady.map(relief).collect::<Vec<_>>())
+            100.0
+                * mean(
+                    &steady
+                        .map(|x: usize| {
+                            let profile = &heights.across(x..x + 1)[middle.clone()];
+                            rms(&without_parabola(profile)) / mean(profile)
+                        })
+                        .collect::<Vec<_>>(),
+                )
         });
         let name = format!("stiffness {stiffness}: RMS across over film");
         let figure = Figure::new(name, across, "%").at_least(softer);

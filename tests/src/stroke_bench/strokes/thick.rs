@@ -12,7 +12,8 @@ use super::super::measure::surface::second_differences_mm;
 
 /// Lips at the sides and at the end of thick strokes.
 pub(super) fn lips(bench: &Bench) -> CaseReport {
-    let (mut figures, mut panels) = (Vec::new(), Vec::new());
+    let mut figures = Vec::new();
+    let mut panels = Vec::new();
     for (shape, size_mm) in [(HeadShape::Flat, 10.0), (HeadShape::Filbert, 8.0)] {
         let mut easel = bench.panel((80.0, 20.0));
         let brush = easel.brush(shape, size_mm);
@@ -77,15 +78,18 @@ fn ridge(bench: &Bench) -> (f64, Easel) {
     const AT_MM: f64 = 10.0;
     const BASE_MM: f64 = 1.5;
     let profile = |y: f64| (1.0 - (2.0 * (y - AT_MM) / BASE_MM).powi(2)).max(0.0);
-    let paint = |x: f64, y: f64| {
-        ((15.0..65.0).contains(&x) && profile(y) > 0.0).then(|| (BLUE_SLOT, profile(y)))
-    };
-    let mut easel = Easel::new(bench, bench.cell_mm, (80.0, 48.0), GroundKind::Panel, paint);
+    let mut easel =
+        Easel::new(bench, bench.cell_mm, (80.0, 48.0), GroundKind::Panel, |x: f64, y: f64| {
+            ((15.0..65.0).contains(&x) && profile(y) > 0.0).then(|| (BLUE_SLOT, profile(y)))
+        });
     let crest = |heights: &Heights| {
         let columns = heights.columns_in(20.0..60.0);
         let rows = heights.rows_in(AT_MM - 1.0..AT_MM + 1.0);
-        let highest = |x: usize| rows.clone().map(|y| heights.at(x, y)).fold(0.0, f64::max);
-        columns.clone().map(highest).sum::<f64>() / columns.len() as f64
+        columns
+            .clone()
+            .map(|x: usize| rows.clone().map(|y| heights.at(x, y)).fold(0.0, f64::max))
+            .sum::<f64>()
+            / columns.len() as f64
     };
     let before = crest(&easel.heights());
     let brush = easel.brush(HeadShape::Flat, 10.0);

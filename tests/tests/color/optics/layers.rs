@@ -24,7 +24,8 @@ fn a_film_never_gives_back_more_than_it_gets() {
 fn reflectance_grows_with_scattering_over_any_backing() {
     for film in random_films() {
         let more = Film { scattering: film.scattering * 1.5 + 1e-3, ..film };
-        let (before, after) = (film.over_backing(), more.over_backing());
+        let before = film.over_backing();
+        let after = more.over_backing();
         // A reflectance near 1 cannot rise further, so rounding may lower it.
         let room = if before < 0.99 { 0.0 } else { -ROUNDING };
         assert!(after - before > room, "{before} to {after}: {film:?}");
@@ -35,7 +36,8 @@ fn reflectance_grows_with_scattering_over_any_backing() {
 fn reflectance_falls_with_absorption_over_any_backing() {
     for film in random_films() {
         let more = Film { absorption: film.absorption * 1.5 + 1e-3, ..film };
-        let (before, after) = (film.over_backing(), more.over_backing());
+        let before = film.over_backing();
+        let after = more.over_backing();
         // A reflectance of 0 cannot fall further.
         assert!(after < before || before < 1e-300, "{before} to {after}: {film:?}");
     }
@@ -47,7 +49,8 @@ fn a_film_cut_in_two_is_the_same_film_over_every_backing() {
         for share in [0.0, 1e-6, 0.3, 0.5, 1.0] {
             for backing in [0.0, film.backing, 1.0] {
                 let lower = film.share(1.0 - share).over(backing);
-                let (cut, whole) = (film.share(share).over(lower), film.layer().over(backing));
+                let cut = film.share(share).over(lower);
+                let whole = film.layer().over(backing);
                 assert!((cut - whole).abs() <= ROUNDING, "{cut} for {whole}: {share}, {film:?}");
             }
         }
@@ -65,11 +68,13 @@ fn zero_thickness_is_the_backing() {
 #[test]
 fn great_thickness_forgets_the_backing() {
     for film in random_films().filter(|film| film.absorption > 0.0) {
-        let (k, s) = (film.absorption, film.scattering);
+        let k = film.absorption;
+        let s = film.scattering;
         let extinction = (k * (k + 2.0 * s)).sqrt();
         // Light that crosses the film twice is attenuated by exp(-80), about 2e-35.
         let thick = Layer::new(k, s, 40.0 / extinction);
-        let (over, hiding) = (thick.over(film.backing), infinite_film(k, s));
+        let over = thick.over(film.backing);
+        let hiding = infinite_film(k, s);
         let tolerance = ROUNDING * hiding + 1e-34;
         assert!((over - hiding).abs() <= tolerance, "{over} for {hiding}: {film:?}");
     }
@@ -99,7 +104,8 @@ fn a_film_without_scattering_lets_through_what_beer_and_lambert_say() {
 fn slopes_are_the_limit_of_difference_quotients() {
     for film in random_films() {
         let g = film.backing;
-        let (k, s) = (film.absorption * film.thickness, film.scattering * film.thickness);
+        let k = film.absorption * film.thickness;
+        let s = film.scattering * film.thickness;
         let [value, over_k, over_s] = Layer::over_with_slopes(k, s, g);
         assert!((value - film.over_backing()).abs() <= ROUNDING, "{value}: {film:?}");
         // Forward difference, because K and S may be 0; of second order in the step.

@@ -26,7 +26,8 @@ impl Film {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut coefficient =
             || if rng.random_bool(0.1) { 0.0 } else { 10f64.powf(rng.random_range(-3.0..2.0)) };
-        let (absorption, scattering) = (coefficient(), coefficient());
+        let absorption = coefficient();
+        let scattering = coefficient();
         let thickness = 10f64.powf(rng.random_range(-2.0..1.0));
         Self { seed, absorption, scattering, thickness, backing: rng.random_range(0.0..=1.0) }
     }

@@ -77,7 +77,8 @@ fn one_backing_twice_tells_nothing() {
 #[test]
 fn the_ratio_of_a_film_that_hides_is_the_inverse_of_its_reflectance() {
     for film in random_films().filter(|film| film.scattering > 0.0) {
-        let (k, s) = (film.absorption, film.scattering);
+        let k = film.absorption;
+        let s = film.scattering;
         let reflectance = infinite_film(k, s);
         let from_ratio = infinite_film_from_ratio(k / s);
         let relative = ROUNDING * reflectance;
@@ -107,7 +108,8 @@ fn random_surfaces() -> impl Iterator<Item = (u64, Surface, f64)> {
     (0..2000).map(|seed| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let specular = if seed % 2 == 0 { Specular::Included } else { Specular::Excluded };
-        let (k1, k2) = (rng.random_range(0.0..0.2), rng.random_range(0.0..0.9));
+        let k1 = rng.random_range(0.0..0.2);
+        let k2 = rng.random_range(0.0..0.9);
         let surface = Surface::new(k1, k2, specular).unwrap();
         (seed, surface, rng.random_range(0.01..=0.99))
     })

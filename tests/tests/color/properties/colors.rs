@@ -78,7 +78,8 @@ fn slopes_of_lab_are_the_limit_of_difference_quotients() {
                 moved[column] *= 1.0 + step;
                 Lab::from_xyz(moved.into(), white).to_array()
             };
-            let (below, above) = (at(-1e-6), at(1e-6));
+            let below = at(-1e-6);
+            let above = at(1e-6);
             for row in 0..3 {
                 let quotient = (above[row] - below[row]) / 2e-6;
                 let slope = slopes[row][column] * xyz[column];
@@ -139,7 +140,8 @@ fn a_pair_that_matches_under_both_lights_is_no_metamer() {
 
 #[test]
 fn correction_of_a_matching_pair_changes_nothing() {
-    let (test, reference) = (Xyz::from([25.0, 28.0, 10.0]), Xyz::from([20.0, 30.0, 40.0]));
+    let test = Xyz::from([25.0, 28.0, 10.0]);
+    let reference = Xyz::from([20.0, 30.0, 40.0]);
     assert_eq!(corrected_to_match(test, reference, reference), Ok(test), "already matched");
     let black = Xyz::default();
     let refused = corrected_to_match(test, reference, black).unwrap_err();

@@ -34,7 +34,8 @@ pub(crate) fn transform(name: &str) -> Adaptation {
 
 fn white_of(light: &str) -> [f64; 3] {
     let light = Illuminant::named(light).unwrap();
-    let (observer, interpolation) = (Observer::Cie1931Deg2, Interpolation::Linear);
+    let observer = Observer::Cie1931Deg2;
+    let interpolation = Interpolation::Linear;
     let weights = TristimulusWeights::new(Grid::cie(), &light, observer, interpolation).unwrap();
     weights.white().to_array()
 }

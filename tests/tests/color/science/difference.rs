@@ -23,7 +23,8 @@ struct Pair {
 fn differences_in_every_formula() {
     let golden: Golden<Vec<Pair>> = read("difference");
     for pair in &golden.cases {
-        let (reference, sample) = (Lab::from(pair.reference), Lab::from(pair.sample));
+        let reference = Lab::from(pair.reference);
+        let sample = Lab::from(pair.sample);
         let formulas = [
             ("CIEDE2000", delta_e_ciede2000(reference, sample), pair.ciede2000),
             ("CIE 1976", delta_e_cie76(reference, sample), pair.cie1976),

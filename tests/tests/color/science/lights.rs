@@ -35,8 +35,9 @@ impl Steps {
 }
 
 fn power_at(light: &Illuminant, nm: &[f64]) -> Vec<f64> {
-    let at = |&nm| light.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap();
-    nm.iter().map(at).collect()
+    nm.iter()
+        .map(|&nm| light.power().at(nm, Interpolation::Linear, Extrapolation::Refuse).unwrap())
+        .collect()
 }
 
 #[test]

@@ -72,8 +72,8 @@ fn matrices_and_white_of_each_space() {
         let scaled = |matrix: [[f64; 3]; 3], scale: f64| -> Vec<f64> {
             matrix.as_flattened().iter().map(|v| v * scale).collect()
         };
-        let (to_wanted, from_wanted) =
-            (wanted.to_xyz.as_flattened(), wanted.from_xyz.as_flattened());
+        let to_wanted = wanted.to_xyz.as_flattened();
+        let from_wanted = wanted.from_xyz.as_flattened();
         assert_near(name, &scaled(to_xyz.0, 0.01), to_wanted, golden.tolerance);
         assert_near(name, &scaled(from_xyz.0, 100.0), from_wanted, golden.tolerance);
     }

@@ -10,7 +10,8 @@ impl Folder {
             .replace("side_cells = 300", "side_cells = 64")
             .replace("cell_mm = 0.18", "cell_mm = 0.36");
         assert!(small.contains("= 64") && small.contains("= 0.36"), "{small}");
-        let (style, output) = (self.write("style.toml", small), self.file(name));
+        let style = self.write("style.toml", small);
+        let output = self.file(name);
         done(&["paint", "--style", &style, "--tones", tones, "--seed", seed, "--output", &output]);
         output
     }
@@ -54,7 +55,8 @@ fn a_map_has_a_tile_of_every_sample_that_agrees_with_the_first() {
 fn steps_of_a_map_are_pictures_in_order() {
     let folder = Folder::new();
     let samples = folder.painted("s.exr", "2", "1");
-    let (map, stages) = (folder.file("m.exr"), folder.file("stages"));
+    let map = folder.file("m.exr");
+    let stages = folder.file("stages");
     let build = ["build", &samples, "--size", "64", "--output", &map];
     done(&build);
     let plain = folder.bytes("m.exr");

@@ -1,15 +1,10 @@
 //! The command `impasto artmap`.
 
 mod sampled;
-
 mod proposed;
-
 mod painted;
-
 mod built;
-
 mod paintings;
-
 mod refusals;
 
 use graphics::export::png8;
@@ -52,7 +47,8 @@ impl Folder {
     /// right of it dark ones at 120 degrees, 8 px apart.
     fn strokes(&self) -> String {
         let color = |i: usize| {
-            let (x, y) = ((i % 200) as f32, (i / 200) as f32);
+            let x = (i % 200) as f32;
+            let y = (i / 200) as f32;
             let (degrees, spacing, grey) =
                 if x < 100.0 { (60.0_f32, 10.0, 0.5) } else { (120.0, 8.0, 0.1) };
             let (sin, cos) = degrees.to_radians().sin_cos();

@@ -48,7 +48,8 @@ impl Folder {
             "brushes": {"flat": {"shape": "flat", "size_mm": 3}},
             "actions": actions,
         });
-        let (script, painting) = (self.write("p.json", script.to_string()), self.file("p.exr"));
+        let script = self.write("p.json", script.to_string());
+        let painting = self.file("p.exr");
         let run = impasto(&["paint", &script, "--backend", "cpu", "--output", &painting]);
         assert_eq!(run.status, 0, "{}", run.err);
         painting
@@ -108,7 +109,8 @@ fn more_than_eight_pigments_are_refused_unless_minor_ones_are_merged() {
 #[test]
 fn files_that_hold_no_painting_are_refused() {
     let folder = Folder::new();
-    let (painting, output) = (folder.painting(false), folder.file("s.exr"));
+    let painting = folder.painting(false);
+    let output = folder.file("s.exr");
     done(&["sample", &painting, "--spacing", "8", "--output", &output]);
     let again = folder.file("again.exr");
     let run = artmap(&["sample", &output, "--output", &again]);

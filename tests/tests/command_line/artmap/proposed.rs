@@ -35,7 +35,8 @@ fn passages_whose_spacing_must_be_marked_are_told() {
     let folder = Folder::new();
     // Blotches of 5 px without any order.
     let color = |i: usize| {
-        let (column, row) = (i % 200 / 5, i / 200 / 5);
+        let column = i % 200 / 5;
+        let row = i / 200 / 5;
         let mixed = (column * 7919 + row * 104_729) as u32;
         let mixed = (mixed ^ (mixed >> 7)).wrapping_mul(0x9E37_79B1) >> 24;
         let grey = 0.3 + 0.1 * mixed as f32 / 255.0;
@@ -51,7 +52,8 @@ fn passages_whose_spacing_must_be_marked_are_told() {
 #[test]
 fn fewer_passages_than_asked_for_are_told() {
     let folder = Folder::new();
-    let (picture, marks) = (folder.strokes(), folder.file("m.toml"));
+    let picture = folder.strokes();
+    let marks = folder.file("m.toml");
     let run = done(&["sample", &picture, "--propose", "60", "--output", &marks]);
     assert!(run.err.contains("only "), "{}", run.err);
 }
@@ -59,7 +61,8 @@ fn fewer_passages_than_asked_for_are_told() {
 #[test]
 fn proposals_go_to_a_file_of_marks() {
     let folder = Folder::new();
-    let (picture, output) = (folder.strokes(), folder.file("s.exr"));
+    let picture = folder.strokes();
+    let output = folder.file("s.exr");
     let run = artmap(&["sample", &picture, "--propose", "2", "--output", &output]);
     assert_eq!(run.status, 2, "{}", run.err);
     assert!(run.err.contains("s.exr: expected a file name that ends in .toml"), "{}", run.err);

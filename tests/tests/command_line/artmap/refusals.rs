@@ -8,7 +8,8 @@ use super::{Folder, MARKS, artmap};
 #[test]
 fn bad_marks_name_file_sample_and_way_out_and_leave_no_files() {
     let folder = Folder::new();
-    let (picture, output) = (folder.strokes(), folder.write("s.exr", "mine"));
+    let picture = folder.strokes();
+    let output = folder.write("s.exr", "mine");
     let scribble = "scribble = [[20, 30], [70, 90]]";
     let rectangle = "rectangle = [106, 6, 88, 108]";
     for (from, to, words) in [
@@ -77,7 +78,8 @@ fn flat_colors_show_no_strokes() {
 #[test]
 fn wrong_settings_and_files_could_not_run() {
     let folder = Folder::new();
-    let (picture, marks) = (folder.strokes(), folder.write("marks.toml", MARKS));
+    let picture = folder.strokes();
+    let marks = folder.write("marks.toml", MARKS);
     let output = folder.file("s.exr");
     let sample = ["sample", &picture, "--output", &output];
     for (arguments, words) in [

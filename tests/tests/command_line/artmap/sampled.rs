@@ -15,7 +15,8 @@ fn number(value: &Value) -> f64 {
 #[test]
 fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
     let folder = Folder::new();
-    let (picture, marks) = (folder.strokes(), folder.write("marks.toml", MARKS));
+    let picture = folder.strokes();
+    let marks = folder.write("marks.toml", MARKS);
     let [output, sheet, marked] = ["s.exr", "s.png", "m.png"].map(|name| folder.file(name));
     let arguments = ["sample", &picture, "--marks", &marks, "--output", &output];
     let told =
@@ -69,7 +70,8 @@ fn marked_samples_are_upright_of_one_spacing_and_dark_to_light() {
 #[test]
 fn relief_is_guessed_only_if_asked_for_and_that_is_told() {
     let folder = Folder::new();
-    let (picture, marks) = (folder.strokes(), folder.write("marks.toml", MARKS));
+    let picture = folder.strokes();
+    let marks = folder.write("marks.toml", MARKS);
     let output = folder.file("s.exr");
     let arguments = ["sample", &picture, "--marks", &marks, "--output", &output];
     let plain = done(&[&arguments[..], &["--json"]].concat()).json();
@@ -91,7 +93,8 @@ fn relief_is_guessed_only_if_asked_for_and_that_is_told() {
 #[test]
 fn the_table_names_each_sample_once_and_files_are_the_same_bytes() {
     let folder = Folder::new();
-    let (picture, marks) = (folder.strokes(), folder.write("marks.toml", MARKS));
+    let picture = folder.strokes();
+    let marks = folder.write("marks.toml", MARKS);
     let run = |name: &str| {
         let output = folder.file(name);
         let sheet = folder.file(&format!("{name}.png"));
@@ -99,7 +102,8 @@ fn the_table_names_each_sample_once_and_files_are_the_same_bytes() {
         let more = ["--over", "mean-shift", "--output", &output, "--sheet", &sheet];
         done(&[arguments, more].concat())
     };
-    let (first, second) = (run("a.exr"), run("b.exr"));
+    let first = run("a.exr");
+    let second = run("b.exr");
     assert!(
         first.err.lines().all(|line| line.starts_with("Wrote ")),
         "nothing to remark: {}",
@@ -138,11 +142,16 @@ fn lines_of_a_picture_are_marks_too() {
 #[test]
 fn a_picture_without_marks_is_one_sample_and_the_single_tone_is_told() {
     let folder = Folder::new();
-    let waves = |i: usize| {
-        let light = 0.4 + 0.3 * (std::f32::consts::TAU * (i % 80) as f32 / 5.0).cos();
-        [light, light, light, 1.0]
-    };
-    let picture = Field::from_values(80, 60, (0..4800).map(waves).collect());
+    let picture = Field::from_values(
+        80,
+        60,
+        (0..4800)
+            .map(|i: usize| {
+                let light = 0.4 + 0.3 * (std::f32::consts::TAU * (i % 80) as f32 / 5.0).cos();
+                [light, light, light, 1.0]
+            })
+            .collect(),
+    );
     let picture = folder.write("waves.png", png8(&picture, 1.0).unwrap().bytes);
     let output = folder.file("s.exr");
     let run = done(&["sample", &picture, "--output", &output]);

@@ -1,7 +1,6 @@
 //! The command `impasto painterly`.
 
 mod models;
-
 mod pictures;
 
 use std::sync::OnceLock;
@@ -34,7 +33,9 @@ fn painted() -> [(&'static str, Vec<u8>); 3] {
         .replace("side_cells = 300", "side_cells = 64")
         .replace("cell_mm = 0.18", "cell_mm = 0.36");
     std::fs::write(folder.path().join("style.toml"), small).unwrap();
-    let (style, samples, map) = (file("style.toml"), file("s.exr"), file("m.exr"));
+    let style = file("style.toml");
+    let samples = file("s.exr");
+    let map = file("m.exr");
     run(&["artmap", "paint", "--style", &style, "--tones", "3", "--output", &samples]);
     run(&["artmap", "build", &samples, "--size", "64", "--output", &map]);
     ["style.toml", "s.exr", "m.exr"].map(|name| (name, std::fs::read(file(name)).unwrap()))

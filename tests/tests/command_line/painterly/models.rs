@@ -17,7 +17,8 @@ fn a_sphere_is_painted_in_the_tones_of_the_light_on_white() {
     let read = image::open(&picture).unwrap();
     assert_eq!((read.width(), read.height()), (120, 90));
     assert_eq!(mean(&picture, [0, 0, 8, 8]), 255.0, "white around the sphere");
-    let (lit, shaded) = (mean(&picture, [42, 26, 10, 10]), mean(&picture, [68, 54, 10, 10]));
+    let lit = mean(&picture, [42, 26, 10, 10]);
+    let shaded = mean(&picture, [68, 54, 10, 10]);
     assert!(lit > shaded + 25.0 && lit < 250.0, "{lit} {shaded}");
     let bytes = std::fs::read(&picture).unwrap();
     done(&[&arguments[..], &light].concat());
@@ -40,7 +41,8 @@ fn a_painting_with_the_pigments_of_the_map_is_relit_like_any_other() {
     let run = impasto(&relit);
     assert_eq!(run.status, 0, "{}", run.err);
     let pixels = |name: &str| image::open(name).unwrap().to_rgb8();
-    let (lit, raking) = (pixels(&lit), pixels(&raking));
+    let lit = pixels(&lit);
+    let raking = pixels(&raking);
     assert_eq!(lit.dimensions(), (120, 90));
     // The light from the right changes the strokes, not only their brightness.
     let ratio = |x: u32| f64::from(raking[(x, 45)].0[1]) / f64::from(lit[(x, 45)].0[1]);

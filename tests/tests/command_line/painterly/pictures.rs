@@ -21,7 +21,8 @@ fn a_photograph_is_painted_in_its_colours_or_in_those_of_the_map() {
     assert_eq!(told["size"], serde_json::json!([120, 80]), "{told}");
     let own = image::open(&picture).unwrap().to_rgb8()[(25, 40)].0;
     assert!(own[2] > own[0].saturating_add(40), "blue stays: {own:?}");
-    let (dark, light) = (mean(&picture, [5, 5, 45, 70]), mean(&picture, [70, 5, 45, 70]));
+    let dark = mean(&picture, [5, 5, 45, 70]);
+    let light = mean(&picture, [70, 5, 45, 70]);
     assert!((dark - 80.0).abs() < 15.0 && (light - 205.0).abs() < 15.0, "{dark} {light}");
     done(&[&arguments[..], &["--set", "colour.from=map"]].concat());
     let of_map = image::open(&picture).unwrap().to_rgb8()[(25, 40)].0;
@@ -71,7 +72,8 @@ fn regions_and_flow_move_strokes_of_a_photograph_in_a_loop() {
         image::open(&names[index]).unwrap().to_rgb8()
     };
     let change = |rows: std::ops::Range<u32>| {
-        let (first, then) = (read(0), read(1));
+        let first = read(0);
+        let then = read(1);
         let pixels = rows.flat_map(|y| (0..60).map(move |x| (x, y)));
         let off = pixels.map(|at| i64::from(first[at].0[0]).abs_diff(i64::from(then[at].0[0])));
         off.sum::<u64>()

@@ -53,8 +53,11 @@ fn a_script_that_was_written_has_the_camera_of_a_model() {
 fn a_script_that_was_written_has_the_camera_of_a_photograph() {
     let folder = folder();
     let [photo, script, mask] = ["photo.png", "s.toml", "m.png"].map(|name| path(&folder, name));
-    let own = |x: u32, y: u32| Rgb(if x < 30 { [40, 60, 140] } else { [210, 5 * y as u8, 60] });
-    RgbImage::from_fn(60, 40, own).save(&photo).unwrap();
+    RgbImage::from_fn(60, 40, |x: u32, y: u32| {
+        Rgb(if x < 30 { [40, 60, 140] } else { [210, 5 * y as u8, 60] })
+    })
+    .save(&photo)
+    .unwrap();
     let plain = replayed(&photo, &[]);
     let turned = replayed(&photo, &["--camera", "18,-9"]);
     let swinging = replayed(&photo, &["--turntable", "3"]);

@@ -171,14 +171,17 @@ fn faults_of_scripts_name_file_line_key_value_and_way_out() {
 fn the_guide_has_a_row_for_every_setting() {
     let printed = done(&["--show-preset", "sketch"]).out;
     let guide = std::fs::read_to_string(repository("docs/guide/volumes.md")).unwrap();
-    let (mut group, mut count) = (String::new(), 0);
+    let mut group = String::new();
+    let mut count = 0;
     for line in printed.lines() {
         if let Some(name) = line.strip_prefix('[') {
             group = format!("{}.", name.trim_end_matches(']'));
         } else if let Some((key, _)) = line.split_once(" = ").filter(|_| !line.starts_with('#')) {
             let name = format!("`{group}{key}`");
-            let is_row = |line: &str| line.starts_with('|') && line.contains(&name);
-            assert!(guide.lines().any(is_row), "{name} has no row");
+            assert!(
+                guide.lines().any(|line: &str| line.starts_with('|') && line.contains(&name)),
+                "{name} has no row"
+            );
             count += 1;
         }
     }

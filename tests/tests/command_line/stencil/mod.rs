@@ -1,15 +1,10 @@
 //! The command `impasto stencil`.
 
 mod scenes;
-
 mod cameras;
-
 mod resuming;
-
 mod pigments;
-
 mod faults;
-
 mod recordings;
 
 use std::path::Path;

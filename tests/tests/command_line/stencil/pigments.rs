@@ -27,7 +27,8 @@ fn a_painting_of_volumes_is_relit_and_repainted() {
         assert_eq!(run.status, 0, "{options:?}: {}", run.err);
         pixels(&shown)
     };
-    let (own, same) = (pixels(&picture), relit(&[]));
+    let own = pixels(&picture);
+    let same = relit(&[]);
     let off = own.pixels().zip(same.pixels());
     let off = off.map(|(a, b)| (0..3).map(|i| a.0[i].abs_diff(b.0[i])).max().unwrap());
     assert!(off.max() <= Some(1), "the picture as it was saved");
@@ -173,8 +174,14 @@ fn the_passes_hold_the_heights_of_each_pigment() {
     let image = image.all_layers().all_attributes().from_file(&passes).unwrap();
     let part = |wanted: &str| {
         let mut layers = image.layer_data.iter();
-        let named = |name: &exr::prelude::Text| *name == *wanted;
-        layers.find(|own| own.attributes.layer_name.as_ref().is_some_and(named)).unwrap()
+        layers
+            .find(|own| {
+                own.attributes
+                    .layer_name
+                    .as_ref()
+                    .is_some_and(|name: &exr::prelude::Text| *name == *wanted)
+            })
+            .unwrap()
     };
     let values = |wanted: &str, channel: &str| -> Vec<f64> {
         let channels = &part(wanted).channel_data.list;

@@ -41,7 +41,10 @@ impl Session {
     fn open(subject: Subject) -> Self {
         let (wake, woken) = channel();
         let worker = VolumeWorker::start(move || wake.send(()).unwrap_or(()));
-        let (state, recording, drawn, painted) = (None, None, None, None);
+        let state = None;
+        let recording = None;
+        let drawn = None;
+        let painted = None;
         let mut session = Self { worker, woken, state, recording, drawn, painted };
         session.ask(VolumeCommand::Open(subject));
         session.wait(|session| session.state.is_some());
@@ -232,8 +235,11 @@ fn a_recording_on_a_photograph_is_replayed_from_its_own_camera() {
     let folder = TempDir::new().unwrap();
     let [photo, recording, picture] =
         ["photo.png", "r.toml", "p.exr"].map(|name| path(&folder, name));
-    let own = |x: u32, y: u32| image::Rgb([200, (3 * x) as u8, (5 * y) as u8]);
-    image::RgbImage::from_fn(60, 40, own).save(&photo).unwrap();
+    image::RgbImage::from_fn(60, 40, |x: u32, y: u32| {
+        image::Rgb([200, (3 * x) as u8, (5 * y) as u8])
+    })
+    .save(&photo)
+    .unwrap();
     let mut session = Session::open(Subject::File(photo.into()));
     session.orbit(9.87);
     let pour = Grip { tube: 2, rate_mm3_s: 222.0, ..Grip::default() };

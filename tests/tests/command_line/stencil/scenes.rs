@@ -32,11 +32,14 @@ fn the_mask_is_white_where_the_picture_is_not_the_grey_one() {
     };
     let [grey, color, hatching, again] = ["grey", "colour", "hatching", "mask"].map(shown);
     let volumes = shown("volumes");
-    let (picture, mask) = (pixels(picture), pixels(mask));
+    let picture = pixels(picture);
+    let mask = pixels(mask);
     assert!(again == mask, "--mask and --show mask");
-    let (mut inside, mut strokes) = (0, 0);
+    let mut inside = 0;
+    let mut strokes = 0;
     for (x, y, &Rgb(found)) in picture.enumerate_pixels() {
-        let (own, held) = (grey[(x, y)].0, mask[(x, y)].0 == [255; 3]);
+        let own = grey[(x, y)].0;
+        let held = mask[(x, y)].0 == [255; 3];
         assert_eq!(held, found != own, "{x} {y}: {found:?} {own:?}");
         assert!(own[0] == own[1] && own[1] == own[2], "{own:?} is grey");
         let wanted = if held { color[(x, y)].0 } else { own };
@@ -138,7 +141,8 @@ fn volumes_of_each_frame_are_those_of_the_library_at_that_moment() {
     let told = done(&[&scene[..], &["--volumes", &meshes, "--rate", "4"]].concat()).json();
     let names = files(&meshes, ".ply");
     assert_eq!(names, ["frame-0001.ply", "frame-0002.ply", "frame-0003.ply"]);
-    let (script, model) = (Script::open(Path::new(&script)).unwrap(), Path::new(&model));
+    let script = Script::open(Path::new(&script)).unwrap();
+    let model = Path::new(&model);
     let model = Mesh::open(model).unwrap();
     let camera = Framing { aspect: 64.0 / 48.0, ..Framing::default() }.fit(&model.positions);
     let view = FirstView::new(&model, &camera, (64, 48));
@@ -226,8 +230,11 @@ fn stages_and_passes_are_the_steps_to_the_picture() {
 fn colour_spreads_over_a_photograph() {
     let folder = folder();
     let [photo, picture] = ["photo.png", "p.png"].map(|name| path(&folder, name));
-    let own = |x: u32, _: u32| Rgb(if x < 30 { [40, 60, 140] } else { [210, 150, 60] });
-    RgbImage::from_fn(60, 40, own).save(&photo).unwrap();
+    RgbImage::from_fn(60, 40, |x: u32, _: u32| {
+        Rgb(if x < 30 { [40, 60, 140] } else { [210, 150, 60] })
+    })
+    .save(&photo)
+    .unwrap();
     let scene = [&[&photo[..]], &SMALL[..], &["--pour", "0.2,0.5,40"]].concat();
     let bare = ["--set", "hatching.inside=0", "--set", "hatching.outside=0"];
     done(&[&scene[..], &bare, &["--picture", &picture]].concat());
@@ -253,7 +260,8 @@ fn a_graphics_device_draws_the_same_picture() {
         let told = done(&[&scene[..], &["--backend", backend, "--picture", file]].concat()).json();
         assert_eq!(told["backend"] == "cpu", backend == "cpu", "{told}");
     }
-    let (cpu, gpu) = (pixels(&cpu), pixels(&gpu));
+    let cpu = pixels(&cpu);
+    let gpu = pixels(&gpu);
     let near = |a: &Rgb<u8>, b: &Rgb<u8>| (0..3).all(|i| a.0[i].abs_diff(b.0[i]) <= 2);
     let off = cpu.pixels().zip(gpu.pixels()).filter(|(a, b)| !near(a, b)).count();
     assert!(off as f64 <= 0.002 * f64::from(cpu.width() * cpu.height()), "{off} pixels differ");

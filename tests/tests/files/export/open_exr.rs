@@ -11,8 +11,11 @@ use suite::near::assert_near;
 const CELL_MM: f64 = 0.1;
 
 fn picture() -> Field<[f32; 4]> {
-    let cell = |i: usize| [i as f32 / 7.0, -0.125, 2.5 * i as f32, 1.0];
-    Field::from_values(5, 3, (0..15).map(cell).collect())
+    Field::from_values(
+        5,
+        3,
+        (0..15).map(|i: usize| [i as f32 / 7.0, -0.125, 2.5 * i as f32, 1.0]).collect(),
+    )
 }
 
 fn opened(bytes: &[u8]) -> FlatImage {

@@ -6,11 +6,16 @@ use spectra::color::Rgb;
 use suite::near::assert_near;
 
 fn ramp() -> Field<[f32; 4]> {
-    let cell = |i: usize| {
-        let v = i as f32 / 255.0;
-        [v, v * v, 1.0 - v, 1.0]
-    };
-    Field::from_values(32, 8, (0..256).map(cell).collect())
+    Field::from_values(
+        32,
+        8,
+        (0..256)
+            .map(|i: usize| {
+                let v = i as f32 / 255.0;
+                [v, v * v, 1.0 - v, 1.0]
+            })
+            .collect(),
+    )
 }
 
 /// The sRGB transfer curve with the constants printed in IEC 61966-2-1.

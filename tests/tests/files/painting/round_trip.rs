@@ -78,7 +78,8 @@ fn other_programs_find_parts_and_channels_in_millimetres() {
     assert_eq!(names, ["base", "wet", "dry.000", "dry.001"]);
 
     let wet = &image.layer_data[1];
-    let (x, y) = (wet.attributes.layer_position.x() as usize, wet.attributes.layer_position.y());
+    let x = wet.attributes.layer_position.x() as usize;
+    let y = wet.attributes.layer_position.y();
     let first = y as usize * document.wet.width() + x;
     let cell = document.wet.cell(first);
     let value = |name: &str| {
@@ -87,7 +88,8 @@ fn other_programs_find_parts_and_channels_in_millimetres() {
         channel.unwrap_or_else(|| panic!("no `{name}`")).sample_data.value_by_flat_index(0).to_f32()
     };
     let assert_mm = |name: &str, quanta: u32| {
-        let (got, wanted) = (value(name), mm_from_quanta(quanta, document.cell_mm) as f32);
+        let got = value(name);
+        let wanted = mm_from_quanta(quanta, document.cell_mm) as f32;
         assert_eq!(got, wanted, "{name}");
     };
     assert_mm("vehicle", cell.vehicle);

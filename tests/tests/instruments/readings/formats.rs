@@ -146,7 +146,8 @@ fn readings_just_below_zero_count_as_zero_and_are_said() {
         std::fs::write(&file, lines.collect::<String>()).unwrap();
         impasto(&["color", file.to_str().unwrap()])
     };
-    let (zero, below) = (color(0.0), color(-0.019));
+    let zero = color(0.0);
+    let below = color(-0.019);
     assert_eq!((below.status, &below.out), (0, &zero.out), "{}", below.err);
     let said = "dark: 3 readings just below zero count as 0";
     assert!(below.err.contains(said) && !zero.err.contains(said), "{}", below.err);

@@ -54,7 +54,8 @@ fn recipes_apart_give_the_library_of_the_csv() {
     let (cgats, recipes) = oils_apart();
     std::fs::write(path("oils.txt"), cgats).unwrap();
     std::fs::write(path("recipes.csv"), recipes).unwrap();
-    let (one, two) = (path("one.json"), path("two.json"));
+    let one = path("one.json");
+    let two = path("two.json");
     let csv = repository("measurements/van-gogh-oils.csv");
     let direct = impasto(&["fit", &csv, "--method", "weighted", "-o", &one]);
     assert_eq!(direct.status, 0, "{}", direct.err);
@@ -64,7 +65,8 @@ fn recipes_apart_give_the_library_of_the_csv() {
     let read = |path: &str| -> serde_json::Value {
         serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
     };
-    let (one, two) = (read(&one), read(&two));
+    let one = read(&one);
+    let two = read(&two);
     assert!(one["pigments"].as_array().unwrap().len() > 10, "{}", one["pigments"]);
     for key in ["grid", "reference", "saunderson", "pigments"] {
         assert_eq!(one[key], two[key], "{key}");

@@ -38,7 +38,8 @@ fn workbook_of(sheets: &[(&str, &str)], first: usize) -> Vec<u8> {
         });
         rows.collect()
     };
-    let (mut list, mut relations) = (String::new(), String::new());
+    let mut list = String::new();
+    let mut relations = String::new();
     for ((name, _), id) in sheets.iter().zip(1..) {
         list += &format!("<sheet name=\"{name}\" sheetId=\"{id}\" r:id=\"rId{id}\"/>");
         relations += &format!(
@@ -201,8 +202,11 @@ fn binary_files_are_named_and_none_of_their_bytes_is_printed() {
             assert!(run.err.contains("hint: "), "{arguments:?}: {}", run.err);
             let told = run.err.contains(words) || run.err.contains("binary file");
             assert!(told, "{arguments:?}: `{words}` is missing: {}", run.err);
-            let is_plain = |c: char| !c.is_control() || c == '\n';
-            assert!(run.err.chars().all(is_plain), "{arguments:?}: {:?}", run.err);
+            assert!(
+                run.err.chars().all(|c: char| !c.is_control() || c == '\n'),
+                "{arguments:?}: {:?}",
+                run.err
+            );
         }
     }
 }

@@ -77,7 +77,8 @@ fn a_library_names_the_references_among_its_inputs() {
     let table = "sample,white,blue\npaint,1,\nblue,,1\nmixed,1,1\n";
     std::fs::write(&recipes, table).unwrap();
     let library = folder.join("library.json");
-    let (recipes, output) = (recipes.to_str().unwrap(), library.to_str().unwrap());
+    let recipes = recipes.to_str().unwrap();
+    let output = library.to_str().unwrap();
     let fit =
         ["fit", &paint, &blue, &mixed, "--white", &white, "--dark", "0", "--recipes", recipes];
     let run = impasto(&[&fit[..], &["--output", output]].concat());

@@ -69,15 +69,13 @@ proptest! {
         prop_assert_eq!(found.format, Format::Cxf);
         // Readers of XML turn a bare line break or tab in an attribute into a space.
         prop_assert!(!text.contains(['\t', '\r']), "{text}");
-        let whole = |line: &&str| line.contains("<Object ") && line.contains("Id=\"object");
-        prop_assert_eq!(text.split('\n').filter(whole).count(), paints.len());
+        prop_assert_eq!(text.split('\n').filter(|line: &&str| line.contains("<Object ") && line.contains("Id=\"object")).count(), paints.len());
         prop_assert_eq!(found.spectra.len(), paints.len());
         for (number, ((name, values), record)) in (1..).zip(paints.iter().zip(&found.spectra)) {
-            let held = |c: char| match c {
+            let name: String = name.chars().map(|c: char| match c {
                 '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'.. => c,
                 _ => '\u{fffd}',
-            };
-            let name: String = name.chars().map(held).collect();
+            }).collect();
             // An object with an empty name is read under its Id.
             let id = format!("object{number}");
             let name = if name.trim().is_empty() { &id } else { name.trim() };

@@ -18,7 +18,8 @@ fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
             }
             Ok(file) => {
                 for record in &file.spectra {
-                    let (nm, values) = (&record.wavelengths_nm, &record.values);
+                    let nm = &record.wavelengths_nm;
+                    let values = &record.values;
                     prop_assert!(!nm.is_empty() && nm.len() == values.len());
                     prop_assert!(nm[0] > 0.0 && nm.windows(2).all(|pair| pair[0] < pair[1]));
                     prop_assert!(nm.iter().chain(values).all(|value| value.is_finite()));

@@ -126,7 +126,8 @@ fn a_dark_subtracted_before_is_not_subtracted_again() {
 fn saturation_is_refused_where_the_eye_sees_and_cut_off_beyond() {
     let (sample, mut white, darks) = measured(10.0, 10.0);
     let at = |nm: f64| white.wavelengths_nm.iter().position(|&w| w >= nm).unwrap();
-    let (seen, beyond) = (at(600.0), at(780.0));
+    let seen = at(600.0);
+    let beyond = at(780.0);
     let kept = white.values[seen];
     white.values[seen] = 65535.0;
     let error = against(&white, &darks).reflectance(&sample).unwrap_err();
@@ -149,7 +150,8 @@ fn saturation_is_refused_where_the_eye_sees_and_cut_off_beyond() {
 fn too_little_light_is_refused_where_the_eye_sees_and_cut_off_beyond() {
     let (sample, mut white, darks) = measured(10.0, 10.0);
     let index = |nm: f64| white.wavelengths_nm.iter().position(|&w| w >= nm).unwrap();
-    let (below, seen) = (index(360.0), index(500.0));
+    let below = index(360.0);
+    let seen = index(500.0);
     white.values[below] = darks[0].values[below];
     let found = against(&white, &darks).reflectance(&sample).unwrap();
     assert_eq!(found.wavelengths_nm[0], white.wavelengths_nm[below + 1], "{:?}", found.remarks);
@@ -180,7 +182,8 @@ fn power_needs_no_dark_and_no_time() {
         record.quantity = MeasuredQuantity::Power;
         record
     };
-    let (sample, white) = (power("grey", 40.0, &grey), power("white", 10.0, &|_| TILE));
+    let sample = power("grey", 40.0, &grey);
+    let white = power("white", 10.0, &|_| TILE);
     let found = against(&white, &[]).reflectance(&sample).unwrap();
     assert!((found.values[7] - grey(found.wavelengths_nm[7])).abs() < 1e-12, "{found:?}");
     assert_eq!(found.remarks, ["no dark was subtracted"]);

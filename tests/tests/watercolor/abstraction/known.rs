@@ -71,7 +71,8 @@ impl Told {
         let mut bytes = Vec::new();
         for row in 0..HEIGHT {
             for column in 0..WIDTH {
-                let (x, y) = (column as f64, row as f64);
+                let x = column as f64;
+                let y = row as f64;
                 let mut colors = [0.0; 3];
                 for (number, shape) in (0..).zip(&self.shapes) {
                     let away = shape.distance(x, y);
@@ -96,8 +97,9 @@ impl Told {
                 }
             }
         }
-        let fnv = |sum: u32, &byte: &u8| (sum ^ u32::from(byte)).wrapping_mul(16777619);
-        let found = bytes.iter().fold(2166136261, fnv);
+        let found = bytes.iter().fold(2166136261, |sum: u32, &byte: &u8| {
+            (sum ^ u32::from(byte)).wrapping_mul(16777619)
+        });
         assert_eq!(found, self.fnv, "{}: not the picture given to OpenCV", self.name);
         (opaque(WIDTH, HEIGHT, &bytes), truth)
     }
@@ -105,6 +107,12 @@ impl Told {
 
 /// An opaque picture of RGB bytes.
 pub(super) fn opaque(width: usize, height: usize, bytes: &[u8]) -> Field<[f32; 4]> {
-    let pixel = |rgb: &[u8]| [rgb[0], rgb[1], rgb[2], 255].map(|byte| f32::from(byte) / 255.0);
-    Field::from_values(width, height, bytes.chunks_exact(3).map(pixel).collect())
+    Field::from_values(
+        width,
+        height,
+        bytes
+            .chunks_exact(3)
+            .map(|rgb: &[u8]| [rgb[0], rgb[1], rgb[2], 255].map(|byte| f32::from(byte) / 255.0))
+            .collect(),
+    )
 }

@@ -58,7 +58,8 @@ fn exhaustive(field: &Colors, element: StructuringElement, which: Extremum) -> C
             let own = &mut result[(x as usize, y as usize)];
             for dy in -reach..=reach {
                 for dx in -reach..=reach {
-                    let (x, y) = (x + dx, y + dy);
+                    let x = x + dx;
+                    let y = y + dy;
                     let inside = (0..field.width() as i32).contains(&x)
                         && (0..field.height() as i32).contains(&y);
                     if !inside || !element.covers(dx, dy) {

@@ -26,7 +26,8 @@ struct Cases {
 
 /// Pixels whose label differs from that of the pixel to the right or below.
 fn edges(labels: &Field<u32>) -> Vec<(i32, i32)> {
-    let (width, height) = (labels.width(), labels.height());
+    let width = labels.width();
+    let height = labels.height();
     let mut found = Vec::new();
     for y in 0..height {
         for x in 0..width {
@@ -71,7 +72,8 @@ fn boundaries_are_found_no_worse_than_by_opencv() {
     for told in &golden.cases.pictures {
         let (picture, truth) = told.made();
         let segmentation = segment(&picture, &settings).unwrap();
-        let (edge, wanted) = (edges(&segmentation.labels), edges(&truth));
+        let edge = edges(&segmentation.labels);
+        let wanted = edges(&truth);
         let found = Found {
             regions: segmentation.colors.len(),
             recall: near(&wanted, &edge),

@@ -45,7 +45,8 @@ fn wild() -> Field<[f32; 4]> {
 
 /// Number of pixels of each label that are 4-connected to its first pixel.
 fn reached(labels: &Field<u32>, count: usize) -> Vec<usize> {
-    let (width, height) = (labels.width(), labels.height());
+    let width = labels.width();
+    let height = labels.height();
     let mut seen = vec![false; width * height];
     let mut sizes = vec![0; count];
     let mut begun = vec![false; count];
@@ -58,7 +59,8 @@ fn reached(labels: &Field<u32>, count: usize) -> Vec<usize> {
         seen[start] = true;
         while let Some(pixel) = waiting.pop() {
             sizes[label] += 1;
-            let (x, y) = (pixel % width, pixel / width);
+            let x = pixel % width;
+            let y = pixel / width;
             let beside = [
                 (x > 0).then(|| pixel - 1),
                 (x + 1 < width).then_some(pixel + 1),

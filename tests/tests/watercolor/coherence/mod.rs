@@ -1,9 +1,7 @@
 //! Coherent noise, which stays on its object while the camera moves.
 
 mod popping;
-
 mod spectrum;
-
 mod twins;
 
 use std::sync::Arc;
@@ -70,7 +68,8 @@ fn anchored_on(
     texture: &Field<f32>,
     anchors: &Anchors,
 ) -> Field<f32> {
-    let (depth, texture) = (compute.upload(depth).unwrap(), compute.upload(texture).unwrap());
+    let depth = compute.upload(depth).unwrap();
+    let texture = compute.upload(texture).unwrap();
     let drawn = draw_anchored(compute, &depth, &texture, anchors).unwrap();
     compute.download(&drawn).unwrap()
 }

@@ -14,7 +14,8 @@ const SIDE: usize = 128;
 
 /// Power of the square by radial frequency, in cycles per [`SIDE`] pixels, under a Hann window.
 fn spectrum(noise: &Field<f32>) -> Vec<f64> {
-    let (left, top) = ((noise.width() - SIDE) / 2, (noise.height() - SIDE) / 2);
+    let left = (noise.width() - SIDE) / 2;
+    let top = (noise.height() - SIDE) / 2;
     let hann = |i: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / SIDE as f64).cos();
     let value =
         |x: usize, y: usize| (f64::from(noise[(left + x, top + y)]) - 0.5) * hann(x) * hann(y);
@@ -41,7 +42,8 @@ fn spectrum(noise: &Field<f32>) -> Vec<f64> {
         for l in 0..SIDE {
             let mut sum = [0.0; 2];
             for y in 0..SIDE {
-                let ([re, im], [cos, sin]) = (rows[y * half + k], wave(l * y));
+                let [re, im] = rows[y * half + k];
+                let [cos, sin] = wave(l * y);
                 sum = [sum[0] + re * cos - im * sin, sum[1] + re * sin + im * cos];
             }
             let down = if l < half { l as f64 } else { l as f64 - SIDE as f64 };
@@ -83,15 +85,16 @@ fn noise_of_features_has_no_wave_shorter_than_its_finest_octave() {
 /// summed spectra of six seeds. `noise` makes a picture from a zoom and a seed.
 fn under_zoom(noise: impl Fn(f32, u64) -> Field<f32>, limit: f64) -> Vec<[f64; 2]> {
     let zooms = (0..9).map(|step| 2.0f32.powf(step as f32 / 2.0));
-    let of_zoom = |zoom: f32| {
-        let mut power = vec![0.0; SIDE];
-        for seed in 0..6 {
-            let other = spectrum(&noise(zoom, seed));
-            power.iter_mut().zip(other).for_each(|(power, other)| *power += other);
-        }
-        told(&power, limit)
-    };
-    zooms.map(of_zoom).collect()
+    zooms
+        .map(|zoom: f32| {
+            let mut power = vec![0.0; SIDE];
+            for seed in 0..6 {
+                let other = spectrum(&noise(zoom, seed));
+                power.iter_mut().zip(other).for_each(|(power, other)| *power += other);
+            }
+            told(&power, limit)
+        })
+        .collect()
 }
 
 #[test]

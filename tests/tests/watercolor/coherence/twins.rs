@@ -113,7 +113,8 @@ fn one_texture_holds_on_to_its_particle() {
         target: Vec3::new(x, 0.0, 0.0),
         ..from_front(40.0, 4.0)
     };
-    let (width, height) = (150, 150);
+    let width = 150;
+    let height = 150;
     let [before, after] = [from(0.0), from(-0.2)].map(|camera| {
         let bare = subject.bare(&Camera { far: 60.0, ..camera }, width, height);
         let center = camera.clip_from_model(1.0) * Vec4::W;

@@ -61,7 +61,8 @@ fn density_is_the_formula_within_its_limits() {
             None,
         );
         for i in 0..found.values().len() {
-            let (found, c) = (found.values()[i], picture.values()[i]);
+            let found = found.values()[i];
+            let c = picture.values()[i];
             let d = (1.0 + f64::from(strength) * (f64::from(texture.values()[i]) - 0.5)).max(0.0);
             for channel in 0..3 {
                 let c_i = f64::from(c[channel]);
@@ -79,10 +80,17 @@ fn density_is_the_formula_within_its_limits() {
 /// matter.
 fn column(color: [f32; 3]) -> Field<[f32; 4]> {
     let [r, g, b] = color;
-    let at = |i: usize| {
-        if (10..20).contains(&(i % 30)) { [r, g, b, 1.0] } else { [0.1, 0.2, 0.3, 0.0] }
-    };
-    Field::from_values(30, 8, (0..240).map(at).collect())
+    Field::from_values(
+        30,
+        8,
+        (0..240)
+            .map(
+                |i: usize| {
+                    if (10..20).contains(&(i % 30)) { [r, g, b, 1.0] } else { [0.1, 0.2, 0.3, 0.0] }
+                },
+            )
+            .collect(),
+    )
 }
 
 #[test]
@@ -93,7 +101,8 @@ fn edges_darken_inside_the_paint_only_and_at_both_its_sides() {
         let layers = [(&edges, 1.5, 0.0)];
         let found = on_fields::apply_density(&mut Compute::Cpu, &picture, 1.0, &layers, None);
         for x in 0..30 {
-            let (before, after) = (picture[(x, 4)], found[(x, 4)]);
+            let before = picture[(x, 4)];
+            let after = found[(x, 4)];
             if !(10..20).contains(&x) {
                 assert_eq!(before, after, "bare paper at {x}");
             } else if [10, 19].contains(&x) {
@@ -115,7 +124,8 @@ fn edges_are_the_symmetric_gradient() {
     for y in 0..12 {
         for x in 0..17 {
             let p = |x: usize, y: usize| picture[(x.clamp(1, 17) - 1, y.clamp(1, 12) - 1)];
-            let (x1, y1) = (x + 1, y + 1);
+            let x1 = x + 1;
+            let y1 = y + 1;
             let sum: f32 = (0..3)
                 .map(|i| {
                     (p(x1 - 1, y1)[i] - p(x1 + 1, y1)[i]).abs()
@@ -146,11 +156,17 @@ fn wobble_displaces_by_the_stated_px() {
     // Heights rise by 0.01 a pixel to the right and by 0.02 downwards.
     let heights = (0..60 * 50).map(|i| 0.01 * (i % 60) as f32 + 0.02 * (i / 60) as f32);
     let heights = Field::from_values(60, 50, heights.collect());
-    let ramp = |i: usize| [(i % 60) as f32 / 100.0, (i / 60) as f32 / 100.0, 0.5, 1.0];
-    let picture = Field::from_values(60, 50, (0..3000).map(ramp).collect());
+    let picture = Field::from_values(
+        60,
+        50,
+        (0..3000)
+            .map(|i: usize| [(i % 60) as f32 / 100.0, (i / 60) as f32 / 100.0, 0.5, 1.0])
+            .collect(),
+    );
     for px_per_slope in [30.0, -75.0, 122.5] {
         let found = on_fields::wobble(&mut Compute::Cpu, &picture, &heights, px_per_slope);
-        let (x, y) = (0.02 * px_per_slope, 0.04 * px_per_slope);
+        let x = 0.02 * px_per_slope;
+        let y = 0.04 * px_per_slope;
         for at in [(20, 20), (31, 17), (25, 30)] {
             let [red, green, blue, covered] = found[at];
             let wanted = [(at.0 as f32 + x) / 100.0, (at.1 as f32 + y) / 100.0, 0.5, 1.0];

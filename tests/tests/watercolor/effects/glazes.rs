@@ -106,11 +106,16 @@ fn a_painting_of_glazes_keeps_grain_edges_and_bare_paper_of_its_effects() {
     settings.dry_brush.outline_px = 0.0;
     settings.paper.relief = 0.0;
     "#ffffff".clone_into(&mut settings.paper.color);
-    let half = |i: usize| match i % 120 < 60 {
-        true => [0.75, 0.62, 0.4, 1.0],
-        false => [0.6, 0.7, 0.8, 1.0],
-    };
-    let color = Field::from_values(120, 90, (0..120 * 90).map(half).collect());
+    let color = Field::from_values(
+        120,
+        90,
+        (0..120 * 90)
+            .map(|i: usize| match i % 120 < 60 {
+                true => [0.75, 0.62, 0.4, 1.0],
+                false => [0.6, 0.7, 0.8, 1.0],
+            })
+            .collect(),
+    );
     let textures = Textures::of_photograph(&color, &settings).unwrap();
     let wash = Wash { color, controls: Controls::default() };
     let found = glazes.paint("made", &wash, &textures, &settings, level());
@@ -134,7 +139,8 @@ fn a_painting_of_glazes_keeps_grain_edges_and_bare_paper_of_its_effects() {
         let glazed = of(&|at| encoded(found[at][1]));
         let painted = of(&|at| f64::from(plain[at][1]));
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let (own, other) = (product(&glazed, &glazed), product(&painted, &painted));
+        let own = product(&glazed, &glazed);
+        let other = product(&painted, &painted);
         let alike = product(&glazed, &painted) / (own * other).sqrt();
         let contrast = (own / other).sqrt();
         assert!(alike > 0.95, "the grain agrees by {alike} only");

@@ -10,19 +10,12 @@ use suite::adapter::device;
 use watercolor::Settings;
 
 mod on_fields;
-
 mod definitions;
-
 mod twins;
-
 mod textures;
-
 mod settings;
-
 mod whole;
-
 mod glazes;
-
 mod photographs;
 
 /// A random picture of small patches whose coverage is 0, 1 or between.
@@ -35,8 +28,13 @@ fn any_picture(width: usize, height: usize, seed: u64) -> Field<[f32; 4]> {
             color
         })
         .collect();
-    let at = |i: usize| patches[(i % width / 5 + i / width / 4 * 7) % 64];
-    Field::from_values(width, height, (0..width * height).map(at).collect())
+    Field::from_values(
+        width,
+        height,
+        (0..width * height)
+            .map(|i: usize| patches[(i % width / 5 + i / width / 4 * 7) % 64])
+            .collect(),
+    )
 }
 
 /// `settings` with all effects switched off, on smooth white paper.

@@ -50,7 +50,8 @@ pub(super) fn wobble(
     heights: &Greys,
     px_per_slope: f32,
 ) -> Colors {
-    let (image, heights) = (compute.upload(color).unwrap(), compute.upload(heights).unwrap());
+    let image = compute.upload(color).unwrap();
+    let heights = compute.upload(heights).unwrap();
     let found = effects::wobble(compute, image, &heights, px_per_slope).unwrap();
     downloaded(compute, &found)
 }
@@ -63,9 +64,11 @@ pub(super) fn apply_dry_brush(
     (edges, mask): (Option<&Greys>, Option<&Greys>),
 ) -> Colors {
     let image = compute.upload(color).unwrap();
-    let (heights, flow) = (compute.upload(heights).unwrap(), compute.upload(flow).unwrap());
+    let heights = compute.upload(heights).unwrap();
+    let flow = compute.upload(flow).unwrap();
     let [edges, mask] = [edges, mask].map(|greys| uploaded(compute, greys));
-    let (edges, mask) = (edges.as_ref(), mask.as_ref());
+    let edges = edges.as_ref();
+    let mask = mask.as_ref();
     let found =
         effects::apply_dry_brush(compute, image, &heights, &flow, reach, edges, mask).unwrap();
     downloaded(compute, &found)
@@ -89,7 +92,8 @@ pub(super) fn shade_paper(
     heights: &Greys,
     shading: PaperShading,
 ) -> Colors {
-    let (image, heights) = (compute.upload(color).unwrap(), compute.upload(heights).unwrap());
+    let image = compute.upload(color).unwrap();
+    let heights = compute.upload(heights).unwrap();
     let found = effects::shade_paper(compute, image, &heights, shading).unwrap();
     downloaded(compute, &found)
 }

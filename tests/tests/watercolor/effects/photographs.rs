@@ -73,14 +73,15 @@ fn wet_outlines_run_over_their_share_of_the_picture() {
     let moved = |amount: f32| {
         settings.wet.amount = amount;
         let color = prepared(&two, settings.clone()).wash.color;
-        let ran = |y: &usize| {
-            let own = |x: usize| color[(x, *y)][0];
-            (180..220)
-                .filter(|&x| (own(x) - own(if x < 200 { 20 } else { 380 })).abs() > 0.01)
-                .count()
-                > 4
-        };
-        (0..300).filter(ran).count()
+        (0..300)
+            .filter(|y: &usize| {
+                let own = |x: usize| color[(x, *y)][0];
+                (180..220)
+                    .filter(|&x| (own(x) - own(if x < 200 { 20 } else { 380 })).abs() > 0.01)
+                    .count()
+                    > 4
+            })
+            .count()
     };
     let mut of = moved;
     let [none, some, all] = [0.0, 0.4, 1.0].map(&mut of);
@@ -91,8 +92,10 @@ fn wet_outlines_run_over_their_share_of_the_picture() {
         settings.wet.amount = amount;
         prepared(&strong, settings.clone()).wash.color
     });
-    let off = |x: usize| (0..300).map(|y| (wet[(x, y)][0] - dry[(x, y)][0]).abs()).sum::<f32>();
-    let most = (180..220).map(off).fold(0.0, f32::max) / 300.0;
+    let most = (180..220)
+        .map(|x: usize| (0..300).map(|y| (wet[(x, y)][0] - dry[(x, y)][0]).abs()).sum::<f32>())
+        .fold(0.0, f32::max)
+        / 300.0;
     assert!(most < 0.03, "a strong outline ran by {most}");
 }
 
@@ -225,7 +228,8 @@ fn a_large_picture_has_the_regions_of_a_smaller_one_with_crisp_outlines() {
     assert_eq!(large.flat_regions().width(), 2400);
     // The side of the tower lies at 180 of 400 and is at most three pixels soft.
     let row = |x: usize| color[(x, 1200)][0];
-    let (sky, tower) = (row(1000), row(1200));
+    let sky = row(1000);
+    let tower = row(1200);
     let between = (1000..1200).filter(|&x| {
         let t = (row(x) - sky) / (tower - sky);
         (0.1..0.9).contains(&t)
@@ -254,13 +258,13 @@ fn outlines_of_small_pictures_have_no_saw_teeth() {
     let jump = |color: &Field<[f32; 4]>| -> f32 {
         (1..299).map(|x| (at(color, x - 1) - 2.0 * at(color, x) + at(color, x + 1)).abs()).sum()
     };
-    let wander = |color: &Field<[f32; 4]>| -> f32 {
+    let [own, coarse] = [&found, &teeth].map(|color: &Field<[f32; 4]>| -> f32 {
         let places: Vec<f32> = (0..300).map(|x| at(color, x)).collect();
         let [low, high] = [f32::min, f32::max].map(|of| places.iter().copied().reduce(of).unwrap());
         high - low
-    };
-    let [own, coarse] = [&found, &teeth].map(wander);
+    });
     assert!(own > 0.3 * coarse && own > 0.3, "the outline wanders by {own} and {coarse}");
-    let (found, teeth) = (jump(&found), jump(&teeth));
+    let found = jump(&found);
+    let teeth = jump(&teeth);
     assert!(found < 0.6 * teeth, "{found}, on the paper of the picture {teeth}");
 }

@@ -28,13 +28,14 @@ fn spectrum(field: &Field<f32>) -> Vec<f64> {
     let window = |i: usize| 0.5 - 0.5 * (turn * i as f64).cos();
     let waves: Vec<(f64, f64)> = (0..PART).map(|i| (turn * i as f64).sin_cos()).collect();
     let transformed = |row: &[[f64; 2]]| -> Vec<[f64; 2]> {
-        let sum = |wave: usize| {
-            row.iter().enumerate().fold([0.0; 2], |[re, im], (x, [a, b])| {
-                let (sin, cos) = waves[wave * x % PART];
-                [re + a * cos + b * sin, im + b * cos - a * sin]
+        (0..PART)
+            .map(|wave: usize| {
+                row.iter().enumerate().fold([0.0; 2], |[re, im], (x, [a, b])| {
+                    let (sin, cos) = waves[wave * x % PART];
+                    [re + a * cos + b * sin, im + b * cos - a * sin]
+                })
             })
-        };
-        (0..PART).map(sum).collect()
+            .collect()
     };
     let row = |y: usize| -> Vec<[f64; 2]> {
         let value = |x: usize| (f64::from(field[(x, y)]) - 0.5) * window(x) * window(y);
@@ -111,11 +112,11 @@ fn textures_follow_their_seed_alone() {
 
 #[test]
 fn rough_paper_is_deeper_and_wider_than_cold_pressed_and_that_than_hot_pressed() {
-    let of = |kind| {
-        let settings = PaperSettings { kind, grain_px: 8.0, ..PaperSettings::default() };
-        PaperTexture::new(SIZE, SIZE, &settings).unwrap()
-    };
-    let papers = [PaperFinish::Rough, PaperFinish::ColdPressed, PaperFinish::HotPressed].map(of);
+    let papers =
+        [PaperFinish::Rough, PaperFinish::ColdPressed, PaperFinish::HotPressed].map(|kind| {
+            let settings = PaperSettings { kind, grain_px: 8.0, ..PaperSettings::default() };
+            PaperTexture::new(SIZE, SIZE, &settings).unwrap()
+        });
     let spreads = papers.each_ref().map(|paper| moments(&paper.heights));
     for ((mean, spread), wanted) in spreads.iter().zip([0.18 * 0.13 / 0.08, 0.18, 0.045]) {
         // Clipping to 0..1 reduces the spread a little.

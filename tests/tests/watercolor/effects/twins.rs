@@ -30,7 +30,8 @@ impl Both {
     fn for_each(mut each: impl FnMut(&mut Self)) {
         let Some(device) = device() else { return };
         let picture = any_picture(1, 1, 0);
-        let (cpu, gpu) = (Compute::cpu(), Compute::gpu(device));
+        let cpu = Compute::cpu();
+        let gpu = Compute::gpu(device);
         let mut both = Self { cpu, gpu, size: (1, 1), picture };
         for (seed, (width, height)) in (0..).zip(SIZES) {
             (both.size, both.picture) = ((width, height), any_picture(width, height, seed));
@@ -133,7 +134,9 @@ fn wobble_on_finer_paper_agrees() {
 #[test]
 fn dry_brush_agrees() {
     Both::for_each(|both| {
-        let (heights, flow, mask) = (both.grey(12), both.grey(13), both.grey(14));
+        let heights = both.grey(12);
+        let flow = both.grey(13);
+        let mask = both.grey(14);
         let edges = both.grey(21);
         for threshold in [0.0, 0.2, 0.9] {
             for (softness, patches, masked, outline, darkest) in [

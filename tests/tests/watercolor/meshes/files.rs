@@ -7,8 +7,10 @@ use super::{SQUARE, gltf, opened, square_bytes, square_document, two_texels};
 
 /// Positions of the corners of every triangle.
 fn corners(mesh: &Mesh) -> Vec<[[f32; 3]; 3]> {
-    let place = |corner: u32| mesh.positions[corner as usize];
-    mesh.triangles.iter().map(|triangle| triangle.corners.map(place)).collect()
+    mesh.triangles
+        .iter()
+        .map(|triangle| triangle.corners.map(|corner: u32| mesh.positions[corner as usize]))
+        .collect()
 }
 
 /// The two triangles of the square.
@@ -131,8 +133,7 @@ fn gltf_with_transforms_materials_and_textures() {
         ("two texels.png", &two_texels()),
     ];
     let mesh = opened(&files).unwrap();
-    let place = |[x, y, z]: [f32; 3]| [10.0 - 2.0 * x, y, z];
-    let [a, b, c, d] = SQUARE.map(place);
+    let [a, b, c, d] = SQUARE.map(|[x, y, z]: [f32; 3]| [10.0 - 2.0 * x, y, z]);
     // A mirrored triangle has two corners swapped, so that it runs counter-clockwise.
     assert_eq!(corners(&mesh), [[a, c, b], [a, d, c]]);
     assert!(mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{:?}", mesh.normals);

@@ -1,9 +1,7 @@
 //! Meshes: reading their files, normals, and checks.
 
 mod files;
-
 mod bad_files;
-
 mod normals;
 
 use graphics::mesh::{Mesh, MeshError};

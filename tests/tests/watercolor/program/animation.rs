@@ -24,14 +24,17 @@ fn frame(folder: &Folder, inside: &str, number: usize) -> String {
 }
 
 fn rgb(frames: Vec<image::Frame>) -> Vec<RgbImage> {
-    let rgb = |frame: image::Frame| image::DynamicImage::from(frame.into_buffer()).into_rgb8();
-    frames.into_iter().map(rgb).collect()
+    frames
+        .into_iter()
+        .map(|frame: image::Frame| image::DynamicImage::from(frame.into_buffer()).into_rgb8())
+        .collect()
 }
 
 #[test]
 fn a_gif_and_an_apng_hold_every_frame() {
     let folder = Folder::new();
-    let (gif, apng) = (folder.file("turn.gif"), folder.file("turn.png"));
+    let gif = folder.file("turn.gif");
+    let apng = folder.file("turn.png");
     let told = turned(&folder, &["--animation", &gif, "--rate", "10"]).json();
     assert_eq!((told["frames"].as_u64(), told["frames_found"].as_u64()), (Some(4), Some(0)));
     let names =
@@ -64,14 +67,16 @@ fn a_gif_and_an_apng_hold_every_frame() {
 #[test]
 fn a_run_that_was_broken_off_makes_what_is_missing() {
     let folder = Folder::new();
-    let (frames, gif) = (folder.file("frames"), folder.file("turn.gif"));
+    let frames = folder.file("frames");
+    let gif = folder.file("turn.gif");
     let found = |options: &[&str]| turned(&folder, options).json()["frames_found"].as_u64();
     let wish: &[&str] = &["--frames", &frames, "--animation", &gif];
     assert_eq!(found(wish), Some(0));
     let all = |folder: &Folder| -> Vec<Vec<u8>> {
         (1..=4).map(|n| std::fs::read(frame(folder, "frames", n)).unwrap()).collect()
     };
-    let (first, animation) = (all(&folder), std::fs::read(&gif).unwrap());
+    let first = all(&folder);
+    let animation = std::fs::read(&gif).unwrap();
     // One frame is missing, one is truncated, one is a picture of other software.
     std::fs::remove_file(frame(&folder, "frames", 2)).unwrap();
     std::fs::write(frame(&folder, "frames", 3), &first[2][..first[2].len() - 9]).unwrap();
@@ -106,7 +111,8 @@ fn a_run_that_was_broken_off_makes_what_is_missing() {
 #[test]
 fn other_content_of_an_input_is_another_wish() {
     let folder = Folder::new();
-    let (frames, scan) = (folder.file("frames"), folder.mask());
+    let frames = folder.file("frames");
+    let scan = folder.mask();
     let set = format!("paper.scan={scan}");
     let mesh = folder.pyramid();
     let found = || {
@@ -151,11 +157,10 @@ fn a_path_is_followed_from_a_file() {
     let frames = folder.file("frames");
     let options = ["--width", "48", "--camera", &camera, "--frames", &frames, "--json"];
     assert_eq!(painted(&mesh, &options).json()["frames"], 3);
-    let dark = |n: usize| {
+    let seen = [1, 2, 3].map(|n: usize| {
         let picture = opened(frame(&folder, "frames", n));
         picture.pixels().filter(|pixel| pixel.0.iter().any(|value| *value < 200)).count()
-    };
-    let seen = [1, 2, 3].map(dark);
+    });
     assert!(seen[0] > 2 * seen[2] && seen[1] > seen[2] && seen[0] > seen[1], "{seen:?}");
 }
 

@@ -65,15 +65,15 @@ fn glb() -> Vec<u8> {
 
 /// Number of painted pixels: those with a channel below 200.
 fn covered(picture: &RgbImage) -> usize {
-    let far = |pixel: &&Rgb<u8>| pixel.0.iter().any(|value| *value < 200);
-    picture.pixels().filter(far).count()
+    picture.pixels().filter(|pixel: &&Rgb<u8>| pixel.0.iter().any(|value| *value < 200)).count()
 }
 
 #[test]
 fn one_mesh_is_one_picture_from_every_format() {
     let folder = Folder::new();
     let obj = folder.pyramid();
-    let (ply, glb) = (folder.write("pyramid.ply", ply()), folder.write("pyramid.GLB", glb()));
+    let ply = folder.write("pyramid.ply", ply());
+    let glb = folder.write("pyramid.GLB", glb());
     let [obj, ply, glb] = [obj, ply, glb].map(|path| decoded(&picture(&folder, &path, &SMALL)));
     assert_eq!(obj.dimensions(), (64, 48));
     let share = covered(&obj) as f64 / (64.0 * 48.0);
@@ -132,7 +132,8 @@ fn cameras_are_numbers_or_a_file() {
 fn stages_of_a_mesh_begin_with_its_surface() {
     let folder = Folder::new();
     let pyramid = folder.pyramid();
-    let (out, stages) = (folder.file("out.png"), folder.file("stages"));
+    let out = folder.file("out.png");
+    let stages = folder.file("stages");
     painted(&pyramid, &["--width", "64", "--stages", &stages, "--picture", &out]);
     let names = [
         "01-surface.png",

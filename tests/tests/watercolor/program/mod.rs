@@ -1,15 +1,10 @@
 //! The command `impasto watercolor`.
 
 mod refusals;
-
 mod photographs;
-
 mod style;
-
 mod meshes;
-
 mod animation;
-
 mod pigments;
 
 use std::path::Path;
@@ -51,7 +46,8 @@ impl Folder {
     /// downwards, with a yellow disc in the middle.
     fn photograph(&self) -> String {
         let color = |i: usize| {
-            let (x, y) = ((i % 160) as f32, (i / 160) as f32);
+            let x = (i % 160) as f32;
+            let y = (i / 160) as f32;
             let light = 1.0 - 0.5 * y / 120.0;
             let [r, g, b] = match (x - 80.0).hypot(y - 60.0) {
                 ..30.0 => [0.8, 0.6, 0.1],
@@ -66,16 +62,22 @@ impl Folder {
 
     /// A mask of 160 x 120 pixels, white on the left and black on the right.
     fn mask(&self) -> String {
-        let grey = |i: usize| [if i % 160 < 80 { 1.0 } else { 0.0 }; 4];
-        let picture = Field::from_values(160, 120, (0..160 * 120).map(grey).collect());
+        let picture = Field::from_values(
+            160,
+            120,
+            (0..160 * 120).map(|i: usize| [if i % 160 < 80 { 1.0 } else { 0.0 }; 4]).collect(),
+        );
         self.write("mask.png", png8(&picture, 1.0).unwrap().bytes)
     }
 
     /// An OBJ file of a pyramid on a square, with a colour for each corner.
     fn pyramid(&self) -> String {
-        let corner =
-            |([x, y, z], [r, g, b]): ([i8; 3], [u8; 3])| format!("v {x} {y} {z} {r} {g} {b}\n");
-        let mut text: String = CORNERS.into_iter().map(corner).collect();
+        let mut text: String = CORNERS
+            .into_iter()
+            .map(|([x, y, z], [r, g, b]): ([i8; 3], [u8; 3])| {
+                format!("v {x} {y} {z} {r} {g} {b}\n")
+            })
+            .collect();
         for [a, b, c] in SIDES {
             text += &format!("f {} {} {}\n", a + 1, b + 1, c + 1);
         }
@@ -136,7 +138,8 @@ fn difference(one: &RgbImage, other: &RgbImage) -> (f64, u8) {
 /// The mean colour of the columns from `left` to `right`.
 fn mean(picture: &RgbImage, left: u32, right: u32) -> [f64; 3] {
     let inside = picture.enumerate_pixels().filter(|(x, ..)| (left..right).contains(x));
-    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    let mut sum = [0.0; 3];
+    let mut count = 0.0;
     for (.., pixel) in inside {
         (0..3).for_each(|i| sum[i] += f64::from(pixel.0[i]));
         count += 1.0;

@@ -21,9 +21,11 @@ fn a_photograph_becomes_a_picture_of_its_colors() {
     );
     assert!((3..60).contains(&told["regions"].as_u64().unwrap()), "{told}");
     assert_eq!(told["pigments"], serde_json::json!([]));
-    let (made, original) = (opened(&out), opened(&photo));
+    let made = opened(&out);
+    let original = opened(&photo);
     assert_eq!(made.dimensions(), (160, 120));
-    let ([r, _, b], [far_r, _, far_b]) = (mean(&made, 4, 40), mean(&made, 120, 156));
+    let [r, _, b] = mean(&made, 4, 40);
+    let [far_r, _, far_b] = mean(&made, 120, 156);
     assert!(r > b + 40.0 && far_b > far_r + 40.0, "{r} {b}, {far_r} {far_b}");
     let (off, _) = difference(&made, &original);
     assert!((5.0..80.0).contains(&off), "{off}");
@@ -59,7 +61,8 @@ fn the_same_wish_gives_the_same_bytes_and_other_formats_the_same_picture() {
 fn stages_are_written_in_their_order_and_the_last_is_the_picture() {
     let folder = Folder::new();
     let photo = folder.photograph();
-    let (out, stages) = (folder.file("out.png"), folder.file("stages"));
+    let out = folder.file("out.png");
+    let stages = folder.file("stages");
     painted(&photo, &["--stages", &stages, "--picture", &out, "--preset", "sketch"]);
     let names = [
         "01-photograph.png",
@@ -93,7 +96,9 @@ fn stages_are_written_in_their_order_and_the_last_is_the_picture() {
 #[test]
 fn masks_say_where_density_changes_and_where_the_brush_is_dry() {
     let folder = Folder::new();
-    let (photo, mesh, mask) = (folder.photograph(), folder.pyramid(), folder.mask());
+    let photo = folder.photograph();
+    let mesh = folder.pyramid();
+    let mask = folder.mask();
     let black = image::RgbImage::new(20, 10);
     let none = folder.file("none.png");
     black.save(&none).unwrap();
@@ -110,7 +115,9 @@ fn masks_say_where_density_changes_and_where_the_brush_is_dry() {
         for (option, look) in [("--density-mask", &[][..]), ("--dry-brush-mask", dry)] {
             let with =
                 |more: &[&str]| decoded(&picture(&folder, subject, &[size, look, more].concat()));
-            let (all, half, nothing) = (with(&[]), with(&[option, &mask]), with(&[option, &none]));
+            let all = with(&[]);
+            let half = with(&[option, &mask]);
+            let nothing = with(&[option, &none]);
             assert!(difference(&all, &nothing).0 > 0.5, "{option} does nothing");
             for (x, y, pixel) in half.enumerate_pixels() {
                 let wanted = if x < 80 { &all } else { &nothing };

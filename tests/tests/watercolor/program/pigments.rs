@@ -20,9 +20,11 @@ fn relit(painting: &str, options: &[&str]) -> Run {
 #[test]
 fn a_painting_of_glazes_is_kept_and_relit() {
     let folder = Folder::new();
-    let (photo, library) = (folder.photograph(), library());
-    let (out, painting, maps) =
-        (folder.file("out.png"), folder.file("out.exr"), folder.file("maps"));
+    let photo = folder.photograph();
+    let library = library();
+    let out = folder.file("out.png");
+    let painting = folder.file("out.exr");
+    let maps = folder.file("maps");
     let options = [
         ["--pigments", &library],
         ["--palette", PALETTE],
@@ -35,7 +37,8 @@ fn a_painting_of_glazes_is_kept_and_relit() {
     assert_eq!(told["pigments"].as_array().unwrap().len(), 3, "{told}");
     assert_eq!(told["pigments"][0], "Vermilion");
     let made = opened(&out);
-    let ([r, _, b], [far_r, _, far_b]) = (mean(&made, 4, 40), mean(&made, 120, 156));
+    let [r, _, b] = mean(&made, 4, 40);
+    let [far_r, _, far_b] = mean(&made, 120, 156);
     assert!(r > b + 30.0 && far_b > far_r, "{r} {b}, {far_r} {far_b}");
 
     let names = folder.names("maps");
@@ -63,7 +66,8 @@ fn a_painting_of_glazes_is_kept_and_relit() {
 #[test]
 fn pigments_are_chosen_and_paper_and_light_are_given() {
     let folder = Folder::new();
-    let (photo, library) = (folder.photograph(), library());
+    let photo = folder.photograph();
+    let library = library();
     let out = folder.file("out.png");
     let with = |options: &[&str]| {
         let all =
@@ -92,7 +96,9 @@ fn pigments_are_chosen_and_paper_and_light_are_given() {
 #[test]
 fn a_mesh_turns_in_the_pigments_of_its_first_frame() {
     let folder = Folder::new();
-    let (mesh, library, frames) = (folder.pyramid(), library(), folder.file("frames"));
+    let mesh = folder.pyramid();
+    let library = library();
+    let frames = folder.file("frames");
     let options = ["--pigments", &library, "--width", "32", "--turntable", "3"];
     let more = ["--frames", &frames, "--json"];
     let turn = || painted(&mesh, &[&options[..], &more].concat()).json();
@@ -116,7 +122,9 @@ fn a_mesh_turns_in_the_pigments_of_its_first_frame() {
 #[test]
 fn where_nothing_is_seen_there_is_bare_paper() {
     let folder = Folder::new();
-    let (mesh, library, out) = (folder.pyramid(), library(), folder.file("out.png"));
+    let mesh = folder.pyramid();
+    let library = library();
+    let out = folder.file("out.png");
     let path = "frames = 1\n[[keyframe]]\neye = [0.0, 1.0, 8.0]\ntarget = [0.0, 1.0, 99.0]\n";
     let away = folder.write("away.toml", path);
     let options = ["--pigments", &library, "--width", "32", "--camera", &away, "--picture", &out];

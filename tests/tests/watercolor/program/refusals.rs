@@ -108,14 +108,15 @@ fn subjects_that_cannot_be_read() {
 #[test]
 fn looks_that_are_none() {
     let folder = Folder::new();
-    let (photo, out) = (folder.photograph(), folder.file("out.png"));
+    let photo = folder.photograph();
+    let out = folder.file("out.png");
     let file = |name: &str, text: &str| folder.write(name, text);
     let key = file("key.toml", "[edges]\n# too much\nstronger = 1\n");
     let range = file("range.toml", "\n[edges]\nstrength = 99\n");
     let color = file("colour.toml", "[paper]\ncolour = \"red\"\n");
     let torn = file("torn.toml", "[paper\n");
-    let (none, scan) =
-        (folder.file("none.toml"), file("scan.toml", "[paper]\nscan = \"none.png\"\n"));
+    let none = folder.file("none.toml");
+    let scan = file("scan.toml", "[paper]\nscan = \"none.png\"\n");
     let preset = "start from a preset's file";
     for (option, value, status, what, hint) in [
         ("--settings", none.as_str(), 2, "none.toml: cannot be read", "check that the file"),
@@ -193,7 +194,8 @@ fn looks_that_are_none() {
 #[test]
 fn cameras_that_see_nothing() {
     let folder = Folder::new();
-    let (mesh, out) = (folder.pyramid(), folder.file("out.png"));
+    let mesh = folder.pyramid();
+    let out = folder.file("out.png");
     let with =
         |options: &[&str]| watercolor(&mesh, &[&["--picture", &out, "--camera"], options].concat());
     for camera in
@@ -223,7 +225,9 @@ fn cameras_that_see_nothing() {
 #[test]
 fn files_that_cannot_be_written() {
     let folder = Folder::new();
-    let (photo, mesh, out) = (folder.photograph(), folder.pyramid(), folder.file("out.png"));
+    let photo = folder.photograph();
+    let mesh = folder.pyramid();
+    let out = folder.file("out.png");
     let [gif, mp4, jpg] = ["out.gif", "out.mp4", "out.jpg"].map(|name| folder.file(name));
     let turn = ["--width", "32", "--turntable", "3"];
     let turned = |options: &[&str]| watercolor(&mesh, &[&turn, options].concat());
@@ -302,9 +306,11 @@ fn files_that_cannot_be_written() {
 #[test]
 fn masks_and_pigments_where_they_do_not_belong() {
     let folder = Folder::new();
-    let (photo, mesh) = (folder.photograph(), folder.pyramid());
-    let (out, exr, stages) =
-        (folder.file("out.png"), folder.file("out.exr"), folder.file("stages"));
+    let photo = folder.photograph();
+    let mesh = folder.pyramid();
+    let out = folder.file("out.png");
+    let exr = folder.file("out.exr");
+    let stages = folder.file("stages");
     for option in ["--dry-brush-mask", "--density-mask"] {
         let run = watercolor(&mesh, &["--picture", &out, option, &folder.file("none.png")]);
         refused(&run, 2, "none.png", "check the path");

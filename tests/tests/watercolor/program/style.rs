@@ -53,7 +53,8 @@ fn numbers_words_and_colors_are_set() {
     let usual = decoded(&picture(&folder, &photo, &[]));
     let with = |set: &str| decoded(&picture(&folder, &photo, &["--set", set]));
     let sum = |picture: &_| mean(picture, 0, 160).iter().sum::<f64>();
-    let (thin, thick) = (with("wash.density=0.2"), with("wash.density = 2"));
+    let thin = with("wash.density=0.2");
+    let thick = with("wash.density = 2");
     assert!(sum(&thin) > sum(&usual) + 60.0 && sum(&usual) > sum(&thick) + 60.0);
     let word = with("paper.kind=rough");
     assert!(difference(&usual, &word).0 > 0.2, "a word changes nothing");

@@ -2,23 +2,14 @@
 //! them.
 
 mod source;
-
 mod files;
-
 mod table;
-
 mod paint;
-
 mod propose;
-
 mod sample;
-
 mod map_table;
-
 mod build;
-
 mod check;
-
 mod show;
 
 use clap::{Args, Subcommand};

@@ -59,7 +59,8 @@ impl Diff {
             .iter()
             .map(|light| viewing(light, &self.observer))
             .collect::<Result<Vec<Viewing>>>()?;
-        let (first, second) = (library(&self.first)?, library(&self.second)?);
+        let first = library(&self.first)?;
+        let second = library(&self.second)?;
         for library in [&first, &second] {
             remark_coverage(library.grid, console)?;
         }

@@ -71,7 +71,8 @@ impl FromRgb {
         let guess = add_guessed(&mut library, name, color, body, self.nearest)?;
         output.write(library.to_json(), console)?;
         if guess.delta_e >= 0.05 {
-            let (hex, off) = (&guess.hex, guess.delta_e);
+            let hex = &guess.hex;
+            let off = guess.delta_e;
             let warning = format!("{color} is out of reach; {hex} is {off:.2} CIEDE2000 off");
             console.warnings(&[warning])?;
         }

@@ -37,8 +37,9 @@ impl List {
         if !self.json && !self.csv {
             let evidence = library.evidence.as_ref();
             let stated = |text: &str| if text.is_empty() { "not stated" } else { text }.to_owned();
-            let (title, source, licence) =
-                (stated(&library.title), stated(&library.source), stated(&library.licence));
+            let title = stated(&library.title);
+            let source = stated(&library.source);
+            let licence = stated(&library.licence);
             console.line(format!("{title}, {}", library.grid))?;
             console.line(format!("source: {source}; licence: {licence}"))?;
             let unit = match &library.reference {

@@ -1,25 +1,15 @@
 //! `impasto library`: inspects, merges and changes pigment libraries.
 
 mod list;
-
 mod show;
-
 mod resampling;
-
 mod merge;
-
 mod convert;
-
 mod rename;
-
 mod subset;
-
 mod export;
-
 mod from_rgb;
-
 mod check;
-
 mod diff;
 
 use clap::{Args, Subcommand};

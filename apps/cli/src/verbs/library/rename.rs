@@ -37,7 +37,8 @@ impl Rename {
         }
         let chosen = chosen(path.as_deref(), console)?;
         let output = Output::open(&self.output, &chosen.inputs())?;
-        let (file, before) = (chosen.name(), chosen.library);
+        let file = chosen.name();
+        let before = chosen.library;
         let indexed = with_color_indices(&file, &before, &pairs(&self.color_index)?)?;
         let after = renamed(&file, &indexed, &pairs(names)?)?;
         output.write(after.to_json(), console)?;

@@ -46,7 +46,8 @@ impl Subset {
         }
         let chosen = chosen(path.as_deref(), console)?;
         let output = Output::open(&self.output, &chosen.inputs())?;
-        let (file, mut before) = (chosen.name(), chosen.library);
+        let file = chosen.name();
+        let mut before = chosen.library;
         if let Some(reference) = &self.white {
             before = with_reference(&file, &before, reference)?;
         }

@@ -1,13 +1,9 @@
 //! `impasto map`: which pigments of a library are where in a spectral scan.
 
 mod pigment_options;
-
 mod scan_options;
-
 mod told;
-
 mod page;
-
 mod truth;
 
 use std::ops::ControlFlow;
@@ -121,14 +117,15 @@ impl Map {
             documents::file::write_whole(path, scan.book().to_json()?.as_bytes())?;
             console.wrote(path)?;
         }
-        let (mut mapped, mut compared) = (None, None);
+        let mut mapped = None;
+        let mut compared = None;
         if let Some(output) = &self.output {
             self.map(&scan, output, console)?;
             let maps = StoredMaps::open(output)?;
             console.wrote(output)?;
             mapped = Some(Overview::of(&maps, PICTURE)?);
-            let compare = |truth| compare(&maps, truth, self.least_share);
-            compared = truth.as_ref().map(compare).transpose()?;
+            compared =
+                truth.as_ref().map(|truth| compare(&maps, truth, self.least_share)).transpose()?;
         }
         let spots = spots.into_iter().map(|region| Ok(scan.spot(&library, region)?));
         let spots = spots.collect::<Result<Vec<Spot>>>()?;

@@ -46,7 +46,8 @@ fn figures(spots: &[Spot]) -> String {
     if spots.is_empty() {
         return String::new();
     }
-    let (width, height) = (460.0, 220.0);
+    let width = 460.0;
+    let height = 220.0;
     let mut all = "<h2>Spots</h2><p>Dots: measured. Line: the mapped mixture.</p>\n".to_owned();
     for spot in spots {
         let ends = [spot.mapped_nm.first(), spot.mapped_nm.last()];

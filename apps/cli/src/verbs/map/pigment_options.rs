@@ -114,13 +114,14 @@ fn group(text: &str) -> Result<PigmentGroup> {
         name: name.trim().to_owned(),
         pigments: pigments.split(',').map(|name| name.trim().to_owned()).collect(),
     });
-    let named = |group: &PigmentGroup| {
-        !group.name.is_empty() && group.pigments.iter().all(|name| !name.is_empty())
-    };
-    found.filter(named).ok_or_else(|| {
-        Failure::usage(
-            format!("--group takes NAME=PIGMENT,PIGMENT.., found `{text}`"),
-            "try --group \"whites=Lead White,Zinc White\"",
-        )
-    })
+    found
+        .filter(|group: &PigmentGroup| {
+            !group.name.is_empty() && group.pigments.iter().all(|name| !name.is_empty())
+        })
+        .ok_or_else(|| {
+            Failure::usage(
+                format!("--group takes NAME=PIGMENT,PIGMENT.., found `{text}`"),
+                "try --group \"whites=Lead White,Zinc White\"",
+            )
+        })
 }

@@ -62,15 +62,14 @@ impl Job {
             self;
         let Scene { subject, cameras, size } = scene;
         let brushwork = maps.brushwork();
-        let laid_out = || match &subject {
+        let painter = waited("laying out strokes", console, || match &subject {
             SceneSubject::Model(mesh, guides) => {
                 Painter::of_model_with(mesh, &brushwork, guides, &settings)
             }
             SceneSubject::Picture(photograph, form) => {
                 Painter::of_picture_with(photograph, &brushwork, form, &settings)
             }
-        };
-        let painter = waited("laying out strokes", console, laid_out)?;
+        })?;
         let backend = compute.name().to_owned();
         let mut painter = painter.on(compute)?;
         let recording = match animation {
@@ -98,15 +97,16 @@ impl Job {
                 if let Some((library, palette)) = pigments {
                     painter.set_pigments(library, palette);
                 }
-                let paint = || painter.painting(&cameras[0], size, 0.0, (&title, &ground));
-                let document = waited("painting", console, paint)?;
+                let document = waited("painting", console, || {
+                    painter.painting(&cameras[0], size, 0.0, (&title, &ground))
+                })?;
                 let engine = PaintEngine::on_cpu(document.ground.height.clone());
                 let light = Light::new(&document.library, &Viewing::default())?;
                 exports.write(&mut Painting::open_under(document, light, engine, 0)?, console)?;
             }
             None => {
-                let paint = || painter.paint(&cameras[0], size, 0.0);
-                let painted = waited("painting", console, paint)?;
+                let painted =
+                    waited("painting", console, || painter.paint(&cameras[0], size, 0.0))?;
                 let linear = linear_from_encoded(&over_white(&painted.color));
                 exports.write_picture(&linear, PX_MM, console)?;
             }
@@ -128,7 +128,8 @@ impl Job {
             })?;
             frames = Some((count, found));
         }
-        let (maps, regions) = (brushwork.maps.len(), brushwork.regions.list.len());
+        let maps = brushwork.maps.len();
+        let regions = brushwork.regions.list.len();
         Ok(Summary { size, backend, layers, matched: painter.matched(), maps, regions, frames })
     }
 }

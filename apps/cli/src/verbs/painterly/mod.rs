@@ -1,15 +1,10 @@
 //! `impasto painterly`: paints 3D models and pictures in the brushwork of art maps.
 
 mod brushwork;
-
 mod form;
-
 mod exr_frames;
-
 mod settings;
-
 mod pigments;
-
 mod job;
 
 use std::path::PathBuf;

@@ -27,13 +27,15 @@ pub(super) fn camera_table(options: &SubjectOptions, photograph: bool) -> Result
         });
     };
     let CameraPath { frames, closed, keyframes } = CameraPath::open(path)?;
-    let keyframe = |own: Keyframe| KeyframeTable {
-        eye: Row(own.eye.map(f64::from)),
-        target: Row(own.target.map(f64::from)),
-        up: Some(Row(own.up.map(f64::from))),
-        field_of_view_deg: Some(own.field_of_view_deg.into()),
-    };
-    let keyframes = keyframes.into_iter().map(keyframe).collect();
+    let keyframes = keyframes
+        .into_iter()
+        .map(|own: Keyframe| KeyframeTable {
+            eye: Row(own.eye.map(f64::from)),
+            target: Row(own.target.map(f64::from)),
+            up: Some(Row(own.up.map(f64::from))),
+            field_of_view_deg: Some(own.field_of_view_deg.into()),
+        })
+        .collect();
     let frames = u32::try_from(frames).ok();
     Ok(CameraTable { frames, closed, keyframes, ..CameraTable::default() })
 }
@@ -90,6 +92,7 @@ pub(super) fn picture_cameras(
 
 /// The fault of a value of the table.
 fn fault(name: &str, wanted: String, found: f64, hint: &str) -> Box<Fault> {
-    let (key, hint) = (KeyPath::of("camera").key(name), hint.to_owned());
+    let key = KeyPath::of("camera").key(name);
+    let hint = hint.to_owned();
     Box::new(Fault { key, wanted, found: found.to_string(), hint })
 }

@@ -48,7 +48,8 @@ impl Film<'_> {
         console: &mut Console<'_>,
     ) -> Result<usize> {
         let mut play = self.beginning.clone();
-        let (cameras, size) = (&self.scene.cameras, self.scene.size);
+        let cameras = &self.scene.cameras;
+        let size = self.scene.size;
         let found = recording.paint(console, |frame| {
             self.advance_with_snapshots(&mut play, frame)?;
             let camera = &cameras[frame.min(cameras.len() - 1)];

@@ -57,13 +57,16 @@ impl Job {
         let settings = script.script.settings().map_err(|fault| script.located(fault))?;
         let frames = if scene.cameras.len() > 1 { scene.cameras.len() } else { frames };
         let times = Times::of(script.script.seconds, verb.at, rate, frames)?;
-        let located = |fault| script.located(fault);
         let folder = path.parent().unwrap_or(Path::new(""));
         let of_script = (&script.script, &settings);
-        let pigments = verb.pigments.materials(of_script, (library, folder), located)?;
+        let pigments =
+            verb.pigments.materials(of_script, (library, folder), |fault| script.located(fault))?;
         check_layers(&verb, pigments.is_some())?;
-        let own_library = || script.script.library_file(folder).filter(|_| pigments.is_some());
-        let library = verb.pigments.input().cloned().or_else(own_library);
+        let library = verb
+            .pigments
+            .input()
+            .cloned()
+            .or_else(|| script.script.library_file(folder).filter(|_| pigments.is_some()));
         let mut inputs: Vec<PathBuf> = scene.inputs.clone();
         inputs.extend(verb.settings.input().into_iter().chain(&library).cloned());
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -81,7 +84,8 @@ impl Job {
         let animation = verb.animation.open(&inputs)?;
         let file = animation.as_ref().and_then(Animation::file);
         let outputs = verb.outputs.open(&inputs, frames, file)?;
-        let (show, json) = (verb.show, verb.json);
+        let show = verb.show;
+        let json = verb.json;
         Ok(Self {
             compute,
             script,
@@ -120,8 +124,9 @@ impl Job {
                 "{backend} writes no buffers from fragments; volumes are counted on the processor"
             )])?;
         }
-        let rehearsed = || self.rehearsed(animation.is_some(), &mut snapshots);
-        let still = waited("spreading the paint", console, rehearsed)?;
+        let still = waited("spreading the paint", console, || {
+            self.rehearsed(animation.is_some(), &mut snapshots)
+        })?;
         let recording = match (animation, digest) {
             (Some(animation), Some(digest)) => {
                 Some(animation.begin(digest, self.times.frames.len(), size)?)

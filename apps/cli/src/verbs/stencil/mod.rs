@@ -2,29 +2,17 @@
 //! the paint spreads.
 
 mod settings;
-
 mod pigments;
-
 mod pours;
-
 mod cameras;
-
 mod scene;
-
 mod outputs;
-
 mod options;
-
 mod times;
-
 mod snapshots;
-
 mod film;
-
 mod stills;
-
 mod summary;
-
 mod job;
 
 pub(crate) use options::Stencil;

@@ -71,7 +71,8 @@ impl PigmentOptions {
         let primer = match ground(text, console)? {
             Backing::Even(reflectance) => Primer::Grey(reflectance),
             Backing::Measured(spectrum) => {
-                let (grid, values) = (spectrum.grid(), spectrum.values().to_vec());
+                let grid = spectrum.grid();
+                let values = spectrum.values().to_vec();
                 Primer::Measured(MeasuredPrimer { spectrum: PrimerSpectrum { grid, values } })
             }
         };

@@ -62,8 +62,11 @@ impl PourOptions {
             true => script.palette.values().cloned().collect(),
             false => names,
         };
-        let parts = |text: &String| library.map(|library| parts(text, library));
-        let paints = self.paints.iter().filter_map(parts).collect::<Result<Vec<_>>>()?;
+        let paints = self
+            .paints
+            .iter()
+            .filter_map(|text: &String| library.map(|library| parts(text, library)))
+            .collect::<Result<Vec<_>>>()?;
         for (index, text) in self.pours.iter().enumerate() {
             let recipe = match &paints[..] {
                 [] => in_turn.iter().cycle().nth(index).map(|name| vec![(name.clone(), 1.0)]),
@@ -141,12 +144,14 @@ fn parts(text: &str, library: &PigmentLibrary) -> Result<Vec<(String, f64)>> {
             "try --paint \"Ultramarine=2,Titanium White=1\"",
         )
     };
-    let part = |part: &str| {
-        let (name, share) = part.rsplit_once('=').unwrap_or((part, "1"));
-        let share: f64 = share.trim().parse().map_err(|_| wrong())?;
-        let name = name.trim();
-        let fits = !name.is_empty() && share > 0.0 && share.is_finite();
-        if fits { Ok((name.to_owned(), share)) } else { Err(wrong()) }
-    };
-    listed(text, library, name_in_recipe).into_iter().map(part).collect()
+    listed(text, library, name_in_recipe)
+        .into_iter()
+        .map(|part: &str| {
+            let (name, share) = part.rsplit_once('=').unwrap_or((part, "1"));
+            let share: f64 = share.trim().parse().map_err(|_| wrong())?;
+            let name = name.trim();
+            let fits = !name.is_empty() && share > 0.0 && share.is_finite();
+            if fits { Ok((name.to_owned(), share)) } else { Err(wrong()) }
+        })
+        .collect()
 }

@@ -55,7 +55,8 @@ impl Snapshots {
         console: &mut Console<'_>,
     ) -> Result<Self> {
         let files = files(folder);
-        let (mut found, mut faults) = (Vec::new(), Vec::new());
+        let mut found = Vec::new();
+        let mut faults = Vec::new();
         for file in &files {
             match read(file) {
                 Err(error) => faults.push(error.to_string()),

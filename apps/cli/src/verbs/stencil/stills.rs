@@ -60,8 +60,8 @@ impl Stills<'_> {
             }
             None => {
                 let Self { world, camera, size, show, .. } = *self;
-                let draw = || self.painter.shown(world, camera, size, show);
-                let picture = waited("drawing", console, draw)?;
+                let picture =
+                    waited("drawing", console, || self.painter.shown(world, camera, size, show))?;
                 let linear = linear_from_encoded(&over_white(&picture));
                 exports.write_picture(&linear, PX_MM, console)
             }

@@ -30,7 +30,6 @@ impl Summary {
     /// The world of single pictures.
     pub(super) fn of(world: &World, size: (usize, usize), backend: &str) -> Self {
         let tally = world.tally();
-        let mm3 = |amounts: [u64; 9]| amounts.iter().sum::<u64>() as f64 * world.quantum_mm3();
         let particles = |volume: &Volume| volume.vertices().len();
         Self {
             size,
@@ -39,7 +38,8 @@ impl Summary {
             volumes: world.volumes().len(),
             particles: world.volumes().iter().map(particles).sum(),
             cells: world.grid().cells.len(),
-            paint_mm3: [tally.on_scene, tally.lifted, tally.in_tube].map(mm3),
+            paint_mm3: [tally.on_scene, tally.lifted, tally.in_tube]
+                .map(|amounts: [u64; 9]| amounts.iter().sum::<u64>() as f64 * world.quantum_mm3()),
             frames: None,
             from_s: None,
             played: 0,

@@ -38,8 +38,9 @@ pub(super) fn paint(
         digest = digest.add(&settings.toon.greys.as_ref().map(std::fs::read));
         digest = digest.add(&controls);
     }
-    let prepared = || ModelPainter::new(compute, mesh, &settings, size);
-    let mut painter = waited("preparing the model", console, prepared)?;
+    let mut painter = waited("preparing the model", console, || {
+        ModelPainter::new(compute, mesh, &settings, size)
+    })?;
     painter.set_controls(controls);
     let Some(first) = cameras.first() else {
         return Err(Failure::data("the camera path has no frames", "give frames = 60"));

@@ -1,15 +1,10 @@
 //! `impasto watercolor`: paints photographs and meshes as watercolors.
 
 mod style;
-
 mod pigments;
-
 mod outputs;
-
 mod job;
-
 mod photograph;
-
 mod mesh;
 
 use std::path::PathBuf;

@@ -53,7 +53,8 @@ pub(super) fn paint(
             }
             Some(glazes) => {
                 let waiting = Waiting::new("mixing glazes", console.shows_progress());
-                let (wash, textures) = (&prepared.wash, &prepared.textures);
+                let wash = &prepared.wash;
+                let textures = &prepared.textures;
                 let document = glazes.paint(&title, wash, textures, &prepared.settings)?;
                 let mut painting = open_painting(document, glazes)?;
                 drop(waiting);

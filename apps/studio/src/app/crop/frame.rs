@@ -117,7 +117,8 @@ impl CropFrame {
             let high = (high.round().max(0.0) as usize).clamp(low + 1, most);
             (low, high - low)
         };
-        let ((x, width), (y, height)) = (whole(self.x, width), whole(self.y, height));
+        let (x, width) = whole(self.x, width);
+        let (y, height) = whole(self.y, height);
         Rect { x, y, width, height }
     }
 }

@@ -105,7 +105,8 @@ impl CropTool {
 
     fn draw(&self, ui: &Ui, area: Rect, placement: &Placement) {
         let painter = ui.painter_at(area);
-        let (width, height) = (self.cells.0 as f64, self.cells.1 as f64);
+        let width = self.cells.0 as f64;
+        let height = self.cells.1 as f64;
         let CropFrame { x: [left, right], y: [top, bottom] } = self.frame;
         let corners = |x: [f64; 2], y: [f64; 2]| {
             [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(|at| placement.point(at))
@@ -139,7 +140,8 @@ impl CropTool {
         let rect = self.rect();
         let mm = |cells: usize| cells as f64 * cell_mm;
         ui.horizontal_wrapped(|ui| {
-            let (width, height) = (mm(rect.width), mm(rect.height));
+            let width = mm(rect.width);
+            let height = mm(rect.height);
             ui.label(RichText::new(format!("{width:.1} x {height:.1} mm")).strong());
             ui.weak(tr_format!(
                 "{width} x {height} cells",

@@ -6,15 +6,10 @@ use super::intent::{Entry, Intent};
 use crate::keymap::{self, Shortcut};
 
 mod row;
-
 mod edit;
-
 mod file;
-
 mod help;
-
 mod tools;
-
 mod view;
 
 /// All entries in menu order.

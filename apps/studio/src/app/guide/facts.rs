@@ -36,9 +36,12 @@ impl Facts {
             let mut brushes = painting.brushes.iter();
             brushes.any(|state| state.name == brush && state.vehicle >= GLAZE)
         };
-        let load = |brush: &session::BrushState| (brush.name.clone(), brush.amount_mm);
         Self {
-            loads: painting.brushes.iter().map(load).collect(),
+            loads: painting
+                .brushes
+                .iter()
+                .map(|brush: &session::BrushState| (brush.name.clone(), brush.amount_mm))
+                .collect(),
             strokes: count("stroke, "),
             mixing_strokes: count("stroke on the palette"),
             dryings: count("dry "),

@@ -81,11 +81,10 @@ pub(in crate::app) fn quick_choices(
 fn mixtures(painting: &PaintingState, tools: &Tools, book: &SwatchBook) -> Vec<QuickChoice> {
     let PaintingState { library, slots, lighting, light, .. } = painting;
     let Ok(weights) = light.viewing.weights(library.grid) else { return Vec::new() };
-    let of = |(recipe, vehicle): &(Recipe, f64)| {
+    let recent = tools.recent.iter().filter_map(|(recipe, vehicle): &(Recipe, f64)| {
         let light = (&weights, lighting.illuminant.as_str());
         KeptMixture::of(library, recipe.clone(), *vehicle, light)
-    };
-    let recent = tools.recent.iter().filter_map(of);
+    });
     let mut found: Vec<QuickChoice> = Vec::new();
     for kept in recent.chain(book.swatches.iter().cloned()) {
         let again = found.iter().any(

@@ -59,7 +59,8 @@ impl Ring {
 
     /// Points of the inner and the outer edge of a wedge, clockwise.
     fn edge(&self, center: Pos2, index: usize) -> Vec<[Pos2; 2]> {
-        let (from, to) = (self.angle(index as f32 - 0.5), self.angle(index as f32 + 0.5));
+        let from = self.angle(index as f32 - 0.5);
+        let to = self.angle(index as f32 + 0.5);
         let pieces = ((to - from) / PIECE).ceil().max(1.0) as usize;
         let point = |radius: f32, share: f32| {
             // A gap of one point on either side, at any radius.

@@ -154,11 +154,12 @@ impl Header<'_> {
     fn menu_button(&self, ui: &Ui, rect: Rect, arrangement: &Arrangement) -> Option<HeaderRequest> {
         let name = tr_format!("Place of {name}", name = tr(self.chosen.name));
         let response = sign(ui, rect, &name, |rect| {
-            let dot = |row: f32| {
-                let at = rect.center() + vec2(0.0, 5.0 * row);
-                Shape::circle_filled(at, 1.5, theme::colors(ui.ctx()).text)
-            };
-            [-1.0, 0.0, 1.0].map(dot).to_vec()
+            [-1.0, 0.0, 1.0]
+                .map(|row: f32| {
+                    let at = rect.center() + vec2(0.0, 5.0 * row);
+                    Shape::circle_filled(at, 1.5, theme::colors(ui.ctx()).text)
+                })
+                .to_vec()
         });
         let opened = Popup::menu(&response)
             .show(|ui| menu(ui, self.chosen, self.open, arrangement))

@@ -2,15 +2,10 @@
 //! and dragged to other places.
 
 mod panels;
-
 mod table;
-
 mod divider;
-
 mod drop;
-
 mod header;
-
 mod dock;
 
 pub(super) use divider::{Line, divider};

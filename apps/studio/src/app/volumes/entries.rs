@@ -235,7 +235,8 @@ pub fn scene_key_rows() -> Vec<KeyRow> {
         KeyRow::new(name, tr(entry.name), tr(entry.description), tr(group), entry.shortcuts)
     });
     let tubes = (1_u8..).zip(TUBES).map(|(number, key)| {
-        let (name, title) = (SceneIntent::Tube(number).name(), tr_format!("Tube {number}", number));
+        let name = SceneIntent::Tube(number).name();
+        let title = tr_format!("Tube {number}", number);
         let description = tr_format!("Takes tube {number} in hand", number);
         KeyRow::new(name, title, description, tr("Tubes"), &[self::key(NONE, key)])
     });

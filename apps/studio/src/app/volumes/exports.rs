@@ -84,11 +84,13 @@ impl Volumes {
         match self.take_awaited(number) {
             Some((SceneExport::Script, path)) => files.save_scene(recording, path),
             Some((SceneExport::Animation, path)) => {
-                let (recording, size) = (Arc::clone(recording), self.told.1);
+                let recording = Arc::clone(recording);
+                let size = self.told.1;
                 files.export_scene(path, move |path, progress| {
-                    let report = |share| progress.report(share).is_ok();
-                    session::volumes::animation(&recording, size, path, report)
-                        .map_err(Problem::from)?;
+                    session::volumes::animation(&recording, size, path, |share| {
+                        progress.report(share).is_ok()
+                    })
+                    .map_err(Problem::from)?;
                     // Nothing was written if it was cancelled.
                     progress.report(1.0)?;
                     Ok(None)

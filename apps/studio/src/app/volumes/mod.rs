@@ -1,31 +1,18 @@
 //! The workspace of paint volumes: a scene that is turned, poured over and played.
 
 mod orbit;
-
 mod intent;
-
 mod entries;
-
 mod icons;
-
 mod menus;
-
 mod toolbar;
-
 mod workspace;
-
 mod exports;
-
 mod events;
-
 mod perform;
-
 mod hand;
-
 mod canvas;
-
 mod status;
-
 mod frame;
 
 pub(super) use entries::SCENE_POINTER;

@@ -43,8 +43,11 @@ impl Filter {
     #[must_use]
     pub(crate) fn passes(&self, name: &str) -> bool {
         let name = name.to_lowercase();
-        let ends = |ending: &&str| name.strip_suffix(ending).is_some_and(|n| n.ends_with('.'));
-        self.endings.is_empty() || self.endings.iter().any(ends)
+        self.endings.is_empty()
+            || self
+                .endings
+                .iter()
+                .any(|ending: &&str| name.strip_suffix(ending).is_some_and(|n| n.ends_with('.')))
     }
 }
 
@@ -66,9 +69,11 @@ pub(crate) const fn pictures_and<const ALL: usize>(others: &[&'static str]) -> [
 /// # Errors
 /// [`JobError`] if the folder cannot be read.
 pub(super) fn entries(folder: &Path, progress: &Progress) -> Result<Vec<Entry>, JobError> {
-    let unreadable = |error: std::io::Error| Problem::io(folder, "read", &error);
     let mut entries = Vec::new();
-    for entry in disk::read_dir(folder).map_err(unreadable)?.take(MAX_ENTRIES) {
+    for entry in disk::read_dir(folder)
+        .map_err(|error: std::io::Error| Problem::io(folder, "read", &error))?
+        .take(MAX_ENTRIES)
+    {
         progress.report(0.0)?;
         let Ok(entry) = entry else { continue };
         // A name that is not valid Unicode could not be typed or shown.
@@ -78,7 +83,8 @@ pub(super) fn entries(folder: &Path, progress: &Progress) -> Result<Vec<Entry>, 
         }
         // Links are followed; a broken link is left out.
         let Ok(found) = disk::metadata(entry.path()) else { continue };
-        let (bytes, changed) = (found.len(), found.modified().ok());
+        let bytes = found.len();
+        let changed = found.modified().ok();
         entries.push(Entry { name, folder: found.is_dir(), bytes, changed });
     }
     entries.sort_by_cached_key(|entry| (!entry.folder, sort_key(&entry.name), entry.name.clone()));

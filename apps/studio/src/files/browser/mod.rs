@@ -2,21 +2,13 @@
 //! and could not be tested.
 
 mod listing;
-
 mod places;
-
 mod arranged;
-
 mod thumbnails;
-
 mod glyph;
-
 mod state;
-
 mod places_view;
-
 mod entries_view;
-
 mod show;
 
 pub(crate) use listing::{Filter, pictures_and};

@@ -98,13 +98,16 @@ impl Browser {
             Job::start("places", move || woken.request_repaint(), move |_| Ok(places(&lately)));
         let folder = folder.filter(|folder| disk::is_dir(folder)).map(Path::to_owned);
         let filter = options.filters.first().copied().unwrap_or(Filter::ALL);
-        let passes = |path: &&PathBuf| path.to_str().is_some_and(|path| filter.passes(path));
         let mut browser = Self {
             name: options.name.clone(),
             options,
             folder: PathBuf::new(),
             typed_folder: String::new(),
-            recent: recent.iter().filter(passes).cloned().collect(),
+            recent: recent
+                .iter()
+                .filter(|path: &&PathBuf| path.to_str().is_some_and(|path| filter.passes(path)))
+                .cloned()
+                .collect(),
             places: Vec::new(),
             finding_places: Some(finding_places),
             look,
@@ -138,11 +141,13 @@ impl Browser {
         self.problem = None;
         self.typed_filter.clear();
         self.entries.clear();
-        let (wake, read) = (self.wake.clone(), folder.clone());
-        let wake = move || wake.request_repaint();
-        self.reading = Some(Job::start(tr("reading the folder"), wake, move |progress| {
-            entries(&read, progress)
-        }));
+        let wake = self.wake.clone();
+        let read = folder.clone();
+        self.reading = Some(Job::start(
+            tr("reading the folder"),
+            move || wake.request_repaint(),
+            move |progress| entries(&read, progress),
+        ));
         self.folder = folder;
     }
 

@@ -69,7 +69,8 @@ impl Thumbnails {
             return Thumbnail::Plain;
         }
         self.collect(context);
-        let (path, stamp) = (folder.join(&entry.name), (entry.bytes, entry.changed));
+        let path = folder.join(&entry.name);
+        let stamp = (entry.bytes, entry.changed);
         let fresh = self.known.get(&path).is_some_and(|known| known.stamp == stamp);
         if !fresh {
             if self.reading.is_none() {
@@ -89,7 +90,8 @@ impl Thumbnails {
     }
 
     fn read(&mut self, context: &Context, path: PathBuf, stamp: Stamp) {
-        let (wake, file) = (context.clone(), path.clone());
+        let wake = context.clone();
+        let file = path.clone();
         let job = Job::start(
             tr("reading a small picture"),
             move || wake.request_repaint(),
@@ -102,9 +104,14 @@ impl Thumbnails {
     fn collect(&mut self, context: &Context) {
         let Some(result) = self.reading.as_mut().and_then(|(_, _, job)| job.poll()) else { return };
         let Some((path, stamp, _)) = self.reading.take() else { return };
-        let load = |image| context.load_texture("thumbnail", image, TextureOptions::LINEAR);
         self.requests += 1;
-        let known = Known { stamp, picture: result.ok().map(load), asked: self.requests };
+        let known = Known {
+            stamp,
+            picture: result
+                .ok()
+                .map(|image| context.load_texture("thumbnail", image, TextureOptions::LINEAR)),
+            asked: self.requests,
+        };
         self.known.insert(path, known);
         if self.known.len() > MOST_KEPT {
             let oldest = self.known.iter().min_by_key(|(_, known)| known.asked);

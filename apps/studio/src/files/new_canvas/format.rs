@@ -22,7 +22,8 @@ impl Format {
     /// The format of a canvas, upright or across; `None` for an own size.
     #[must_use]
     pub(crate) fn of(width_mm: f64, height_mm: f64) -> Option<&'static Self> {
-        let (long, short) = (width_mm.max(height_mm), width_mm.min(height_mm));
+        let long = width_mm.max(height_mm);
+        let short = width_mm.min(height_mm);
         let near = |a: f64, b: f64| (a - b).abs() < 0.05;
         FORMATS.iter().find(|own| near(own.long_mm, long) && near(own.short_mm, short))
     }
@@ -127,8 +128,13 @@ mod tests {
     fn each_format_has_its_own_size_and_a_longer_side() {
         for (index, own) in FORMATS.iter().enumerate() {
             assert!(own.long_mm > own.short_mm, "{own:?}");
-            let same = |other: &Format| (other.group, other.name) == (own.group, own.name);
-            assert!(!FORMATS[..index].iter().any(same), "{} twice", own.name);
+            assert!(
+                !FORMATS[..index]
+                    .iter()
+                    .any(|other: &Format| (other.group, other.name) == (own.group, own.name)),
+                "{} twice",
+                own.name
+            );
         }
         // The sides of A formats are in the ratio of the square root of 2, rounded to mm.
         for own in FORMATS.iter().filter(|own| own.name.starts_with('A')) {

@@ -1,13 +1,9 @@
 //! The canvas of a new painting as data: its format, its ground, and what is kept of it.
 
 mod unit;
-
 mod format;
-
 mod tone;
-
 mod settings;
-
 mod kept;
 
 pub(crate) use format::{FORMATS, Format};

@@ -96,7 +96,8 @@ impl Tone {
             None => Primer::library_white(library),
         };
         let weights = viewing.weights(library.grid).ok()?;
-        let (xyz, white) = (weights.xyz(&reflectance), weights.white());
+        let xyz = weights.xyz(&reflectance);
+        let white = weights.white();
         let rgb = RgbSpace::Srgb.encoded_from_xyz(xyz, white, Adaptation::Bradford);
         Some(rgb.to_bytes())
     }

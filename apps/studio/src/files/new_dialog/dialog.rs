@@ -58,18 +58,18 @@ impl NewDialog {
         let wake = context.clone();
         let finding_memory =
             Job::start("memory", move || wake.request_repaint(), move |_| Ok(free_bytes()));
-        let (library, oils) =
-            (Arc::clone(&state.library), Arc::new(PigmentLibrary::van_gogh_oils()));
+        let library = Arc::clone(&state.library);
+        let oils = Arc::new(PigmentLibrary::van_gogh_oils());
         let libraries = [Arc::clone(&library), Arc::clone(&oils)];
-        let (wake, viewing) = (context.clone(), state.light.viewing.clone());
+        let wake = context.clone();
+        let viewing = state.light.viewing.clone();
         let mixing_tones = Job::start(
             "tones",
             move || wake.request_repaint(),
             move |_| {
-                let colors = |library: &Arc<PigmentLibrary>| {
+                Ok(libraries.each_ref().map(|library: &Arc<PigmentLibrary>| {
                     TONES.iter().map(|tone| tone.color(library, &viewing)).collect()
-                };
-                Ok(libraries.each_ref().map(colors))
+                }))
             },
         );
         Self {
@@ -131,7 +131,10 @@ impl NewDialog {
         // A light is made for a library.
         let light = (same || *library == *self.library).then(|| Arc::clone(&self.light));
         let lighting = self.lighting.clone();
-        let light = move || PreviewLight { library, lighting, light };
-        self.preview.update(context, &self.new.canvas, same, light);
+        self.preview.update(context, &self.new.canvas, same, move || PreviewLight {
+            library,
+            lighting,
+            light,
+        });
     }
 }

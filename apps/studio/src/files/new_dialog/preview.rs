@@ -73,7 +73,9 @@ impl Preview {
             return;
         }
         self.asked = Some((canvas.clone(), same));
-        let (wake, canvas, light) = (context.clone(), canvas.clone(), light());
+        let wake = context.clone();
+        let canvas = canvas.clone();
+        let light = light();
         let job = Job::start(
             tr("the ground"),
             move || wake.request_repaint(),

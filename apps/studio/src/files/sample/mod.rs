@@ -24,8 +24,8 @@ impl Files {
     pub(super) fn open_sample(&mut self) {
         match script() {
             Ok(script) => {
-                let (script, library) =
-                    (Box::new(script), Box::new(PigmentLibrary::van_gogh_oils()));
+                let script = Box::new(script);
+                let library = Box::new(PigmentLibrary::van_gogh_oils());
                 let commands = vec![Command::Replay { script, library, pace: Pace::Fast }];
                 let origin = FileOrigin { sample: true, ..FileOrigin::default() };
                 self.carry_out_safely(PendingAction::Replace(Replacement { commands, origin }));
@@ -66,8 +66,13 @@ mod tests {
             actions.iter().filter(|action| matches!(action, Action::Stroke(_))).count()
         };
         assert!(layers.iter().all(|layer| strokes(layer) > 2), "a layer has no strokes");
-        let glazes = |action: &Action| matches!(action, Action::Load(load) if load.vehicle > 0.9);
-        assert!(script.actions.iter().any(glazes), "there is no glaze");
+        assert!(
+            script
+                .actions
+                .iter()
+                .any(|action: &Action| matches!(action, Action::Load(load) if load.vehicle > 0.9)),
+            "there is no glaze"
+        );
         assert!(ORANGES.len() < 60_000, "{} bytes", ORANGES.len());
     }
 }

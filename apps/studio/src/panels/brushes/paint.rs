@@ -14,7 +14,8 @@ pub fn load_medium(cx: &mut PanelContext<'_>) {
 /// Wipes the selected brush if it holds paint.
 pub fn wipe(cx: &mut PanelContext<'_>) {
     if is_loaded(cx) {
-        let (brush, keep) = (cx.tools.brush.clone(), cx.tools.wipe_keep);
+        let brush = cx.tools.brush.clone();
+        let keep = cx.tools.wipe_keep;
         cx.act(Action::Wipe { brush, keep });
     }
 }
@@ -42,8 +43,8 @@ pub(super) fn keep_mixture(cx: &mut PanelContext<'_>) {
     let Some(brush) = selected(cx) else { return };
     // Four digits are as fine as a knife can part paint.
     let rounded = recipe(cx, brush).into_iter().map(|(name, part)| (name, round(part)));
-    let (parts, vehicle) =
-        (rounded.filter(|(_, part)| *part > 0.0).collect(), round(brush.vehicle));
+    let parts = rounded.filter(|(_, part)| *part > 0.0).collect();
+    let vehicle = round(brush.vehicle);
     keep(cx, parts, vehicle);
 }
 

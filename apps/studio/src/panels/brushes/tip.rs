@@ -94,7 +94,8 @@ fn marks(context: &Context, spec: &BrushSpec) -> Vec<Mark> {
     let cell_mm = spec.size_mm / FINEST;
     let made = PRESSURES.iter().map(|&(name, pressure)| {
         let mark = ContactMark::of(spec.shape, spec.size_mm, cell_mm, pressure).ok()?;
-        let (width, height) = (mark.cells.width(), mark.cells.height());
+        let width = mark.cells.width();
+        let height = mark.cells.height();
         let texture = (width * height > 0).then(|| {
             let pixels = mark.cells.values().iter();
             let pixels =

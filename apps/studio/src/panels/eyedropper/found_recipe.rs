@@ -86,7 +86,8 @@ impl FoundRecipe<'_> {
             }
         });
         if !ready {
-            let (count, of) = (missing.len(), found.shares.len());
+            let count = missing.len();
+            let of = found.shares.len();
             ui.weak(match count {
                 1 => tr_format!("1 of {of} pigments is not on the palette", of),
                 _ => tr_format!("{count} of {of} pigments are not on the palette", count, of),
@@ -179,8 +180,9 @@ impl FoundRecipe<'_> {
     }
 
     fn set_palette(&self, cx: &mut PanelContext<'_>, pigments: impl Iterator<Item = PigmentId>) {
-        let name = |pigment: PigmentId| self.library[pigment].name.as_str();
-        cx.command(Command::Apply(Action::Palette(PaletteSpec::from_names(pigments.map(name)))));
+        cx.command(Command::Apply(Action::Palette(PaletteSpec::from_names(
+            pigments.map(|pigment: PigmentId| self.library[pigment].name.as_str()),
+        ))));
     }
 }
 

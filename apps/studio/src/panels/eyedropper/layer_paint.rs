@@ -72,14 +72,17 @@ impl LayerPaint {
 
     /// Returns amount (`6` or `61.3 %`) and name of each pigment.
     pub(super) fn lines(&self, library: &PigmentLibrary) -> Vec<(String, String)> {
-        let line = |(at, (pigment, share)): (usize, &(PigmentId, f64))| {
-            let amount = match &self.parts {
-                Some(parts) => parts[at].to_string(),
-                None => format!("{:.1} %", 100.0 * share),
-            };
-            (amount, library[*pigment].name.clone())
-        };
-        self.shares.iter().enumerate().map(line).collect()
+        self.shares
+            .iter()
+            .enumerate()
+            .map(|(at, (pigment, share)): (usize, &(PigmentId, f64))| {
+                let amount = match &self.parts {
+                    Some(parts) => parts[at].to_string(),
+                    None => format!("{:.1} %", 100.0 * share),
+                };
+                (amount, library[*pigment].name.clone())
+            })
+            .collect()
     }
 
     /// Recipe in whole parts or in shares rounded to 0.0001, and the share of clear vehicle.

@@ -2,17 +2,11 @@
 //! a colour.
 
 mod layer_paint;
-
 mod target;
-
 mod swatch;
-
 mod picked;
-
 mod found_recipe;
-
 mod search;
-
 mod panel;
 
 pub(super) use layer_paint::LayerPaint;

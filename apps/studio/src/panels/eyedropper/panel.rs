@@ -100,7 +100,8 @@ impl Eyedropper {
     }
 
     fn target_row(&mut self, ui: &mut Ui, cx: &PanelContext<'_>) {
-        let (grid, viewing) = (cx.painting.library.grid, &cx.painting.light.viewing);
+        let grid = cx.painting.library.grid;
+        let viewing = &cx.painting.light.viewing;
         ui.horizontal(|ui| {
             if let Some(wanted) = &self.target {
                 let color = wanted.shown(grid, viewing);
@@ -139,7 +140,8 @@ impl Eyedropper {
         if self.swatches.is_empty() {
             return;
         }
-        let (grid, viewing) = (cx.painting.library.grid, &cx.painting.light.viewing);
+        let grid = cx.painting.library.grid;
+        let viewing = &cx.painting.light.viewing;
         let mut clicked = None;
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(3.0, 3.0);

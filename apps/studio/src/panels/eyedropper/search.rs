@@ -162,7 +162,8 @@ impl SearchPanel {
         if *library != painting.library {
             return;
         }
-        let (searched, current) = (&limits.conditions[0].viewing, &painting.light.viewing);
+        let searched = &limits.conditions[0].viewing;
+        let current = &painting.light.viewing;
         if searched != current {
             let note = tr_format!(
                 "Found under {name}, not the current light",

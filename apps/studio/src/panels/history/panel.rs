@@ -45,7 +45,8 @@ impl History {
     }
 
     fn list(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>) {
-        let (done, count) = (cx.painting.history_done, cx.painting.history.len());
+        let done = cx.painting.history_done;
+        let count = cx.painting.history.len();
         let mut clicked = None;
         ui.spacing_mut().item_spacing.y = 1.0;
         // A list that just grew would spring back to where it ended before.
@@ -131,7 +132,8 @@ fn note(index: usize, painting: &PaintingState) -> Option<&'static str> {
 }
 
 fn buttons(ui: &mut Ui, cx: &mut PanelContext<'_>) {
-    let (done, count) = (cx.painting.history_done, cx.painting.history.len());
+    let done = cx.painting.history_done;
+    let count = cx.painting.history.len();
     ui.horizontal(|ui| {
         let disabled_reason = (done == 0).then_some(tr("there is nothing to undo"));
         let tip = match done {

@@ -24,13 +24,14 @@ pub(super) fn eye(ui: &mut Ui, name: &str, visible: bool) -> Response {
 
 /// Curve of the lower eyelid if `side` is 1, of the upper eyelid if it is -1.
 fn lid(lens: Rect, side: f32) -> Vec<Pos2> {
-    let at = |step: i16| {
-        let along = f32::from(step) / 12.0;
-        let bulge = 4.0 * along * (1.0 - along);
-        pos2(
-            lens.left() + lens.width() * along,
-            lens.center().y + side * bulge * lens.height() / 2.0,
-        )
-    };
-    (0..=12).map(at).collect()
+    (0..=12)
+        .map(|step: i16| {
+            let along = f32::from(step) / 12.0;
+            let bulge = 4.0 * along * (1.0 - along);
+            pos2(
+                lens.left() + lens.width() * along,
+                lens.center().y + side * bulge * lens.height() / 2.0,
+            )
+        })
+        .collect()
 }

@@ -31,7 +31,8 @@ impl Opacity {
     /// Draws the opacity slider of a layer.
     pub(super) fn slider(&mut self, ui: &mut Ui, cx: &mut PanelContext<'_>, state: &LayerState) {
         let now = ui.input(|input| input.time);
-        let (layer, reported) = (state.id, state.opacity);
+        let layer = state.id;
+        let reported = state.opacity;
         self.pending = self.pending.filter(|pending| {
             pending.layer != layer
                 || pending.dragged

@@ -145,7 +145,8 @@ impl Layers {
         if button(ui, tr("Merge chosen"), tip, disabled_reason)
             && let Some([layer, with]) = two
         {
-            let (layer, with) = (LayerRef::Id(layer), Some(LayerRef::Id(with)));
+            let layer = LayerRef::Id(layer);
+            let with = Some(LayerRef::Id(with));
             cx.act(Action::Merge { layer, with });
         }
     }
@@ -163,7 +164,8 @@ const EXCHANGE: &str =
 /// Fills the menu of the dry layer `index`.
 fn menu(ui: &mut Ui, cx: &mut PanelContext<'_>, index: usize) -> Option<MenuChoice> {
     let layers = &cx.painting.layers;
-    let (state, top) = (&layers[index], layers.len() - 1);
+    let state = &layers[index];
+    let top = layers.len() - 1;
     let layer = LayerRef::Id(state.id);
     let below = index.checked_sub(1).map(|below| &layers[below]);
     let obstacle = match below {

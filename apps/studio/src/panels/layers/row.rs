@@ -85,8 +85,7 @@ pub(super) fn row(
     });
     let name = drawn.inner.inner;
     let label = tr_format!("choose {label}", label = layer_label(&state.label()));
-    let info = || WidgetInfo::selected(Role::Button, true, look.chosen, &label);
-    drawn.response.widget_info(info);
+    drawn.response.widget_info(|| WidgetInfo::selected(Role::Button, true, look.chosen, &label));
     DrawnRow { response: drawn.response, name }
 }
 

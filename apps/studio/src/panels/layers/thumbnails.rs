@@ -56,15 +56,18 @@ impl Thumbnails {
         thumbnail: &Arc<Thumbnail>,
         size: [usize; 2],
     ) -> &TextureHandle {
-        let is = |(kept, of, _): &Scaled| Arc::ptr_eq(kept, thumbnail) && *of == size;
-        let index = self.0.iter().position(is).unwrap_or_else(|| {
-            // A screen of another density needs another size.
-            self.0.retain(|(kept, ..)| !Arc::ptr_eq(kept, thumbnail));
-            let image = ColorImage::new(size, scaled(thumbnail, size));
-            let texture = context.load_texture("layer", image, TextureOptions::LINEAR);
-            self.0.push((Arc::clone(thumbnail), size, texture));
-            self.0.len() - 1
-        });
+        let index = self
+            .0
+            .iter()
+            .position(|(kept, of, _): &Scaled| Arc::ptr_eq(kept, thumbnail) && *of == size)
+            .unwrap_or_else(|| {
+                // A screen of another density needs another size.
+                self.0.retain(|(kept, ..)| !Arc::ptr_eq(kept, thumbnail));
+                let image = ColorImage::new(size, scaled(thumbnail, size));
+                let texture = context.load_texture("layer", image, TextureOptions::LINEAR);
+                self.0.push((Arc::clone(thumbnail), size, texture));
+                self.0.len() - 1
+            });
         &self.0[index].2
     }
 }
@@ -96,13 +99,15 @@ fn scaled(thumbnail: &Thumbnail, [width, height]: [usize; 2]) -> Vec<Color32> {
 /// is 1.
 fn shares(index: usize, count: usize, source: usize) -> Vec<(usize, f32)> {
     let scale = source as f64 / count as f64;
-    let (from, to) = (index as f64 * scale, (index + 1) as f64 * scale);
+    let from = index as f64 * scale;
+    let to = (index + 1) as f64 * scale;
     let last = ((to - 1e-9) as usize).min(source - 1);
-    let share = |pixel: usize| {
-        let covered = to.min((pixel + 1) as f64) - from.max(pixel as f64);
-        (pixel, (covered / scale) as f32)
-    };
-    (from as usize..=last).map(share).collect()
+    (from as usize..=last)
+        .map(|pixel: usize| {
+            let covered = to.min((pixel + 1) as f64) - from.max(pixel as f64);
+            (pixel, (covered / scale) as f32)
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -72,7 +72,8 @@ pub(in crate::panels) fn direction_control(
     ambient: f64,
 ) -> (Response, Edit) {
     let (rect, mut response) = ui.allocate_exact_size(Vec2::splat(size), Sense::drag());
-    let (centre, radius) = (rect.center(), size / 2.0 - 4.0);
+    let centre = rect.center();
+    let radius = size / 2.0 - 4.0;
     let before = *direction;
     if let Some(pointer) = response.interact_pointer_pos() {
         let from_centre = (pointer - centre) / radius;
@@ -156,7 +157,8 @@ fn shaded(centre: Pos2, radius: f32, light: Direction, ambient: f64) -> Shape {
         let out = (FRAC_PI_2 * ring as f64 / RINGS as f64).sin();
         for spoke in 0..SPOKES {
             let (sin, cos) = (TAU * spoke as f64 / SPOKES as f64).sin_cos();
-            let (u, v) = (out * cos, out * sin);
+            let u = out * cos;
+            let v = out * sin;
             let place = pos2(centre.x + radius * u as f32, centre.y + radius * v as f32);
             mesh.colored_vertex(place, grey(u, v));
         }

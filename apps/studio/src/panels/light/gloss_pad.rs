@@ -98,7 +98,8 @@ fn highlight(rect: Rect, gloss: Gloss) -> Shape {
     let mut mesh = Mesh::default();
     for row in 0..=CELLS {
         for column in 0..=CELLS {
-            let (u, v) = (column as f32 / CELLS as f32, row as f32 / CELLS as f32);
+            let u = column as f32 / CELLS as f32;
+            let v = row as f32 / CELLS as f32;
             // The surface turns by 90 degrees from the upper to the lower edge: 0.785 is 45
             // degrees in radians.
             let across = (2.0 * u - 1.0) * rect.width() / rect.height();

@@ -136,8 +136,10 @@ mod tests {
     fn lamps_are_grouped_by_kind() {
         let listed = listed_illuminants();
         assert!(listed.is_sorted_by_key(|lamp| lamp.kind), "{listed:?}");
-        let of = |kind| listed.iter().filter(|lamp| lamp.kind == kind).count();
-        assert_eq!(KINDS.map(of), [9, 1, 27, 5, 9, 1]);
+        assert_eq!(
+            KINDS.map(|kind| listed.iter().filter(|lamp| lamp.kind == kind).count()),
+            [9, 1, 27, 5, 9, 1]
+        );
     }
 
     #[test]

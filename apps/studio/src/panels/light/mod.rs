@@ -1,23 +1,14 @@
 //! The light panel: illuminant, direction, gloss and split view.
 
 mod illuminants;
-
 mod picker;
-
 mod labelled_slider;
-
 mod temperature;
-
 mod illuminant;
-
 mod power_chart;
-
 mod white;
-
 mod direction;
-
 mod gloss_pad;
-
 mod panel;
 
 pub(super) use direction::{Direction, direction_control, direction_text};

@@ -26,7 +26,8 @@ pub(super) struct Picker {
 impl Picker {
     /// Creates a picker with an accessible name.
     pub(super) fn new(name: &'static str) -> Self {
-        let (lamps, highlight) = (listed_illuminants(), Highlight::default());
+        let lamps = listed_illuminants();
+        let highlight = Highlight::default();
         Self { name, lamps, search: String::new(), highlight }
     }
 

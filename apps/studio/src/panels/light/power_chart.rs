@@ -54,7 +54,8 @@ mod tests {
         let light = Illuminant::d65();
         let shown = curve(&light, None);
         let power = |nm: f64| light.power().values()[(nm - 360.0) as usize];
-        let (first, last) = (shown.points[0], *shown.points.last().unwrap());
+        let first = shown.points[0];
+        let last = *shown.points.last().unwrap();
         assert_eq!((first.0, last.0), (380.0, 730.0));
         let ratio = first.1 / last.1;
         assert!((ratio - power(380.0) / power(730.0)).abs() < 1e-12, "{ratio}");

@@ -2,11 +2,8 @@
 //! brushes.
 
 mod curve_editor;
-
 mod field;
-
 mod rows;
-
 mod window;
 
 pub use window::{PenContext, PenWindow};

@@ -29,7 +29,8 @@ pub(in crate::panels) fn card(
             ui.weak(index);
         }
     });
-    let (grid, colors) = (catalogue.library.grid, catalogue.colors(pigment));
+    let grid = catalogue.library.grid;
+    let colors = catalogue.colors(pigment);
     let mut curves =
         vec![Curve::new(tr("full"), grid, &colors.masstone).colored(colors.masstone_srgb)];
     if let (Some(tint), Some(srgb)) = (&colors.tint, colors.tint_srgb) {

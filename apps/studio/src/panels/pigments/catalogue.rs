@@ -51,7 +51,8 @@ pub(in crate::panels) struct Catalogue {
 impl Catalogue {
     pub(super) fn new(library: &Arc<PigmentLibrary>, light: &Arc<Light>) -> Self {
         let colors = colors(library, light);
-        let (library, light) = (Arc::clone(library), Arc::clone(light));
+        let library = Arc::clone(library);
+        let light = Arc::clone(light);
         Self { library, light, colors, strengths: OnceLock::new() }
     }
 
@@ -102,7 +103,8 @@ fn colors(library: &PigmentLibrary, light: &Light) -> Vec<PigmentColors> {
         let masstone = alone.hiding(library.saunderson);
         let palette = palette.as_ref().filter(|_| library[pigment].identified);
         let tint = palette.map(|p| p.reflectance(&p.tint(pigment, TINT_PARTS)));
-        let (masstone_srgb, tint_srgb) = (srgb(&masstone), tint.as_deref().map(srgb));
+        let masstone_srgb = srgb(&masstone);
+        let tint_srgb = tint.as_deref().map(srgb);
         PigmentColors { masstone, tint, masstone_srgb, tint_srgb }
     };
     library.ids().map(colors_of).collect()

@@ -116,7 +116,8 @@ impl Exchange {
             from.response.accessible_name(tr("Exchange")).on_hover_text(tip);
         });
         ui.label(tr("for"));
-        let (scope, from) = (self.scope, self.from);
+        let scope = self.scope;
+        let from = self.from;
         self.list.show(ui, catalogue, painting.medium.scattering_per_mm, |to| {
             if to == from {
                 Some(tr("it is the pigment to replace").to_owned())

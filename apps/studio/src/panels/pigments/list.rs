@@ -92,7 +92,8 @@ fn places(rect: Rect) -> [Rect; 4] {
     let between = |left: f32, right: f32| {
         Rect::from_min_max(pos2(left, inner.top()), pos2(right, inner.bottom()))
     };
-    let (left, right) = (inner.left(), inner.right());
+    let left = inner.left();
+    let right = inner.right();
     [
         between(left, left + 40.0),
         between(left + 48.0, right - 128.0),

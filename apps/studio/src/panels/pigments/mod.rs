@@ -1,11 +1,8 @@
 //! Pigment lists and cards that several panels share.
 
 mod catalogue;
-
 mod card;
-
 mod list;
-
 mod exchange;
 
 pub(super) use card::card;

@@ -115,8 +115,7 @@ impl Combing {
 
     /// The guides as a file for `picture` of this width and height.
     pub(super) fn drawn(&self, picture: &Path, size: [usize; 2]) -> DrawnFile {
-        let beside = || DrawingKind::Guides.beside(picture);
-        let path = self.path.clone().unwrap_or_else(beside);
+        let path = self.path.clone().unwrap_or_else(|| DrawingKind::Guides.beside(picture));
         let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
         let Combed { lines, camera } = self.combed().clone();
         let guides = Guides {

@@ -27,8 +27,10 @@ pub(super) fn paint_command(picture: &Path, camera: Option<[f32; 3]>, guides: &P
 /// A path as a word of a shell.
 fn quoted(path: &Path) -> String {
     let text = path.to_string_lossy();
-    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/._-".contains(&byte);
-    if !text.is_empty() && text.bytes().all(plain) && !text.starts_with('-') {
+    if !text.is_empty()
+        && text.bytes().all(|byte: u8| byte.is_ascii_alphanumeric() || b"/._-".contains(&byte))
+        && !text.starts_with('-')
+    {
         return text.into_owned();
     }
     let dash = if text.starts_with('-') { "./" } else { "" };

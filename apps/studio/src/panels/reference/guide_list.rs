@@ -115,8 +115,8 @@ impl Reference {
             if ui.add(chosen).on_hover_text(tr("Selects the guide")).clicked() {
                 self.combing.selected = index;
             }
-            let (name, tip) =
-                (tr_format!("Reverse guide {number}", number), tr("Strokes flow the other way"));
+            let name = tr_format!("Reverse guide {number}", number);
+            let tip = tr("Strokes flow the other way");
             if named_button(ui, tr("Reverse"), &name, tip, None) {
                 self.combing.reverse(index);
             }

@@ -67,7 +67,8 @@ impl Overlay<'_> {
     pub(super) fn guide(&self, number: usize, places: &[[f64; 2]], selected: bool) {
         let points = self.points(places);
         let arrow = |(tip, along): (Pos2, Vec2)| {
-            let (back, side) = (tip - 1.5 * BAR * along, BAR * along.rot90());
+            let back = tip - 1.5 * BAR * along;
+            let side = BAR * along.rot90();
             vec![back + side, tip, back - side]
         };
         let mut lines: Vec<Vec<Pos2>> = arrows(&points).into_iter().map(arrow).collect();
@@ -79,7 +80,8 @@ impl Overlay<'_> {
         let around = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
         let shadows = around.map(|[x, y]| (vec2(x, y), Color32::BLACK));
         for (shift, color) in shadows.into_iter().chain([(Vec2::ZERO, GUIDE)]) {
-            let (at, font) = (first + vec2(6.0, -6.0) + shift, FontId::proportional(13.0));
+            let at = first + vec2(6.0, -6.0) + shift;
+            let font = FontId::proportional(13.0);
             self.painter.text(at, Align2::LEFT_BOTTOM, number, font, color);
         }
     }
@@ -106,7 +108,8 @@ fn arrows(points: &[Pos2]) -> Vec<(Pos2, Vec2)> {
     let half = 0.5 * pieces().map(|[from, to]| from.distance(to)).sum::<f32>();
     let mut left = half;
     let middle = pieces().find_map(|[from, to]| {
-        let (before, along) = (left, (to - from).normalized());
+        let before = left;
+        let along = (to - from).normalized();
         left -= from.distance(to);
         (left <= 0.0).then(|| (from + before * along, along))
     });

@@ -72,8 +72,8 @@ impl Picture {
     pub(super) fn mean(&self, [x, y]: [f32; 2], radius: f32, exposure: f32) -> Option<[f64; 3]> {
         let [width, height] = self.size();
         let reduction = |side: usize, own: usize| side as f32 / own as f32;
-        let (x, y) =
-            (x * reduction(width, self.file_size[0]), y * reduction(height, self.file_size[1]));
+        let x = x * reduction(width, self.file_size[0]);
+        let y = y * reduction(height, self.file_size[1]);
         let radius = radius * reduction(width, self.file_size[0]);
         if !(0.0..width as f32).contains(&x) || !(0.0..height as f32).contains(&y) {
             return None;

@@ -101,7 +101,8 @@ mod tests {
     fn zoom_keeps_the_point_and_pan_follows_the_drag() {
         for flipped in [false, true] {
             let view = PictureView { center: vec2(30.0, 70.0), zoom: 1.0, flipped };
-            let (about, hand) = (pos2(140.0, 300.0), vec2(25.0, -12.0));
+            let about = pos2(140.0, 300.0);
+            let hand = vec2(25.0, -12.0);
             let zoomed = view.zoomed(PANEL, about, 3.0);
             assert!(near(zoomed.place(PANEL, about), view.place(PANEL, about)));
             assert_eq!(zoomed.zoom, 3.0);

@@ -65,7 +65,8 @@ impl OverlayPlace {
 
     /// Turned about its middle so that its upper edge faces `to`.
     pub(super) fn turned_to(self, to: [f64; 2]) -> Self {
-        let (x, y) = (to[0] - self.center[0], to[1] - self.center[1]);
+        let x = to[0] - self.center[0];
+        let y = to[1] - self.center[1];
         if x.hypot(y) < 1e-9 { self } else { Self { turn: x.atan2(-y), ..self } }
     }
 }

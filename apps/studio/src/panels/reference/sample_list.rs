@@ -79,7 +79,8 @@ impl Reference {
     /// Draws the row of a sample. Returns whether it is to be removed.
     fn sample_row(&mut self, ui: &mut Ui, index: usize, size: [usize; 2]) -> bool {
         let mark = &self.samples.marks()[index];
-        let (name, spacing) = (mark.name.clone(), mark.spacing_px());
+        let name = mark.name.clone();
+        let spacing = mark.spacing_px();
         ui.horizontal(|ui| {
             if patch(ui, &name, index, index == self.samples.selected) {
                 self.samples.selected = index;

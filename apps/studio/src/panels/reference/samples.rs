@@ -129,8 +129,7 @@ impl SampleMarks {
 
     /// The marks as a file for `picture`.
     pub(super) fn drawn(&self, picture: &Path) -> DrawnFile {
-        let beside = || DrawingKind::Marks.beside(picture);
-        let path = self.path.clone().unwrap_or_else(beside);
+        let path = self.path.clone().unwrap_or_else(|| DrawingKind::Marks.beside(picture));
         DrawnFile { drawing: Drawing::Marks(self.of(picture, &path)), path }
     }
 
@@ -162,7 +161,8 @@ pub(super) fn outlines(area: &MarkedArea) -> Vec<Vec<[f64; 2]>> {
         MarkedArea::Pixels(_) => Vec::new(),
         &MarkedArea::Rectangle { x, y, width, height } => {
             let [left, top, width, height] = [x, y, width, height].map(f64::from);
-            let (right, bottom) = (left + width, top + height);
+            let right = left + width;
+            let bottom = top + height;
             vec![vec![[left, top], [right, top], [right, bottom], [left, bottom], [left, top]]]
         }
     }

@@ -44,7 +44,8 @@ impl Reference {
                 }
             }
             (mode, Drawn::Click(point)) => {
-                let (at, reach) = (place(point), f64::from(REACH / view.zoom));
+                let at = place(point);
+                let reach = f64::from(REACH / view.zoom);
                 match mode {
                     ReferenceMode::Mark => {
                         let nearest = self.samples.nearest(at, reach);

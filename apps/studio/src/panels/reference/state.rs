@@ -88,7 +88,9 @@ impl Reference {
     pub fn open(&mut self, context: &Context, path: &Path) {
         let context = context.clone();
         let reading = PendingPicture::start(path, move || context.request_repaint());
-        let (grey, radius, mode) = (self.grey, self.radius, self.mode);
+        let grey = self.grey;
+        let radius = self.radius;
+        let mode = self.mode;
         let path = Some(path.to_owned());
         *self = Self { path, reading: Some(reading), grey, radius, mode, ..Self::default() };
     }

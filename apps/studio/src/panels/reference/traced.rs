@@ -46,7 +46,8 @@ fn first_piece(points: &[[f64; 2]], most: [f64; 2]) -> Vec<[f64; 2]> {
 /// The part of a segment in a rectangle from the origin (Liang and Barsky, "A new concept and method
 /// for line clipping", 1984).
 fn inside(from: [f64; 2], to: [f64; 2], most: [f64; 2]) -> Option<[[f64; 2]; 2]> {
-    let (mut first, mut last) = (0.0_f64, 1.0_f64);
+    let mut first = 0.0_f64;
+    let mut last = 1.0_f64;
     for axis in 0..2 {
         let step = to[axis] - from[axis];
         for (toward, room) in [(-step, from[axis]), (step, most[axis] - from[axis])] {
@@ -87,7 +88,8 @@ fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
 
 /// Distance of a point from a segment.
 pub(super) fn distance([x, y]: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
-    let (right, down) = (to[0] - from[0], to[1] - from[1]);
+    let right = to[0] - from[0];
+    let down = to[1] - from[1];
     let square = right * right + down * down;
     let along = (x - from[0]) * right + (y - from[1]) * down;
     let share = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };

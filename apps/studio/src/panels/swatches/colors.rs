@@ -23,8 +23,11 @@ impl SwatchColors {
             Arc::ptr_eq(own, library) && Arc::ptr_eq(under, light) && list == book
         });
         if !same && let Ok(weights) = light.viewing.weights(library.grid) {
-            let color = |kept: &KeptMixture| kept.screen_color(library, &weights);
-            self.colors = book.swatches.iter().map(color).collect();
+            self.colors = book
+                .swatches
+                .iter()
+                .map(|kept: &KeptMixture| kept.screen_color(library, &weights))
+                .collect();
             self.of = Some((Arc::clone(library), Arc::clone(light), book.clone()));
         }
         &self.colors

@@ -1,11 +1,8 @@
 //! The tube panel beside the palette.
 
 mod tube;
-
 mod squeeze;
-
 mod chooser;
-
 mod shelf;
 
 pub use shelf::{Tubes, least_width};

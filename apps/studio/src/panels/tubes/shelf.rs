@@ -97,7 +97,8 @@ impl Tubes {
             &tr_format!("tube of {name}", name),
             slot == cx.tools.tube,
         );
-        let (masstone, tint) = (cx.painting.masstones[slot], cx.painting.tints[slot]);
+        let masstone = cx.painting.masstones[slot];
+        let tint = cx.painting.tints[slot];
         tube::draw(ui, rect, masstone, tint, name);
         response.dnd_set_drag_payload(DraggedTube { slot });
         clicked(&response, cx, slot);

@@ -43,7 +43,8 @@ impl TubeChooser {
         let name = &state.tubes.get(tube)?.name;
         let catalogue = self.catalogue.under(&state.library, &state.light);
         let scattering = Medium::of(&state.library).scattering_per_mm;
-        let (mut open, mut choice) = (true, None);
+        let mut open = true;
+        let mut choice = None;
         floating::show(context, tr("Choose a pigment"), tr("choose a pigment"), &mut open, |ui| {
             ui.set_width(WIDTH);
             ui.label(tr_format!("Tube {tube}: {name}", tube = tube + 1, name));

@@ -2,27 +2,16 @@
 //! reported and queues requests.
 
 mod illuminant;
-
 mod chooser;
-
 mod context;
-
 mod tubes;
-
 mod tool;
-
 mod view;
-
 mod light;
-
 mod time_bar;
-
 mod events;
-
 mod export;
-
 mod here;
-
 mod side;
 
 pub use crate::files::SceneExport;

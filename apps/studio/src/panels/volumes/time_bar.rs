@@ -84,7 +84,8 @@ fn sign_button(ui: &mut Ui, sign: Sign, name: &str, tip: &str) -> bool {
     let visuals = ui.style().interact(&response);
     let painter = ui.painter();
     painter.rect(rect, theme::CORNER_RADIUS, visuals.bg_fill, Stroke::NONE, StrokeKind::Inside);
-    let (middle, color) = (rect.center(), visuals.fg_stroke.color);
+    let middle = rect.center();
+    let color = visuals.fg_stroke.color;
     let triangle = |x: f32| {
         let points = vec![
             middle + vec2(x - 4.0, -6.0),
@@ -126,7 +127,8 @@ fn length(state: &SceneState) -> u64 {
 
 /// Draws the track with its events, and goes to the moment that it is dragged to.
 fn track(ui: &Ui, rect: Rect, response: Response, cx: &mut SceneContext<'_>) {
-    let (time, length) = (cx.state.time, length(cx.state));
+    let time = cx.state.time;
+    let length = length(cx.state);
     response.widget_info(|| {
         let mut info = WidgetInfo::slider(true, time.step as f64, tr("Time"));
         info.current_text_value = Some(seconds_text(time.step));

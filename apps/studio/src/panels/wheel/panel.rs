@@ -98,10 +98,14 @@ impl Wheel {
         wanted: Option<&TargetColor>,
     ) {
         let Some(Ok(wheel)) = made.map(|made| made.as_ref().as_ref()) else { return };
-        let lab =
-            |color: &TargetColor| color.lab(cx.painting.library.grid, &cx.painting.light.viewing);
         self.view.update(made, self.lightness);
-        self.reach.update(ui.ctx(), cx.painting, wanted.map(lab));
+        self.reach.update(
+            ui.ctx(),
+            cx.painting,
+            wanted.map(|color: &TargetColor| {
+                color.lab(cx.painting.library.grid, &cx.painting.light.viewing)
+            }),
+        );
         if let Some(clicked) = self.plot(ui, cx, wheel, wanted) {
             self.search.begin(ui, cx.painting, &clicked);
             self.target = Some(clicked);
@@ -121,8 +125,11 @@ impl Wheel {
         let above = ui.cursor().top() - ui.min_rect().top();
         let seen = (ui.clip_rect().height() - above).max(SMALLEST);
         let side = ui.available_width().min(LARGEST).min(seen);
-        let sized = |ui: &mut Ui| ui.allocate_exact_size(vec2(side, side), Sense::click());
-        let (rect, response) = ui.vertical_centered(sized).inner;
+        let (rect, response) = ui
+            .vertical_centered(|ui: &mut Ui| {
+                ui.allocate_exact_size(vec2(side, side), Sense::click())
+            })
+            .inner;
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tr("Colour wheel")));
         let plane = Plane::with_chroma(rect, self.view.chroma);
         let painter = ui.painter_at(rect);
@@ -172,7 +179,8 @@ fn reason(ui: &mut Ui, error: &PaletteError) {
 /// Marks of what the brush holds and of the colour that is wanted.
 fn marks(painting: &PaintingState, brush: &str, wanted: Option<&TargetColor>) -> Vec<Mark> {
     let held = held(painting, brush).map(|(lab, srgb)| Mark { lab, srgb, wanted: false });
-    let (grid, viewing) = (painting.library.grid, &painting.light.viewing);
+    let grid = painting.library.grid;
+    let viewing = &painting.light.viewing;
     let wanted = wanted.map(|wanted| {
         let srgb = wanted.shown(grid, viewing).linear().mapped_into_gamut().encoded().to_bytes();
         Mark { lab: wanted.lab(grid, viewing), srgb, wanted: true }

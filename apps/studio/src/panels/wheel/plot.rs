@@ -29,7 +29,8 @@ pub(super) fn frame(painter: &Painter, plane: &Plane) {
     let colors = theme::colors(painter.ctx());
     painter.rect_filled(plane.rect, theme::CORNER_RADIUS, colors.well);
     let line = Stroke::new(1.0, colors.line);
-    let (middle, rect) = (plane.rect.center(), plane.rect);
+    let middle = plane.rect.center();
+    let rect = plane.rect;
     painter.hline(rect.x_range(), middle.y, line);
     painter.vline(middle.x, rect.y_range(), line);
     let rings = (plane.reach / RING) as usize;

@@ -54,8 +54,13 @@ fn request(painting: &PaintingState, wanted: Lab) -> SearchRequest {
     let target = Target::from_lab("wanted", wanted, &conditions);
     let film = MatchRequest::usual_film(&library, painting.ground_reflectance.to_vec());
     let mut limits = MatchRequest::new(&library, conditions, film);
-    let mixes = |pigment: &_| library[*pigment].identified;
-    limits.allowed = painting.slots.iter().copied().flatten().filter(mixes).collect();
+    limits.allowed = painting
+        .slots
+        .iter()
+        .copied()
+        .flatten()
+        .filter(|pigment: &_| library[*pigment].identified)
+        .collect();
     limits.allowed.sort_unstable();
     limits.allowed.dedup();
     (limits.least_share, limits.count) = (0.0, 1);

@@ -29,8 +29,14 @@ impl Lead {
     /// The lead of a stroke that has not begun. Perspective is decided once the pen is `decided_mm`
     /// away from its start.
     pub(in crate::pen) fn new(guide: Option<Guide>, decided_mm: f64) -> Self {
-        let undecided = |guide| State::Undecided { guide, start: None, decided_mm };
-        Self { state: guide.map_or(State::Free, undecided), last: None }
+        Self {
+            state: guide.map_or(State::Free, |guide| State::Undecided {
+                guide,
+                start: None,
+                decided_mm,
+            }),
+            last: None,
+        }
     }
 
     /// Whether the stroke goes where the pen does.

@@ -72,7 +72,8 @@ impl Ruler {
 
 impl Perspective {
     fn lines(&self, canvas: Place, far: f64, lines: &mut AidLines) {
-        let (at, along) = (self.in_use()[0], self.horizon());
+        let at = self.in_use()[0];
+        let along = self.horizon();
         // The horizon crosses the canvas wherever its vanishing point is.
         let reach = far + self.in_use().iter().map(|&point| length(way(at, point))).sum::<f64>();
         let reach = reach + length(way(at, [0.0; 2]));
@@ -91,11 +92,12 @@ fn fan(point: Place, [width, height]: Place) -> Vec<Vec<Place>> {
     let on = (0.0..=width).contains(&point[0]) && (0.0..=height).contains(&point[1]);
     let Some(middle) = unit(way(point, [0.5 * width, 0.5 * height])).filter(|_| !on) else {
         let step = std::f64::consts::TAU / (2 * FAN) as f64;
-        let ray = |at: usize| {
-            let (sin, cos) = (at as f64 * step).sin_cos();
-            vec![point, moved(point, [cos, sin], far)]
-        };
-        return (0..2 * FAN).map(ray).collect();
+        return (0..2 * FAN)
+            .map(|at: usize| {
+                let (sin, cos) = (at as f64 * step).sin_cos();
+                vec![point, moved(point, [cos, sin], far)]
+            })
+            .collect();
     };
     let angles = corners.map(|corner| {
         let to = way(point, corner);
@@ -103,21 +105,23 @@ fn fan(point: Place, [width, height]: Place) -> Vec<Vec<Place>> {
     });
     let [least, most] =
         [angles.into_iter().fold(0.0, f64::min), angles.into_iter().fold(0.0, f64::max)];
-    let ray = |at: usize| {
-        let (sin, cos) = (least + (most - least) * at as f64 / FAN as f64).sin_cos();
-        let direction = moved(middle.map(|part| part * cos), across(middle), sin);
-        vec![point, moved(point, direction, far)]
-    };
-    (0..=FAN).map(ray).collect()
+    (0..=FAN)
+        .map(|at: usize| {
+            let (sin, cos) = (least + (most - least) * at as f64 / FAN as f64).sin_cos();
+            let direction = moved(middle.map(|part| part * cos), across(middle), sin);
+            vec![point, moved(point, direction, far)]
+        })
+        .collect()
 }
 
 /// The outline of an ellipse whose half axes are scaled.
 fn ellipse(middle: Place, axes: [Place; 2], scale: f64) -> Vec<Place> {
-    let at = |piece: usize| {
-        let (sin, cos) = (std::f64::consts::TAU * piece as f64 / PIECES as f64).sin_cos();
-        moved(moved(middle, axes[0], scale * cos), axes[1], scale * sin)
-    };
-    (0..=PIECES).map(at).collect()
+    (0..=PIECES)
+        .map(|piece: usize| {
+            let (sin, cos) = (std::f64::consts::TAU * piece as f64 / PIECES as f64).sin_cos();
+            moved(moved(middle, axes[0], scale * cos), axes[1], scale * sin)
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -2,21 +2,13 @@
 //! repeats them. Positions are in mm of the canvas.
 
 mod place;
-
 mod course;
-
 mod ruler;
-
 mod perspective;
-
 mod symmetry;
-
 mod settings;
-
 mod handles;
-
 mod lines;
-
 mod lead;
 
 pub use handles::AidHandle;

@@ -60,11 +60,12 @@ impl Symmetry {
             SymmetryKind::Both => vec![twin(sides), twin(ends), twin([[-1.0, 0.0], [0.0, -1.0]])],
             SymmetryKind::Radial => {
                 let arms = self.arms.clamp(*ARMS.start(), *ARMS.end());
-                let turned = |arm: u8| {
-                    let (sin, cos) = sin_cos(360.0 * f64::from(arm) / f64::from(arms));
-                    twin([[cos, -sin], [sin, cos]])
-                };
-                (1..arms).map(turned).collect()
+                (1..arms)
+                    .map(|arm: u8| {
+                        let (sin, cos) = sin_cos(360.0 * f64::from(arm) / f64::from(arms));
+                        twin([[cos, -sin], [sin, cos]])
+                    })
+                    .collect()
             }
         }
     }

@@ -182,12 +182,15 @@ impl Bench {
                 let mut header = self.script();
                 let actions = header.actions.split_off(*recorded);
                 header.actions.clear();
-                let (canvas, palette) = (self.canvas.clone(), self.palette.clone());
-                let (number, revision) = (*number, self.painting.revision);
+                let canvas = self.canvas.clone();
+                let palette = self.palette.clone();
+                let number = *number;
+                let revision = self.painting.revision;
                 let brushes = self.brushes.clone();
                 let snapshot = Snapshot { number, canvas, palette, brushes, revision };
                 let tail = RecordingTail { header, from: *recorded, actions, open: None };
-                let (recording, brushes) = (Some(tail), Vec::new());
+                let recording = Some(tail);
+                let brushes = Vec::new();
                 let kept = KeptPainting { snapshot, recording, brushes, mask: None };
                 return self.events.push(Event::Kept(Arc::new(kept)));
             }

@@ -17,8 +17,11 @@ use crate::harness::Window;
 fn window(name: &'static str) -> (Window, PathBuf, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("orchard.png");
-    let color = |x: u32, y: u32| image::Rgb([(x / 3) as u8, (y / 2) as u8, 90]);
-    image::RgbImage::from_fn(600, 400, color).save(&path).unwrap();
+    image::RgbImage::from_fn(600, 400, |x: u32, y: u32| {
+        image::Rgb([(x / 3) as u8, (y / 2) as u8, 90])
+    })
+    .save(&path)
+    .unwrap();
     let mut window = Window::open(name);
     pin(&mut window, &path);
     (window, path, folder)
@@ -52,8 +55,10 @@ fn shows(window: &mut Window, words: &str) -> bool {
 fn draw(window: &mut Window, places: &[[f32; 2]]) {
     let panel = window.harness().get_by_label("Reference picture").rect();
     let zoom = (panel.width() / 600.0).min(panel.height() / 400.0);
-    let point = |&[x, y]: &[f32; 2]| panel.center() + zoom * vec2(x - 300.0, y - 200.0);
-    let along: Vec<Pos2> = places.iter().map(point).collect();
+    let along: Vec<Pos2> = places
+        .iter()
+        .map(|&[x, y]: &[f32; 2]| panel.center() + zoom * vec2(x - 300.0, y - 200.0))
+        .collect();
     window.pen_stroke(&along);
 }
 
@@ -152,7 +157,9 @@ fn a_painting_is_asked_for_after_drawings_were_given_up() {
     window.click("Mark samples");
     draw(&mut window, &[[100.0, 200.0], [300.0, 200.0]]);
     let recipe = [("Vermilion".to_owned(), 1.0)].into();
-    let (x_mm, y_mm, volume_mm3) = (10.0, 10.0, 1.0);
+    let x_mm = 10.0;
+    let y_mm = 10.0;
+    let volume_mm3 = 1.0;
     let heap = Squeeze { on: SurfaceId::Canvas, recipe, vehicle: 0.0, x_mm, y_mm, volume_mm3 };
     window.studio_mut().ask(Command::Apply(Action::Squeeze(heap)));
     window.settle();

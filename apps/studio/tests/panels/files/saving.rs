@@ -50,7 +50,8 @@ fn a_reopened_painting_equals_the_saved_one() {
 fn a_painting_whose_palette_is_damaged_opens_and_says_so() {
     let (folder, path) = folder();
     let mut window = window(folder.path(), painted("A"));
-    let (palette, brushes) = (window.state().palette.clone(), window.state().brushes.clone());
+    let palette = window.state().palette.clone();
+    let brushes = window.state().brushes.clone();
     let canvas = painted("B");
     let mut bytes = paint::file::write_with_table(&canvas, &palette, &brushes).unwrap();
     let inner = bytes.windows(13).position(|part| part == b"impasto-table").unwrap() + 3000;
@@ -144,12 +145,11 @@ fn a_session_left_by_a_crash_is_offered_and_recovered() {
     first.state_mut().files().note_desk(desk.clone());
     change(&mut first);
     let kept = first.state().canvas.clone();
-    let desks = |_: &mut Window| {
+    until(&mut first, "an autosave of the desk", |_: &mut Window| {
         let paths = walk(&sessions).into_iter().filter(|path| path.ends_with("session.json"));
         let texts = paths.filter_map(|path| std::fs::read_to_string(path).ok());
         texts.into_iter().any(|text| text.contains("orchard.png"))
-    };
-    until(&mut first, "an autosave of the desk", desks);
+    });
     // Simulate a crash: the lock is released, the folder stays.
     drop(first);
 

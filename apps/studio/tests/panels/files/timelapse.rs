@@ -19,15 +19,18 @@ fn recorded(window: &Window) -> StrokeScript {
     let mut script = window.state().script();
     let spec = BrushSpec { shape: HeadShape::Round, size_mm: 3.0 };
     script.brushes.insert("round".to_owned(), spec);
-    let (brush, recipe) = ("round".to_owned(), [("Ultramarine".to_owned(), 1.0)].into());
+    let brush = "round".to_owned();
+    let recipe = [("Ultramarine".to_owned(), 1.0)].into();
     script.actions.push(Action::Load(Load { brush, recipe, vehicle: 0.1, amount_mm: 0.3 }));
     for y_mm in [5.0, 10.0] {
-        let sample = |index: u32| {
-            let share = f64::from(index) / 20.0;
-            Sample::upright(share, 3.0 + 18.0 * share, y_mm, 0.6)
-        };
-        let samples = (0..=20).map(sample).collect();
-        let (brush, on) = ("round".to_owned(), SurfaceId::Canvas);
+        let samples = (0..=20)
+            .map(|index: u32| {
+                let share = f64::from(index) / 20.0;
+                Sample::upright(share, 3.0 + 18.0 * share, y_mm, 0.6)
+            })
+            .collect();
+        let brush = "round".to_owned();
+        let on = SurfaceId::Canvas;
         script.actions.push(Action::Stroke(Stroke { brush, on, tool: StrokeTool::Paint, samples }));
     }
     script

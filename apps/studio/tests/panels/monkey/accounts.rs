@@ -69,7 +69,8 @@ fn begun(
 /// Checks what one action did to the paint.
 fn check_action(action: &Action, outcome: &Outcome, before: (Quanta, i128), after: (Quanta, i128)) {
     let kind = action.kind();
-    let ((wet, dry), (wet_after, dry_after)) = (before, after);
+    let (wet, dry) = before;
+    let (wet_after, dry_after) = after;
     let sum = |quanta: Quanta| quanta.iter().sum::<i128>();
     match action {
         Action::Stroke(_) | Action::Cut(_) => {

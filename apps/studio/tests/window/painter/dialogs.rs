@@ -18,7 +18,8 @@ impl Hand<'_> {
         for (handle, x_mm, y_mm) in
             [("Crop upper left", 30.0, 20.0), ("Crop lower right", 150.0, 90.0)]
         {
-            let (from, to) = (self.place(handle), self.twin.point(SurfaceId::Canvas, x_mm, y_mm));
+            let from = self.place(handle);
+            let to = self.twin.point(SurfaceId::Canvas, x_mm, y_mm);
             self.drag(&[from, to]);
         }
         self.station("crop");

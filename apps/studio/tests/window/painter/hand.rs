@@ -40,7 +40,8 @@ impl<'a> Hand<'a> {
 
     fn on_screen(&self, at: Pos2) -> (i32, i32) {
         let (width, height) = self.program.screen.size();
-        let (x, y) = (at.x.round() as i32, at.y.round() as i32);
+        let x = at.x.round() as i32;
+        let y = at.y.round() as i32;
         (x.clamp(0, width as i32 - 1), y.clamp(0, height as i32 - 1))
     }
 

@@ -43,8 +43,9 @@ fn walks(hand: &mut Hand<'_>) {
 
 /// A picture to pin.
 fn write_reference(folder: &Path) {
-    let color = |x: u32, y: u32| image::Rgb([(x * 4 / 5) as u8, (y * 6 / 5) as u8, 120]);
-    let picture = image::RgbImage::from_fn(300, 200, color);
+    let picture = image::RgbImage::from_fn(300, 200, |x: u32, y: u32| {
+        image::Rgb([(x * 4 / 5) as u8, (y * 6 / 5) as u8, 120])
+    });
     picture.save(folder.join("reference.png")).unwrap();
 }
 

@@ -32,7 +32,8 @@ impl Banded {
     /// entry takes its updates in the order of columns, so that the factor is the same for any number of
     /// threads and any width of the machine's vectors.
     pub(crate) fn cholesky(mut self) -> Option<BandedCholesky> {
-        let (width, reach) = (self.reach + 1, self.reach);
+        let width = self.reach + 1;
+        let reach = self.reach;
         let arch = pulp::Arch::new();
         for first in (0..self.size).step_by(PANEL) {
             let end = (first + PANEL).min(self.size);

@@ -17,7 +17,8 @@ impl BandedCholesky {
     ///
     /// Z L = L'^-1 gives the rows below a panel from the Z of these rows, and then the panel's own square.
     pub(crate) fn inverse_band(&self) -> Banded {
-        let (size, reach) = (self.factor.size, self.factor.reach);
+        let size = self.factor.size;
+        let reach = self.factor.reach;
         let mut inverse = Banded::zeros(size, reach);
         let arch = pulp::Arch::new();
         for panel in (0..size.div_ceil(PANEL)).rev() {
@@ -49,7 +50,8 @@ struct Panel {
 
 impl Panel {
     fn of(factor: &Banded, first: usize) -> Self {
-        let (size, reach) = (factor.size, factor.reach);
+        let size = factor.size;
+        let reach = factor.reach;
         let end = (first + PANEL).min(size);
         let mut own = [[0.0; PANEL]; PANEL];
         let mut below = vec![[0.0; PANEL]; reach.min(size - end)];

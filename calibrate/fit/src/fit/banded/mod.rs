@@ -1,9 +1,7 @@
 //! Symmetric banded matrices: Cholesky factor, solution, and the band of the inverse.
 
 mod matrix;
-
 mod factor;
-
 mod inverse;
 mod solve;
 
@@ -18,7 +16,8 @@ mod tests {
     use nalgebra::DMatrix;
 
     fn example() -> (Banded, DMatrix<f64>) {
-        let (size, reach) = (23, 4);
+        let size = 23;
+        let reach = 4;
         let mut banded = Banded::zeros(size, reach);
         let mut dense = DMatrix::zeros(size, size);
         for column in 0..size {
@@ -55,7 +54,8 @@ mod tests {
         let band = cholesky.inverse_band();
         for column in 0..23usize {
             for row in column..(column + 5).min(23) {
-                let (a, b) = (band.at(row, column), inverse[(row, column)]);
+                let a = band.at(row, column);
+                let b = inverse[(row, column)];
                 assert!((a - b).abs() < 1e-12, "({row}, {column}): {a} {b}");
             }
         }
@@ -73,7 +73,8 @@ mod tests {
     #[test]
     fn panels_give_the_factor_of_single_columns_to_the_bit() {
         // Larger than a panel, with a reach that is shared out to threads.
-        let (size, reach) = (400, LEAST_PARALLEL + 7);
+        let size = 400;
+        let reach = LEAST_PARALLEL + 7;
         let mut banded = Banded::zeros(size, reach);
         for column in 0..size {
             for row in column..(column + reach + 1).min(size) {
@@ -108,7 +109,8 @@ mod tests {
         let inverse = dense.try_inverse().unwrap();
         for column in 0..size {
             for row in column..(column + reach + 1).min(size) {
-                let (a, b) = (band.at(row, column), inverse[(row, column)]);
+                let a = band.at(row, column);
+                let b = inverse[(row, column)];
                 assert!((a - b).abs() < 1e-14, "({row}, {column}): {a} {b}");
             }
         }

@@ -11,7 +11,8 @@ pub(crate) const TOGETHER: usize = 16;
 impl BandedCholesky {
     /// Solves A x = `right`.
     pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
-        let (size, width) = (self.factor.size, self.factor.reach + 1);
+        let size = self.factor.size;
+        let width = self.factor.reach + 1;
         let mut x = right.to_vec();
         for (column, entries) in self.factor.columns.chunks_exact(width).enumerate() {
             let value = x[column] / entries[0];
@@ -48,7 +49,8 @@ impl WithSimd for Together<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { factor, x } = self;
-        let (size, width) = (factor.size, factor.reach + 1);
+        let size = factor.size;
+        let width = factor.reach + 1;
         for (column, entries) in factor.columns.chunks_exact(width).enumerate() {
             let value = x[column].map(|v| v / entries[0]);
             x[column] = value;

@@ -35,8 +35,11 @@ pub(crate) fn data_of(path: &Path, header: &EnviHeader) -> Result<PathBuf, CubeE
     let found: Vec<_> = places(path).into_iter().filter(|place| place.is_file()).collect();
     let bytes = |place: &PathBuf| std::fs::metadata(place).map(|about| about.len()).ok();
     let expected = header.layout.file_bytes();
-    let fits = |place: &&PathBuf| expected.is_some() && bytes(place) == expected;
-    match found.iter().find(fits).or(found.first()) {
+    match found
+        .iter()
+        .find(|place: &&PathBuf| expected.is_some() && bytes(place) == expected)
+        .or(found.first())
+    {
         None => Err(CubeError::format(
             path,
             "the data of this header are not beside it",

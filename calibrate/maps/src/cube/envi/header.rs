@@ -48,7 +48,9 @@ impl EnviHeader {
         let fields = Fields::parse(bytes, path)?;
         refuse_other_kinds(&fields)?;
         let [samples, lines, bands] = ["samples", "lines", "bands"].map(|key| size(&fields, key));
-        let (samples, lines, bands) = (samples?, lines?, bands?);
+        let samples = samples?;
+        let lines = lines?;
+        let bands = bands?;
         if bands > MOST_BANDS {
             let problem = format!("must be at most {MOST_BANDS}, found `{bands}`");
             return Err(fields.fault("bands", problem, "correct the header"));

@@ -1,11 +1,8 @@
 //! Cubes of ENVI: a text header and a file of plain numbers. Read, and written.
 
 mod fields;
-
 mod header;
-
 mod data_file;
-
 mod scan;
 
 #[cfg(feature = "files")]

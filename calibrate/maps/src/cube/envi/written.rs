@@ -54,7 +54,8 @@ impl EnviWriter {
     /// # Errors
     /// [`FileError`] if they cannot be written, or are no whole rows of the scan.
     pub fn add(&mut self, values: &[f32]) -> Result<(), FileError> {
-        let (samples, bands) = (self.about.samples, self.about.wavelengths_nm.len());
+        let samples = self.about.samples;
+        let bands = self.about.wavelengths_nm.len();
         let row = samples * bands;
         let rows = values.chunks_exact(row.max(1));
         if row == 0 || !rows.remainder().is_empty() || self.lines + rows.len() > self.about.lines {
@@ -86,7 +87,8 @@ impl EnviWriter {
     /// [`FileError`] if a file cannot be written, or rows are missing.
     pub fn finish(self) -> Result<(), FileError> {
         if self.lines != self.about.lines {
-            let (found, lines) = (self.lines, self.about.lines);
+            let found = self.lines;
+            let lines = self.about.lines;
             return Err(self.fault(format!("the scan ends after line {found} of {lines}")));
         }
         // An old header does not describe the new data.
@@ -111,8 +113,11 @@ fn failed(path: &Path, reason: io::Error) -> FileError {
 
 impl EnviAbout {
     fn header(&self) -> String {
-        let is_plain = |letter: &char| !matches!(letter, '{' | '}' | '\n' | '\r');
-        let description: String = self.description.chars().filter(is_plain).collect();
+        let description: String = self
+            .description
+            .chars()
+            .filter(|letter: &char| !matches!(letter, '{' | '}' | '\n' | '\r'))
+            .collect();
         let nm: Vec<String> = self.wavelengths_nm.iter().map(f64::to_string).collect();
         format!(
             "ENVI\ndescription = {{{description}}}\nsamples = {}\nlines = {}\nbands = {}\n\

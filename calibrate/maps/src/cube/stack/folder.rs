@@ -15,11 +15,12 @@ use crate::cube::wavelength_file::wavelengths_of;
 pub(crate) fn files_ending_in(folder: &Path, endings: &[&str]) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let paths = entries.filter_map(Result::ok).map(|entry| entry.path());
-    let ends = |path: &PathBuf| {
-        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
-        endings.iter().any(|wanted| ending.eq_ignore_ascii_case(wanted)) && path.is_file()
-    };
-    let mut found: Vec<_> = paths.filter(ends).collect();
+    let mut found: Vec<_> = paths
+        .filter(|path: &PathBuf| {
+            let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+            endings.iter().any(|wanted| ending.eq_ignore_ascii_case(wanted)) && path.is_file()
+        })
+        .collect();
     found.sort_by_cached_key(|path| natural(&path.to_string_lossy()));
     found
 }

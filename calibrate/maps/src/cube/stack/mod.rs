@@ -2,11 +2,8 @@
 //! of one TIFF file.
 
 mod plane;
-
 mod tiff_pages;
-
 mod png_plane;
-
 mod folder;
 
 pub(crate) use folder::{files_ending_in, is_stack, open_folder};

@@ -32,7 +32,8 @@ pub(crate) fn plane(path: &Path) -> Result<Plane, CubeError> {
         (ColorType::Grayscale, BitDepth::Sixteen) => NumberType::U16,
         other => return Err(not_gray(path, "the picture", other)),
     };
-    let (samples, lines) = (info.width as usize, info.height as usize);
+    let samples = info.width as usize;
+    let lines = info.height as usize;
     Ok(Plane { samples, lines, bands: 1, number_type })
 }
 

@@ -84,7 +84,8 @@ pub(crate) fn unpack(
     spool: &mut Spool,
 ) -> Result<(), CubeError> {
     let (across, down) = pages.chunk_dimensions();
-    let (across, down) = (across as usize, down as usize);
+    let across = across as usize;
+    let down = down as usize;
     let columns = plane.samples.div_ceil(across.max(1));
     let parts = columns * plane.lines.div_ceil(down.max(1));
     let number = plane.number_type.bytes();
@@ -96,7 +97,8 @@ pub(crate) fn unpack(
     for (round, part) in (0..rounds).flat_map(|round| (0..parts).map(move |part| (round, part))) {
         let index = u32::try_from(round * parts + part).unwrap_or(u32::MAX);
         let (width, height) = pages.chunk_data_dimensions(index);
-        let (width, height) = (width as usize, height as usize);
+        let width = width as usize;
+        let height = height as usize;
         let (found, bytes) = bytes_of(pages.read_chunk(index).map_err(|error| fault(path, error))?);
         let row_bytes = width * beside * number;
         if found != plane.number_type || bytes.len() != row_bytes * height {
@@ -104,7 +106,8 @@ pub(crate) fn unpack(
                 format!("part {} of the page of band {} has another size", index, band + 1);
             return Err(CubeError::data(path, problem, "export it again"));
         }
-        let (line, sample) = (part / columns * down, part % columns * across);
+        let line = part / columns * down;
+        let sample = part % columns * across;
         // Parts at the lower edge may hold rows beyond it.
         let rows = bytes.chunks_exact(row_bytes).take(plane.lines.saturating_sub(line));
         for (row, bytes) in rows.enumerate() {

@@ -2,7 +2,6 @@
 //! as a coordinate.
 
 mod source;
-
 mod scan;
 
 pub(crate) use scan::{is_zarr, open};

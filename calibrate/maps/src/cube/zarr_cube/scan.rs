@@ -109,7 +109,8 @@ fn axes(array: &ZarrArray) -> Result<[usize; 3], CubeError> {
         ));
     };
     let mut others = (0..3).filter(|axis| *axis != band);
-    let (first, second) = (others.next().unwrap_or(0), others.next().unwrap_or(1));
+    let first = others.next().unwrap_or(0);
+    let second = others.next().unwrap_or(1);
     Ok(match row {
         Some(row) if row == second => [second, first, band],
         _ => [first, second, band],

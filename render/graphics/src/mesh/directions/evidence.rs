@@ -99,7 +99,8 @@ impl Evidence {
 /// between the absolute values of both curvatures times the model's radius, and is 0 where they are
 /// nearly equal. On a saddle with curvatures +k and -k neither is the least.
 fn reliability(tensor: &ShapeTensor, radius: f64) -> f64 {
-    let (mean, half) = (tensor.mean.abs(), tensor.difference.length());
+    let mean = tensor.mean.abs();
+    let half = tensor.difference.length();
     let difference = 2.0 * mean.min(half);
     if difference <= 0.0 {
         return 0.0;

@@ -35,7 +35,8 @@ impl Links {
         for place in 0..places.neighbours.count() {
             let stiffness = &places.stiffness[places.neighbours.slots(place)];
             for (&to, stiffness) in places.neighbours.of(place).iter().zip(stiffness) {
-                let (here, there) = (&planes[place], &planes[to as usize]);
+                let here = &planes[place];
+                let there = &planes[to as usize];
                 if let Some(turn) = there.turn_of_squares(here) {
                     let folded = 0.5 * (1.0 + here.normal.dot(there.normal));
                     all.push(Link { to, stiffness: stiffness * folded, turn });

@@ -8,19 +8,12 @@
 //! ```
 
 mod links;
-
 mod settings;
-
 mod evidence;
-
 mod smoothing;
-
 mod within;
-
 mod field;
-
 mod spanning_tree;
-
 mod flow;
 
 #[cfg(test)]

@@ -79,25 +79,29 @@ pub(super) fn smooth_squares(
 
 impl<'a> System<'a> {
     fn new(links: &'a Links, evidence: &'a Evidence, spread: f64, fixed: &'a [bool]) -> Self {
-        let inverse = |place: usize| {
-            let stiffness: f64 = links.of(place).iter().map(|link| link.stiffness).sum();
-            let diagonal = spread * stiffness + evidence.weights[place];
-            if diagonal > 0.0 && !fixed[place] { 1.0 / diagonal } else { 0.0 }
-        };
-        let inverse_diagonal = (0..links.count()).into_par_iter().map(inverse).collect();
+        let inverse_diagonal = (0..links.count())
+            .into_par_iter()
+            .map(|place: usize| {
+                let stiffness: f64 = links.of(place).iter().map(|link| link.stiffness).sum();
+                let diagonal = spread * stiffness + evidence.weights[place];
+                if diagonal > 0.0 && !fixed[place] { 1.0 / diagonal } else { 0.0 }
+            })
+            .collect();
         Self { links, spread, evidence, fixed, inverse_diagonal }
     }
 
     /// The field from which the solver starts: fixed values, and elsewhere the evidence alone.
     fn start(&self, given: &[DVec2]) -> Vec<DVec2> {
-        let wanted = |place: usize| match self.fixed[place] {
-            true => given[place],
-            false => {
-                let weight = self.evidence.weights[place];
-                if weight > 0.0 { self.evidence.squares[place] / weight } else { DVec2::ZERO }
-            }
-        };
-        (0..given.len()).into_par_iter().map(wanted).collect()
+        (0..given.len())
+            .into_par_iter()
+            .map(|place: usize| match self.fixed[place] {
+                true => given[place],
+                false => {
+                    let weight = self.evidence.weights[place];
+                    if weight > 0.0 { self.evidence.squares[place] / weight } else { DVec2::ZERO }
+                }
+            })
+            .collect()
     }
 
     /// Size of the residual if all places but the fixed ones had no line.

@@ -80,8 +80,8 @@ fn lines_follow_the_least_or_the_greatest_curvature() {
 fn flat_places_take_the_direction_of_their_neighbours() {
     let mesh = ridge(5000, 0.2);
     let along = Vec3::new(1.0, 1.0, 0.0).normalize();
-    let flat = |at: Vec3| (at.x - at.y).abs() > 0.8;
-    let error = greatest_error(&mesh, &field(&mesh), flat, |_| along);
+    let error =
+        greatest_error(&mesh, &field(&mesh), |at: Vec3| (at.x - at.y).abs() > 0.8, |_| along);
     assert!(error < 3.0, "{error} deg");
 }
 
@@ -129,7 +129,8 @@ fn smoothing_lowers_the_roughness_of_a_noisy_field_and_keeps_guides() {
     };
     let [raw, some, much] = [0.0, 0.05, 0.2].map(|smoothing| roughness(&mesh, &of(smoothing, &[])));
     assert!(some < 0.5 * raw && much < 0.3 * raw, "{raw}, {some}, {much} deg");
-    let (free, guided) = (of(0.2, &[]), of(0.2, &guides));
+    let free = of(0.2, &[]);
+    let guided = of(0.2, &guides);
     let mut moved = 0.0_f32;
     for guide in &guides {
         let vertex = guide.vertex as usize;
@@ -145,7 +146,8 @@ fn smoothing_lowers_the_roughness_of_a_noisy_field_and_keeps_guides() {
 fn a_turned_mesh_has_the_turned_field() {
     let turn = Quat::from_scaled_axis(Vec3::new(-0.4, 2.1, 0.9));
     for mesh in [torus(3000, 1.0, 0.4), Mesh::torus_knot(6000), ridge(2000, 0.2)] {
-        let (before, after) = (field(&mesh), field(&turned(&mesh, turn)));
+        let before = field(&mesh);
+        let after = field(&turned(&mesh, turn));
         for vertex in 0..mesh.positions.len() {
             let wanted = turn * Vec3::from(before.along(vertex));
             let found = Vec3::from(after.along(vertex));
@@ -230,8 +232,9 @@ fn the_field_is_the_same_on_every_number_of_threads_and_without_seams() {
             let field = field(mesh);
             let flow = field.oriented(2);
             let vertices = 0..mesh.positions.len();
-            let numbers = |at: usize| (field.along(at), flow.arrow(at), flow.strength(at));
-            vertices.map(numbers).collect::<Vec<_>>()
+            vertices
+                .map(|at: usize| (field.along(at), flow.arrow(at), flow.strength(at)))
+                .collect::<Vec<_>>()
         })
     };
     let whole = on(1, &mesh);
@@ -324,8 +327,11 @@ fn arrows_take_the_signs_that_are_given_and_others_follow_their_part() {
     let usual = field.oriented(0);
     let up = Vec3::from(usual.arrow(0));
     let given = |way: Vec3, chosen: &dyn Fn(Vec3) -> bool| -> Vec<[f32; 3]> {
-        let own = |at: &[f32; 3]| if chosen(Vec3::from(*at)) { way } else { Vec3::ZERO };
-        mesh.positions.iter().map(own).map(Vec3::into).collect()
+        mesh.positions
+            .iter()
+            .map(|at: &[f32; 3]| if chosen(Vec3::from(*at)) { way } else { Vec3::ZERO })
+            .map(Vec3::into)
+            .collect()
     };
     let flipped = field.oriented_by(&given(-0.1 * up, &|at| at.x > 0.4), 0);
     for vertex in 0..mesh.positions.len() {
@@ -357,7 +363,8 @@ fn flow_runs_along_every_guide_and_stops_where_guides_meet() {
         let places = mesh.positions.iter().map(|&[x, ..]| side * x).enumerate();
         places.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap().0
     };
-    let (left, right) = (most(-1.0), most(1.0));
+    let left = most(-1.0);
+    let right = most(1.0);
     for along in [Vec3::Y, -Vec3::Y, Vec3::X, -Vec3::X] {
         let one = flow(&[guide(left, along)]);
         for vertex in 0..mesh.positions.len() {

@@ -88,7 +88,8 @@ mod tests {
     fn a_file_that_is_not_there_is_no_fault_of_the_data() {
         let error = crate::mesh::Mesh::open("no/such/model.obj".as_ref()).unwrap_err();
         assert_eq!(error.fault(), Fault::Environment, "{error}");
-        let (name, place) = ("model.obj".to_owned(), "line 1".to_owned());
+        let name = "model.obj".to_owned();
+        let place = "line 1".to_owned();
         let torn = MeshError::Malformed { name, place, reason: "torn".to_owned() };
         assert_eq!(torn.fault(), Fault::Input);
     }

@@ -160,9 +160,10 @@ impl Reader<'_> {
         let buffers = &self.buffers;
         let reader = primitive.reader(|buffer| buffers.get(buffer.index()).map(|data| &**data));
         let positions = reader.read_positions().ok_or_else(|| "it has no POSITION".to_owned())?;
-        let transformed = |at: [f32; 3]| model_from_node.transform_point3(at.into()).into();
         let mut part = Part {
-            positions: positions.map(transformed).collect(),
+            positions: positions
+                .map(|at: [f32; 3]| model_from_node.transform_point3(at.into()).into())
+                .collect(),
             material: material as u32,
             ..Part::default()
         };
@@ -215,13 +216,14 @@ impl Reader<'_> {
 /// Splits strips and fans into a plain list with three indices per triangle.
 fn triangles(mode: Mode, listed: &[u32]) -> Vec<u32> {
     match mode {
-        Mode::TriangleStrip => {
-            let turned = |(i, at): (usize, &[u32])| match i % 2 {
+        Mode::TriangleStrip => listed
+            .windows(3)
+            .enumerate()
+            .flat_map(|(i, at): (usize, &[u32])| match i % 2 {
                 0 => [at[0], at[1], at[2]],
                 _ => [at[1], at[0], at[2]],
-            };
-            listed.windows(3).enumerate().flat_map(turned).collect()
-        }
+            })
+            .collect(),
         Mode::TriangleFan => {
             let rest = listed.get(1..).unwrap_or_default();
             rest.windows(2).flat_map(|at| [listed[0], at[0], at[1]]).collect()

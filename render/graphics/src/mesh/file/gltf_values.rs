@@ -37,7 +37,8 @@ pub(super) fn check(
     kind: &Kind,
     buffers: &[gltf::buffer::Data],
 ) -> Result<(), String> {
-    let (found, dimensions) = (accessor.data_type(), accessor.dimensions());
+    let found = accessor.data_type();
+    let dimensions = accessor.dimensions();
     if !kind.types.contains(&found) || !kind.dimensions.contains(&dimensions) {
         return Err(format!("{} of `{found:?}` in `{dimensions:?}`", kind.name));
     }

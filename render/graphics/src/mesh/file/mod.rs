@@ -1,19 +1,12 @@
 //! Models read from files.
 
 mod error;
-
 mod part;
-
 mod picture;
-
 mod obj_lines;
-
 mod obj;
-
 mod gltf_values;
-
 mod gltf;
-
 mod ply;
 
 use std::path::Path;

@@ -32,7 +32,8 @@ pub(super) fn read(name: &str, _: &Path, bytes: &[u8]) -> Result<Mesh, MeshError
     let header = Parser::<Other>::new().read_header(&mut reader);
     let header = header.map_err(|error| failed("the header", true, error))?;
     let text = header.encoding == Encoding::Ascii;
-    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    let mut vertices = Vec::new();
+    let mut faces = Vec::new();
     for (name, element) in &header.elements {
         let of = format!("element `{name}`");
         let read = match name.as_str() {

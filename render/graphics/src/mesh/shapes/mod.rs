@@ -2,17 +2,11 @@
 //! figures.
 
 mod grid;
-
 mod sphere;
-
 mod sweep;
-
 mod still_life;
-
 mod village;
-
 mod named;
-
 mod photograph;
 
 pub use grid::GridSize;

@@ -15,18 +15,22 @@ impl Mesh {
     /// If the picture has no pixels, or a side of 2^32 or more.
     #[must_use]
     pub fn of_picture(picture: &Field<[f32; 4]>) -> Self {
-        let (width, height) = (picture.width(), picture.height());
+        let width = picture.width();
+        let height = picture.height();
         assert!(width > 0 && height > 0, "a picture of {width} x {height} pixels");
-        let texel = |&[r, g, b, opacity]: &[f32; 4]| {
-            let channel = |value: f32| {
-                ((value * opacity + 1.0 - opacity).clamp(0.0, 1.0) * 255.0).round() as u8
-            };
-            u32::from_le_bytes([channel(r), channel(g), channel(b), u8::MAX])
-        };
         let texture = Texture {
             width: u32::try_from(width).unwrap_or(u32::MAX),
             height: u32::try_from(height).unwrap_or(u32::MAX),
-            texels: picture.values().iter().map(texel).collect(),
+            texels: picture
+                .values()
+                .iter()
+                .map(|&[r, g, b, opacity]: &[f32; 4]| {
+                    let channel = |value: f32| {
+                        ((value * opacity + 1.0 - opacity).clamp(0.0, 1.0) * 255.0).round() as u8
+                    };
+                    u32::from_le_bytes([channel(r), channel(g), channel(b), u8::MAX])
+                })
+                .collect(),
         };
         let material = Material { texture: Some(texture), ..Material::plain([1.0; 3]) };
         let mut mesh = Self { materials: vec![material], ..Self::default() };
@@ -50,8 +54,13 @@ mod tests {
 
     #[test]
     fn a_picture_lies_upright_with_its_pixels_in_order() {
-        let pixel = |i: usize| [(i % 6) as f32 / 5.0, (i / 6) as f32 / 3.0, 0.2, 1.0];
-        let picture = Field::from_values(6, 4, (0..24).map(pixel).collect());
+        let picture = Field::from_values(
+            6,
+            4,
+            (0..24)
+                .map(|i: usize| [(i % 6) as f32 / 5.0, (i / 6) as f32 / 3.0, 0.2, 1.0])
+                .collect(),
+        );
         let mesh = Mesh::of_picture(&picture);
         assert_eq!(mesh.check(), Ok(()));
         let upper_left = mesh.positions.iter().position(|&[x, y, _]| x < 0.0 && y > 0.0).unwrap();

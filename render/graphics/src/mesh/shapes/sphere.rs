@@ -35,7 +35,8 @@ impl Mesh {
 
 /// Point of the unit sphere; v = 0 is the north pole, v = 1 the south pole.
 pub(super) fn unit_sphere(uv: Vec2) -> Vec3 {
-    let ((sin_u, cos_u), (sin_v, cos_v)) = ((uv.x * TAU).sin_cos(), (uv.y * PI).sin_cos());
+    let (sin_u, cos_u) = (uv.x * TAU).sin_cos();
+    let (sin_v, cos_v) = (uv.y * PI).sin_cos();
     Vec3::new(sin_u * sin_v, cos_v, cos_u * sin_v)
 }
 

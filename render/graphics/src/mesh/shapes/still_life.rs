@@ -60,7 +60,8 @@ impl Mesh {
 /// Four blue stripes and a red one on linen white.
 fn stripes() -> Texture {
     let texel = |x: u32| {
-        let (blue, red) = ((8..16).contains(&(x % 32)), (19..21).contains(&(x % 32)));
+        let blue = (8..16).contains(&(x % 32));
+        let red = (19..21).contains(&(x % 32));
         let [r, g, b] = match (blue, red) {
             (true, _) => [104, 138, 178],
             (_, true) => [186, 98, 92],

@@ -11,7 +11,8 @@ pub(super) fn catmull_rom(points: &[Vec3], at: f32) -> Vec3 {
     let first = (at as usize).min(spans - 1);
     let t = at - first as f32;
     let point = |i: usize| points[i.min(spans)];
-    let (b, c) = (point(first), point(first + 1));
+    let b = point(first);
+    let c = point(first + 1);
     let a = if first == 0 { b * 2.0 - c } else { point(first - 1) };
     let d = if first + 2 > spans { c * 2.0 - b } else { point(first + 2) };
     let quadratic = a * 2.0 - b * 5.0 + c * 4.0 - d;

@@ -79,8 +79,11 @@ impl Mesh {
         while planted < trees {
             let angle = rng.random_range(0.0..TAU);
             let distance = RADIUS * rng.random_range(0.2f32..0.92).sqrt();
-            let near = |&[a, d]: &[f32; 2]| on_land(a, d).distance(on_land(angle, distance)) < 1.0;
-            if HOUSES.iter().any(near) || distance < 1.6 || on_path(on_land(angle, distance)) > 0.2
+            if HOUSES
+                .iter()
+                .any(|&[a, d]: &[f32; 2]| on_land(a, d).distance(on_land(angle, distance)) < 1.0)
+                || distance < 1.6
+                || on_path(on_land(angle, distance)) > 0.2
             {
                 continue;
             }
@@ -134,7 +137,8 @@ fn add_land(mesh: &mut Mesh, triangles: usize) {
 fn add_flat(mesh: &mut Mesh, corners: [Vec3; 4], material: u32) {
     let [a, b, c, d] = corners;
     mesh.add_grid(GridSize { columns: 1, rows: 1 }, material, |Vec2 { x, y }| {
-        let (above, below) = (a + (b - a) * x, c + (d - c) * x);
+        let above = a + (b - a) * x;
+        let below = c + (d - c) * x;
         above + (below - above) * y
     });
 }
@@ -145,7 +149,8 @@ fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u3
     let turn = Quat::from_rotation_y(turn);
     let placed = |x: f32, y: f32, z: f32| at + turn * Vec3::new(x, y, z);
     let [w, h, l] = size.to_array();
-    let (foot, ridge) = (-0.8, h + 1.05 * w);
+    let foot = -0.8;
+    let ridge = h + 1.05 * w;
     // The second side is the first turned by 180 degrees.
     for side in [1.0, -1.0] {
         let on = |x: f32, y: f32, z: f32| placed(side * x, y, side * z);
@@ -154,8 +159,11 @@ fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u3
         // The upper edge of the gable is a point.
         let top = on(0.0, ridge, l);
         add_flat(mesh, [top, top, on(-w, h, l), on(w, h, l)], wall);
-        let (out, low, end) = (w + 0.12, h - 0.126, l + 0.12);
-        let (eave, top) = ([on(out, low, end), on(out, low, -end)], ridge + 0.02);
+        let out = w + 0.12;
+        let low = h - 0.126;
+        let end = l + 0.12;
+        let eave = [on(out, low, end), on(out, low, -end)];
+        let top = ridge + 0.02;
         add_flat(mesh, [on(0.0, top, end), on(0.0, top, -end), eave[0], eave[1]], roof);
         let pane = |x: f32, y: f32, half: f32, high: f32| {
             let z = l + 0.012;
@@ -166,7 +174,8 @@ fn add_house(mesh: &mut Mesh, at: Vec3, turn: f32, size: Vec3, [wall, roof]: [u3
         add_flat(mesh, pane(0.45 * w, 0.45 * h, 0.14 * w, 0.3 * h), DARK);
         add_flat(mesh, pane(0.0, h + 0.2 * w, 0.11 * w, 0.25 * w), DARK);
         for along in [-0.55, 0.0, 0.55] {
-            let (z, x) = (along * l, w + 0.012);
+            let z = along * l;
+            let x = w + 0.012;
             let [near, far] = [z + 0.11 * l, z - 0.11 * l];
             let [low, high] = [0.4 * h, 0.72 * h];
             let corners = [on(x, high, near), on(x, high, far), on(x, low, near), on(x, low, far)];

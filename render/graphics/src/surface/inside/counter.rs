@@ -46,7 +46,8 @@ impl InsideCounter {
         match compute {
             Compute::Cpu => Ok(self.crossings.sum(&Count, surfaces, camera, visible.host()).into()),
             Compute::Gpu(gpu) => {
-                let (scene, plane) = (model.device(), visible.plane());
+                let scene = model.device();
+                let plane = visible.plane();
                 let target = self.target(gpu, plane.size())?;
                 on_device::counts(gpu, scene, plane, camera, surfaces, &target).map(Image::from)
             }
@@ -109,7 +110,8 @@ impl InsideCounter {
         assert!(found >= least(surfaces), "{found} gates of {} surfaces", least(surfaces));
         match compute {
             Compute::Cpu => {
-                let (seen, normals) = (visible.host(), gates.normals.host().values());
+                let seen = visible.host();
+                let normals = gates.normals.host().values();
                 let gated = GatedCount { surfaces: gates.surfaces, normals, seen: seen.values() };
                 Ok(self.crossings.sum(&gated, surfaces, camera, seen).into())
             }

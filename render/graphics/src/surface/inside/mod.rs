@@ -12,15 +12,10 @@
 //! faces counter-clockwise seen from outside.
 
 mod surfaces;
-
 mod crossing;
-
 mod gates;
-
 mod sum;
-
 mod on_device;
-
 mod counter;
 
 #[cfg(test)]

@@ -157,7 +157,9 @@ pub(super) fn counts(
 /// Sorted triangles in runs of at most [`MOST_IN_STENCIL`] surfaces, at least one run.
 fn batches(triangles: &[Triangle]) -> Vec<Range<usize>> {
     let mut batches = Vec::new();
-    let (mut start, mut surfaces, mut last) = (0, 0, None);
+    let mut start = 0;
+    let mut surfaces = 0;
+    let mut last = None;
     for (i, triangle) in triangles.iter().enumerate() {
         if last != Some(triangle.material) {
             last = Some(triangle.material);

@@ -43,7 +43,8 @@ impl Crossings {
         visible: &VisibilityBuffer,
     ) -> Field<S::Sum> {
         let ClosedSurfaces { vertices, triangles } = surfaces;
-        let (width, height) = (visible.width(), visible.height());
+        let width = visible.width();
+        let height = visible.height();
         let mut sums = Field::filled(width, height, S::Sum::default());
         if width * height == 0 {
             return sums;

@@ -49,8 +49,10 @@ impl BakedTiles {
         for column in x / TILE..end.div_ceil(TILE) {
             let tile = self.tiles.get((y / TILE) * self.tile_columns + column);
             let Some(Some(tile)) = tile else { continue };
-            let (left, right) = (column * TILE, ((column + 1) * TILE).min(self.width));
-            let (from, to) = (left.max(x), right.min(end));
+            let left = column * TILE;
+            let right = ((column + 1) * TILE).min(self.width);
+            let from = left.max(x);
+            let to = right.min(end);
             let first = (y % TILE) * (right - left) + from - left;
             row[from - x..to - x].copy_from_slice(&tile[first..][..to - from]);
         }

@@ -15,7 +15,8 @@ pub(super) struct Bed {
 impl Bed {
     /// A bed over `bounds` that was never noted.
     pub(super) fn unknown(bounds: Rect) -> Self {
-        let (width, height) = (bounds.width.div_ceil(BLOCK), bounds.height.div_ceil(BLOCK));
+        let width = bounds.width.div_ceil(BLOCK);
+        let height = bounds.height.div_ceil(BLOCK);
         Self { blocks: Field::filled(width, height, NO_BED) }
     }
 
@@ -42,7 +43,8 @@ impl Bed {
     pub(super) fn row(&self, (mut x, y): (usize, usize), mut out: &mut [i32]) {
         let (upper, lower, down) = between(y, self.blocks.height());
         let row = |block: usize| self.blocks.row(block, 0, self.blocks.width());
-        let (upper, lower) = (row(upper), row(lower));
+        let upper = row(upper);
+        let lower = row(lower);
         while !out.is_empty() {
             let (left, right, share) = between(x, upper.len());
             let column = |block: usize| weighted((upper[block], lower[block]), down);

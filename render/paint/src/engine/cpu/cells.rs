@@ -21,7 +21,8 @@ impl Cells {
     /// Removes the paint of a cell; `None` if there is no such cell.
     #[inline(always)]
     pub(super) fn take(&mut self, at: usize) -> Option<Cell> {
-        let (pigments, vehicle) = (self.pigments.get_mut(at)?, self.vehicle.get_mut(at)?);
+        let pigments = self.pigments.get_mut(at)?;
+        let vehicle = self.vehicle.get_mut(at)?;
         Some(Cell { pigments: std::mem::take(pigments), vehicle: std::mem::take(vehicle) })
     }
 }

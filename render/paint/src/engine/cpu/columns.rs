@@ -75,7 +75,8 @@ impl Columns {
     /// Replaces the cells under `part`, whose upper left cell goes to column `x` of row `y`. Where
     /// neither has paint, nothing is written, so that no memory is taken there.
     pub(super) fn put(&mut self, (x, y): (usize, usize), part: &Layer) {
-        let (width, pigments) = (self.layer.width(), self.layer.pigments.values_mut());
+        let width = self.layer.width();
+        let pigments = self.layer.pigments.values_mut();
         let vehicle = self.layer.vehicle.values_mut();
         for row in 0..part.height() {
             for column in (0..part.width()).step_by(TILE) {
@@ -166,7 +167,8 @@ mod tests {
     #[test]
     fn a_part_replaces_paint_by_paint_and_by_bare_canvas() {
         let paint = Cell { pigments: [3; SLOTS], vehicle: 5 };
-        let (mut full, mut part) = (Layer::empty(200, 3), Layer::empty(150, 2));
+        let mut full = Layer::empty(200, 3);
+        let mut part = Layer::empty(150, 2);
         (0..600).for_each(|index| full.set_cell(index, paint));
         let alone = Cell { pigments: [0; SLOTS], vehicle: 7 };
         part.set_cell(149, alone);
@@ -174,7 +176,8 @@ mod tests {
             let mut columns = Columns::new(before.clone());
             columns.put((40, 1), &part);
             for index in 0..600 {
-                let (x, y) = (index % 200, index / 200);
+                let x = index % 200;
+                let y = index / 200;
                 let inside = (40..190).contains(&x) && y >= 1;
                 let wanted = match (x, y) {
                     (189, 1) => alone,

@@ -178,7 +178,8 @@ impl CpuPaint {
     }
 
     pub(crate) fn swap_tile(&mut self, tile: Tile, slot: UndoSlot) {
-        let (rect, bounds) = (self.rect_of(tile), self.bounds());
+        let rect = self.rect_of(tile);
+        let bounds = self.bounds();
         let saved = self.saved_tiles.get_mut(slot.0).and_then(Option::as_mut);
         let saved = saved.expect("a tile is saved to a slot before it is swapped with it");
         let size = (rect.width, rect.height);

@@ -17,7 +17,8 @@ impl Exchanges {
     /// Computes those of the cells in contact of row `y`, whose columns are `volumes` quanta high.
     #[inline(always)]
     pub(super) fn of_row(&mut self, step: &SubStep<'_>, volumes: &[u32], y: usize) {
-        let (columns, bounds) = (step.penetration.in_contact(y), step.bounds);
+        let columns = step.penetration.in_contact(y);
+        let bounds = step.bounds;
         let touches = step.touches(y);
         let above = step.head.cells.volume();
         self.brush_volumes.resize(columns.len(), 0);

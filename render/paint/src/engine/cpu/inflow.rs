@@ -47,8 +47,10 @@ impl Inflow {
         let Self { cells: Cells { pigments, vehicle }, leaving, .. } = self;
         // Slices of one length, so that one check of an index is enough.
         let count = pigments.len();
-        let (to_pigments, to_vehicle) = (&mut pigments[..count], &mut vehicle[..count]);
-        let (first, width) = (y * self.width + x, self.width as isize);
+        let to_pigments = &mut pigments[..count];
+        let to_vehicle = &mut vehicle[..count];
+        let first = y * self.width + x;
+        let width = self.width as isize;
         let [in_x, in_y, diagonal] = &velocities.outflow;
         let shares = in_x.iter().zip(in_y).zip(diagonal);
         let to = velocities.beside.iter().zip(&velocities.below);
@@ -63,7 +65,8 @@ impl Inflow {
             }
             flows = true;
             let before = Cell { pigments: *pigments, vehicle: 0 };
-            let (in_x, in_y) = (before.share_of_65536(in_x), before.share_of_65536(in_y));
+            let in_x = before.share_of_65536(in_x);
+            let in_y = before.share_of_65536(in_y);
             let diagonal = before.share_of_65536(diagonal);
             *pigments = before.minus(&in_x).minus(&in_y).minus(&diagonal).pigments;
             let at_x = (first + i).wrapping_add_signed(beside as isize);
@@ -101,7 +104,8 @@ impl Inflow {
     /// Moves what flows into the last row of this band and the first of the band `below`, but was
     /// computed by the other one, to the band that owns the row. Each band has a row of the other.
     pub(super) fn exchange_border_rows(&mut self, below: &mut Self) {
-        let (last, beyond) = (self.flows.len() - 2, self.flows.len() - 1);
+        let last = self.flows.len() - 2;
+        let beyond = self.flows.len() - 1;
         self.flows[last] |= below.flows[0];
         below.flows[1] |= self.flows[beyond];
         self.take_row(last, below, 0);

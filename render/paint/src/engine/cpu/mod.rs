@@ -7,41 +7,23 @@
 //! of its painted tiles.
 
 mod columns;
-
 mod bed;
-
 mod below;
-
 mod head_paint;
-
 mod spans;
-
 mod penetration;
-
 mod step;
-
 mod velocities;
-
 mod cells;
-
 mod inflow;
-
 mod exchanges;
-
 mod band;
-
 mod wick;
-
 mod sub_steps;
-
 mod sparse;
-
 mod baked_tiles;
-
 mod render;
-
 mod saved_tile;
-
 mod cpu_paint;
 
 #[cfg(test)]

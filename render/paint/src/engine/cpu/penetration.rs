@@ -107,13 +107,16 @@ impl PenetrationMap {
         head: &HeadPaint,
     ) {
         // A copy, which the loop need not load again after each store.
-        let (rect, rates, Below { floor, bed, mask }) = (contact.rect, contact.rates, below);
+        let rect = contact.rect;
+        let rates = contact.rates;
+        let Below { floor, bed, mask } = below;
         for (y, touches) in (rect.y..).zip(contact.touches.chunks_exact(rect.width)) {
             let below_head = |touch: &Touch| touch.height != Touch::NONE.height;
             let Some(from) = touches.iter().position(below_head) else { continue };
             let touches = &touches[from..];
             let count = touches.iter().rposition(below_head).map_or(0, |last| last + 1);
-            let (touches, x) = (&touches[..count], rect.x + from);
+            let touches = &touches[..count];
+            let x = rect.x + from;
             let first = y * floor.width() + x;
             let volume = &wet.volume()[first..][..count];
             let floor = floor.row(y, x, count);
@@ -154,7 +157,8 @@ impl PenetrationMap {
     /// Computes the tops of the columns that are seen, and those of the rim beside them.
     #[inline(always)]
     fn find_tops(&mut self, floor: &Field<i32>, wet: &Columns) {
-        let (reach, row) = (self.reach, self.row_length());
+        let reach = self.reach;
+        let row = self.row_length();
         for y in self.seen.rows() {
             let columns = self.seen.of(y);
             let volume = &wet.volume()[y * floor.width()..][columns.clone()];
@@ -165,11 +169,13 @@ impl PenetrationMap {
             for ((top, &floor), &volume) in inner.iter_mut().zip(floor).zip(volume) {
                 *top = floor + volume as i32;
             }
-            let (first, last) = (tops[RIM], tops[RIM + reach.width - 1]);
+            let first = tops[RIM];
+            let last = tops[RIM + reach.width - 1];
             tops[..RIM].fill(first);
             tops[RIM + reach.width..].fill(last);
         }
-        let (first, last) = (RIM * row, (RIM + reach.height - 1) * row);
+        let first = RIM * row;
+        let last = (RIM + reach.height - 1) * row;
         for i in 1..=RIM {
             self.tops.copy_within(first..first + row, first - i * row);
             self.tops.copy_within(last..last + row, last + i * row);
@@ -204,7 +210,8 @@ impl PenetrationMap {
     /// of which, is in contact, and none for the others.
     #[inline(always)]
     pub(super) fn near_contact(&self, (x, y): (usize, usize), found: &mut [u32]) {
-        let (row, count) = (self.row_length(), found.len());
+        let row = self.row_length();
+        let count = found.len();
         let middle = self.start(y) + x - self.reach.x;
         // Nine rows of pressures; those without contact are the lowest.
         let beside = |place: usize| {
@@ -308,7 +315,8 @@ impl PenetrationMap {
     /// Flows into the cells from `place` on, each from the cell `stride` before it.
     #[inline(always)]
     fn flows(&self, motion: &MotionConstants, place: usize, stride: usize, found: &mut [i32]) {
-        let (motion, count) = (*motion, found.len());
+        let motion = *motion;
+        let count = found.len();
         let tops = |first: usize| &self.tops[first..][..count];
         let pressures = |first: usize| &self.pressures[first..][..count];
         let before = tops(place - 2 * stride).iter();

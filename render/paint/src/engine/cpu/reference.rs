@@ -23,15 +23,18 @@ pub(super) fn sub_step(
     paint: &mut HeadPaint,
 ) {
     let Contact { rect, touches, rates, wicking } = contact;
-    let (width, height) = (floor.width(), floor.height());
+    let width = floor.width();
+    let height = floor.height();
     if wicking.share > 0 {
         Wick::default().apply(*wicking, paint);
     }
     let HeadPaint { cells: brush, means } = paint;
-    let (start, head) = (wet.clone(), brush.clone());
+    let start = wet.clone();
+    let head = brush.clone();
     // Signed coordinates, so that cells beyond the canvas can be queried.
     let touch = |x: i64, y: i64| -> Touch {
-        let (x, y) = (x - rect.x as i64, y - rect.y as i64);
+        let x = x - rect.x as i64;
+        let y = y - rect.y as i64;
         let inside = x >= 0 && y >= 0 && x < rect.width as i64 && y < rect.height as i64;
         if inside { touches[y as usize * rect.width + x as usize] } else { Touch::NONE }
     };
@@ -61,7 +64,8 @@ pub(super) fn sub_step(
     // Flow from the cell at `(x, y)` to that one step on.
     let flow_from = |x: i64, y: i64, (right, down): (i64, i64)| -> i32 {
         let next = column(x + right, y + down);
-        let (before, beyond) = (top(x - right, y - down), top(x + 2 * right, y + 2 * down));
+        let before = top(x - right, y - down);
+        let beyond = top(x + 2 * right, y + 2 * down);
         flow(motion, before, column(x, y), next, beyond)
     };
     let change = |wet: &mut Layer, x: i64, y: i64, act: &dyn Fn(&Cell) -> Cell| {
@@ -92,13 +96,15 @@ pub(super) fn sub_step(
                 down = 0;
             }
             let (right, down) = avoid_crowded_columns((right, down), |to_x, to_y| {
-                let (x, y) = (x + i64::from(to_x), y + i64::from(to_y));
+                let x = x + i64::from(to_x);
+                let y = y + i64::from(to_y);
                 covered(x, y)
                     || start.cell(y as usize * width + x as usize).volume() > CROWDED_VOLUME
             });
             let mobile = mobile_share(motion, volume);
             let out = outflow(mobile, (right.unsigned_abs(), down.unsigned_abs()));
-            let (in_x, in_y) = (x + i64::from(right.signum()), y + i64::from(down.signum()));
+            let in_x = x + i64::from(right.signum());
+            let in_y = y + i64::from(down.signum());
             for (to_x, to_y, share) in
                 [(in_x, y, out.in_x), (x, in_y, out.in_y), (in_x, in_y, out.diagonal)]
             {
@@ -110,7 +116,8 @@ pub(super) fn sub_step(
     }
     for y in rect.y as i64..(rect.y + rect.height) as i64 {
         for x in rect.x as i64..(rect.x + rect.width) as i64 {
-            let (here, deep) = (touch(x, y), pressed(x, y));
+            let here = touch(x, y);
+            let deep = pressed(x, y);
             if deep == NO_CONTACT {
                 continue;
             }
@@ -125,7 +132,8 @@ pub(super) fn sub_step(
                 head.cell(at).volume(),
                 leaving(here, (x as usize, y as usize), floor.bounds()),
             );
-            let (laid, taken) = (head.cell(at).share_of_65536(down), canvas.share_of_65536(up));
+            let laid = head.cell(at).share_of_65536(down);
+            let taken = canvas.share_of_65536(up);
             change(wet, x, y, &|cell| cell.minus(&taken).plus(&laid));
             brush.set_cell(at, brush.cell(at).minus(&laid).plus(&taken));
         }

@@ -69,7 +69,8 @@ impl RenderedView {
             return;
         };
         // Only rows between the first and the last tile are visited.
-        let (first, end) = (highest.row * TILE, ((lowest.row + 1) * TILE).min(bounds.height));
+        let first = highest.row * TILE;
+        let end = ((lowest.row + 1) * TILE).min(bounds.height);
         let spans = spans(&both, bounds);
         let PaintLayers { floor, wet, .. } = *layers;
         let top = |x, y| floor[(x, y)] + wet.volume()[y * bounds.width + x] as i32;
@@ -83,7 +84,8 @@ impl RenderedView {
         let Some(scene) = self.scene.as_ref().filter(|_| !rect.is_empty()) else { return picture };
         let rows = picture.values_mut().par_chunks_mut(rect.width).enumerate();
         rows.for_each_init(Buffers::default, |buffers, (row, picture)| {
-            let (y, span) = (rect.y + row, rect.x..rect.x + rect.width);
+            let y = rect.y + row;
+            let span = rect.x..rect.x + rect.width;
             self.shade(scene, layers, y, span, picture, buffers);
         });
         picture

@@ -80,7 +80,8 @@ mod tests {
     #[test]
     fn spans_around_spans_hold_all_neighbours_within_the_limit() {
         let reach = Rect { x: 3, y: 10, width: 20, height: 6 };
-        let (mut inner, mut around) = (Spans::default(), Spans::default());
+        let mut inner = Spans::default();
+        let mut around = Spans::default();
         inner.clear(reach);
         inner.set(12, 5..7);
         inner.set(13, 20..23);

@@ -22,7 +22,8 @@ impl SubStep<'_> {
     /// Touches of the cells in contact of row `y`, and of those between them.
     #[inline(always)]
     pub(super) fn touches(&self, y: usize) -> &[Touch] {
-        let (rect, columns) = (self.contact.rect, self.penetration.in_contact(y));
+        let rect = self.contact.rect;
+        let columns = self.penetration.in_contact(y);
         let first = (y - rect.y) * rect.width + columns.start - rect.x;
         &self.contact.touches[first..][..columns.len()]
     }

@@ -61,7 +61,8 @@ impl SubStepRunner {
         let mut all = || {
             for contact in contacts {
                 if contact.wicking.share > 0 {
-                    let (wick, wicking) = (&mut self.wick, contact.wicking);
+                    let wick = &mut self.wick;
+                    let wicking = contact.wicking;
                     vectorized(ApplyWick { wick, wicking, head });
                 }
                 if !contact.rect.is_empty() {

@@ -69,7 +69,8 @@ impl Velocities {
         step.penetration.flows_in_x(step.motion, (columns.start, y), in_x);
         let depths = step.penetration.row(y, columns.start, columns.len());
         // Copies, which the loop need not load again after each store.
-        let (rates, motion) = (step.contact.rates, *step.motion);
+        let rates = step.contact.rates;
+        let motion = *step.motion;
         let from = columns.start - step.reach.x;
         let in_y = above[from..].iter().zip(&below[from..]);
         let flows = in_x.iter().zip(&in_x[1..]).zip(in_y);
@@ -123,7 +124,8 @@ impl Velocities {
         self.touches.clear();
         if (rect.y..rect.y + rect.height).contains(&y) {
             let within = |x: usize| x.clamp(rect.x, rect.x + rect.width) - rect.x;
-            let (from, to) = (within(columns.start), within(columns.end));
+            let from = within(columns.start);
+            let to = within(columns.end);
             self.touches.resize(rect.x.saturating_sub(columns.start), Touch::NONE);
             let row = &contact.touches[(y - rect.y) * rect.width..];
             self.touches.extend_from_slice(&row[from..to]);

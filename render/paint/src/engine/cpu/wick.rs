@@ -182,7 +182,8 @@ impl Wick {
                 cells.zip(places.iter().zip(&*group_of))
             {
                 if volume >> UNIT_BITS < mean {
-                    let (at, group) = (row + place, &mut groups[group]);
+                    let at = row + place;
+                    let group = &mut groups[group];
                     let last = at == group.last;
                     let part = if last { group.rest } else { group.pot.share_of_65536(share) };
                     group.rest = group.rest.minus(&part);
@@ -195,8 +196,10 @@ impl Wick {
     /// Divides the hairs of a head of `width` columns into groups.
     #[inline(always)]
     fn divide(&mut self, wicking: Wicking, width: usize) {
-        let (hairs, shift) = (wicking.hairs.max(1) as usize, wicking.shift as usize);
-        let (turns, turn) = (wicking.turns.max(1) as usize, wicking.turn as usize);
+        let hairs = wicking.hairs.max(1) as usize;
+        let shift = wicking.shift as usize;
+        let turns = wicking.turns.max(1) as usize;
+        let turn = wicking.turn as usize;
         self.groups.clear();
         self.groups.resize((width.div_ceil(2) + shift).div_ceil(hairs).div_ceil(turns), BARE);
         let Columns { places, group_of, .. } = &mut self.columns;
@@ -310,10 +313,8 @@ mod tests {
     fn groups_that_shift_spread_paint_across_the_rows_that_take_part() {
         let full = Cell { vehicle: 6_000_000, ..EMPTY };
         let mut paint = head(40, 10, |index| if index % 40 == 3 { full } else { EMPTY });
-        let (above, total) =
-            (paint.cells.layer().part(Rect { x: 0, y: 0, width: 40, height: 4 }), {
-                paint.cells.layer().totals()
-            });
+        let above = paint.cells.layer().part(Rect { x: 0, y: 0, width: 40, height: 4 });
+        let total = { paint.cells.layer().totals() };
         let wicking = Wicking { share: 65536, first_row: 4, hairs: 4, ..Wicking::default() };
         for step in 0..60 {
             let shift = if step % 2 == 0 { 0 } else { 2 };
@@ -323,14 +324,15 @@ mod tests {
         let layer = paint.cells.layer();
         assert!(layer.part(Rect { x: 0, y: 0, width: 40, height: 4 }) == above, "upper rows moved");
         let volumes = &paint.cells.volume()[4 * 40..];
-        let (low, high) = (volumes.iter().min().unwrap(), volumes.iter().max().unwrap());
+        let low = volumes.iter().min().unwrap();
+        let high = volumes.iter().max().unwrap();
         assert!(*low > 100_000 && *high < 200_000, "{low} to {high}");
     }
 
     #[test]
     fn hairs_flow_in_turns() {
-        let full = |index: usize| Cell { vehicle: 6_000_000 * (index / 12) as u32, ..EMPTY };
-        let mut paint = head(12, 5, full);
+        let mut paint =
+            head(12, 5, |index: usize| Cell { vehicle: 6_000_000 * (index / 12) as u32, ..EMPTY });
         let volumes = |paint: &HeadPaint| paint.cells.volume().to_vec();
         let mut whole = paint.clone();
         Wick::default().apply(along(9000), &mut whole);

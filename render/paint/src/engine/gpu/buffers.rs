@@ -70,7 +70,8 @@ pub(super) struct BrushBuffers {
 
 impl BrushBuffers {
     pub(super) fn new(device: &Device, size: (usize, usize)) -> Result<Self, DeviceError> {
-        let (cells, label) = ((size.0 * size.1) as u64, "the head of a brush");
+        let cells = (size.0 * size.1) as u64;
+        let label = "the head of a brush";
         let pigments = device.buffer(label, PIGMENT_BYTES * cells)?;
         let vehicle = device.buffer(label, 2 * 4 * cells)?;
         Ok(Self { size, paint: PaintBuffers { pigments, vehicle } })
@@ -131,7 +132,8 @@ pub(super) fn mask_start(canvas: Rect) -> usize {
 
 /// The buffer of the floor, of a bed that was never noted, and of a mask.
 pub(super) fn floor_buffer(device: &mut Device, floor: &Field<i32>) -> Result<Buffer, DeviceError> {
-    let (cells, mask) = (floor.values().len(), mask_start(floor.bounds()));
+    let cells = floor.values().len();
+    let mask = mask_start(floor.bounds());
     let mut values = floor.values().to_vec();
     values.resize(mask, NO_BED);
     values.resize(mask + cells.div_ceil(32), 0);

@@ -235,7 +235,8 @@ impl GpuPaint {
         baked: &TileSet,
         shown: &TileSet,
     ) -> Result<(), DeviceError> {
-        let (view, size) = (self.view_buffers(view)?, self.canvas_size());
+        let view = self.view_buffers(view)?;
+        let size = self.canvas_size();
         let Self { device, recording, wet, floor, dry, tops, .. } = self;
         let tops = &tops.record(device, recording, wet, floor)?;
         view.record(recording, &CanvasBuffers { size, wet, tops, dry }, scene, baked, shown);
@@ -327,7 +328,9 @@ impl GpuPaint {
     fn record_wicking(&mut self, brush: BrushId, wicking: Wicking) -> Result<(), DeviceError> {
         let BrushBuffers { size, paint } = &self.brushes[brush.0];
         let Wicking { share, first_row, hairs, shift, turns, turn } = wicking;
-        let (hairs, turns, size_u32) = (hairs.max(1), turns.max(1), [size.0 as u32, size.1 as u32]);
+        let hairs = hairs.max(1);
+        let turns = turns.max(1);
+        let size_u32 = [size.0 as u32, size.1 as u32];
         let params =
             WickParams { size: size_u32, wicking: share, first_row, hairs, shift, turns, turn };
         let hair_groups = (size.0.div_ceil(2) + shift as usize).div_ceil(hairs as usize);

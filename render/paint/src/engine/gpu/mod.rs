@@ -5,21 +5,13 @@
 //! something is read.
 
 mod buffers;
-
 mod sub_step;
-
 mod drying;
-
 mod undo_tiles;
-
 mod render;
-
 mod tops;
-
 mod kernels;
-
 mod gpu_paint;
-
 mod mask;
 
 pub use gpu_paint::{GpuPaint, max_canvas_cells};

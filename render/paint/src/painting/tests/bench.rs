@@ -84,17 +84,19 @@ pub(super) fn loaded(painting: &mut Painting, shape: HeadShape, size_mm: f64) ->
 
 /// A stroke along x at `y_mm`, from `from_mm` to `to_mm`.
 pub(super) fn along(y_mm: f64, (from_mm, to_mm): (f64, f64), pressure: f64) -> Vec<Sample> {
-    let at = |step: u32| {
-        let share = f64::from(step) / 12.0;
-        let x_mm = from_mm + (to_mm - from_mm) * share;
-        Sample { twist_deg: 90.0, ..Sample::upright(share, x_mm, y_mm, pressure) }
-    };
-    (0..=12).map(at).collect()
+    (0..=12)
+        .map(|step: u32| {
+            let share = f64::from(step) / 12.0;
+            let x_mm = from_mm + (to_mm - from_mm) * share;
+            Sample { twist_deg: 90.0, ..Sample::upright(share, x_mm, y_mm, pressure) }
+        })
+        .collect()
 }
 
 /// Height in mm of the paint in the cell at a place in mm.
 pub(super) fn height_mm(wet: &Layer, x_mm: f64, y_mm: f64) -> f64 {
-    let (x, y) = ((x_mm / CELL_MM) as usize, (y_mm / CELL_MM) as usize);
+    let x = (x_mm / CELL_MM) as usize;
+    let y = (y_mm / CELL_MM) as usize;
     let quanta = wet.cell(y * wet.width() + x).volume();
     crate::amount::mm_from_quanta(quanta, CELL_MM)
 }

@@ -1,9 +1,6 @@
 //! Tests of a painting at work.
 
 mod bench;
-
 mod masks;
-
 mod threads;
-
 mod tools;

@@ -85,7 +85,8 @@ fn an_undo_brings_the_paint_back_and_a_redo_takes_it_again() {
 fn portions_of_any_size_take_the_same() {
     let samples = along(8.0, (3.0, 37.0), 0.7);
     for (tool, shape) in TOOLS {
-        let (mut whole, mut pieces) = (on_cpu(LINEN, 0.4), on_cpu(LINEN, 0.4));
+        let mut whole = on_cpu(LINEN, 0.4);
+        let mut pieces = on_cpu(LINEN, 0.4);
         let brush = loaded(&mut whole, shape, 6.0);
         let report = whole.stroke_as(tool, brush, &samples).unwrap();
         let brush = loaded(&mut pieces, shape, 6.0);
@@ -160,7 +161,8 @@ fn a_blade_leaves_its_height_and_pressure_lowers_it() {
 fn scraping_leaves_paint_in_the_valleys_of_linen_and_frees_its_crests() {
     let mut painting = on_cpu(LINEN, 0.1);
     work(&mut painting, SCRAPE, HeadShape::Knife, 0.8);
-    let (wet, floor) = (painting.wet().unwrap(), painting.engine.floor().unwrap());
+    let wet = painting.wet().unwrap();
+    let floor = painting.engine.floor().unwrap();
     let width = wet.width();
     let rows = 36..44;
     let cells = rows.flat_map(|y| (70..130).map(move |x| y * width + x));
@@ -170,7 +172,8 @@ fn scraping_leaves_paint_in_the_valleys_of_linen_and_frees_its_crests() {
     found.sort_by_key(|(floor, _)| *floor);
     let mean = |part: &[(i32, f64)]| part.iter().map(|(_, mm)| mm).sum::<f64>() / part.len() as f64;
     let tenth = found.len() / 10;
-    let (valleys, crests) = (mean(&found[..tenth]), mean(&found[found.len() - tenth..]));
+    let valleys = mean(&found[..tenth]);
+    let crests = mean(&found[found.len() - tenth..]);
     assert!(valleys > 0.05 && crests < 0.005, "valleys {valleys} mm, crests {crests} mm");
 }
 
@@ -178,7 +181,8 @@ fn scraping_leaves_paint_in_the_valleys_of_linen_and_frees_its_crests() {
 fn a_mop_softens_an_edge_and_takes_little() {
     let share = |painting: &mut Painting, x_mm: f64| {
         let wet = painting.wet().unwrap();
-        let (x, y) = ((x_mm / CELL_MM) as usize, (8.0 / CELL_MM) as usize);
+        let x = (x_mm / CELL_MM) as usize;
+        let y = (8.0 / CELL_MM) as usize;
         let cell = wet.cell(y * wet.width() + x);
         f64::from(cell.pigments[2]) / f64::from(cell.volume().max(1))
     };
@@ -188,8 +192,9 @@ fn a_mop_softens_an_edge_and_takes_little() {
     // The brush is loaded with the right half's pigment, which must not reach the left.
     let brush = loaded(&mut painting, HeadShape::Mop, 6.0);
     let taken = painting.stroke_as(BLEND, brush, &along(8.0, (12.0, 28.0), 0.5)).unwrap().taken;
-    let (left, near, far) =
-        (share(&mut painting, 15.0), share(&mut painting, 20.5), share(&mut painting, 24.0));
+    let left = share(&mut painting, 15.0);
+    let near = share(&mut painting, 20.5);
+    let far = share(&mut painting, 24.0);
     assert!(left < 0.01, "{left}: the load of the brush went onto the canvas");
     assert!((0.05..0.9).contains(&near), "{near} beside the edge");
     assert!(far > near, "{near} at the edge, {far} beyond it");
@@ -213,7 +218,8 @@ fn a_mop_softens_an_edge_along_its_way_too() {
         let cell = wet.cell((8.0 / CELL_MM) as usize * wet.width() + (x_mm / CELL_MM) as usize);
         f64::from(cell.pigments[2]) / f64::from(cell.volume().max(1))
     };
-    let (left, right) = (share(19.7), share(20.3));
+    let left = share(19.7);
+    let right = share(20.3);
     assert!(left > 0.05 && right < 0.95 && left < right, "{left} and {right} beside the edge");
     assert!(share(15.0) < 0.01 && share(25.0) > 0.99, "beyond the head");
 }

@@ -87,7 +87,8 @@ impl Transition<'_> {
         let [l, a, b] = [0, 1, 2].map(|i| mixing.level(dark, light, |lab| lab[i]));
         let lab = l.into_iter().zip(a).zip(b).map(|((l, a), b)| [l, a, b]).collect();
         let paint = darker.paint.as_ref().zip(lighter.paint.as_ref()).map(|(dark, light)| {
-            let (dark, light) = (dark.values(), light.values());
+            let dark = dark.values();
+            let light = light.values();
             let vehicle = mixing.amount(dark, light, |texel| texel.vehicle_mm);
             let mut texels: Vec<TexelPaint> = vehicle
                 .into_iter()
@@ -125,7 +126,8 @@ impl Mixing {
         let wanted = means[0] + self.share * step;
         let evenly = (1.0 - self.in_strokes) * step;
         let texel = |((dark, light), weight): ((&T, &T), &f32)| {
-            let (dark, light) = (of(dark), of(light));
+            let dark = of(dark);
+            let light = of(light);
             dark + self.share * evenly + weight * (light - dark - evenly)
         };
         let mut mixed: Vec<f32> = dark.iter().zip(light).zip(&self.weights).map(texel).collect();
@@ -167,7 +169,8 @@ fn in_strokes([darker, lighter]: &[Field<[f32; 3]>; 2]) -> f32 {
 /// tile changes evenly. An order by the difference itself would keep the strongest strokes of one
 /// tile to the end, and lose contrast.
 fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], in_strokes: f32, sigma: f64) -> Vec<f32> {
-    let (width, height) = (darker.width(), darker.height());
+    let width = darker.width();
+    let height = darker.height();
     let means = [darker, lighter].map(|lab| mean(lab.values().iter().map(|lab| lab[0])));
     let evenly = (1.0 - in_strokes) * (means[1] - means[0]);
     let smoothed = |of: &dyn Fn(f32, f32) -> f32| {
@@ -175,7 +178,8 @@ fn ranks([darker, lighter]: &[Field<[f32; 3]>; 2], in_strokes: f32, sigma: f64) 
         let values = pairs.map(|(dark, light)| of(dark[0], light[0])).collect();
         blurred_tile(&Field::from_values(width, height, values), sigma)
     };
-    let (light, change) = (smoothed(&|a, b| a + b), smoothed(&|a, b| b - a - evenly));
+    let light = smoothed(&|a, b| a + b);
+    let change = smoothed(&|a, b| b - a - evenly);
     let mut order: Vec<usize> = (0..width * height).collect();
     order.sort_by(|&a, &b| light.values()[b].total_cmp(&light.values()[a]).then(a.cmp(&b)));
     let size = |index: usize| f64::from(change.values()[index].abs());

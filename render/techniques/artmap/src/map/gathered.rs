@@ -18,10 +18,12 @@ pub(crate) fn tile(sample: &Sample, sources: &Field<[u16; 2]>) -> Tile {
         .map(|index| continued(sample, sources, (index % size, index / size)))
         .collect();
     let field = |of: &dyn Fn((usize, usize)) -> f32| {
-        let mean = |places: &Vec<(usize, usize)>| {
-            places.iter().map(|&place| of(place)).sum::<f32>() / places.len() as f32
-        };
-        shown.iter().map(mean).collect::<Vec<f32>>()
+        shown
+            .iter()
+            .map(|places: &Vec<(usize, usize)>| {
+                places.iter().map(|&place| of(place)).sum::<f32>() / places.len() as f32
+            })
+            .collect::<Vec<f32>>()
     };
     let [red, green, blue] = [0, 1, 2].map(|index| field(&|place| sample.color[place][index]));
     let color = (0..size * size).map(|at| [red[at], green[at], blue[at]]).collect();

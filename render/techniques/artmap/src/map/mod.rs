@@ -1,17 +1,11 @@
 //! Art maps: tiles of brushwork from dark to light, gathered from samples.
 
 mod tile;
-
 mod gathered;
-
 mod art_map;
-
 mod between;
-
 pub mod file;
-
 mod check;
-
 mod sheet;
 
 #[cfg(test)]

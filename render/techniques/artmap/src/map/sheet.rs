@@ -42,7 +42,8 @@ impl ArtMap {
         let tiles = keys.par_iter().map(|key| repeated(&key.tile.color)).collect();
         rows.push(Row { left: GAP, tiles });
         rows.extend(self.relief_row(side, step));
-        let (width, height) = (GAP + column * keys.len(), GAP + column * rows.len());
+        let width = GAP + column * keys.len();
+        let height = GAP + column * rows.len();
         let mut sheet = Field::filled(width, height, GROUND);
         for (index, row) in rows.iter().enumerate() {
             for (at, tile) in row.tiles.iter().enumerate() {
@@ -64,28 +65,33 @@ impl ArtMap {
         }
         let tangent = raking_tangent(surfaces.iter().flatten());
         let ground = || Field::filled(side, side, GROUND);
-        let relief = |slopes: &Field<[f32; 2]>| shrunk(&raked(slopes, tangent), side, step);
-        let tiles = surfaces.par_iter().map(|surface| surface.as_ref().map_or_else(ground, relief));
+        let tiles = surfaces.par_iter().map(|surface| {
+            surface.as_ref().map_or_else(ground, |slopes: &Field<[f32; 2]>| {
+                shrunk(&raked(slopes, tangent), side, step)
+            })
+        });
         Some(Row { left: GAP, tiles: tiles.collect() })
     }
 
     /// A row of in-betweens for each share; none for maps of one tile.
     fn between_rows(&self, between: Between, side: usize, step: usize) -> Vec<Row> {
-        let shown = |lower: usize| {
-            let transition = self.transition(lower, between)?;
-            Some(SHARES.map(|share| shrunk(&transition.at(share).color, side, step)))
-        };
-        let columns: Vec<[Picture; 3]> =
-            (0..self.keys.len()).into_par_iter().filter_map(shown).collect();
+        let columns: Vec<[Picture; 3]> = (0..self.keys.len())
+            .into_par_iter()
+            .filter_map(|lower: usize| {
+                let transition = self.transition(lower, between)?;
+                Some(SHARES.map(|share| shrunk(&transition.at(share).color, side, step)))
+            })
+            .collect();
         if columns.is_empty() {
             return Vec::new();
         }
         let left = GAP + (side + GAP) / 2;
-        let row = |index: usize| Row {
-            left,
-            tiles: columns.iter().map(|column| column[index].clone()).collect(),
-        };
-        (0..SHARES.len()).map(row).collect()
+        (0..SHARES.len())
+            .map(|index: usize| Row {
+                left,
+                tiles: columns.iter().map(|column| column[index].clone()).collect(),
+            })
+            .collect()
     }
 }
 
@@ -99,7 +105,8 @@ struct Row {
 /// The texels of a tile that repeats, from its upper left corner on, as `side` x `side` pixels,
 /// each the mean of `step` x `step` texels.
 fn shrunk(tile: &Picture, side: usize, step: usize) -> Picture {
-    let (width, height) = (tile.width(), tile.height());
+    let width = tile.width();
+    let height = tile.height();
     let share = 1.0 / (step * step) as f32;
     let mut pixels = Vec::with_capacity(side * side);
     for y in 0..side {
@@ -127,16 +134,19 @@ mod tests {
     /// A map of even tiles but for one bright texel in their upper left corner, with relief in the
     /// first.
     fn map(size: usize, greys: &[f32]) -> ArtMap {
-        let key = |(index, grey): (usize, &f32)| {
-            let mut color = Field::filled(size, size, [*grey; 3]);
-            color[(0, 0)] = [2.0; 3];
-            let height_mm = (index == 0).then(|| Field::filled(size, size, 0.1));
-            let tile = Tile { color, paint: None, height_mm };
-            let sources = Field::filled(size, size, [0; 2]);
-            KeyMap { name: index.to_string(), tone: tile.tone(), tile, sources }
-        };
         ArtMap {
-            keys: greys.iter().enumerate().map(key).collect(),
+            keys: greys
+                .iter()
+                .enumerate()
+                .map(|(index, grey): (usize, &f32)| {
+                    let mut color = Field::filled(size, size, [*grey; 3]);
+                    color[(0, 0)] = [2.0; 3];
+                    let height_mm = (index == 0).then(|| Field::filled(size, size, 0.1));
+                    let tile = Tile { color, paint: None, height_mm };
+                    let sources = Field::filled(size, size, [0; 2]);
+                    KeyMap { name: index.to_string(), tone: tile.tone(), tile, sources }
+                })
+                .collect(),
             first: 0,
             paint: None,
             spacing: 8.0,
@@ -151,7 +161,8 @@ mod tests {
 
     #[test]
     fn rows_show_tiles_in_betweens_repeats_and_relief() {
-        let (size, greys) = (30, [0.1_f32, 0.3, 0.6]);
+        let size = 30;
+        let greys = [0.1_f32, 0.3, 0.6];
         let sheet = map(size, &greys).sheet(Between::Blend);
         let column = size + GAP;
         assert_eq!((sheet.width(), sheet.height()), (GAP + 3 * column, GAP + 6 * column));

@@ -11,12 +11,16 @@ const SPACING: usize = 8;
 fn set(tones: [f32; 3]) -> SampleSet {
     let samples = tones.into_iter().zip(1..).map(|(tone, seed)| {
         let mut sample = strokes(&format!("tone {tone}"), 240, SPACING, tone, seed);
-        let amount = |color: &[f32; 3]| {
-            let mut pigments_mm = [0.0; SLOTS];
-            pigments_mm[2] = color[0];
-            TexelPaint { pigments_mm, vehicle_mm: 2.0 * color[0] }
-        };
-        let amounts = sample.color.values().iter().map(amount).collect();
+        let amounts = sample
+            .color
+            .values()
+            .iter()
+            .map(|color: &[f32; 3]| {
+                let mut pigments_mm = [0.0; SLOTS];
+                pigments_mm[2] = color[0];
+                TexelPaint { pigments_mm, vehicle_mm: 2.0 * color[0] }
+            })
+            .collect();
         sample.paint = Some(Field::from_values(240, 240, amounts));
         sample
     });
@@ -44,7 +48,8 @@ fn tiles_go_from_dark_to_light_and_show_their_sources_to_the_bit() {
     for key in &map.keys {
         let from = sample(&samples, key);
         for index in 0..size * size {
-            let (x, y) = (index % size, index / size);
+            let x = index % size;
+            let y = index / size;
             let [u, v] = key.sources[(x, y)];
             let continues = |i: isize, j: isize| {
                 let wrap = |at: usize, by: isize| (at as isize + by).rem_euclid(size as isize);
@@ -115,9 +120,8 @@ fn paint_and_height_between_two_tones_have_the_means_of_both() {
         let texels = tile.paint.as_ref().unwrap().values();
         let heights = tile.height_mm.as_ref().unwrap().values();
         assert!(texels.iter().all(|texel| texel.pigments_mm[2] >= 0.0 && texel.vehicle_mm >= 0.0));
-        let of = |texel: &TexelPaint| f64::from(texel.pigments_mm[2]);
         [
-            texels.iter().map(of).sum::<f64>(),
+            texels.iter().map(|texel: &TexelPaint| f64::from(texel.pigments_mm[2])).sum::<f64>(),
             texels.iter().map(|texel| f64::from(texel.vehicle_mm)).sum(),
             heights.iter().map(|mm| f64::from(*mm)).sum(),
         ]

@@ -18,7 +18,8 @@ const DETAIL: f64 = 2.0;
 #[must_use]
 pub fn coherence(first: &Texture, second: &Texture, spacing: f64) -> f64 {
     assert_eq!(first.size(), second.size(), "maps must be of one size");
-    let (first, second) = (detail(first.lightness(), spacing), detail(second.lightness(), spacing));
+    let first = detail(first.lightness(), spacing);
+    let second = detail(second.lightness(), spacing);
     let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let squares = sum(&first, &first) * sum(&second, &second);
     if squares > 0.0 { sum(&first, &second) / squares.sqrt() } else { 0.0 }
@@ -30,7 +31,8 @@ pub fn coherence(first: &Texture, second: &Texture, spacing: f64) -> f64 {
 pub fn wrap_ratio(map: &Texture) -> f64 {
     let (width, height) = map.size();
     let lightness = map.lightness();
-    let (mut across, mut inside) = ((0.0, 0_u64), (0.0, 0_u64));
+    let mut across = (0.0, 0_u64);
+    let mut inside = (0.0, 0_u64);
     let mut note = |wraps: bool, a: f32, b: f32| {
         let (sum, count) = if wraps { &mut across } else { &mut inside };
         *sum += f64::from((a - b).abs());
@@ -38,7 +40,8 @@ pub fn wrap_ratio(map: &Texture) -> f64 {
     };
     for y in 0..height {
         for x in 0..width {
-            let (right, below) = ((x + 1) % width, (y + 1) % height);
+            let right = (x + 1) % width;
+            let below = (y + 1) % height;
             note(right == 0, lightness[(x, y)], lightness[(right, y)]);
             note(below == 0, lightness[(x, y)], lightness[(x, below)]);
         }
@@ -77,8 +80,10 @@ pub fn usual_wrap_ratio(map: &Texture) -> f64 {
 /// `block` texels that lie in the mask.
 #[must_use]
 pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) -> f64 {
-    let (width, height) = (mask.width().div_ceil(block), mask.height().div_ceil(block));
-    let (mut used, mut inside) = (vec![0_u64; width * height], vec![0_u64; width * height]);
+    let width = mask.width().div_ceil(block);
+    let height = mask.height().div_ceil(block);
+    let mut used = vec![0_u64; width * height];
+    let mut inside = vec![0_u64; width * height];
     let part = |x: usize, y: usize| y / block * width + x / block;
     for &[x, y] in sources.values() {
         used[part(usize::from(x), usize::from(y))] += 1;
@@ -88,8 +93,10 @@ pub fn most_used(sources: &Field<[u16; 2]>, mask: &Field<bool>, block: usize) ->
     }
     let all = inside.iter().sum::<u64>().max(1) as f64;
     let mean = (sources.values().len() as f64 / all).max(1.0);
-    let whole = |(_, inside): &(&u64, &u64)| **inside == (block * block) as u64;
-    let uses = used.iter().zip(&inside).filter(whole);
+    let uses = used
+        .iter()
+        .zip(&inside)
+        .filter(|(_, inside): &(&u64, &u64)| **inside == (block * block) as u64);
     uses.map(|(&used, &inside)| used as f64 / inside as f64 / mean).fold(0.0, f64::max)
 }
 
@@ -106,11 +113,16 @@ mod tests {
     use super::*;
 
     fn waves(size: usize, period: f32, phase: f32, offset: f32) -> Texture {
-        let value = |index: usize| {
-            let angle = ((index % size) as f32 / period + phase) * std::f32::consts::TAU;
-            [offset + 0.2 * angle.sin(); 3]
-        };
-        Texture::tiled(&Field::from_values(size, size, (0..size * size).map(value).collect()))
+        Texture::tiled(&Field::from_values(
+            size,
+            size,
+            (0..size * size)
+                .map(|index: usize| {
+                    let angle = ((index % size) as f32 / period + phase) * std::f32::consts::TAU;
+                    [offset + 0.2 * angle.sin(); 3]
+                })
+                .collect(),
+        ))
     }
 
     #[test]
@@ -144,8 +156,11 @@ mod tests {
     #[test]
     fn a_place_used_for_everything_is_counted() {
         let mask = Field::filled(64, 64, true);
-        let each = |index: usize| [(index % 64) as u16, (index / 64) as u16];
-        let evenly = Field::from_values(64, 64, (0..64 * 64).map(each).collect());
+        let evenly = Field::from_values(
+            64,
+            64,
+            (0..64 * 64).map(|index: usize| [(index % 64) as u16, (index / 64) as u16]).collect(),
+        );
         assert!((most_used(&evenly, &mask, 16) - 1.0).abs() < 1e-9);
         let once = Field::filled(64, 64, [5, 5]);
         assert!((most_used(&once, &mask, 16) - 16.0).abs() < 1e-9);

@@ -38,7 +38,8 @@ pub fn co_occurrence_error(reference: &Texture, other: &Texture) -> f64 {
     }
     sorted.sort_by(f32::total_cmp);
     let tail = (TAILS * sorted.len() as f64) as usize;
-    let (least, most) = (sorted[tail], sorted[sorted.len() - 1 - tail]);
+    let least = sorted[tail];
+    let most = sorted[sorted.len() - 1 - tail];
     let per_level = LEVELS as f32 / (most - least).max(1e-6);
     let level = |value: f32| (((value - least) * per_level).max(0.0) as usize).min(LEVELS - 1);
     let shares = |texture: &Texture, step: [isize; 2]| {
@@ -47,11 +48,15 @@ pub fn co_occurrence_error(reference: &Texture, other: &Texture) -> f64 {
         let total = counts.iter().sum::<u64>().max(1) as f64;
         counts.map(|count| count as f64 / total)
     };
-    let error = |&step: &[isize; 2]| {
-        let (first, second) = (shares(reference, step), shares(other, step));
-        first.iter().zip(second).map(|(a, b)| (a - b).abs()).sum::<f64>()
-    };
-    STEPS.iter().map(error).sum::<f64>() / STEPS.len() as f64
+    STEPS
+        .iter()
+        .map(|&step: &[isize; 2]| {
+            let first = shares(reference, step);
+            let second = shares(other, step);
+            first.iter().zip(second).map(|(a, b)| (a - b).abs()).sum::<f64>()
+        })
+        .sum::<f64>()
+        / STEPS.len() as f64
 }
 
 /// Standard deviation of L*.
@@ -71,7 +76,8 @@ pub fn stroke_length(texture: &Texture) -> f64 {
     }
     let mut length = 0.5;
     for step in 1..texture.size().1 / 2 {
-        let (mut sum, mut count) = (0.0, 0_u64);
+        let mut sum = 0.0;
+        let mut count = 0_u64;
         texture.pairs([0, step as isize], |a, b| {
             sum += (f64::from(a) - mean) * (f64::from(b) - mean);
             count += 1;
@@ -101,14 +107,16 @@ mod tests {
 
     /// Vertical dashes, `length` texels long, `spacing` texels apart.
     fn dashes(size: usize, length: usize, spacing: usize, dark: f32) -> Texture {
-        let value = |index: usize| {
-            let (x, y) = (index % size, index / size);
-            let column = x / spacing;
-            let even = ((y + 7 * column * column) / length).is_multiple_of(2);
-            let on = even && x % spacing < spacing / 2;
-            [if on { dark } else { 0.8 }; 3]
-        };
-        let values = (0..size * size).map(value).collect();
+        let values = (0..size * size)
+            .map(|index: usize| {
+                let x = index % size;
+                let y = index / size;
+                let column = x / spacing;
+                let even = ((y + 7 * column * column) / length).is_multiple_of(2);
+                let on = even && x % spacing < spacing / 2;
+                [if on { dark } else { 0.8 }; 3]
+            })
+            .collect();
         Texture::tiled(&Field::from_values(size, size, values))
     }
 
@@ -134,12 +142,17 @@ mod tests {
     #[test]
     fn a_gradient_does_not_lengthen_the_strokes_of_a_levelled_texture() {
         let short = dashes(96, 8, 8, 0.5);
-        let value = |index: usize| {
-            let on = short.lightness().values()[index] < 80.0;
-            [(if on { 0.5 } else { 0.8 }) * (0.1 + (index / 96) as f32 / 96.0); 3]
-        };
         let mask = Field::filled(96, 96, true);
-        let uneven = Field::from_values(96, 96, (0..96 * 96).map(value).collect());
+        let uneven = Field::from_values(
+            96,
+            96,
+            (0..96 * 96)
+                .map(|index: usize| {
+                    let on = short.lightness().values()[index] < 80.0;
+                    [(if on { 0.5 } else { 0.8 }) * (0.1 + (index / 96) as f32 / 96.0); 3]
+                })
+                .collect(),
+        );
         let uneven = Texture::masked(&uneven, &mask);
         assert!(stroke_length(&uneven) > 1.5 * stroke_length(&short));
         let ratio = stroke_length(&uneven.levelled(16.0)) / stroke_length(&short.levelled(16.0));

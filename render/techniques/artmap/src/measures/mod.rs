@@ -1,9 +1,7 @@
 //! Figures of how well a map has the brushwork of its sample, and how well maps agree.
 
 mod texture;
-
 mod brushwork;
-
 mod agreement;
 
 pub use agreement::{coherence, most_used, usual_wrap_ratio, wrap_ratio};

@@ -28,7 +28,8 @@ impl Texture {
     /// If the sizes differ.
     #[must_use]
     pub fn masked(color: &Picture, mask: &Field<bool>) -> Self {
-        let (size, covered) = ((color.width(), color.height()), (mask.width(), mask.height()));
+        let size = (color.width(), color.height());
+        let covered = (mask.width(), mask.height());
         assert_eq!(size, covered, "a mask must cover its sample");
         Self { lightness: lightness(color), mask: Some(mask.clone()) }
     }
@@ -79,7 +80,8 @@ impl Texture {
         let inside = |at: (usize, usize)| self.mask.as_ref().is_none_or(|mask| mask[at]);
         for y in 0..height {
             for x in 0..width {
-                let (u, v) = (x as isize + step[0], y as isize + step[1]);
+                let u = x as isize + step[0];
+                let v = y as isize + step[1];
                 let other = if self.mask.is_none() {
                     (u.rem_euclid(width as isize) as usize, v.rem_euclid(height as isize) as usize)
                 } else if u < 0 || v < 0 || u >= width as isize || v >= height as isize {
@@ -97,15 +99,26 @@ impl Texture {
 
 /// Blur of the values inside a mask; values outside give nothing.
 fn masked_blur(values: &Field<f32>, mask: &Field<bool>, sigma: f64) -> Field<f32> {
-    let weigh = |(value, &inside): (&f32, &bool)| {
-        let weight = f32::from(inside);
-        [weight * value, weight]
-    };
-    let weighed = values.values().iter().zip(mask.values()).map(weigh).collect();
-    let (width, height) = (values.width(), values.height());
+    let weighed = values
+        .values()
+        .iter()
+        .zip(mask.values())
+        .map(|(value, &inside): (&f32, &bool)| {
+            let weight = f32::from(inside);
+            [weight * value, weight]
+        })
+        .collect();
+    let width = values.width();
+    let height = values.height();
     let sums = blurred(&Field::from_values(width, height, weighed), sigma);
-    let mean = |&[sum, weight]: &[f32; 2]| if weight > 1e-4 { sum / weight } else { 0.0 };
-    Field::from_values(width, height, sums.values().iter().map(mean).collect())
+    Field::from_values(
+        width,
+        height,
+        sums.values()
+            .iter()
+            .map(|&[sum, weight]: &[f32; 2]| if weight > 1e-4 { sum / weight } else { 0.0 })
+            .collect(),
+    )
 }
 
 fn lightness(color: &Picture) -> Field<f32> {

@@ -51,11 +51,10 @@ pub fn strokes(style: &Style, seed: u64) -> Vec<SwatchStroke> {
         let mut strokes = coat_strokes(style, coat, size, &mut random);
         // A stroke that does not reach the swatch would only cost time.
         strokes.retain(|stroke| {
-            let lies = |sample: &Sample| {
+            stroke.samples.iter().any(|sample: &Sample| {
                 let reach = style.brush.size_mm;
                 (inner[0] - reach..inner[1] + reach).contains(&sample.y_mm)
-            };
-            stroke.samples.iter().any(lies)
+            })
         });
         if style.strokes.layout == Layout::Scatter {
             strokes.shuffle(&mut random);
@@ -101,7 +100,8 @@ fn stroke(
     middle: [f64; 2],
     random: &mut ChaCha8Rng,
 ) -> SwatchStroke {
-    let (plan, paint) = (&style.strokes, &style.paint);
+    let plan = &style.strokes;
+    let paint = &style.paint;
     let mut about = |spread: f64| spread * random.random_range(-1.0..=1.0);
     let length = plan.length_mm * (1.0 + about(plan.length_spread));
     // The sum of three even numbers is nearly normal, with a standard deviation of 1.

@@ -13,17 +13,11 @@
 //! ```
 
 mod shipped;
-
 mod style_error;
-
 mod plan;
-
 mod tones;
-
 mod brushwork;
-
 mod swatch;
-
 mod set;
 
 pub use brushwork::{SwatchStroke, strokes};

@@ -56,7 +56,8 @@ impl Mixtures {
 pub(super) fn ground(style: &Style, ladder: &ToneLadder) -> Result<Ground, GroundError> {
     let (across, along) = style.margins();
     let side = style.canvas.side_cells;
-    let (width, height) = (side + 2 * across, side + 2 * along);
+    let width = side + 2 * across;
+    let height = side + 2 * along;
     style.canvas.ground.build(width, height, style.canvas.cell_mm, ladder.library())
 }
 
@@ -115,9 +116,11 @@ impl Workplace<'_> {
         if paint.underpainting_mm == 0.0 {
             return None;
         }
-        let quanta = |share: f64| quanta_from_mm(share * paint.underpainting_mm, canvas.cell_mm);
-        let pigments = mixtures.shares(0.0).map(quanta);
-        let (width, height) = (self.ground.height.width(), self.ground.height.height());
+        let pigments = mixtures
+            .shares(0.0)
+            .map(|share: f64| quanta_from_mm(share * paint.underpainting_mm, canvas.cell_mm));
+        let width = self.ground.height.width();
+        let height = self.ground.height.height();
         Some(Layer {
             pigments: Field::filled(width, height, pigments),
             vehicle: Field::filled(width, height, 0),
@@ -168,11 +171,15 @@ impl Workplace<'_> {
         let (across, along) = self.style.margins();
         let side = self.style.canvas.side_cells;
         let middle = Rect { x: across, y: along, width: side, height: side };
-        let place = |pigment| self.ladder.slots().iter().position(|slot| *slot == Some(pigment));
         Sample {
             name: format!("tone {}", at + 1),
             color: level_colors(document, &self.light).part(middle),
-            paint: Some(summed_paint(document, place).part(middle)),
+            paint: Some(
+                summed_paint(document, |pigment| {
+                    self.ladder.slots().iter().position(|slot| *slot == Some(pigment))
+                })
+                .part(middle),
+            ),
             height_mm: Some(summed_height(document).part(middle)),
             mask: Field::filled(side, side, true),
             spacing: self.style.spacing_cells(),
@@ -185,11 +192,13 @@ impl Workplace<'_> {
 /// Paint of a head between two mixtures of equal volume: `weights` around the head, at even
 /// distances, are 0 for `dark` and 1 for `light`.
 fn half_mixed(dark: &Layer, light: &Layer, weights: &[f64]) -> Layer {
-    let (width, height) = (dark.width(), dark.height());
+    let width = dark.width();
+    let height = dark.height();
     let mut mixed = Layer::empty(width, height);
     for x in 0..width {
         let at = x as f64 / width as f64 * weights.len() as f64;
-        let (first, share) = (at as usize, at.fract());
+        let first = at as usize;
+        let share = at.fract();
         let [from, to] = [first, first + 1].map(|knot| weights[knot % weights.len()]);
         let light_parts = ((from + share * (to - from)) * 65536.0).round() as u32;
         for y in 0..height {

@@ -97,8 +97,12 @@ impl ToneLadder {
         if span <= count as f64 {
             return Err(TonesError::Narrow { hue: hue.to_owned(), darkest, lightest, margin });
         }
-        let even = |at: usize| darkest + margin + span * at as f64 / (count - 1) as f64;
-        let wanted = std::iter::once(darkest).chain((0..count).map(even)).chain([lightest]);
+        let wanted = std::iter::once(darkest)
+            .chain(
+                (0..count)
+                    .map(|at: usize| darkest + margin + span * at as f64 / (count - 1) as f64),
+            )
+            .chain([lightest]);
         let mut slots = Slots::default();
         for (slot, &pigment) in slots.iter_mut().zip(&table) {
             *slot = Some(pigment);
@@ -152,7 +156,8 @@ impl ToneLadder {
                 dark.shares[slot] + share * (light.shares[slot] - dark.shares[slot])
             })
         };
-        let (mut low, mut high) = (0.0, 1.0);
+        let mut low = 0.0;
+        let mut high = 1.0;
         for _ in 0..SHARE_BISECTIONS {
             let middle = (low + high) / 2.0;
             let under = self.lab_of(&blended(middle)).is_some_and(|lab| lab.lightness < lightness);
@@ -169,7 +174,8 @@ impl ToneLadder {
     #[must_use]
     pub fn shares_about(&self, lightness: f64, spread: f64) -> [[f64; SLOTS]; 2] {
         let pair = |middle: f64| [middle - spread, middle + spread].map(|l| self.shares_at(l));
-        let (mut low, mut high) = (lightness - spread, lightness + spread);
+        let mut low = lightness - spread;
+        let mut high = lightness + spread;
         for _ in 0..SHARE_BISECTIONS {
             let middle = (low + high) / 2.0;
             let [dark, light] = pair(middle);
@@ -266,7 +272,8 @@ fn matched(search: &RecipeSearch<'_>, lab: Lab) -> Result<(Lab, Recipe), TonesEr
 
 /// L* farthest from that of `base` towards `end` at which a mixture keeps the hue.
 fn farthest(search: &RecipeSearch<'_>, base: Lab, end: f64) -> Result<f64, TonesError> {
-    let (mut kept, mut lost) = (base.lightness, end);
+    let mut kept = base.lightness;
+    let mut lost = end;
     for _ in 0..BISECTIONS {
         let lightness = (kept + lost) / 2.0;
         let (found, _) = mixture_at(search, base, lightness)?;

@@ -27,7 +27,8 @@ impl Frame {
     /// A frame along y of scale 1 shows the pixels as they are.
     pub(super) fn around(mask: &Field<bool>, along: [f64; 2], scale: [f64; 2]) -> Self {
         let across = [along[1], -along[0]];
-        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let mut least = [f64::INFINITY; 2];
+        let mut most = [f64::NEG_INFINITY; 2];
         for (pixel, _) in mask.values().iter().enumerate().filter(|(_, inside)| **inside) {
             let place = [(pixel % mask.width()) as f64, (pixel / mask.width()) as f64];
             for (axis, direction) in [across, along].into_iter().enumerate() {
@@ -78,7 +79,8 @@ impl Frame {
         let reach = [0, 1].map(|i| half[0] * self.across[i].abs() + half[1] * self.along[i].abs());
         let range =
             |i: usize| (middle[i] - reach[i]).ceil() as i64..=(middle[i] + reach[i]).floor() as i64;
-        let (mut inside, mut all) = (0.0, 0.0);
+        let mut inside = 0.0;
+        let mut all = 0.0;
         for y in range(1) {
             for x in range(0) {
                 let off = [x as f64 - middle[0], y as f64 - middle[1]];
@@ -132,11 +134,11 @@ mod tests {
         let (sin, cos) = 30f64.to_radians().sin_cos();
         let frame = Frame::around(&mask, [cos, sin], [1.0, 2.0]);
         let value = |pixel: usize| (pixel % 60) as f64 * cos + (pixel / 60) as f64 * sin;
-        let gather = |taps: &[Tap]| -> f64 {
+        let found = frame.resampled(&mask, |taps: &[Tap]| -> f64 {
             taps.iter().map(|&(pixel, weight)| f64::from(weight) * value(pixel)).sum()
-        };
-        let found = frame.resampled(&mask, gather);
-        let (x, y) = (frame.size[0] / 2, frame.size[1] / 2);
+        });
+        let x = frame.size[0] / 2;
+        let y = frame.size[1] / 2;
         let at = |x: usize, y: usize| found[(x, y)].unwrap();
         assert!((at(x, y + 8) - at(x, y) - 4.0).abs() < 0.15, "two texels a pixel along y");
         assert!((at(x + 5, y) - at(x, y)).abs() < 0.15, "and even across");

@@ -87,7 +87,8 @@ fn around(
 
 /// The neighbours of each region by rising label, and the lengths of the common borders in pixels.
 fn borders(regions: &Regions) -> Vec<Vec<(u32, u32)>> {
-    let (width, height) = (regions.labels.width(), regions.labels.height());
+    let width = regions.labels.width();
+    let height = regions.labels.height();
     let mut pairs = Vec::new();
     for y in 0..height {
         for x in 0..width {

@@ -89,7 +89,8 @@ fn unite(whole: &mut Candidate, part: Candidate) {
 /// Divides regions under several scribbles: each pixel goes to the scribble nearest along a path
 /// of rows and columns inside the region; of equally near ones to the first.
 fn divided(regions: &Regions, scribbles: &[Vec<u32>]) -> Regions {
-    let (width, height) = (regions.labels.width(), regions.labels.height());
+    let width = regions.labels.width();
+    let height = regions.labels.height();
     let mut owners = vec![BTreeSet::new(); regions.count];
     for (number, scribble) in scribbles.iter().enumerate() {
         for &pixel in scribble {
@@ -116,8 +117,8 @@ fn divided(regions: &Regions, scribbles: &[Vec<u32>]) -> Regions {
         }
     }
     while let Some(pixel) = queue.pop_front() {
-        let (region, name) =
-            (regions.labels.values()[pixel as usize], labels.values()[pixel as usize]);
+        let region = regions.labels.values()[pixel as usize];
+        let name = labels.values()[pixel as usize];
         for other in beside(pixel, width, height) {
             let inside = regions.labels.values()[other as usize] == region;
             if inside && !std::mem::replace(&mut reached[other as usize], true) {
@@ -142,7 +143,8 @@ fn united(regions: &Regions, scribbles: &[Vec<u32>]) -> (Regions, Vec<usize>) {
         }
     }
     let labels = regions.labels.values().iter().map(|&label| names[label as usize]).collect();
-    let (width, height) = (regions.labels.width(), regions.labels.height());
+    let width = regions.labels.width();
+    let height = regions.labels.height();
     (Regions::numbered(Field::from_values(width, height, labels), regions.count), under)
 }
 

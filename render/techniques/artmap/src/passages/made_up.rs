@@ -61,8 +61,8 @@ impl Texture {
             random[(mixed ^ (mixed >> 15)) as usize % VALUES]
         };
         let (sin, cos) = self.degrees.to_radians().sin_cos();
-        let (across, along) =
-            ((y * cos - x * sin) / self.spacing, (x * cos + y * sin) / self.spacing);
+        let across = (y * cos - x * sin) / self.spacing;
+        let along = (x * cos + y * sin) / self.spacing;
         let (profile, row, part) = if self.brush == Brush::Specks {
             let mut found = (-0.5, 0, 0);
             for (i, j) in (0..9).map(|i| (across as i64 - 1 + i % 3, along as i64 - 1 + i / 3)) {
@@ -107,7 +107,8 @@ pub(super) fn textured(
     let values: Vec<f64> = (0..VALUES).map(|_| random.random_range(-1.0..1.0)).collect();
     let grain: Vec<f64> = (0..VALUES).map(|_| random.random_range(-0.012..0.012)).collect();
     let pixel = |i: usize| {
-        let (x, y) = (i % width, i / width);
+        let x = i % width;
+        let y = i / width;
         let texture = &textures[texture_at(x, y)];
         let mut sum = [0.0; 3];
         for k in 0..4 {
@@ -273,11 +274,12 @@ impl Painting {
 
     /// Scribbles with the true spacings, named by the number of their texture.
     pub(super) fn marks(&self) -> Marks {
-        let pixels = |[x, y]: [f64; 2]| [x * WIDTH as f64, y * HEIGHT as f64];
         let samples = self.textures.iter().zip(&self.scribbles).enumerate();
         let samples = samples.map(|(number, (texture, line))| Mark {
             name: number.to_string(),
-            area: MarkedArea::Scribble(line.map(pixels).to_vec()),
+            area: MarkedArea::Scribble(
+                line.map(|[x, y]: [f64; 2]| [x * WIDTH as f64, y * HEIGHT as f64]).to_vec(),
+            ),
             spacing: Some([[10.0, 10.0], [10.0 + texture.spacing, 10.0]]),
         });
         Marks { file: self.name.to_owned(), painting: None, samples: samples.collect() }

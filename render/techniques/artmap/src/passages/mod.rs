@@ -11,41 +11,23 @@
 //! resized until all have one spacing of strokes.
 
 mod settings;
-
 mod source;
-
 mod perceived;
-
 mod regions;
-
 mod marks;
-
 mod error;
-
 mod jseg;
-
 mod over;
-
 mod traits;
-
 mod gaps;
-
 mod joining;
-
 mod direction;
-
 mod frame;
-
 mod spacing;
-
 mod upright;
-
 mod report;
-
 mod shown;
-
 mod taking;
-
 mod propose;
 
 #[cfg(test)]

@@ -28,7 +28,8 @@ pub fn over_segmented(
 ) -> Result<Regions, PassageError> {
     settings.check()?;
     check_colors(color)?;
-    let (width, height) = (color.width(), color.height());
+    let width = color.width();
+    let height = color.height();
     let factor = width.max(height).div_ceil(LONGEST_PX).max(1);
     if factor == 1 {
         return Ok(divided(color, settings));
@@ -49,8 +50,7 @@ pub fn over_segmented(
 /// [`PassageError::NoColor`].
 pub(super) fn check_colors(color: &Picture) -> Result<(), PassageError> {
     let odd = color.values().iter().position(|color| !color.iter().all(|value| value.is_finite()));
-    let place = |pixel: usize| (pixel % color.width(), pixel / color.width());
-    match odd.map(place) {
+    match odd.map(|pixel: usize| (pixel % color.width(), pixel / color.width())) {
         Some((x, y)) => Err(PassageError::NoColor { x, y }),
         None => Ok(()),
     }
@@ -75,9 +75,11 @@ fn divided(color: &Picture, settings: &PassageSettings) -> Regions {
 /// edge that are cut off are left out, unless they are the only ones.
 fn reduced(color: &Picture, factor: usize) -> Picture {
     let size = |pixels: usize| (pixels / factor).max(1);
-    let (width, height) = (size(color.width()), size(color.height()));
+    let width = size(color.width());
+    let height = size(color.height());
     let mean = |cell: usize| {
-        let (left, top) = (cell % width * factor, cell / width * factor);
+        let left = cell % width * factor;
+        let top = cell / width * factor;
         let across = factor.min(color.width() - left);
         let rows = top..(top + factor).min(color.height());
         let mut sum = [0.0f64; 3];

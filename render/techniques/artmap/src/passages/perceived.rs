@@ -11,7 +11,8 @@ const GRADIENT_SIGMA: f64 = 1.0;
 
 /// CIELUV of every pixel, relative to the white of sRGB.
 pub(super) fn luv_of(picture: &Picture) -> Field<[f32; 3]> {
-    let (white, xyz) = (RgbSpace::Srgb.white(), RgbSpace::Srgb.xyz_from_linear());
+    let white = RgbSpace::Srgb.white();
+    let xyz = RgbSpace::Srgb.xyz_from_linear();
     mapped(picture, |color| {
         let xyz = xyz.apply(color.map(|value| f64::from(value.max(0.0))));
         Luv::from_xyz(xyz.into(), white).to_array().map(|value| value as f32)
@@ -30,14 +31,17 @@ pub(super) fn intensity_of(picture: &Picture) -> Field<f32> {
 
 /// Gradient of the intensity per pixel, to the right and down, of the slightly smoothed picture.
 pub(super) fn gradient_of(intensity: &Field<f32>) -> Field<[f32; 2]> {
-    let (width, height) = (intensity.width(), intensity.height());
+    let width = intensity.width();
+    let height = intensity.height();
     let single = intensity.values().iter().map(|&value| [value]).collect();
     let smooth = blurred(&Field::from_values(width, height, single), GRADIENT_SIGMA);
     let mut gradient = Field::filled(width, height, [0.0; 2]);
     gradient.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
-        let (above, below) = (y.saturating_sub(1), (y + 1).min(height - 1));
+        let above = y.saturating_sub(1);
+        let below = (y + 1).min(height - 1);
         for (x, found) in row.iter_mut().enumerate() {
-            let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
+            let left = x.saturating_sub(1);
+            let right = (x + 1).min(width - 1);
             // Scharr's weights have the least error in direction (Jaehne 1999).
             let side = |[a, b, c]: [(usize, usize); 3]| {
                 3.0 * (smooth[a][0] + smooth[c][0]) + 10.0 * smooth[b][0]

@@ -84,7 +84,8 @@ fn chosen(traits: &[RegionTraits], picture_px: usize, count: usize) -> Vec<usize
 /// Distance of each pixel from the border of its region or of the picture.
 fn depths(regions: &Regions) -> Field<u32> {
     let mut depths = regions.depths();
-    let (width, height) = (depths.width(), depths.height());
+    let width = depths.width();
+    let height = depths.height();
     for y in 0..height {
         for x in 0..width {
             let edge = (x + 1).min(y + 1).min(width - x).min(height - y);
@@ -103,7 +104,8 @@ fn scribble(regions: &Regions, label: usize, pixels: &[u32], depths: &Field<u32>
     let middle = [f64::from(deepest % width as u32), f64::from(deepest / width as u32)];
     let least = (depth(deepest) / 4).max(1);
     let inside = |[x, y]: [f64; 2]| {
-        let (x, y) = (x.round(), y.round());
+        let x = x.round();
+        let y = y.round();
         let within = x >= 0.0 && y >= 0.0 && x < width as f64 && y < depths.height() as f64;
         within && {
             let at = (x as usize, y as usize);
@@ -159,8 +161,13 @@ mod tests {
     fn an_unlike_passage_comes_before_a_larger_like_one() {
         // Strips of 50, 40 and 10 columns, all with waves; the first two are nearly alike.
         let strip = |x: usize| usize::from(x >= 50) + usize::from(x >= 90);
-        let tone = |i: usize| [0.5, 0.52, 0.8][strip(i % 100)] + 0.05 * ((i / 100) as f32).sin();
-        let intensity = Field::from_values(100, 40, (0..4000).map(tone).collect());
+        let intensity = Field::from_values(
+            100,
+            40,
+            (0..4000)
+                .map(|i: usize| [0.5, 0.52, 0.8][strip(i % 100)] + 0.05 * ((i / 100) as f32).sin())
+                .collect(),
+        );
         let labels = (0..4000).map(|i| strip(i % 100) as u32).collect();
         let regions = Regions { labels: Field::from_values(100, 40, labels), count: 3 };
         let traits = traits_of(&regions, &intensity, &gradient_of(&intensity));

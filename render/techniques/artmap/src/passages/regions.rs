@@ -18,7 +18,8 @@ pub struct Regions {
 /// Indices of the pixels above, below, left and right of a pixel.
 pub(super) fn beside(pixel: u32, width: usize, height: usize) -> impl Iterator<Item = u32> {
     let across = width as u32;
-    let (x, y) = (pixel as usize % width, pixel as usize / width);
+    let x = pixel as usize % width;
+    let y = pixel as usize / width;
     let around = [
         (x > 0).then(|| pixel - 1),
         (x + 1 < width).then(|| pixel + 1),
@@ -53,7 +54,8 @@ impl Regions {
 
     /// The labels of the neighbours of each region, by rows and columns.
     pub(super) fn neighbours(&self) -> Vec<BTreeSet<u32>> {
-        let (width, height) = (self.labels.width(), self.labels.height());
+        let width = self.labels.width();
+        let height = self.labels.height();
         let mut neighbours = vec![BTreeSet::new(); self.count];
         let mut meet = |one: u32, other: u32| {
             if one != other {
@@ -78,7 +80,8 @@ impl Regions {
     /// Distance of each pixel from the nearest pixel of another region, along rows and columns:
     /// 1 at a border, more inside. The edge of the picture is no border.
     pub(super) fn depths(&self) -> Field<u32> {
-        let (width, height) = (self.labels.width(), self.labels.height());
+        let width = self.labels.width();
+        let height = self.labels.height();
         let mut depths = Field::filled(width, height, u32::MAX);
         let labels = self.labels.values();
         let mut queue = VecDeque::new();
@@ -119,7 +122,8 @@ pub(super) fn joined<T>(
     let mut versions = vec![0u32; regions.count];
     let mut queue = BinaryHeap::new();
     let offer = |queue: &mut BinaryHeap<_>, versions: &[u32], summaries: &[Option<T>], a, b| {
-        let (one, other) = (u32::min(a, b), u32::max(a, b));
+        let one = u32::min(a, b);
+        let other = u32::max(a, b);
         let [i, j] = [one, other].map(|label| label as usize);
         if let (Some(first), Some(second)) = (&summaries[i], &summaries[j]) {
             let cost = cost(first, second);
@@ -135,7 +139,8 @@ pub(super) fn joined<T>(
         }
     }
     while let Some(Reverse((_, one, other, version, other_version))) = queue.pop() {
-        let (i, j) = (one as usize, other as usize);
+        let i = one as usize;
+        let j = other as usize;
         if versions[i] != version || versions[j] != other_version {
             continue;
         }
@@ -172,7 +177,8 @@ fn relabelled<T>(
     }
     let values = regions.labels.values();
     let labels = values.iter().map(|&label| ends[label as usize]).collect();
-    let (width, height) = (regions.labels.width(), regions.labels.height());
+    let width = regions.labels.width();
+    let height = regions.labels.height();
     let found = Regions::numbered(Field::from_values(width, height, labels), regions.count);
     // The order of first appearance, in which labels are numbered, is that of the least labels.
     let kept = summaries.iter_mut().filter_map(Option::take).collect();

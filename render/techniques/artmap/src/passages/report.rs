@@ -63,7 +63,8 @@ impl PassageReport {
     /// Column and row of the upper left corner of the passage, its width and height, in pixels.
     #[must_use]
     pub fn bounds(&self) -> [usize; 4] {
-        let (width, height) = (self.mask.width(), self.mask.height());
+        let width = self.mask.width();
+        let height = self.mask.height();
         let inside = (0..width * height).filter(|&pixel| self.mask.values()[pixel]);
         let [mut left, mut top, mut right, mut below] = [width, height, 0, 0];
         for (x, y) in inside.map(|pixel| (pixel % width, pixel / width)) {

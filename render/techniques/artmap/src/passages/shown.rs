@@ -52,7 +52,8 @@ pub fn marked_picture(
     marks: &Marks,
     passages: &[PassageReport],
 ) -> Result<Picture, MarksError> {
-    let (width, height) = (picture.width(), picture.height());
+    let width = picture.width();
+    let height = picture.height();
     let areas = marks.drawn(width, height)?;
     let mut shown = picture.clone();
     if !passages.is_empty() {
@@ -91,7 +92,8 @@ fn fade(shown: &mut Picture, passages: &[PassageReport]) {
 
 /// Colours the pixels of `mask` that lie within `reach` of its outline.
 fn outline(shown: &mut Picture, mask: &Field<bool>, reach: usize, color: [f32; 3]) {
-    let (width, height) = (mask.width(), mask.height());
+    let width = mask.width();
+    let height = mask.height();
     let inside = |x: Option<usize>, y: Option<usize>| match (x, y) {
         (Some(x), Some(y)) => x < width && y < height && mask[(x, y)],
         _ => false,
@@ -111,9 +113,11 @@ fn outline(shown: &mut Picture, mask: &Field<bool>, reach: usize, color: [f32; 3
 
 /// Colours squares of `reach` around the pixels of a line.
 fn thick(shown: &mut Picture, pixels: &[u32], reach: usize, color: [f32; 3]) {
-    let (width, height) = (shown.width(), shown.height());
+    let width = shown.width();
+    let height = shown.height();
     for pixel in pixels.iter().map(|&pixel| pixel as usize) {
-        let (x, y) = (pixel % width, pixel / width);
+        let x = pixel % width;
+        let y = pixel / width;
         let left = x.saturating_sub(reach);
         let across = (x + reach).min(width - 1) + 1 - left;
         for row in y.saturating_sub(reach)..=(y + reach).min(height - 1) {

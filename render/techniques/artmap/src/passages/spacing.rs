@@ -67,7 +67,8 @@ fn across(intensity: &Field<f32>, mask: &Field<bool>, along: [f64; 2]) -> Vec<f6
 /// Detail of the intensity and 1 in the passage, zeros elsewhere: the difference of a narrow and a
 /// wide mean, neither of which looks beyond the passage.
 fn detail(upright: &Field<Option<f32>>) -> Field<[f32; 2]> {
-    let (width, height) = (upright.width(), upright.height());
+    let width = upright.width();
+    let height = upright.height();
     let weighted = upright.values().iter().map(|value| value.map_or([0.0; 2], |v| [v, 1.0]));
     let weighted = Field::from_values(width, height, weighted.collect());
     let narrow = blurred(&weighted, NOISE_SIGMA);
@@ -83,7 +84,9 @@ fn detail(upright: &Field<Option<f32>>) -> Field<[f32; 2]> {
 /// Correlation of the detail with itself `lag` pixels to the right.
 fn correlation(detail: &Field<[f32; 2]>, lag: usize) -> f64 {
     let width = detail.width();
-    let (mut product, mut left, mut right) = (0.0, 0.0, 0.0);
+    let mut product = 0.0;
+    let mut left = 0.0;
+    let mut right = 0.0;
     for row in detail.values().chunks_exact(width.max(1)) {
         for (one, other) in row.iter().zip(&row[lag..]) {
             let both = f64::from(one[1] * other[1]);

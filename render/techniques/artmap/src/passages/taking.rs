@@ -192,11 +192,13 @@ fn level(reports: &mut [PassageReport], density: Density) -> Result<f64, Passage
     let mut order: Vec<usize> = (0..reports.len()).collect();
     order.sort_by(|&one, &other| reports[one].spacing_px.total_cmp(&reports[other].spacing_px));
     let median = &reports[order[(order.len() - 1) / 2]];
-    let (reference, reference_px) = (median.name.clone(), median.spacing_px);
+    let reference = median.name.clone();
+    let reference_px = median.spacing_px;
     for report in reports {
         let scale = reference_px / report.spacing_px;
         if !(1.0 / MOST_SCALE..=MOST_SCALE).contains(&scale) {
-            let (sample, spacing_px) = (report.name.clone(), report.spacing_px);
+            let sample = report.name.clone();
+            let spacing_px = report.spacing_px;
             return Err(PassageError::Unlike { sample, spacing_px, reference, reference_px });
         }
         report.scale = match density {

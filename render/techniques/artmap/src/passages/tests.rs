@@ -15,7 +15,8 @@ fn overlaps(painting: &Painting, over: OverSegmentation) -> Vec<f64> {
     let (_, reports) = samples_of_picture(&picture, &painting.marks(), &settings).unwrap();
     let overlap = |report: &PassageReport| {
         let texture: usize = report.name.parse().unwrap();
-        let (mut both, mut either) = (0, 0);
+        let mut both = 0;
+        let mut either = 0;
         for y in 0..HEIGHT {
             for x in 0..WIDTH {
                 let pair = (report.mask[(x, y)], painting.texture_at(x, y) == texture);
@@ -127,7 +128,8 @@ fn all_channels_of_a_texel_come_from_the_same_place() {
     let marks = both_rectangles([Some(8.0), Some(12.0)]);
     let (set, _) = samples_of_picture(&pair(), &marks, &PassageSettings::default()).unwrap();
     for sample in &set.samples {
-        let (paint, height) = (sample.paint.as_ref().unwrap(), sample.height_mm.as_ref().unwrap());
+        let paint = sample.paint.as_ref().unwrap();
+        let height = sample.height_mm.as_ref().unwrap();
         for (texel, color) in sample.color.values().iter().enumerate() {
             // Height and paint were made equal to the green of the picture.
             assert_eq!(height.values()[texel], color[1]);

@@ -113,19 +113,26 @@ pub(super) fn traits_of(
 ) -> Vec<RegionTraits> {
     let depth = regions.depths();
     let pixels = regions.pixels();
-    let of = |pixels: &Vec<u32>| RegionTraits::of(pixels, &depth, intensity, gradient);
-    pixels.par_iter().map(of).collect()
+    pixels
+        .par_iter()
+        .map(|pixels: &Vec<u32>| RegionTraits::of(pixels, &depth, intensity, gradient))
+        .collect()
 }
 
 /// Those pixels whose gradients belong to the region: the ones deep inside if they are a quarter
 /// of it, else those not at its border, else all.
 fn inner(pixels: &[u32], depth: &Field<u32>) -> Vec<u32> {
-    let deeper = |least: u32| -> Vec<u32> {
-        let deep = |pixel: &u32| depth.values()[*pixel as usize] >= least;
-        pixels.iter().copied().filter(deep).collect()
-    };
     let depths = [INSIDE, 2];
-    let found = depths.into_iter().map(deeper).find(|inner| inner.len() * 4 >= pixels.len());
+    let found = depths
+        .into_iter()
+        .map(|least: u32| -> Vec<u32> {
+            pixels
+                .iter()
+                .copied()
+                .filter(|pixel: &u32| depth.values()[*pixel as usize] >= least)
+                .collect()
+        })
+        .find(|inner| inner.len() * 4 >= pixels.len());
     found.unwrap_or_else(|| pixels.to_vec())
 }
 
@@ -156,11 +163,16 @@ mod tests {
     /// Waves whose crests run at an angle, about a mean.
     fn waves(degrees: f64, mean: f64, height: f64) -> RegionTraits {
         let (sin, cos) = degrees.to_radians().sin_cos();
-        let value = |i: usize| {
-            let across = (i % 60) as f64 * -sin + (i / 60) as f64 * cos;
-            (mean + height * (across * 0.8).sin()) as f32
-        };
-        let intensity = Field::from_values(60, 60, (0..3600).map(value).collect());
+        let intensity = Field::from_values(
+            60,
+            60,
+            (0..3600)
+                .map(|i: usize| {
+                    let across = (i % 60) as f64 * -sin + (i / 60) as f64 * cos;
+                    (mean + height * (across * 0.8).sin()) as f32
+                })
+                .collect(),
+        );
         let whole = Regions { labels: Field::filled(60, 60, 0), count: 1 };
         traits_of(&whole, &intensity, &gradient_of(&intensity))[0]
     }

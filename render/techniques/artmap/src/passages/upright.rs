@@ -32,7 +32,8 @@ struct Texel {
 /// inside of the passage. Texels outside of it are zeros.
 pub(super) fn upright(source: &SourcePicture, mask: &Field<bool>, frame: &Frame) -> Upright {
     let texels = cut_to_extent(frame.resampled(mask, |taps| gathered(source, taps)));
-    let (width, height) = (texels.width(), texels.height());
+    let width = texels.width();
+    let height = texels.height();
     Upright {
         color: channel(&texels, |texel| texel.color),
         paint: source.paint.as_ref().map(|_| channel(&texels, |texel| texel.paint)),
@@ -69,7 +70,8 @@ fn channel<T: Default>(texels: &Field<Option<Texel>>, of: impl Fn(&Texel) -> T) 
 
 /// The rows and columns that hold a texel of the passage.
 fn cut_to_extent(texels: Field<Option<Texel>>) -> Field<Option<Texel>> {
-    let (width, height) = (texels.width(), texels.height());
+    let width = texels.width();
+    let height = texels.height();
     let full_column = |x: &usize| (0..height).any(|y| texels[(*x, y)].is_some());
     let full_row = |y: &usize| texels.row(*y, 0, width).iter().any(Option::is_some);
     let columns = (0..width).find(full_column).zip((0..width).rev().find(full_column));
@@ -95,7 +97,8 @@ mod tests {
     /// A picture of all channels, with other values inside of a disc than outside.
     fn disc() -> (SourcePicture, Field<bool>) {
         let inside = |i: usize| {
-            let (x, y) = ((i % 60) as f64 - 30.0, (i / 60) as f64 - 25.0);
+            let x = (i % 60) as f64 - 30.0;
+            let y = (i / 60) as f64 - 25.0;
             x.hypot(y) < 20.0
         };
         let field = |value: &dyn Fn(bool) -> f32| -> Field<f32> {
@@ -149,7 +152,8 @@ mod tests {
         {
             let (sin, cos) = f64::to_radians(degrees).sin_cos();
             let found = upright(&source, &mask, &Frame::around(&mask, [cos, sin], scale));
-            let (height, paint) = (found.height_mm.unwrap(), found.paint.unwrap());
+            let height = found.height_mm.unwrap();
+            let paint = found.paint.unwrap();
             let area = 400.0 * std::f64::consts::PI * scale[0] * scale[1];
             let count = found.mask.values().iter().filter(|inside| **inside).count() as f64;
             assert!((count / area - 1.0).abs() < 0.05, "{degrees}: {count} texels of {area}");
@@ -167,7 +171,8 @@ mod tests {
                     assert!((value - share * wanted).abs() < 1e-5, "{degrees}: {value} {share}");
                 }
             }
-            let (width, rows) = (found.mask.width(), found.mask.height());
+            let width = found.mask.width();
+            let rows = found.mask.height();
             for y in [0, rows - 1] {
                 assert!((0..width).any(|x| found.mask[(x, y)]), "row {y} should be cut off");
             }

@@ -174,7 +174,8 @@ pub(crate) fn summed_paint(
         .into_iter()
         .map(|(slots, opacity, layer)| (slots.map(|slot| slot.and_then(&place)), opacity, layer))
         .collect();
-    let (width, height) = (document.wet.width(), document.wet.height());
+    let width = document.wet.width();
+    let height = document.wet.height();
     let quantum_mm = mm_from_quanta(1, document.cell_mm);
     let texel = |index: usize| {
         let mut sums = [0.0; SLOTS];
@@ -200,13 +201,17 @@ pub(crate) fn summed_paint(
 /// Height of all paint over the ground in mm.
 pub(crate) fn summed_height(document: &Document) -> Field<f32> {
     let layers = layers(document);
-    let (width, height) = (document.wet.width(), document.wet.height());
+    let width = document.wet.width();
+    let height = document.wet.height();
     let quantum_mm = mm_from_quanta(1, document.cell_mm);
-    let texel = |index: usize| {
-        let volumes = layers.iter().map(|(.., layer)| u64::from(layer.cell(index).volume()));
-        (volumes.sum::<u64>() as f64 * quantum_mm) as f32
-    };
-    let texels = (0..width * height).into_par_iter().with_min_len(4096).map(texel).collect();
+    let texels = (0..width * height)
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|index: usize| {
+            let volumes = layers.iter().map(|(.., layer)| u64::from(layer.cell(index).volume()));
+            (volumes.sum::<u64>() as f64 * quantum_mm) as f32
+        })
+        .collect();
     Field::from_values(width, height, texels)
 }
 

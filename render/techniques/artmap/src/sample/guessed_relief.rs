@@ -57,27 +57,34 @@ fn guessed(sample: &Sample, relief_mm: f64) -> Field<f32> {
     let mean = inside().map(|(detail, _)| f64::from(*detail)).sum::<f64>() / count;
     let squares = inside().map(|(detail, _)| (f64::from(*detail) - mean).powi(2));
     let deviation = (squares.sum::<f64>() / count).sqrt();
-    let height = |(detail, &inside): (&f32, &bool)| {
-        if !inside {
-            return 0.0;
-        }
-        let off = if deviation > 0.0 { (f64::from(*detail) - mean) / deviation } else { 0.0 };
-        (relief_mm * (0.5 + 0.5 * (off / DEVIATIONS).clamp(-1.0, 1.0))) as f32
-    };
-    let heights = detail.iter().zip(sample.mask.values()).map(height).collect();
+    let heights = detail
+        .iter()
+        .zip(sample.mask.values())
+        .map(|(detail, &inside): (&f32, &bool)| {
+            if !inside {
+                return 0.0;
+            }
+            let off = if deviation > 0.0 { (f64::from(*detail) - mean) / deviation } else { 0.0 };
+            (relief_mm * (0.5 + 0.5 * (off / DEVIATIONS).clamp(-1.0, 1.0))) as f32
+        })
+        .collect();
     Field::from_values(sample.mask.width(), sample.mask.height(), heights)
 }
 
 /// L* of a sample, blurred; only texels of the passage count.
 fn lightness(sample: &Sample, sigma: f64) -> Vec<f32> {
     let lab = lab_from_linear(&sample.color);
-    let weigh = |(lab, &inside): (&[f32; 3], &bool)| {
-        if inside { [lab[0], 1.0] } else { [0.0; 2] }
-    };
-    let weighed = lab.values().iter().zip(sample.mask.values()).map(weigh).collect();
+    let weighed = lab
+        .values()
+        .iter()
+        .zip(sample.mask.values())
+        .map(|(lab, &inside): (&[f32; 3], &bool)| if inside { [lab[0], 1.0] } else { [0.0; 2] })
+        .collect();
     let sums = blurred(&Field::from_values(lab.width(), lab.height(), weighed), sigma);
-    let mean = |&[sum, weight]: &[f32; 2]| if weight > LEAST { sum / weight } else { 0.0 };
-    sums.values().iter().map(mean).collect()
+    sums.values()
+        .iter()
+        .map(|&[sum, weight]: &[f32; 2]| if weight > LEAST { sum / weight } else { 0.0 })
+        .collect()
 }
 
 /// A relief that cannot be guessed.
@@ -122,10 +129,12 @@ mod tests {
             field.values().iter().map(|mm| f64::from(*mm)).sum::<f64>()
                 / field.values().len() as f64
         };
-        let (mean_one, mean_other) = (mean(one), mean(other));
+        let mean_one = mean(one);
+        let mean_other = mean(other);
         let mut sums = [0.0; 3];
         for (a, b) in one.values().iter().zip(other.values()) {
-            let (a, b) = (f64::from(*a) - mean_one, f64::from(*b) - mean_other);
+            let a = f64::from(*a) - mean_one;
+            let b = f64::from(*b) - mean_other;
             sums = [sums[0] + a * a, sums[1] + b * b, sums[2] + a * b];
         }
         sums[2] / (sums[0] * sums[1]).sqrt()

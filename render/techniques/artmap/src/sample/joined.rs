@@ -91,8 +91,10 @@ mod tests {
     use crate::sample::{PaintOfSamples, strokes};
 
     fn set(tones: &[f32], provenance: &str) -> SampleSet {
-        let sample = |tone: &f32| strokes(&format!("tone {tone}"), 24, 8, *tone, 1);
-        let samples = tones.iter().map(sample).collect();
+        let samples = tones
+            .iter()
+            .map(|tone: &f32| strokes(&format!("tone {tone}"), 24, 8, *tone, 1))
+            .collect();
         SampleSet { samples, paint: None, provenance: provenance.to_owned() }
     }
 

@@ -14,8 +14,8 @@ pub(crate) fn strokes(name: &str, size: usize, spacing: usize, tone: f32, seed: 
     let mut height = Field::filled(size, size, 0.0);
     let count = 3 * size * size / (4 * spacing * spacing);
     for _ in 0..count {
-        let (x, y) =
-            (random.random_range(0..size + spacing), random.random_range(0..size + 4 * spacing));
+        let x = random.random_range(0..size + spacing);
+        let y = random.random_range(0..size + 4 * spacing);
         let length = random.random_range(3 * spacing..5 * spacing);
         let shade = 1.0 + 0.35 * (random.random::<f32>() - 0.5);
         let bend = 0.15 * (random.random::<f32>() - 0.5);

@@ -4,13 +4,9 @@ mod passage;
 
 #[cfg(test)]
 mod made_up;
-
 mod joined;
-
 mod guessed_relief;
-
 pub mod from_painting;
-
 pub mod file;
 
 pub use crate::texel::{PaintOfSamples, TexelPaint};

@@ -71,7 +71,8 @@ fn relief(sample: &Sample) -> Option<Field<[f32; 2]>> {
 
 /// The samples line by line.
 fn lines(shown: &[Shown]) -> Vec<&[Shown]> {
-    let (mut lines, mut first) = (Vec::new(), 0);
+    let mut lines = Vec::new();
+    let mut first = 0;
     for last in 1..=shown.len() {
         let full = last < shown.len() && line_width(&shown[first..=last]) + 2 * MARGIN > LINE;
         if full || last == shown.len() {
@@ -89,11 +90,12 @@ fn line_width(line: &[Shown]) -> usize {
 /// Heights of the strips of colours and of reliefs.
 fn strip_heights(line: &[Shown]) -> Vec<usize> {
     let strips = line.iter().map(Vec::len).max().unwrap_or(0);
-    let height = |strip: usize| {
-        let pictures = line.iter().filter_map(|pictures| pictures.get(strip));
-        pictures.map(Field::height).max().unwrap_or(0)
-    };
-    (0..strips).map(height).collect()
+    (0..strips)
+        .map(|strip: usize| {
+            let pictures = line.iter().filter_map(|pictures| pictures.get(strip));
+            pictures.map(Field::height).max().unwrap_or(0)
+        })
+        .collect()
 }
 
 fn place(sheet: &mut Picture, picture: &Field<Option<[f32; 3]>>, (left, top): (usize, usize)) {

@@ -32,13 +32,15 @@ impl Scale {
     /// The picture at this scale: means of the texels of `mask` under each pixel; `None` where
     /// there are none.
     pub(super) fn scaled(self, picture: &Picture, mask: &Field<bool>) -> Field<Option<[f32; 3]>> {
-        let (width, height) = (self.pixels(picture.width()), self.pixels(picture.height()));
+        let width = self.pixels(picture.width());
+        let height = self.pixels(picture.height());
         let under = |pixel: usize, texels: usize| {
             let first = pixel * self.down / self.up;
             first..(first + self.down).min(texels)
         };
         let pixel = |at: usize| {
-            let (mut sum, mut count) = ([0.0; 3], 0.0);
+            let mut sum = [0.0; 3];
+            let mut count = 0.0;
             for y in under(at / width, picture.height()) {
                 for x in under(at % width, picture.width()).filter(|&x| mask[(x, y)]) {
                     (0..3).for_each(|channel| sum[channel] += picture[(x, y)][channel]);

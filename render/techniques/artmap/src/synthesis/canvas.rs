@@ -101,7 +101,8 @@ impl<'a> SourceCanvas<'a> {
         cut(above, &|along, across| (along, across));
         cut(below, &|along, across| (along, patch - 1 - across));
         for (index, takes) in takes.into_iter().enumerate() {
-            let (column, row) = (index % patch, index / patch);
+            let column = index % patch;
+            let row = index / patch;
             let texel = self.texel(cell, column, row);
             if takes || self.sources[texel] == NONE {
                 self.sources[texel] = source(column, row);

@@ -8,7 +8,8 @@ pub(crate) fn cheapest_cut(errors: &[f32], width: usize) -> Vec<usize> {
     let mut sums = errors.to_vec();
     for row in 1..rows {
         for x in 0..width {
-            let (from, to) = (x.saturating_sub(1), (x + 1).min(width - 1));
+            let from = x.saturating_sub(1);
+            let to = (x + 1).min(width - 1);
             let above = &sums[(row - 1) * width..][from..=to];
             let least = above.iter().copied().fold(f32::INFINITY, f32::min);
             sums[row * width + x] += least;

@@ -84,7 +84,8 @@ impl PatchSpace {
         let mut order: Vec<usize> = (0..NUMBERS).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
         let total: f64 = eigen.eigenvalues.iter().map(|value| value.max(0.0)).sum();
-        let (mut components, mut kept) = (Vec::new(), 0.0);
+        let mut components = Vec::new();
+        let mut kept = 0.0;
         for index in order {
             if kept >= KEPT * total {
                 break;
@@ -105,15 +106,18 @@ impl PatchSpace {
         }
         let dimensions = self.components.len() / NUMBERS;
         let mut values = vec![0.0; dimensions * places.len()];
-        let project = |(values, &place): (&mut [f32], &[u16; 2])| {
-            let mut numbers = sampled(&smooth, place, self.patch);
-            numbers.iter_mut().zip(&self.mean).for_each(|(number, mean)| *number -= mean);
-            for (value, component) in values.iter_mut().zip(self.components.chunks_exact(NUMBERS)) {
-                *value = product(&numbers, component);
-            }
-        };
         if dimensions > 0 {
-            values.par_chunks_exact_mut(dimensions).zip(&places).for_each(project);
+            values.par_chunks_exact_mut(dimensions).zip(&places).for_each(
+                |(values, &place): (&mut [f32], &[u16; 2])| {
+                    let mut numbers = sampled(&smooth, place, self.patch);
+                    numbers.iter_mut().zip(&self.mean).for_each(|(number, mean)| *number -= mean);
+                    for (value, component) in
+                        values.iter_mut().zip(self.components.chunks_exact(NUMBERS))
+                    {
+                        *value = product(&numbers, component);
+                    }
+                },
+            );
         }
         Descriptors { places, index, dimensions, values }
     }
@@ -122,7 +126,8 @@ impl PatchSpace {
 impl Descriptors {
     /// Descriptor of the patch that starts at a texel, if there is one.
     pub(crate) fn at(&self, [x, y]: [u16; 2]) -> Option<&[f32]> {
-        let (x, y) = (usize::from(x), usize::from(y));
+        let x = usize::from(x);
+        let y = usize::from(y);
         if x >= self.index.width() || y >= self.index.height() {
             return None;
         }
@@ -142,10 +147,13 @@ impl Descriptors {
             all.truncate(count);
         }
         all.sort_unstable_by(order);
-        let link =
-            |&(distance, index): &(f32, u32)| Link { place: self.places[index as usize], distance };
         // By reference: collected from the list itself, links would keep the memory of all patches.
-        all.iter().map(link).collect()
+        all.iter()
+            .map(|&(distance, index): &(f32, u32)| Link {
+                place: self.places[index as usize],
+                distance,
+            })
+            .collect()
     }
 
     fn of(&self, index: usize) -> &[f32] {
@@ -156,7 +164,8 @@ impl Descriptors {
 /// Mean squared difference of the features of two described patches.
 pub(crate) fn distance(a: &[f32], b: &[f32]) -> f32 {
     let mut lanes = [0.0_f32; 8];
-    let (first, second) = (a.chunks_exact(8), b.chunks_exact(8));
+    let first = a.chunks_exact(8);
+    let second = b.chunks_exact(8);
     let rest = first.remainder().iter().zip(second.remainder());
     let rest: f32 = rest.map(|(a, b)| (a - b) * (a - b)).sum();
     for (a, b) in first.zip(second) {
@@ -190,7 +199,8 @@ fn sampled(smooth: &Field<[f32; FEATURES]>, [x, y]: [u16; 2], patch: usize) -> [
     let at = |index: usize| ((index as f64 + 0.5) * patch as f64 / SAMPLES as f64) as usize;
     let mut numbers = [0.0; NUMBERS];
     for (index, values) in numbers.chunks_exact_mut(FEATURES).enumerate() {
-        let (i, j) = (at(index % SAMPLES), at(index / SAMPLES));
+        let i = at(index % SAMPLES);
+        let j = at(index / SAMPLES);
         values.copy_from_slice(&smooth[(usize::from(x) + i, usize::from(y) + j)]);
     }
     numbers

@@ -70,7 +70,8 @@ fn placed_as(
 ) -> Vec<[u16; 2]> {
     let PatchGrid { size, patch, .. } = canvas.grid;
     let [x, y] = cell.map(|index| canvas.grid.origin(index));
-    let (near, far) = (patch / 4, 3 * patch / 4);
+    let near = patch / 4;
+    let far = 3 * patch / 4;
     let texels = [[patch / 2, patch / 2], [near, near], [far, near], [near, far], [far, far]];
     let place = |into: [usize; 2]| {
         from_coarser(coarser, ((x + into[0]) % size, (y + into[1]) % size), into)
@@ -89,7 +90,8 @@ fn coarse_difference(
     let PatchGrid { size, patch, .. } = canvas.grid;
     let [x, y] = cell.map(|index| canvas.grid.origin(index));
     let last = (level.look.width() - 1, level.look.height() - 1);
-    let (mut sum, mut count) = (0.0, 0.0);
+    let mut sum = 0.0;
+    let mut count = 0.0;
     for row in (0..patch).step_by(2) {
         for column in (0..patch).step_by(2) {
             let shown = map.sources[((x + column) % size / 2, (y + row) % size / 2)];

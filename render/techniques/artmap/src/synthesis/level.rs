@@ -46,15 +46,20 @@ impl Channels {
         let (width, height) = sample.size();
         let height_mm =
             |index: usize| sample.height_mm.as_ref().map_or(0.0, |heights| heights.values()[index]);
-        let texel = |(index, &[l, a, b]): (usize, &[f32; 3])| [l, a, b, height_mm(index)];
-        let values = lab.values().iter().enumerate().map(texel).collect();
+        let values = lab
+            .values()
+            .iter()
+            .enumerate()
+            .map(|(index, &[l, a, b]): (usize, &[f32; 3])| [l, a, b, height_mm(index)])
+            .collect();
         Self { values: Field::from_values(width, height, values), mask: sample.mask.clone() }
     }
 
     /// The next coarser level: texel `(x, y)` covers texels `2 x, 2 x + 1` and `2 y, 2 y + 1`.
     pub(crate) fn halved(&self) -> Self {
         let smooth = self.smooth(BEFORE_HALVING);
-        let (width, height) = (self.mask.width() / 2, self.mask.height() / 2);
+        let width = self.mask.width() / 2;
+        let height = self.mask.height() / 2;
         let mut values = Vec::with_capacity(width * height);
         let mut mask = Vec::with_capacity(width * height);
         for y in 0..height {
@@ -66,33 +71,51 @@ impl Channels {
                 mask.push(four.iter().all(|&at| self.mask[at]));
             }
         }
-        let (values, mask) = (Field::from_values(width, height, values), mask);
+        let values = Field::from_values(width, height, values);
+        let mask = mask;
         Self { values, mask: Field::from_values(width, height, mask) }
     }
 
     /// Blurs the channels; texels outside the mask give nothing and take their neighbours'.
     fn smooth(&self, sigma: f64) -> Field<[f32; LOOKS]> {
-        let weigh = |(value, &inside): (&[f32; LOOKS], &bool)| {
-            let [l, a, b, height] = if inside { *value } else { [0.0; LOOKS] };
-            [l, a, b, height, f32::from(inside)]
-        };
-        let weighed = self.values.values().iter().zip(self.mask.values()).map(weigh).collect();
-        let (width, height) = (self.mask.width(), self.mask.height());
+        let weighed = self
+            .values
+            .values()
+            .iter()
+            .zip(self.mask.values())
+            .map(|(value, &inside): (&[f32; LOOKS], &bool)| {
+                let [l, a, b, height] = if inside { *value } else { [0.0; LOOKS] };
+                [l, a, b, height, f32::from(inside)]
+            })
+            .collect();
+        let width = self.mask.width();
+        let height = self.mask.height();
         let sums = blurred(&Field::from_values(width, height, weighed), sigma);
-        let mean = |&[l, a, b, height, weight]: &[f32; LOOKS + 1]| {
-            if weight > 1e-4 { [l, a, b, height].map(|sum| sum / weight) } else { [0.0; LOOKS] }
-        };
-        Field::from_values(width, height, sums.values().iter().map(mean).collect())
+        Field::from_values(
+            width,
+            height,
+            sums.values()
+                .iter()
+                .map(|&[l, a, b, height, weight]: &[f32; LOOKS + 1]| {
+                    if weight > 1e-4 {
+                        [l, a, b, height].map(|sum| sum / weight)
+                    } else {
+                        [0.0; LOOKS]
+                    }
+                })
+                .collect(),
+        )
     }
 
     /// Slope of a channel of `fine` over its L*, over the mask; 0 where L* is even.
     fn slope_over_lightness(&self, fine: &Field<[f32; LOOKS]>, channel: usize) -> f32 {
         let (mean, deviation) = self.moments(|index| fine.values()[index][0]);
-        let product = |index: usize| {
-            let value = fine.values()[index];
-            (value[0] - mean as f32) * value[channel]
-        };
-        let covariance = self.moments(product).0;
+        let covariance = self
+            .moments(|index: usize| {
+                let value = fine.values()[index];
+                (value[0] - mean as f32) * value[channel]
+            })
+            .0;
         if deviation > 0.0 { (covariance / (deviation * deviation)) as f32 } else { 0.0 }
     }
 
@@ -110,7 +133,8 @@ impl Level {
     /// The level of `channels`, whose strokes are `spacing` texels apart.
     pub(crate) fn new(channels: &Channels, spacing: f64, features: Features) -> Self {
         let values = &channels.values;
-        let (width, height) = (values.width(), values.height());
+        let width = values.width();
+        let height = values.height();
         let fine = channels.smooth((spacing / 8.0).clamp(0.5, 1.0));
         let edges = edge_strength(&fine);
         // Across the tones of one paint, a* and b* may rise or fall with L*; what L* tells is left
@@ -136,7 +160,8 @@ impl Level {
         let deviation = |channel: usize| channels.moments(|i| values.values()[i][channel]).1;
         let color = (deviation(0).powi(2) + deviation(1).powi(2) + deviation(2).powi(2)).sqrt();
         let per = |deviation: f64| if deviation > 0.0 { (1.0 / deviation) as f32 } else { 0.0 };
-        let (per_color, per_height) = (per(color), HEIGHT * per(deviation(3)));
+        let per_color = per(color);
+        let per_height = HEIGHT * per(deviation(3));
         let look = |&[l, a, b, height]: &[f32; LOOKS]| {
             [l * per_color, a * per_color, b * per_color, height * per_height]
         };
@@ -161,7 +186,8 @@ impl Level {
     /// Places whose patch of `patch` x `patch` texels, from there to the right and down, lies in
     /// the mask; row by row.
     pub(crate) fn places(&self, patch: usize) -> Vec<[u16; 2]> {
-        let (width, height) = (self.mask.width(), self.mask.height());
+        let width = self.mask.width();
+        let height = self.mask.height();
         // Number of texels to the left of and above each corner that lie outside the mask.
         let mut outside = vec![0_u32; (width + 1) * (height + 1)];
         for y in 0..height {
@@ -175,7 +201,8 @@ impl Level {
         let mut places = Vec::new();
         for y in 0..(height + 1).saturating_sub(patch) {
             for x in 0..(width + 1).saturating_sub(patch) {
-                let (right, below) = (x + patch, y + patch);
+                let right = x + patch;
+                let below = y + patch;
                 if corner(right, below) + corner(x, y) == corner(right, y) + corner(x, below) {
                     places.push([x as u16, y as u16]);
                 }
@@ -187,12 +214,15 @@ impl Level {
 
 /// Length of the gradient of L* at every texel.
 fn edge_strength(fine: &Field<[f32; LOOKS]>) -> Vec<f32> {
-    let (width, height) = (fine.width(), fine.height());
+    let width = fine.width();
+    let height = fine.height();
     let mut edges = Vec::with_capacity(width * height);
     for y in 0..height {
-        let (above, below) = (y.saturating_sub(1), (y + 1).min(height - 1));
+        let above = y.saturating_sub(1);
+        let below = (y + 1).min(height - 1);
         for x in 0..width {
-            let (left, right) = (x.saturating_sub(1), (x + 1).min(width - 1));
+            let left = x.saturating_sub(1);
+            let right = (x + 1).min(width - 1);
             let over_x = fine[(right, y)][0] - fine[(left, y)][0];
             let over_y = fine[(x, below)][0] - fine[(x, above)][0];
             edges.push((over_x * over_x + over_y * over_y).sqrt() / 2.0);

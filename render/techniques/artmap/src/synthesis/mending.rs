@@ -52,7 +52,8 @@ fn misfit(
     texel: (usize, usize),
     place: (isize, isize),
 ) -> f32 {
-    let (mut sum, mut count) = (0.0, 0.0);
+    let mut sum = 0.0;
+    let mut count = 0.0;
     for (i, j) in neighbourhood(NEAR) {
         let at = (place.0 + i, place.1 + j);
         if is_inside(level, at) {
@@ -74,13 +75,14 @@ fn seam_texels(level: &Level, sources: &Field<[u16; 2]>) -> Vec<(f32, usize)> {
         let texel = (index % size, index / size);
         for step in [(1, 0), (0, 1)] {
             let next = shifted(texel, step, size);
-            let ([x, y], there) = (sources[texel], sources[next]);
+            let [x, y] = sources[texel];
+            let there = sources[next];
             let continued = [x.wrapping_add(step.0 as u16), y.wrapping_add(step.1 as u16)];
             if continued == there {
                 continue;
             }
-            let ([x, y], inside) =
-                (continued.map(|value| value as isize), |place| is_inside(level, place));
+            let [x, y] = continued.map(|value| value as isize);
+            let inside = |place| is_inside(level, place);
             let error = if inside((x, y)) {
                 difference(&level.look[as_texel(continued)], &level.look[as_texel(there)])
             } else {
@@ -108,6 +110,7 @@ fn shifted((x, y): (usize, usize), (i, j): (isize, isize), size: usize) -> (usiz
 }
 
 fn is_inside(level: &Level, (x, y): (isize, isize)) -> bool {
-    let (width, height) = (level.mask.width() as isize, level.mask.height() as isize);
+    let width = level.mask.width() as isize;
+    let height = level.mask.height() as isize;
     x >= 0 && y >= 0 && x < width && y < height && level.mask[(x as usize, y as usize)]
 }

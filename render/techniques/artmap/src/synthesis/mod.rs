@@ -1,33 +1,19 @@
 //! Textures that tile, synthesised from samples: each texel is a place in its sample.
 
 mod settings;
-
 mod level;
-
 mod grid;
-
 mod cut;
-
 mod descriptors;
-
 mod canvas;
-
 mod usage;
-
 mod mending;
-
 mod candidates;
-
 mod first;
-
 mod following;
-
 mod nested;
-
 mod prepared;
-
 mod key_maps;
-
 mod stages;
 
 #[cfg(test)]

@@ -20,7 +20,8 @@ fn correlation(first: &Level, other: &Level) -> f64 {
     let mut sums = [0.0; 3];
     for at in (0..inside.len()).filter(|at| inside[*at]) {
         // Features have mean 0.
-        let (a, b) = (lightness(first, at), lightness(other, at));
+        let a = lightness(first, at);
+        let b = lightness(other, at);
         sums[0] += a * a;
         sums[1] += b * b;
         sums[2] += a * b;
@@ -52,7 +53,8 @@ mod tests {
 
     #[test]
     fn samples_of_other_masks_are_not_nested() {
-        let (first, mut other) = (level(0.1, 1), level(0.4, 1));
+        let first = level(0.1, 1);
+        let mut other = level(0.4, 1);
         other.mask[(3, 3)] = false;
         assert!(!is_nested(&first, &other));
     }

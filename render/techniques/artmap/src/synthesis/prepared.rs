@@ -90,7 +90,8 @@ fn check_settings(settings: &SynthesisSettings) -> Result<(), SynthesisError> {
         if (from..=to).contains(&found) {
             return Ok(());
         }
-        let (found, range) = (format!("{found}"), format!("{from} to {to}"));
+        let found = format!("{found}");
+        let range = format!("{from} to {to}");
         Err(SynthesisError::Setting { name, found, range })
     };
     let sizes = SynthesisSettings::SIZES;
@@ -130,7 +131,8 @@ fn grids(size: usize, patch: usize, samples: &[Sample]) -> Vec<PatchGrid> {
     let mut grids = vec![PatchGrid::new(size, patch)];
     loop {
         let halvings = grids.len();
-        let (size, patch) = (size >> halvings, (patch >> halvings).max(LEAST_PATCH));
+        let size = size >> halvings;
+        let patch = (patch >> halvings).max(LEAST_PATCH);
         // A coarse level with few places to choose from would repeat them.
         if size < LEAST_SIZE || least_side >> halvings < 2 * patch {
             break;
@@ -144,11 +146,12 @@ fn grids(size: usize, patch: usize, samples: &[Sample]) -> Vec<PatchGrid> {
 /// Leaves out coarse levels at which some sample has too few places for patches, as a passage of
 /// irregular outline may have. The finest level stays.
 fn leave_out_crowded(grids: &mut Vec<PatchGrid>, pyramids: &mut [Vec<Level>]) {
-    let roomy = |index: &usize| {
-        let patch = grids[*index].patch;
-        pyramids.iter().all(|pyramid| pyramid[*index].places(patch).len() >= LEAST_PLACES)
-    };
-    let first = (0..grids.len() - 1).find(roomy).unwrap_or(grids.len() - 1);
+    let first = (0..grids.len() - 1)
+        .find(|index: &usize| {
+            let patch = grids[*index].patch;
+            pyramids.iter().all(|pyramid| pyramid[*index].places(patch).len() >= LEAST_PLACES)
+        })
+        .unwrap_or(grids.len() - 1);
     grids.drain(..first);
     pyramids.iter_mut().for_each(|pyramid| drop(pyramid.drain(..first)));
 }

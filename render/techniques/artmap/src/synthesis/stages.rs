@@ -61,18 +61,20 @@ pub fn key_maps_with_stages(
     let levels = prepared.grids.len();
     let all: Vec<(usize, usize)> =
         (0..count).flat_map(|at| (0..levels).map(move |level| (at, level))).collect();
-    let linked = |&(at, level): &(usize, usize)| {
+    // One after the other, so that the patches of one sample are in memory at a time.
+    stages.extend(all.iter().map(|&(at, level): &(usize, usize)| {
         let sources = linked(&prepared, &maps[prepared.first][level], (at, level));
         let shown = shown(&set.samples[at], levels - 1 - level, &sources);
         stage(format!("links-{}-level-{}", at + 1, level + 1), shown)
-    };
-    // One after the other, so that the patches of one sample are in memory at a time.
-    stages.extend(all.iter().map(linked));
-    let map = |&(at, level): &(usize, usize)| {
-        let shown = shown(&set.samples[at], levels - 1 - level, &maps[at][level].sources);
-        stage(format!("map-{}-level-{}", at + 1, level + 1), shown)
-    };
-    stages.extend(all.par_iter().map(map).collect::<Vec<_>>());
+    }));
+    stages.extend(
+        all.par_iter()
+            .map(|&(at, level): &(usize, usize)| {
+                let shown = shown(&set.samples[at], levels - 1 - level, &maps[at][level].sources);
+                stage(format!("map-{}-level-{}", at + 1, level + 1), shown)
+            })
+            .collect::<Vec<_>>(),
+    );
     Ok((KeyMaps::of(&prepared, maps), stages))
 }
 
@@ -85,16 +87,19 @@ fn shrunk(sample: &Sample, halvings: usize) -> Picture {
     let (width, height) = sample.size();
     let side = 1 << halvings;
     let mean = |index: usize| {
-        let (x, y) = (index % (width >> halvings) * side, index / (width >> halvings) * side);
+        let x = index % (width >> halvings) * side;
+        let y = index / (width >> halvings) * side;
         let texels = (0..side * side).map(|at| (x + at % side, y + at / side));
-        let (mut sum, mut count) = ([0.0; 3], 0.0_f32);
+        let mut sum = [0.0; 3];
+        let mut count = 0.0_f32;
         for at in texels.filter(|at| sample.mask[*at]) {
             (0..3).for_each(|channel| sum[channel] += sample.color[at][channel]);
             count += 1.0;
         }
         if count > 0.0 { sum.map(|sum| sum / count) } else { [grey(GREY); 3] }
     };
-    let (columns, rows) = (width >> halvings, height >> halvings);
+    let columns = width >> halvings;
+    let rows = height >> halvings;
     Field::from_values(columns, rows, (0..columns * rows).map(mean).collect())
 }
 
@@ -102,9 +107,11 @@ fn shrunk(sample: &Sample, halvings: usize) -> Picture {
 fn shown(sample: &Sample, halvings: usize, sources: &Field<[u16; 2]>) -> Picture {
     let small = shrunk(sample, halvings);
     let last = (small.width() - 1, small.height() - 1);
-    let color =
-        |&[x, y]: &[u16; 2]| small[(usize::from(x).min(last.0), usize::from(y).min(last.1))];
-    let colors = sources.values().iter().map(color).collect();
+    let colors = sources
+        .values()
+        .iter()
+        .map(|&[x, y]: &[u16; 2]| small[(usize::from(x).min(last.0), usize::from(y).min(last.1))])
+        .collect();
     Field::from_values(sources.width(), sources.height(), colors)
 }
 
@@ -128,7 +135,8 @@ fn linked(
         .collect();
     for ([column, row], link) in grid.cells().zip(links) {
         let Some([u, v]) = link else { continue };
-        let (x, y) = (grid.origin(column), grid.origin(row));
+        let x = grid.origin(column);
+        let y = grid.origin(row);
         for (j, i) in (0..grid.patch).flat_map(|j| (0..grid.patch).map(move |i| (j, i))) {
             let at = ((x + i) % grid.size, (y + j) % grid.size);
             sources[at] = [u + i as u16, v + j as u16];
@@ -139,7 +147,8 @@ fn linked(
 
 /// The channels of features as greys beside each other: the mean is grey, lower is darker.
 fn beside(features: &Field<[f32; FEATURES]>, mask: &Field<bool>) -> Picture {
-    let (width, height) = (features.width(), features.height());
+    let width = features.width();
+    let height = features.height();
     let mut picture = Field::filled(FEATURES * (width + GAP) - GAP, height, [grey(GREY); 3]);
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         if mask[(x, y)] {
@@ -171,7 +180,8 @@ mod tests {
 
     #[test]
     fn stages_are_named_in_order_and_the_last_ones_are_the_maps() {
-        let (set, settings) = (set(), SynthesisSettings { size: 64, ..Default::default() });
+        let set = set();
+        let settings = SynthesisSettings { size: 64, ..Default::default() };
         let (maps, stages) = key_maps_with_stages(&set, &settings).unwrap();
         assert_eq!(maps, key_maps(&set, &settings).unwrap());
         assert_eq!(maps.levels, 2);
@@ -204,10 +214,12 @@ mod tests {
 
     #[test]
     fn links_to_the_first_map_itself_are_its_own_patches() {
-        let (set, settings) = (set(), SynthesisSettings { size: 64, ..Default::default() });
+        let set = set();
+        let settings = SynthesisSettings { size: 64, ..Default::default() };
         let prepared = Prepared::new(&set, &settings).unwrap();
         let maps = level_maps(&prepared, &settings);
-        let (first, level) = (prepared.first, prepared.grids.len() - 1);
+        let first = prepared.first;
+        let level = prepared.grids.len() - 1;
         let map = &maps[first][level];
         let own = linked(&prepared, map, (first, level));
         let grid = prepared.grids[level];

@@ -23,11 +23,14 @@ fn small() -> SynthesisSettings {
 
 /// Colour of a map.
 fn color(sample: &Sample, sources: &Field<[u16; 2]>) -> Picture {
-    let shown = |&[x, y]: &[u16; 2]| sample.color[(usize::from(x), usize::from(y))];
     Field::from_values(
         sources.width(),
         sources.height(),
-        sources.values().iter().map(shown).collect(),
+        sources
+            .values()
+            .iter()
+            .map(|&[x, y]: &[u16; 2]| sample.color[(usize::from(x), usize::from(y))])
+            .collect(),
     )
 }
 
@@ -37,9 +40,11 @@ fn textures(set: &SampleSet, maps: &KeyMaps) -> Vec<Texture> {
 }
 
 fn tones(seeds: [u64; 3]) -> SampleSet {
-    let tone =
-        |(seed, tone): (u64, f32)| strokes(&format!("tone {tone}"), 240, SPACING, tone, seed);
-    set(seeds.into_iter().zip([0.08, 0.2, 0.45]).map(tone).collect())
+    set(seeds
+        .into_iter()
+        .zip([0.08, 0.2, 0.45])
+        .map(|(seed, tone): (u64, f32)| strokes(&format!("tone {tone}"), 240, SPACING, tone, seed))
+        .collect())
 }
 
 #[test]
@@ -89,7 +94,8 @@ fn maps_of_tones_painted_with_the_same_strokes_agree() {
 #[test]
 fn maps_have_the_brushwork_of_their_samples_and_no_seams() {
     let samples = tones([1, 2, 3]);
-    let (mut lengths, mut seams) = (Vec::new(), Vec::new());
+    let mut lengths = Vec::new();
+    let mut seams = Vec::new();
     for seed in [1, 2] {
         let maps = key_maps(&samples, &SynthesisSettings { seed, ..small() }).unwrap();
         for ((sample, map), sources) in
@@ -128,18 +134,21 @@ fn links_are_the_nearest_of_all_patches() {
     let first = level(&strokes("a", 64, SPACING, 0.1, 1));
     let second = level(&strokes("b", 64, SPACING, 0.3, 2));
     let space = PatchSpace::of(&[&first, &second], PATCH);
-    let (from, to) = (space.describe(&first), space.describe(&second));
+    let from = space.describe(&first);
+    let to = space.describe(&second);
     let exact = |a: [u16; 2], b: [u16; 2]| {
         let mut sum = 0.0;
         for index in 0..PATCH * PATCH {
             let at =
                 |[x, y]: [u16; 2]| (usize::from(x) + index % PATCH, usize::from(y) + index / PATCH);
-            let (a, b) = (first.features[at(a)], second.features[at(b)]);
+            let a = first.features[at(a)];
+            let b = second.features[at(b)];
             sum += (0..FEATURES).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>();
         }
         sum
     };
-    let (mut found, mut wanted) = (0, 0);
+    let mut found = 0;
+    let mut wanted = 0;
     for &place in from.places.iter().step_by(97) {
         let links = to.nearest(from.at(place).unwrap(), 32);
         let mut all: Vec<_> = to.places.iter().map(|&other| (exact(place, other), other)).collect();
@@ -182,8 +191,14 @@ fn masked_texels_are_never_shown() {
     }
     let maps = key_maps(&samples, &SynthesisSettings { size: 64, ..small() }).unwrap();
     for (sample, sources) in samples.samples.iter().zip(&maps.sources) {
-        let inside = |&[x, y]: &[u16; 2]| sample.mask[(usize::from(x), usize::from(y))];
-        assert!(sources.values().iter().all(inside), "{}", sample.name);
+        assert!(
+            sources
+                .values()
+                .iter()
+                .all(|&[x, y]: &[u16; 2]| sample.mask[(usize::from(x), usize::from(y))]),
+            "{}",
+            sample.name
+        );
     }
 }
 
@@ -193,15 +208,20 @@ fn samples_of_narrow_outline_are_made_with_fewer_levels() {
     let mut samples = tones([1, 2, 3]);
     let mask = &mut samples.samples[1].mask;
     for index in 0..240 * 240 {
-        let (x, y) = (index % 240, index / 240);
+        let x = index % 240;
+        let y = index / 240;
         // Bars 26 texels wide.
         mask[(x, y)] = (x + y / 3) % 60 < 26;
     }
     let maps = key_maps(&samples, &small()).unwrap();
     assert!(maps.levels < whole.levels, "{} of {}", maps.levels, whole.levels);
     let mask = &samples.samples[1].mask;
-    let inside = |&[x, y]: &[u16; 2]| mask[(usize::from(x), usize::from(y))];
-    assert!(maps.sources[1].values().iter().all(inside));
+    assert!(
+        maps.sources[1]
+            .values()
+            .iter()
+            .all(|&[x, y]: &[u16; 2]| mask[(usize::from(x), usize::from(y))])
+    );
 }
 
 #[test]

@@ -19,7 +19,8 @@ impl Usage {
     /// Of a sample from which `patches` patches of `patch` x `patch` texels will be laid.
     pub(crate) fn new(level: &Level, patch: usize, patches: usize, uniformity: f32) -> Self {
         let block = (patch / 2).max(1);
-        let (width, height) = (level.mask.width(), level.mask.height());
+        let width = level.mask.width();
+        let height = level.mask.height();
         let counts = Field::filled(width.div_ceil(block), height.div_ceil(block), 0);
         let inside = level.mask.values().iter().filter(|&&inside| inside).count().max(1);
         let fair = (patches * patch * patch) as f32 / inside as f32;

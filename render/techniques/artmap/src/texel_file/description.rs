@@ -33,7 +33,8 @@ pub(crate) fn decoded<T: DeserializeOwned>(
 ) -> Result<T, TexelFileError> {
     let value: Value =
         serde_json::from_str(json).map_err(|error| origin.header(error.to_string()))?;
-    let (format, version) = (&value["format"], &value["version"]);
+    let format = &value["format"];
+    let version = &value["version"];
     if *format != origin.kind.format {
         let wanted = origin.kind.format;
         return Err(origin.other_format(format!("`format` must be \"{wanted}\", found `{format}`")));

@@ -31,38 +31,45 @@ pub(crate) struct Origin<'a> {
 
 impl Origin<'_> {
     pub(crate) fn damaged(&self, reason: impl Into<String>) -> TexelFileError {
-        let (file, content) = (self.file.to_owned(), self.kind.content);
+        let file = self.file.to_owned();
+        let content = self.kind.content;
         TexelFileError::Container { file, content, reason: reason.into() }
     }
 
     pub(crate) fn other_format(&self, reason: impl Into<String>) -> TexelFileError {
-        let (file, content) = (self.file.to_owned(), self.kind.content);
+        let file = self.file.to_owned();
+        let content = self.kind.content;
         TexelFileError::Format { file, content, reason: reason.into() }
     }
 
     pub(crate) fn other_version(&self, found: String) -> TexelFileError {
-        let (file, content) = (self.file.to_owned(), self.kind.content);
+        let file = self.file.to_owned();
+        let content = self.kind.content;
         TexelFileError::Version { file, content, found, newest: self.kind.version }
     }
 
     pub(crate) fn header(&self, reason: impl Into<String>) -> TexelFileError {
-        let (file, content) = (self.file.to_owned(), self.kind.content);
+        let file = self.file.to_owned();
+        let content = self.kind.content;
         TexelFileError::Header { file, content, reason: reason.into() }
     }
 
     pub(crate) fn part(&self, part: &str, reason: impl Into<String>) -> TexelFileError {
-        let (file, part) = (self.file.to_owned(), part.to_owned());
+        let file = self.file.to_owned();
+        let part = part.to_owned();
         TexelFileError::Part { file, part, reason: reason.into() }
     }
 
     /// Fault of a channel, the first of the pair, for the reason that is the second.
     pub(crate) fn channel(&self, part: &str, fault: (String, String)) -> TexelFileError {
-        let (file, part) = (self.file.to_owned(), part.to_owned());
+        let file = self.file.to_owned();
+        let part = part.to_owned();
         TexelFileError::Channel { file, part, channel: fault.0, reason: fault.1 }
     }
 
     pub(crate) fn changed(&self, part: &str) -> TexelFileError {
-        let (file, content) = (self.file.to_owned(), self.kind.content);
+        let file = self.file.to_owned();
+        let content = self.kind.content;
         TexelFileError::Changed { file, content, part: part.to_owned() }
     }
 }

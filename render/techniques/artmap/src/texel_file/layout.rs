@@ -28,7 +28,8 @@ pub(super) fn layout(
     plans: Vec<PartPlan>,
     file_bytes: usize,
 ) -> Result<Vec<PartLayout>, TexelFileError> {
-    let (found, wanted) = (parts.len(), plans.len());
+    let found = parts.len();
+    let wanted = plans.len();
     if found != wanted {
         let reason = format!("it names {wanted} parts, the file has `{found}`");
         return Err(origin.header(reason));
@@ -61,7 +62,8 @@ fn check_part(
         return Err(origin.part(&plan.name, "has tiles or is deep; expected scan lines"));
     }
     let size = (part.layer_size.width(), part.layer_size.height());
-    let (width, height) = (plan.width, plan.height);
+    let width = plan.width;
+    let height = plan.height;
     if size != (width, height) {
         let found = format!("{} x {}", size.0, size.1);
         let reason = format!("has `{found}` texels, attribute `impasto` says {width} x {height}");

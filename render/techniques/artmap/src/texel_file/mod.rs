@@ -7,21 +7,13 @@
 //! of the description. Memory is allocated after all parts were found to be as it says.
 
 mod error;
-
 mod kind;
-
 mod description;
-
 mod part;
-
 mod texels;
-
 mod digest;
-
 mod layout;
-
 mod read;
-
 mod write;
 
 #[cfg(test)]

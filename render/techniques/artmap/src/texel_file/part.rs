@@ -55,7 +55,8 @@ impl PartPlanes {
         match numbers.into_iter().find(|&(index, number)| !possible(index, *number)) {
             None => Ok(()),
             Some((index, found)) => {
-                let (x, y) = (index % self.plan.width, index / self.plan.width);
+                let x = index % self.plan.width;
+                let y = index / self.plan.width;
                 Err((channel.to_owned(), format!("{wanted} at x {x}, y {y}: `{found}`")))
             }
         }

@@ -89,7 +89,8 @@ struct Filling {
 
 impl Filling {
     fn new(layout: PartLayout) -> Self {
-        let (width, height) = (layout.plan.width, layout.plan.height);
+        let width = layout.plan.width;
+        let height = layout.plan.height;
         let planes = vec![vec![0.0; width * height]; layout.plan.channels.len()];
         Self { layout, planes, rows: vec![false; height] }
     }
@@ -103,7 +104,8 @@ impl Filling {
         let PartLayout { plan, places } = &self.layout;
         let count = places.len();
         for (line, bytes) in data.chunks(plan.width * size_of::<f32>()).enumerate() {
-            let (row, channel) = (index.pixel_position.y() + line / count, line % count);
+            let row = index.pixel_position.y() + line / count;
+            let channel = line % count;
             if channel == 0 && std::mem::replace(&mut self.rows[row], true) {
                 return Err(origin.part(&plan.name, format!("has row `{row}` twice")));
             }
@@ -139,7 +141,8 @@ fn block(
     let bottom = block.index.pixel_position.y() + height;
     let fits = block.index.pixel_size.width() == plan.width && bottom <= plan.height;
     if !fits || block.data.len() != wanted {
-        let (part, found) = (&plan.name, block.data.len());
+        let part = &plan.name;
+        let found = block.data.len();
         let reason = format!("block of part `{part}` with `{found}` bytes for {wanted}");
         return Err(origin.damaged(reason));
     }

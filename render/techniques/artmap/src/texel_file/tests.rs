@@ -13,14 +13,16 @@ fn plans() -> Vec<PartPlan> {
 
 /// Two parts, each number of which is another.
 fn parts() -> Vec<PartPlanes> {
-    let planes = |plan: PartPlan| {
-        let count = plan.width * plan.height;
-        plan.with(|channel| {
-            let first = channel.len() as f32 + if channel == "b" { 0.5 } else { 0.25 };
-            (0..count).map(|index| first + index as f32).collect()
+    plans()
+        .into_iter()
+        .map(|plan: PartPlan| {
+            let count = plan.width * plan.height;
+            plan.with(|channel| {
+                let first = channel.len() as f32 + if channel == "b" { 0.5 } else { 0.25 };
+                (0..count).map(|index| first + index as f32).collect()
+            })
         })
-    };
-    plans().into_iter().map(planes).collect()
+        .collect()
 }
 
 fn bytes() -> Vec<u8> {

@@ -44,11 +44,16 @@ impl Texels<'_> {
         }
         let mut pigments = pigments.unwrap_or_default().iter();
         let pigment = pigments.find(|pigment| pigment.channel == channel);
-        let amount = |texel: &TexelPaint| match pigment {
-            Some(pigment) => texel.pigments_mm[pigment.slot],
-            None => texel.vehicle_mm,
-        };
-        self.paint.map_or_else(Vec::new, |paint| paint.values().iter().map(amount).collect())
+        self.paint.map_or_else(Vec::new, |paint| {
+            paint
+                .values()
+                .iter()
+                .map(|texel: &TexelPaint| match pigment {
+                    Some(pigment) => texel.pigments_mm[pigment.slot],
+                    None => texel.vehicle_mm,
+                })
+                .collect()
+        })
     }
 
     /// Checks that all fields have one size, that there is paint where there is a library, and
@@ -68,11 +73,10 @@ impl Texels<'_> {
             (Some(_), None) => Err(format!("{whose} has paint of no library")),
             (None, Some(_)) => Err(format!("{whose} has no paint")),
             (Some(paint), Some(of)) => {
-                let stray = |slot: &usize| {
+                match (0..of.slots.len()).find(|slot: &usize| {
                     let mut amounts = paint.values().iter().map(|texel| texel.pigments_mm[*slot]);
                     of.slots[*slot].is_none() && amounts.any(|amount| amount != 0.0)
-                };
-                match (0..of.slots.len()).find(stray) {
+                }) {
                     Some(slot) => Err(format!("{whose} has paint of no pigment in slot {slot}")),
                     None => Ok(()),
                 }

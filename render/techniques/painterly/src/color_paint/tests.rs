@@ -60,15 +60,17 @@ fn painted(texture: Texture) -> PaintedPicture {
     };
     let corner = |x: usize, y: usize| (x + y * side) as u32;
     let squares = (0..(side - 1) * (side - 1)).map(|at| (at % (side - 1), at / (side - 1)));
-    let pair = |(x, y)| {
-        let [a, b, c, d] = [corner(x, y), corner(x, y + 1), corner(x + 1, y + 1), corner(x + 1, y)];
-        [[a, b, c], [a, c, d]].map(|corners| Triangle { corners, material: 0 })
-    };
     let mut mesh = Mesh {
         positions: (0..side * side).map(position).collect(),
         texture_coordinates: (0..side * side).map(at).collect(),
         colors: vec![[1.0; 3]; side * side],
-        triangles: squares.flat_map(pair).collect(),
+        triangles: squares
+            .flat_map(|(x, y)| {
+                let [a, b, c, d] =
+                    [corner(x, y), corner(x, y + 1), corner(x + 1, y + 1), corner(x + 1, y)];
+                [[a, b, c], [a, c, d]].map(|corners| Triangle { corners, material: 0 })
+            })
+            .collect(),
         materials: vec![Material { texture: Some(texture), ..Material::plain([1.0; 3]) }],
         ..Mesh::default()
     };
@@ -81,13 +83,14 @@ fn painted(texture: Texture) -> PaintedPicture {
 }
 
 fn texture(width: usize, height: usize, color: impl Fn(f32, f32) -> [f32; 3]) -> Texture {
-    let texel = |index: usize| {
-        let [u, v] =
-            [(index % width) as f32 / width as f32, (index / width) as f32 / height as f32];
-        let bytes = color(u, v).map(|value| (255.0 * value.clamp(0.0, 1.0) + 0.5) as u32);
-        0xff00_0000 | bytes[2] << 16 | bytes[1] << 8 | bytes[0]
-    };
-    let texels = (0..width * height).map(texel).collect();
+    let texels = (0..width * height)
+        .map(|index: usize| {
+            let [u, v] =
+                [(index % width) as f32 / width as f32, (index / width) as f32 / height as f32];
+            let bytes = color(u, v).map(|value| (255.0 * value.clamp(0.0, 1.0) + 0.5) as u32);
+            0xff00_0000 | bytes[2] << 16 | bytes[1] << 8 | bytes[0]
+        })
+        .collect();
     Texture { width: width as u32, height: height as u32, texels }
 }
 
@@ -114,11 +117,14 @@ fn cell_mm() -> f64 {
 }
 
 fn document(amounts: &Field<Amounts>) -> Document {
-    let (width, height, cell_mm) = (amounts.width(), amounts.height(), cell_mm());
+    let width = amounts.width();
+    let height = amounts.height();
+    let cell_mm = cell_mm();
     let library = PAINT.library().as_ref().clone();
     let ground = GroundKind::Panel.spec(1).build(width, height, cell_mm, &library).unwrap();
     let paint = paint_layer(amounts, cell_mm);
-    let (medium, slots) = (Medium::of(&library), *PAINT.slots());
+    let medium = Medium::of(&library);
+    let slots = *PAINT.slots();
     let mut document = Document::bare("test", cell_mm, ground, library, medium, slots, level());
     document.push_dry(slots, paint);
     document
@@ -136,7 +142,9 @@ fn difference(painted: &PaintedPicture) -> (f64, usize, usize) {
     let document = document(&PAINT.amounts(painted, film));
     let light = Light::named(PAINT.library(), "D65", "1931-2").unwrap();
     let seen = picture(&document, &scene(&document, &light));
-    let (mut sum, mut within, mut covered) = (0.0, 0, 0);
+    let mut sum = 0.0;
+    let mut within = 0;
+    let mut covered = 0;
     for (seen, color) in seen.values().iter().zip(painted.color.values()) {
         if color[3] < 1.0 {
             continue;
@@ -180,7 +188,8 @@ fn totals_of_pigments_are_those_of_sums_in_double_precision() {
 
 /// Root mean square of the slopes of heights in mm on cells of a width.
 fn slope(heights: &Field<f32>, cell_mm: f64) -> f64 {
-    let (mut sum, mut count) = (0.0, 0);
+    let mut sum = 0.0;
+    let mut count = 0;
     for y in 1..heights.height() {
         for x in 1..heights.width() {
             let here = heights[(x, y)];
@@ -227,8 +236,7 @@ fn furrows_keep_the_least_film_and_part_of_a_pixel_has_part_of_the_paint() {
     let height_mm = Field::from_values(3, 1, vec![0.0, 0.05, 0.0]);
     let film = FilmHeight { mean_mm: 0.1, brushwork_mm: 0.2 };
     let amounts = PAINT.amounts(&PaintedPicture { color, height_mm }, film);
-    let total = |x: usize| amounts[(x, 0)].iter().sum::<f32>();
-    let [furrow, part, none] = [0, 1, 2].map(total);
+    let [furrow, part, none] = [0, 1, 2].map(|x: usize| amounts[(x, 0)].iter().sum::<f32>());
     assert!((furrow - 0.03).abs() < 1e-6 && (part - 0.25 * 0.1).abs() < 1e-6, "{furrow} {part}");
     assert_eq!(none, 0.0);
 }

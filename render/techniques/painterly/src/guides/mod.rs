@@ -16,15 +16,10 @@
 //! to views of models: degrees around the model, above the horizon, and of the field of view.
 
 mod error;
-
 mod lines;
-
 mod text;
-
 mod walk;
-
 mod on_mesh;
-
 mod on_picture;
 
 pub use error::{GuideFault, GuidesError};

@@ -28,9 +28,13 @@ impl Guides {
         let [own_width, own_height] = self.size_px.map(f64::from);
         let scale = DVec2::new(width as f64 / own_width, height as f64 / own_height);
         let steps = self.lines.iter().flat_map(|line| steps(line, scale));
-        let sample =
-            |step: Step| GuideSample { x: step.at.x, y: step.at.y, along: step.along.to_array() };
-        Ok(steps.map(sample).collect())
+        Ok(steps
+            .map(|step: Step| GuideSample {
+                x: step.at.x,
+                y: step.at.y,
+                along: step.along.to_array(),
+            })
+            .collect())
     }
 }
 

@@ -32,8 +32,10 @@ impl<T, const N: usize> TryFrom<Vec<T>> for Exactly<T, N> {
     type Error = String;
 
     fn try_from(numbers: Vec<T>) -> Result<Self, String> {
-        let wrong = |numbers: Vec<T>| format!("expected {N} numbers, found {}", numbers.len());
-        numbers.try_into().map(Self).map_err(wrong)
+        numbers
+            .try_into()
+            .map(Self)
+            .map_err(|numbers: Vec<T>| format!("expected {N} numbers, found {}", numbers.len()))
     }
 }
 
@@ -94,7 +96,8 @@ impl Guides {
             entry.points.get_ref().iter().map(|point| point.get_ref().0).collect()
         };
         let lines = entries.iter().map(points).collect();
-        let (size_px, camera) = (size_px.0, camera.map(|camera| camera.0));
+        let size_px = size_px.0;
+        let camera = camera.map(|camera| camera.0);
         let guides = Self { file: file.to_owned(), picture, size_px, camera, lines };
         let checked = guides.check().map_err(|error| match error {
             GuidesError::Guide { file, guide, fault, .. } => {

@@ -13,7 +13,8 @@ use super::*;
 #[test]
 fn a_device_paints_models_as_the_processor_does() {
     let Some(mut gpu) = device() else { return };
-    let (mesh, size) = (Mesh::torus_knot(4000), (161, 119));
+    let mesh = Mesh::torus_knot(4000);
+    let size = (161, 119);
     let camera = Framing { aspect: 4.0 / 3.0, ..Framing::default() }.fit(&mesh.positions);
     for (from, space, line_px) in [
         (ColorSource::Model, ColorSpace::Cielab, 0.0),

@@ -23,12 +23,15 @@ fn painted_map() -> ArtMap {
     let mut map = map(3);
     for key in &mut map.keys {
         let height = key.tile.height_mm.as_ref().unwrap();
-        let texel = |mm: &f32| {
-            let mut pigments_mm = [0.0; SLOTS];
-            pigments_mm[SLOT] = 0.5 * mm;
-            TexelPaint { pigments_mm, vehicle_mm: mm / 3.0 }
-        };
-        let texels = height.values().iter().map(texel).collect();
+        let texels = height
+            .values()
+            .iter()
+            .map(|mm: &f32| {
+                let mut pigments_mm = [0.0; SLOTS];
+                pigments_mm[SLOT] = 0.5 * mm;
+                TexelPaint { pigments_mm, vehicle_mm: mm / 3.0 }
+            })
+            .collect();
         key.tile.paint = Some(Field::from_values(height.width(), height.height(), texels));
     }
     let mut slots = paint::layer::Slots::default();
@@ -65,10 +68,12 @@ fn a_painting_has_the_means_of_the_amounts_that_its_strokes_show() {
     let shown = painter.paint(&camera, (96, 72), 0.0).unwrap();
     let layer = &document.dry[0].paint;
     let mm = |quanta: u32| mm_from_quanta(quanta, document.cell_mm);
-    let (mut covered, mut off) = (0, 0.0_f64);
+    let mut covered = 0;
+    let mut off = 0.0_f64;
     for (index, height) in shown.height_mm.values().iter().enumerate() {
         let cell = layer.cell(index);
-        let (paint, vehicle) = (mm(cell.pigments[SLOT]), mm(cell.vehicle));
+        let paint = mm(cell.pigments[SLOT]);
+        let vehicle = mm(cell.vehicle);
         assert!((0..SLOTS).all(|slot| slot == SLOT || cell.pigments[slot] == 0));
         assert!((vehicle - paint / 1.5).abs() < 1e-3 * paint + 2e-3, "{paint} {vehicle}");
         if shown.color.values()[index][3] == 0.0 {
@@ -91,7 +96,8 @@ fn totals_of_a_painting_are_those_of_sums_in_double_precision() {
     let mut painter = Painter::of_model(&mesh, &map, &settings()).unwrap();
     let (depth, splats) = painter.splats(&camera, (96, 72), 0.0).unwrap();
     let overlap = &painter.settings().overlap;
-    let (divide, paint) = (painter.divide(0), painter.paint_tones().unwrap().unwrap());
+    let divide = painter.divide(0);
+    let paint = painter.paint_tones().unwrap().unwrap();
     let sums = amounts(&depth, &splats[0], &divide, paint, overlap);
     let wanted: f64 = sums.values().iter().map(|amounts| f64::from(amounts[SLOT])).sum();
     let document = painting(&map, &settings()).unwrap();
@@ -138,7 +144,8 @@ fn colours_of_the_model_are_mixed_of_a_palette_that_suits_them_layer_by_layer() 
 
 #[test]
 fn maps_of_different_libraries_paint_pictures_but_not_with_their_pigments() {
-    let (first, mut second) = (painted_map(), painted_map());
+    let first = painted_map();
+    let mut second = painted_map();
     let mut other = PigmentLibrary::van_gogh_oils();
     other.title = "another".into();
     second.paint.as_mut().unwrap().library = Arc::new(other);

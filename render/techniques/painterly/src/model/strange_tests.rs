@@ -102,8 +102,12 @@ fn sheets_that_share_an_edge_and_meshes_that_are_open_are_painted() {
     let mut book = Mesh { materials: page.materials.clone(), ..Mesh::default() };
     for (turn, flipped) in [(0.3_f32, false), (1.5, true), (2.6, false)] {
         let first = book.positions.len() as u32;
-        let at = |[x, y, _]: [f32; 3]| [(x + 1.0) * turn.cos(), y, (x + 1.0) * turn.sin()];
-        book.positions.extend(page.positions.iter().copied().map(at));
+        book.positions.extend(
+            page.positions
+                .iter()
+                .copied()
+                .map(|[x, y, _]: [f32; 3]| [(x + 1.0) * turn.cos(), y, (x + 1.0) * turn.sin()]),
+        );
         let side = if flipped { 1.0 } else { -1.0 };
         let normal = [side * turn.sin(), 0.0, -side * turn.cos()];
         book.normals.extend(page.normals.iter().map(|_| normal));

@@ -169,12 +169,11 @@ fn a_picture_has_the_same_bits_on_any_number_of_threads_and_again() {
     let camera = Framing { aspect: 4.0 / 3.0, ..Framing::default() }.fit(&mesh.positions);
     let mut settings = Settings::default();
     settings.color.from = ColorSource::Model;
-    let paint = || {
-        let mut painter = Painter::of_model(&mesh, &map(3), &settings).unwrap();
-        painter.paint(&camera, (161, 119), 0.0).unwrap()
-    };
     let pictures = [1, 2, 5].map(|threads| {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(paint)
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
+            let mut painter = Painter::of_model(&mesh, &map(3), &settings).unwrap();
+            painter.paint(&camera, (161, 119), 0.0).unwrap()
+        })
     });
     let bits = |picture: &PaintedPicture| -> Vec<u32> {
         let color = picture.color.values().iter().flatten();
@@ -229,7 +228,8 @@ fn faces_of_a_closed_model_that_turn_away_have_no_strokes() {
         let mut painter = Painter::of_model(mesh, &map(1), &Settings::default()).unwrap();
         painter.splats(camera, (300, 300), 0.0).unwrap().1.concat().len() as f32
     };
-    let (front, both) = (count(&closed, &camera), count(&open, &camera));
+    let front = count(&closed, &camera);
+    let both = count(&open, &camera);
     assert!((0.35..0.6).contains(&(front / both)), "{front} of {both}");
     let inside = Camera { eye: Vec3::ZERO, target: Vec3::Z, near: 0.01, ..camera };
     assert!(count(&closed, &inside) > 50.0, "seen from inside");
@@ -250,7 +250,8 @@ fn size_and_density_of_strokes_stay_while_the_model_moves_away() {
         let splats = splats.concat();
         let weight: f32 = splats.iter().map(|splat| splat.cover).sum();
         densities.push(weight / seen as f32);
-        let (expected, tilt) = (900.0 / 1000.0 * 15.0, painter.settings().strokes.tilt);
+        let expected = 900.0 / 1000.0 * 15.0;
+        let tilt = painter.settings().strokes.tilt;
         for splat in splats.iter().filter(|splat| splat.weight > 0.9) {
             let width = 1.0 / Vec2::from(splat.across).length();
             assert!(width <= expected * 1.05 && width > expected * (1.0 - tilt), "{width}");
@@ -327,7 +328,8 @@ fn bad_input_is_refused_and_strange_input_painted() {
 fn strokes_change_no_more_than_the_light_that_turns() {
     let mesh = Mesh::sphere(8000);
     let camera = Framing::default().fit(&mesh.positions);
-    let (size, map) = ((240, 240), map(3));
+    let size = (240, 240);
+    let map = map(3);
     let projection = Projection::new(&camera, size.0, size.1);
     let range = map.keys[2].tone - map.keys[0].tone;
     let lit = |azimuth_deg: f32| {
@@ -347,7 +349,8 @@ fn strokes_change_no_more_than_the_light_that_turns() {
         (lab, shade)
     };
     let [(before, shade_before), (after, shade_after)] = [315.0, 321.0].map(lit);
-    let (mut strokes, mut shades) = (0.0, 0.0);
+    let mut strokes = 0.0;
+    let mut shades = 0.0;
     for at in (0..size.0 * size.1).map(|index| (index % size.0, index / size.0)) {
         let (Some(was), Some(is)) = (shade_before(at), shade_after(at)) else { continue };
         shades += (is - was).powi(2);

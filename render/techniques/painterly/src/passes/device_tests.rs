@@ -95,7 +95,8 @@ impl Laid {
 /// A mesh that leans away to the right, with a part before it below, and nothing on the right.
 fn mesh((width, height): (usize, usize)) -> Field<f32> {
     let depth = |index: usize| {
-        let (x, y) = (index % width, index / width);
+        let x = index % width;
+        let y = index / width;
         match (4 * x >= 3 * width, 4 * y >= 3 * height) {
             (true, _) => 1.0,
             (_, true) => 0.48,
@@ -158,7 +159,8 @@ fn a_device_leaves_a_picture_without_strokes_bare() {
     let Some(mut gpu) = device() else { return };
     let laid = Laid::usual();
     let overlap = OverlapSettings::default();
-    let (size, seen) = ((40, 30), mesh((40, 30)));
+    let size = (40, 30);
+    let seen = mesh((40, 30));
     // Memory of an earlier picture is not seen again.
     laid.paint(&mut gpu, (&seen, &laid.scattered(60, size)), THIN, &overlap);
     let bare = laid.paint(&mut gpu, (&seen, &[]), THIN, &overlap);
@@ -170,7 +172,8 @@ fn a_device_leaves_a_picture_without_strokes_bare() {
 fn strokes_thin_out_below_the_cover_that_is_asked_for() {
     let Some(mut gpu) = device() else { return };
     let laid = Laid::usual();
-    let (size, overlap) = ((40, 30), OverlapSettings::default());
+    let size = (40, 30);
+    let overlap = OverlapSettings::default();
     let depth = Field::filled(size.0, size.1, 0.5);
     let splats: Vec<StrokeSplat> = laid
         .scattered(40, size)

@@ -33,7 +33,9 @@ fn overlap(sharpness: u32) -> OverlapSettings {
 fn summed(splats: &[StrokeSplat], tones: &Tones, sharpness: i32, at: [f32; 2]) -> Option<[f64; 2]> {
     let texels = tones.texels(0, 0);
     let size = texels.size as f64;
-    let (mut sum, mut total, mut cover) = (0.0, 0.0, 0.0);
+    let mut sum = 0.0;
+    let mut total = 0.0;
+    let mut cover = 0.0;
     for splat in splats {
         let from = [at[0] - splat.x, at[1] - splat.y];
         let part = |[x, y]: [f32; 2]| f64::from(x * from[0] + y * from[1]);

@@ -13,11 +13,13 @@ const WINDOW: usize = 60;
 /// Motion of each window from one frame to another in pixels, by least squares over the gradients
 /// (Lucas and Kanade 1981).
 fn motions(before: &Field<f32>, after: &Field<f32>) -> Vec<DVec2> {
-    let (width, height) = (before.width(), before.height());
+    let width = before.width();
+    let height = before.height();
     let mut found = Vec::new();
     for top in (2..height - WINDOW).step_by(WINDOW) {
         for left in (2..width - WINDOW).step_by(WINDOW) {
-            let (mut squares, mut wanted) = (DMat2::ZERO, DVec2::ZERO);
+            let mut squares = DMat2::ZERO;
+            let mut wanted = DVec2::ZERO;
             for y in top..top + WINDOW {
                 for x in left..left + WINDOW {
                     // Gradients of both frames, so that their mean counts.
@@ -56,7 +58,8 @@ fn texels_move_along_the_flow() {
             Field::from_values(320, 240, greens)
         };
         // The map is 180 px long; a half pixel of motion.
-        let (before, after) = (frame(10.0), frame(10.3));
+        let before = frame(10.0);
+        let after = frame(10.3);
         let mut off: Vec<f64> = motions(&before, &after)
             .into_iter()
             .map(|motion| motion.angle_to(wanted.as_dvec2()).to_degrees().abs())

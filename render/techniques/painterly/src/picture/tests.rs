@@ -79,7 +79,8 @@ fn strokes_run_along_the_edges_of_the_picture() {
     let mut painter = Painter::of_picture(&stripes(), &map(2), &settings()).unwrap();
     let (_, splats) = painter.splats(&view(&stripes()), (400, 240), 0.0).unwrap();
     let inside = splats[0].iter().filter(|splat| splat.x > 20.0 && splat.x < 300.0);
-    let (mut along, mut count) = (0, 0);
+    let mut along = 0;
+    let mut count = 0;
     for splat in inside {
         // Lines of equal x + y rise to the right.
         let off = (splat.turn() + std::f32::consts::FRAC_PI_4).sin().abs();
@@ -141,7 +142,8 @@ fn guides_flow_pictures_and_regions_turn_strokes() {
 #[test]
 fn regions_have_their_map_size_and_tones() {
     let even = photograph(160, 120, |_, _| [120; 3]);
-    let (first, mut second) = (map(1), map(1));
+    let first = map(1);
+    let mut second = map(1);
     // Blue strokes instead of ochre ones.
     second.keys[0].tile.color.values_mut().iter_mut().for_each(|rgb| rgb.reverse());
     let area = RegionArea::Polygon(vec![[0.0, 0.0], [80.0, 0.0], [80.0, 120.0], [0.0, 120.0]]);
@@ -157,7 +159,8 @@ fn regions_have_their_map_size_and_tones() {
     let [left, right] = [10..130, 190..310].map(|columns| mean(&lab, columns, 10..230));
     assert!(left.z < -5.0 && right.z > 5.0, "{left} {right}");
     let (_, splats) = painter.splats(&camera, (320, 240), 0.0).unwrap();
-    let (mut widths, mut counts) = ([0.0; 2], [0.0_f32; 2]);
+    let mut widths = [0.0; 2];
+    let mut counts = [0.0_f32; 2];
     for splat in splats[0].iter().filter(|splat| (splat.x - 160.0).abs() > 20.0) {
         let side = usize::from(splat.x > 160.0);
         widths[side] += 1.0 / Vec2::from(splat.across).length();
@@ -225,7 +228,8 @@ fn layers_show_detail_that_large_strokes_blur() {
         settings.layers.count = layers;
         let mut painter = Painter::of_picture(&picture, &map(3), &settings).unwrap();
         let painted = painter.paint(&view(&picture), (320, 240), 0.0).unwrap().color;
-        let (found, wanted) = (lab(&painted), lab_from_linear(&picture.on_canvas(320, 240)));
+        let found = lab(&painted);
+        let wanted = lab_from_linear(&picture.on_canvas(320, 240));
         let off = found.values().iter().zip(wanted.values());
         off.map(|(a, b)| Vec3::from(*a).distance(Vec3::from(*b))).sum::<f32>() / 76_800.0
     };

@@ -39,7 +39,8 @@ pub enum RegionsError {
 
 impl RegionsError {
     pub(super) fn region(file: &str, region: &str, fault: String, hint: &str) -> Self {
-        let (file, region) = (file.to_owned(), region.to_owned());
+        let file = file.to_owned();
+        let region = region.to_owned();
         Self::Region { file, region, fault, hint: hint.to_owned() }
     }
 }

@@ -1,21 +1,13 @@
 //! The settings of painterly rendering, and their TOML files.
 
 mod figures;
-
 mod strokes;
-
 mod layers;
-
 mod look;
-
 mod picture;
-
 mod whole;
-
 mod preset;
-
 mod file;
-
 mod change;
 
 pub use file::SettingsError;

@@ -1,17 +1,11 @@
 //! The picture: a grey drawing into which volumes bring colour.
 
 mod error;
-
 mod grey;
-
 mod look;
-
 mod shade;
-
 mod shells;
-
 mod regions;
-
 mod reveal;
 
 pub use error::DrawingError;

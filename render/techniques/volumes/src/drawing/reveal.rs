@@ -219,7 +219,8 @@ fn reveal_on_gpu(
         let buffers = [shaded.buffer(), counts, inside, composed.buffer()];
         gpu.dispatch(&REGION, &params, &buffers, (width, height));
     }
-    let (columns, rows) = (width / samples, height / samples);
+    let columns = width / samples;
+    let rows = height / samples;
     let picture = gpu.plane(columns, rows)?;
     let params = FinishParams {
         paper: paper.unwrap_or_default(),

@@ -77,7 +77,8 @@ pub fn shade_apart(
     let of_mesh = (hatching.mesh_is_useful, hatching.bounds);
     let placing = Placing::new(&look.hatching, of_mesh, camera, height_px);
     let shader = Shader::new(mesh, look, camera, placing, hatching);
-    let (width, height) = (visible.width(), visible.height());
+    let width = visible.width();
+    let height = visible.height();
     let mut colors = Field::filled(width, height, [1.0; 4]);
     let mut inks = Field::filled(width, height, 0.0);
     let width = width.max(1);
@@ -119,7 +120,8 @@ impl<'a> Shader<'a> {
     }
 
     fn picture(&self, visible: &VisibilityBuffer) -> Field<[f32; 4]> {
-        let (width, height) = (visible.width(), visible.height());
+        let width = visible.width();
+        let height = visible.height();
         let mut shaded = Field::filled(width, height, [1.0; 4]);
         shaded.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
             for (shaded, fragment) in row.iter_mut().zip(visible.row(y, 0, width)) {
@@ -183,7 +185,8 @@ impl<'a> Shader<'a> {
         if tone >= 1.0 {
             return 0.0;
         }
-        let (crossed, mut ink) = (tone < DIRECTIONS_MEET, 0.0);
+        let crossed = tone < DIRECTIONS_MEET;
+        let mut ink = 0.0;
         for patch in self.placing.patches(self.mesh, fragment, (position, normal), crossed) {
             if patch.weight > 0.0 {
                 ink += patch.weight * self.inking.ink(&patch, tone);
@@ -299,7 +302,8 @@ fn shade_on_gpu(
     let (width, height) = visible.size();
     let shaded = gpu.plane(width, height)?;
     let DeviceModel { vertices, triangles, materials, texels, .. } = model;
-    let (visible, quads) = (visible.buffer(), quads.buffer());
+    let visible = visible.buffer();
+    let quads = quads.buffer();
     let buffers = [vertices, triangles, materials, texels, visible, quads, shaded.buffer()];
     gpu.dispatch(&SHADE, params, &buffers, (width, height));
     Ok(shaded)

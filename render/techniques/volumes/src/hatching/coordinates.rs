@@ -191,7 +191,8 @@ fn gradients([to_b, to_c]: [Vec3; 2], changes: [[f32; 2]; 2]) -> [Vec3; 2] {
 /// strokes can follow them.
 #[must_use]
 pub fn has_useful_coordinates(mesh: &PackedMesh) -> bool {
-    let (mut useful, mut all) = (0.0, 0.0);
+    let mut useful = 0.0;
+    let mut all = 0.0;
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.corners.map(|corner| &mesh.vertices[corner as usize]);
         let edges = [b, c].map(|to| Vec3::from(to.position) - Vec3::from(a.position));

@@ -45,7 +45,8 @@ impl Coverage {
             return;
         }
         self.count += 1;
-        let (x, y) = (texel % SIDE, texel / SIDE);
+        let x = texel % SIDE;
+        let y = texel / SIDE;
         for (size, window) in self.windows.iter_mut().enumerate() {
             window[(y >> size) * (SIDE >> size) + (x >> size)] += 1;
         }
@@ -72,9 +73,11 @@ impl Coverage {
     /// Mean share of what is covered around the middle of a stroke, over windows of all sizes.
     fn around(&self, stroke: &Stroke) -> f32 {
         let mask = SIDE as i32 - 1;
-        let (mut sum, mut points) = (0.0, 0.0);
+        let mut sum = 0.0;
+        let mut points = 0.0;
         for [x, y] in stroke.points(self.size) {
-            let (x, y) = ((x & mask) as usize, (y & mask) as usize);
+            let x = (x & mask) as usize;
+            let y = (y & mask) as usize;
             for (size, window) in self.windows.iter().enumerate() {
                 let at = (y >> size) * (SIDE >> size) + (x >> size);
                 sum += f32::from(window[at]) / (1_u32 << (2 * size)) as f32;

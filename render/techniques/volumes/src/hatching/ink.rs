@@ -194,7 +194,8 @@ mod tests {
         for zoom in 0..=48 {
             let side_px = 37.0 * (1500.0_f32 / 37.0).powf(zoom as f32 / 48.0);
             for tone in [0.8, 0.7, 0.6] {
-                let (mut inked, mut runs) = (0.0, 0.0);
+                let mut inked = 0.0;
+                let mut runs = 0.0;
                 for column in 0..160 {
                     let mut last = 0.0;
                     for row in 0..480 {

@@ -7,19 +7,12 @@
 //! at once.
 
 mod strokes;
-
 mod coverage;
-
 mod slices;
-
 mod threshold;
-
 mod look;
-
 mod coordinates;
-
 mod ink;
-
 mod uploaded;
 
 pub use coordinates::has_useful_coordinates;

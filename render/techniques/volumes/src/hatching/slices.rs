@@ -108,7 +108,8 @@ fn second_slice(
 /// The strokes of four tiles of half the size side by side, falling by tone as those of one.
 fn four_copies(first: &[Drawn]) -> Vec<Drawn> {
     let copies = |own: &Drawn| {
-        let (stroke, tone) = (own.stroke.clone(), own.tone);
+        let stroke = own.stroke.clone();
+        let tone = own.tone;
         [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|tile| {
             let [x, y] = stroke.middle.map(|at| at - at.floor());
             let middle = [0.5 * (x + tile[0]), 0.5 * (y + tile[1])];
@@ -146,7 +147,8 @@ fn like_strokes(first: &[Drawn], four: &[Drawn]) -> Vec<Option<usize>> {
 /// The stroke of `other` with its middle where the repeating tile brings it nearest to `own`.
 fn nearest_copy(own: &Drawn, other: &Drawn) -> Stroke {
     let middle = [0, 1].map(|axis| {
-        let (from, to) = (own.stroke.middle[axis], other.stroke.middle[axis]);
+        let from = own.stroke.middle[axis];
+        let to = other.stroke.middle[axis];
         to - (to - from).round()
     });
     other.stroke.at(middle)

@@ -82,13 +82,15 @@ fn grain(seed: u64) -> Vec<f32> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(1);
     let rough: Vec<f32> = (0..SIDE * SIDE).map(|_| random.random_range(0.0..1.0)).collect();
-    let smooth = |texel: usize| {
-        let (x, y) = (texel % SIDE, texel / SIDE);
-        let at = |dx: usize, dy: usize| rough[(y + dy) % SIDE * SIDE + (x + dx) % SIDE];
-        let height = (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) / 4.0;
-        GRAIN * height + DEPTH * (height - VALLEY).max(0.0).powi(2)
-    };
-    (0..SIDE * SIDE).map(smooth).collect()
+    (0..SIDE * SIDE)
+        .map(|texel: usize| {
+            let x = texel % SIDE;
+            let y = texel / SIDE;
+            let at = |dx: usize, dy: usize| rough[(y + dy) % SIDE * SIDE + (x + dx) % SIDE];
+            let height = (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1)) / 4.0;
+            GRAIN * height + DEPTH * (height - VALLEY).max(0.0).powi(2)
+        })
+        .collect()
 }
 
 /// Thresholds in the order of the raw tones, which the grain of the paper roughens, spread evenly
@@ -139,11 +141,13 @@ fn spread_between(thresholds: &mut [f32]) {
 
 fn quads_of(thresholds: &[u8]) -> Vec<u32> {
     let at = |x: usize, y: usize| thresholds[(y % SIDE) * SIDE + x % SIDE];
-    let quad = |texel: usize| {
-        let (x, y) = (texel % SIDE, texel / SIDE);
-        u32::from_le_bytes([at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)])
-    };
-    (0..SIDE * SIDE).map(quad).collect()
+    (0..SIDE * SIDE)
+        .map(|texel: usize| {
+            let x = texel % SIDE;
+            let y = texel / SIDE;
+            u32::from_le_bytes([at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)])
+        })
+        .collect()
 }
 
 /// One texture for all tests that only need any.
@@ -197,9 +201,11 @@ mod tests {
     fn light_strokes_of_a_slice_are_in_the_next() {
         let texture = sample_texture();
         for slice in 0..SLICES {
-            let (mut kept, mut all) = (0, 0);
+            let mut kept = 0;
+            let mut all = 0;
             for at in 0..SIDE * SIDE {
-                let (x, y) = (at % SIDE, at / SIDE);
+                let x = at % SIDE;
+                let y = at / SIDE;
                 if texture.threshold(slice, x, y) > 204 {
                     all += 1;
                     // After the last comes the first, at half the size.
@@ -236,7 +242,8 @@ mod tests {
             runs
         };
         let mean = |runs: &[usize]| runs.iter().sum::<usize>() as f32 / runs.len() as f32;
-        let (wide, long) = (runs(true), runs(false));
+        let wide = runs(true);
+        let long = runs(false);
         assert!((1.2..3.5).contains(&mean(&wide)), "{}", mean(&wide));
         assert!(mean(&long) > 3.0 * mean(&wide), "{}", mean(&long));
         let spread = long.iter().map(|&run| (run as f32 - mean(&long)).powi(2)).sum::<f32>();

@@ -175,8 +175,10 @@ fn degrees(directions: &[[f32; 3]], values: &[f64], most: usize) -> Vec<f64> {
     let mut sums = vec![0.0; most + 1];
     for i in 0..values.len() {
         for j in 0..i {
-            let (cosine, product) = (directions[i].dot(directions[j]), values[i] * values[j]);
-            let (mut before, mut last) = (1.0, cosine);
+            let cosine = directions[i].dot(directions[j]);
+            let product = values[i] * values[j];
+            let mut before = 1.0;
+            let mut last = cosine;
             for (degree, sum) in sums.iter_mut().enumerate().skip(1) {
                 *sum += product * last * (2 * degree + 1) as f64;
                 let n = degree as f64;

@@ -85,8 +85,12 @@ impl Acting {
             return None;
         }
         let inset = conditions.inset();
-        let passes = |region: &&KeepIn| !region.holds_ball(volume.center, reach, inset);
-        let regions = surroundings.regions.iter().filter(passes).copied().collect();
+        let regions = surroundings
+            .regions
+            .iter()
+            .filter(|region: &&KeepIn| !region.holds_ball(volume.center, reach, inset))
+            .copied()
+            .collect();
         let gravity_here = settings.gravity * surroundings.cell;
         let constant = gravity(gravity_here, surroundings.down, volume.normal);
         Some(Self { target, least, constant, pushes, regions })

@@ -125,7 +125,8 @@ mod tests {
     #[test]
     fn a_volume_that_cannot_be_is_named() {
         let mut volumes = vec![Volume::ball(Vec3::ZERO, 1.0, 1, 1); 2];
-        let (settings, surroundings) = (MotionSettings::default(), Surroundings::new(1.0, 1));
+        let settings = MotionSettings::default();
+        let surroundings = Surroundings::new(1.0, 1);
         let moved = |change: fn(&mut Volume)| {
             let mut changed = volumes.clone();
             change(&mut changed[1]);

@@ -177,7 +177,8 @@ pub(super) fn pack(volume: &Volume, moved: &mut [MovedParticle]) {
     let [vx, vy, vz] = &volume.particles.velocities;
     let samples = volume.particles.samples.iter().copied().chain(std::iter::repeat(u32::MAX));
     for ((i, moved), sample) in moved.iter_mut().enumerate().zip(samples) {
-        let (place, velocity) = ([px[i], py[i], pz[i]], [vx[i], vy[i], vz[i]]);
+        let place = [px[i], py[i], pz[i]];
+        let velocity = [vx[i], vy[i], vz[i]];
         *moved = MovedParticle { place, distance: 0.0, velocity, sample };
     }
 }

@@ -107,9 +107,15 @@ fn a_device_agrees_with_the_processor_after_1000_steps() {
 fn the_finest_sphere_and_many_sub_steps_agree_too() {
     let Some(mut device) = opened() else { return };
     let settings = MotionSettings { cohesion: 4e4, ..MotionSettings::default() };
-    let keep = |_: usize, _: &mut Surroundings, _: [&[Volume]; 2]| ();
     let volumes = row(&[5, 2]);
-    let [own, other] = both(&mut device, &volumes, &settings, busy(), (12, 0.05), keep);
+    let [own, other] = both(
+        &mut device,
+        &volumes,
+        &settings,
+        busy(),
+        (12, 0.05),
+        |_: usize, _: &mut Surroundings, _: [&[Volume]; 2]| (),
+    );
     for (own, other) in own.iter().zip(&other) {
         let far = farthest(own, other);
         assert!(far <= 1e-4, "detail {}: {far} R", own.detail);
@@ -181,7 +187,8 @@ fn the_guard_keeps_stars_on_a_device() {
     volumes[1].particles.velocities[2][9] = f32::INFINITY;
     (0..3).for_each(|axis| volumes[2].particles.places[axis][7] = 0.0);
     let mut motion = DeviceMotion::default();
-    let (settings, surroundings) = (MotionSettings::default(), busy());
+    let settings = MotionSettings::default();
+    let surroundings = busy();
     for step in 0..40 {
         motion.advance(&mut device, &mut volumes, &settings, &surroundings, STEP).unwrap();
         for volume in &volumes {

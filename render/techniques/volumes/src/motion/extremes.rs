@@ -17,8 +17,8 @@ const STEP: f32 = 1.0 / 120.0;
 /// The least determinant over a face of a volume, in unit vectors to the places of its particles.
 fn least_cone(volume: &Volume) -> f64 {
     let [x, y, z] = &volume.particles.places;
-    let unit = |i: usize| Vec3::new(x[i], y[i], z[i]).as_dvec3().normalize();
-    let units: Vec<DVec3> = (0..x.len()).map(unit).collect();
+    let units: Vec<DVec3> =
+        (0..x.len()).map(|i: usize| Vec3::new(x[i], y[i], z[i]).as_dvec3().normalize()).collect();
     let cones = volume.mesh().faces.iter().map(|face| {
         let [a, b, c] = face.map(|corner| units[corner as usize]);
         a.cross(b).dot(c)
@@ -33,7 +33,8 @@ fn every_cone_stays_open_whatever_happens() {
     let mut surroundings = Surroundings::new(1.0, 1);
     let mut volumes: Vec<Volume> =
         (0..5).map(|detail| Volume::ball(Vec3::splat(0.3), 0.5, detail, detail.into())).collect();
-    let (mut least, mut smallest) = (f64::MAX, f32::MAX);
+    let mut least = f64::MAX;
+    let mut smallest = f32::MAX;
     for step in 0..900 {
         if step % 50 == 0 {
             let speed = [0.3, 1.0, 10.0, 100.0, 100.0, 100.0][step / 150];
@@ -160,7 +161,8 @@ fn explicit_euler(settings: &MotionSettings, seconds: f32, steps: usize) -> f32 
         for i in 0..places.len() {
             let sum = mesh.neighbours[i].iter().map(|&other| deviations[other as usize]).sum();
             let count = if i < 12 { 5.0 } else { 6.0 };
-            let (distance, outward) = (places[i].length(), places[i].normalize());
+            let distance = places[i].length();
+            let outward = places[i].normalize();
             let force = pressure(settings.pressure, 1.0 / mesh.inradius, distance, outward)
                 + elastic(settings.elastic, deviations[i], outward)
                 + cohesion(settings.cohesion / count, deviations[i], sum)

@@ -60,7 +60,8 @@ mod tests {
 
     #[test]
     fn elastic_and_pressure_share_a_deviation_between_them() {
-        let (outward, resting) = (Vec3::X, Vec3::new(1.8, 0.6, 0.0));
+        let outward = Vec3::X;
+        let resting = Vec3::new(1.8, 0.6, 0.0);
         let place = Vec3::new(2.0, 0.0, 0.0);
         assert_eq!(pressure(10.0, 1.5, 2.0, outward), Vec3::new(-5.0, 0.0, 0.0));
         let pull = elastic(10.0, place - resting, outward);
@@ -69,7 +70,8 @@ mod tests {
 
     #[test]
     fn cohesion_counts_five_neighbours_as_well_as_six() {
-        let (own, other) = (Vec3::X, Vec3::Y);
+        let own = Vec3::X;
+        let other = Vec3::Y;
         assert_eq!(cohesion(1.0 / 6.0, own, other * 6.0), other - own);
         let five = cohesion(1.0 / 5.0, own, other * 5.0 + own);
         assert!(five.abs_diff_eq(other - own, 1e-6), "{five}");

@@ -74,7 +74,8 @@ mod tests {
     #[test]
     fn the_skin_gets_ahead_no_faster_than_allowed() {
         let targets = (Vec3::new(1.6, 0.3, -0.7), 1.5);
-        let (mut center, mut radius) = (Vec3::X, 0.1);
+        let mut center = Vec3::X;
+        let mut radius = 0.1;
         let ahead = targets.0 - center;
         let mut tip = radius;
         for _ in 0..2400 {

@@ -36,7 +36,8 @@ impl KeepIn {
         match *self {
             Self::Box { low, high } => {
                 let middle = (low + high) * 0.5;
-                let (low, high) = ((low + inset).min(middle), (high - inset).max(middle));
+                let low = (low + inset).min(middle);
+                let high = (high - inset).max(middle);
                 place.max(low).min(high) - place
             }
             Self::Ball { center, radius } => {
@@ -59,7 +60,8 @@ impl KeepIn {
             Self::Box { low, high } => {
                 let mut share = 1.0;
                 for axis in 0..3 {
-                    let (rise, fall) = (high[axis] - center[axis], center[axis] - low[axis]);
+                    let rise = high[axis] - center[axis];
+                    let fall = center[axis] - low[axis];
                     share = within(rise, offset[axis], share);
                     share = within(fall, -offset[axis], share);
                 }
@@ -68,7 +70,8 @@ impl KeepIn {
             Self::Ball { center: middle, radius } => {
                 let from = center - middle;
                 let room = radius * radius - from.dot(from);
-                let (square, along) = (offset.dot(offset), from.dot(offset));
+                let square = offset.dot(offset);
+                let along = from.dot(offset);
                 if room <= 0.0 {
                     return 0.0;
                 }

@@ -40,7 +40,8 @@ fn normal(random: &mut ChaCha8Rng) -> f32 {
 /// True with probability exp(-decay), for a decay of 0 to 1 (von Neumann 1951): the length of the
 /// run in which each uniform number is below the one before, the first below `decay`, is even.
 fn survives(random: &mut ChaCha8Rng, decay: f32) -> bool {
-    let (mut last, mut even) = (decay, true);
+    let mut last = decay;
+    let mut even = true;
     loop {
         let next = random.random::<f32>();
         if next >= last {

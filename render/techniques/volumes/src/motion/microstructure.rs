@@ -50,7 +50,8 @@ impl RestingRadii {
     ) -> Self {
         // The hills are strongest at a wavelength of `grain` cells.
         let units = 1.0 / (SolidHills::STRONGEST * settings.grain * cell);
-        let (hills, height) = (microstructure.hills, settings.microstructure);
+        let hills = microstructure.hills;
+        let height = settings.microstructure;
         Self { hills, height, units, center, radius: 0.0, scale: 1.0 / inradius }
     }
 

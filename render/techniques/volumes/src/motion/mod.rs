@@ -11,35 +11,20 @@
 //! fixed order, so that places are the same bytes on every machine and number of threads.
 
 mod error;
-
 mod settings;
-
 mod growth;
-
 mod kick;
-
 mod microstructure;
-
 mod forces;
-
 mod keep_in;
-
 mod push;
-
 mod surface_lattice;
-
 mod surroundings;
-
 mod star;
-
 mod acting;
-
 mod step;
-
 mod advance;
-
 mod device_form;
-
 mod on_device;
 
 #[cfg(test)]

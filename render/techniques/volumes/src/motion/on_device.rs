@@ -48,7 +48,8 @@ impl Moving {
         let mut moving = Self { acting: Vec::new(), moved: Vec::new(), numbers: vec![], count: 0 };
         for (index, volume) in volumes.iter().enumerate() {
             let Some(acting) = Acting::on(volume, conditions) else { continue };
-            let (first, numbers) = (moving.count, &mut moving.numbers);
+            let first = moving.count;
+            let numbers = &mut moving.numbers;
             moving.moved.push(MovedVolume::new((volume, &acting), conditions, first, numbers));
             moving.count += volume.mesh().directions.len();
             moving.acting.push((index, acting));
@@ -131,7 +132,8 @@ impl DeviceMotion {
         particles: &[MovedParticle],
         conditions: Conditions<'_>,
     ) -> Result<(Vec<MovedParticle>, Vec<u32>), DeviceError> {
-        let (count, volumes) = (moving.count, moving.moved.len());
+        let count = moving.count;
+        let volumes = moving.moved.len();
         let spheres = match &self.spheres {
             Some(spheres) => spheres.clone(),
             None => {

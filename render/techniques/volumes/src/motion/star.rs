@@ -91,11 +91,15 @@ mod tests {
 
     fn shaken(detail: u8, amount: f32) -> Vec<Corner> {
         let mut random = random(4, 0);
-        let corner = |at: &[f32; 3]| {
-            let [x, y, z] = at.map(|along| along + amount * (2.0 * random.random::<f32>() - 1.0));
-            [x, y, z, (x * x + y * y + z * z).sqrt()]
-        };
-        SphereMesh::of_detail(detail).directions.iter().map(corner).collect()
+        SphereMesh::of_detail(detail)
+            .directions
+            .iter()
+            .map(|at: &[f32; 3]| {
+                let [x, y, z] =
+                    at.map(|along| along + amount * (2.0 * random.random::<f32>() - 1.0));
+                [x, y, z, (x * x + y * y + z * z).sqrt()]
+            })
+            .collect()
     }
 
     #[test]
@@ -104,7 +108,8 @@ mod tests {
             let mesh = SphereMesh::of_detail(detail);
             let before = shaken(detail, amount);
             assert!(!is_star(mesh, &before), "{detail}");
-            let (mut after, mut still) = (before.clone(), vec![0.0; before.len()]);
+            let mut after = before.clone();
+            let mut still = vec![0.0; before.len()];
             let mut other = still.clone();
             mend(mesh, &mut after, [&mut still, &mut other.clone(), &mut other]);
             assert!(is_star(mesh, &after), "{detail}");
@@ -125,7 +130,6 @@ mod tests {
         let moved: Vec<usize> = (0..642).filter(|&i| velocities[0][i] < 1.0).collect();
         let near = |i: &usize| *i == 100 || mesh.neighbours[100].contains(&(*i as u32));
         assert!(moved.contains(&100) && moved.iter().all(near), "{moved:?}");
-        let far = |i: &usize| !near(i);
-        assert!((0..642).filter(far).all(|i| corners[i] == before[i]));
+        assert!((0..642).filter(|i: &usize| !near(i)).all(|i| corners[i] == before[i]));
     }
 }

@@ -152,7 +152,8 @@ impl SubStep<'_> {
         let Conditions { settings, surroundings, .. } = self.conditions;
         let pull = settings.surface_pull;
         let surface = surroundings.surface.as_deref().filter(|_| pull > 0.0);
-        let (cell, inset) = (surroundings.cell, self.conditions.inset());
+        let cell = surroundings.cell;
+        let inset = self.conditions.inset();
         let radius = self.resting_radii.radius;
         if surface.is_none() && self.pushes.is_empty() && self.regions.is_empty() {
             return;
@@ -197,11 +198,12 @@ impl SubStep<'_> {
         let resting = &self.scratch.resting[..count];
         let distances = &mut self.scratch.distances[..count];
         let radius = self.resting_radii.radius * self.resting_radii.scale;
-        let (nearest, farthest) = (NEAREST * radius, FARTHEST * radius);
+        let nearest = NEAREST * radius;
+        let farthest = FARTHEST * radius;
         let weakest = self.conditions.weakest();
         let still = self.conditions.still() * radius;
-        let (most_force, most_speed) =
-            ((weakest * still) * (weakest * still), weakest * still * still);
+        let most_force = (weakest * still) * (weakest * still);
+        let most_speed = weakest * still * still;
         let mut moving = 0_u32;
         for i in 0..count {
             let place = Vec3::new(px[i], py[i], pz[i]);
@@ -254,7 +256,8 @@ fn bounded(
     let scale = if is_inside { 1.0 } else { to / distance };
     let outward = place * (1.0 / distance);
     let along = if is_inside { 0.0 } else { velocity.dot(outward) };
-    let (scaled, slowed) = (place * scale, velocity - outward * along);
+    let scaled = place * scale;
+    let slowed = velocity - outward * along;
     let rest = at_rest.dot(at_rest).sqrt();
     let choose = |sane: f32, other: f32| if is_sane { sane } else { other };
     let place = Vec3::new(

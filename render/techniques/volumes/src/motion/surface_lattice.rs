@@ -64,9 +64,11 @@ impl SurfaceLattice {
             return Err(MotionError::TooFine { cell, blocks, most, fitting_cell });
         }
         let counts = sides.to_array().map(|side| side as usize);
-        let (low, places) = (low - cell, places.to_vec());
+        let low = low - cell;
+        let places = places.to_vec();
         let print = print_of(&places);
-        let (tables, boxes) = (Vec::new(), Vec::new());
+        let tables = Vec::new();
+        let boxes = Vec::new();
         let mut lattice = Self { cell, low, counts, tables, boxes, places, print };
         lattice.fill();
         Ok(lattice)
@@ -147,7 +149,8 @@ impl SurfaceLattice {
         for cell in 0..cells {
             first[cell + 1] += first[cell];
         }
-        let (mut next, mut sorted) = (first.clone(), vec![0_u32; self.places.len()]);
+        let mut next = first.clone();
+        let mut sorted = vec![0_u32; self.places.len()];
         for (sample, &cell) in of_samples.iter().enumerate() {
             sorted[next[cell] as usize] = sample as u32;
             next[cell] += 1;
@@ -174,7 +177,8 @@ impl SurfaceLattice {
         let [columns, rows, layers] = self.counts;
         let [x, y, z] = [cell % columns, cell / columns % rows, cell / columns / rows];
         let side = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
-        let (along, across) = (side(x, columns), side(y, rows));
+        let along = side(x, columns);
+        let across = side(y, rows);
         side(z, layers).flat_map(move |layer| {
             let along = along.clone();
             across.clone().map(move |row| {
@@ -193,7 +197,8 @@ impl SurfaceLattice {
         let side = self.cell / BOXES as f32;
         let diagonal = side * 3.0_f32.sqrt();
         let mut found = vec![NONE; BOXES_OF_CELL];
-        let (mut few, mut squares) = (Vec::new(), Vec::new());
+        let mut few = Vec::new();
+        let mut squares = Vec::new();
         // An eighth of the cell at a time: few samples can be nearest to any of its boxes.
         for eighth in 0..8 {
             let from = [eighth % 2, eighth / 2 % 2, eighth / 4].map(|half| half * HALF);
@@ -249,7 +254,8 @@ mod tests {
         let places: Vec<Vec3> =
             (0..3000).map(|_| Vec3::new(6.0 * unit(), 0.3 * unit(), 7.0 * unit())).collect();
         let lattice = SurfaceLattice::of(&places, 1.0).unwrap();
-        let (mut found, mut exact) = (0, 0);
+        let mut found = 0;
+        let mut exact = 0;
         for _ in 0..4000 {
             let place = Vec3::new(8.0 * unit() - 1.0, 4.0 * unit() - 2.0, 9.0 * unit() - 1.0);
             let to = |sample: Vec3| sample.distance(place);

@@ -42,13 +42,18 @@ pub(super) fn averaged<T: Averaged>(field: Field<T>, samples: usize) -> Field<T>
     if samples == 1 {
         return field;
     }
-    let (width, height) = (field.width() / samples, field.height() / samples);
-    let pixel = |index: usize| {
-        let (x, y) = (index % width * samples, index / width * samples);
-        let rows = (0..samples).flat_map(|line| field.row(y + line, x, samples));
-        T::mean(rows.copied(), samples * samples)
-    };
-    let values = (0..width * height).into_par_iter().with_min_len(4096).map(pixel).collect();
+    let width = field.width() / samples;
+    let height = field.height() / samples;
+    let values = (0..width * height)
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|index: usize| {
+            let x = index % width * samples;
+            let y = index / width * samples;
+            let rows = (0..samples).flat_map(|line| field.row(y + line, x, samples));
+            T::mean(rows.copied(), samples * samples)
+        })
+        .collect();
     Field::from_values(width, height, values)
 }
 

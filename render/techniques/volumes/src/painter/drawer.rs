@@ -175,13 +175,14 @@ impl Drawer {
     /// The regions of a sight.
     pub(super) fn regions_of(&self, sight: &Sight) -> Vec<Region> {
         let regions = self.regions.iter().zip(&sight.counts);
-        let region = |(look, counts): (&RegionLook, &Image<i32>)| Region {
-            counts: counts.clone(),
-            table: look.shells.table().clone(),
-            inside: Inside::OwnColors,
-            stain: look.stain,
-        };
-        regions.map(region).collect()
+        regions
+            .map(|(look, counts): (&RegionLook, &Image<i32>)| Region {
+                counts: counts.clone(),
+                table: look.shells.table().clone(),
+                inside: Inside::OwnColors,
+                stain: look.stain,
+            })
+            .collect()
     }
 
     /// The parts of a painting with `films`, on the processor.
@@ -216,7 +217,8 @@ impl Drawer {
         }
         let sight = (&self.packed, visible, &in_sight, camera);
         let heights = films.heights(world, (&self.regions, &self.settings), sight);
-        let (mut ink, look) = (ink, &self.look.hatching);
+        let mut ink = ink;
+        let look = &self.look.hatching;
         match &tint {
             None => each(&mut ink, |ink, _| *ink *= look.outside),
             Some(tint) => each(&mut ink, |ink, sample| {

@@ -46,10 +46,13 @@ impl InSight {
     /// volume meets no tile in which something at its depth is seen.
     pub(super) fn may_hold(&self, volume: &Volume) -> bool {
         let [low, high] = bounds(volume);
-        let (mut least, mut most) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let mut least = Vec3::INFINITY;
+        let mut most = Vec3::NEG_INFINITY;
         for corner in 0..8 {
-            let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            let at = Vec3::from([0, 1, 2].map(pick));
+            let at =
+                Vec3::from([0, 1, 2].map(|axis: usize| {
+                    if corner >> axis & 1 == 0 { low[axis] } else { high[axis] }
+                }));
             let clip = self.clip_from_model * at.extend(1.0);
             // Behind the eye there is no place in the picture.
             let before = clip.w > f32::MIN_POSITIVE && clip.is_finite();
@@ -71,7 +74,8 @@ impl InSight {
             let last = (side as usize).saturating_sub(1) / TILE;
             from as usize / TILE..=(to as usize / TILE).min(last)
         };
-        let (across, depths_of_row) = (range(columns, width), depths.chunks(self.columns));
+        let across = range(columns, width);
+        let depths_of_row = depths.chunks(self.columns);
         let rows = range(rows, height);
         let rows = depths_of_row.take(rows.end() + 1).skip(*rows.start());
         let mut tiles = rows.flat_map(|row| &row[across.clone()]);
@@ -125,7 +129,8 @@ mod tests {
 
     #[test]
     fn a_volume_that_holds_something_seen_is_in_sight() {
-        let (mut left_out, mut held) = (0, 0);
+        let mut left_out = 0;
+        let mut held = 0;
         for (turned, distance) in [(0.0, 6.0), (50.0, 5.0), (85.0, 2.5), (10.0, 0.4)] {
             let camera = camera(turned, distance);
             let seen = visible(&plane(20), &camera, 97, 61);

@@ -33,7 +33,8 @@ impl RegionLook {
 
 /// How surfaces are lit, made grey and hatched.
 pub(super) fn drawing_look(settings: &Settings) -> DrawingLook {
-    let (light, hatching) = (&settings.light, &settings.hatching);
+    let light = &settings.light;
+    let hatching = &settings.hatching;
     let with_camera = DistantLight::with_camera(light.azimuth_deg, light.elevation_deg);
     let direction = match (light.with, with_camera) {
         (LightWith::Model, DistantLight::WithCamera(towards)) => DistantLight::WithModel(towards),

@@ -1,31 +1,18 @@
 //! The front door: pictures and paintings of a scene with its volumes.
 
 mod error;
-
 mod averaged;
-
 mod looks;
-
 mod in_sight;
-
 mod loaded_scene;
-
 mod region_counts;
-
 mod films;
-
 mod parts;
-
 mod drawer;
-
 mod parts_apart;
-
 mod volume_painter;
-
 mod shown;
-
 mod passes;
-
 mod stages;
 
 #[cfg(test)]

@@ -95,11 +95,14 @@ impl Drawer {
     ) -> Result<Field<[f32; 4]>, PaintingError> {
         let ink = averaged(self.ink(camera, size)?, self.look.samples);
         let darker = 1.0 - self.look.hatching.pencil;
-        let stroke = |&ink: &f32| {
-            let grey = 1.0 - ink * darker;
-            [grey, grey, grey, 1.0]
-        };
-        let values = ink.values().iter().map(stroke).collect();
+        let values = ink
+            .values()
+            .iter()
+            .map(|&ink: &f32| {
+                let grey = 1.0 - ink * darker;
+                [grey, grey, grey, 1.0]
+            })
+            .collect();
         Ok(Field::from_values(ink.width(), ink.height(), values))
     }
 

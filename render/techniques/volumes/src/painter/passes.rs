@@ -35,7 +35,8 @@ impl VolumePainter {
             ("grey".to_owned(), vec![("Y".to_owned(), channel(&shaded, 3))]),
         ];
         for (index, counts) in sight.counts.iter().enumerate() {
-            let (name, table) = (drawer.region_name(index), drawer.tints(index));
+            let name = drawer.region_name(index);
+            let table = drawer.tints(index);
             let count = drawer.of_counts(counts, |count| count as f32)?.values().to_vec();
             let tint = drawer.of_counts(counts, |count| table.tint(count))?.values().to_vec();
             parts.push((format!("count.{name}"), vec![("N".to_owned(), count)]));
@@ -53,10 +54,14 @@ impl VolumePainter {
             let mut heights = Vec::new();
             for (slot, id) in films.painter.slots().iter().enumerate() {
                 let Some(id) = id else { continue };
-                let mm = |quanta: &crate::pigments::FilmHeights| {
-                    mm_from_quanta(quanta.0[slot].max(0) as u32, CELL_MM) as f32
-                };
-                let values = parts_of.heights.values().iter().map(mm).collect();
+                let values = parts_of
+                    .heights
+                    .values()
+                    .iter()
+                    .map(|quanta: &crate::pigments::FilmHeights| {
+                        mm_from_quanta(quanta.0[slot].max(0) as u32, CELL_MM) as f32
+                    })
+                    .collect();
                 heights.push((library[*id].name.clone(), values));
             }
             parts.push(("heights".to_owned(), heights));

@@ -134,10 +134,12 @@ impl VolumePainter {
                 let scene = drawer.revealed(&sight, &[], Some(paper))?;
                 let (visible, places) = drawer.places(camera, size)?;
                 let volumes = world.volumes();
-                let region = |volume: &crate::volume::Volume| {
-                    REGIONS[usize::from(volume.region) % REGIONS.len()]
-                };
-                let colors: Vec<[f32; 3]> = volumes.iter().map(region).collect();
+                let colors: Vec<[f32; 3]> = volumes
+                    .iter()
+                    .map(|volume: &crate::volume::Volume| {
+                        REGIONS[usize::from(volume.region) % REGIONS.len()]
+                    })
+                    .collect();
                 let glass = Glass::default();
                 Ok(glass.picture(&scene, (volumes, &colors), camera, &visible, &places))
             }

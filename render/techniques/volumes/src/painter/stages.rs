@@ -88,7 +88,8 @@ impl Drawer {
         let sight = self.sight(world, camera, size)?;
         let mut stages = Vec::new();
         for (index, counts) in sight.counts.iter().enumerate() {
-            let (name, table) = (plain(&self.region_name(index)), self.tints(index));
+            let name = plain(&self.region_name(index));
+            let table = self.tints(index);
             let shells = self.regions[index].shells.scales().len() as f32;
             let count = self.of_counts(counts, |count| (count as f32 / shells).min(1.0))?;
             stages.push(stage(&format!("count-{name}"), greys(&count)));

@@ -28,7 +28,6 @@ use crate::test_surfaces::{joined, sheet};
 use crate::world::{Pour, Recipe, Single, World, WorldSettings};
 
 mod acceptance;
-
 mod every_setting;
 
 const SIZE: (usize, usize) = (150, 114);
@@ -74,8 +73,7 @@ impl Scene {
     /// Places that are shown, if they are.
     fn place(&self, packed: &PackedMesh, seen: &VisibilityBuffer, pixel: usize) -> Option<Vec3> {
         let fragment = seen.values()[pixel];
-        let place = || SurfacePoint::new(packed, fragment).position();
-        (fragment.triangle != NO_TRIANGLE).then(place)
+        (fragment.triangle != NO_TRIANGLE).then(|| SurfacePoint::new(packed, fragment).position())
     }
 
     /// The plain colour picture without paper, with its grey as the fourth value.
@@ -92,7 +90,8 @@ impl Scene {
 
     /// A world with paint on it in two places that are seen.
     fn poured(&self) -> World {
-        let (seen, packed) = (self.seen(), PackedMesh::new(&self.mesh));
+        let seen = self.seen();
+        let packed = PackedMesh::new(&self.mesh);
         let mut world = self.world();
         let shown = (0..SIZE.0 * SIZE.1).filter_map(|pixel| self.place(&packed, &seen, pixel));
         let shown: Vec<Vec3> = shown.collect();
@@ -106,7 +105,8 @@ impl Scene {
 
 fn style(shells: &[f32], tints: &[f32]) -> RegionStyle {
     let inside = settings::Inside::OwnColors;
-    let (shells, tints) = (shells.to_vec(), tints.to_vec());
+    let shells = shells.to_vec();
+    let tints = tints.to_vec();
     RegionStyle { name: String::new(), inside, shells, tints, stain: "#ffffff".to_owned() }
 }
 
@@ -125,7 +125,9 @@ fn bits(picture: &Field<[f32; 4]>) -> Vec<[u32; 4]> {
 #[test]
 fn without_volumes_all_is_the_grey_of_the_colour_picture() {
     let scene = Scene::still_life();
-    let (painted, plain, seen) = (scene.painted(&scene.world()), scene.plain(), scene.seen());
+    let painted = scene.painted(&scene.world());
+    let plain = scene.plain();
+    let seen = scene.seen();
     let linear = |value: f32| match f64::from(value) {
         value if value <= 0.040_45 => value / 12.92,
         value => ((value + 0.055) / 1.055).powf(2.4),
@@ -154,7 +156,9 @@ fn a_volume_round_everything_shows_the_colour_picture() {
     let [low, high] = scene.mesh.bounds();
     let radius = 2.0 * (high - low).length();
     world.add_volume(&single((low + high) / 2.0, radius, 0)).unwrap();
-    let (painted, plain, seen) = (scene.painted(&world), scene.plain(), scene.seen());
+    let painted = scene.painted(&world);
+    let plain = scene.plain();
+    let seen = scene.seen();
     for (pixel, found) in painted.values().iter().enumerate() {
         if seen.values()[pixel].triangle != NO_TRIANGLE {
             let [r, g, b, _] = plain.values()[pixel];
@@ -172,9 +176,13 @@ fn colour_is_shown_where_a_volume_holds_the_surface() {
     let index = world.add_volume(&single((low + high) / 2.0, radius, 0)).unwrap();
     (0..20).for_each(|_| world.step().unwrap());
     let inside = Inside::of(&world.volumes()[index]);
-    let (painted, plain, seen) = (scene.painted(&world), scene.plain(), scene.seen());
+    let painted = scene.painted(&world);
+    let plain = scene.plain();
+    let seen = scene.seen();
     let packed = PackedMesh::new(&scene.mesh);
-    let (mut all, mut held, mut wrong) = (0, 0, 0);
+    let mut all = 0;
+    let mut held = 0;
+    let mut wrong = 0;
     for (pixel, found) in painted.values().iter().enumerate() {
         let Some(place) = scene.place(&packed, &seen, pixel) else { continue };
         let [r, g, b, grey] = plain.values()[pixel];
@@ -199,7 +207,9 @@ fn regions_are_laid_one_over_the_other() {
     for region in [1, 0] {
         world.add_volume(&single((low + high) / 2.0, radius, region)).unwrap();
     }
-    let (painted, plain, seen) = (scene.painted(&world), scene.plain(), scene.seen());
+    let painted = scene.painted(&world);
+    let plain = scene.plain();
+    let seen = scene.seen();
     for (pixel, found) in painted.values().iter().enumerate() {
         if seen.values()[pixel].triangle == NO_TRIANGLE {
             continue;
@@ -268,19 +278,24 @@ fn no_colour_shows_beyond_a_region_to_stay_in() {
     let scene = Scene::still_life();
     let [low, high] = scene.mesh.bounds();
     let mut world = scene.world();
-    let (middle, seen) = ((low + high) / 2.0, scene.seen());
+    let middle = (low + high) / 2.0;
+    let seen = scene.seen();
     let packed = PackedMesh::new(&scene.mesh);
     let wall = KeepIn::Above { point: middle, normal: Vec3::X };
     world.keep(wall).unwrap();
     let shown = (0..SIZE.0 * SIZE.1).filter_map(|pixel| scene.place(&packed, &seen, pixel));
-    let beside = |at: &Vec3| {
-        at.y.abs() < 1e-3 && (0.1..0.2).contains(&((at.x - middle.x) / (high.x - low.x)))
-    };
-    let place = shown.filter(beside).nth(10).unwrap();
+    let place = shown
+        .filter(|at: &Vec3| {
+            at.y.abs() < 1e-3 && (0.1..0.2).contains(&((at.x - middle.x) / (high.x - low.x)))
+        })
+        .nth(10)
+        .unwrap();
     world.pour(Pour::at(place, 400.0, 1.0, Recipe::of_slot(0))).unwrap();
     (0..420).for_each(|_| world.step().unwrap());
-    let (painted, plain) = (scene.painted(&world), scene.plain());
-    let (mut held, mut at_wall) = (0, 0);
+    let painted = scene.painted(&world);
+    let plain = scene.plain();
+    let mut held = 0;
+    let mut at_wall = 0;
     for (pixel, found) in painted.values().iter().enumerate() {
         let Some(place) = scene.place(&packed, &seen, pixel) else { continue };
         let [r, g, b, _] = plain.values()[pixel];
@@ -296,7 +311,8 @@ fn no_colour_shows_beyond_a_region_to_stay_in() {
 #[test]
 fn a_picture_does_not_depend_on_the_pictures_before() {
     let scene = Scene::still_life();
-    let (empty, full) = (scene.world(), scene.poured());
+    let empty = scene.world();
+    let full = scene.poured();
     let mut painter = scene.painter();
     let mut paint = |world, size| bits(&painter.paint(world, &scene.camera, size).unwrap());
     let first = paint(&full, SIZE);
@@ -324,19 +340,22 @@ fn a_device_paints_what_the_processor_paints() {
         let framing = Framing { elevation_deg, aspect: 150.0 / 114.0, ..Framing::default() };
         scene.camera = framing.fit(&scene.mesh.positions);
         let found = on_device.paint(&world, &scene.camera, SIZE).unwrap();
-        let (on_cpu, seen) = (scene.painted(&world), scene.seen());
+        let on_cpu = scene.painted(&world);
+        let seen = scene.seen();
         let shown = |pixel: usize| seen.values()[pixel].triangle != NO_TRIANGLE;
         let held = |picture: &Field<[f32; 4]>, pixel: usize| {
             let [r, _, b, _] = picture.values()[pixel];
             shown(pixel) && r - b > 0.02
         };
-        let (mut wet, mut differ) = (0, 0);
+        let mut wet = 0;
+        let mut differ = 0;
         for pixel in 0..SIZE.0 * SIZE.1 {
             let own = held(&on_cpu, pixel);
             wet += usize::from(own);
             if held(&found, pixel) != own {
                 differ += 1;
-                let (x, y) = (pixel % SIZE.0, pixel / SIZE.0);
+                let x = pixel % SIZE.0;
+                let y = pixel / SIZE.0;
                 let lines = y.saturating_sub(1)..(y + 2).min(SIZE.1);
                 let mut near = lines.flat_map(|y| {
                     (x.saturating_sub(1)..(x + 2).min(SIZE.0)).map(move |x| y * SIZE.0 + x)

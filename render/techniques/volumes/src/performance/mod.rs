@@ -1,13 +1,9 @@
 //! A script played on a world, step by step.
 
 mod error;
-
 mod picked;
-
 mod settings;
-
 mod player;
-
 mod saved;
 
 #[cfg(test)]

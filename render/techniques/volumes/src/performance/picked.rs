@@ -33,7 +33,8 @@ impl FirstView {
 /// none where it shows no surface, and outside of it.
 #[must_use]
 pub fn place_seen(scene: &Mesh, seen: &VisibilityBuffer, share: [f64; 2]) -> Option<Vec3> {
-    let (width, height) = (seen.width(), seen.height());
+    let width = seen.width();
+    let height = seen.height();
     if !share.iter().all(|share| (0.0..=1.0).contains(share)) || width * height == 0 {
         return None;
     }

@@ -61,11 +61,12 @@ impl Performance {
         for (index, event) in self.events.iter().enumerate() {
             let Action::Pour(pour) = &event.action else { continue };
             let track = self.track(&pour.place, index);
-            let check = |track: Track| {
-                let mut places = track.places();
-                places.try_for_each(|place| self.world.check_place(place))
-            };
-            track.and_then(check).map_err(|error| at_event(event, error))?;
+            track
+                .and_then(|track: Track| {
+                    let mut places = track.places();
+                    places.try_for_each(|place| self.world.check_place(place))
+                })
+                .map_err(|error| at_event(event, error))?;
         }
         Ok(())
     }
@@ -194,7 +195,8 @@ impl Performance {
             }
             Action::Lift(lift) => {
                 let track = self.track(&lift.place, self.next).map_err(failed)?;
-                let (radius, rate) = (lift.radius as f32, lift.rate as f32);
+                let radius = lift.radius as f32;
+                let rate = lift.rate as f32;
                 self.world.lift(Lift { track, radius, rate, for_s }).map_err(failed)?;
             }
             Action::Split(split) => self.split(event, split.volume)?,
@@ -215,17 +217,20 @@ impl Performance {
             None => self.singles.iter().flatten().copied().collect(),
             Some(index) => {
                 let seed = self.singles.get(index).copied().flatten();
-                let missing = || PerformanceError::NoVolume {
+                vec![seed.ok_or_else(|| PerformanceError::NoVolume {
                     place: place(),
                     table: table(),
                     number: index + 1,
-                };
-                vec![seed.ok_or_else(missing)?]
+                })?]
             }
         };
         for seed in wanted {
-            let single = |own: &crate::volume::Volume| own.seed == seed && own.cell.is_none();
-            match self.world.volumes().iter().position(single) {
+            match self
+                .world
+                .volumes()
+                .iter()
+                .position(|own: &crate::volume::Volume| own.seed == seed && own.cell.is_none())
+            {
                 Some(index) => {
                     let split = self.world.split(index);
                     split.map_err(|error| at_event(event, error))?;
@@ -306,13 +311,12 @@ fn picked(event: &Event, scene: &Mesh, view: &FirstView) -> Result<Option<Vec3>,
         _ => return Ok(None),
     };
     let Place::Picked(share) = place else { return Ok(None) };
-    let bare = || PerformanceError::Bare {
+    view.place(scene, *share).map(Some).ok_or_else(|| PerformanceError::Bare {
         place: event.table.to_string(),
         table: event.table.clone(),
         x: share[0],
         y: share[1],
-    };
-    view.place(scene, *share).map(Some).ok_or_else(bare)
+    })
 }
 
 /// The region of a table, which has one of the three keys.

@@ -53,8 +53,10 @@ impl FilmCounter {
         profile: FilmProfile,
         scale: FilmScale,
     ) -> Self {
-        let (facets, lattice) = (Facets::of(mesh), SampleLattice::of(surface.places, side));
-        let (surfaces, crossings) = (VolumeSurfaces::default(), Crossings::default());
+        let facets = Facets::of(mesh);
+        let lattice = SampleLattice::of(surface.places, side);
+        let surfaces = VolumeSurfaces::default();
+        let crossings = Crossings::default();
         Self { facets, lattice, profile, scale, surfaces, crossings }
     }
 

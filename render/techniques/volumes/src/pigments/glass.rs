@@ -73,7 +73,8 @@ impl Glass {
         let densities: Vec<Density> = densities.collect();
         let through = FilmThrough::new(&densities, camera, places, true);
         let sums = Crossings::default().sum(&through, surfaces.closed(), camera, visible);
-        let (width, height) = (scene.width(), scene.height());
+        let width = scene.width();
+        let height = scene.height();
         let mut fronts = Field::filled(width, height, Fragment::EMPTY);
         let clip_from_model = camera.clip_from_model(width as f32 / height.max(1) as f32);
         let mut rasteriser = Rasteriser::default();
@@ -173,7 +174,8 @@ mod tests {
     const SIZE: (usize, usize) = (80, 60);
 
     fn shown(volumes: &[Volume], color: [f32; 3]) -> (Field<[f32; 4]>, Field<[f32; 4]>) {
-        let (mesh, camera) = (plane(2), camera(20.0, 6.0));
+        let mesh = plane(2);
+        let camera = camera(20.0, 6.0);
         let seen = visible(&mesh, &camera, SIZE.0, SIZE.1);
         let mesh = PackedMesh::new(&mesh);
         let facets = Facets::of(&mesh);
@@ -211,13 +213,12 @@ mod tests {
 
     #[test]
     fn longer_ways_are_deeper_in_colour() {
-        let at = |radius: f32| {
+        let pixels = [0.0, 0.3, 0.6, 1.2].map(|radius: f32| {
             let glass = Glass { face: 0.0, outline: 0.0, ..Glass::default() };
             let steps = (radius * STEPS) as i32;
             let thickness = FilmHeights([0, steps, 2 * steps, 0, 0, 0, 0, 0, 0]);
             glass.pixel([0.8, 0.8, 0.8, 1.0], &thickness, None)
-        };
-        let pixels = [0.0, 0.3, 0.6, 1.2].map(at);
+        });
         for pair in pixels.windows(2) {
             assert!(pair[0][0] - pair[1][0] < 1e-6 && pair[1][1] < pair[0][1]);
             assert!(pair[1][2] / pair[1][1] < pair[0][2] / pair[0][1]);

@@ -49,11 +49,13 @@ impl Grisaille {
         lightest[0] = films.most_mm as f32;
         let white = film.rgb(&lightest).into_iter().fold(1.0, f32::min);
         let tones = Tones::between(separation.black(), white);
-        let level = |level: usize| {
-            let grey = tones.target(level as f32 / (LEVELS - 1) as f32);
-            separation.refined_heights_mm([grey; 3])
-        };
-        let heights_mm = (0..LEVELS).into_par_iter().map(level).collect();
+        let heights_mm = (0..LEVELS)
+            .into_par_iter()
+            .map(|level: usize| {
+                let grey = tones.target(level as f32 / (LEVELS - 1) as f32);
+                separation.refined_heights_mm([grey; 3])
+            })
+            .collect();
         Ok(Self { slots, film, heights_mm })
     }
 
@@ -77,8 +79,10 @@ impl Grisaille {
 
     /// Films of all levels in quanta, for cells `cell_mm` wide.
     pub(super) fn quanta(&self, cell_mm: f64) -> Vec<[u32; SLOTS]> {
-        let quanta = |mm: f32| quanta_from_mm(f64::from(mm), cell_mm);
-        self.heights_mm.iter().map(|heights| heights.map(quanta)).collect()
+        self.heights_mm
+            .iter()
+            .map(|heights| heights.map(|mm: f32| quanta_from_mm(f64::from(mm), cell_mm)))
+            .collect()
     }
 }
 

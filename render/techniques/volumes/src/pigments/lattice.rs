@@ -60,7 +60,8 @@ impl SampleLattice {
     /// Indices of the samples in all cubes that the box around a ball touches, always in the
     /// same order. They may lie outside of the ball.
     pub fn near(&self, center: Vec3, reach: f32) -> impl Iterator<Item = usize> + '_ {
-        let (low, high) = (cube(center - reach, self.side), cube(center + reach, self.side));
+        let low = cube(center - reach, self.side);
+        let high = cube(center + reach, self.side);
         let [z, y, x] = std::array::from_fn(|axis| {
             (low[axis].max(self.lowest[axis]), high[axis].min(self.highest[axis]))
         });
@@ -99,8 +100,12 @@ mod tests {
             for index in held {
                 assert!(found.contains(&index), "{reach}: {index}");
             }
-            let far = |&i: &usize| (places[i] - center).abs().max_element() > reach + 0.4001;
-            assert!(!found.iter().any(far), "{reach}");
+            assert!(
+                !found
+                    .iter()
+                    .any(|&i: &usize| (places[i] - center).abs().max_element() > reach + 0.4001),
+                "{reach}"
+            );
             let count = found.len();
             found.sort_unstable();
             found.dedup();

@@ -118,8 +118,10 @@ impl FilmPaintError {
 
 impl Explain for FilmPaintError {
     fn hint(&self) -> Option<Hint> {
-        let none = || Some(Hint::new("choose a library of opaque paints, such as the oils"));
-        self.cause().map_or_else(none, Explain::hint)
+        self.cause().map_or_else(
+            || Some(Hint::new("choose a library of opaque paints, such as the oils")),
+            Explain::hint,
+        )
     }
 
     fn fault(&self) -> Fault {

@@ -8,39 +8,22 @@
 //! ```
 
 mod lattice;
-
 mod film_profile;
-
 mod wetted;
-
 mod film;
-
 mod seen;
-
 mod on_surface;
-
 mod through;
-
 mod counter;
-
 mod glass;
-
 mod materials;
-
 mod toner;
-
 mod tones;
-
 mod grisaille;
-
 mod pencil;
-
 mod own_colors;
-
 mod drawing;
-
 mod painter;
-
 mod view;
 
 pub use counter::{FilmCounter, FilmKind};

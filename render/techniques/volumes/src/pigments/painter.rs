@@ -40,7 +40,8 @@ impl Default for FilmPainterSettings {
     /// 0.03 to 0.3 mm that hide the ground.
     fn default() -> Self {
         let films = SeparationSettings { lattice: 17, refined: false, ..Default::default() };
-        let (under, inside) = (UnderPainting::default(), InsidePaint::default());
+        let under = UnderPainting::default();
+        let inside = InsidePaint::default();
         Self { under, inside, neutral: false, pencil: 0.15, cell_mm: 0.2, films }
     }
 }
@@ -139,7 +140,8 @@ impl FilmPainter {
         let FilmMaterial { library, ground, lighting, medium, .. } = &self.material;
         let cell_mm = self.settings.cell_mm;
         let ground = ground.build(width, height, cell_mm, library)?;
-        let (library, lighting) = (library.as_ref().clone(), lighting.clone());
+        let library = library.as_ref().clone();
+        let lighting = lighting.clone();
         let medium = medium.clone();
         let mut document =
             Document::bare(title, cell_mm, ground, library, medium, self.slots, lighting);
@@ -254,8 +256,8 @@ impl FilmPainter {
             return [0; SLOTS];
         };
         let quanta_per_mm = f64::from(QUANTA_PER_CELL) / self.settings.cell_mm;
-        let quanta = |mm: f32| (f64::from(mm * share) * quanta_per_mm + 0.5) as u32;
-        own.heights_mm([r, g, b]).map(quanta)
+        own.heights_mm([r, g, b])
+            .map(|mm: f32| (f64::from(mm * share) * quanta_per_mm + 0.5) as u32)
     }
 }
 

@@ -63,11 +63,15 @@ impl<'a> SeenPlaces<'a> {
     /// If `visible` shows a triangle that the mesh does not have.
     #[must_use]
     pub fn of(mesh: &PackedMesh, facets: &'a Facets, visible: &'a VisibilityBuffer) -> Self {
-        let place = |fragment: &graphics::surface::Fragment| match fragment.triangle {
-            NO_TRIANGLE => Vec3::NAN,
-            _ => SurfacePoint::new(mesh, *fragment).position(),
-        };
-        let places = visible.values().par_iter().with_min_len(PIXELS).map(place).collect();
+        let places = visible
+            .values()
+            .par_iter()
+            .with_min_len(PIXELS)
+            .map(|fragment: &graphics::surface::Fragment| match fragment.triangle {
+                NO_TRIANGLE => Vec3::NAN,
+                _ => SurfacePoint::new(mesh, *fragment).position(),
+            })
+            .collect();
         let places = Field::from_values(visible.width(), visible.height(), places);
         Self { places, visible, facets }
     }

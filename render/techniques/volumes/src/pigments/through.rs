@@ -43,11 +43,15 @@ impl Density {
 pub fn enclosed(volume: &Volume) -> f64 {
     let [x, y, z] = &volume.particles.places;
     let place = |i: u32| Vec3::new(x[i as usize], y[i as usize], z[i as usize]).as_dvec3();
-    let cone = |face: &[u32; 3]| {
-        let [a, b, c] = face.map(place);
-        a.cross(b).dot(c) / 6.0
-    };
-    volume.mesh().faces.iter().map(cone).sum()
+    volume
+        .mesh()
+        .faces
+        .iter()
+        .map(|face: &[u32; 3]| {
+            let [a, b, c] = face.map(place);
+            a.cross(b).dot(c) / 6.0
+        })
+        .sum()
 }
 
 /// The heights of the films along the eye ray of each pixel. The surfaces that are crossed are those
@@ -72,13 +76,18 @@ impl<'a> FilmThrough<'a> {
         places: &Field<Vec3>,
         beyond: bool,
     ) -> Self {
-        let (width, height) = (places.width(), places.height());
+        let width = places.width();
+        let height = places.height();
         let nothing = if beyond { f32::INFINITY } else { 0.0 };
-        let end = |place: &Vec3| {
-            let distance = place.distance(camera.eye);
-            if distance.is_nan() { nothing } else { distance }
-        };
-        let ends = places.values().par_iter().with_min_len(8192).map(end).collect();
+        let ends = places
+            .values()
+            .par_iter()
+            .with_min_len(8192)
+            .map(|place: &Vec3| {
+                let distance = place.distance(camera.eye);
+                if distance.is_nan() { nothing } else { distance }
+            })
+            .collect();
         let up = (camera.field_of_view_deg.to_radians() / 2.0).tan();
         let tangents = [up * width as f32 / height.max(1) as f32, up];
         Self { densities, ends: Field::from_values(width, height, ends), tangents }
@@ -87,8 +96,10 @@ impl<'a> FilmThrough<'a> {
     /// Distance from the eye of a crossing.
     #[inline]
     fn distance(&self, crossing: &Crossing) -> f32 {
-        let (width, height) = (self.ends.width(), self.ends.height());
-        let (column, row) = (crossing.pixel % width, crossing.pixel / width);
+        let width = self.ends.width();
+        let height = self.ends.height();
+        let column = crossing.pixel % width;
+        let row = crossing.pixel / width;
         let share = |at: usize, count: usize| (2 * at + 1) as f32 / count as f32 - 1.0;
         let x = share(column, width) * self.tangents[0];
         let y = share(row, height) * self.tangents[1];

@@ -25,7 +25,8 @@ impl Tones {
     /// The linear value that is painted for an encoded one; what is no number counts as 0.
     pub(super) fn target(&self, encoded: f32) -> f32 {
         let place = within_one(encoded) * STEPS as f32;
-        let (step, rest) = (place as usize, place.fract());
+        let step = place as usize;
+        let rest = place.fract();
         let linear = self.linear[step] + rest * (self.linear[step + 1] - self.linear[step]);
         self.black + (self.white - self.black) * linear
     }

@@ -80,10 +80,12 @@ impl Wetted {
         surface: &SampledSurface<'_>,
         lattice: &SampleLattice,
     ) -> f64 {
-        let (mut count, mut area) = (0.0, 0.0);
+        let mut count = 0.0;
+        let mut area = 0.0;
         let own = |index: &usize| !self.is_foreign(surface.bodies[*index]);
         for index in lattice.near(self.center, self.reach).filter(own) {
-            let (place, normal) = (surface.places[index], surface.normals[index]);
+            let place = surface.places[index];
+            let normal = surface.normals[index];
             let patch = surface.areas[index];
             let height = self.relative_height(profile, place, normal);
             if height > 0.0 {
@@ -112,11 +114,10 @@ impl Wetted {
         lattice: &SampleLattice,
     ) -> Option<f64> {
         let away = |&index: &usize| surface.places[index].distance_squared(self.center);
-        let wettable = |&index: &usize| {
+        let near = lattice.near(self.center, self.reach).filter(|&index: &usize| {
             !self.faces_away(profile, surface.normals[index])
                 && !self.is_foreign(surface.bodies[index])
-        };
-        let near = lattice.near(self.center, self.reach).filter(wettable);
+        });
         let nearest = near.min_by(|a, b| away(a).total_cmp(&away(b)))?;
         let normal = surface.normals[nearest];
         let above = (self.center - surface.places[nearest]).dot(normal);

@@ -2,9 +2,7 @@
 //! is, and a checksum.
 
 mod error;
-
 mod bytes;
-
 mod sealed;
 
 pub use error::SavedError;

@@ -145,13 +145,16 @@ impl Place {
             Self::Path(points) => points,
         };
         let next = points.partition_point(|point| point.seconds <= seconds);
-        let (before, after) = (points.get(next.wrapping_sub(1)), points.get(next));
+        let before = points.get(next.wrapping_sub(1));
+        let after = points.get(next);
         let (Some(before), Some(after)) = (before, after) else {
             return before.or(after).map(|point| point.at);
         };
         let share = (seconds - before.seconds) / (after.seconds - before.seconds);
-        let between = |axis: usize| before.at[axis] + (after.at[axis] - before.at[axis]) * share;
-        Some([0, 1, 2].map(between))
+        Some(
+            [0, 1, 2]
+                .map(|axis: usize| before.at[axis] + (after.at[axis] - before.at[axis]) * share),
+        )
     }
 }
 

@@ -63,7 +63,8 @@ impl Script {
             add("pour", index, [table.from_s, table.for_s], Action::Pour(pour));
         }
         for (index, table) in self.pushes.iter().enumerate() {
-            let (at, towards) = (table.at.0, table.towards.0);
+            let at = table.at.0;
+            let towards = table.towards.0;
             let push = Push { at, towards, radius: table.radius, strength: table.strength };
             add("push", index, [table.from_s, table.for_s], Action::Push(push));
         }
@@ -91,8 +92,11 @@ impl Script {
 
 fn place(at: Option<Row<3>>, picked: Option<Row<2>>, path: &[Row<4>]) -> Place {
     if !path.is_empty() {
-        let point = |&Row([seconds, x, y, z]): &Row<4>| PathPoint { seconds, at: [x, y, z] };
-        return Place::Path(path.iter().map(point).collect());
+        return Place::Path(
+            path.iter()
+                .map(|&Row([seconds, x, y, z]): &Row<4>| PathPoint { seconds, at: [x, y, z] })
+                .collect(),
+        );
     }
     match picked {
         Some(Row(picked)) => Place::Picked(picked),

@@ -66,8 +66,10 @@ impl Script {
         match ground.build(1, 1, TRIED_MM, library) {
             Ok(_) => Ok(ground.clone()),
             Err(error) => {
-                let usual = || "leave it out for a white panel".to_owned();
-                let hint = error.hint().map_or_else(usual, |hint| hint.to_string());
+                let hint = error.hint().map_or_else(
+                    || "leave it out for a white panel".to_owned(),
+                    |hint| hint.to_string(),
+                );
                 let wanted = "a ground that can be made";
                 Err(Fault::new(&KeyPath::of("ground"), wanted, error, hint))
             }

@@ -88,41 +88,23 @@
 //! digits, times four decimals.
 
 mod limits;
-
 mod rows;
-
 mod tables;
-
 mod ranges;
-
 mod camera;
-
 mod file;
-
 mod rounded;
-
 mod subject;
-
 mod materials;
-
 mod regions;
-
 mod check_tables;
-
 mod check;
-
 mod changed;
-
 mod error;
-
 mod text;
-
 mod action;
-
 mod pigments;
-
 mod events;
-
 mod record;
 
 #[cfg(test)]

@@ -126,13 +126,16 @@ impl Recorder {
                 });
             }
             Action::Push(own) => {
-                let (at, towards) = (Row(own.at), Row(own.towards));
-                let (radius, strength) = (own.radius, own.strength);
+                let at = Row(own.at);
+                let towards = Row(own.towards);
+                let radius = own.radius;
+                let strength = own.strength;
                 script.pushes.push(PushTable { at, towards, radius, strength, from_s, for_s });
             }
             Action::Lift(own) => {
                 let (at, picked, path) = rows(own.place);
-                let (radius, rate) = (own.radius, own.rate);
+                let radius = own.radius;
+                let rate = own.rate;
                 script.lifts.push(LiftTable { at, picked, path, radius, from_s, for_s, rate });
             }
             Action::Split(Split { volume }) => {
@@ -140,7 +143,8 @@ impl Recorder {
                 script.splits.push(SplitTable { at_s, volume });
             }
             Action::Dry(Dry { ball }) => {
-                let (at, radius) = (ball.map(|own| Row(own.center)), ball.map(|own| own.radius));
+                let at = ball.map(|own| Row(own.center));
+                let radius = ball.map(|own| own.radius);
                 script.dries.push(DryTable { at_s, at, radius });
             }
         }
@@ -159,13 +163,17 @@ fn rows(place: Place) -> Rows {
     match place {
         Place::At(at) => (Some(Row(at)), None, Vec::new()),
         Place::Picked(at) => (None, Some(Row(at)), Vec::new()),
-        Place::Path(points) => {
-            let row = |point: &PathPoint| {
-                let [x, y, z] = point.at;
-                Row([point.seconds, x, y, z])
-            };
-            (None, None, points.iter().map(row).collect())
-        }
+        Place::Path(points) => (
+            None,
+            None,
+            points
+                .iter()
+                .map(|point: &PathPoint| {
+                    let [x, y, z] = point.at;
+                    Row([point.seconds, x, y, z])
+                })
+                .collect(),
+        ),
     }
 }
 

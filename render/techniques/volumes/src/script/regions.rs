@@ -74,7 +74,8 @@ impl Script {
 
     pub(super) fn check_regions(&self, settings: &Settings) -> Checked {
         let plain = |list: &[f32]| list.iter().map(|&value| f64::from(value)).collect::<Vec<_>>();
-        let (shells, tints) = (plain(&settings.drawing.shells), plain(&settings.drawing.tint));
+        let shells = plain(&settings.drawing.shells);
+        let tints = plain(&settings.drawing.tint);
         for (index, region) in self.regions.iter().enumerate() {
             let table = KeyPath::of("region").index(index);
             check_name(&table.key("name"), &region.name)?;
@@ -89,7 +90,8 @@ impl Script {
                 (None, None) => &tints,
             };
             if let Some(stain) = region.stain.as_ref().filter(|own| Rgb::from_hex(own).is_none()) {
-                let (key, hint) = (table.key("stain"), "#ffffff leaves the drawing grey");
+                let key = table.key("stain");
+                let hint = "#ffffff leaves the drawing grey";
                 return Err(Fault::new(
                     &key,
                     "a colour written #rrggbb",

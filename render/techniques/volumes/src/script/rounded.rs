@@ -102,12 +102,6 @@ fn ground(own: &GroundSpec) -> GroundSpec {
 }
 
 fn camera(camera: &CameraTable) -> CameraTable {
-    let keyframe = |own: &KeyframeTable| KeyframeTable {
-        eye: row(own.eye),
-        target: row(own.target),
-        up: own.up.map(row),
-        field_of_view_deg: own.field_of_view_deg.map(six),
-    };
     CameraTable {
         azimuth_deg: camera.azimuth_deg.map(six),
         elevation_deg: camera.elevation_deg.map(six),
@@ -115,7 +109,16 @@ fn camera(camera: &CameraTable) -> CameraTable {
         turntable: camera.turntable,
         frames: camera.frames,
         closed: camera.closed,
-        keyframes: camera.keyframes.iter().map(keyframe).collect(),
+        keyframes: camera
+            .keyframes
+            .iter()
+            .map(|own: &KeyframeTable| KeyframeTable {
+                eye: row(own.eye),
+                target: row(own.target),
+                up: own.up.map(row),
+                field_of_view_deg: own.field_of_view_deg.map(six),
+            })
+            .collect(),
     }
 }
 

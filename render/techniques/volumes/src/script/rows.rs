@@ -15,8 +15,10 @@ impl<const N: usize> TryFrom<Vec<f64>> for Row<N> {
     type Error = String;
 
     fn try_from(numbers: Vec<f64>) -> Result<Self, String> {
-        let wrong = |numbers: Vec<f64>| format!("expected {N} numbers, found `{}`", numbers.len());
-        numbers.try_into().map(Self).map_err(wrong)
+        numbers
+            .try_into()
+            .map(Self)
+            .map_err(|numbers: Vec<f64>| format!("expected {N} numbers, found `{}`", numbers.len()))
     }
 }
 

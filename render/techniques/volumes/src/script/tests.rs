@@ -44,7 +44,8 @@ fn odd_figures_are_rounded_once() {
     own.seconds = 1.0 / 3.0;
     own.unit_mm = Some(1_234.567_89);
     own.settings = "motion.kick = 0.12345678\nseed = 1234567\ngrid.film_mm = 1e-3".parse().unwrap();
-    let (at, radius) = (Row([1.0 / 3.0, -0.0, 1e-9]), 2.0 / 3.0);
+    let at = Row([1.0 / 3.0, -0.0, 1e-9]);
+    let radius = 2.0 / 3.0;
     own.dries.push(DryTable { at_s: 0.1234567, at: Some(at), radius: Some(radius) });
     own.keeps.push(KeepTable {
         sphere: Some(Ball { center: [-0.0, 1e-9, 1.0 / 7.0], radius: 2.0 / 3.0 }),
@@ -207,7 +208,8 @@ fn a_library_is_that_of_the_program_or_a_file() {
     let opened = |name: &str, folder: &Path| {
         script(&format!("{SHORT}library = {name:?}\n")).open_library(folder)
     };
-    let (folder, shipped) = (tempfile::tempdir().unwrap(), PigmentLibrary::van_gogh_oils());
+    let folder = tempfile::tempdir().unwrap();
+    let shipped = PigmentLibrary::van_gogh_oils();
     assert_eq!(script(SHORT).open_library(folder.path()).unwrap(), None);
     assert_eq!(opened(&shipped.title, folder.path()).unwrap().as_ref(), Some(&shipped));
     let mut mine = shipped;

@@ -1,27 +1,16 @@
 //! The settings of paint volumes, and their TOML files.
 
 mod setting;
-
 mod motion;
-
 mod grid;
-
 mod drawing;
-
 mod picture;
-
 mod shells;
-
 mod whole;
-
 mod documented;
-
 mod preset;
-
 mod error;
-
 mod file;
-
 mod change;
 
 #[cfg(test)]

@@ -29,7 +29,8 @@ impl Fault {
         found: impl std::fmt::Display,
         hint: impl Into<String>,
     ) -> Box<Self> {
-        let (wanted, hint) = (wanted.into(), hint.into());
+        let wanted = wanted.into();
+        let hint = hint.into();
         Box::new(Self { key: key.clone(), wanted, found: found.to_string(), hint })
     }
 }

@@ -1,13 +1,9 @@
 //! TOML of users: places of keys in a text, faults of values, errors with file and line.
 
 mod key_path;
-
 mod places;
-
 mod fault;
-
 mod error;
-
 mod parsed;
 
 pub use error::TextError;

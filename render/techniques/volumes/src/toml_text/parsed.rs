@@ -27,7 +27,8 @@ impl<'t> Source<'t> {
     /// Parses `text`, which errors call `file`.
     pub(crate) fn parse(file: &'t str, text: &'t str) -> Result<Self, TextError> {
         if text.len() > MOST_BYTES {
-            let (file, bytes) = (file.to_owned(), text.len());
+            let file = file.to_owned();
+            let bytes = text.len();
             return Err(TextError::TooLong { file, bytes, most: MOST_BYTES });
         }
         match DeTable::parse(text) {

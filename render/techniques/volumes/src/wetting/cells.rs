@@ -36,7 +36,9 @@ impl Cells {
     pub fn of(samples: &SurfaceSamples) -> Self {
         let mut cells = Self::default();
         for cell in 0..samples.cell_count() {
-            let (mut count, mut place, mut normal) = (0_u32, Vec3::ZERO, Vec3::ZERO);
+            let mut count = 0_u32;
+            let mut place = Vec3::ZERO;
+            let mut normal = Vec3::ZERO;
             for sample in samples.of_cell(cell) {
                 count += 1;
                 place += samples.places[sample];
@@ -44,8 +46,8 @@ impl Cells {
             }
             cells.centers.push(place / count.max(1) as f32);
             let mean = normal.normalize_or_zero();
-            let away = |sample: usize| samples.normals[sample].dot(mean) < AWAY;
-            let two_sided = samples.of_cell(cell).any(away);
+            let two_sided =
+                samples.of_cell(cell).any(|sample: usize| samples.normals[sample].dot(mean) < AWAY);
             cells.facing.push(if two_sided { Vec3::ZERO } else { mean });
             cells.normals.push(mean);
             cells.capacities.push(capacity(samples, count));

@@ -12,7 +12,8 @@ const TOUCH: f64 = 1e-4;
 pub(super) fn entered(corners: [DVec3; 3], found: &mut Vec<[i32; 3]>) {
     let [a, b, c] = corners;
     let cell = |at: DVec3| at.floor().to_array().map(|value| value as i32);
-    let (low, high) = (cell(a.min(b).min(c)), cell(a.max(b).max(c)));
+    let low = cell(a.min(b).min(c));
+    let high = cell(a.max(b).max(c));
     if low == high {
         found.push(low);
     } else {
@@ -33,7 +34,8 @@ fn within(corners: &[DVec3; 3], low: [i32; 3], high: [i32; 3], found: &mut Vec<[
         }
     } else if meets(corners, from, to) {
         let middle = low[axis] + size[axis] / 2;
-        let (mut end, mut start) = (high, low);
+        let mut end = high;
+        let mut start = low;
         (end[axis], start[axis]) = (middle, middle);
         within(corners, low, end, found);
         within(corners, start, high, found);
@@ -56,7 +58,8 @@ pub(super) fn in_cells(lattice: &Lattice, place: [f32; 3]) -> DVec3 {
 /// overlap testing", 2001).
 fn meets(corners: &[DVec3; 3], low: DVec3, high: DVec3) -> bool {
     const AXES: [DVec3; 3] = [DVec3::X, DVec3::Y, DVec3::Z];
-    let (center, half) = ((low + high) / 2.0, (high - low) / 2.0);
+    let center = (low + high) / 2.0;
+    let half = (high - low) / 2.0;
     let at = corners.map(|corner| corner - center);
     let edges = [at[1] - at[0], at[2] - at[1], at[0] - at[2]];
     let apart = |axis: DVec3| {

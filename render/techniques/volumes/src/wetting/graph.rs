@@ -125,7 +125,8 @@ impl Surface<'_> {
         }
         let at = Lattice::coordinates_of(self.keys[piece as usize]);
         (0..3).filter(|&axis| step[axis] != 0).any(|axis| {
-            let (mut next, mut rest) = (at, step);
+            let mut next = at;
+            let mut rest = step;
             next[axis] += step[axis];
             rest[axis] = 0;
             let key = Lattice::key(next);

@@ -62,7 +62,8 @@ impl Grid {
     pub fn nearest(&self, place: Vec3) -> Option<(usize, f32)> {
         // No place in a cell is farther from the middle of its surface than this.
         let diagonal = 1.75 * self.samples.lattice.cell;
-        let (mut found, mut least) = (None, f32::INFINITY);
+        let mut found = None;
+        let mut least = f32::INFINITY;
         let mut search = |cell: usize| {
             let near = self.cells.centers[cell].distance(place) <= least + diagonal;
             if near && self.cells.capacities[cell] > 0 {

@@ -16,8 +16,9 @@ fn links_do_not_depend_on_the_cut_into_triangles() {
         let plane = |squares| sheet(squares, |u, v| (turn * u * 9.0 + across * v * 9.0).to_array());
         let keys = |grid: &Grid| {
             let first = |cell| grid.samples.places[grid.samples.of_cell(cell).start];
-            let place = |cell| grid.samples.lattice.coordinates(first(cell));
-            (0..grid.cells.len()).map(place).collect::<Vec<_>>()
+            (0..grid.cells.len())
+                .map(|cell| grid.samples.lattice.coordinates(first(cell)))
+                .collect::<Vec<_>>()
         };
         let grids =
             [1, 100].map(|squares| Grid::of(&plane(squares), 1.0, SAMPLES_PER_CELL, 1).unwrap());

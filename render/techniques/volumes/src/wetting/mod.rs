@@ -4,27 +4,16 @@
 //! Modules are declared in order of dependence: each uses only those above it.
 
 mod fault;
-
 mod lattice;
-
 mod samples;
-
 mod cells;
-
 mod entering;
-
 mod pieces;
-
 mod bodies;
-
 mod graph;
-
 mod reach;
-
 mod spill;
-
 mod grid;
-
 mod spill_on_device;
 
 pub use bodies::Bodies;

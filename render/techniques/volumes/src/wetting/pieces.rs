@@ -132,7 +132,8 @@ impl Pieces {
             let mut found: Vec<(u32, u32)> = Vec::new();
             for sample in own.filter(|_| !single) {
                 let Some(entry) = self.entry_of(samples, sample) else { continue };
-                let (one, place) = (root(entry as u32), samples.places[sample]);
+                let one = root(entry as u32);
+                let place = samples.places[sample];
                 for &(_, entry, triangle) in inside {
                     let other = root(entry);
                     let pair = (one.min(other), one.max(other));
@@ -174,8 +175,8 @@ impl Pieces {
         for (&(_, entry), number) in order.iter().zip(0..) {
             numbers[entry as usize] = number;
         }
-        let number = |entry| numbers[root_of(roots, entry) as usize];
-        self.of_entries = (0..roots.len() as u32).map(number).collect();
+        self.of_entries =
+            (0..roots.len() as u32).map(|entry| numbers[root_of(roots, entry) as usize]).collect();
         self.keys = order.into_iter().map(|(key, _)| key).collect();
     }
 

@@ -82,7 +82,8 @@ impl SurfaceSamples {
         let keys = found.iter().map(|(_, place)| Lattice::key(lattice.coordinates(*place)));
         let mut order: Vec<(u64, u32)> = keys.zip(0..).collect();
         order.sort_unstable();
-        let (mut cells, mut starts) = (Vec::with_capacity(order.len()), Vec::new());
+        let mut cells = Vec::with_capacity(order.len());
+        let mut starts = Vec::new();
         for (cell, members) in order.chunk_by(|a, b| a.0 == b.0).enumerate() {
             starts.push(cells.len() as u32);
             cells.resize(cells.len() + members.len(), cell as u32);
@@ -107,7 +108,9 @@ impl SurfaceSamples {
     pub(super) fn by_piece(&self, pieces: &[u32]) -> (Self, Vec<u32>) {
         let mut order: Vec<(u32, u32)> = pieces.iter().copied().zip(0..).collect();
         order.sort_unstable();
-        let (mut cells, mut starts, mut of_cells) = (Vec::new(), vec![0], Vec::new());
+        let mut cells = Vec::new();
+        let mut starts = vec![0];
+        let mut of_cells = Vec::new();
         for (members, cell) in order.chunk_by(|a, b| a.0 == b.0).zip(0..) {
             cells.resize(cells.len() + members.len(), cell);
             starts.push(cells.len() as u32);
@@ -201,7 +204,8 @@ pub(super) fn normal(mesh: &Mesh, triangle: usize) -> Vec3 {
 /// Triangle and place of a random point in every piece of area `step`.
 fn spread(mesh: &Mesh, areas: &[f64], step: f64, seed: u64) -> Vec<(u32, Vec3)> {
     let random = &mut ChaCha8Rng::seed_from_u64(seed);
-    let (mut found, mut before) = (Vec::new(), 0.0);
+    let mut found = Vec::new();
+    let mut before = 0.0;
     let mut piece = 0.0;
     let mut next = random.random::<f64>() * step;
     for (triangle, &area) in areas.iter().enumerate() {

@@ -71,10 +71,13 @@ impl Spilling {
         };
         let rate = |axes: f32| (rate * ONE as f32 / axes) as u64;
         let lifts: Vec<u32> = (0..cells.len()).map(lift).collect();
-        let tight = |&capacity: &u32| room(capacity) < capacity.saturating_mul(MOST_FILMS);
         Ok(Self {
             rates: [rate(1.0), rate(2.0), rate(3.0)],
-            uneven: lifts.iter().any(|lift| *lift > 0) || cells.capacities.iter().any(tight),
+            uneven: lifts.iter().any(|lift| *lift > 0)
+                || cells
+                    .capacities
+                    .iter()
+                    .any(|&capacity: &u32| room(capacity) < capacity.saturating_mul(MOST_FILMS)),
             lifts,
             volumes: Vec::new(),
             heads: Vec::new(),
@@ -138,7 +141,9 @@ impl Spilling {
 
     /// Fills `shares`.
     fn offer(&mut self, graph: &Graph, cells: &Cells, births: bool) {
-        let (volumes, heads, rates) = (&self.volumes, &self.heads, self.rates);
+        let volumes = &self.volumes;
+        let heads = &self.heads;
+        let rates = self.rates;
         each(blocks_of(graph, &mut self.shares), |(first, shares)| {
             let offset = graph.starts[first] as usize;
             for cell in first..(first + BLOCK).min(graph.len()) {
@@ -174,7 +179,8 @@ impl Spilling {
 
     /// Fills `accepted`.
     fn accept(&mut self, graph: &Graph, cells: &Cells) {
-        let (volumes, shares) = (&self.volumes, &self.shares);
+        let volumes = &self.volumes;
+        let shares = &self.shares;
         let blocks = self.accepted.chunks_mut(BLOCK).enumerate().collect();
         each(blocks, |(block, all)| {
             for (cell, accepted) in (block * BLOCK..).zip(all) {
@@ -193,7 +199,9 @@ impl Spilling {
 
     /// Fills `next`.
     fn gather(&mut self, graph: &Graph, paint: &[Cell]) -> Vec<Birth> {
-        let (volumes, shares, accepted) = (&self.volumes, &self.shares, &self.accepted);
+        let volumes = &self.volumes;
+        let shares = &self.shares;
+        let accepted = &self.accepted;
         let blocks = self.next.chunks_mut(BLOCK).enumerate().collect();
         let births = each(blocks, |(block, next)| {
             let first = block * BLOCK;
@@ -227,7 +235,8 @@ impl pulp::WithSimd for Gathering<'_> {
         for (cell, next) in (first..).zip(next) {
             let own = paint[cell];
             let mut sum = own;
-            let (mut most, mut giver) = (0, None);
+            let mut most = 0;
+            let mut giver = None;
             for link in graph.links(cell) {
                 let other = graph.others[link] as usize;
                 let back = graph.back[link] as usize;

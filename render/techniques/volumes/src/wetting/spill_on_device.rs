@@ -87,7 +87,8 @@ impl DeviceSpilling {
         paint: &mut [Cell],
         births: bool,
     ) -> Result<Vec<Birth>, DeviceError> {
-        let (count, links) = (grid.graph.len(), grid.graph.others.len());
+        let count = grid.graph.len();
+        let links = grid.graph.others.len();
         assert_eq!((paint.len(), grid.cells.len()), (count, count), "one entry a cell");
         if count == 0 {
             return Ok(Vec::new());
@@ -205,7 +206,8 @@ mod tests {
         let mut on_device = DeviceSpilling::default();
         let grids = grids();
         assert_eq!(grids[0].cells.len(), 1);
-        let (mut births_seen, mut moved) = (0, 0);
+        let mut births_seen = 0;
+        let mut moved = 0;
         // Capacities of the grid, and ones of any magnitude up to a whole column.
         for (wild, grid) in [false, true]
             .into_iter()

@@ -45,8 +45,8 @@ fn random_spills_keep_every_quantum_and_every_limit() {
         let mut paint = vec![Cell::default(); cells.len()];
         for _ in 0..cells.len() / 4 {
             let at = random.random_range(0..cells.len());
-            let (slot, amount) =
-                (random.random_range(0..8), random.random_range(0..=cells.room(at)));
+            let slot = random.random_range(0..8);
+            let amount = random.random_range(0..=cells.room(at));
             paint[at] = of_slot(slot, amount / 2);
             paint[at].vehicle = amount - amount / 2;
         }
@@ -150,11 +150,15 @@ fn with_a_slope_paint_runs_down() {
 /// The places that the volumes at rest hold.
 fn held(grid: &Grid, paint: &[Cell]) -> Vec<Vec3> {
     let wet = (0..grid.cells.len()).filter(|&cell| paint[cell].volume() > 0);
-    let ball =
-        |cell| (grid.cells.centers[cell], grid.reach.radius(cell, paint[cell].volume(), 0.0));
-    let balls: Vec<(Vec3, f32)> = wet.map(ball).collect();
-    let holds = |at: &&Vec3| balls.iter().any(|(from, radius)| at.distance(*from) < *radius);
-    grid.samples.places.iter().filter(holds).copied().collect()
+    let balls: Vec<(Vec3, f32)> = wet
+        .map(|cell| (grid.cells.centers[cell], grid.reach.radius(cell, paint[cell].volume(), 0.0)))
+        .collect();
+    grid.samples
+        .places
+        .iter()
+        .filter(|at: &&Vec3| balls.iter().any(|(from, radius)| at.distance(*from) < *radius))
+        .copied()
+        .collect()
 }
 
 #[test]

@@ -16,7 +16,8 @@ fn a_sponge_takes_the_paint_below_it() {
     };
     let before = amounts(&world);
     // All that lies below, in one step.
-    let (middle, radius) = (Vec3::new(0.2, 0.0, 0.1), 1.3);
+    let middle = Vec3::new(0.2, 0.0, 0.1);
+    let radius = 1.3;
     let lift = Lift { track: Track::at(middle), radius, rate: 120.0, for_s: 1.0 / 120.0 };
     world.lift(lift).unwrap();
     world.take_up();

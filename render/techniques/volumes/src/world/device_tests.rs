@@ -19,7 +19,8 @@ fn busy() -> World {
         world.pour(pour).unwrap();
     }
     world.add_volume(&single(Vec3::new(0.0, 0.2, 3.0), 1.1)).unwrap();
-    let (center, direction) = (Vec3::new(0.0, 0.5, 2.5), Vec3::new(0.6, 0.0, 0.8));
+    let center = Vec3::new(0.0, 0.5, 2.5);
+    let direction = Vec3::new(0.6, 0.0, 0.8);
     world.push(Push { center, direction, radius: 2.0, strength: 20.0 }, 0.8).unwrap();
     world
 }
@@ -35,7 +36,8 @@ fn a_world_on_a_device_has_the_same_paint_and_nearly_the_same_places() {
     let Some(compute) = device() else { return };
     let mut device = StepDevice::beside(&compute).above(0);
     let [mut own, mut other] = [busy(), busy()];
-    let (mut near, mut all) = (0, 0);
+    let mut near = 0;
+    let mut all = 0;
     for step in 0..300 {
         assert!(device.serves(&other) || step == 0);
         own.step().unwrap();

@@ -23,7 +23,8 @@ fn with(world: &World, dry: bool) -> Vec<Volume> {
 #[test]
 fn paint_dries_below_the_dryer_and_flows_on_beside_it() {
     let mut world = spread();
-    let (place, radius) = (Vec3::new(1.0, 0.0, 0.0), 1.6);
+    let place = Vec3::new(1.0, 0.0, 0.0);
+    let radius = 1.6;
     let dried = world.dry_within(place, radius).unwrap();
     let dry = with(&world, true);
     assert_eq!(dry.len(), dried);
@@ -50,7 +51,8 @@ fn paint_dries_below_the_dryer_and_flows_on_beside_it() {
 fn a_small_dryer_dries_the_volume_that_it_touches_and_a_large_one_all() {
     let mut world = spread();
     let touched = world.volumes().iter().max_by_key(|volume| volume.paint.volume()).unwrap();
-    let (seed, place) = (touched.seed, touched.center);
+    let seed = touched.seed;
+    let place = touched.center;
     assert!(world.dry_within(place, 1e-3).unwrap() >= 1);
     assert!(with(&world, true).iter().any(|volume| volume.seed == seed));
     assert_eq!(world.dry_within(Vec3::new(0.0, 9.0, 0.0), 1.0), Ok(0), "above the surface");

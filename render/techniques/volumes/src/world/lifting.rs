@@ -73,7 +73,8 @@ impl World {
     fn take_up_with(&mut self, timed: &mut Timed<Lift>) {
         let Lift { track, radius, rate, .. } = &timed.what;
         let middle = track.after(timed.seconds());
-        let (radius, rate) = (*radius, *rate / STEPS_PER_SECOND as f32);
+        let radius = *radius;
+        let rate = *rate / STEPS_PER_SECOND as f32;
         timed.steps += 1;
         for index in 0..self.volumes.len() {
             let volume = &self.volumes[index];
@@ -97,7 +98,8 @@ impl World {
         };
         let held =
             |at: &glam::Vec3| at.distance_squared(volume.center) <= volume.radius * volume.radius;
-        let (mut all, mut found) = (0_u32, 0_u32);
+        let mut all = 0_u32;
+        let mut found = 0_u32;
         for place in samples.places[own].iter().filter(|place| held(place)) {
             all += 1;
             found += u32::from(below(*place));

@@ -59,7 +59,8 @@ fn particles_and_samples_take_no_more_memory_than_they_may() {
     let place = world.grid().samples.places[100];
     world.pour(Pour::at(place, 60.0, 0.5, Recipe::of_slot(0))).unwrap();
     run(&mut world, 120);
-    let (mut bytes, mut particles) = (0, 0);
+    let mut bytes = 0;
+    let mut particles = 0;
     for volume in world.volumes() {
         let Particles { places, velocities, samples } = &volume.particles;
         let along: usize =

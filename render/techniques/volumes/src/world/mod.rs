@@ -10,37 +10,21 @@
 //! Modules are declared in order of dependence: each uses only those above it.
 
 mod error;
-
 mod settings;
-
 mod recipe;
-
 mod track;
-
 mod actions;
-
 mod tally;
-
 mod state;
-
 mod step_device;
-
 mod spreading;
-
 mod keeping;
-
 mod single;
-
 mod pouring;
-
 mod lifting;
-
 mod drying;
-
 mod splitting;
-
 mod time;
-
 mod saved;
 
 #[cfg(test)]

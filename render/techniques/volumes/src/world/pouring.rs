@@ -126,7 +126,8 @@ impl World {
     /// The volume that paint on a sample of the surface goes to, which may begin there.
     fn volume_under(&mut self, sample: usize, region: u16) -> Result<usize, WorldError> {
         let samples = &self.grid.samples;
-        let (place, normal) = (samples.places[sample], samples.normals[sample]);
+        let place = samples.places[sample];
+        let normal = samples.normals[sample];
         let cell = samples.cells[sample] as usize;
         if self.settings.cell > 0.0 {
             return self.volume_in(cell, place, region);

@@ -38,7 +38,8 @@ impl Played {
     }
 
     fn pour(&mut self, fastest: f64) {
-        let (place, for_s) = (self.place(), self.time());
+        let place = self.place();
+        let for_s = self.time();
         let parts = [(); SLOTS + 1].map(|()| self.random.random_range(0.0..1.0_f64));
         let rate = self.random.random_range(0.0..fastest);
         let recipe = Recipe::of_parts(parts).unwrap();
@@ -47,15 +48,17 @@ impl Played {
     }
 
     fn lift(&mut self) {
-        let (place, for_s) = (self.place(), self.time());
-        let (radius, rate) =
-            (self.random.random_range(0.05..0.8), self.random.random_range(0.0..120.0));
+        let place = self.place();
+        let for_s = self.time();
+        let radius = self.random.random_range(0.05..0.8);
+        let rate = self.random.random_range(0.0..120.0);
         self.world.lift(Lift { track: Track::at(place), radius, rate, for_s }).unwrap();
     }
 
     /// Adds a volume of paint of its own.
     fn add(&mut self) -> usize {
-        let (place, radius) = (self.place(), self.random.random_range(0.05..0.6));
+        let place = self.place();
+        let radius = self.random.random_range(0.05..0.6);
         let poured = |world: &World| world.tally().poured.iter().sum::<u64>();
         let before = poured(&self.world);
         let own = Single { detail: 1, ..single(place, radius) };
@@ -106,7 +109,8 @@ fn random_actions_on_a_grid_keep_every_quantum() {
         ..WorldSettings::default()
     };
     let mut played = Played::new(&settings);
-    let (mut split, mut most) = (0, 0);
+    let mut split = 0;
+    let mut most = 0;
     for action in 0..ACTIONS {
         match played.random.random_range(0..5000) {
             0..1500 => played.pour(3e4),
@@ -119,7 +123,8 @@ fn random_actions_on_a_grid_keep_every_quantum() {
                 split += usize::from(played.world.split(index).is_ok());
             }
             2006 => {
-                let (place, radius) = (played.place(), played.random.random_range(0.05..0.8));
+                let place = played.place();
+                let radius = played.random.random_range(0.05..0.8);
                 played.world.dry_within(place, radius).unwrap();
             }
             _ => played.go_on(action),

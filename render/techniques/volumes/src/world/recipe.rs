@@ -58,8 +58,9 @@ impl Measured {
         let mut due = recipe.shares.map(|share| (share * amount) as u64);
         if end {
             let rest = (amount.round() as u64).saturating_sub(due.iter().sum());
-            let greater = |most, i| if recipe.shares[i] > recipe.shares[most] { i } else { most };
-            due[(0..=SLOTS).fold(0, greater)] += rest;
+            due[(0..=SLOTS).fold(0, |most, i| {
+                if recipe.shares[i] > recipe.shares[most] { i } else { most }
+            })] += rest;
         }
         let mut added = [0; SLOTS + 1];
         for ((added, due), given) in added.iter_mut().zip(due).zip(&mut self.given) {
@@ -105,7 +106,8 @@ mod tests {
     #[test]
     fn what_is_measured_out_in_parts_adds_up() {
         let recipe = Recipe::of_parts([1.0, 2.0, 0.0, 0.3, 0.0, 0.0, 0.0, 0.0, 0.7]).unwrap();
-        let (mut measured, mut sums) = (Measured::default(), [0; SLOTS + 1]);
+        let mut measured = Measured::default();
+        let mut sums = [0; SLOTS + 1];
         for step in 1..=1000 {
             let amount = 12_345.678 * f64::from(step);
             for (sum, added) in sums.iter_mut().zip(measured.up_to(&recipe, amount, step == 1000)) {

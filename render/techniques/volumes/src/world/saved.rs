@@ -94,7 +94,8 @@ impl World {
     /// Words that tell worlds of different scenes, settings and regions apart.
     pub(crate) fn print(&self) -> String {
         let forces = self.surroundings.fingerprint(&self.settings.motion);
-        let (cells, samples) = (self.grid.cells.len(), self.whole.samples.len());
+        let cells = self.grid.cells.len();
+        let samples = self.whole.samples.len();
         format!("{:?} {:?} {forces:x} {cells} {samples}", self.settings, self.scale)
     }
 

@@ -32,7 +32,8 @@ impl World {
     /// Mean normal of the surface within a ball, and quanta of a film on it.
     fn surface_within(&self, center: Vec3, radius: f32) -> (Vec3, u32) {
         let samples = &self.grid.samples;
-        let (mut normal, mut count) = (Vec3::ZERO, 0_u32);
+        let mut normal = Vec3::ZERO;
+        let mut count = 0_u32;
         for (place, own) in samples.places.iter().zip(&samples.normals) {
             if place.distance_squared(center) < radius * radius {
                 normal += *own;
@@ -69,7 +70,8 @@ impl World {
     /// reaches.
     pub(super) fn set_single_paint(&mut self, index: usize, paint: Cell) {
         let Volume { center, target_radius, .. } = self.volumes[index];
-        let (before, now) = (self.volumes[index].paint.volume(), paint.volume());
+        let before = self.volumes[index].paint.volume();
+        let now = paint.volume();
         let film = self.radius_of_film(center, now).max(BIRTH * self.scale.cell);
         let volume = &mut self.volumes[index];
         volume.target_radius = match now {

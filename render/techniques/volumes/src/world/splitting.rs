@@ -25,7 +25,9 @@ impl World {
         if self.settings.cell == 0.0 {
             return refused("cannot be split without a grid");
         }
-        let (region, center, paint) = (volume.region, volume.center, volume.paint);
+        let region = volume.region;
+        let center = volume.center;
+        let paint = volume.paint;
         let parts = self.held_samples(index);
         let all: u64 = parts.iter().map(|(_, samples)| samples).sum();
         if all == 0 {

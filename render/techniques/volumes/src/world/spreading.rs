@@ -93,7 +93,8 @@ impl World {
             }
         };
         for birth in born {
-            let (cell, giver) = (birth.cell as usize, birth.giver as usize);
+            let cell = birth.cell as usize;
+            let giver = birth.giver as usize;
             self.soak(cell, giver)?;
         }
         let mut settled = true;
@@ -122,7 +123,8 @@ impl World {
             share * share
         };
         let volume = &mut self.volumes[index];
-        let (before, now) = (filled(&volume.paint), filled(&paint));
+        let before = filled(&volume.paint);
+        let now = filled(&paint);
         if now > before {
             let way = self.grid.cells.centers[cell] - volume.target_center;
             let share = if now < 1.0 { (now - before) / (1.0 - before) } else { 1.0 };

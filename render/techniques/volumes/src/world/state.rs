@@ -130,11 +130,13 @@ impl World {
     /// all that it holds: a single one, or one in a cell with surface that faces opposite ways.
     #[must_use]
     pub fn facing(&self) -> Vec<Vec3> {
-        let facing = |volume: &Volume| {
-            let cell = volume.cell.map(|cell| self.grid.cells.facing[cell as usize]);
-            cell.filter(|facing| *facing != Vec3::ZERO).map_or(Vec3::ZERO, |_| volume.normal)
-        };
-        self.volumes.iter().map(facing).collect()
+        self.volumes
+            .iter()
+            .map(|volume: &Volume| {
+                let cell = volume.cell.map(|cell| self.grid.cells.facing[cell as usize]);
+                cell.filter(|facing| *facing != Vec3::ZERO).map_or(Vec3::ZERO, |_| volume.normal)
+            })
+            .collect()
     }
 
     /// Width of a cell, in the unit of the scene.

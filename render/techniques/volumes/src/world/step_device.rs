@@ -38,7 +38,8 @@ pub(super) struct OpenedDevice {
 
 impl OpenedDevice {
     fn new(device: Device) -> Box<Self> {
-        let (motion, spilling) = (DeviceMotion::default(), DeviceSpilling::default());
+        let motion = DeviceMotion::default();
+        let spilling = DeviceSpilling::default();
         Box::new(Self { device, motion, spilling })
     }
 }

@@ -14,12 +14,18 @@ const SIZE: (usize, usize) = (750, 570);
 /// A wash of flat patches, like an abstracted photograph.
 fn wash() -> Wash {
     let (width, height) = SIZE;
-    let patch = |i: usize| {
-        let (x, y) = (i % width / 40, i / width / 30);
-        let shade = |step: usize| ((x * 7 + y * step) % 11) as f32 / 11.0;
-        [shade(3), shade(5), shade(9), 1.0]
-    };
-    let color = Field::from_values(width, height, (0..width * height).map(patch).collect());
+    let color = Field::from_values(
+        width,
+        height,
+        (0..width * height)
+            .map(|i: usize| {
+                let x = i % width / 40;
+                let y = i / width / 30;
+                let shade = |step: usize| ((x * 7 + y * step) % 11) as f32 / 11.0;
+                [shade(3), shade(5), shade(9), 1.0]
+            })
+            .collect(),
+    );
     Wash { color, controls: Controls::default() }
 }
 
@@ -33,7 +39,9 @@ fn textures(compute: &mut Compute) -> TextureImages {
 
 #[divan::bench]
 fn all_on_cpu(bencher: Bencher<'_, '_>) {
-    let (wash, settings, textures) = (wash(), settings(), textures(&mut Compute::cpu()));
+    let wash = wash();
+    let settings = settings();
+    let textures = textures(&mut Compute::cpu());
     bencher.with_inputs(|| wash.upload(&mut Compute::cpu()).unwrap()).bench_local_values(|wash| {
         paint(&mut Compute::cpu(), wash, (&textures).into(), &settings, None).unwrap()
     });
@@ -43,7 +51,9 @@ fn all_on_cpu(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn all_on_gpu(bencher: Bencher<'_, '_>) {
     let Ok(mut gpu) = Compute::choose(BackendChoice::Gpu) else { return };
-    let (wash, settings, textures) = (wash(), settings(), textures(&mut gpu));
+    let wash = wash();
+    let settings = settings();
+    let textures = textures(&mut gpu);
     let wash = wash.upload(&mut gpu).unwrap();
     bencher.bench_local(|| {
         let painted = paint(&mut gpu, wash.clone(), (&textures).into(), &settings, None).unwrap();
@@ -56,7 +66,8 @@ fn effect(
     bencher: Bencher<'_, '_>,
     effect: impl Fn(&mut Compute, ColorImage, &TextureImages) -> Result<ColorImage, DeviceError>,
 ) {
-    let (wash, textures) = (wash(), textures(&mut Compute::cpu()));
+    let wash = wash();
+    let textures = textures(&mut Compute::cpu());
     bencher
         .with_inputs(|| ColorImage::from(wash.color.clone()))
         .bench_local_values(|color| effect(&mut Compute::cpu(), color, &textures).unwrap());
@@ -113,13 +124,15 @@ fn making_textures(bencher: Bencher<'_, '_>) {
 /// All textures of a photograph, whose blooms depend on its colours.
 #[divan::bench]
 fn making_textures_of_a_photograph(bencher: Bencher<'_, '_>) {
-    let (wash, settings) = (wash().color, settings());
+    let wash = wash().color;
+    let settings = settings();
     bencher.bench_local(|| Textures::of_photograph(&wash, &settings).unwrap());
 }
 
 /// Blooms of water alone, those of [`making_textures_of_a_photograph`].
 #[divan::bench(name = "back_runs")]
 fn blooming(bencher: Bencher<'_, '_>) {
-    let (wash, settings) = (wash().color, settings().back_runs);
+    let wash = wash().color;
+    let settings = settings().back_runs;
     bencher.bench_local(|| back_runs(&wash, &settings));
 }

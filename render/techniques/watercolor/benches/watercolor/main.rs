@@ -4,13 +4,9 @@
 #![expect(clippy::unwrap_used, reason = "a bench may panic")]
 
 mod coherence;
-
 mod effects;
-
 mod frame;
-
 mod segmentation;
-
 mod shading;
 
 fn main() {

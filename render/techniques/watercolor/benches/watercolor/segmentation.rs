@@ -46,7 +46,8 @@ fn mean_shift(bencher: Bencher<'_, '_>) {
 }
 
 fn smooth(bencher: Bencher<'_, '_>, picture: Field<[f32; 4]>, radius_px: u32) {
-    let (mut compute, image) = (Compute::cpu(), picture.into());
+    let mut compute = Compute::cpu();
+    let image = picture.into();
     bencher.bench_local(|| opening_then_closing(&mut compute, &image, radius_px).unwrap());
 }
 

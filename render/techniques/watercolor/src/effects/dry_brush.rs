@@ -179,7 +179,8 @@ fn apply_dry_brush_on_gpu(
     };
     // The bindings need a buffer even if the kernel does not read it.
     let [edges, mask] = [edges, mask].map(|plane| plane.unwrap_or(heights).buffer());
-    let (heights, flow) = (heights.buffer(), flow.buffer());
+    let heights = heights.buffer();
+    let flow = flow.buffer();
     let buffers = [color.buffer(), heights, flow, edges, mask, brushed.buffer()];
     gpu.dispatch(&DRY_BRUSH, &params, &buffers, (width, height));
     Ok(brushed)

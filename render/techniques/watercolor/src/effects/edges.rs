@@ -52,7 +52,8 @@ const BAND: usize = 24;
 
 /// [`edges`] on the processor.
 pub(crate) fn edges_on_cpu(color: &Field<[f32; 4]>, width_px: f32) -> Field<f32> {
-    let (width, height) = (color.width(), color.height());
+    let width = color.width();
+    let height = color.height();
     let mut edges = Field::filled(width, height, 0.0);
     if width == 0 || height == 0 {
         return edges;
@@ -100,8 +101,10 @@ impl pulp::WithSimd for Band<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { color, half, first, scratch, edges } = self;
-        let (width, last) = (color.width(), color.height() as isize - 1);
-        let (rows, radius) = (edges.len() / width, half.len() - 1);
+        let width = color.width();
+        let last = color.height() as isize - 1;
+        let rows = edges.len() / width;
+        let radius = half.len() - 1;
         let Scratch { line, sideways, blurred } = scratch;
         line.resize(width + 2 * radius, [0.0; 4]);
         sideways.resize(width * (rows + 2 + 2 * radius), [0.0; 4]);
@@ -113,7 +116,8 @@ impl pulp::WithSimd for Band<'_> {
             for (out, &pixel) in line[radius..].iter_mut().zip(row) {
                 *out = over_white(pixel);
             }
-            let (left, right) = (line[radius], line[radius + width - 1]);
+            let left = line[radius];
+            let right = line[radius + width - 1];
             line[..radius].fill(left);
             line[radius + width..].fill(right);
             mean::<S>(half, out, |tap| &line[radius.wrapping_add_signed(tap)..][..width]);
@@ -125,9 +129,11 @@ impl pulp::WithSimd for Band<'_> {
         }
         for (y, out) in edges.chunks_exact_mut(width).enumerate() {
             let row = |y: usize| &blurred[y * width..][..width];
-            let (is_first, is_last) = (first + y == 0, (first + y) as isize == last);
+            let is_first = first + y == 0;
+            let is_last = (first + y) as isize == last;
             let above = row(y + usize::from(is_first));
-            let (here, below) = (row(y + 1), row(y + 2 - usize::from(is_last)));
+            let here = row(y + 1);
+            let below = row(y + 2 - usize::from(is_last));
             out[0] = edge([here[0], here[1.min(width - 1)]], [above[0], below[0]]);
             let end = width - 1;
             out[end] = edge([here[end.max(1) - 1], here[end]], [above[end], below[end]]);
@@ -149,7 +155,8 @@ fn mean<'a, S: Simd>(half: &[f32], out: &mut [[f32; 4]], taps: impl Fn(isize) ->
         *out = pixel.map(|value| half[0] * value);
     }
     for (tap, &weight) in half.iter().enumerate().skip(1) {
-        let (before, after) = (taps(-(tap as isize)), taps(tap as isize));
+        let before = taps(-(tap as isize));
+        let after = taps(tap as isize);
         for ((out, before), after) in out.iter_mut().zip(before).zip(after) {
             for i in 0..4 {
                 out[i] = multiply_add::<S>(weight, before[i] + after[i], out[i]);

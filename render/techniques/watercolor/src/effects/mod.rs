@@ -4,15 +4,10 @@
 //! processor, which is its specification, and a kernel that agrees with it to rounding.
 
 mod density;
-
 mod edges;
-
 mod wobble;
-
 mod color_mask;
-
 mod dry_brush;
-
 mod paper_shading;
 
 pub use color_mask::{ColorRange, color_mask};

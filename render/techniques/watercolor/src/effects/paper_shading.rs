@@ -61,7 +61,8 @@ fn shade_paper_on_cpu(
     heights: &Field<f32>,
     shading: PaperShading,
 ) -> Field<[f32; 4]> {
-    let (width, height) = (color.width(), color.height());
+    let width = color.width();
+    let height = color.height();
     color.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, colors)| {
         let here = heights.row(y, 0, width);
         let above = heights.row(y.saturating_sub(1), 0, width);

@@ -61,7 +61,8 @@ fn wobble_on_cpu(
     heights: &Field<f32>,
     px_per_slope: f32,
 ) -> Field<[f32; 4]> {
-    let (width, height) = (color.width(), color.height());
+    let width = color.width();
+    let height = color.height();
     if width == 0 || height == 0 {
         return color;
     }
@@ -70,7 +71,8 @@ fn wobble_on_cpu(
     }
     let reach = reach(heights, px_per_slope).min(height);
     // Rows as they were, from `first` on.
-    let (mut before, mut first) = (Vec::new(), 0);
+    let mut before = Vec::new();
+    let mut first = 0;
     for top in (0..height).step_by(BAND) {
         let bottom = (top + BAND).min(height);
         let least = top.saturating_sub(reach);
@@ -95,7 +97,8 @@ fn wobble_on_cpu(
 
 /// The number of rows above and below that a displaced pixel may come from.
 fn reach(heights: &Field<f32>, px_per_slope: f32) -> usize {
-    let (width, height) = (heights.width(), heights.height());
+    let width = heights.width();
+    let height = heights.height();
     let steepest = |y: usize| {
         let above = heights.row(y.saturating_sub(1), 0, width);
         let below = heights.row((y + 1).min(height - 1), 0, width);
@@ -118,22 +121,33 @@ struct Source<'a> {
 
 /// The means of the displaced samples of all cells of a finer paper.
 fn reduced(color: &Field<[f32; 4]>, heights: &Field<f32>, px_per_slope: f32) -> Field<[f32; 4]> {
-    let (width, height) = (color.width(), color.height());
-    let (cells, rows) = (heights.width(), heights.height());
+    let width = color.width();
+    let height = color.height();
+    let cells = heights.width();
+    let rows = heights.height();
     let factor = cells / width;
-    let (end, bottom) = ((width - 1) as f32, (height - 1) as f32);
-    let (per_cell, share) = (1.0 / factor as f32, 1.0 / (factor * factor) as f32);
+    let end = (width - 1) as f32;
+    let bottom = (height - 1) as f32;
+    let per_cell = 1.0 / factor as f32;
+    let share = 1.0 / (factor * factor) as f32;
     let sample = |column: usize, row: usize| -> [f32; 4] {
-        let (left, right) = (column.saturating_sub(1), (column + 1).min(cells - 1));
-        let (above, below) = (row.saturating_sub(1), (row + 1).min(rows - 1));
+        let left = column.saturating_sub(1);
+        let right = (column + 1).min(cells - 1);
+        let above = row.saturating_sub(1);
+        let below = (row + 1).min(rows - 1);
         let across = heights[(right, row)] - heights[(left, row)];
         let down = heights[(column, below)] - heights[(column, above)];
         let x = (column as f32 + 0.5) * per_cell - 0.5 + px_per_slope * across;
         let y = (row as f32 + 0.5) * per_cell - 0.5 + px_per_slope * down;
-        let (x, y) = (x.clamp(0.0, end), y.clamp(0.0, bottom));
-        let (place, x, y) = ([x, y], x as usize, y as usize);
-        let (a, b) = (place[0] - x as f32, place[1] - y as f32);
-        let (far_x, far_y) = ((x + 1).min(width - 1), (y + 1).min(height - 1));
+        let x = x.clamp(0.0, end);
+        let y = y.clamp(0.0, bottom);
+        let place = [x, y];
+        let x = x as usize;
+        let y = y as usize;
+        let a = place[0] - x as f32;
+        let b = place[1] - y as f32;
+        let far_x = (x + 1).min(width - 1);
+        let far_y = (y + 1).min(height - 1);
         let corners = [(x, y), (far_x, y), (x, far_y), (far_x, far_y)];
         let shares = [(1.0 - a) * (1.0 - b), a * (1.0 - b), (1.0 - a) * b, a * b];
         let mut sum = [0.0; 4];
@@ -183,23 +197,30 @@ impl pulp::WithSimd for Row<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { source, heights, here, px_per_slope, y, out } = self;
         let Source { values, first: first_row, width, height } = source;
-        let (end, bottom) = ((width - 1) as f32, (height - 1) as f32);
+        let end = (width - 1) as f32;
+        let bottom = (height - 1) as f32;
         let above = heights.row(y.saturating_sub(1), 0, width);
         let below = heights.row((y + 1).min(height - 1), 0, width);
-        let (mut corners, mut shares) = ([[0_i32; 2]; BLOCK], [[0.0_f32; 2]; BLOCK]);
+        let mut corners = [[0_i32; 2]; BLOCK];
+        let mut shares = [[0.0_f32; 2]; BLOCK];
         for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-            let (first, count) = (block * BLOCK, out.len());
-            let (left, right) = (&here[first..][..count], &here[first + 2..][..count]);
-            let (above, below) = (&above[first..][..count], &below[first..][..count]);
+            let first = block * BLOCK;
+            let count = out.len();
+            let left = &here[first..][..count];
+            let right = &here[first + 2..][..count];
+            let above = &above[first..][..count];
+            let below = &below[first..][..count];
             for i in 0..count {
                 let x = multiply_add::<S>(px_per_slope, right[i] - left[i], (first + i) as f32);
                 let y = multiply_add::<S>(px_per_slope, below[i] - above[i], y as f32);
-                let (x, y) = (lesser(greater(x, 0.0), end), lesser(greater(y, 0.0), bottom));
+                let x = lesser(greater(x, 0.0), end);
+                let y = lesser(greater(y, 0.0), bottom);
                 corners[i % BLOCK] = [x as i32, y as i32];
                 shares[i % BLOCK] = [x - (x as i32) as f32, y - (y as i32) as f32];
             }
             for ((out, [x, y]), [a, b]) in out.iter_mut().zip(corners).zip(shares) {
-                let (x, y) = (x as usize, y as usize);
+                let x = x as usize;
+                let y = y as usize;
                 let corner = (y - first_row) * width + x;
                 let right = usize::from(x + 1 < width);
                 let down = if y + 1 < height { width } else { 0 };

@@ -98,8 +98,13 @@ impl Glazes {
         let ground = paper;
         let scattering_per_mm = medium().scattering_per_mm;
         let materials = FilmMaterials { library, slots: &none, ground, scattering_per_mm };
-        let film = |materials: FilmMaterials<'_>| PaintFilm::at_nodes(materials, &light.quadrature);
-        Ok(choose_palette(&colors, materials, film, &HEIGHTS)?.slots)
+        Ok(choose_palette(
+            &colors,
+            materials,
+            |materials: FilmMaterials<'_>| PaintFilm::at_nodes(materials, &light.quadrature),
+            &HEIGHTS,
+        )?
+        .slots)
     }
 
     /// The pigments in use.
@@ -168,7 +173,8 @@ impl Glazes {
         paper: &PaperTexture,
         lighting: Lighting,
     ) -> Document {
-        let (width, height) = (color.width(), color.height());
+        let width = color.width();
+        let height = color.height();
         assert_eq!(
             (thickness.width(), thickness.height()),
             (width, height),
@@ -180,8 +186,8 @@ impl Glazes {
             if times <= 0.0 {
                 return [0; SLOTS];
             }
-            let height = |mm: f32| quanta_from_mm(f64::from(mm) * f64::from(times), cell_mm);
-            self.heights_mm(color).map(height)
+            self.heights_mm(color)
+                .map(|mm: f32| quanta_from_mm(f64::from(mm) * f64::from(times), cell_mm))
         });
         let mut layer = Layer::empty(width, height);
         layer.pigments = Field::from_values(width, height, quanta.collect());

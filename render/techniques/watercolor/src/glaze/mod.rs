@@ -5,7 +5,6 @@
 //! that can be relit.
 
 mod glazes;
-
 mod glaze_painter;
 
 pub use glaze_painter::GlazePainter;

@@ -91,7 +91,8 @@ impl<'a> Enlarged<'a> {
         let corners = [(left, above), (right, above), (left, below), (right, below)];
         let [p, q, r, s] = corners.map(|corner| picture[corner]);
         std::array::from_fn(|i| {
-            let (upper, lower) = (p[i] + (q[i] - p[i]) * a, r[i] + (s[i] - r[i]) * a);
+            let upper = p[i] + (q[i] - p[i]) * a;
+            let lower = r[i] + (s[i] - r[i]) * a;
             upper + (lower - upper) * b
         })
     }

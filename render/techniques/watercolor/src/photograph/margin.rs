@@ -24,7 +24,8 @@ impl Margin {
 
     /// The share of the pixel at `x`, `y` that is painted, 0 to 1.
     pub(super) fn painted(&self, x: usize, y: usize) -> f32 {
-        let (x, y) = (x as f32 + 0.5, y as f32 + 0.5);
+        let x = x as f32 + 0.5;
+        let y = y as f32 + 0.5;
         let [width, height] = self.size;
         let sides = [x.min(width - x), y.min(height - y)];
         let most = self.width_px + 2.0 * self.ragged_px;

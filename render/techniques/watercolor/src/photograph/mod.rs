@@ -5,11 +5,8 @@
 //! same for colours and for glazes of pigments.
 
 mod wet;
-
 mod margin;
-
 mod enlarge;
-
 mod photograph_wash;
 
 pub(super) use enlarge::enlarged;

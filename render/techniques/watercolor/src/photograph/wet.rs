@@ -43,7 +43,8 @@ pub(super) fn running(
     flat: &Field<[f32; 4]>,
     settings: &WetSettings,
 ) -> Option<Running> {
-    let (steps, wet) = (settings.tone_px > 0.0, settings.amount > 0.0 && settings.reach_px > 0.0);
+    let steps = settings.tone_px > 0.0;
+    let wet = settings.amount > 0.0 && settings.reach_px > 0.0;
     if !(steps || wet) || flat.values().is_empty() {
         return None;
     }
@@ -112,7 +113,8 @@ fn wet_places(width: usize, height: usize, settings: &WetSettings) -> Field<f32>
     let mut places = Field::filled(width, height, 0.0_f32);
     places.values_mut().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
         for (x, out) in row.iter_mut().enumerate() {
-            let (x, y) = (x as f32 * step, y as f32 * step);
+            let x = x as f32 * step;
+            let y = y as f32 * step;
             *out = octaves[0].at(x, y) + 0.5 * octaves[1].at(2.0 * x, 2.0 * y);
         }
     });
@@ -126,7 +128,8 @@ fn wet_places(width: usize, height: usize, settings: &WetSettings) -> Field<f32>
 
 /// The picture displaced by turbulence, at most by about the reach.
 fn displaced(color: &Field<[f32; 4]>, settings: &WetSettings) -> Field<[f32; 4]> {
-    let (width, height) = (color.width(), color.height());
+    let width = color.width();
+    let height = color.height();
     let mut noise = random(settings.seed, 43);
     let hills: [Hills; 6] = std::array::from_fn(|_| Hills::new(&mut noise));
     let step = 1.0 / (1.2 * settings.reach_px.max(1.0));
@@ -155,7 +158,8 @@ pub(super) fn mixed(from: [f32; 4], to: [f32; 4], share: f32) -> [f32; 4] {
     if share <= 0.0 {
         return from;
     }
-    let (own, other) = ((1.0 - share) * from[3], share * to[3]);
+    let own = (1.0 - share) * from[3];
+    let other = share * to[3];
     let covered = own + other;
     let by = if covered > 0.0 { other / covered } else { 0.0 };
     let color: [f32; 3] = std::array::from_fn(|i| from[i] + (to[i] - from[i]) * by);

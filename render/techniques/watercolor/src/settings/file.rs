@@ -80,7 +80,8 @@ impl Settings {
         ];
         for (key, text) in colors {
             if let Some(text) = text.filter(|text| Rgb::from_hex(text).is_none()) {
-                let (name, text) = (name.to_owned(), text.clone());
+                let name = name.to_owned();
+                let text = text.clone();
                 return Err(SettingsError::Color { name, line: line(key), key, text });
             }
         }

@@ -1,19 +1,12 @@
 //! The settings of watercolor, and their TOML files.
 
 mod figures;
-
 mod effects;
-
 mod photograph;
-
 mod subject;
-
 mod whole;
-
 mod preset;
-
 mod file;
-
 mod change;
 
 pub use effects::{

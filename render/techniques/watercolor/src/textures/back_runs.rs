@@ -63,7 +63,8 @@ struct Bloom {
 /// bare paper has none.
 #[must_use]
 pub fn back_runs(wash: &Field<[f32; 4]>, settings: &BackRunSettings) -> Field<f32> {
-    let (width, height) = (wash.width(), wash.height());
+    let width = wash.width();
+    let height = wash.height();
     let size = settings.size_px.max(2.0);
     let front = Front::new(settings.seed, size);
     let mut field = Field::filled(width, height, 0.5);
@@ -135,7 +136,9 @@ impl Front {
     /// The place (`x`, `y`) beside the front of `bloom`, unless it is too far away.
     fn of(&self, bloom: &Bloom, x: f32, y: f32) -> Option<AtFront> {
         let oval = |x: f32, y: f32| {
-            let (dx, dy, [cos, sin]) = (x - bloom.x, y - bloom.y, bloom.along);
+            let dx = x - bloom.x;
+            let dy = y - bloom.y;
+            let [cos, sin] = bloom.along;
             let scale = [OVAL[0] * bloom.radius, OVAL[1] * bloom.radius];
             [(cos * dx + sin * dy) / scale[0], (cos * dy - sin * dx) / scale[1]]
         };
@@ -149,7 +152,8 @@ impl Front {
         let distance = along.hypot(across);
         let unit = distance.max(1e-3);
         let around = |hills: &Hills, radius: f32| {
-            let (x, y) = (bloom.lobes[0], bloom.lobes[1]);
+            let x = bloom.lobes[0];
+            let y = bloom.lobes[1];
             hills.at(x + radius * along / unit, y + radius * across / unit)
         };
         // Lobes bulge outwards and meet in creases that point inwards.
@@ -182,7 +186,8 @@ fn bloom(
     let [r, g, b, covered] = wash[(x as usize, y as usize)];
     let radius = size * (0.2 + 0.22 * radius);
     let (sin, cos) = (std::f32::consts::PI * turn).sin_cos();
-    let (lobes, along) = ([500.0 * lobes, 310.0 * lobes], [cos, sin]);
+    let lobes = [500.0 * lobes, 310.0 * lobes];
+    let along = [cos, sin];
     (covered > 0.5).then_some(Bloom { x, y, radius, lobes, along, color: [r, g, b] })
 }
 
@@ -233,14 +238,16 @@ mod tests {
             let field = back_runs(&one_cell(color), &settings(3));
             field.values().iter().fold(0.0, |most: f32, value| most.max(value - 0.5))
         };
-        let (dark, light) = (darkest(0.1), darkest(0.9));
+        let dark = darkest(0.1);
+        let light = darkest(0.9);
         assert!(light > 0.25 && (dark / light - 0.4).abs() < 0.02, "{dark} and {light}");
     }
 
     #[test]
     fn the_front_of_a_bloom_is_oval_on_the_whole_and_ragged_in_detail() {
         let wash = one_cell(0.5);
-        let (mut fronts, mut sectors) = (Vec::new(), Vec::new());
+        let mut fronts = Vec::new();
+        let mut sectors = Vec::new();
         for seed in 0..12 {
             let settings = settings(seed);
             let Some(bloom) = bloom(&wash, &settings, 200.0, [1, 1]) else { continue };

@@ -52,8 +52,10 @@ impl BrushTouch {
         touch.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
             for ((x, out), height) in row.iter_mut().enumerate().zip(heights.row(y, 0, width)) {
                 // The vertical axis of the picture points downwards.
-                let (x, y) = (x as f32, y as f32);
-                let (along, across) = (x * cos - y * sin, x * sin + y * cos);
+                let x = x as f32;
+                let y = y as f32;
+                let along = x * cos - y * sin;
+                let across = x * sin + y * cos;
                 let mut streak = 0.0;
                 for (octave, (hills, share)) in octaves.iter().zip(shares).enumerate() {
                     let finer = [0.25_f32, 1.0, 2.0][octave];

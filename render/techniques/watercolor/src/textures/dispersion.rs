@@ -43,7 +43,8 @@ fn half_gaussian(sigma: f64) -> Vec<f64> {
 /// borders, so that the texture has the same statistics there.
 fn add_grains(sum: &mut Field<f32>, half: &[f32], seed: u64, scale: f32) {
     let radius = half.len() - 1;
-    let (width, height) = (sum.width(), sum.height());
+    let width = sum.width();
+    let height = sum.height();
     let wide = width + 2 * radius;
     let mut sideways = vec![0.0_f32; width * (height + 2 * radius)];
     sideways.par_chunks_mut(width.max(1)).enumerate().for_each_init(
@@ -58,8 +59,8 @@ fn add_grains(sum: &mut Field<f32>, half: &[f32], seed: u64, scale: f32) {
     );
     sum.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, out)| {
         for (x, out) in out.iter_mut().enumerate() {
-            let at = |tap| sideways[(y + radius).wrapping_add_signed(tap) * width + x];
-            *out += scale * mean(half, at);
+            *out += scale
+                * mean(half, |tap| sideways[(y + radius).wrapping_add_signed(tap) * width + x]);
         }
     });
 }

@@ -4,17 +4,11 @@
 //! about 0.5.
 
 mod flow;
-
 mod dispersion;
-
 mod back_runs;
-
 mod quantiles;
-
 mod paper;
-
 mod brush_touch;
-
 mod set;
 
 pub use back_runs::back_runs;

@@ -111,7 +111,8 @@ impl PaperTexture {
         let mut settings = settings.clone();
         settings.grain_px *= factor as f32;
         settings.scan_scale *= factor as f32;
-        let (width, height) = (self.heights.width(), self.heights.height());
+        let width = self.heights.width();
+        let height = self.heights.height();
         let Self { heights, slope, .. } = Self::new(width * factor, height * factor, &settings)?;
         Ok(Self { fine: Some(FineHeights { heights, factor, slope }), ..self })
     }
@@ -162,8 +163,12 @@ impl PaperTexture {
     #[must_use]
     pub fn quanta(&self) -> Field<i32> {
         let scale = self.unit_mm / self.px_mm * f64::from(QUANTA_PER_CELL);
-        let quanta = |&height: &f32| (f64::from(height) * scale).round() as i32;
-        let values = self.heights.values().par_iter().map(quanta).collect();
+        let values = self
+            .heights
+            .values()
+            .par_iter()
+            .map(|&height: &f32| (f64::from(height) * scale).round() as i32)
+            .collect();
         Field::from_values(self.heights.width(), self.heights.height(), values)
     }
 }
@@ -184,17 +189,19 @@ fn spread(mut heights: Field<f32>, deviation: f64) -> (Field<f32>, f64) {
 
 /// Root mean square length of the gradient (right minus left, below minus above).
 fn slope(heights: &Field<f32>) -> f32 {
-    let (width, height) = (heights.width(), heights.height());
+    let width = heights.width();
+    let height = heights.height();
     let squares = |y: usize| -> f64 {
         let here = heights.row(y, 0, width);
         let above = heights.row(y.saturating_sub(1), 0, width);
         let below = heights.row((y + 1).min(height - 1), 0, width);
-        let square = |x: usize| {
-            let across = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
-            let down = below[x] - above[x];
-            f64::from(across * across + down * down)
-        };
-        (0..width).map(square).sum()
+        (0..width)
+            .map(|x: usize| {
+                let across = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
+                let down = below[x] - above[x];
+                f64::from(across * across + down * down)
+            })
+            .sum()
     };
     let rows: Vec<f64> = (0..height).into_par_iter().map(squares).collect();
     (rows.iter().sum::<f64>() / (width * height).max(1) as f64).sqrt() as f32
@@ -211,7 +218,8 @@ fn scanned(
     let photograph = Photograph::open(Path::new(path))?;
     let side =
         |pixels: usize| ((pixels as f64 * f64::from(scale)).round() as usize).clamp(1, LARGEST);
-    let (columns, rows) = (side(photograph.size().0), side(photograph.size().1));
+    let columns = side(photograph.size().0);
+    let rows = side(photograph.size().1);
     let weights = RgbSpace::Srgb.xyz_from_linear();
     let picture = photograph.on_canvas(columns, rows);
     let mut heights = Field::filled(width, height, 0.0);

@@ -27,7 +27,8 @@ impl Quantiles {
     pub fn at(&self, share: f32) -> f32 {
         let place = share.clamp(0.0, 1.0) * INTERVALS as f32;
         let first = (place as usize).min(INTERVALS - 1);
-        let (low, high) = (self.0[first], self.0[first + 1]);
+        let low = self.0[first];
+        let high = self.0[first + 1];
         low + (high - low) * (place - first as f32)
     }
 }

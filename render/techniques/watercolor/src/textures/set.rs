@@ -60,7 +60,8 @@ impl Textures {
         wash: &Field<[f32; 4]>,
         settings: &Settings,
     ) -> Result<Self, PaperTextureError> {
-        let (width, height) = (wash.width(), wash.height());
+        let width = wash.width();
+        let height = wash.height();
         let mut textures = Self::new(width, height, settings)?;
         if settings.back_runs.strength > 0.0 {
             textures.back_runs = Some(back_runs(wash, &settings.back_runs));

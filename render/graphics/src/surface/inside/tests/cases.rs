@@ -109,7 +109,8 @@ fn the_skin_itself_counts_from_the_side_of_the_eye() {
     scene.surfaces.add_box(Vec3::new(-1.0, -1.0, -4.0), Vec3::new(1.0, 1.0, -3.0));
     assert!(scene.counts().values().iter().all(|&count| count == 0));
     scene.surfaces.add_box(Vec3::new(-1.0, -1.0, -3.0), Vec3::new(1.0, 1.0, -2.0));
-    let (counts, visible) = (scene.counts(), scene.visible());
+    let counts = scene.counts();
+    let visible = scene.visible();
     let inside = counts.values().iter().zip(visible.values());
     assert!(inside.clone().all(|(&count, seen)| count == i32::from(*seen != Fragment::EMPTY)));
     assert!(inside.filter(|(count, _)| **count == 1).count() > 300);

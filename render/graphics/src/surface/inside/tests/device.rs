@@ -64,7 +64,8 @@ impl Scene {
         surfaces: &[[f32; 8]],
         normals: &[[f32; 4]],
     ) -> Field<i32> {
-        let (camera, size) = (&self.camera, self.size);
+        let camera = &self.camera;
+        let size = self.size;
         let mut model = Model::new(compute, self.packed()).unwrap();
         let visible = model.visible(compute, camera, size.0, size.1).unwrap();
         let normals = Field::from_values(normals.len(), 1, normals.to_vec());
@@ -78,7 +79,8 @@ impl Scene {
 /// Number of values that differ. Panics at one that the other picture does not have within a
 /// pixel.
 fn differing(on_cpu: &Field<i32>, on_gpu: &Field<i32>, what: &str) -> usize {
-    let (width, height) = (on_cpu.width(), on_cpu.height());
+    let width = on_cpu.width();
+    let height = on_cpu.height();
     assert_eq!((width, height), (on_gpu.width(), on_gpu.height()));
     let mut differ = 0;
     for (y, x) in (0..height).flat_map(|y| (0..width).map(move |x| (y, x))) {
@@ -99,7 +101,9 @@ fn differing(on_cpu: &Field<i32>, on_gpu: &Field<i32>, what: &str) -> usize {
 fn the_device_counts_as_the_processor_does() {
     let Some(mut on_gpu) = device() else { return };
     let mut counter = InsideCounter::default();
-    let (mut differ, mut all, mut most) = (0, 0, 0);
+    let mut differ = 0;
+    let mut all = 0;
+    let mut most = 0;
     for (seed, size) in (60..72).zip([(97, 61), (256, 40), (1, 1), (8, 8), (67, 33)].iter().cycle())
     {
         let mut scene = random_scene(seed);
@@ -172,7 +176,8 @@ fn the_device_gates_as_the_processor_does() {
         return;
     }
     let turned = |i: usize| Vec3::new(i as f32 * 0.7 - 3.0, 1.3 - (i % 5) as f32, (i % 3) as f32);
-    let (mut held, mut kept_out) = (0, 0);
+    let mut held = 0;
+    let mut kept_out = 0;
     for seed in 90..94 {
         let scene = random_scene(seed);
         let gate = |i: usize| {
@@ -230,8 +235,8 @@ fn planes_of_the_camera_do_not_change_what_the_device_counts() {
     let mut scene = Scene { mesh: wall(-3.0, 6.0, 4), surfaces, camera, size: (97, 61) };
     for (near, far) in [(0.05, 20.0), (0.3, 3.01), (0.01, 4.0), (2.0, 3.5)] {
         (scene.camera.near, scene.camera.far) = (near, far);
-        let (on_cpu, found) =
-            (scene.counts(), scene.counts_of(&mut on_gpu, &mut InsideCounter::default()));
+        let on_cpu = scene.counts();
+        let found = scene.counts_of(&mut on_gpu, &mut InsideCounter::default());
         let differ = differing(&on_cpu, &found, &format!("{near} to {far}"));
         assert!(differ * 500 <= found.values().len(), "{near} to {far}: {differ}");
         assert!(found.values().iter().all(|count| (1..=3).contains(count)));

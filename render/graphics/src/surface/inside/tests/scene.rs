@@ -45,7 +45,8 @@ impl Scene {
         let [right, up, back] = self.camera.axes().map(Vec3::as_dvec3);
         let middle = DVec2::new(self.size.0 as f64, self.size.1 as f64) / 2.0;
         let half = f64::from(self.camera.field_of_view_deg.to_radians() / 2.0).tan();
-        let (eye, near) = (self.camera.eye.as_dvec3(), f64::from(self.camera.near));
+        let eye = self.camera.eye.as_dvec3();
+        let near = f64::from(self.camera.near);
         View { eye, right, up, forward: -back, near, focal_px: middle.y / half, middle }
     }
 
@@ -58,7 +59,9 @@ impl Scene {
 
     /// Compares the counts with winding numbers at every pixel that shows the scene.
     pub(super) fn compared(&self) -> Found {
-        let (visible, counts, view) = (self.visible(), self.counts(), self.view());
+        let visible = self.visible();
+        let counts = self.counts();
+        let view = self.view();
         let surfaces = &self.surfaces;
         let solids: Vec<_> = (0..surfaces.count).map(|i| Solid::new(surfaces.faces(i))).collect();
         let pixels = visible.values().par_iter().zip(counts.values()).enumerate();

@@ -79,8 +79,9 @@ impl Surfaces {
     pub(crate) fn add_box(&mut self, low: Vec3, high: Vec3) {
         let first = self.vertices.len() as u32;
         for corner in 0..8 {
-            let axis = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            self.vertices.push(std::array::from_fn(axis));
+            self.vertices.push(std::array::from_fn(|axis: usize| {
+                if corner >> axis & 1 == 0 { low[axis] } else { high[axis] }
+            }));
         }
         let sides =
             [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];

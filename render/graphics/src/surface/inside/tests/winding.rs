@@ -60,9 +60,9 @@ impl Solid {
         }
         edges.sort_unstable();
         let alone = edges.iter().filter(|[a, b]| edges.binary_search(&[*b, *a]).is_err());
-        let point = |bits: [u64; 3]| DVec3::from_array(bits.map(f64::from_bits));
         alone.copied().any(|edge| {
-            let ends = view.segment(edge.map(point));
+            let ends = view
+                .segment(edge.map(|bits: [u64; 3]| DVec3::from_array(bits.map(f64::from_bits))));
             ends.is_some_and(|[a, b]| distance_to_segment(at, a, b) <= near)
         })
     }

@@ -1,7 +1,6 @@
 //! Tests of the paint engine on the CPU.
 
 mod motion;
-
 mod rest;
 
 use super::CpuPaint;

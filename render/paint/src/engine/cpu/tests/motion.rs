@@ -66,8 +66,8 @@ fn random_contact(
     brush: (usize, usize),
     speed: Option<u16>,
 ) -> Contact {
-    let (width, height) =
-        (random.random_range(1..=canvas.0.min(40)), random.random_range(1..=canvas.1.min(40)));
+    let width = random.random_range(1..=canvas.0.min(40));
+    let height = random.random_range(1..=canvas.1.min(40));
     let x = random.random_range(0..=canvas.0 - width);
     let y = random.random_range(0..=canvas.1 - height);
     let coarse = random.random_range(1..=3);
@@ -121,7 +121,8 @@ fn totals(engine: &mut CpuPaint) -> [u64; SLOTS + 1] {
 #[test]
 fn over_ten_thousand_sub_steps_no_pigment_is_lost_or_made_and_no_cell_is_overfull() {
     let random = &mut ChaCha8Rng::seed_from_u64(1);
-    let (canvas, brush) = ((60, 44), (24, 17));
+    let canvas = (60, 44);
+    let brush = (24, 17);
     let mut engine = painted(random, canvas, brush);
     let before = totals(&mut engine);
     for _ in 0..100 {
@@ -178,7 +179,8 @@ fn the_fast_path_agrees_with_the_specification() {
             }
             engine.set_mask(masks[i / 5 % 2].as_ref());
             let contact = random_contact(random, canvas, brush, None);
-            let (mut wet, mut head) = (engine.wet(), engine.brushes[BRUSH.0].clone());
+            let mut wet = engine.wet();
+            let mut head = engine.brushes[BRUSH.0].clone();
             let floor = engine.floor();
             let below = Below { floor: &floor, bed: &engine.bed, mask: engine.mask.as_ref() };
             sub_step(motion, &contact, below, &mut wet, &mut head);
@@ -194,7 +196,8 @@ fn the_fast_path_agrees_with_the_specification() {
 #[test]
 fn columns_pushed_together_stay_below_full_and_whole() {
     let random = &mut ChaCha8Rng::seed_from_u64(8);
-    let (canvas, brush) = ((40, 40), (9, 9));
+    let canvas = (40, 40);
+    let brush = (9, 9);
     let mut engine = CpuPaint::new(Field::filled(40, 40, 0));
     let vehicle = Field::filled(40, 40, CROWDED_VOLUME - 1);
     let wet = Layer { vehicle, ..Layer::empty(40, 40) };
@@ -216,7 +219,8 @@ fn columns_pushed_together_stay_below_full_and_whole() {
 #[test]
 fn a_still_brush_moves_no_paint_across_sides_and_leaves_the_adhesion() {
     let random = &mut ChaCha8Rng::seed_from_u64(3);
-    let (canvas, brush) = ((40, 40), (9, 9));
+    let canvas = (40, 40);
+    let brush = (9, 9);
     let mut engine = painted(random, canvas, brush);
     let motion = MotionConstants::new(0.1, 0.7);
     let head = engine.brush_paint(BRUSH);
@@ -243,7 +247,8 @@ fn the_result_does_not_depend_on_the_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         pool.install(|| {
             let random = &mut ChaCha8Rng::seed_from_u64(4);
-            let (canvas, brush) = ((150, 130), (60, 60));
+            let canvas = (150, 130);
+            let brush = (60, 60);
             let mut engine = painted(random, canvas, brush);
             let contacts: Vec<_> = (0..20).map(|_| whole_contact(random, canvas, brush)).collect();
             engine.apply_contacts(BRUSH, &MotionConstants::new(0.1, 0.7), &contacts);
@@ -264,7 +269,8 @@ fn whole_contact(
 ) -> Contact {
     let part = random_contact(random, (40, 40), brush, None);
     let touch = |i: usize| {
-        let (x, y) = (i % canvas.0 % part.rect.width, i / canvas.0 % part.rect.height);
+        let x = i % canvas.0 % part.rect.width;
+        let y = i / canvas.0 % part.rect.height;
         let touch = part.touches[y * part.rect.width + x];
         let sharers = (canvas.0 * canvas.1) as u16;
         Touch { weights: touch.weights & 0xffff | u32::from(sharers) << 16, ..touch }

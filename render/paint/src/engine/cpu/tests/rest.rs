@@ -35,10 +35,12 @@ fn engine() -> CpuPaint {
 #[test]
 fn drying_parts_the_paint_and_raises_the_floor_by_what_dried() {
     let mut engine = engine();
-    let (wet, floor) = (engine.wet(), engine.floor());
+    let wet = engine.wet();
+    let floor = engine.floor();
     engine.dry(20_000);
     assert_eq!(engine.dry_layer_count(), 1);
-    let (rest, dried) = (engine.wet(), engine.dry_layer(0));
+    let rest = engine.wet();
+    let dried = engine.dry_layer(0);
     let risen = engine.floor();
     for index in 0..WIDTH * HEIGHT {
         assert_eq!(rest.cell(index).plus(&dried.cell(index)), wet.cell(index), "cell {index}");
@@ -74,7 +76,8 @@ fn a_tile_is_exchanged_with_what_was_saved_and_nothing_else_changes() {
     engine.swap_tile(tile, UndoSlot(3));
     let swapped = engine.wet();
     for index in 0..WIDTH * HEIGHT {
-        let (x, y) = (index % WIDTH, index / WIDTH);
+        let x = index % WIDTH;
+        let y = index / WIDTH;
         let inside = (64..128).contains(&x) && y >= 64;
         let expected = if inside { before.cell(index) } else { after.cell(index) };
         assert_eq!(swapped.cell(index), expected, "cell {x}, {y}");
@@ -129,7 +132,8 @@ fn lighting_what_changed_gives_the_picture_of_lighting_all() {
     // Shading looks 8 cells of 0.1 mm far.
     let untouched = |x: usize, y: usize| x >= 128 || !(32..88).contains(&y) && x < 42;
     for (index, (now, before)) in shown.values().iter().zip(first.values()).enumerate() {
-        let (x, y) = (index % WIDTH, index / WIDTH);
+        let x = index % WIDTH;
+        let y = index / WIDTH;
         assert!(!untouched(x, y) || now == before, "cell {x}, {y}");
     }
     assert_ne!(shown[(80, 80)], first[(80, 80)]);

@@ -145,12 +145,14 @@ impl MapFigures {
         let [darker, lighter] = [lower, lower + 1].map(|index| self.keys[index].name.clone());
         let mut faults = Vec::new();
         if let Some(found) = contrast.filter(|found| *found < CONTRAST) {
-            let (darker, lighter) = (darker.clone(), lighter.clone());
+            let darker = darker.clone();
+            let lighter = lighter.clone();
             let wanted = CONTRAST;
             faults.push(MapFault::BetweenContrast { darker, lighter, share, found, wanted });
         }
         if (tone - wanted_tone).abs() > TONE {
-            let (found, wanted) = (tone, wanted_tone);
+            let found = tone;
+            let wanted = wanted_tone;
             faults.push(MapFault::BetweenTone { darker, lighter, share, found, wanted });
         }
         faults
@@ -158,14 +160,17 @@ impl MapFigures {
 }
 
 fn of_key(key: &KeyFigures) -> Vec<MapFault> {
-    let (name, mut faults) = (&key.name, Vec::new());
+    let name = &key.name;
+    let mut faults = Vec::new();
     if key.coherence.max(key.neighbour_coherence) < COHERENCE {
-        let (name, found) = (name.clone(), key.coherence);
+        let name = name.clone();
+        let found = key.coherence;
         faults.push(MapFault::Coherence { name, found, wanted: COHERENCE });
     }
     let wanted = WRAP.max(key.usual_wrap_ratio);
     if key.wrap_ratio > wanted {
-        let (name, found) = (name.clone(), key.wrap_ratio);
+        let name = name.clone();
+        let found = key.wrap_ratio;
         faults.push(MapFault::Seam { name, found, wanted });
     }
     faults

@@ -104,9 +104,11 @@ impl ArtMap {
         let Some(transition) = self.transition(lower, Between::Dissolve) else {
             return Vec::new();
         };
-        let (darker, lighter) = (&keys[lower], &keys[lower + 1]);
+        let darker = &keys[lower];
+        let lighter = &keys[lower + 1];
         let figures = |at: f32| {
-            let (tile, share) = (transition.at(at), f64::from(at));
+            let tile = transition.at(at);
+            let share = f64::from(at);
             let mean = |dark: f64, light: f64| dark + share * (light - dark);
             let of_keys = mean(darker.contrast, lighter.contrast);
             let found = contrast(&Texture::tiled(&tile.color));

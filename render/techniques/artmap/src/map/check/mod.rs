@@ -1,7 +1,6 @@
 //! Check of a map by figures that need its tiles alone, not the samples.
 
 mod figures;
-
 mod fault;
 
 #[cfg(test)]

@@ -11,12 +11,18 @@ const SIZE: usize = 96;
 /// Waves around a linear grey, `period` texels wide and shifted by `phase` periods, that lean by
 /// one period over the height of the tile.
 fn key(name: &str, grey: f32, period: f32, phase: f32) -> KeyMap {
-    let value = |index: usize| {
-        let (x, y) = ((index % SIZE) as f32, (index / SIZE) as f32);
-        let turns = x / period + phase + y / SIZE as f32;
-        [grey * (1.0 + 0.3 * (turns * std::f32::consts::TAU).sin()); 3]
-    };
-    let color = Field::from_values(SIZE, SIZE, (0..SIZE * SIZE).map(value).collect());
+    let color = Field::from_values(
+        SIZE,
+        SIZE,
+        (0..SIZE * SIZE)
+            .map(|index: usize| {
+                let x = (index % SIZE) as f32;
+                let y = (index / SIZE) as f32;
+                let turns = x / period + phase + y / SIZE as f32;
+                [grey * (1.0 + 0.3 * (turns * std::f32::consts::TAU).sin()); 3]
+            })
+            .collect(),
+    );
     let tile = Tile { color, paint: None, height_mm: None };
     let sources = Field::filled(SIZE, SIZE, [0; 2]);
     KeyMap { name: name.to_owned(), tone: tile.tone(), tile, sources }

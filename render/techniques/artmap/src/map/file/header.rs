@@ -74,7 +74,8 @@ impl FileHeader {
             relief: key.tile.height_mm.is_some(),
             digest: String::new(),
         });
-        let (mut pigments, mut library) = (None, None);
+        let mut pigments = None;
+        let mut library = None;
         if let Some(paint) = &map.paint {
             let used = channels_of_slots(&paint.library, &paint.slots, KIND.reserved);
             pigments =
@@ -131,12 +132,14 @@ impl FileHeader {
 
     /// The parts of the tiles.
     pub(super) fn plans(&self) -> Vec<PartPlan> {
-        let plan = |key: &KeyHeader| {
-            let mut channels = Texels::channels(key.relief, self.pigments.as_deref());
-            channels.extend(SOURCE);
-            PartPlan::new(&key.part, (self.size, self.size), &channels)
-        };
-        self.keys.iter().map(plan).collect()
+        self.keys
+            .iter()
+            .map(|key: &KeyHeader| {
+                let mut channels = Texels::channels(key.relief, self.pigments.as_deref());
+                channels.extend(SOURCE);
+                PartPlan::new(&key.part, (self.size, self.size), &channels)
+            })
+            .collect()
     }
 
     /// The description's own digest.
@@ -165,14 +168,16 @@ impl FileHeader {
         }
         for (index, key) in keys.iter().enumerate() {
             if key.part != part(index) {
-                let (wanted, found) = (part(index), &key.part);
+                let wanted = part(index);
+                let found = &key.part;
                 return Err(format!("tile {index} is part `{wanted}`, found `{found}`"));
             }
         }
         for pair in keys.windows(2) {
             // Also if one of them is no number.
             if !matches!(pair[0].tone.partial_cmp(&pair[1].tone), Some(order) if order.is_le()) {
-                let (darker, lighter) = (pair[0].tone, pair[1].tone);
+                let darker = pair[0].tone;
+                let lighter = pair[1].tone;
                 let name = &pair[1].name;
                 return Err(format!(
                     "tiles are in order of tone, found `{lighter}` of `{name}` after `{darker}`"

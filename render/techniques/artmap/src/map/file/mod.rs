@@ -18,11 +18,8 @@
 //! refused. Everything comes back bit for bit.
 
 mod header;
-
 mod planes;
-
 mod read;
-
 mod write;
 
 #[cfg(test)]

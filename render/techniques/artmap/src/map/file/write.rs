@@ -43,7 +43,8 @@ fn check_tiles(map: &ArtMap) -> Result<(), String> {
     }
     for key in &map.keys {
         let whose = format!("tile `{}`", key.name);
-        let (width, height) = (key.tile.color.width(), key.tile.color.height());
+        let width = key.tile.color.width();
+        let height = key.tile.color.height();
         if (width, height) != (size, size) {
             return Err(format!("{whose} has `{width} x {height}` texels for {size} x {size}"));
         }

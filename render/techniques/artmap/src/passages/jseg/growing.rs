@@ -42,8 +42,9 @@ pub(super) fn grow(
     // The bits of J, which is at least 0, are in its order.
     let entry = |pixel: u32| Reverse((finest.values()[pixel as usize].to_bits(), pixel));
     for &pixel in pixels.iter().filter(|&&pixel| labels.values()[pixel as usize] == NOBODY) {
-        let near = |other: u32| names.binary_search(&labels.values()[other as usize]).is_ok();
-        if beside(pixel, size.0, size.1).any(near) {
+        if beside(pixel, size.0, size.1)
+            .any(|other: u32| names.binary_search(&labels.values()[other as usize]).is_ok())
+        {
             queue.push(entry(pixel));
         }
     }
@@ -51,8 +52,8 @@ pub(super) fn grow(
         if labels.values()[pixel as usize] != NOBODY {
             continue;
         }
-        let at = |other: u32| labels.values()[other as usize];
-        let around = beside(pixel, size.0, size.1).map(at);
+        let around =
+            beside(pixel, size.0, size.1).map(|other: u32| labels.values()[other as usize]);
         let Some(owner) = around.filter(|owner| names.binary_search(owner).is_ok()).min() else {
             continue;
         };
@@ -68,13 +69,15 @@ pub(super) fn grow(
 /// Gives the parts of the remaining pixels with J below their mean to the only valley that they
 /// touch.
 fn grow_parts(labels: &mut Field<u32>, pixels: &[u32], names: &[u32], j: &Field<f32>) {
-    let (width, height) = (labels.width(), labels.height());
+    let width = labels.width();
+    let height = labels.height();
     let value = |pixel: u32| f64::from(j.values()[pixel as usize]);
     let is_left = |labels: &Field<u32>, pixel: u32| labels.values()[pixel as usize] == NOBODY;
     let left: Vec<u32> = pixels.iter().copied().filter(|&pixel| is_left(labels, pixel)).collect();
     let mean = left.iter().map(|&pixel| value(pixel)).sum::<f64>() / left.len().max(1) as f64;
-    let low = |pixel: u32| is_left(labels, pixel) && value(pixel) <= mean;
-    for part in components(&left, (width, height), low) {
+    for part in components(&left, (width, height), |pixel: u32| {
+        is_left(labels, pixel) && value(pixel) <= mean
+    }) {
         let around = part.iter().flat_map(|&pixel| beside(pixel, width, height));
         let mut owners = around
             .map(|other| labels.values()[other as usize])

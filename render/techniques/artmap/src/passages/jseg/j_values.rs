@@ -22,7 +22,8 @@ const MOST: f32 = 100.0;
 /// # Panics
 /// If a class is 32 or above.
 pub(super) fn j_values(classes: &Field<u8>, step: usize) -> Field<f32> {
-    let (width, height) = (classes.width() as isize, classes.height() as isize);
+    let width = classes.width() as isize;
+    let height = classes.height() as isize;
     let step = step as isize;
     let disc: Vec<(isize, isize)> = (-RADIUS..=RADIUS)
         .flat_map(|y| (-RADIUS..=RADIUS).map(move |x| (x, y)))
@@ -35,7 +36,8 @@ pub(super) fn j_values(classes: &Field<u8>, step: usize) -> Field<f32> {
             let x = x as isize;
             let mut window = Window::default();
             for &(dx, dy) in &disc {
-                let (px, py) = (x + dx * step, y + dy * step);
+                let px = x + dx * step;
+                let py = y + dy * step;
                 if px >= 0 && px < width && py >= 0 && py < height {
                     let class = classes[(px as usize, py as usize)];
                     window.add(class, dx as i32, dy as i32);

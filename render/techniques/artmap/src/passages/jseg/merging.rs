@@ -19,10 +19,10 @@ pub(super) fn merged(regions: &Regions, classes: &Field<u8>) -> Regions {
     for (&label, &class) in regions.labels.values().iter().zip(classes.values()) {
         histograms[label as usize][class as usize] += 1.0;
     }
-    let unite = |whole: &mut Histogram, part: Histogram| {
+    joined(regions, histograms, ALIKE, apart, |whole: &mut Histogram, part: Histogram| {
         whole.iter_mut().zip(part).for_each(|(sum, more)| *sum += more);
-    };
-    joined(regions, histograms, ALIKE, apart, unite).0
+    })
+    .0
 }
 
 fn apart(one: &Histogram, other: &Histogram) -> f64 {

@@ -8,15 +8,10 @@
 //! ```
 
 mod quantised;
-
 mod j_values;
-
 mod valleys;
-
 mod growing;
-
 mod merging;
-
 mod scales;
 
 pub(super) use scales::jseg;

@@ -144,7 +144,8 @@ mod tests {
         assert!(found[0] != found[1] && found[1] != found[2] && found[0] != found[2], "{found:?}");
         for (pixel, class) in classes.values().iter().enumerate() {
             // Up to 2 px from an edge the colours are blended by the smoothing.
-            let (area, place) = (pixel % 90 / 30, pixel % 30);
+            let area = pixel % 90 / 30;
+            let place = pixel % 30;
             if (3..27).contains(&place) {
                 assert_eq!(*class, found[area], "pixel {pixel}");
             }

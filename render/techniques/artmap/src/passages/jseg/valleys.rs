@@ -27,8 +27,9 @@ pub(super) fn valleys(
     let mut found: Vec<Vec<u32>> = Vec::new();
     for offset in OFFSETS {
         let threshold = mean + offset * deviation;
-        let low = |pixel: u32| labels.values()[pixel as usize] == label && value(pixel) < threshold;
-        let parts = components(pixels, (labels.width(), labels.height()), low);
+        let parts = components(pixels, (labels.width(), labels.height()), |pixel: u32| {
+            labels.values()[pixel as usize] == label && value(pixel) < threshold
+        });
         let large: Vec<_> = parts.into_iter().filter(|part| part.len() >= least_px).collect();
         if large.len() > found.len() {
             found = large;

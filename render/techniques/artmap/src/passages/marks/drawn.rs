@@ -58,7 +58,8 @@ impl Marks {
             for &pixel in line.iter().flatten() {
                 if let Ok(at) = owners.binary_search_by_key(&pixel, |&(taken, _)| taken) {
                     let other = self.samples[owners[at].1].name.clone();
-                    let (x, y) = (pixel as usize % width, pixel as usize / width);
+                    let x = pixel as usize % width;
+                    let y = pixel as usize / width;
                     return Err(fault(mark, key, MarkFault::Crossing { other, x, y }));
                 }
             }
@@ -100,8 +101,8 @@ impl MarkedArea {
             }
             &Self::Rectangle { x, y, width: across, height: down } => {
                 inside(x.into(), y.into(), width, height)?;
-                let (right, below) =
-                    (f64::from(x) + f64::from(across) - 1.0, f64::from(y) + f64::from(down) - 1.0);
+                let right = f64::from(x) + f64::from(across) - 1.0;
+                let below = f64::from(y) + f64::from(down) - 1.0;
                 inside(right, below, width, height)?;
                 return Ok(None);
             }

@@ -20,13 +20,9 @@
 //! ([`Marks::from_overlay`]).
 
 mod mark;
-
 mod error;
-
 mod drawn;
-
 mod text;
-
 mod overlay;
 
 pub(super) use drawn::DrawnArea;

@@ -50,12 +50,19 @@ impl Marks {
             return Err(MarksError::OverlayColors { file, colors: colors.len() });
         }
         let width = lines.width() as u32;
-        let mark = |line: &&[([u8; 3], u32)]| {
-            let name = Rgb(line[0].0.map(|byte| f64::from(byte) / 255.0)).to_hex();
-            let places = line.iter().map(|(_, pixel)| [pixel % width, pixel / width]).collect();
-            Mark { name, area: MarkedArea::Pixels(places), spacing: None }
-        };
-        Ok(Self { file, painting: None, samples: colors.iter().map(mark).collect() })
+        Ok(Self {
+            file,
+            painting: None,
+            samples: colors
+                .iter()
+                .map(|line: &&[([u8; 3], u32)]| {
+                    let name = Rgb(line[0].0.map(|byte| f64::from(byte) / 255.0)).to_hex();
+                    let places =
+                        line.iter().map(|(_, pixel)| [pixel % width, pixel / width]).collect();
+                    Mark { name, area: MarkedArea::Pixels(places), spacing: None }
+                })
+                .collect(),
+        })
     }
 }
 

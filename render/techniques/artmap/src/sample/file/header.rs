@@ -67,7 +67,8 @@ impl FileHeader {
             relief: sample.height_mm.is_some(),
             guessed_relief: sample.guessed_relief,
         });
-        let (mut pigments, mut library) = (None, None);
+        let mut pigments = None;
+        let mut library = None;
         if let Some(paint) = &set.paint {
             let used = channels_of_slots(&paint.library, &paint.slots, KIND.reserved);
             pigments =
@@ -106,12 +107,14 @@ impl FileHeader {
 
     /// The parts of the samples.
     pub(super) fn plans(&self) -> Vec<PartPlan> {
-        let plan = |sample: &SampleHeader| {
-            let mut channels = Texels::channels(sample.relief, self.pigments.as_deref());
-            channels.push(MASK);
-            PartPlan::new(&sample.part, (sample.width, sample.height), &channels)
-        };
-        self.samples.iter().map(plan).collect()
+        self.samples
+            .iter()
+            .map(|sample: &SampleHeader| {
+                let mut channels = Texels::channels(sample.relief, self.pigments.as_deref());
+                channels.push(MASK);
+                PartPlan::new(&sample.part, (sample.width, sample.height), &channels)
+            })
+            .collect()
     }
 }
 

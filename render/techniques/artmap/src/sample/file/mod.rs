@@ -15,11 +15,8 @@
 //! Everything comes back bit for bit.
 
 mod header;
-
 mod planes;
-
 mod read;
-
 mod write;
 
 pub use read::read;

@@ -114,7 +114,8 @@ fn a_faded_layer_counts_by_its_optical_thickness_and_keeps_its_height() {
     let mut faded = document.clone();
     faded.dry[0].opacity = 0.5;
     let [whole, half] = [&document, &faded].map(|painting| WholePainting::of(painting, false));
-    let (whole, half) = (whole.unwrap(), half.unwrap());
+    let whole = whole.unwrap();
+    let half = half.unwrap();
     assert_eq!(whole.height_mm, half.height_mm);
     let vermilion = document.library.find("Vermilion").unwrap();
     let slot = whole.pigments.slots.iter().position(|slot| *slot == Some(vermilion)).unwrap();

@@ -27,14 +27,17 @@ fn angles(mesh: &Mesh, camera: &Camera, field: &DirectionField, line: &[[f64; 2]
     let visible = visible(mesh, camera, SIZE[0] as usize, SIZE[1] as usize);
     let seen = |at: DVec2| visible[(at.x as usize, at.y as usize)];
     let steps: Vec<Step> = steps(line, DVec2::ONE).collect();
-    let angle = |step: &Step| {
-        let ends = [-4.0, 4.0].map(|ahead| position_at(mesh, seen(step.at + ahead * step.along)));
-        let here = seen(step.at);
-        let weights = [1.0 - here.second - here.third, here.second, here.third];
-        let corners = mesh.triangles[here.triangle as usize].corners;
-        between(field.within(corners, weights).into(), ends[1] - ends[0])
-    };
-    steps[8..steps.len() - 8].iter().map(angle).collect()
+    steps[8..steps.len() - 8]
+        .iter()
+        .map(|step: &Step| {
+            let ends =
+                [-4.0, 4.0].map(|ahead| position_at(mesh, seen(step.at + ahead * step.along)));
+            let here = seen(step.at);
+            let weights = [1.0 - here.second - here.third, here.second, here.third];
+            let corners = mesh.triangles[here.triangle as usize].corners;
+            between(field.within(corners, weights).into(), ends[1] - ends[0])
+        })
+        .collect()
 }
 
 #[test]
@@ -80,8 +83,8 @@ fn a_line_over_an_outline_has_a_gap_and_no_direction_to_what_is_behind() {
     // A second ball far behind the first, to its right.
     let behind = Mesh::sphere(2000);
     let first = mesh.positions.len() as u32;
-    let moved = |[x, y, z]: [f32; 3]| [x + 6.5, y, z - 20.0];
-    mesh.positions.extend(behind.positions.into_iter().map(moved));
+    mesh.positions
+        .extend(behind.positions.into_iter().map(|[x, y, z]: [f32; 3]| [x + 6.5, y, z - 20.0]));
     mesh.normals.extend(behind.normals);
     mesh.triangles.extend(behind.triangles.into_iter().map(|mut triangle| {
         triangle.corners = triangle.corners.map(|corner| corner + first);

@@ -4,8 +4,11 @@ use super::*;
 use crate::test_device::{device, far};
 
 fn field<T>(width: usize, height: usize, value: impl Fn(usize, usize) -> T) -> Field<T> {
-    let at = |i: usize| value(i % width, i / width);
-    Field::from_values(width, height, (0..width * height).map(at).collect())
+    Field::from_values(
+        width,
+        height,
+        (0..width * height).map(|i: usize| value(i % width, i / width)).collect(),
+    )
 }
 
 /// Colours without a pattern that repeats soon.
@@ -35,7 +38,8 @@ fn region(counts: Field<i32>, tints: &[f32], inside: Inside) -> Region {
 
 fn picture(size: (usize, usize), regions: &[Region], paper: Option<[f32; 3]>) -> Field<[f32; 4]> {
     let (width, height) = size;
-    let (shaded, visible) = (shaded(width, height).into(), visible(width, height).into());
+    let shaded = shaded(width, height).into();
+    let visible = visible(width, height).into();
     let picture = reveal(&mut Compute::cpu(), &shaded, &visible, regions, paper, 1);
     picture.unwrap().into_host()
 }
@@ -47,7 +51,8 @@ fn outside_is_grey_to_the_bit_and_inside_is_the_colour_to_the_bit() {
     let hard = region(counts, &[0.0, 1.0], Inside::OwnColors);
     let found = picture(size, &[hard], Some([1.0; 3]));
     let none = picture(size, &[], Some([1.0; 3]));
-    let (shaded, visible) = (shaded(67, 33), visible(67, 33));
+    let shaded = shaded(67, 33);
+    let visible = visible(67, 33);
     for y in 0..33 {
         for x in 0..67 {
             let [r, g, b, grey] = shaded[(x, y)];
@@ -81,7 +86,8 @@ fn later_regions_lie_over_earlier_ones() {
         let inside = field(5, 1, |_, _| [color[0], color[1], color[2], 0.0]).into();
         region(Field::filled(5, 1, 1), tints, Inside::Picture(inside))
     };
-    let (red, blue) = ([0.9, 0.1, 0.1], [0.1, 0.2, 0.8]);
+    let red = [0.9, 0.1, 0.1];
+    let blue = [0.1, 0.2, 0.8];
     let over = |first: Region, second: Region| picture((5, 1), &[first, second], None)[(0, 0)];
     let found = over(everywhere(&[0.0, 1.0], red), everywhere(&[0.0, 1.0], blue));
     assert_eq!(found, [0.1, 0.2, 0.8, 1.0]);
@@ -124,7 +130,8 @@ fn the_samples_of_a_pixel_are_averaged() {
     });
     let regions = [region(counts, &[0.0, 1.0], Inside::OwnColors)];
     let found = |paper| {
-        let (shaded, visible) = (shaded.clone().into(), visible.clone().into());
+        let shaded = shaded.clone().into();
+        let visible = visible.clone().into();
         let picture = reveal(&mut Compute::cpu(), &shaded, &visible, &regions, paper, 2);
         picture.unwrap().into_host()
     };
@@ -137,7 +144,8 @@ fn the_samples_of_a_pixel_are_averaged() {
 
 #[test]
 fn numbers_that_are_none_are_refused() {
-    let (shaded, visible) = (shaded(2, 2).into(), visible(2, 2).into());
+    let shaded = shaded(2, 2).into();
+    let visible = visible(2, 2).into();
     let compute = &mut Compute::cpu();
     let refused = reveal(compute, &shaded, &visible, &[], Some([0.5, f32::NAN, 1.0]), 1);
     assert!(matches!(refused, Err(DrawingError::Setting { name: "paper", .. })));
@@ -177,7 +185,8 @@ fn a_device_composes_the_same_picture() {
                         reveal(compute, &shaded, &visible, &all[..count], paper, samples).unwrap();
                     compute.download(&picture).unwrap()
                 };
-                let (wanted, found) = (picture(&mut Compute::cpu()), picture(&mut gpu));
+                let wanted = picture(&mut Compute::cpu());
+                let found = picture(&mut gpu);
                 let (most, _) = far(&wanted, &found);
                 assert!(most < 0.01 / 255.0, "{width} x {height}, {count}: {most}");
             }

@@ -10,7 +10,8 @@ use crate::hatching::sample_texture;
 /// which is the mean number of dark runs along parallel lines a pixel apart, over all directions,
 /// times pi (Crofton's formula); here over four directions.
 fn width_of_strips((width, height): (i32, i32), dark: impl Fn(i32, i32) -> bool) -> f32 {
-    let (mut area, mut crossings) = (0.0, 0.0);
+    let mut area = 0.0;
+    let mut crossings = 0.0;
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         if dark(x, y) {
             area += 1.0;
@@ -28,12 +29,11 @@ fn width_of_strips((width, height): (i32, i32), dark: impl Fn(i32, i32) -> bool)
 fn strips_of_a_known_width_are_measured() {
     for (slope, width) in [(0.0, 3.0), (0.3, 3.0), (1.0, 4.0), (2.5, 6.0)] {
         let across = f64::hypot(1.0, slope);
-        let dark = |x: i32, y: i32| {
+        let found = f64::from(width_of_strips((400, 400), |x: i32, y: i32| {
             (0..400).contains(&x)
                 && (0..400).contains(&y)
                 && ((f64::from(y) + slope * f64::from(x)) / across).rem_euclid(20.0) < width
-        };
-        let found = f64::from(width_of_strips((400, 400), dark));
+        }));
         assert!((found / width - 1.0).abs() < 0.12, "{slope} {width}: {found}");
     }
 }
@@ -67,10 +67,9 @@ fn strokes_on_a_village_are_2_to_4_pixels_wide_from_near_and_far() {
         let mesh = model.host().mesh();
         let (_, ink) = shade_apart(mesh, visible.host(), &camera, &look, &hatching).unwrap();
         let within = |at: i32, end: usize| usize::try_from(at).is_ok_and(|at| at < end);
-        let dark = |x: i32, y: i32| {
+        let found = width_of_strips((width as i32, height as i32), |x: i32, y: i32| {
             within(x, width) && within(y, height) && ink[(x as usize, y as usize)] > 0.5
-        };
-        let found = width_of_strips((width as i32, height as i32), dark);
+        });
         assert!((2.0..4.0).contains(&found), "{width} x {height}, x{zoom}, tone {tone}: {found}");
     }
 }

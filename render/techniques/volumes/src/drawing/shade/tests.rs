@@ -47,7 +47,8 @@ impl Scene {
     ) -> Field<[f32; 4]> {
         let look = DrawingLook { samples: 2, ..look.clone() };
         let (shaded, visible) = self.shade(camera, (2 * width, 2 * height), &look);
-        let (shaded, visible) = (shaded.into(), visible.into());
+        let shaded = shaded.into();
+        let visible = visible.into();
         let picture = reveal(&mut self.compute, &shaded, &visible, &[], None, 2).unwrap();
         picture.into_host()
     }
@@ -119,7 +120,8 @@ fn without_light_colours_stay_and_their_grey_sets_the_tone() {
     let (hatched, _) = scene.shade(&camera, (200, 200), &look);
     let grey = grey_of([0.2, 0.6, 0.4], GreyWeights::Luminance);
     let tone = look.tones.grey(lifted(grey));
-    let (mut ink, mut seen) = (0.0, 0.0);
+    let mut ink = 0.0;
+    let mut seen = 0.0;
     for pixel in hatched.values().iter().filter(|pixel| **pixel != [1.0; 4]) {
         ink += (1.0 - pixel[1] / 0.6) / 0.85;
         seen += 1.0;
@@ -199,10 +201,10 @@ fn strokes_stay_on_a_turning_model() {
 fn a_picture_has_the_same_bits_on_any_number_of_threads() {
     let mesh = SampleModel::StillLife.mesh(4000);
     let camera = camera(&mesh, 1.5);
-    let draw =
-        || Scene::new(Compute::cpu(), &mesh).grey(&camera, (75, 50), &DrawingLook::default());
     let pictures = [1, 2, 5].map(|threads| {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(draw)
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
+            Scene::new(Compute::cpu(), &mesh).grey(&camera, (75, 50), &DrawingLook::default())
+        })
     });
     let bits = |picture: &Field<[f32; 4]>| -> Vec<u32> {
         picture.values().iter().flatten().map(|value| value.to_bits()).collect()
@@ -219,7 +221,8 @@ fn a_pale_drawing_is_lighter_outside_and_unchanged_inside() {
         let look = DrawingLook { pale, ..DrawingLook::default() };
         scene.shade(&camera, (75, 50), &look).0
     };
-    let (plain, pale) = (shaded(0.0), shaded(0.6));
+    let plain = shaded(0.0);
+    let pale = shaded(0.6);
     for (plain, pale) in plain.values().iter().zip(pale.values()) {
         assert_eq!(plain[..3], pale[..3]);
         assert!((0.0..=1.0).contains(&pale[3]), "{pale:?}");
@@ -251,7 +254,8 @@ fn a_device_draws_the_same_picture() {
                 let shaded = shade(compute, model, &visible, &camera, &look, hatching).unwrap();
                 compute.download(&shaded).unwrap()
             };
-            let (wanted, found) = (draw(cpu), draw(gpu));
+            let wanted = draw(cpu);
+            let found = draw(gpu);
             let (most, _) = far(&wanted, &found);
             assert!(most <= 1.0 / 255.0, "{width} x {height} {coordinates:?}: {most}");
         }

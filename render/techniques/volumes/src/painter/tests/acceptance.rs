@@ -69,7 +69,8 @@ fn a_full_grid_colours_all_that_is_seen() {
             let aspect = SIZE.0 as f32 / SIZE.1 as f32;
             let framing = Framing { azimuth_deg, aspect, ..Framing::default() };
             scene.camera = framing.fit(&scene.mesh.positions);
-            let (plain, seen) = (scene.plain(), scene.seen());
+            let plain = scene.plain();
+            let seen = scene.seen();
             let mut bare = |gate: f32| {
                 scene.settings.drawing.gate = gate;
                 let painted = scene.painted(&world);
@@ -156,7 +157,8 @@ fn films_of_single_volumes_lie_on_all_that_they_hold() {
         steps(&mut world, 30);
         painter.paint(&world, &scene.camera, SIZE).unwrap()
     };
-    let (painted, bare) = (below(Some(Recipe::of_slot(0))), below(None));
+    let painted = below(Some(Recipe::of_slot(0)));
+    let bare = below(None);
     let differ = painted.values().iter().zip(bare.values()).filter(|(a, b)| a != b).count();
     assert!(differ > 100, "{differ}");
 }
@@ -168,7 +170,9 @@ fn regions_count_their_own_volumes_alone() {
     let [low, high] = scene.mesh.bounds();
     let mut world = scene.world();
     world.add_volume(&single((low + high) / 2.0, 2.0 * (high - low).length(), 0)).unwrap();
-    let (painted, plain, seen) = (scene.painted(&world), scene.plain(), scene.seen());
+    let painted = scene.painted(&world);
+    let plain = scene.plain();
+    let seen = scene.seen();
     for (pixel, found) in painted.values().iter().enumerate() {
         if seen.values()[pixel].triangle != NO_TRIANGLE {
             let [r, g, b, grey] = plain.values()[pixel];

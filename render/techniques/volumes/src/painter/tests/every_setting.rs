@@ -169,7 +169,8 @@ fn settings_of_films_change_the_picture() {
 fn strokes_have_strengths_of_their_own_inside_and_outside() {
     let scene = Scene::still_life();
     let [low, high] = scene.mesh.bounds();
-    let (outside, mut inside) = (scene.world(), scene.world());
+    let outside = scene.world();
+    let mut inside = scene.world();
     let radius = 2.0 * (high - low).length();
     inside.add_volume(&single((low + high) / 2.0, radius, 0)).unwrap();
     let in_pigments = scene.painter().with_pigments(pigments()).unwrap();

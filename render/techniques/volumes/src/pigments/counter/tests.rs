@@ -69,7 +69,8 @@ impl Poured {
 #[test]
 fn the_film_of_a_picture_face_on_is_the_paint_poured() {
     let distance = 5.6;
-    let (width, height) = (750, 570);
+    let width = 750;
+    let height = 570;
     let poured = Poured::new(&[camera(0.0, distance)], (width, height));
     let heights = poured.heights(0);
     let pixel_mm =
@@ -129,7 +130,8 @@ fn the_films_of_a_world_are_the_paint_on_its_scene() {
     let samples = &world.grid().samples;
     let surface = SampledSurface::from(samples);
     let lattice = SampleLattice::of(surface.places, samples.lattice.cell);
-    let (unit_mm, quantum_mm3) = (world.unit_mm(), world.quantum_mm3());
+    let unit_mm = world.unit_mm();
+    let quantum_mm3 = world.quantum_mm3();
     let scale = FilmScale { quantum_mm3, unit_mm, cell_mm: 0.2 };
     let profile = FilmProfile::default();
     let films = Film::of_volumes(world.volumes(), profile, (&surface, &lattice), &scale);
@@ -163,7 +165,8 @@ fn counted_films_are_those_of_the_volumes_that_hold_each_place() {
     for sight in 0..2 {
         let seen = SeenPlaces::of(&poured.mesh, &facets, &poured.visible[sight].1);
         let heights = poured.heights(sight);
-        let (mut off, mut covered) = (0, 0);
+        let mut off = 0;
+        let mut covered = 0;
         for (pixel, found) in heights.values().iter().enumerate() {
             let (place, normal) = seen.at(pixel);
             let wanted = sum.at(place, normal);
@@ -180,11 +183,14 @@ fn counted_films_are_those_of_the_volumes_that_hold_each_place() {
 fn heights_stay_at_their_places_when_the_picture_turns() {
     let size = (750, 570);
     let poured = Poured::new(&[camera(0.0, 5.6), camera(60.0, 5.0)], size);
-    let (straight, turned) = (poured.heights(0), poured.heights(1));
+    let straight = poured.heights(0);
+    let turned = poured.heights(1);
     let clip = poured.visible[0].0.clip_from_model(size.0 as f32 / size.1 as f32);
     let facets = Facets::of(&poured.mesh);
     let seen = SeenPlaces::of(&poured.mesh, &facets, &poured.visible[1].1);
-    let (mut off, mut all, mut compared) = (0.0, 0.0, 0);
+    let mut off = 0.0;
+    let mut all = 0.0;
+    let mut compared = 0;
     for (pixel, heights) in turned.values().iter().enumerate() {
         let (place, _) = seen.at(pixel);
         if heights.0[SLOTS] == 0 || place.is_nan() {
@@ -193,7 +199,8 @@ fn heights_stay_at_their_places_when_the_picture_turns() {
         let at = clip.project_point3(place);
         let x = (0.5 + 0.5 * at.x) * size.0 as f32 - 0.5;
         let y = (0.5 - 0.5 * at.y) * size.1 as f32 - 0.5;
-        let (column, row) = (x as usize, y as usize);
+        let column = x as usize;
+        let row = y as usize;
         let around = [(0, 0), (1, 0), (0, 1), (1, 1)];
         let around = around.map(|(right, down)| straight[(column + right, row + down)].0[SLOTS]);
         // Where a pixel's neighbours are held by other volumes there is a step between them.
@@ -202,8 +209,10 @@ fn heights_stay_at_their_places_when_the_picture_turns() {
             continue;
         }
         let [a, b, c, d] = around.map(|height| height as f32);
-        let (u, v) = (x.fract(), y.fract());
-        let (above, below) = (a + (b - a) * u, c + (d - c) * u);
+        let u = x.fract();
+        let v = y.fract();
+        let above = a + (b - a) * u;
+        let below = c + (d - c) * u;
         let wanted = f64::from(above + (below - above) * v);
         off += (f64::from(heights.0[SLOTS]) - wanted).abs();
         all += wanted;

@@ -21,12 +21,14 @@ struct Plane {
 impl Plane {
     fn new() -> Self {
         let random = &mut ChaCha8Rng::seed_from_u64(11);
-        let (count, side) = (96, CELL / 8.0);
+        let count = 96;
+        let side = CELL / 8.0;
         let mut within = |square: usize| (square as f32 + random.random_range(0.0_f32..1.0)) * side;
         let places: Vec<Vec3> = (0..count * count)
             .map(|at| Vec3::new(within(at % count), within(at / count), 0.0))
             .collect();
-        let (normals, areas) = (vec![Vec3::Z; places.len()], vec![side * side; places.len()]);
+        let normals = vec![Vec3::Z; places.len()];
+        let areas = vec![side * side; places.len()];
         let lattice = SampleLattice::of(&places, CELL);
         Self { places, normals, areas, lattice }
     }
@@ -119,7 +121,8 @@ fn paint_of_overlapping_volumes_adds_up() {
     let first = painted(bumpy(a, 0.5, 3, 1), [700_000, 0, 0, 0, 0, 0, 0, 9], 5);
     let second = painted(bumpy(b, 0.5, 3, 2), [0, 500_000, 0, 0, 0, 0, 0, 0], 0);
     let volumes = [first, second];
-    let (films, insides) = (plane.films(&volumes, FilmProfile::default()), insides(&volumes));
+    let films = plane.films(&volumes, FilmProfile::default());
+    let insides = insides(&volumes);
     let both = FilmSum { films: &films, insides: &insides };
     let mut shared = 0;
     for at in 0..900 {

@@ -25,17 +25,27 @@ fn lengths(volumes: &[Volume], camera: &Camera, beyond: bool) -> (Field<f32>, Fi
     let through = FilmThrough::new(&densities, camera, &places, beyond);
     let surfaces = VolumeSurfaces::of(volumes);
     let sums = Crossings::default().sum(&through, surfaces.closed(), camera, &seen);
-    let length = |heights: &FilmHeights| {
-        assert_eq!((heights.0[0], heights.0[SLOTS]), (0, 0));
-        heights.0[2] as f32 / UNITS
-    };
-    (Field::from_values(SIZE.0, SIZE.1, sums.values().iter().map(length).collect()), places)
+    (
+        Field::from_values(
+            SIZE.0,
+            SIZE.1,
+            sums.values()
+                .iter()
+                .map(|heights: &FilmHeights| {
+                    assert_eq!((heights.0[0], heights.0[SLOTS]), (0, 0));
+                    heights.0[2] as f32 / UNITS
+                })
+                .collect(),
+        ),
+        places,
+    )
 }
 
 /// The ray of a pixel, of length 1.
 fn ray(camera: &Camera, pixel: usize) -> Vec3 {
     let [right, up, back] = camera.axes();
-    let (column, row) = (pixel % SIZE.0, pixel / SIZE.0);
+    let column = pixel % SIZE.0;
+    let row = pixel / SIZE.0;
     let tangent = (camera.field_of_view_deg.to_radians() / 2.0).tan() / SIZE.1 as f32;
     let x = ((2 * column + 1) as f32 - SIZE.0 as f32) * tangent;
     let y = (SIZE.1 as f32 - (2 * row + 1) as f32) * tangent;

@@ -81,7 +81,10 @@ impl Made {
 
     fn drawing(&self) -> Drawing<'_> {
         let Self { color, cover, ink, tint, films } = self;
-        let (cover, ink, tint, films) = (Some(cover), Some(ink), Some(tint), Some(films));
+        let cover = Some(cover);
+        let ink = Some(ink);
+        let tint = Some(tint);
+        let films = Some(films);
         Drawing { color, cover, ink, tint, films }
     }
 }
@@ -282,7 +285,8 @@ fn volumes_show_own_colours_glazes_or_both() {
     let made = Made::new();
     let at = SIZE.0 * 20 + 37;
     let of = |painter: &FilmPainter| painter.document("", &made.drawing()).unwrap();
-    let (glazes, both) = (of(&GLAZES), of(&BOTH));
+    let glazes = of(&GLAZES);
+    let both = of(&BOTH);
     let own = of(&painter(UnderPainting::Grisaille, InsidePaint::OwnColors));
     let counts = [&glazes, &both, &own].map(|document| document.dry.len());
     assert_eq!(counts, [3, 4, 3]);
@@ -371,7 +375,10 @@ fn edges_and_hostile_values_are_painted() {
         let color = Field::filled(width, height, [f32::NAN, 2.0, -1.0, f32::NAN]);
         let odd = Field::filled(width, height, f32::NAN);
         let films = Field::filled(width, height, FilmHeights([i32::MAX, -1, 0, 0, 0, 0, 0, 0, 3]));
-        let (cover, ink, tint, films) = (None, Some(&odd), Some(&odd), Some(&films));
+        let cover = None;
+        let ink = Some(&odd);
+        let tint = Some(&odd);
+        let films = Some(&films);
         let drawing = Drawing { color: &color, cover, ink, tint, films };
         let seen = view.picture(&BOTH, &drawing).unwrap();
         assert_eq!((seen.width(), seen.height()), (width, height));
