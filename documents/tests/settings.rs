@@ -1,7 +1,7 @@
 //! Settings that are declared by the macros.
 
 use documents::hint::{Explain, Fault};
-use documents::settings::{Row, Scales, Table, Takes, guide_table, rows};
+use documents::settings::{Row, Scales, Table, Takes, digest, guide_table, rows};
 use documents::text::{Checked, KeyPath, ValueFault};
 
 /// A word among the settings.
@@ -110,7 +110,8 @@ tint = [0.0, 1.0]
 #[test]
 fn faults_name_line_key_and_what_is_usual() {
     for (text, message, hint) in [
-        ("\nseed = -1", "a, line 2: seed: invalid value", "write a value of the kind"),
+        ("\nseed = -1", "a, line 2: seed: invalid value", "1 is usual"),
+        ("sheet = 3", "a, line 1: sheet: invalid type", "write a value of the kind"),
         ("see = 1", "a, line 1: see: unknown key `see`", "did you mean seed?"),
         ("[sheet]\ngrain = 1", "a, line 2: sheet.grain: unknown key", "it takes the keys kind,"),
         ("[paper]", "a, line 1: paper: unknown key `paper`", "it takes the keys reference_px,"),
@@ -192,6 +193,15 @@ fn presets_are_what_differs_from_the_default() {
     let wanted = "presets are plain, coarse; a file of your own ends in .toml";
     assert_eq!(other.hint().unwrap().to_string(), wanted);
     assert_eq!(other.fault(), Fault::Setting);
+}
+
+#[test]
+fn a_digest_differs_in_every_bit() {
+    let settings = Settings::default();
+    let mut other = settings.clone();
+    assert_eq!(digest(&settings), digest(&other));
+    other.steps.tint[1] = 1.0_f32.next_down();
+    assert_ne!(digest(&settings), digest(&other));
 }
 
 #[test]

@@ -56,7 +56,7 @@ mod read;
 mod row;
 
 pub use read::{
-    SettingsError, changed, changed_by, check, differences, documented, guide_table, open,
+    SettingsError, changed, changed_by, check, differences, digest, documented, guide_table, open,
     read as from_toml, rows,
 };
 pub use row::{Row, Scales, Table, Takes, is_color, text_of};

@@ -4,9 +4,11 @@ use std::path::Path;
 
 use toml::{Table as Toml, Value};
 
-use super::row::{Row, Table, Takes, text_of};
+use super::row::{Row, Table, Takes, as_written, text_of};
 use crate::hint::Explain;
-use crate::text::{Checked, KeyPath, Source, TextError, ValueFault, read_text};
+use crate::text::{
+    Checked, KeyPath, KeyStep, Source, TextError, USUAL_HINT, ValueFault, read_text,
+};
 use crate::{did_you_mean, name_list};
 
 /// Longest line of a comment.
@@ -51,7 +53,7 @@ pub fn open<T: Table>(path: &Path) -> Result<T, SettingsError> {
 /// [`SettingsError`] with line and key.
 pub fn read<T: Table>(name: &str, text: &str) -> Result<T, SettingsError> {
     let source = Source::toml(name, text)?;
-    let settings: T = source.typed()?;
+    let settings: T = typed(&source)?;
     check(&settings, &KeyPath::default()).map_err(|fault| source.located(fault))?;
     Ok(settings)
 }
@@ -63,7 +65,7 @@ pub fn read<T: Table>(name: &str, text: &str) -> Result<T, SettingsError> {
 pub fn changed<T: Table>(settings: &T, name: &str, text: &str) -> Result<T, SettingsError> {
     let source = Source::toml(name, text)?;
     // The text is read alone first, so that errors give its lines and keys.
-    source.typed::<T>()?;
+    typed::<T>(&source)?;
     let changed = changed_by(settings, &source.typed()?, &KeyPath::default());
     Ok(changed.map_err(|fault| source.located(fault))?)
 }
@@ -131,12 +133,28 @@ fn check_rows(rows: &[Row], table: &Toml, usual: &Toml, base: &KeyPath) -> Check
 fn plain(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
-        Value::Float(_) => {
-            let text = text_of(value);
-            text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
-        }
+        Value::Float(number) => as_written(*number).to_string(),
         other => text_of(other),
     }
+}
+
+/// The whole text as settings. Where the parser knows no way out, the hint is the usual value.
+fn typed<T: Table>(source: &Source<'_>) -> Result<T, TextError> {
+    source.typed().map_err(|mut error| {
+        if let TextError::Syntax { key: Some(key), hint, .. } = &mut error
+            && hint == USUAL_HINT
+        {
+            let all = Value::Table(Toml::try_from(T::default()).unwrap_or_default());
+            let usual = key.0.iter().try_fold(&all, |value, step| match step {
+                KeyStep::Key(key) => value.get(key),
+                KeyStep::Index(_) => None,
+            });
+            if let Some(usual) = usual.filter(|usual| !usual.is_table()) {
+                *hint = format!("{} is usual", plain(usual));
+            }
+        }
+        error
+    })
 }
 
 /// The settings as a table of TOML. It fails for whole numbers beyond those of TOML.
@@ -267,4 +285,39 @@ pub fn guide_table<T: Table>() -> String {
         text.push_str(&format!("| `{path}` | {value} | {takes} | {} |\n", row.about));
     }
     text
+}
+
+/// A number that is equal for equal settings, to the bit: FNV-1a (Fowler, Noll and Vo 1991) of all values in
+/// the order of their keys. Tests hold presets to it.
+#[must_use]
+pub fn digest<T: Table>(settings: &T) -> u64 {
+    let mut lines = Vec::new();
+    digest_lines(&mut lines, "", &Value::Table(Toml::try_from(settings).unwrap_or_default()));
+    lines.sort();
+    let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    lines.join("\n").bytes().fold(0xcbf2_9ce4_8422_2325, hash)
+}
+
+fn digest_lines(lines: &mut Vec<String>, path: &str, value: &Value) {
+    let Value::Table(table) = value else {
+        lines.push(format!("{path}={}", bits(value)));
+        return;
+    };
+    for (key, value) in table {
+        let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+        digest_lines(lines, &path, value);
+    }
+}
+
+/// A value as text that differs in every bit.
+fn bits(value: &Value) -> String {
+    match value {
+        Value::Float(number) if f64::from(*number as f32) == *number => {
+            format!("{:08x}", (*number as f32).to_bits())
+        }
+        Value::Float(number) => format!("{:016x}", number.to_bits()),
+        Value::String(text) => text.clone(),
+        Value::Array(list) => format!("[{}]", list.iter().map(bits).collect::<Vec<_>>().join(",")),
+        other => other.to_string(),
+    }
 }

@@ -135,7 +135,7 @@ fn is_within(value: &Value, least: f64, most: f64) -> bool {
 }
 
 /// A number of single precision with the digits that it has in a file; others as they are.
-fn as_written(number: f64) -> f64 {
+pub(super) fn as_written(number: f64) -> f64 {
     let single = number as f32;
     if f64::from(single) != number {
         return number;

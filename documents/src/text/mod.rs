@@ -33,4 +33,5 @@ mod key_path;
 mod source;
 
 pub use key_path::{KeyPath, KeyStep};
+pub(crate) use source::USUAL_HINT;
 pub use source::{Checked, Place, Source, TextError, ValueFault, line_of, read_text};

@@ -15,6 +15,9 @@ use crate::hint::Explain;
 /// Longest text that is read, in bytes.
 const MOST_BYTES: usize = 16 << 20;
 
+/// The way out of a wrong type where a text has no other.
+pub(crate) const USUAL_HINT: &str = "write a value of the kind that the key takes";
+
 /// A text of TOML or JSON with its name for errors.
 #[derive(Debug)]
 pub struct Source<'t> {
@@ -156,8 +159,7 @@ impl<'t> Source<'t> {
 
     fn explained(&self, bytes: Range<usize>, message: &str) -> TextError {
         let ParserReason { reason, hint } = ParserReason::of(message);
-        let usual =
-            || self.hint.unwrap_or("write a value of the kind that the key takes").to_owned();
+        let usual = || self.hint.unwrap_or(USUAL_HINT).to_owned();
         TextError::Syntax {
             file: self.file.to_owned(),
             place: self.place(bytes.start),
