@@ -15,7 +15,7 @@ use crate::{did_you_mean, name_list};
 const WIDTH: usize = 90;
 
 /// Settings cannot be read.
-#[derive(Debug, thiserror::Error, Explain)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum SettingsError {
     /// The text has a fault.
     #[error(transparent)]

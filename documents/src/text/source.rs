@@ -234,7 +234,7 @@ impl ValueFault {
 }
 
 /// Reasons why a text cannot be used.
-#[derive(Debug, thiserror::Error, Explain)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum TextError {
     /// The file cannot be read.
     #[error(transparent)]
