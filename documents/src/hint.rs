@@ -169,6 +169,8 @@ pub trait Explain: Error {
     }
 }
 
+impl Explain for std::convert::Infallible {}
+
 impl Explain for std::io::Error {
     fn hint(&self) -> Option<Hint> {
         let sentence = match self.kind() {

@@ -14,19 +14,14 @@
 // The derive macro names this crate, also within it.
 extern crate self as documents;
 
-mod counted;
-pub mod file;
 pub mod hint;
-mod name_list;
-mod parser_reason;
-pub mod settings;
-pub mod settings_text;
-mod similar;
 mod task;
+mod wording;
+pub mod file;
 pub mod text;
+pub mod settings;
 
-pub use counted::{counted, counted_as};
-pub use name_list::name_list;
-pub use parser_reason::{ParserReason, plain_parser_message};
-pub use similar::{did_you_mean, similar_names};
 pub use task::{Cancellation, Cancelled, Progress, Steps, Task};
+pub use wording::{
+    ParserReason, counted, counted_as, did_you_mean, name_list, plain_parser_message, similar_names,
+};

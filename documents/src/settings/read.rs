@@ -4,7 +4,7 @@ use std::path::Path;
 
 use toml::{Table as Toml, Value};
 
-use super::row::{Row, Table, Takes, as_written, text_of};
+use super::{Row, Table, Takes, as_written, text_of};
 use crate::hint::Explain;
 use crate::text::{
     Checked, KeyPath, KeyStep, Source, TextError, USUAL_HINT, ValueFault, read_text,

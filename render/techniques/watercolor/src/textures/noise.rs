@@ -1,14 +1,50 @@
-//! Pigment dispersion: grains that gather in flocks of several sizes.
+//! Noise of pigment: clouds carried by the water of a wet wash, grains that gather in flocks of
+//! several sizes, and the quantiles of such a texture.
 
+use graphics::field::Field;
+use graphics::noise::{Hills, random};
 use rand::RngExt;
 use rayon::prelude::*;
 
-use crate::settings::DispersionSettings;
-use graphics::field::Field;
-use graphics::noise::random;
+use crate::settings::{DispersionSettings, FlowSettings};
 
 /// Standard deviation of the texture before clipping to 0..1. Chosen by eye.
 const SPREAD: f64 = 0.2;
+
+/// A sum of octaves of gradient noise (Perlin 2002), each with half the wavelength and half
+/// the amplitude of the previous one; Bousseau et al. 2006, section 3.2.
+///
+/// The mean is 0.5, the standard deviation 0.2; values outside 0..1 (about 1 %) are clipped.
+/// Nearly all power lies between half a wave per widest cloud and two waves per narrowest
+/// one. The value of a pixel does not depend on the size of the field.
+#[must_use]
+pub fn turbulent_flow(width: usize, height: usize, settings: &FlowSettings) -> Field<f32> {
+    let mut random = random(settings.seed, 11);
+    let mut variance = 0.0;
+    let octaves: Vec<(Hills, f32, f32)> = (0..settings.octaves as i32)
+        .map(|octave| {
+            let share = 0.5_f64.powi(octave);
+            variance += Hills::VARIANCE * share * share;
+            let step = 2.0_f64.powi(octave) / f64::from(settings.size_px.max(1.0));
+            (Hills::new(&mut random), share as f32, step as f32)
+        })
+        .collect();
+    let scale = (SPREAD / variance.sqrt()) as f32;
+    let mut flow = Field::filled(width, height, 0.0);
+    flow.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+        for (x, out) in row.iter_mut().enumerate() {
+            let sum: f32 = octaves
+                .iter()
+                .map(|(hills, share, step)| share * hills.at(x as f32 * step, y as f32 * step))
+                .sum();
+            *out = (0.5 + scale * sum).clamp(0.0, 1.0);
+        }
+    });
+    flow
+}
+
+/// Standard deviation of the texture before clipping to 0..1. Chosen by eye.
+const DISPERSION_SPREAD: f64 = 0.2;
 
 /// A sum of white Gaussian noises, each blurred by a Gaussian twice as wide as that of the
 /// previous one and scaled to the same standard deviation; Bousseau et al. 2006, section 3.2.
@@ -19,7 +55,7 @@ const SPREAD: f64 = 0.2;
 #[must_use]
 pub fn dispersion(width: usize, height: usize, settings: &DispersionSettings) -> Field<f32> {
     let mut sum = Field::filled(width, height, 0.0_f32);
-    let scale = SPREAD / f64::from(settings.scales.max(1)).sqrt();
+    let scale = DISPERSION_SPREAD / f64::from(settings.scales.max(1)).sqrt();
     for octave in 0..settings.scales {
         let sigma = f64::from(settings.finest_px) * 2.0_f64.powi(octave as i32);
         let half = half_gaussian(sigma);
@@ -79,5 +115,34 @@ fn gaussian(row: &mut [f32], seed: u64, stream: u64) {
         for (out, part) in pair.iter_mut().zip([cos, sin]) {
             *out = radius * part;
         }
+    }
+}
+
+/// Number of intervals of the table.
+const INTERVALS: usize = 1024;
+
+/// The values of a texture below which 0, 1/1024, 2/1024 .. 1 of its pixels lie.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantiles(Vec<f32>);
+
+impl Quantiles {
+    /// The quantiles of `texture`; those of an empty one are 0.5.
+    #[must_use]
+    pub fn of(texture: &Field<f32>) -> Self {
+        let mut sorted = texture.values().to_vec();
+        sorted.par_sort_unstable_by(f32::total_cmp);
+        let at = |i: usize| sorted.get(i * sorted.len().saturating_sub(1) / INTERVALS);
+        Self((0..=INTERVALS).map(|i| at(i).copied().unwrap_or(0.5)).collect())
+    }
+
+    /// The value below which this `share` (0..1) of the pixels lies, accurate to about 0.001 of
+    /// them.
+    #[must_use]
+    pub fn at(&self, share: f32) -> f32 {
+        let place = share.clamp(0.0, 1.0) * INTERVALS as f32;
+        let first = (place as usize).min(INTERVALS - 1);
+        let low = self.0[first];
+        let high = self.0[first + 1];
+        low + (high - low) * (place - first as f32)
     }
 }

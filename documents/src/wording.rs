@@ -1,9 +1,100 @@
-//! Messages of parsers of TOML and JSON in words of the file, not of the program.
+//! Words of messages: names that are spelt like another, numbers with their nouns, lists of names,
+//! and messages of parsers of TOML and JSON in words of the file, not of the program.
 
-use std::fmt;
+use std::fmt::{self, Display};
 
-use crate::name_list::name_list;
-use crate::similar::did_you_mean;
+/// Most names that a suggestion holds.
+const MOST: usize = 3;
+
+/// Up to three of `known` that are spelt like `name`, the most similar first.
+///
+/// ```
+/// use documents::similar_names;
+/// assert_eq!(similar_names("viridan", ["Viridian", "Zinc White"]), ["Viridian"]);
+/// ```
+#[must_use]
+pub fn similar_names<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let name: Vec<char> = name.to_lowercase().chars().take(100).collect();
+    let mut ranked: Vec<_> = known
+        .into_iter()
+        .map(|other| {
+            let letters: Vec<char> = other.to_lowercase().chars().collect();
+            (edit_distance(&name, &letters), other)
+        })
+        .filter(|(edits, other)| *edits <= (name.len().max(other.len()) / 3).max(1))
+        .collect();
+    ranked.sort_unstable();
+    ranked.into_iter().take(MOST).map(|(_, other)| other).collect()
+}
+
+/// The question "did you mean A or B?" with the names of `known` that are spelt like `name`;
+/// `None` if there are none.
+///
+/// ```
+/// use documents::did_you_mean;
+/// let question = did_you_mean("Zink White", ["Viridian", "Zinc White"]);
+/// assert_eq!(question.as_deref(), Some("did you mean Zinc White?"));
+/// ```
+#[must_use]
+pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let similar = similar_names(name, known);
+    (!similar.is_empty()).then(|| format!("did you mean {}?", similar.join(" or ")))
+}
+
+/// Edit distance between `a` and `b` (Levenshtein 1966): insertions, deletions and
+/// substitutions of letters.
+fn edit_distance(a: &[char], b: &[char]) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, left) in a.iter().enumerate() {
+        let mut diagonal = std::mem::replace(&mut row[0], i + 1);
+        for (j, right) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(left != right);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// A number with its noun, in the plural unless it is one: `1 pigment`, `3 pigments`.
+///
+/// ```
+/// use documents::counted;
+/// assert_eq!([counted(1, "pigment"), counted(0, "pigment")], ["1 pigment", "0 pigments"]);
+/// ```
+#[must_use]
+pub fn counted<N: Display + PartialEq + From<u8>>(number: N, noun: &str) -> String {
+    counted_as(number, noun, &format!("{noun}s"))
+}
+
+/// A number with a noun whose plural is `many`.
+///
+/// ```
+/// assert_eq!(documents::counted_as(2, "swatch", "swatches"), "2 swatches");
+/// ```
+#[must_use]
+pub fn counted_as<N: Display + PartialEq + From<u8>>(number: N, one: &str, many: &str) -> String {
+    let noun = if number == N::from(1) { one } else { many };
+    format!("{number} {noun}")
+}
+
+/// The first `most` of `names`, and how many more there are: `a, b and 3 more`.
+///
+/// ```
+/// use documents::name_list;
+///
+/// assert_eq!(name_list(&["a", "b", "c"], 2, ", "), "a, b and 1 more");
+/// assert_eq!(name_list(&["a", "b"], 2, " or "), "a or b");
+/// ```
+#[must_use]
+pub fn name_list<S: AsRef<str>>(names: &[S], most: usize, separator: &str) -> String {
+    let shown: Vec<&str> = names.iter().take(most).map(AsRef::as_ref).collect();
+    let shown = shown.join(separator);
+    match names.len().saturating_sub(most) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
 
 /// Most known keys that a hint lists.
 const MOST_KEYS: usize = 30;
@@ -71,7 +162,7 @@ impl ParserReason {
     }
 }
 
-impl fmt::Display for ParserReason {
+impl Display for ParserReason {
     /// Writes the reason, and the way out after a semicolon.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.hint {
@@ -126,6 +217,17 @@ fn type_and_rest(wanted: &str) -> Option<(&str, &str)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_misspelt_pigment_finds_its_name() {
+        let known = ["Zinc White", "Prussian Blue", "Viridian", "Cobalt Blue"];
+        assert_eq!(similar_names("prusian blue", known), ["Prussian Blue"]);
+        assert_eq!(similar_names("Viridan", known), ["Viridian"]);
+        assert!(similar_names("Octarine", known).is_empty(), "no similar name");
+        let series = ["FL3.1", "FL3.2", "FL3.3", "FL3.4", "FL3"];
+        assert_eq!(similar_names("fl3.4", series), ["FL3.4", "FL3.1", "FL3.2"], "three at most");
+        assert_eq!(edit_distance(&['a', 'b'], &['b', 'a', 'c']), 2);
+    }
 
     #[test]
     fn types_are_told_in_words_of_the_file() {

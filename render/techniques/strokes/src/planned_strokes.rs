@@ -2,21 +2,24 @@
 //! along the structure of the picture.
 //!
 //! After Litwinowicz 1997 and Hertzmann 1998: from coarse to fine brushes, each level against
-//! the target blurred to its brush, and only where the canvas differs from it.
+//! the target blurred to its brush ([`LevelTarget`]), and only where the canvas differs from it.
+//! A curved stroke grows both ways from its start ([`trace_path`]) until its colour fits the
+//! target less than the canvas does.
 
+use graphics::blurred;
+use graphics::encoding::lab_from_linear;
+use graphics::field::Field;
+use graphics::orientation::OrientationField;
+use graphics::picture::Picture;
+use paint::layer::SLOTS;
+use paint::pose::Sample;
+use paint::separation::Separation;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::level_target::LevelTarget;
-use super::plan::{Order, Plan};
-use super::trace::{TraceInput, cell, trace_path};
-use graphics::field::Field;
-use graphics::picture::Picture;
-use paint::layer::SLOTS;
-use paint::pose::Sample;
-use paint::separation::Separation;
+use super::settings::{Order, Plan};
 
 /// Number of passes that look for further strokes between those already planned.
 const PASSES: usize = 3;
@@ -271,4 +274,193 @@ pub(super) fn poses(path: &[[f64; 2]], plan: &Plan, size: f64, cell_mm: f64) -> 
 /// Distance of two points.
 fn between(a: [f64; 2], b: [f64; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
+}
+
+/// Standard deviation of the blur at which pictures are compared, in brush widths (chosen by
+/// eye).
+pub(super) const BLUR_SIZES: f64 = 0.2;
+/// Change of the target in CIELAB over the width of a brush from which on it is detail (chosen by
+/// eye).
+const DETAIL: f32 = 16.0;
+/// Factor on differences where the target does not change at all (chosen by eye).
+const SMOOTH: f32 = 0.5;
+
+/// All that the strokes of a level need of the target, which stays while the canvas changes.
+#[derive(Debug)]
+pub(super) struct LevelTarget {
+    /// Index of the brush in the plan.
+    pub(super) level: usize,
+    /// Width of the brush in cells.
+    pub(super) size: f64,
+    /// Standard deviation in cells of the blur at which pictures are compared.
+    pub(super) blur_cells: f64,
+    /// The target, blurred.
+    pub(super) picture: Picture,
+    /// The same in CIELAB.
+    pub(super) lab: Field<[f32; 3]>,
+    /// Directions of its structure.
+    pub(super) flow: OrientationField,
+    /// CIELAB of the nearest colours that the palette reaches.
+    reached: Field<[f32; 3]>,
+}
+
+impl LevelTarget {
+    /// Prepares `target` for the brush number `level`, which is `size` cells wide.
+    pub(super) fn new(target: &Picture, separation: &Separation, size: f64, level: usize) -> Self {
+        let blur_cells = BLUR_SIZES * size;
+        let picture = blurred(target, blur_cells);
+        let lab = lab_from_linear(&picture);
+        let flow = OrientationField::from_lab(&lab, blur_cells);
+        let colors = picture.values().par_iter().with_min_len(1024);
+        let reached = colors.map(|&rgb| separation.film().rgb(&separation.heights_mm(rgb)));
+        let reached =
+            Field::from_values(picture.width(), picture.height(), reached.collect::<Vec<_>>());
+        let reached = lab_from_linear(&reached);
+        Self { level, size, blur_cells, picture, lab, flow, reached }
+    }
+
+    /// CIELAB difference (CIE 1976) of the canvas from the target or from the nearest colour that
+    /// the palette reaches, whichever is less. From the third brush on it counts less where the
+    /// target is smooth.
+    ///
+    /// # Panics
+    /// If the pictures differ in size.
+    pub(super) fn differences(&self, current: &Picture) -> Field<f32> {
+        assert_eq!(self.picture.bounds(), current.bounds(), "pictures differ in size");
+        let painted = lab_from_linear(&blurred(current, self.blur_cells));
+        let all = self.lab.values().iter().zip(self.reached.values()).zip(painted.values());
+        let differences = all.map(|((&target, &reached), &painted)| {
+            distance(target, painted).min(distance(reached, painted))
+        });
+        let width = painted.width();
+        let height = painted.height();
+        let mut differences = Field::from_values(width, height, differences.collect());
+        if self.level > 1 {
+            leave_smooth_alone(&mut differences, &self.lab, self.size);
+        }
+        differences
+    }
+}
+
+/// Reduces the difference where the target is smooth at the scale of a brush `size` cells wide:
+/// there the strokes of broader brushes may stay as they are.
+fn leave_smooth_alone(difference: &mut Field<f32>, target_lab: &Field<[f32; 3]>, size: f64) {
+    let width = target_lab.width();
+    let height = target_lab.height();
+    let reach = (size / 2.0).ceil() as usize;
+    let change = |at: usize| {
+        let x = at % width;
+        let y = at / width;
+        let left = x.saturating_sub(reach);
+        let right = (x + reach).min(width - 1);
+        let above = y.saturating_sub(reach);
+        let below = (y + reach).min(height - 1);
+        let across = distance(target_lab[(left, y)], target_lab[(right, y)]);
+        let down = distance(target_lab[(x, above)], target_lab[(x, below)]);
+        [across.max(down)]
+    };
+    let changes = (0..width * height).into_par_iter().map(change).collect();
+    let changes = blurred(&Field::from_values(width, height, changes), size / 4.0);
+    for (difference, [change]) in difference.values_mut().iter_mut().zip(changes.values()) {
+        *difference *= SMOOTH + (1.0 - SMOOTH) * (change / DETAIL).min(1.0);
+    }
+}
+
+/// Brush widths that a stroke runs on over others of its level.
+const OVERLAP: f64 = 1.0;
+
+/// Greatest turn of a stroke in radians over a brush width: in tighter bends the outer side of the
+/// brush would skip cells.
+const TIGHTEST: f64 = 1.0;
+
+/// Pictures that the strokes of one level are traced on. Lengths are in cells.
+pub(super) struct TraceInput<'a> {
+    /// Target in CIELAB, blurred to the scale of the brush.
+    pub(super) target: &'a Field<[f32; 3]>,
+    /// Structure of the target.
+    pub(super) flow: &'a OrientationField,
+    /// CIELAB difference of the canvas from the target, before this level.
+    pub(super) difference: &'a Field<f32>,
+    /// That difference, but 0 where a stroke of this level lies.
+    pub(super) bare: &'a Field<f32>,
+    /// Width of the brush in cells.
+    pub(super) size: f64,
+}
+
+/// Path of a stroke from `start`, as points in cells that lie at most half a brush apart.
+/// Points lie up to a whole brush beyond the canvas, so that the brush leaves only there.
+pub(super) fn trace_path(input: &TraceInput<'_>, plan: &Plan, start: [f64; 2]) -> Vec<[f64; 2]> {
+    let cell = cell(input.target, start);
+    let color = input.target[cell];
+    let along = input.flow.direction(cell.0, cell.1);
+    let back = half_path(input, plan, start, color, along.map(|side| -side));
+    let forth = half_path(input, plan, start, color, along);
+    back.into_iter().rev().chain([start]).chain(forth).collect()
+}
+
+/// Points after `start` in one of the two directions.
+fn half_path(
+    input: &TraceInput<'_>,
+    plan: &Plan,
+    start: [f64; 2],
+    color: [f32; 3],
+    mut heading: [f64; 2],
+) -> Vec<[f64; 2]> {
+    let step = (input.size / 4.0).max(0.5);
+    let steps = |sizes: f64| (sizes * input.size / 2.0 / step).round() as usize;
+    let least = steps(plan.shortest).max(1);
+    let most = steps(plan.longest).max(1);
+    let mut painted = 0.0;
+    let mut points = Vec::new();
+    let mut place = start;
+    while points.len() < most {
+        let (x, y) = cell(input.target, place);
+        let mut along = input.flow.direction(x, y);
+        if along[0] * heading[0] + along[1] * heading[1] < 0.0 {
+            along = along.map(|side| -side);
+        }
+        let bend = plan.bending;
+        let turned: [f64; 2] = std::array::from_fn(|i| bend * along[i] + (1.0 - bend) * heading[i]);
+        heading = turned_to(heading, turned, TIGHTEST * step / input.size);
+        place = [place[0] + step * heading[0], place[1] + step * heading[1]];
+        if beyond(input, place) > input.size {
+            break;
+        }
+        let here = cell(input.target, place);
+        let departs = distance(input.target[here], color);
+        let limit = input.difference[here].min(plan.departure as f32);
+        painted = if input.bare[here] > 0.0 { 0.0 } else { painted + step };
+        let again = painted > OVERLAP * input.size;
+        if points.len() >= least && (departs >= limit || again) {
+            break;
+        }
+        points.push(place);
+    }
+    points
+}
+
+/// Unit vector `heading`, turned towards the direction of `to` by at most `most` radians.
+fn turned_to(heading: [f64; 2], to: [f64; 2], most: f64) -> [f64; 2] {
+    let across = heading[0] * to[1] - heading[1] * to[0];
+    let along = heading[0] * to[0] + heading[1] * to[1];
+    let (sin, cos) = across.atan2(along).clamp(-most, most).sin_cos();
+    [heading[0] * cos - heading[1] * sin, heading[0] * sin + heading[1] * cos]
+}
+
+/// Distance of a point from the canvas in cells, 0 or less within it.
+fn beyond(input: &TraceInput<'_>, [x, y]: [f64; 2]) -> f64 {
+    let width = input.target.width() as f64;
+    let height = input.target.height() as f64;
+    (-x).max(x - width).max(-y).max(y - height)
+}
+
+/// Column and row of the cell that holds a point; for a point off the canvas, the nearest.
+pub(super) fn cell<T>(field: &Field<T>, [x, y]: [f64; 2]) -> (usize, usize) {
+    ((x as usize).min(field.width() - 1), (y as usize).min(field.height() - 1))
+}
+
+/// Colour difference CIE 1976 of two colours in CIELAB.
+pub(super) fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
+    let [l, u, v]: [f32; 3] = std::array::from_fn(|i| a[i] - b[i]);
+    (l * l + u * u + v * v).sqrt()
 }
