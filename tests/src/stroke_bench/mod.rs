@@ -11,8 +11,8 @@
 
 pub mod heights;
 pub mod measure;
+pub mod report;
 pub mod hand;
 pub mod canvas;
 pub mod strokes;
-pub mod report;
 pub mod sheet;

@@ -7,8 +7,6 @@ use std::fmt::Write;
 use image::RgbImage;
 use serde_json::{Value, json};
 
-use super::canvas::Bench;
-
 /// A number with four significant digits, or `-` if it is none.
 #[must_use]
 pub fn number(value: f64) -> String {
@@ -69,9 +67,9 @@ pub fn table(reports: &[CaseReport]) -> String {
     text
 }
 
-/// All figures as JSON. A value that is not a number is null.
+/// All figures of a bench with cells of `cell_mm`, as JSON. A value that is not a number is null.
 #[must_use]
-pub fn json(bench: &Bench, reports: &[CaseReport]) -> Value {
+pub fn json(cell_mm: f64, small: bool, reports: &[CaseReport]) -> Value {
     let figures: Vec<Value> = reports
         .iter()
         .flat_map(|report| report.figures.iter().map(move |figure| (report.name, figure)))
@@ -89,8 +87,8 @@ pub fn json(bench: &Bench, reports: &[CaseReport]) -> Value {
         .collect();
     json!({
         "format": "impasto-stroke-bench",
-        "cell_mm": bench.cell_mm,
-        "small": bench.small,
+        "cell_mm": cell_mm,
+        "small": small,
         "figures": figures,
     })
 }
@@ -223,7 +221,7 @@ mod tests {
         let report = CaseReport { name: "one", title: "One stroke", figures, panels: Vec::new() };
         let text = table(std::slice::from_ref(&report));
         assert!(text.contains("1 of 2 figures"), "{text}");
-        let json = json(&Bench::new(true), &[report]);
+        let json = json(0.25, true, &[report]);
         let told = |at: usize| json["figures"][at]["ok"].clone();
         assert_eq!([told(0), told(1), told(2)], [json!(true), json!(false), Value::Null]);
         assert_eq!(json["figures"][1]["value"], Value::Null);

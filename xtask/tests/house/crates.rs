@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::files::{text, texts};
+use xtask::files::{text, texts};
 
 /// Dependencies of every kind in a manifest, by name, each with its line.
 fn dependencies(manifest: &str) -> BTreeMap<String, String> {
@@ -139,6 +139,13 @@ fn only_programs_parse_arguments() {
         let may = path.starts_with("apps/cli/") || path.starts_with("apps/studio/");
         assert!(may || !dependencies(&path).contains_key("clap"), "{path} depends on clap");
     }
+}
+
+#[test]
+fn cargo_run_runs_the_program() {
+    let manifest: toml::Table = text("Cargo.toml").parse().unwrap();
+    let default = manifest["workspace"]["default-members"].as_array().unwrap();
+    assert_eq!(default, &["apps/cli".into()], "members with several programs need `--bin`");
 }
 
 /// The profile of tests in a manifest, without the packages that `lock` does not hold.

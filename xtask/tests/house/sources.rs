@@ -1,19 +1,9 @@
-//! Source files: length, ASCII, no unfinished code, every shader in a kernel. Data files: each
+//! Source files: ASCII, no unfinished code, every shader in a kernel. Data files: each
 //! names its source.
 
 use std::path::Path;
 
-use crate::files::{files_below, text, texts};
-
-const LONGEST_FILE: usize = 400;
-
-#[test]
-fn no_source_file_is_too_long() {
-    for (path, text) in texts(&[".rs", ".wgsl"]) {
-        let lines = text.lines().count();
-        assert!(lines <= LONGEST_FILE, "{path}: {lines} lines");
-    }
-}
+use xtask::files::{files_below, text, texts};
 
 #[test]
 fn sources_are_ascii() {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::files::{files_below, text};
+use xtask::files::{files_below, text};
 
 /// A module: its file, its child modules, re-exports and other paths.
 #[derive(Debug, Default)]
@@ -132,7 +132,7 @@ fn read(modules: &mut Modules, path: Vec<String>, file: &str, folder: &str) {
         let inner = format!("{folder}/{child}");
         let flat = format!("{inner}.rs");
         let nested = format!("{inner}/mod.rs");
-        let child_file = [flat, nested].into_iter().find(|file| crate::files::exists(file));
+        let child_file = [flat, nested].into_iter().find(|file| xtask::files::exists(file));
         if let Some(child_file) = child_file {
             let mut child_path = path.clone();
             child_path.push(child);

@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
-mod files;
 mod crates;
+mod figures;
 mod modules;
 mod sources;
 mod words;
