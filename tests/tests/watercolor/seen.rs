@@ -4,9 +4,9 @@
 
 use std::collections::BTreeSet;
 
-use documents::hint::Explain;
+use documents::hint::{Explain, Fault};
 use glam::Vec3;
-use graphics::camera::{Camera, CameraPath, CameraPathError, Framing};
+use graphics::camera::{Camera, CameraPath, Framing};
 use graphics::mesh::{Material, Mesh, Triangle};
 use graphics::surface::{
     Fragment, NO_TRIANGLE, Rasteriser, Sides, VisibilityBuffer, position_at, visible,
@@ -410,12 +410,16 @@ fn bad_paths_are_refused_with_their_place() {
         ("frames = 9", "frames = 0", "`frames`: 0"),
         ("frames = 9", "frames = 9000000", "`frames`: 9000000"),
         ("frames = 9", "", "line 1: the key `frames` is missing"),
-        ("frames = 9", "frames = 9\nfps = 3", "line 3: unknown key `fps`"),
+        ("frames = 9", "frames = 9\nfps = 3", "line 3: fps: unknown key `fps`"),
         ("target = [0, 0, 0]", "target = [0, 0, 10]", "`keyframe 1: target`"),
         ("target = [0, 0, 0]", "target = [0, 0]", "line 5"),
         ("target = [0, 0, 0]", "target = [0, nan, 0]", "`keyframe 1: target`"),
         ("= 40", "= 180", "`keyframe 1: field_of_view_deg`: `180`"),
-        ("= 20", "= 20\nup = [1, 0, 0]\nroll = 3", "line 12: unknown key `roll`"),
+        (
+            "= 20",
+            "= 20\nup = [1, 0, 0]\nroll = 3",
+            "line 12: [[keyframe]] 2, roll: unknown key `roll`",
+        ),
         ("target = [0, 0, 0]", "target = [0, 0, 0]\nup = [0, 0, 2]", "`keyframe 1: up`"),
         ("eye = [0, 0, 10]\n", "", "the key `eye` is missing"),
         ("[[keyframe]]", "[keyframe]", "duplicate key"),
@@ -429,5 +433,5 @@ fn bad_paths_are_refused_with_their_place() {
     }
     assert!(CameraPath::from_text("a path", "frames = 3").is_err());
     let error = CameraPath::open(std::path::Path::new("no/such.toml")).unwrap_err();
-    assert!(matches!(error, CameraPathError::Unreadable { .. }), "{error}");
+    assert_eq!(error.fault(), Fault::Environment, "{error}");
 }

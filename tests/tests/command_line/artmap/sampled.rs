@@ -392,7 +392,11 @@ fn bad_marks_name_file_sample_and_way_out_and_leave_no_files() {
             &["sample `shade`, scribble: crosses the line of sample `wall` at", "shorten"],
         ),
         (rectangle, "rectangle = [106, 6, 88, 208]", &["sample `shade`, rectangle", "lies off"]),
-        ("spacing", "spaceing", &["line 10, sample `shade`: unknown key `spaceing`", "keys are"]),
+        (
+            "spacing",
+            "spaceing",
+            &["line 10: [[sample]] 2, spaceing: unknown key", "did you mean spacing?"],
+        ),
         (
             "[150, 68]]",
             "[150, 60]]",

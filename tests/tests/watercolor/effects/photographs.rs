@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 
 use calibrate::PigmentId;
-use documents::hint::Explain;
+use documents::hint::{Explain, Fault};
 use graphics::compute::Compute;
 use graphics::field::Field;
 use graphics::picture::Photograph;
@@ -16,7 +16,7 @@ use image::{ImageFormat, Rgb, RgbImage};
 use spectra::color::{Lab, delta_e_ciede2000};
 use watercolor::{
     BackRunSettings, BrushTouch, Controls, FrameTextures, GlazeError, Glazes, PaperTexture,
-    PhotographPainter, PreparedPhotograph, Preset, Settings, SettingsError, Textures, Wash,
+    PhotographPainter, PreparedPhotograph, Preset, Settings, Textures, Wash,
     back_runs, paint,
 };
 
@@ -318,7 +318,7 @@ fn presets_are_read_and_tell_of_every_key() {
         let settings = preset.settings();
         assert!(!seen.contains(&settings), "{preset:?} equals another preset");
         seen.push(settings);
-        let found = keys(preset.text());
+        let found = keys(&preset.text());
         for (key, documented) in &found {
             assert!(documented, "{preset:?}: no comment above {key}");
         }
@@ -345,15 +345,21 @@ fn what_a_file_leaves_out_is_usual() {
 #[test]
 fn broken_files_are_told_by_line_and_key() {
     for (text, told) in [
-        ("[edges]\n\nstrenght = 4.0", "a.toml, line 3: unknown key `strenght`"),
-        ("\n[edge]\nstrength = 4.0", "a.toml, line 2: unknown key `edge`"),
-        ("[edges]\nstrength = \"much\"", "a.toml, line 2: invalid type: text \"much\""),
+        ("[edges]\n\nstrenght = 4.0", "a.toml, line 3: edges.strenght: unknown key `strenght`"),
+        ("\n[edge]\nstrength = 4.0", "a.toml, line 2: edge: unknown key `edge`"),
+        (
+            "[edges]\nstrength = \"much\"",
+            "a.toml, line 2: edges.strength: invalid type: text \"much\"",
+        ),
         ("[flow]\nstrength = 1\nstrength = 2", "a.toml, line 3: duplicate key"),
         ("[flow\nstrength = 1", "a.toml, line 1: "),
-        ("[flow]\noctaves = 2.5", "a.toml, line 2: invalid type: number `2.5`"),
-        ("[flow]\nseed = -1", "a.toml, line 2: invalid value: number `-1`"),
-        ("[paper]\nkind = \"glossy\"", "a.toml, line 2: unknown word `glossy`"),
-        ("[flow]\n\noctaves = 9", "a.toml, line 3: flow.octaves takes 1 to 8, found `9`"),
+        ("[flow]\noctaves = 2.5", "a.toml, line 2: flow.octaves: invalid type: number `2.5`"),
+        ("[flow]\nseed = -1", "a.toml, line 2: flow.seed: invalid value: number `-1`"),
+        ("[paper]\nkind = \"glossy\"", "a.toml, line 2: paper.kind: unknown word `glossy`"),
+        (
+            "[flow]\n\noctaves = 9",
+            "a.toml, line 3: flow.octaves takes a whole number from 1 to 8, found `9`",
+        ),
         (
             "[wobble]\namount_px = -0.1",
             "a.toml, line 2: wobble.amount_px takes 0 to 50, found `-0.1`",
@@ -366,9 +372,12 @@ fn broken_files_are_told_by_line_and_key() {
         ),
         (
             "[paper]\ncolour = \"white\"",
-            "a.toml, line 2: paper.colour is written #rrggbb, found `white`",
+            "a.toml, line 2: paper.colour takes a colour written #rrggbb, found `white`",
         ),
-        ("[dry_brush]\ncolour = \"#12345\"", "a.toml, line 2: dry_brush.colour is written #rrggbb"),
+        (
+            "[dry_brush]\ncolour = \"#12345\"",
+            "a.toml, line 2: dry_brush.colour takes a colour written #rrggbb",
+        ),
         ("\u{feff}[flow]\nseed = 9", ""),
     ] {
         let read = Settings::from_toml("a.toml", text);
@@ -381,7 +390,8 @@ fn broken_files_are_told_by_line_and_key() {
         assert!(error.hint().is_some(), "{text}");
     }
     let missing = Settings::open(std::path::Path::new("no/such.toml")).unwrap_err();
-    assert!(matches!(&missing, SettingsError::Unreadable { name, .. } if name == "no/such.toml"));
+    assert!(missing.to_string().starts_with("no/such.toml"), "{missing}");
+    assert!(missing.hint().is_some() && missing.fault() == Fault::Environment);
 }
 
 #[test]
