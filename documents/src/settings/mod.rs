@@ -250,7 +250,7 @@ mod tests {
             (Takes::Text, "\"\"", "1"),
             (Takes::Switch, "false", "0"),
             (Takes::Color, "\"#fBf9f4\"", "\"#fbf9f\""),
-            (Takes::Color, "\"#000000\"", "\"#00000é\""),
+            (Takes::Color, "\"#000000\"", "\"#00000\u{e9}\""),
         ] {
             assert!(fits(takes, good) && !fits(takes, bad), "{takes:?}");
         }

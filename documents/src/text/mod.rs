@@ -430,7 +430,7 @@ mod tests {
             assert!(found.starts_with(message), "{text}: {found}");
             assert!(!found.contains("at line"), "{found}");
         }
-        let source = Source::json("a", "{\"é\": 0, \"width\": 3}").unwrap();
+        let source = Source::json("a", "{\"\u{e9}\": 0, \"width\": 3}").unwrap();
         let fault = ValueFault::new(&KeyPath::of("width"), "1 to 2", 3, "1 is usual");
         let wanted = "a, line 1, column 10: width takes 1 to 2, found `3`";
         assert_eq!(source.located(fault).to_string(), wanted);
