@@ -1,12 +1,11 @@
 //! The correlated colour temperature of a light.
 
-use crate::black_body::black_body;
 use crate::color::Xyz;
 use crate::grid::Grid;
-use crate::illuminant::Illuminant;
-use crate::integrate::TristimulusWeights;
+use crate::illuminant::{Illuminant, Observer};
 use crate::interpolate::Interpolation;
-use crate::observer::Observer;
+use crate::light::black_body;
+use crate::viewing::TristimulusWeights;
 
 /// The correlated colour temperature of a light.
 #[derive(Debug, Clone, Copy, PartialEq)]

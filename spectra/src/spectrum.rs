@@ -1,11 +1,14 @@
 //! Spectra with a physical quantity as their type.
+//!
+//! Spectra at irregular wavelengths.
 
 use std::marker::PhantomData;
 
-use crate::grid::Grid;
-use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
 use documents::counted;
 use documents::hint::Explain;
+
+use crate::grid::{Grid, Wavelength, WavelengthError};
+use crate::interpolate::{Extrapolation, InterpolateError, Interpolation, Spline};
 
 /// A physical quantity over wavelength, with its range of valid values.
 pub trait Quantity: Copy + std::fmt::Debug + PartialEq {
@@ -169,3 +172,158 @@ pub enum SpectrumError {
 }
 
 impl Explain for SpectrumError {}
+
+/// Fewest values for a spline, as Sprague's polynomial needs on a regular grid.
+const LEAST_OF_SPLINE: usize = 6;
+
+/// Values at strictly rising wavelengths with no regular step, as spectrometers with an array
+/// detector give them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IrregularSpectrum {
+    nm: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl IrregularSpectrum {
+    /// A spectrum of `values` at the wavelengths `nm`.
+    ///
+    /// # Errors
+    /// [`IrregularSpectrumError`] if their numbers differ, there are none, or `nm` contains a
+    /// number that is not a wavelength or does not rise strictly.
+    pub fn new(nm: Vec<f64>, values: Vec<f64>) -> Result<Self, IrregularSpectrumError> {
+        if nm.len() != values.len() || nm.is_empty() {
+            return Err(IrregularSpectrumError::Count {
+                wavelengths: nm.len(),
+                values: values.len(),
+            });
+        }
+        for &nm in &nm {
+            Wavelength::from_nm(nm)?;
+        }
+        if let Some(pair) = nm.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return Err(IrregularSpectrumError::Order { before: pair[0], after: pair[1] });
+        }
+        Ok(Self { nm, values })
+    }
+
+    /// The wavelengths in nm, rising.
+    #[must_use]
+    pub fn wavelengths_nm(&self) -> &[f64] {
+        &self.nm
+    }
+
+    /// The values, in order of rising wavelength.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The value at `nm`, interpolated linearly.
+    ///
+    /// # Errors
+    /// [`IrregularSpectrumError::Outside`] outside the band, unless the end values are held.
+    pub fn at_linear(&self, nm: f64, ends: Extrapolation) -> Result<f64, IrregularSpectrumError> {
+        let last = self.nm.len() - 1;
+        if !(self.nm[0]..=self.nm[last]).contains(&nm) {
+            return match ends {
+                Extrapolation::Hold if !nm.is_nan() => {
+                    Ok(self.values[if nm < self.nm[0] { 0 } else { last }])
+                }
+                _ => Err(IrregularSpectrumError::Outside {
+                    nm,
+                    start_nm: self.nm[0],
+                    end_nm: self.nm[last],
+                }),
+            };
+        }
+        let after = self.nm.partition_point(|&w| w < nm);
+        if self.nm[after] == nm {
+            return Ok(self.values[after]);
+        }
+        let before = after - 1;
+        let fraction = (nm - self.nm[before]) / (self.nm[after] - self.nm[before]);
+        Ok(self.values[before] * (1.0 - fraction) + self.values[after] * fraction)
+    }
+
+    /// The spectrum on `grid`, interpolated by a natural cubic spline, linearly if there are fewer
+    /// than six values; outside the band the end values hold. Values at the wavelengths of `grid`
+    /// itself are returned unchanged. If no value is negative, none becomes so.
+    ///
+    /// This suits reflectances, which are smooth. A lamp with lines is interpolated linearly
+    /// ([`IrregularSpectrum::at_linear`]), since a spline would swing beside each line.
+    #[must_use]
+    pub fn on_grid(&self, grid: Grid) -> Vec<f64> {
+        if Grid::through(&self.nm) == Some(grid) {
+            return self.values.clone();
+        }
+        let curve = self.smooth_curve();
+        let last = self.nm.len() - 1;
+        let held = |nm| self.values[if nm < self.nm[0] { 0 } else { last }];
+        grid.wavelengths_nm().map(|nm| curve.at(nm).unwrap_or_else(|| held(nm))).collect()
+    }
+
+    /// The curve through the values of a smooth quantity.
+    pub(crate) fn smooth_curve(&self) -> SmoothCurve<'_> {
+        let enough = self.nm.len() >= LEAST_OF_SPLINE;
+        let spline = enough.then(|| Spline::through(&self.nm, &self.values));
+        let is_negative = self.values.iter().any(|&value| value < 0.0);
+        let least = if is_negative { f64::NEG_INFINITY } else { 0.0 };
+        SmoothCurve { spectrum: self, spline, least }
+    }
+}
+
+/// A spectrum as a natural cubic spline, or as straight lines if it has fewer than six values.
+#[derive(Debug)]
+pub(crate) struct SmoothCurve<'a> {
+    spectrum: &'a IrregularSpectrum,
+    spline: Option<Spline<'a>>,
+    /// Least value of the curve: 0 unless the spectrum itself has negative values.
+    least: f64,
+}
+
+impl SmoothCurve<'_> {
+    /// The value at `nm`; `None` outside the band.
+    pub(crate) fn at(&self, nm: f64) -> Option<f64> {
+        let linear = self.spectrum.at_linear(nm, Extrapolation::Refuse).ok()?;
+        Some(self.spline.as_ref().map_or(linear, |spline| spline.at(nm).max(self.least)))
+    }
+}
+
+/// Values that do not form a spectrum, or a spectrum that cannot be evaluated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum IrregularSpectrumError {
+    /// The numbers of wavelengths and values differ, or there are none.
+    #[error(
+        "one value for each wavelength is needed, found `{values}` for {}",
+        counted(*wavelengths, "wavelength")
+    )]
+    Count {
+        /// Number of wavelengths.
+        wavelengths: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A number that is not a wavelength.
+    #[error(transparent)]
+    Wavelength(#[from] WavelengthError),
+    /// The wavelengths do not rise strictly.
+    #[error("wavelengths must rise strictly, found {before} nm before `{after}` nm")]
+    Order {
+        /// The wavelength before, in nm.
+        before: f64,
+        /// The wavelength that is not larger, in nm.
+        after: f64,
+    },
+    /// The wavelength is outside the band of the spectrum.
+    #[error("`{nm}` nm lies outside the measured band of {start_nm} to {end_nm} nm")]
+    Outside {
+        /// The requested wavelength in nm.
+        nm: f64,
+        /// First wavelength of the spectrum in nm.
+        start_nm: f64,
+        /// Last wavelength of the spectrum in nm.
+        end_nm: f64,
+    },
+}
+
+impl Explain for IrregularSpectrumError {}

@@ -1,8 +1,7 @@
 //! CIE whiteness and tint.
 
 use super::xyz::Xyz;
-use crate::illuminant::Illuminant;
-use crate::observer::Observer;
+use crate::illuminant::{Illuminant, Observer};
 use documents::hint::{Explain, Fault, Hint};
 
 /// Least whiteness to which the formula applies; the greatest is 5 Y - 280.

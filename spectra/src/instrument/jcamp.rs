@@ -5,14 +5,11 @@
 //! readable form", Applied Spectroscopy 42 (1988) 151. Supported are XYDATA= (X++(Y..Y)) in
 //! every packed form, XYPOINTS= (XY..XY), and the pages of NTUPLES.
 
-use super::axis::Axis;
-use super::error::InstrumentError;
-use super::jcamp_data::{Field, Scaling, StatedStep, points, runs};
-use super::jcamp_tuples::pages;
-use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
-use super::number::{Decimal, required_number};
+use super::columns::Axis;
+use super::decode::{Decimal, lines, required_number};
+use super::jcamp_data::{Field, Scaling, StatedStep, pages, points, runs};
+use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Ordered, Point, ordered};
-use super::text::lines;
 
 /// A processed spectrum with all values above this percentage is in fact counts.
 const MOST_PERCENT: f64 = 200.0;
@@ -87,7 +84,7 @@ impl Block<'_> {
         let title = self.field("TITLE").map_or("", |(_, title)| title);
         let pages = pages(file, &self.fields)?;
         let several = pages.len() > 1;
-        let spectrum = |page: super::jcamp_tuples::Page| {
+        let spectrum = |page: super::jcamp_data::Page| {
             let axis = axis(file, page.line, &page.x_units)?;
             let ordered = in_nm(file, page.points, axis)?;
             let words = format!("{} {}", page.units, page.variable);

@@ -1,6 +1,6 @@
 //! The points of a spectrum in order of wavelength.
 
-use super::error::InstrumentError;
+use super::measured::InstrumentError;
 
 /// Treatment of a wavelength that occurs more than once.
 #[derive(Debug, Clone, Copy, PartialEq)]

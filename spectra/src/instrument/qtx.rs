@@ -1,11 +1,9 @@
 //! Datacolor QTX: lines `KEY=value`, starting with `STD_` for a standard and with `BAT_` for a
 //! batch. Reflectance is in percent, from `REFLLOW` nm in steps of `REFLINTERVAL`.
 
-use super::error::InstrumentError;
-use super::measured::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
-use super::number::{Decimal, required_number};
+use super::decode::{Decimal, lines, required_number};
+use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 use super::points::{Duplicates, Point, ordered};
-use super::text::lines;
 
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut records = Vec::new();

@@ -1,12 +1,20 @@
 //! Reading a file of any format.
+//!
+//! Opening instrument files by path.
 
-use super::content_kind::ContentKind;
-use super::error::InstrumentError;
-use super::file_text::FileText;
-use super::format::Format;
-use super::measured::MeasuredSpectrum;
-use super::{asd, avantes, avasoft7, avasoft8, bruker, cgats, columns, cxf, jcamp, ocean_optics};
-use super::{procspec, qtx, sekonic, spectral_evolution, svc, tm27, uprtek};
+use std::path::Path;
+
+use documents::file::{self, FileError};
+use documents::hint::{Explain, Fault, Hint};
+
+use super::format::{ContentKind, FileText, Format};
+use super::measured::{
+    ChoiceError, InstrumentError, MeasuredSpectrum, choose_spectrum, split_file_and_name,
+};
+use super::workbook::split_file_and_sheet;
+use super::{
+    avantes, cgats, columns, cxf, field_spectrometers, jcamp, light_meters, ocean_optics, qtx,
+};
 
 /// The content of an instrument's file.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,15 +47,15 @@ pub fn read(
         Format::Qtx => qtx::read(file, &text.text),
         Format::OceanOptics => ocean_optics::read(file, &text.text),
         Format::Avantes => avantes::read(file, &text.text),
-        Format::Bruker => bruker::read(file, &text.text),
+        Format::Bruker => columns::bruker_read(file, &text.text),
         Format::Columns | Format::Workbook => columns::read(file, &text.text),
         Format::Cxf => cxf::read(file, &text.text),
-        Format::Tm27 => tm27::read(file, &text.text),
-        Format::Sekonic => sekonic::read(file, &text.text),
-        Format::Asd => asd::read_text(file, &text.text),
-        Format::SpectralEvolution => spectral_evolution::read(file, &text.text),
-        Format::Svc => svc::read(file, &text.text),
-        Format::Uprtek => uprtek::read(file, &text.text),
+        Format::Tm27 => light_meters::tm27_read(file, &text.text),
+        Format::Sekonic => light_meters::sekonic_read(file, &text.text),
+        Format::Asd => field_spectrometers::read_text(file, &text.text),
+        Format::SpectralEvolution => field_spectrometers::read(file, &text.text),
+        Format::Svc => field_spectrometers::svc_read(file, &text.text),
+        Format::Uprtek => light_meters::read(file, &text.text),
     }?;
     let format = if text.is_sheet && told.is_none() { Format::Workbook } else { found };
     let mut found = checked(file, format, spectra)?;
@@ -77,10 +85,10 @@ fn read_binary(
         });
     }
     let spectra = match ContentKind::of(file, bytes)? {
-        ContentKind::Asd => asd::read_binary(file, bytes),
-        ContentKind::ProcSpec => procspec::read(file, bytes),
-        ContentKind::AvaSoft7 => avasoft7::read(file, bytes),
-        ContentKind::AvaSoft8 => avasoft8::read(file, bytes),
+        ContentKind::Asd => field_spectrometers::read_binary(file, bytes),
+        ContentKind::ProcSpec => ocean_optics::procspec_read(file, bytes),
+        ContentKind::AvaSoft7 => avantes::avasoft7_read(file, bytes),
+        ContentKind::AvaSoft8 => avantes::avasoft8_read(file, bytes),
         ContentKind::Text | ContentKind::Workbook => Ok(Vec::new()),
     }?;
     checked(file, own, spectra)
@@ -97,9 +105,85 @@ fn checked(
     Ok(InstrumentFile { format, spectra })
 }
 
+/// Bytes of a file that is given as `FILE` or `FILE.xlsx#SHEET`.
+///
+/// # Errors
+/// [`FileError`] if the file cannot be read.
+pub fn bytes_of(path: impl AsRef<Path>) -> Result<Vec<u8>, FileError> {
+    let path = path.as_ref();
+    let sheet = path.to_str().map(split_file_and_sheet).filter(|(_, sheet)| sheet.is_some());
+    file::read(sheet.map_or(path, |(file, _)| Path::new(file)))
+}
+
+/// Reads all spectra of an instrument's file, or of the sheet `FILE.xlsx#SHEET`. The format is detected from
+/// the content.
+///
+/// # Errors
+/// [`OpenError`] if the file cannot be read or is faulty.
+pub fn open(path: impl AsRef<Path>) -> Result<InstrumentFile, OpenError> {
+    let path = path.as_ref();
+    Ok(read(&path.display().to_string(), &bytes_of(path)?, None)?)
+}
+
+/// One spectrum of a file, with the content of that file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OpenedSpectrum {
+    /// Path of the file, as it was given.
+    pub file: String,
+    /// All bytes of the file, for a checksum.
+    pub bytes: Vec<u8>,
+    /// The selected spectrum.
+    pub spectrum: MeasuredSpectrum,
+}
+
+/// Reads one spectrum, given as `FILE` or `FILE#NAME`; of a certain sheet as `FILE.xlsx#SHEET#NAME`.
+///
+/// # Errors
+/// [`OpenError`] if the file cannot be read or is faulty, or if the spectrum is not
+/// determined: no spectrum of that name, or several in a file given without a name.
+pub fn open_spectrum(file_and_name: &str) -> Result<OpenedSpectrum, OpenError> {
+    let (file, name) = split_file_and_name(file_and_name);
+    let bytes = bytes_of(file)?;
+    let found = read(file, &bytes, None)?.spectra;
+    let spectrum = choose_spectrum(file, &found, name)?.clone();
+    Ok(OpenedSpectrum { file: file.to_owned(), bytes, spectrum })
+}
+
+/// A file of an instrument that cannot be opened.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum OpenError {
+    /// The file cannot be read from the disk.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The content is faulty or of no known format.
+    #[error(transparent)]
+    Instrument(#[from] InstrumentError),
+    /// The requested spectrum is not determined.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
+}
+
+impl Explain for OpenError {
+    fn hint(&self) -> Option<Hint> {
+        match self {
+            Self::File(error) => error.hint(),
+            Self::Instrument(error) => error.hint(),
+            Self::Choice(error) => error.hint(),
+        }
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::File(error) => error.fault(),
+            Self::Instrument(error) => error.fault(),
+            Self::Choice(error) => error.fault(),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::{asd, avasoft7, avasoft8, procspec, workbook};
+    use super::super::{avantes, field_spectrometers, ocean_optics, workbook};
     use super::*;
 
     /// Name, bytes and format of a small file of every binary format.
@@ -107,10 +191,14 @@ mod tests {
         let counts = [100.0, 200.0, 600.0, 700.0];
         let pixels = [30.0, 110.0, 10.0, 20.0, 90.0, 10.0, 60.0, 110.0, 10.0];
         vec![
-            ("some.asd", asd::tests::asd(0, &counts, Some(&[1000.0; 4])), Format::Asd),
-            ("some.trm", avasoft7::tests::avasoft7(70.0, &pixels), Format::Avantes),
-            ("some.rfl8", avasoft8::tests::avasoft8(b"AVS82", 2, 4), Format::Avantes),
-            ("some.ProcSpec", procspec::tests::procspec("x"), Format::OceanOptics),
+            (
+                "some.asd",
+                field_spectrometers::tests::asd(0, &counts, Some(&[1000.0; 4])),
+                Format::Asd,
+            ),
+            ("some.trm", avantes::tests::avasoft7(70.0, &pixels), Format::Avantes),
+            ("some.rfl8", avantes::avasoft8_tests::avasoft8(b"AVS82", 2, 4), Format::Avantes),
+            ("some.ProcSpec", ocean_optics::tests::procspec("x"), Format::OceanOptics),
             (
                 "some.xlsx",
                 workbook::tests::workbook(&[("A", workbook::tests::ROWS)]),

@@ -7,7 +7,7 @@ use std::io::Cursor;
 
 use calamine::{DataRef, DataType, Reader, Xlsx};
 
-use super::error::InstrumentError;
+use super::measured::InstrumentError;
 use documents::name_list;
 
 const FORMAT: &str = "Excel workbook";
@@ -175,7 +175,7 @@ fn text(mut cells: Vec<Cell>) -> Option<String> {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::super::zip_archive::tests::archive;
+    use super::super::decode::tests::archive;
     use super::*;
 
     /// A workbook with sheets of this name and XML of rows.

@@ -9,7 +9,7 @@ use quick_xml::escape::resolve_predefined_entity;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
 
-use super::error::InstrumentError;
+use super::measured::InstrumentError;
 
 const DEEPEST: usize = 64;
 

@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::error::ReferencingError;
-use super::reference::{LEAST_LIGHT, Referencing};
-use super::tile::{Dark, Tile};
+use super::{Dark, LEAST_LIGHT, Referencing, ReferencingError, Tile};
 use crate::instrument::{MeasuredSpectrum, OpenError, open_spectrum, split_file_and_name};
 use documents::hint::{Explain, Fault, Hint};
 

@@ -2,13 +2,10 @@
 
 use spectra::{Extrapolation, Interpolation};
 
-use super::error::CurationError;
-use super::resample::on_grid;
-use super::rescale::with_reference;
-use super::select::renamed;
-use crate::curves::hiding_film;
+use super::change::{CurationError, on_grid, renamed, with_reference};
 use crate::evaluate::{Viewing, delta_e};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
+use crate::recipe::hiding_film;
 
 /// Two batches of one white differ by less than this, in CIEDE2000; chosen by eye.
 const SAME_WHITE: f64 = 1.0;

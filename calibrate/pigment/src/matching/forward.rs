@@ -4,13 +4,9 @@ use spectra::color::{Lab, Xyz, ciede2000_residuals};
 use spectra::optics::UnevenFilm;
 use spectra::{InterpolateError, TristimulusWeights};
 
-use super::bounded_descent::Cost;
-use super::bounded_step::UNKNOWNS;
-use super::film::FilmKind;
-use super::request::MatchRequest;
-use super::spectral_target::SpectralTarget;
-use super::target::Target;
-use super::viewing_condition::Metric;
+use super::request::{FilmKind, MatchRequest};
+use super::target::{Metric, SpectralTarget, Target};
+use crate::least_squares::{Cost, UNKNOWNS};
 use crate::library::PigmentLibrary;
 use crate::recipe::PigmentId;
 
@@ -262,8 +258,8 @@ mod tests {
     use super::*;
     use crate::evaluate::Viewing;
     use crate::library::Pigment;
-    use crate::matching::film::Thickness;
-    use crate::matching::viewing_condition::{SpectrumWeights, ViewingCondition};
+    use crate::matching::request::Thickness;
+    use crate::matching::target::{SpectrumWeights, ViewingCondition};
     use spectra::{Grid, Illuminant, Observer, Reflectance, Spectrum};
 
     fn library() -> PigmentLibrary {
