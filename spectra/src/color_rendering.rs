@@ -1,18 +1,9 @@
 //! How lights render colours: the colour rendering index of CIE 13.3-1995, and fidelity and gamut of
-//! ANSI/IES TM-30-18, whose fidelity index is that of CIE 224:2017.
+//! ANSI/IES TM-30-18, which shares its fidelity index with CIE 224:2017.
 //!
-//! Colour rendering of a light by both standards.
-//!
-//! The colour rendering index of CIE 13.3-1995.
-//!
-//! Colour fidelity and gamut of ANSI/IES TM-30-18.
-//!
-//! CIECAM02 and its uniform space CAM02-UCS, for the conditions of CIE 224: adapting luminance 100 cd/m2,
+//! A light is compared with the black body or daylight of its colour temperature. Fidelity is computed in
+//! CAM02-UCS, the uniform space of CIECAM02, for the conditions of CIE 224: adapting luminance 100 cd/m2,
 //! background 20 %, average surround, full adaptation.
-//!
-//! The light with which a lamp is compared: black body or daylight of its colour temperature.
-//!
-//! The test colour samples of both standards.
 
 use std::sync::OnceLock;
 
@@ -205,11 +196,15 @@ impl ColorFidelity {
         let reference = of_fidelity(kelvin)?;
         let colors = [colors(light)?, colors(&reference)?];
         let [own, wanted] = &colors;
-        let away = |(own, wanted): (&UniformColor, &UniformColor)| {
-            let squares = [own.lightness - wanted.lightness, own.a - wanted.a, own.b - wanted.b];
-            squares.iter().map(|d| d * d).sum::<f64>().sqrt()
-        };
-        let differences: Vec<f64> = own.iter().zip(wanted).map(away).collect();
+        let differences: Vec<f64> = own
+            .iter()
+            .zip(wanted)
+            .map(|(own, wanted): (&UniformColor, &UniformColor)| {
+                let squares =
+                    [own.lightness - wanted.lightness, own.a - wanted.a, own.b - wanted.b];
+                squares.iter().map(|d| d * d).sum::<f64>().sqrt()
+            })
+            .collect();
         let mut bins: [Vec<usize>; BINS] = std::array::from_fn(|_| Vec::new());
         for (sample, color) in wanted.iter().enumerate() {
             let bin = (color.hue_deg * BINS as f64 / 360.0) as usize;

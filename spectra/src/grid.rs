@@ -1,6 +1,4 @@
-//! Regular wavelength grids.
-//!
-//! A wavelength in nanometres.
+//! Regular wavelength grids, and a single wavelength in nanometres.
 
 use documents::hint::Explain;
 use serde::{Deserialize, Serialize};

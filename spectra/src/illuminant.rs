@@ -1,8 +1,6 @@
-//! Illuminants: the tables of the CIE, and the common form of all lights.
+//! Illuminants and standard observers of the CIE, read from the tables in `data`.
 //!
-//! Reading the tables of the CIE that are part of the crate.
-//!
-//! The standard observers of the CIE.
+//! [`Illuminant`] is also the common form of all other lights.
 
 use std::sync::OnceLock;
 

@@ -1,9 +1,8 @@
-//! Interpolation of regular data by rows of weights.
+//! Interpolation of regular data by rows of weights, and the natural cubic spline through values at irregular
+//! places.
 //!
 //! An interpolated value is a weighted sum of at most six neighbours. Working with the weights
 //! lets the same rows resample a spectrum and, transposed, reduce an observer to a coarse grid.
-//!
-//! The natural cubic spline through values at irregular places.
 
 use documents::hint::Explain;
 

@@ -1,10 +1,5 @@
-//! Lights as text.
-//!
-//! Lights measured by an instrument.
-//!
-//! Daylight of any correlated colour temperature.
-//!
-//! Black-body radiators (Planck's law).
+//! Lights by name, temperature or file: daylight of any correlated colour temperature, black-body radiators
+//! (Planck's law), and lamps measured by an instrument.
 
 use std::path::Path;
 use std::sync::OnceLock;

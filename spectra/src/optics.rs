@@ -1,21 +1,11 @@
 //! Kubelka-Munk optics of a paint film with a surface.
 //!
 //! Two diffuse fluxes, no fluorescence. Reflectances are internal (below the surface) unless
-//! [`Surface`] calls them measured.
-//!
-//! Optics of a paint film of finite thickness.
+//! [`Surface`] calls them measured. [`UnevenFilm`] varies in thickness within the instrument's aperture.
 //!
 //! Equations 8 and 9 of Baxter, Wendt and Lin 2004 are misprinted (tanh for coth, sinh for
 //! 1/sinh, according to the authors' erratum), and the textbook form fails at K = 0 and for
 //! thick films. The form used here has no special cases, see `Layer::new`.
-//!
-//! Optics of a paint film so thick that its backing is invisible.
-//!
-//! K/S of a translucent film from its reflectance over two backings.
-//!
-//! Reflection at the surface of a film, between air and paint.
-//!
-//! A film whose thickness varies within the instrument's aperture.
 
 use documents::hint::{Explain, Fault};
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,4 @@
-//! Spectra with a physical quantity as their type.
-//!
-//! Spectra at irregular wavelengths.
+//! Spectra with a physical quantity as their type, on a regular grid or at irregular wavelengths.
 
 use std::marker::PhantomData;
 

@@ -2,34 +2,16 @@
 //!
 //! | extension | program | content |
 //! |------|----|-------|
-//! | `.gpl` | GIMP, Inkscape, Krita | sRGB in 8 bits |
-//! | `.ase` | Adobe programs | RGB, Lab, CMYK or grey as 32-bit floats, in groups |
-//! | `.aco` | Photoshop | RGB, HSB, Lab, CMYK or grey in 16 bits |
+//! | `.gpl` | GIMP, Inkscape, Krita | sRGB in 8 bits, in lines of `R G B<tab>name` after a header |
+//! | `.ase` | Adobe programs | RGB, Lab, CMYK or grey as 32-bit floats, in big-endian blocks of colours and groups |
+//! | `.aco` | Photoshop | RGB, HSB, Lab, CMYK or grey in 16 bits: a section of version 1 without names, then one of version 2 with names |
 //!
-//! None of the formats names its RGB space; it is taken as sRGB. Lab is that of the graphic
+//! None of the formats names its RGB space, which is taken as sRGB. Lab is the one of the graphic
 //! arts, under D50 for the 1931 observer.
 //!
-//! The named colours that a swatch file holds.
-//!
-//! Reading a swatch file of any format.
-//!
-//! GIMP palettes (.gpl): a header, then lines of `R G B<tab>name`.
-//!
-//! GIMP developer documentation, "GIMP Palette (.gpl) File Format".
-//!
-//! Adobe Swatch Exchange (.ase): blocks of colours and groups, big-endian.
-//!
-//! Adobe has not published the format; the layout is that which other programs read and write
-//! (O. Berisha, "Adobe Swatch Exchange file format", 2006).
-//!
-//! Photoshop colour swatches (.aco): a section of version 1 without names, then one of version
-//! 2 with names.
-//!
-//! Adobe, "Adobe Photoshop File Formats Specification", section "Color Swatches".
-//!
-//! Reading and writing big-endian values, with the offset of every error.
-//!
-//! Errors in reading and writing swatch files.
+//! Sources: GIMP developer documentation, "GIMP Palette (.gpl) File Format". Adobe, "Adobe Photoshop File
+//! Formats Specification", section "Color Swatches". Adobe has not published the format of `.ase`, and the layout
+//! is the one that other programs read and write (O. Berisha, "Adobe Swatch Exchange file format", 2006).
 
 use std::fmt::Write;
 

@@ -1,6 +1,4 @@
-//! The conditions under which colours are computed.
-//!
-//! Tristimulus values from spectra.
+//! The conditions under which colours are computed, and tristimulus values from spectra.
 
 use documents::hint::{Explain, Fault, Hint};
 

@@ -1,10 +1,7 @@
 //! Predicts the spectrum and colour of a mixture given by pigment names and parts.
 //!
-//! A colour under one light, in the forms that people use.
-//!
-//! The bare ground under a film: a paper, a card, a primer.
-//!
-//! The name of a metamerism index: which one it is, between which lights, in which unit.
+//! [`Backing`] is the ground under the film, [`Appearance`] the colour under one light in the forms that people
+//! use, and [`IlluminantChange`] names a metamerism index.
 
 use std::str::FromStr;
 

@@ -1,10 +1,5 @@
-//! Colours and colour differences of reflectances, and their summary.
-//!
-//! Remarks of a computation to its user, beside the result.
-//!
-//! Rounding of numbers for files.
-//!
-//! Whether a wavelength grid covers enough of the visible band for colours.
+//! Colours and colour differences of reflectances and their summary, remarks on a result, rounding for
+//! files, and the check that a wavelength grid covers the visible band.
 
 use std::fmt;
 

@@ -1,15 +1,12 @@
-//! Bounded nonlinear least squares by the Levenberg-Marquardt method.
+//! Nonlinear least squares within bounds, by the Levenberg-Marquardt method.
 //!
-//! Marquardt 1963, with Nielsen's damping (1999). A parameter that stands at its bound while its
-//! gradient points outwards is fixed for one step, and every trial point is projected into the
+//! [`minimise`] fits many parameters (Marquardt 1963, with Nielsen's damping, 1999). A parameter at its bound
+//! with a gradient that points outwards is fixed for one step, and every trial point is projected into the
 //! bounds (Kanzow, Yamashita and Fukushima 2004, the projected variant).
 //!
-//! Least squares over shares with a constant sum, within bounds.
-//!
-//! The best step of a quadratic model within bounds, where shares keep their sum.
-//!
-//! The primal active-set method (Nocedal and Wright 2006, algorithm 16.3) for at most nine unknowns,
-//! which are kept on the stack.
+//! [`descend_within_bounds`] fits the shares of a recipe, which keep their sum. Its quadratic step comes from
+//! the primal active-set method (Nocedal and Wright 2006, algorithm 16.3) for at most nine unknowns, which are
+//! kept on the stack.
 
 use std::ops::Range;
 

@@ -1,16 +1,5 @@
-//! The pigment library: its data, its JSON file and the library that ships.
-//!
-//! A library of calibrated pigments on one wavelength grid.
-//!
-//! Settings of a fit. They are in this crate because a library's file contains the settings of its fit.
-//!
-//! Reading and writing the library as a JSON file.
-//!
-//! JSON that people can read and compare: one key per line, a row of numbers on one line.
-//!
-//! The library that ships with impasto: the oils of Van Gogh's palette.
-//!
-//! Reasons why a recipe cannot be mixed.
+//! The library of calibrated pigments on one wavelength grid, its JSON file, the settings of its fit, and the
+//! library that ships with impasto: the oils of Van Gogh's palette.
 
 use std::io::{self, Read};
 use std::ops::{Index, IndexMut};

@@ -1,6 +1,4 @@
-//! Pigments by their place in a list, and recipes of them.
-//!
-//! Absorption and scattering over wavelength, of a pigment or of a mixture.
+//! Pigments by their place in a list, recipes of them, and [`Curves`]: K and S over wavelength.
 
 use spectra::Grid;
 use spectra::optics::{Surface, UnevenFilm, infinite_film};

@@ -164,30 +164,36 @@ impl Problem<'_> {
             let steps: f64 = (1..z.len()).map(|i| (z[i] - z[i - 1]).powi(2)).sum();
             0.5 * (color + SMOOTH * steps)
         };
-        let build = |z: &DVector<f64>| {
-            let mut equations = NormalEquations::zeros(z.len());
-            let (xyz, color) = difference(z);
-            let lab_over_xyz = Lab::slopes_over_xyz(xyz, white);
-            let columns: Vec<[f64; 3]> = (self.weights.weights().iter().zip(z.iter()))
-                .map(|(w, z)| {
-                    let slope = self.measured(*z)[1];
-                    metric.apply(lab_over_xyz.apply(w.map(|w| w * slope)))
-                })
-                .collect();
-            for channel in 0..3 {
-                let derivatives: Vec<f64> = columns.iter().map(|c| c[channel]).collect();
-                equations.add(color[channel], &derivatives, 1.0);
-            }
-            for i in 1..z.len() {
-                let mut derivatives = vec![0.0; z.len()];
-                (derivatives[i - 1], derivatives[i]) = (-1.0, 1.0);
-                equations.add(z[i] - z[i - 1], &derivatives, SMOOTH);
-            }
-            equations
-        };
         let bound = DVector::from_element(start.len(), 6.0);
         let stop = Stop { iterations: 500, relative_decrease: 1e-9, cancellation: None };
-        minimise(start, (&-&bound, &bound), stop, build, cost).point
+        minimise(
+            start,
+            (&-&bound, &bound),
+            stop,
+            |z: &DVector<f64>| {
+                let mut equations = NormalEquations::zeros(z.len());
+                let (xyz, color) = difference(z);
+                let lab_over_xyz = Lab::slopes_over_xyz(xyz, white);
+                let columns: Vec<[f64; 3]> = (self.weights.weights().iter().zip(z.iter()))
+                    .map(|(w, z)| {
+                        let slope = self.measured(*z)[1];
+                        metric.apply(lab_over_xyz.apply(w.map(|w| w * slope)))
+                    })
+                    .collect();
+                for channel in 0..3 {
+                    let derivatives: Vec<f64> = columns.iter().map(|c| c[channel]).collect();
+                    equations.add(color[channel], &derivatives, 1.0);
+                }
+                for i in 1..z.len() {
+                    let mut derivatives = vec![0.0; z.len()];
+                    (derivatives[i - 1], derivatives[i]) = (-1.0, 1.0);
+                    equations.add(z[i] - z[i - 1], &derivatives, SMOOTH);
+                }
+                equations
+            },
+            cost,
+        )
+        .point
     }
 }
 

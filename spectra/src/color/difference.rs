@@ -1,8 +1,7 @@
-//! Colour differences in CIELAB.
+//! Colour differences in CIELAB, and metamerism: the difference under one light of two colours that match under
+//! another.
 //!
-//! CIE94 and CMC are asymmetric by definition: their first colour is the standard.
-//!
-//! Metamerism: the difference under one light of two colours that match under another.
+//! CIE94 and CMC are asymmetric by definition. Their first colour is the standard.
 
 use documents::hint::Explain;
 

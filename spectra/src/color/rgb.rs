@@ -1,10 +1,5 @@
-//! Display RGB: sRGB and Display P3.
-//!
-//! One colour in three colour spaces.
-//!
-//! Colours as text.
-//!
-//! Colours that a display cannot show, by the most colourful ones of their hue and lightness.
+//! Display RGB (sRGB and Display P3), colours as text, and colours outside the gamut of a display, which are moved
+//! to the most colourful displayable colour of the same hue and lightness.
 
 use std::str::FromStr;
 use std::sync::LazyLock;

@@ -1,12 +1,5 @@
-//! Tristimulus values and chromaticity.
-//!
-//! CIELAB in rectangular and in cylindrical coordinates.
-//!
-//! CIE 1976 L*u*v*.
-//!
-//! Chromatic adaptation: the corresponding colour under another white.
-//!
-//! The 3 x 3 matrices that transform tristimulus values.
+//! Tristimulus values, chromaticity, CIELAB, CIELUV and chromatic adaptation, with the 3 x 3 matrices between
+//! them.
 
 /// Tristimulus values of the CIE, scaled so that the white has Y = 100.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,23 +1,19 @@
-//! Avantes AvaSoft text (.ttt, .trt, .txt): a few lines on the measurement, a line of headings
-//! that starts with `Wave`, a line of units that starts with `[nm]`, then rows of numbers.
+//! Files of Avantes AvaSoft: text and the binary formats of versions 6, 7 and 8.
 //!
-//! Next to the processed column there may be columns with the counts of sample, dark and
-//! reference.
+//! Text (.ttt, .trt, .txt) has a few lines on the measurement, a line of headings that starts with `Wave`, a line
+//! of units that starts with `[nm]`, then rows of numbers. Next to the processed column there may be columns
+//! with the counts of sample, dark and reference.
 //!
-//! Binary files of Avantes AvaSoft 6 and 7: `.ROH`, `.REF` and `.DRK` hold counts, `.TRM` and `.ABS`
-//! those of sample, white and dark for each pixel.
+//! Binary files of versions 6 and 7 hold counts (`.ROH`, `.REF`, `.DRK`), or sample, white and dark for each
+//! pixel (`.TRM`, `.ABS`). All numbers have 4 bytes. Layout as published by Avantes and read by Karapetyan
+//! (MATLAB, 2011) and the R package lightr: version (60 or 70), the serial number and in version 70 a name (a
+//! number for each letter), five coefficients of the wavelength over the pixel, first and last pixel, settings,
+//! data.
 //!
-//! All numbers have 4 bytes. Layout as published by Avantes and read by Karapetyan (MATLAB, 2011) and
-//! the R package lightr: version (60 or 70), the serial number and in version 70 a name (a number for
-//! each letter), five coefficients of the wavelength over the pixel, first and last pixel, settings, data.
-//!
-//! Binary files of Avantes AvaSoft 8 (`.RAW8`, `.RFL8`, `.TRM8`, `.ABS8`, `.IRR8` ..): wavelengths and
-//! the counts of sample, dark and white.
-//!
-//! Layout as Avantes told the authors of the R package lightr: `AVS82`, the number of spectra, and for each
-//! its length, number, mode, serial number and settings, a comment, four tables of 4-byte numbers.
-//!
-//! Spectra of Avantes AvaSoft's binary files, which hold a value for each pixel of the detector.
+//! Binary files of version 8 (`.RAW8`, `.RFL8`, `.TRM8`, `.ABS8`, `.IRR8` ..) hold wavelengths and the counts of
+//! sample, dark and white. Layout as Avantes described it to the authors of the R package lightr: `AVS82`, the
+//! number of spectra, and for each its length, number, mode, serial number and settings, a comment, four tables
+//! of 4-byte numbers.
 
 use super::columns::{Axis, ColumnLabel, below, table};
 use super::decode::{BinaryBytes, lines};

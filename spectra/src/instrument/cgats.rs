@@ -2,12 +2,8 @@
 //! and X-Rite (Spectrolino, ProfileMaker, i1Profiler), which start with another line.
 //!
 //! A file has one or more tables. Each consists of keywords, the names of its fields between
-//! `BEGIN_DATA_FORMAT` and `END_DATA_FORMAT`, and its rows between `BEGIN_DATA` and `END_DATA`.
-//! Tables without spectra are skipped.
-//!
-//! The fields of a CGATS table: the columns of the spectrum and of the sample's name.
-//!
-//! Splitting a line of CGATS into words.
+//! `BEGIN_DATA_FORMAT` and `END_DATA_FORMAT`, and its rows between `BEGIN_DATA` and `END_DATA`. Fields are the
+//! bands of the spectrum and the name of the sample. Tables without spectra are skipped.
 
 use super::decode::{Decimal, lines, number, required_number};
 use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};

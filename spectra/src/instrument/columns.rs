@@ -1,13 +1,8 @@
 //! Columns of numbers: a wavelength and one or more values, with or without headings.
 //!
 //! Cells are separated by semicolon, tab, spaces or comma. A decimal comma is read where commas
-//! do not separate cells. Lines that start with `#` are comments.
-//!
-//! The unit of a spectrum's abscissa.
-//!
-//! The separator and decimal sign of a text, and its rows of numbers.
-//!
-//! Bruker OPUS data point tables (.dpt): two or more columns of numbers without a heading.
+//! do not separate cells. Lines that start with `#` are comments. Bruker OPUS data point tables (.dpt) are
+//! columns without a heading.
 
 use super::decode::{Decimal, lines, number, required_number};
 use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};

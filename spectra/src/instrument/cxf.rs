@@ -1,16 +1,12 @@
 //! CxF3, the Color Exchange Format (ISO 17972-1:2015, namespace "CxF3-core").
 //!
-//! Reading the spectra of a CxF3 file.
-//!
 //! The objects of a collection contain spectra. Each spectrum refers to a colour specification
 //! with the increment of the wavelengths, the geometry and the device. Reflectance and
 //! transmittance are fractions, white near 1. Objects with colours only are skipped.
 //!
-//! Writing reflectances as a CxF3 file.
-//!
-//! The order of elements, required elements and bounds follow the schema of CxF3-core. A list
-//! of values must start at a whole wavelength from 360 to 400 nm and have a whole increment;
-//! other grids are written point by point.
+//! When writing, the order of elements, required elements and bounds follow the schema of CxF3-core. A list
+//! of values must start at a whole wavelength from 360 to 400 nm and have a whole increment. Other grids are
+//! written point by point.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;

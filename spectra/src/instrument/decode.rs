@@ -1,10 +1,5 @@
-//! Decoding the bytes of a file, and splitting text into lines.
-//!
-//! Parsing numbers in the files of instruments.
-//!
-//! Numbers at known places of a binary file, little-endian, with an error where the file ends.
-//!
-//! Zip archives in which programs keep their data.
+//! Text, numbers, little-endian binary fields and zip entries out of the bytes of a file, with errors that name
+//! the place.
 
 use std::io::{Cursor, Read};
 

@@ -1,20 +1,19 @@
-//! ASD FieldSpec: the binary `.asd` file and the text that ASD's programs convert it to.
+//! Field spectrometers: ASD FieldSpec, Spectral Evolution and Spectra Vista.
 //!
-//! Layout: "ASD File Format version 8, revision B" (Analytical Spectral Devices). The spectrum
-//! follows a header of 484 bytes; from version 2 on a reading of the white follows, with the state
-//! of the instrument in which the sample was read, so that their ratio is the reflectance.
+//! The binary `.asd` file follows "ASD File Format version 8, revision B" (Analytical Spectral Devices). The
+//! spectrum follows a header of 484 bytes. From version 2 on a reading of the white follows, with the same state
+//! of the instrument, so that their ratio is the reflectance. ASD's programs convert the file to text, which is
+//! read as well.
 //!
-//! Spectral Evolution `.sed`: lines `Key: value`, a line `Data:`, a line of headings that names
-//! wavelength, white and sample, and rows between tabs.
+//! Spectral Evolution `.sed` has lines `Key: value`, a line `Data:`, a line of headings that names wavelength,
+//! white and sample, and rows between tabs. Columns are named as DARWin writes them: `Wvl`, `Rad. (Ref.)`,
+//! `Rad. (Target)`, `Reflect. %` or `Reflect. [1.0]`, `Tgt./Ref. %`, `Irrad. (Target)`, `Norm. DN (Target)` and
+//! `Chan.#`.
 //!
-//! Columns are those that DARWin writes: `Wvl`, `Rad. (Ref.)`, `Rad. (Target)`, `Reflect. %` or
-//! `Reflect. [1.0]`, `Tgt./Ref. %`, `Irrad. (Target)`, `Norm. DN (Target)` and `Chan.#`.
-//!
-//! Spectra Vista `.sig`: a first line in comment signs, lines `key= value`, a line `data=`, and rows
-//! of wavelength, white, sample and reflectance in percent.
-//!
-//! Without the last column the file holds power or counts. Where the software did not remove the
-//! overlap of the detectors, the wavelengths go back once or twice beyond 900 nm.
+//! Spectra Vista `.sig` has a first line in comment signs, lines `key= value`, a line `data=`, and rows of
+//! wavelength, white, sample and reflectance in percent. Without the last column the file holds power or counts.
+//! Where the software did not remove the overlap of the detectors, the wavelengths go back once or twice beyond
+//! 900 nm.
 
 use super::columns::{Axis, ColumnLabel, below, table};
 use super::decode::{BinaryBytes, lines};

@@ -1,9 +1,6 @@
-//! The file formats: their names, and detection by content.
+//! The file formats: their names, detection by content, and the text of a file or of a workbook's sheet.
 //!
-//! The kind of a file by its first bytes: text, a binary format that is read, or one that is refused by
-//! name.
-//!
-//! The text of a file, or that of a workbook's sheet.
+//! The first bytes decide whether a file is text, a binary format that is read, or one that is refused by name.
 
 use super::decode::{Archive, decode_text, is_utf16, is_zip, lines};
 use super::measured::InstrumentError;

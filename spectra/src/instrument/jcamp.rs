@@ -84,26 +84,31 @@ impl Block<'_> {
         let title = self.field("TITLE").map_or("", |(_, title)| title);
         let pages = pages(file, &self.fields)?;
         let several = pages.len() > 1;
-        let spectrum = |page: super::jcamp_data::Page| {
-            let axis = axis(file, page.line, &page.x_units)?;
-            let ordered = in_nm(file, page.points, axis)?;
-            let words = format!("{} {}", page.units, page.variable);
-            let is_percent = words.contains('%') || words.to_ascii_lowercase().contains("percent");
-            let mut details = self.details();
-            details.extend((!page.name.is_empty()).then(|| ("PAGE".to_owned(), page.name.clone())));
-            Ok(MeasuredSpectrum {
-                name: if several { format!("{title} {}", page.name) } else { title.to_owned() },
-                quantity: MeasuredQuantity::of_words(&words),
-                role: Role::Main,
-                unit: if is_percent { Unit::Percent } else { Unit::Unstated },
-                wavelengths_nm: ordered.wavelengths_nm,
-                values: ordered.values,
-                line: page.line,
-                details,
-                remarks: ordered.remarks,
+        pages
+            .into_iter()
+            .map(|page: super::jcamp_data::Page| {
+                let axis = axis(file, page.line, &page.x_units)?;
+                let ordered = in_nm(file, page.points, axis)?;
+                let words = format!("{} {}", page.units, page.variable);
+                let is_percent =
+                    words.contains('%') || words.to_ascii_lowercase().contains("percent");
+                let mut details = self.details();
+                details.extend(
+                    (!page.name.is_empty()).then(|| ("PAGE".to_owned(), page.name.clone())),
+                );
+                Ok(MeasuredSpectrum {
+                    name: if several { format!("{title} {}", page.name) } else { title.to_owned() },
+                    quantity: MeasuredQuantity::of_words(&words),
+                    role: Role::Main,
+                    unit: if is_percent { Unit::Percent } else { Unit::Unstated },
+                    wavelengths_nm: ordered.wavelengths_nm,
+                    values: ordered.values,
+                    line: page.line,
+                    details,
+                    remarks: ordered.remarks,
+                })
             })
-        };
-        pages.into_iter().map(spectrum).collect()
+            .collect()
     }
 
     /// The step that DELTAX states.

@@ -1,15 +1,14 @@
-//! The data of JCAMP-DX: pairs, and rows of ordinates, plain or packed.
+//! The data of JCAMP-DX: pairs, rows of ordinates, plain or packed, and the pages of NTUPLES.
 //!
 //! A packed ordinate (ASDF form) begins with a letter that encodes its first digit and sign:
 //! SQZ for a value, DIF for the difference from the previous value, DUP for the number of
 //! repetitions of the previous item. If a row ends with a difference, the next row repeats the
 //! last value as a check.
 //!
-//! The pages of JCAMP-DX NTUPLES: tables whose variables are described in lists.
-//!
-//! Lampen, Hillig, Davies and Linscheid, "JCAMP-DX for mass spectrometry", Applied Spectroscopy 48
-//! (1994) 1545. `##SYMBOL=` names the variables; `##FACTOR=`, `##FIRST=`, `##LAST=`, `##VAR_DIM=` and
-//! `##UNITS=` describe each in its place; each `##PAGE=` has a `##DATA TABLE=` of two of them.
+//! NTUPLES are tables with variables that are described in lists (Lampen, Hillig, Davies and Linscheid,
+//! "JCAMP-DX for mass spectrometry", Applied Spectroscopy 48 (1994) 1545). `##SYMBOL=` names the variables.
+//! `##FACTOR=`, `##FIRST=`, `##LAST=`, `##VAR_DIM=` and `##UNITS=` describe each in its place. Each `##PAGE=` has a
+//! `##DATA TABLE=` of two of them.
 
 use super::decode::{Decimal, number, required_number};
 use super::measured::InstrumentError;

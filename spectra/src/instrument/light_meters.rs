@@ -1,11 +1,12 @@
-//! Light meters of UPRtek and the LI-COR LI-180: rows of a key and a value between tabs, with rows
-//! such as `380nm 0.0303` for the spectrum. UPRtek gives such files the ending `.xls`.
+//! Light meters: UPRtek, LI-COR LI-180, Sekonic, and the standard form IES TM-27.
 //!
-//! CSV files of Sekonic's light spectrometers (C-700, C-800, C-7000): rows of a key and a
-//! value, with the spectrum once at 5 nm and once at 1 nm. A file of several readings has a
-//! column for each.
+//! UPRtek and the LI-180 write rows of a key and a value between tabs, with rows such as `380nm 0.0303` for the
+//! spectrum. UPRtek gives such files the ending `.xls`.
 //!
-//! IES TM-27-14, "IES Standard Format for the Electronic Transfer of Spectral Data": `.spdx`.
+//! Sekonic's light spectrometers (C-700, C-800, C-7000) write CSV rows of a key and a value, with the spectrum
+//! once at 5 nm and once at 1 nm. A file of several readings has a column for each.
+//!
+//! IES TM-27-14, "IES Standard Format for the Electronic Transfer of Spectral Data", is XML: `.spdx`.
 
 use super::decode::{Decimal, lines, number, required_number};
 use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};

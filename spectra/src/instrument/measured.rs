@@ -1,8 +1,5 @@
-//! One spectrum out of an instrument's file.
-//!
-//! Selecting one spectrum of a file by name.
-//!
-//! Errors in the files of instruments, with their place.
+//! One spectrum out of an instrument's file, the choice of one by name, and errors in these files with their
+//! place.
 
 use std::path::Path;
 

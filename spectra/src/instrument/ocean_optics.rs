@@ -1,16 +1,14 @@
-//! Ocean Optics: SpectraSuite, OceanView and Jaz. Lines `Key: value`, then data from
-//! `>>>>>Begin` to `>>>>>End` or the end of the file: two columns, or in Jaz files wavelength,
-//! dark, reference, sample and processed (W D R S P).
+//! Ocean Optics and Ocean Insight: text of SpectraSuite, OceanView and Jaz, and `.ProcSpec`.
 //!
-//! With a reference the software writes percent of it (or absorbance) and does not state which;
-//! without one it writes counts. Jaz files contain the counts as well. Absolute irradiance is told only
-//! by the first line of a Jaz file, or by the ending (`.JazIrrad`, `.OVIrrad`).
+//! Text has lines `Key: value`, then data from `>>>>>Begin` to `>>>>>End` or the end of the file: two columns, or
+//! in Jaz files wavelength, dark, reference, sample and processed (W D R S P). With a reference the software
+//! writes percent of it (or absorbance) and does not state which. Without one it writes counts. Jaz files contain
+//! the counts as well. Only the first line of a Jaz file or the ending (`.JazIrrad`, `.OVIrrad`) says that the
+//! values are absolute irradiance.
 //!
-//! Ocean Optics and Ocean Insight `.ProcSpec`: a zip archive with the file `ps_N.xml`, in which lists of
-//! `double` hold wavelengths, counts of sample, white and dark, and the processed spectrum.
-//!
-//! Element names as the R package lightr reads them. SpectraSuite writes bytes into the XML that are
-//! no text; those are left out.
+//! `.ProcSpec` is a zip archive with the file `ps_N.xml`, in which lists of `double` hold wavelengths, counts of
+//! sample, white and dark, and the processed spectrum. Element names are those that the R package lightr reads.
+//! SpectraSuite writes bytes into the XML that are not text, and these are left out.
 
 use super::columns::{Axis, ColumnLabel, table};
 use super::decode::{Archive, Decimal, lines, required_number};

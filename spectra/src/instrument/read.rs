@@ -1,6 +1,4 @@
-//! Reading a file of any format.
-//!
-//! Opening instrument files by path.
+//! Reading an instrument's file of any format, from bytes or by path.
 
 use std::path::Path;
 

@@ -1,5 +1,3 @@
-//! Reflectance from counts: a sample, a white of known reflectance, and the dark.
-//!
 //! Reflectance from the counts of a sample, of a white, and of the dark.
 //!
 //! ```text
@@ -14,16 +12,6 @@
 //!
 //! Baxter, Wendt and Lin 2004 measured their paints in this way, with a Fluorilon tile as
 //! white.
-//!
-//! A reading with its dark subtracted.
-//!
-//! The dark reading and the white tile of a reference measurement.
-//!
-//! Finding the integration time in the details of a file.
-//!
-//! Detecting saturation of the detector.
-//!
-//! Errors in computing reflectance from counts.
 
 mod files;
 
@@ -122,7 +110,7 @@ impl Referencing {
         }
         let least = self.least_signal(&white);
         let tile_curve = self.tile.curve();
-        let at = |nm: f64| {
+        let band = sound_band(sample, |nm: f64| {
             let light = white.at(nm)?;
             if light <= least {
                 let name = self.white.name.clone();
@@ -135,8 +123,7 @@ impl Referencing {
                 return Err(ReferencingError::BelowDark { name, nm, reflectance });
             }
             Ok(reflectance.max(0.0))
-        };
-        let band = sound_band(sample, at)?;
+        })?;
         if let Some(remark) = band.left_out {
             remarks.push(remark);
         }

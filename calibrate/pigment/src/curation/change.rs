@@ -1,12 +1,5 @@
-//! Renaming pigments and selecting a subset.
-//!
-//! Scaling a library to another reference white.
-//!
-//! Resampling a library to another wavelength grid.
-//!
-//! A pigment guessed from a colour.
-//!
-//! Reasons why a library cannot be changed as requested.
+//! Changes of one library: other names, a subset, another reference white, another wavelength grid, and
+//! pigments guessed from a colour.
 
 use documents::hint::{Explain, Fault, Hint};
 use spectra::color::{
@@ -162,33 +155,36 @@ pub fn with_reference(
     let divided = |curve: &[f64]| -> Vec<f64> {
         curve.iter().zip(&white.scattering).map(|(value, s)| rounded(value / s)).collect()
     };
-    let rescaled = |pigment: &Pigment| {
-        if !pigment.identified && !absolute {
-            return pigment.clone();
-        }
-        let mut scattering_sd = divided(&pigment.scattering_sd);
-        if pigment.name == white.name {
-            scattering_sd.fill(0.0);
-        } else if library.reference.as_ref() == Some(&pigment.name) {
-            // The relative deviation of 1 / S is that of S.
-            let pairs = white.scattering_sd.iter().zip(&white.scattering);
-            scattering_sd = pairs.map(|(sd, s)| rounded(sd / (s * s))).collect();
-        }
-        Pigment {
-            absorption: divided(&pigment.absorption),
-            scattering: divided(&pigment.scattering),
-            absorption_sd: divided(&pigment.absorption_sd),
-            scattering_sd,
-            measured_amounts: None,
-            ..pigment.clone()
-        }
-    };
     Ok(PigmentLibrary {
         reference: Some(white.name.clone()),
         amounts: AmountKind::Relative,
         unevenness: 0.0,
         evidence: if absolute { None } else { library.evidence.clone() },
-        pigments: library.pigments.iter().map(rescaled).collect(),
+        pigments: library
+            .pigments
+            .iter()
+            .map(|pigment: &Pigment| {
+                if !pigment.identified && !absolute {
+                    return pigment.clone();
+                }
+                let mut scattering_sd = divided(&pigment.scattering_sd);
+                if pigment.name == white.name {
+                    scattering_sd.fill(0.0);
+                } else if library.reference.as_ref() == Some(&pigment.name) {
+                    // The relative deviation of 1 / S is that of S.
+                    let pairs = white.scattering_sd.iter().zip(&white.scattering);
+                    scattering_sd = pairs.map(|(sd, s)| rounded(sd / (s * s))).collect();
+                }
+                Pigment {
+                    absorption: divided(&pigment.absorption),
+                    scattering: divided(&pigment.scattering),
+                    absorption_sd: divided(&pigment.absorption_sd),
+                    scattering_sd,
+                    measured_amounts: None,
+                    ..pigment.clone()
+                }
+            })
+            .collect(),
         ..library.clone()
     })
 }
@@ -213,17 +209,21 @@ pub fn on_grid(
     if grid == library.grid {
         return Ok(library.clone());
     }
-    let resampled = |pigment: &Pigment| -> Result<Pigment, InterpolateError> {
-        let sd = |values: &[f64]| curve(library.grid, values, grid, Interpolation::Linear, ends);
-        Ok(Pigment {
-            absorption: curve(library.grid, &pigment.absorption, grid, method, ends)?,
-            scattering: curve(library.grid, &pigment.scattering, grid, method, ends)?,
-            absorption_sd: sd(&pigment.absorption_sd)?,
-            scattering_sd: sd(&pigment.scattering_sd)?,
-            ..pigment.clone()
+    let pigments = library
+        .pigments
+        .iter()
+        .map(|pigment: &Pigment| -> Result<Pigment, InterpolateError> {
+            let sd =
+                |values: &[f64]| curve(library.grid, values, grid, Interpolation::Linear, ends);
+            Ok(Pigment {
+                absorption: curve(library.grid, &pigment.absorption, grid, method, ends)?,
+                scattering: curve(library.grid, &pigment.scattering, grid, method, ends)?,
+                absorption_sd: sd(&pigment.absorption_sd)?,
+                scattering_sd: sd(&pigment.scattering_sd)?,
+                ..pigment.clone()
+            })
         })
-    };
-    let pigments = library.pigments.iter().map(resampled).collect::<Result<_, _>>();
+        .collect::<Result<_, _>>();
     let pigments =
         pigments.map_err(|error| CurationError::Grid { file: file.to_owned(), error })?;
     let mut evidence = library.evidence.clone();

@@ -1,6 +1,5 @@
-//! Checks of a library: faults and doubtful values.
-//!
-//! Colour differences between two libraries of the same pigments, as in quality control of batches.
+//! Checks of a library for faults and doubtful values, and colour differences between two libraries of the
+//! same pigments, as in quality control of batches.
 
 use rand::SeedableRng;
 use rand::seq::index;

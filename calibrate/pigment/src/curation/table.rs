@@ -1,7 +1,7 @@
-//! K and S as a CSV table: one row per curve, with the columns `pigment`, `quantity` and the
-//! wavelengths in nm.
+//! A library as a table or as swatches.
 //!
-//! Swatches of a library: the masstone of each pigment and its tints.
+//! The CSV table of K and S has one row per curve, with the columns `pigment`, `quantity` and the wavelengths in
+//! nm. Swatches are the masstone of each pigment and its tints.
 
 use documents::hint::{Explain, Fault, Hint};
 use spectra::Grid;
@@ -420,19 +420,22 @@ impl Swatches {
     /// The swatches as a palette file, with a group for each pigment that has tints.
     #[must_use]
     pub fn palette(&self, space: SwatchSpace) -> SwatchFile {
-        let entry = |swatch: &Swatch| SwatchEntry {
-            group: if self.grouped { swatch.pigment.clone() } else { String::new() },
-            name: swatch.name.clone(),
-            color: match space {
-                SwatchSpace::Srgb => SwatchColor::Rgb(swatch.color.srgb),
-                SwatchSpace::LabD50 => {
-                    let d50 = d50_white();
-                    let xyz = adapt(swatch.color.xyz, self.white, d50, Adaptation::Bradford);
-                    SwatchColor::Lab(Lab::from_xyz(xyz, d50))
-                }
-            },
-        };
-        let swatches = self.swatches.iter().map(entry).collect();
+        let swatches = self
+            .swatches
+            .iter()
+            .map(|swatch: &Swatch| SwatchEntry {
+                group: if self.grouped { swatch.pigment.clone() } else { String::new() },
+                name: swatch.name.clone(),
+                color: match space {
+                    SwatchSpace::Srgb => SwatchColor::Rgb(swatch.color.srgb),
+                    SwatchSpace::LabD50 => {
+                        let d50 = d50_white();
+                        let xyz = adapt(swatch.color.xyz, self.white, d50, Adaptation::Bradford);
+                        SwatchColor::Lab(Lab::from_xyz(xyz, d50))
+                    }
+                },
+            })
+            .collect();
         SwatchFile { name: self.title.clone(), swatches }
     }
 }

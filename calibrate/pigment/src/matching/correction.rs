@@ -1,12 +1,12 @@
 //! Correcting a batch of paint: additions to the pot that bring its measured colour to a target.
 //!
-//! A recipe predicts the pot's K and S, but a batch is never quite what was meant to be weighed. Its K is
-//! therefore scaled at each wavelength so that K / S is that of the measured film; S stays as predicted. The
-//! additions are mixed into that paint. So the errors of the recipe and of the model at the pot's colour
-//! are in the measurement already, and only those of the additions remain (after Allen 1974, correction by
+//! A recipe predicts the K and S of the pot, but nobody weighs exactly what the recipe says. The predicted K is
+//! therefore scaled at each wavelength until K / S agrees with the measured film, and S stays as predicted. The
+//! additions are mixed into this paint. The measurement then already contains the errors of the recipe and of
+//! the model at the pot's colour, and only the errors of the additions remain (after Allen 1974, correction by
 //! the batch's own reflectance).
 //!
-//! The least that must be added to a pot of paint so that its colour comes near enough to a target.
+//! The search returns the smallest addition that brings the colour near enough to the target.
 
 use rayon::prelude::*;
 use spectra::color::{Lab, delta_e_ciede2000};

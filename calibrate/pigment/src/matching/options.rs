@@ -1,6 +1,5 @@
-//! Options of a search for recipes, with pigments by name.
-//!
-//! Prices of pigments, so that the cheapest of equally near recipes comes first.
+//! Options of a search for recipes with pigments given by name, and the prices that put the cheapest of equally
+//! near recipes first.
 
 use std::path::Path;
 
@@ -165,8 +164,11 @@ impl MatchOptions {
     }
 
     fn check_lights(&self) -> Result<(), MatchError> {
-        let name = |condition: &ViewingCondition| condition.viewing.illuminant.name().to_owned();
-        let names: Vec<String> = self.conditions.iter().map(name).collect();
+        let names: Vec<String> = self
+            .conditions
+            .iter()
+            .map(|condition: &ViewingCondition| condition.viewing.illuminant.name().to_owned())
+            .collect();
         let repeated = (1..names.len()).find(|&at| names[..at].contains(&names[at]));
         repeated.map_or(Ok(()), |at| Err(MatchError::RepeatedLight { name: names[at].clone() }))
     }

@@ -1,6 +1,4 @@
-//! Selection and order of the recipes that are returned.
-//!
-//! Recipes in small whole parts.
+//! Selection and order of the recipes that are returned, and recipes in small whole parts.
 
 use rayon::prelude::*;
 use spectra::TristimulusWeights;

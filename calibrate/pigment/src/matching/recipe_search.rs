@@ -1,6 +1,5 @@
-//! The search for recipes by name: options in, recipes out, with a fallback for distant targets.
-//!
-//! Recipes that were found, as JSON for programs.
+//! The search for recipes by name: options in, recipes out, with a fallback for distant targets, and the
+//! recipes as JSON for programs.
 
 use documents::hint::Hint;
 use serde_json::{Map, Value, json};

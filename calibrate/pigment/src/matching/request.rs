@@ -1,8 +1,5 @@
-//! A request for recipes, by pigments' places in a library.
-//!
-//! The film that a recipe makes.
-//!
-//! Reasons why there are no recipes.
+//! A request for recipes with pigments given by their places in a library, the film that a recipe makes, and
+//! the reasons why there are no recipes.
 
 use documents::hint::{Explain, Fault, Hint};
 use spectra::InterpolateError;

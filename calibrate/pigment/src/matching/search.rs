@@ -1,10 +1,7 @@
 //! Search over all sets of pigments.
 //!
-//! One set of pigments with its shares.
-//!
-//! Progress and cancellation of a search that runs on other threads.
-//!
-//! The nearest recipe of one set of pigments.
+//! Each set becomes a [`Candidate`]: its pigments with the shares of the nearest recipe. [`SearchControl`] reports
+//! progress and cancels a search that runs on other threads.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};

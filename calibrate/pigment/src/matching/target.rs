@@ -1,8 +1,5 @@
-//! Colours for which recipes are searched.
-//!
-//! The reflectance that a recipe should have, and how far another one is from it.
-//!
-//! Lights under which recipes are judged, and the measure of difference.
+//! Targets of a search: a colour under one light or several, or a spectrum, with the lights under which recipes
+//! are judged and the measure of difference.
 
 use std::str::FromStr;
 

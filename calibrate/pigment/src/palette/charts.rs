@@ -1,13 +1,8 @@
-//! Hiding power: how thick a film must be to hide its ground.
+//! Charts of a palette as painters make them: hiding power, tinting strength, mixing charts, tints, drawdowns,
+//! and mixtures of two paints in steps.
 //!
-//! Tinting strength: how strongly a paint colours white.
-//!
-//! Charts of mixtures as painters make them: mixing charts, tints, drawdowns.
-//!
-//! Mixtures of two paints in steps from the first paint to the second, computed in five ways.
-//!
-//! After Baxter, Wendt and Lin 2004, figure 10: measured swatches, Kubelka-Munk mixing over the whole
-//! spectrum, at eight and at three wavelengths, and mixing of linear RGB.
+//! The steps are computed in five ways, after Baxter, Wendt and Lin 2004, figure 10: measured swatches,
+//! Kubelka-Munk mixing over the whole spectrum, at eight and at three wavelengths, and mixing of linear RGB.
 
 use spectra::color::{Lab, Xyz, delta_e_ciede2000};
 
@@ -304,24 +299,28 @@ pub struct Drawdown {
 pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
     let film = palette.library().film();
     let cards = palette.cards();
-    let drawdown = |&paint: &PigmentId| {
-        let mixture = palette.mixture(&Recipe::single(paint));
-        let over =
-            |thickness: f64, card: &[f64]| palette.appearance(&mixture.film(thickness, card, film));
-        Drawdown {
-            paint,
-            steps: thicknesses
-                .iter()
-                .map(|&thickness: &f64| DrawdownStep {
-                    thickness,
-                    over_black: over(thickness, &cards.black),
-                    over_white: over(thickness, &cards.white),
-                })
-                .collect(),
-            masstone: palette.appearance(&mixture.hiding(film.surface)),
-        }
-    };
-    palette.paints().iter().map(drawdown).collect()
+    palette
+        .paints()
+        .iter()
+        .map(|&paint: &PigmentId| {
+            let mixture = palette.mixture(&Recipe::single(paint));
+            let over = |thickness: f64, card: &[f64]| {
+                palette.appearance(&mixture.film(thickness, card, film))
+            };
+            Drawdown {
+                paint,
+                steps: thicknesses
+                    .iter()
+                    .map(|&thickness: &f64| DrawdownStep {
+                        thickness,
+                        over_black: over(thickness, &cards.black),
+                        over_white: over(thickness, &cards.white),
+                    })
+                    .collect(),
+                masstone: palette.appearance(&mixture.hiding(film.surface)),
+            }
+        })
+        .collect()
 }
 
 /// A measured share replaces a regular step within this distance, which is just below half a step.
@@ -430,36 +429,41 @@ pub fn graded(
     rules: &PainterRules,
 ) -> GradedMixture {
     let ends = [pair.0, pair.1].map(|paint| palette.color(&Recipe::single(paint)).xyz.to_array());
-    let step = |(share, sample): (f64, Option<&MeasuredSample>)| {
-        let recipe = Recipe::from([(pair.0, 1.0 - share), (pair.1, share)]);
-        let mixture = palette.mixture(&recipe);
-        // Linear RGB is a linear map of XYZ, so XYZ can be interpolated instead.
-        let straight: [f64; 3] =
-            std::array::from_fn(|i| (1.0 - share) * ends[0][i] + share * ends[1][i]);
-        let white = palette.weights().white();
-        let colors = [
-            sample.map(|sample| palette.appearance(&sample.reflectance)),
-            Some(palette.color(&recipe)),
-            Some(at_nodes(palette, &rules.eight, &mixture)),
-            Some(at_nodes(palette, &rules.three, &mixture)),
-            Some(Appearance::of(Xyz::from(straight), white)),
-        ];
-        let own = |row: MixingRow| colors[row as usize].map(|color: Appearance| color.lab);
-        let (truth, row) = own(MixingRow::Measured).map_or_else(
-            || (own(MixingRow::Spectrum), MixingRow::Spectrum),
-            |lab| (Some(lab), MixingRow::Measured),
-        );
-        GradedStep {
-            share,
-            sample: sample.map(|sample| sample.sample.clone()),
-            errors: MixingRow::ALL.map(|other: MixingRow| {
-                let lab: Lab = own(other).filter(|_| other != row)?;
-                Some(delta_e_ciede2000(truth?, lab))
-            }),
-            colors,
-        }
-    };
-    GradedMixture { pair, steps: shares(pair, measured).into_iter().map(step).collect() }
+    GradedMixture {
+        pair,
+        steps: shares(pair, measured)
+            .into_iter()
+            .map(|(share, sample): (f64, Option<&MeasuredSample>)| {
+                let recipe = Recipe::from([(pair.0, 1.0 - share), (pair.1, share)]);
+                let mixture = palette.mixture(&recipe);
+                // Linear RGB is a linear map of XYZ, so XYZ can be interpolated instead.
+                let straight: [f64; 3] =
+                    std::array::from_fn(|i| (1.0 - share) * ends[0][i] + share * ends[1][i]);
+                let white = palette.weights().white();
+                let colors = [
+                    sample.map(|sample| palette.appearance(&sample.reflectance)),
+                    Some(palette.color(&recipe)),
+                    Some(at_nodes(palette, &rules.eight, &mixture)),
+                    Some(at_nodes(palette, &rules.three, &mixture)),
+                    Some(Appearance::of(Xyz::from(straight), white)),
+                ];
+                let own = |row: MixingRow| colors[row as usize].map(|color: Appearance| color.lab);
+                let (truth, row) = own(MixingRow::Measured).map_or_else(
+                    || (own(MixingRow::Spectrum), MixingRow::Spectrum),
+                    |lab| (Some(lab), MixingRow::Measured),
+                );
+                GradedStep {
+                    share,
+                    sample: sample.map(|sample| sample.sample.clone()),
+                    errors: MixingRow::ALL.map(|other: MixingRow| {
+                        let lab: Lab = own(other).filter(|_| other != row)?;
+                        Some(delta_e_ciede2000(truth?, lab))
+                    }),
+                    colors,
+                }
+            })
+            .collect(),
+    }
 }
 
 /// Chooses up to three pairs of paints: the two pairs with the most measured steps, and the paint of the

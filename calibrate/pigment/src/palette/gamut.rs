@@ -1,8 +1,5 @@
-//! The colours that a palette can mix.
-//!
-//! A palette in the plane of a* and b*: tubes, their tints, mixing lines and reach.
-//!
-//! Mixtures that fill gaps between sampled ones.
+//! The colours that a palette can mix, and its colour wheel: tubes, tints and mixing lines in the plane of a*
+//! and b*.
 
 use std::collections::BTreeMap;
 
@@ -307,20 +304,22 @@ pub struct NearestMixture<'a> {
 #[must_use]
 pub fn color_wheel(palette: &Palette<'_>) -> ColorWheel {
     let masstone = |&paint: &PigmentId| (paint, palette.color(&Recipe::single(paint)));
-    let line = |(first, second): (PigmentId, PigmentId)| {
-        let color = |share: f64| {
-            let parts = [(first, share), (second, 1.0 - share)];
-            let mixed: Recipe = parts.into_iter().filter(|(_, part)| *part > 0.0).collect();
-            (share, palette.color(&mixed))
-        };
-        let inner = shares().map(color);
-        let colors = [color(0.0)].into_iter().chain(inner).chain([color(1.0)]).collect();
-        MixingLine { pair: [first, second], colors }
-    };
     ColorWheel {
         masstones: palette.paints().iter().map(masstone).collect(),
         tints: tint_ladders(palette),
-        lines: palette.pairs().map(line).collect(),
+        lines: palette
+            .pairs()
+            .map(|(first, second): (PigmentId, PigmentId)| {
+                let color = |share: f64| {
+                    let parts = [(first, share), (second, 1.0 - share)];
+                    let mixed: Recipe = parts.into_iter().filter(|(_, part)| *part > 0.0).collect();
+                    (share, palette.color(&mixed))
+                };
+                let inner = shares().map(color);
+                let colors = [color(0.0)].into_iter().chain(inner).chain([color(1.0)]).collect();
+                MixingLine { pair: [first, second], colors }
+            })
+            .collect(),
         gamut: sampled_gamut(palette),
     }
 }

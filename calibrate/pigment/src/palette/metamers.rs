@@ -1,6 +1,5 @@
-//! Pairs of mixtures that match under one light and differ under another.
-//!
-//! Colour shift of paints from one light to another.
+//! Pairs of mixtures that match under one light and differ under another, and the colour shift of each paint
+//! from one light to another.
 
 use spectra::color::{
     Adaptation, Lab, Xyz, adapt, delta_e_cie76, delta_e_ciede2000, metamerism_index,
@@ -106,11 +105,12 @@ fn index(first: &Candidate, second: &Candidate, lights: &[TestLight], light: usi
 }
 
 fn described(first: &Candidate, second: &Candidate, lights: &[TestLight]) -> Metamers {
-    let look = |light: usize| {
-        let white = lights[light].weights.white();
-        [first, second].map(|candidate| Appearance::of(candidate.xyz[light], white))
-    };
-    let colors: Vec<[Appearance; 2]> = (0..lights.len()).map(look).collect();
+    let colors: Vec<[Appearance; 2]> = (0..lights.len())
+        .map(|light: usize| {
+            let white = lights[light].weights.white();
+            [first, second].map(|candidate| Appearance::of(candidate.xyz[light], white))
+        })
+        .collect();
     let all = 0..lights.len();
     Metamers {
         names: [first.name.clone(), second.name.clone()],
@@ -202,24 +202,27 @@ pub fn color_shifts(
     lights: &[TestLight],
     recipes: &[Recipe],
 ) -> Vec<ColorShift> {
-    let shift = |recipe: &Recipe| {
-        let reflectance = palette.reflectance(recipe);
-        let xyz: Vec<Xyz> = lights.iter().map(|light| light.weights.xyz(&reflectance)).collect();
-        let whites: Vec<Xyz> = lights.iter().map(|light| light.weights.white()).collect();
-        let under_first = |at: usize| {
-            let xyz = if at == 0 {
-                xyz[0]
-            } else {
-                adapt(xyz[at], whites[at], whites[0], Adaptation::Bradford)
+    recipes
+        .iter()
+        .map(|recipe: &Recipe| {
+            let reflectance = palette.reflectance(recipe);
+            let xyz: Vec<Xyz> =
+                lights.iter().map(|light| light.weights.xyz(&reflectance)).collect();
+            let whites: Vec<Xyz> = lights.iter().map(|light| light.weights.white()).collect();
+            let under_first = |at: usize| {
+                let xyz = if at == 0 {
+                    xyz[0]
+                } else {
+                    adapt(xyz[at], whites[at], whites[0], Adaptation::Bradford)
+                };
+                Lab::from_xyz(xyz, whites[0])
             };
-            Lab::from_xyz(xyz, whites[0])
-        };
-        let all = 0..lights.len();
-        ColorShift {
-            recipe: recipe.clone(),
-            colors: all.clone().map(|at| Appearance::of(xyz[at], whites[at])).collect(),
-            shifts: all.map(|at| delta_e_ciede2000(under_first(0), under_first(at))).collect(),
-        }
-    };
-    recipes.iter().map(shift).collect()
+            let all = 0..lights.len();
+            ColorShift {
+                recipe: recipe.clone(),
+                colors: all.clone().map(|at| Appearance::of(xyz[at], whites[at])).collect(),
+                shifts: all.map(|at| delta_e_ciede2000(under_first(0), under_first(at))).collect(),
+            }
+        })
+        .collect()
 }

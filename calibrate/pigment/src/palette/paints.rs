@@ -1,8 +1,5 @@
-//! The paints of a library that can be mixed, and the colours of their mixtures.
-//!
-//! The black and the white card that films are drawn down over.
-//!
-//! Measured swatches as recipes of a palette.
+//! The paints of a library that can be mixed, the colours of their mixtures, and the black and white cards that
+//! films are drawn down over.
 
 use documents::hint::{Explain, Hint};
 use spectra::{Grid, TristimulusWeights};

@@ -1,8 +1,5 @@
-//! A quadrature with effective K and S of every pigment at its wavelengths.
-//!
-//! Films of a library's pigments that hide their ground or lie over one, with their exact colours.
-//!
-//! Quadratures as JSON for programs.
+//! A quadrature with effective K and S of every pigment at its wavelengths, and the films to which it is fitted:
+//! films that hide their ground or lie over one, with their exact colours.
 
 use rand::seq::index;
 use rand::{RngExt, SeedableRng};

@@ -1,6 +1,5 @@
-//! Effective K and S, fitted together with the weights and the wavelengths to films of a library.
-//!
-//! The least squares of effective K and S: films of a library, the unknowns, and their equations.
+//! Fits effective K and S together with the weights and the wavelengths to films of a library, by least
+//! squares.
 
 use std::ops::Range;
 
@@ -172,8 +171,14 @@ impl Problem {
     /// The fit from `point`, or where it stands once it was cancelled.
     pub(super) fn solve(&self, point: DVector<f64>, nodes: Nodes, stop: Stop<'_>) -> DVector<f64> {
         let (lower, upper) = self.bounds(nodes);
-        let build = |point: &_| self.equations(point);
-        minimise(point, (&lower, &upper), stop, build, |point: &_| self.cost(point)).point
+        minimise(
+            point,
+            (&lower, &upper),
+            stop,
+            |point: &_| self.equations(point),
+            |point: &_| self.cost(point),
+        )
+        .point
     }
 
     fn bounds(&self, nodes: Nodes) -> (DVector<f64>, DVector<f64>) {

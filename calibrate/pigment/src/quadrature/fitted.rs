@@ -1,6 +1,5 @@
-//! Nodes and weights fitted to the mixtures of a library.
-//!
-//! Comparison of all methods of choosing wavelengths, for several numbers of them.
+//! Nodes and weights fitted to the mixtures of a library, and the comparison of all methods of choosing
+//! wavelengths, for several numbers of them.
 
 use std::ops::RangeInclusive;
 

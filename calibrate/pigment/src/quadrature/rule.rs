@@ -1,8 +1,7 @@
-//! Wavelengths with their weights for X, Y and Z, and their colour error.
+//! Wavelengths with their weights for X, Y and Z, and their colour error over random mixtures of a library.
 //!
-//! Seeded random mixtures of a library, with their exact colours.
-//!
-//! Gaussian quadrature for a tabulated weight function.
+//! [`GaussRule`] is the Gaussian quadrature of a tabulated weight function. [`MixtureSet`] holds seeded random
+//! mixtures with their exact colours.
 
 use documents::Cancelled;
 use documents::hint::{Explain, Fault, Hint};
