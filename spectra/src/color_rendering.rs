@@ -14,7 +14,7 @@ use crate::color_temperature::ColorTemperature;
 use crate::grid::Grid;
 use crate::illuminant;
 use crate::illuminant::{Illuminant, IlluminantError, Observer};
-use crate::interpolate::{Extrapolation, InterpolateError, Interpolation};
+use crate::interpolate::{Extrapolation, Interpolation};
 use crate::light::{black_body, daylight};
 use crate::viewing::TristimulusWeights;
 
@@ -49,12 +49,11 @@ impl ColorRendering {
     /// [`ColorRenderingError`] for a light so far from every black body that it has no colour temperature, or
     /// bluer than daylight of 25000 K: both standards compare a lamp with a white of its temperature.
     pub fn of(light: &Illuminant) -> Result<Self, ColorRenderingError> {
-        let name = || light.name().to_owned();
         let temperature = ColorTemperature::of(light)
-            .ok_or_else(|| ColorRenderingError::NotWhite { name: name() })?;
+            .ok_or_else(|| ColorRenderingError::NotWhite { name: light.name().to_owned() })?;
         let kelvin = temperature.kelvin;
         if kelvin > BLUEST {
-            return Err(ColorRenderingError::TooBlue { name: name(), kelvin });
+            return Err(ColorRenderingError::TooBlue { name: light.name().to_owned(), kelvin });
         }
         Ok(Self {
             temperature,
@@ -122,21 +121,23 @@ impl RenderingIndex {
     fn of(light: &Illuminant, kelvin: f64) -> Result<Self, IlluminantError> {
         let reference = of_rendering(kelvin)?;
         let samples = samples_of_rendering();
-        let weights = |light: &Illuminant| -> Result<TristimulusWeights, InterpolateError> {
+        let weights = [light, &reference].map(|light| {
             let observer = Observer::Cie1931Deg2;
             TristimulusWeights::new(samples.grid, light, observer, Interpolation::Sprague)
-        };
-        let weights = [light, &reference]
-            .map(|light| weights(light).expect("the samples have many wavelengths"));
+                .expect("the samples have many wavelengths")
+        });
         let whites = [white_uv(&weights[0]), white_uv(&weights[1])];
-        let index = |reflectance: &Vec<f64>| {
-            let [own, wanted] = [weights[0].xyz(reflectance), weights[1].xyz(reflectance)];
-            let own = uvw(own, adapted(uv(own), whites), whites[1]);
-            let wanted = uvw(wanted, uv(wanted), whites[1]);
-            let squares = own.iter().zip(wanted).map(|(own, wanted)| (own - wanted).powi(2));
-            100.0 - FALL * squares.sum::<f64>().sqrt()
-        };
-        let special: Vec<f64> = samples.reflectances.iter().map(index).collect();
+        let special: Vec<f64> = samples
+            .reflectances
+            .iter()
+            .map(|reflectance| {
+                let [own, wanted] = [weights[0].xyz(reflectance), weights[1].xyz(reflectance)];
+                let own = uvw(own, adapted(uv(own), whites), whites[1]);
+                let wanted = uvw(wanted, uv(wanted), whites[1]);
+                let squares = own.iter().zip(wanted).map(|(own, wanted)| (own - wanted).powi(2));
+                100.0 - FALL * squares.sum::<f64>().sqrt()
+            })
+            .collect();
         let [own, wanted] = whites;
         Ok(Self {
             general: special[..GENERAL].iter().sum::<f64>() / GENERAL as f64,
@@ -155,13 +156,19 @@ impl RenderingIndex {
 /// Chromaticity under the first of two whites, adapted to the second by von Kries' law in the form of CIE
 /// 13.3, section 5.7.
 fn adapted(at: [f64; 2], whites: [[f64; 2]; 2]) -> [f64; 2] {
-    let c = |[u, v]: [f64; 2]| (4.0 - u - 10.0 * v) / v;
-    let d = |[u, v]: [f64; 2]| (1.708 * v + 0.404 - 1.481 * u) / v;
     let [own, reference] = whites;
-    let c = c(reference) / c(own) * c(at);
-    let d = d(reference) / d(own) * d(at);
+    let c = adaptation_c(reference) / adaptation_c(own) * adaptation_c(at);
+    let d = adaptation_d(reference) / adaptation_d(own) * adaptation_d(at);
     let below = 16.518 + 1.481 * c - d;
     [(10.872 + 0.404 * c - 4.0 * d) / below, 5.52 / below]
+}
+
+fn adaptation_d([u, v]: [f64; 2]) -> f64 {
+    (1.708 * v + 0.404 - 1.481 * u) / v
+}
+
+fn adaptation_c([u, v]: [f64; 2]) -> f64 {
+    (4.0 - u - 10.0 * v) / v
 }
 
 /// CIE 1964 U*, V*, W* of a colour with luminance factor and chromaticity.
@@ -199,7 +206,7 @@ impl ColorFidelity {
         let differences: Vec<f64> = own
             .iter()
             .zip(wanted)
-            .map(|(own, wanted): (&UniformColor, &UniformColor)| {
+            .map(|(own, wanted)| {
                 let squares =
                     [own.lightness - wanted.lightness, own.a - wanted.a, own.b - wanted.b];
                 squares.iter().map(|d| d * d).sum::<f64>().sqrt()
@@ -210,14 +217,11 @@ impl ColorFidelity {
             let bin = (color.hue_deg * BINS as f64 / 360.0) as usize;
             bins[bin.min(BINS - 1)].push(sample);
         }
-        let mean_of = |bin: &Vec<usize>| {
-            (!bin.is_empty()).then(|| fidelity(mean(bin.iter().map(|&at| differences[at]))))
-        };
         let area = |colors: &[UniformColor]| {
             let filled = bins.iter().filter(|bin| !bin.is_empty());
             polygon_area(
                 &filled
-                    .map(|bin: &Vec<usize>| {
+                    .map(|bin| {
                         [
                             mean(bin.iter().map(|&at| colors[at].a)),
                             mean(bin.iter().map(|&at| colors[at].b)),
@@ -230,7 +234,12 @@ impl ColorFidelity {
             fidelity: fidelity(mean(differences.iter().copied())),
             gamut: 100.0 * area(own) / area(wanted),
             samples: differences.iter().copied().map(fidelity).collect(),
-            hue_bins: bins.iter().map(mean_of).collect(),
+            hue_bins: bins
+                .iter()
+                .map(|bin| {
+                    (!bin.is_empty()).then(|| fidelity(mean(bin.iter().map(|&at| differences[at]))))
+                })
+                .collect(),
         })
     }
 }
@@ -238,12 +247,9 @@ impl ColorFidelity {
 /// The 99 samples under a light of which only 380 to 780 nm count.
 fn colors(light: &Illuminant) -> Result<Vec<UniformColor>, IlluminantError> {
     let [first, last] = BAND_NM;
-    let power = |nm: f64| {
-        let inside = (first..=last).contains(&nm);
-        let at = || light.power().at(nm, Interpolation::Linear, Extrapolation::Hold);
-        if inside { at().unwrap_or(0.0) } else { 0.0 }
-    };
-    let light = Illuminant::from_function(light.name(), power)?;
+    let light = Illuminant::from_function(light.name(), |nm| {
+        if (first..=last).contains(&nm) { power_at(light, nm) } else { 0.0 }
+    })?;
     let samples = samples_of_fidelity();
     let observer = Observer::Cie1964Deg10;
     let weights = TristimulusWeights::new(samples.grid, &light, observer, Interpolation::Sprague)
@@ -387,12 +393,13 @@ fn of_fidelity(kelvin: f64) -> Result<Illuminant, IlluminantError> {
     let share = (kelvin - first) / (last - first);
     let [body, day] = [black_body(kelvin)?, daylight(kelvin)?];
     let [of_body, of_day] = [luminance(&body), luminance(&day)];
-    let at = |light: &Illuminant, nm: f64| {
-        light.power().at(nm, Interpolation::Linear, Extrapolation::Hold).unwrap_or(0.0)
-    };
     Illuminant::from_function(&format!("reference of {kelvin} K"), |nm| {
-        (1.0 - share) * at(&body, nm) / of_body + share * at(&day, nm) / of_day
+        (1.0 - share) * power_at(&body, nm) / of_body + share * power_at(&day, nm) / of_day
     })
+}
+
+fn power_at(light: &Illuminant, nm: f64) -> f64 {
+    light.power().at(nm, Interpolation::Linear, Extrapolation::Hold).unwrap_or(0.0)
 }
 
 /// Luminance of a light in its own unit of power, for the observer of 1931.
@@ -433,12 +440,13 @@ fn samples_of_fidelity() -> &'static Samples {
 
 fn read(text: &str) -> Samples {
     let columns = illuminant::columns(text);
-    let values = |(_, cells): &(String, Vec<Option<f64>>)| -> Vec<f64> {
-        cells.iter().map(|cell| cell.expect("a shipped sample is complete")).collect()
-    };
-    let nm = values(&columns[0]);
+    let nm = complete(&columns[0]);
     let grid = Grid::from_nm(nm[0], nm[1] - nm[0], nm.len()).expect("shipped wavelengths rise");
-    Samples { grid, reflectances: columns[1..].iter().map(values).collect() }
+    Samples { grid, reflectances: columns[1..].iter().map(complete).collect() }
+}
+
+fn complete((_, cells): &(String, Vec<Option<f64>>)) -> Vec<f64> {
+    cells.iter().map(|cell| cell.expect("a shipped sample is complete")).collect()
 }
 
 #[cfg(test)]

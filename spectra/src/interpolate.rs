@@ -244,15 +244,16 @@ mod tests {
     #[test]
     fn sprague_is_exact_for_polynomials_of_degree_four_inside() {
         let grid = Grid::from_nm(400.0, 10.0, 12).unwrap();
-        let polynomial = |nm: f64| {
-            let x = (nm - 450.0) / 50.0;
-            1.0 + x - 2.0 * x * x + 0.5 * x.powi(3) + 0.25 * x.powi(4)
-        };
         let values: Vec<f64> = grid.wavelengths_nm().map(polynomial).collect();
         for nm in [420.0, 423.7, 455.5, 489.9] {
             let row = Interpolation::Sprague.row(grid, nm, Extrapolation::Refuse).unwrap();
             assert!((row.apply(&values) - polynomial(nm)).abs() < 1e-12, "at {nm} nm");
         }
+    }
+
+    fn polynomial(nm: f64) -> f64 {
+        let x = (nm - 450.0) / 50.0;
+        1.0 + x - 2.0 * x * x + 0.5 * x.powi(3) + 0.25 * x.powi(4)
     }
 
     #[test]

@@ -369,7 +369,6 @@ mod tests {
 
     #[test]
     fn names_of_trade_and_bare_temperatures_are_understood() {
-        let question = |text: &str| light_from_text(text).unwrap_err().hint().unwrap().to_string();
         for (text, wanted) in [
             ("F11", "did you mean FL11? use"),
             ("TL84", "did you mean FL11? use"),
@@ -384,14 +383,18 @@ mod tests {
             ("no/such/lamp.csv", "use a name"),
             ("./LED-B3", "use a name"),
         ] {
-            assert!(question(text).starts_with(wanted), "{text}: {}", question(text));
+            assert!(hint_of(text).starts_with(wanted), "{text}: {}", hint_of(text));
         }
         // There is no FL13.
-        assert!(!question("F13").contains("FL13"), "{}", question("F13"));
+        assert!(!hint_of("F13").contains("FL13"), "{}", hint_of("F13"));
         for (other, name) in OTHER_NAMES {
             assert!(light_from_text(name).is_ok(), "{name}");
-            assert!(question(other).starts_with(&format!("did you mean {name}? ")), "{other}");
+            assert!(hint_of(other).starts_with(&format!("did you mean {name}? ")), "{other}");
         }
+    }
+
+    fn hint_of(text: &str) -> String {
+        light_from_text(text).unwrap_err().hint().unwrap().to_string()
     }
 
     fn lamp(text: &str) -> Result<Illuminant, LampError> {

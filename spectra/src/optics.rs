@@ -437,12 +437,13 @@ mod tests {
                         let [value, over_k, over_s] = film.reflectance_with_slopes(k, s, g);
                         assert!((value - film.reflectance(k, s, g)).abs() < 1e-12, "{k} {s} {g}");
                         let h = 1e-6;
-                        let quotient = |low: f64, high: f64| (high - low) / (2.0 * h);
                         let by_k = quotient(
+                            h,
                             film.reflectance(k * (1.0 - h), s, g),
                             film.reflectance(k * (1.0 + h), s, g),
                         );
                         let by_s = quotient(
+                            h,
                             film.reflectance(k, s * (1.0 - h), g),
                             film.reflectance(k, s * (1.0 + h), g),
                         );
@@ -452,5 +453,9 @@ mod tests {
                 }
             }
         }
+    }
+
+    fn quotient(h: f64, low: f64, high: f64) -> f64 {
+        (high - low) / (2.0 * h)
     }
 }

@@ -256,8 +256,12 @@ impl IrregularSpectrum {
         }
         let curve = self.smooth_curve();
         let last = self.nm.len() - 1;
-        let held = |nm| self.values[if nm < self.nm[0] { 0 } else { last }];
-        grid.wavelengths_nm().map(|nm| curve.at(nm).unwrap_or_else(|| held(nm))).collect()
+
+        grid.wavelengths_nm()
+            .map(|nm| {
+                curve.at(nm).unwrap_or_else(|| self.values[if nm < self.nm[0] { 0 } else { last }])
+            })
+            .collect()
     }
 
     /// The curve through the values of a smooth quantity.

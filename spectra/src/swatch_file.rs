@@ -330,21 +330,29 @@ pub fn write_aco(palette: &SwatchFile) -> Result<Vec<u8>, SwatchFileError> {
 
 /// The colour space and the four 16-bit words of a colour.
 fn words(color: SwatchColor) -> (u16, [u16; 4]) {
-    let share = |v: f64| (v.clamp(0.0, 1.0) * 65535.0).round() as u16;
     // Hundredths in two's complement.
-    let hundredths = |v: f64| ((v * 100.0).round().clamp(-12800.0, 12700.0) as i16) as u16;
     match color {
-        SwatchColor::Rgb(Rgb([r, g, b])) => (RGB, [share(r), share(g), share(b), 0]),
+        SwatchColor::Rgb(Rgb([r, g, b])) => {
+            (RGB, [word_of_share(r), word_of_share(g), word_of_share(b), 0])
+        }
         SwatchColor::Lab(lab) => {
             let lightness = (lab.lightness * 100.0).round().clamp(0.0, 10000.0) as u16;
-            (LAB, [lightness, hundredths(lab.a), hundredths(lab.b), 0])
+            (LAB, [lightness, word_of_hundredths(lab.a), word_of_hundredths(lab.b), 0])
         }
         // CMYK values are inverted: 0 is full ink.
-        SwatchColor::Cmyk(inks) => (CMYK, inks.map(|ink| share(1.0 - ink))),
+        SwatchColor::Cmyk(inks) => (CMYK, inks.map(|ink| word_of_share(1.0 - ink))),
         SwatchColor::Grey(grey) => {
             (GREY, [(grey.clamp(0.0, 1.0) * 10000.0).round() as u16, 0, 0, 0])
         }
     }
+}
+
+fn word_of_hundredths(v: f64) -> u16 {
+    ((v * 100.0).round().clamp(-12800.0, 12700.0) as i16) as u16
+}
+
+fn word_of_share(v: f64) -> u16 {
+    (v.clamp(0.0, 1.0) * 65535.0).round() as u16
 }
 
 /// Reads `bytes`, the content of `file`: its section of version 2 if there is one, otherwise
@@ -393,19 +401,22 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<SwatchFile, SwatchFile
 /// The colour of a space and its words; `None` for other spaces, such as books of spot colours.
 fn aco_color(space: u16, words: [u16; 4]) -> Option<SwatchColor> {
     let shares = words.map(|word| f64::from(word) / 65535.0);
-    let hundredths = |word: u16| f64::from(word as i16) / 100.0;
     Some(match space {
         RGB => SwatchColor::Rgb(Rgb([shares[0], shares[1], shares[2]])),
         HSB => SwatchColor::Rgb(rgb_from_hsb(shares[0], shares[1], shares[2])),
         CMYK => SwatchColor::Cmyk(shares.map(|share| 1.0 - share)),
         LAB => SwatchColor::Lab(Lab {
             lightness: f64::from(words[0]) / 100.0,
-            a: hundredths(words[1]),
-            b: hundredths(words[2]),
+            a: hundredths_of_word(words[1]),
+            b: hundredths_of_word(words[2]),
         }),
         GREY => SwatchColor::Grey(f64::from(words[0]) / 10000.0),
         _ => return None,
     })
+}
+
+fn hundredths_of_word(word: u16) -> f64 {
+    f64::from(word as i16) / 100.0
 }
 
 /// RGB of hue (in turns), saturation and brightness (Smith 1978).

@@ -89,7 +89,7 @@ impl SparseRows {
 
     /// Residuals, runs and derivatives of each group.
     fn groups(&self) -> impl Iterator<Item = ([f64; 3], &[Range<usize>], &[[f64; 3]])> {
-        self.groups.iter().map(|group: &Group| {
+        self.groups.iter().map(|group| {
             let derivatives = &self.derivatives[group.first..];
             (group.residuals, &self.runs[group.runs.clone()], derivatives)
         })

@@ -159,11 +159,6 @@ impl Problem<'_> {
             let by_lab: [f64; 3] = std::array::from_fn(|i| found[i] - wanted.to_array()[i]);
             (xyz, metric.apply(by_lab))
         };
-        let cost = |z: &DVector<f64>| {
-            let color: f64 = difference(z).1.iter().map(|d| d * d).sum();
-            let steps: f64 = (1..z.len()).map(|i| (z[i] - z[i - 1]).powi(2)).sum();
-            0.5 * (color + SMOOTH * steps)
-        };
         let bound = DVector::from_element(start.len(), 6.0);
         let stop = Stop { iterations: 500, relative_decrease: 1e-9, cancellation: None };
         minimise(
@@ -191,7 +186,11 @@ impl Problem<'_> {
                 }
                 equations
             },
-            cost,
+            |z: &DVector<f64>| {
+                let color: f64 = difference(z).1.iter().map(|d| d * d).sum();
+                let steps: f64 = (1..z.len()).map(|i| (z[i] - z[i - 1]).powi(2)).sum();
+                0.5 * (color + SMOOTH * steps)
+            },
         )
         .point
     }
@@ -212,7 +211,7 @@ mod tests {
         let grid = Grid::from_nm(400.0, 10.0, 31).unwrap();
         let weights = Viewing::default().weights(grid).unwrap();
         colors
-            .map(|rgb: Rgb| {
+            .map(|rgb| {
                 let xyz =
                     RgbSpace::Srgb.xyz_from_encoded(rgb, weights.white(), Adaptation::Bradford);
                 (rgb, smoothest_reflectance(&weights, surface, xyz))

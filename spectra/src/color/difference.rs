@@ -187,9 +187,10 @@ pub fn ciede2000_metric(center: Lab) -> Matrix3 {
 
 /// S_L, S_C, S_H and R_T at a mean lightness, chroma and hue (in degrees).
 fn ciede2000_weights(lightness: f64, chroma: f64, hue: f64) -> [f64; 4] {
-    let cos = |degrees: f64| degrees.to_radians().cos();
-    let t = 1.0 - 0.17 * cos(hue - 30.0) + 0.24 * cos(2.0 * hue) + 0.32 * cos(3.0 * hue + 6.0)
-        - 0.20 * cos(4.0 * hue - 63.0);
+    let t = 1.0 - 0.17 * cos_degrees(hue - 30.0)
+        + 0.24 * cos_degrees(2.0 * hue)
+        + 0.32 * cos_degrees(3.0 * hue + 6.0)
+        - 0.20 * cos_degrees(4.0 * hue - 63.0);
     let from_middle = (lightness - 50.0).powi(2);
     let rotation = 30.0 * (-((hue - 275.0) / 25.0).powi(2)).exp();
     [
@@ -198,6 +199,10 @@ fn ciede2000_weights(lightness: f64, chroma: f64, hue: f64) -> [f64; 4] {
         1.0 + 0.015 * chroma * t,
         -2.0 * seventh_root_share(chroma) * (2.0 * rotation).to_radians().sin(),
     ]
+}
+
+fn cos_degrees(degrees: f64) -> f64 {
+    degrees.to_radians().cos()
 }
 
 /// The factor sqrt(C^7 / (C^7 + 25^7)) of CIEDE2000.

@@ -120,10 +120,13 @@ impl Rgb {
         if !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
             return None;
         }
-        let value = |from: usize, to: usize| u8::from_str_radix(&digits[from..to], 16).ok();
         let bytes = match digits.len() {
-            3 => [17 * value(0, 1)?, 17 * value(1, 2)?, 17 * value(2, 3)?],
-            6 => [value(0, 2)?, value(2, 4)?, value(4, 6)?],
+            3 => [
+                17 * hex_value(digits, 0, 1)?,
+                17 * hex_value(digits, 1, 2)?,
+                17 * hex_value(digits, 2, 3)?,
+            ],
+            6 => [hex_value(digits, 0, 2)?, hex_value(digits, 2, 4)?, hex_value(digits, 4, 6)?],
             _ => return None,
         };
         Some(Self(bytes.map(|byte| f64::from(byte) / 255.0)))
@@ -143,6 +146,10 @@ impl Rgb {
         let hex = self.to_hex();
         if self.in_gamut() { hex } else { format!("{hex} ({})", space.outside_note()) }
     }
+}
+
+fn hex_value(digits: &str, from: usize, to: usize) -> Option<u8> {
+    u8::from_str_radix(&digits[from..to], 16).ok()
 }
 
 /// The colour of an object under one light, in XYZ, CIELAB and sRGB.

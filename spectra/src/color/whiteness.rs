@@ -141,13 +141,16 @@ mod tests {
     #[test]
     fn what_is_not_white_is_told_with_its_reason() {
         let deg2 = Observer::Cie1931Deg2;
-        let says = |xyz, light, observer| of(xyz, light, observer).unwrap_err().to_string();
-        let dark = says([30.0, 31.0, 33.0], "D65", deg2);
+        let dark = message([30.0, 31.0, 33.0], "D65", deg2);
         assert!(dark.contains("not white: W ") && dark.contains("5 Y - 280 = -125.0"), "{dark}");
-        let green = says([80.0, 88.0, 94.0], "D65", deg2);
+        let green = message([80.0, 88.0, 94.0], "D65", deg2);
         assert!(green.contains("not white: T "), "{green}");
-        assert!(says([90.0, 95.0, 100.0], "A", deg2).contains("not under A"));
-        let deg2015 = says([90.0, 95.0, 100.0], "D65", Observer::Cie2015Deg2);
+        assert!(message([90.0, 95.0, 100.0], "A", deg2).contains("not under A"));
+        let deg2015 = message([90.0, 95.0, 100.0], "D65", Observer::Cie2015Deg2);
         assert!(deg2015.contains("2015-2"), "{deg2015}");
+    }
+
+    fn message(xyz: [f64; 3], light: &str, observer: Observer) -> String {
+        of(xyz, light, observer).unwrap_err().to_string()
     }
 }

@@ -89,35 +89,29 @@ impl Lab {
     /// to 6).
     #[must_use]
     pub fn from_xyz(xyz: Xyz, white: Xyz) -> Self {
-        let f = |t: f64| if t > TOE { t.cbrt() } else { (KAPPA * t + 16.0) / 116.0 };
-        let fx = f(xyz.x / white.x);
-        let fy = f(xyz.y / white.y);
-        let fz = f(xyz.z / white.z);
+        let fx = lab_f(xyz.x / white.x);
+        let fy = lab_f(xyz.y / white.y);
+        let fz = lab_f(xyz.z / white.z);
         Self { lightness: 116.0 * fy - 16.0, a: 500.0 * (fx - fy), b: 200.0 * (fy - fz) }
     }
 
     /// The derivatives of L*, a*, b* (rows) with respect to X, Y, Z (columns) at `xyz`.
     #[must_use]
     pub fn slopes_over_xyz(xyz: Xyz, white: Xyz) -> Matrix3 {
-        let slope = |value: f64, white: f64| {
-            let t = value / white;
-            (if t > TOE { t.powf(-2.0 / 3.0) / 3.0 } else { KAPPA / 116.0 }) / white
-        };
-        let x = slope(xyz.x, white.x);
-        let y = slope(xyz.y, white.y);
-        let z = slope(xyz.z, white.z);
+        let x = lab_slope(xyz.x, white.x);
+        let y = lab_slope(xyz.y, white.y);
+        let z = lab_slope(xyz.z, white.z);
         Matrix3([[0.0, 116.0 * y, 0.0], [500.0 * x, -500.0 * y, 0.0], [0.0, 200.0 * y, -200.0 * z]])
     }
 
     /// XYZ under the white point `white`: the inverse of [`Lab::from_xyz`].
     #[must_use]
     pub fn to_xyz(self, white: Xyz) -> Xyz {
-        let inverse = |f: f64| if f > 6.0 / 29.0 { f.powi(3) } else { (116.0 * f - 16.0) / KAPPA };
         let fy = (self.lightness + 16.0) / 116.0;
         Xyz {
-            x: white.x * inverse(fy + self.a / 500.0),
-            y: white.y * inverse(fy),
-            z: white.z * inverse(fy - self.b / 200.0),
+            x: white.x * lab_f_inverse(fy + self.a / 500.0),
+            y: white.y * lab_f_inverse(fy),
+            z: white.z * lab_f_inverse(fy - self.b / 200.0),
         }
     }
 
@@ -155,6 +149,19 @@ impl Lab {
     pub fn to_array(self) -> [f64; 3] {
         [self.lightness, self.a, self.b]
     }
+}
+
+fn lab_f_inverse(f: f64) -> f64 {
+    if f > 6.0 / 29.0 { f.powi(3) } else { (116.0 * f - 16.0) / KAPPA }
+}
+
+fn lab_slope(value: f64, white: f64) -> f64 {
+    let t = value / white;
+    (if t > TOE { t.powf(-2.0 / 3.0) / 3.0 } else { KAPPA / 116.0 }) / white
+}
+
+fn lab_f(t: f64) -> f64 {
+    if t > TOE { t.cbrt() } else { (KAPPA * t + 16.0) / 116.0 }
 }
 
 impl From<[f64; 3]> for Lab {
@@ -248,8 +255,8 @@ impl Adaptation {
         let cone_from_xyz = self.cone_from_xyz();
         let from = cone_from_xyz.apply(from.to_array());
         let to = cone_from_xyz.apply(to.to_array());
-        let scale = |cone: usize| degree * (to[cone] / from[cone]) + (1.0 - degree);
-        let scale = Matrix3::diagonal([scale(0), scale(1), scale(2)]);
+        let scale = [0, 1, 2].map(|cone| degree * (to[cone] / from[cone]) + (1.0 - degree));
+        let scale = Matrix3::diagonal(scale);
         cone_from_xyz.inverse().after(&scale).after(&cone_from_xyz)
     }
 }
@@ -300,23 +307,24 @@ impl Matrix3 {
     #[must_use]
     pub fn inverse(&self) -> Self {
         let m = &self.0;
-        let cofactor = |i: usize, j: usize| {
-            let a = (i + 1) % 3;
-            let b = (i + 2) % 3;
-            let c = (j + 1) % 3;
-            let d = (j + 2) % 3;
-            m[a][c] * m[b][d] - m[a][d] * m[b][c]
-        };
-        let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(0, j)).sum();
+        let determinant: f64 = (0..3).map(|j| m[0][j] * cofactor(m, 0, j)).sum();
         assert!(determinant != 0.0, "a colour matrix is never singular: {m:?}");
         let mut rows = [[0.0; 3]; 3];
         for (i, row) in rows.iter_mut().enumerate() {
             for (j, value) in row.iter_mut().enumerate() {
-                *value = cofactor(j, i) / determinant;
+                *value = cofactor(m, j, i) / determinant;
             }
         }
         Self(rows)
     }
+}
+
+fn cofactor(m: &[[f64; 3]; 3], i: usize, j: usize) -> f64 {
+    let a = (i + 1) % 3;
+    let b = (i + 2) % 3;
+    let c = (j + 1) % 3;
+    let d = (j + 2) % 3;
+    m[a][c] * m[b][d] - m[a][d] * m[b][c]
 }
 
 #[cfg(test)]

@@ -29,9 +29,6 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let data = below(text, *at);
     let table = table(file, &data)?;
     let Some((row, first)) = table.rows.first() else { return Ok(Vec::new()) };
-    let cells = |line: &'_ str| -> Vec<String> {
-        line.trim_end().split([';', '\t']).map(|cell| cell.trim().to_owned()).collect()
-    };
     let headings = cells(headings);
     let units = cells(units);
     if headings.len() != first.len() || units.len() != first.len() {
@@ -53,9 +50,16 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     let label = ColumnLabel { name: stem(file), quantity, unit };
     let mut record = table.spectrum(file, column, Axis::Nanometres, label)?;
     let comments = lines[..*at].iter().filter_map(|(_, line)| line.split_once(':'));
-    let plain = |text: &str| text.trim_matches(|c: char| c.is_whitespace() || c == '\0').to_owned();
     record.details = comments.map(|(key, value)| (plain(key), plain(value))).collect();
     Ok(vec![record])
+}
+
+fn plain(text: &str) -> String {
+    text.trim_matches(|c: char| c.is_whitespace() || c == '\0').to_owned()
+}
+
+fn cells(line: &str) -> Vec<String> {
+    line.trim_end().split([';', '\t']).map(|cell| cell.trim().to_owned()).collect()
 }
 
 const FORMAT: &str = "Avantes AvaSoft 7";
@@ -87,7 +91,6 @@ pub(super) fn avasoft7_read(
     let first = reader.f32()?;
     let last = reader.f32()?;
     reader.f32s(SETTINGS[usize::from(is_new)])?;
-    let is_pixel = |pixel: f64| pixel.fract() == 0.0 && (0.0..65536.0).contains(&pixel);
     if !(is_pixel(first) && is_pixel(last) && first <= last) {
         return Err(reader.faulty(format!("it states pixels from {first} to {last}")));
     }
@@ -116,6 +119,10 @@ pub(super) fn avasoft7_read(
     records.iter_mut().for_each(|record| record.details.push(detail.clone()));
     records.retain(|record| !record.values.is_empty());
     Ok(records)
+}
+
+fn is_pixel(pixel: f64) -> bool {
+    pixel.fract() == 0.0 && (0.0..65536.0).contains(&pixel)
 }
 
 const AVASOFT8_FORMAT: &str = "Avantes AvaSoft 8";

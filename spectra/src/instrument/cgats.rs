@@ -97,7 +97,7 @@ impl Table {
         if self.open.is_empty() && tabs.len() == width && width > 1 {
             self.rows.push(
                 tabs.into_iter()
-                    .map(|cell: &str| (number, cell.trim().trim_matches('"').to_owned()))
+                    .map(|cell| (number, cell.trim().trim_matches('"').to_owned()))
                     .collect(),
             );
             return Ok(());
@@ -239,9 +239,7 @@ impl Fields {
             match wavelength(name) {
                 Some(nm) => {
                     if let Some((first, _)) =
-                        values.iter().find(|other: &&(usize, WavelengthSource)| {
-                            other.1 == WavelengthSource::Nm(nm)
-                        })
+                        values.iter().find(|other| other.1 == WavelengthSource::Nm(nm))
                     {
                         let line = names[column].0;
                         let first = names[*first].0;
@@ -493,20 +491,21 @@ mod tests {
 
     #[test]
     fn wavelengths_rounded_by_argyll_are_restored() {
-        let text = |end: &str| {
-            format!(
-                "SPECT\nSPECTRAL_BANDS \"4\"\nSPECTRAL_START_NM \"380.0\"\nSPECTRAL_END_NM \"{end}\"\n\
-                 SPECTRAL_NORM \"50\"\nBEGIN_DATA_FORMAT\nSPEC_380 SPEC_383 SPEC_387 SPEC_390\n\
-                 END_DATA_FORMAT\nBEGIN_DATA\n10 20 30 40\nEND_DATA\n"
-            )
-        };
-        let found = &read("a/Red.sp", &text("390.0")).unwrap()[0];
+        let found = &read("a/Red.sp", &argyll("390.0")).unwrap()[0];
         assert_eq!(found.wavelengths_nm[1], 380.0 + 10.0 / 3.0);
         assert_eq!((found.name.as_str(), found.unit), ("Red", Unit::Percent));
         assert_eq!(found.values, [20.0, 40.0, 60.0, 80.0]);
-        let stale = &read("a/Red.sp", &text("700.0")).unwrap()[0];
+        let stale = &read("a/Red.sp", &argyll("700.0")).unwrap()[0];
         assert_eq!(stale.wavelengths_nm[1], 383.0);
         assert!(stale.remarks[0].contains("700"), "{:?}", stale.remarks);
+    }
+
+    fn argyll(end: &str) -> String {
+        format!(
+            "SPECT\nSPECTRAL_BANDS \"4\"\nSPECTRAL_START_NM \"380.0\"\nSPECTRAL_END_NM \"{end}\"\n\
+                 SPECTRAL_NORM \"50\"\nBEGIN_DATA_FORMAT\nSPEC_380 SPEC_383 SPEC_387 SPEC_390\n\
+                 END_DATA_FORMAT\nBEGIN_DATA\n10 20 30 40\nEND_DATA\n"
+        )
     }
 
     #[test]

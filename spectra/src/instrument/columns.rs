@@ -5,7 +5,9 @@
 //! columns without a heading.
 
 use super::decode::{Decimal, lines, number, required_number};
-use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
+use super::measured::{
+    InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, contains_any, stem,
+};
 use super::points::{Duplicates, Point, ordered};
 
 /// Whether `text` consists of such columns: most lines are numbers, and the first number of
@@ -74,9 +76,12 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
 
 /// Whether the lines above the rows state figures of a light, as light meters do.
 fn is_of_a_light(words: &str) -> bool {
-    let is_figure = |word: &str| ["lux", "cct", "cri", "ppfd", "duv"].contains(&word);
     let lower = words.to_ascii_lowercase();
-    lower.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| is_figure(word)).count() > 1
+    lower
+        .split(|c: char| !c.is_ascii_alphanumeric())
+        .filter(|word| ["lux", "cct", "cri", "ppfd", "duv"].contains(word))
+        .count()
+        > 1
 }
 
 /// Whether a heading names a sample rather than a quantity.
@@ -188,12 +193,14 @@ impl Axis {
     /// The unit named in `words`, such as a column heading; `None` if there is none.
     pub(super) fn of_words(words: &str) -> Option<Self> {
         let lower = words.to_lowercase();
-        let has = |stems: &[&str]| stems.iter().any(|stem| lower.contains(stem));
-        if has(&["1/cm", "cm-1", "cm^-1", "wavenumber", "wave number"]) {
+
+        if contains_any(&lower, &["1/cm", "cm-1", "cm^-1", "wavenumber", "wave number"]) {
             Some(Self::Wavenumbers)
-        } else if has(&["micromet", "micron", "\u{b5}m", "\u{3bc}m"]) || lower.trim() == "um" {
+        } else if contains_any(&lower, &["micromet", "micron", "\u{b5}m", "\u{3bc}m"])
+            || lower.trim() == "um"
+        {
             Some(Self::Micrometres)
-        } else if has(&["nm", "nanomet", "wavelength"]) {
+        } else if contains_any(&lower, &["nm", "nanomet", "wavelength"]) {
             Some(Self::Nanometres)
         } else {
             None

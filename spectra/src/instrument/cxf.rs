@@ -60,13 +60,13 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     }
     make_names_unique(&mut found);
     let mut records: Vec<MeasuredSpectrum> = found.into_iter().map(|found| found.record).collect();
-    let fraction = |record: &MeasuredSpectrum| record.unit == Unit::Fraction;
+
     let above =
         |record: &MeasuredSpectrum| record.values.iter().any(|&value| value >= MOST_FRACTION);
     // Some writers use percent. One value of 3 or more shows that all fractions of the file are
     // percent.
-    if records.iter().any(|record| fraction(record) && above(record)) {
-        for record in records.iter_mut().filter(|record| fraction(record)) {
+    if records.iter().any(|record| record.unit == Unit::Fraction && above(record)) {
+        for record in records.iter_mut().filter(|record| record.unit == Unit::Fraction) {
             record.unit = Unit::Percent;
         }
     }
@@ -191,7 +191,7 @@ fn number(
 fn irregular(file: &str, element: &Element) -> Result<Vec<Point>, InstrumentError> {
     element
         .all("SpectralPoint")
-        .map(|child: &Element| {
+        .map(|child| {
             let nm = number(file, child.line, NM, child.attribute("WL").unwrap_or_default())?;
             let value = number(file, child.line, NUMBER, &child.text)?;
             Ok(Point { nm, value, line: child.line })
@@ -348,9 +348,12 @@ fn specification(number: usize, grid: Grid, geometry: &str) -> String {
 
 /// Start and step in whole nm, if the schema can express them.
 fn whole_start_and_step(grid: Grid) -> Option<(u32, u32)> {
-    let whole = |nm: f64| (nm.fract() == 0.0 && nm <= 1000.0).then_some(nm as u32);
-    let start = whole(grid.start_nm()).filter(|start| (360..=400).contains(start))?;
-    Some((start, whole(grid.step_nm())?))
+    let start = whole_nm(grid.start_nm()).filter(|start| (360..=400).contains(start))?;
+    Some((start, whole_nm(grid.step_nm())?))
+}
+
+fn whole_nm(nm: f64) -> Option<u32> {
+    (nm.fract() == 0.0 && nm <= 1000.0).then_some(nm as u32)
 }
 
 /// Escapes text for an element or an attribute. Characters that would be read back as a space
@@ -358,7 +361,7 @@ fn whole_start_and_step(grid: Grid) -> Option<(u32, u32)> {
 fn escaped(text: &str) -> String {
     let text: String = text
         .chars()
-        .map(|c: char| match c {
+        .map(|c| match c {
             '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'.. => c,
             _ => '\u{fffd}',
         })
@@ -374,14 +377,6 @@ mod tests {
     /// A CxF file with `objects` and the specifications `s` (steps of 10 nm), `m0` and `m1` (steps
     /// of 100 nm).
     fn file(objects: &str) -> String {
-        let illuminated = |id: &str, condition: &str| {
-            format!(
-                "<c:ColorSpecification Id='{id}'><c:MeasurementSpec>\
-                 <c:WavelengthRange StartWL='400' Increment='100'/><c:Device>\
-                 <c:DeviceIllumination>{condition}</c:DeviceIllumination></c:Device>\
-                 </c:MeasurementSpec></c:ColorSpecification>"
-            )
-        };
         format!(
             "<c:CxF xmlns:c='http://colorexchangeformat.com/CxF3-core'><c:Resources>\
              <c:ObjectCollection>\n{objects}\n</c:ObjectCollection>\
@@ -392,6 +387,15 @@ mod tests {
              </c:ColorSpecificationCollection></c:Resources></c:CxF>",
             illuminated("m0", "M0_Incandescent"),
             illuminated("m1", "M1_Daylight")
+        )
+    }
+
+    fn illuminated(id: &str, condition: &str) -> String {
+        format!(
+            "<c:ColorSpecification Id='{id}'><c:MeasurementSpec>\
+                 <c:WavelengthRange StartWL='400' Increment='100'/><c:Device>\
+                 <c:DeviceIllumination>{condition}</c:DeviceIllumination></c:Device>\
+                 </c:MeasurementSpec></c:ColorSpecification>"
         )
     }
 
@@ -434,9 +438,6 @@ mod tests {
     #[test]
     fn values_at_a_repeated_custom_wavelength_are_averaged_unless_far_apart() {
         let points = |second: f64| {
-            let point = |nm: f64, value: f64| {
-                format!("<c:SpectralPoint WL='{nm}'>{value}</c:SpectralPoint>")
-            };
             let points = point(400.0, 0.1) + &point(500.0, 0.2) + "\n" + &point(500.0, second);
             let spec = "<c:CustomSpectrum ColorSpecification='s'>";
             read("f", &file(&object("a", &format!("{spec}{points}</c:CustomSpectrum>"))))
@@ -446,6 +447,10 @@ mod tests {
         assert!(found.remarks[0].contains("averaged"), "{found:?}");
         let error = points(0.31).unwrap_err().to_string();
         assert!(error.starts_with("f, line 3: 500 nm occurs more than once"), "{error}");
+    }
+
+    fn point(nm: f64, value: f64) -> String {
+        format!("<c:SpectralPoint WL='{nm}'>{value}</c:SpectralPoint>")
     }
 
     #[test]

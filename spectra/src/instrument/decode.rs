@@ -48,7 +48,7 @@ fn guess_encoding(bytes: &[u8]) -> &'static Encoding {
 /// one end (OceanView writes it).
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut rest = Some(text);
-    let next = move || {
+    std::iter::from_fn(move || {
         let whole = rest?;
         let Some(at) = whole.find(['\n', '\r']) else {
             rest = None;
@@ -59,8 +59,9 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
             end.starts_with(b"\r\n") || (end.starts_with(b"\n\r") && !end.starts_with(b"\n\r\n"));
         rest = Some(&whole[at + 1 + usize::from(pair)..]);
         Some(&whole[..at])
-    };
-    std::iter::from_fn(next).zip(1..).map(|(line, number)| (number, line))
+    })
+    .zip(1..)
+    .map(|(line, number)| (number, line))
 }
 
 /// The decimal sign of a file.
@@ -263,7 +264,6 @@ pub(super) mod tests {
         let utf16: Vec<u16> = text.encode_utf16().collect();
         let little: Vec<u8> = utf16.iter().flat_map(|u| u.to_le_bytes()).collect();
         let big: Vec<u8> = utf16.iter().flat_map(|u| u.to_be_bytes()).collect();
-        let marked = |mark: &[u8], bytes: &[u8]| [mark, bytes].concat();
         for (bytes, name) in [
             (text.as_bytes().to_vec(), "UTF-8"),
             (marked(b"\xef\xbb\xbf", text.as_bytes()), "UTF-8"),
@@ -332,5 +332,9 @@ pub(super) mod tests {
         for length in 4..bytes.len() {
             assert!(Archive::open("f", &bytes[..length]).is_err(), "{length}");
         }
+    }
+
+    fn marked(mark: &[u8], bytes: &[u8]) -> Vec<u8> {
+        [mark, bytes].concat()
     }
 }

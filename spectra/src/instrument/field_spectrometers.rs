@@ -72,7 +72,6 @@ pub(super) fn read_binary(
         reader.take(description)?;
         white = is_taken.then(|| numbers(&mut reader)).transpose()?;
     }
-    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let is_ratio = kind == 1 && largest(&spectrum) <= MOST_RATIO;
     let white = white.filter(|white| !(is_ratio && largest(white) > MOST_RATIO));
     let (quantity, values) = match (kind, white) {
@@ -114,10 +113,15 @@ pub(super) fn read_binary(
     }])
 }
 
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
 /// The spectra of a converted text: one column each below the heading `Wavelength`.
 pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
-    let is_heading = |line: &str| line.trim_start().to_ascii_lowercase().starts_with("wavelength");
-    let Some((at, heading)) = lines(text).find(|(_, line)| is_heading(line)) else {
+    let Some((at, heading)) = lines(text)
+        .find(|(_, line)| line.trim_start().to_ascii_lowercase().starts_with("wavelength"))
+    else {
         return Ok(Vec::new());
     };
     let head: String = lines(text).take(at).map(|(_, line)| line.to_owned() + "\n").collect();
@@ -242,8 +246,9 @@ pub(super) fn svc_is_text(text: &str) -> bool {
 
 /// Reflectance, or sample and white, in the band of the first detector.
 pub(super) fn svc_read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
-    let is_data = |line: &str| line.trim_start().starts_with("data=");
-    let Some((at, _)) = lines(text).find(|(_, line)| is_data(line)) else { return Ok(Vec::new()) };
+    let Some((at, _)) = lines(text).find(|(_, line)| line.trim_start().starts_with("data=")) else {
+        return Ok(Vec::new());
+    };
     let stated = lines(text).take(at - 1).filter_map(|(_, line)| line.split_once('='));
     let details: Vec<(String, String)> =
         stated.map(|(key, value)| (key.trim().to_owned(), value.trim().to_owned())).collect();

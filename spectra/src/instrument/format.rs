@@ -257,12 +257,8 @@ fn is_noise(bytes: &[u8]) -> bool {
         return false;
     }
     let share = |count: usize| count as f64 / start.len().max(1) as f64;
-    share(
-        start
-            .iter()
-            .filter(|byte: &&u8| matches!(byte, 1..=8 | 11 | 14..=26 | 28..=31 | 127))
-            .count(),
-    ) > MOST_CONTROL
+    share(start.iter().filter(|byte| matches!(byte, 1..=8 | 11 | 14..=26 | 28..=31 | 127)).count())
+        > MOST_CONTROL
         || share(start.iter().filter(|byte| **byte == 0).count()) > MOST_ZEROS
 }
 

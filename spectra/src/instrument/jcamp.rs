@@ -86,7 +86,7 @@ impl Block<'_> {
         let several = pages.len() > 1;
         pages
             .into_iter()
-            .map(|page: super::jcamp_data::Page| {
+            .map(|page| {
                 let axis = axis(file, page.line, &page.x_units)?;
                 let ordered = in_nm(file, page.points, axis)?;
                 let words = format!("{} {}", page.units, page.variable);
@@ -122,10 +122,8 @@ impl Block<'_> {
 
     /// The spectrum of the block, if it has one.
     fn spectrum(&self, file: &str) -> Result<Option<MeasuredSpectrum>, InstrumentError> {
-        let Some(data) = self
-            .fields
-            .iter()
-            .find(|field: &&Field<'_>| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str()))
+        let Some(data) =
+            self.fields.iter().find(|field| ["XYDATA", "XYPOINTS"].contains(&field.label.as_str()))
         else {
             return Ok(None);
         };
@@ -311,20 +309,21 @@ mod tests {
 
     #[test]
     fn the_announced_step_is_checked_and_used() {
-        let text = |delta: &str| {
-            block("A", &format!("##DELTAX= {delta}\n##XYDATA= (X++(Y..Y))\n800 120 130 130 95"))
-        };
         for delta in ["10", "-10", "10.00", "0", "1E1"] {
-            assert!(read("f", &text(delta)).is_ok(), "{delta}");
+            assert!(read("f", &stepped(delta)).is_ok(), "{delta}");
         }
-        let error = read("f", &text("5")).unwrap_err().to_string();
+        let error = read("f", &stepped("5")).unwrap_err().to_string();
         assert!(
             error.starts_with("f, line 10: expected a DELTAX") && error.contains("10 does"),
             "{error}"
         );
-        let alone = text("10").replace("##LASTX= 430\n", "");
+        let alone = stepped("10").replace("##LASTX= 430\n", "");
         assert_eq!(read("f", &alone).unwrap()[0].wavelengths_nm, [400.0, 410.0, 420.0, 430.0]);
         assert!(read("f", &alone.replace("##DELTAX= 10\n", "")).is_err(), "no step at all");
+    }
+
+    fn stepped(delta: &str) -> String {
+        block("A", &format!("##DELTAX= {delta}\n##XYDATA= (X++(Y..Y))\n800 120 130 130 95"))
     }
 
     const TUPLES: &str = "##TITLE= Paint\n##JCAMP-DX= 5.01\n##NTUPLES= UV/VIS SPECTRUM\n\

@@ -241,19 +241,25 @@ enum Kind {
 /// Decodes the first character of a number: its kind and, if packed, its first digit with its
 /// sign.
 fn packed(first: char) -> (Kind, Option<String>) {
-    let after = |zero: char| (first as u32).wrapping_sub(zero as u32);
-    let digit = |sign: &str, digit: u32| Some(format!("{sign}{digit}"));
     match first {
         '@' => (Kind::Value, digit("", 0)),
-        'A'..='I' => (Kind::Value, digit("", 1 + after('A'))),
-        'a'..='i' => (Kind::Value, digit("-", 1 + after('a'))),
+        'A'..='I' => (Kind::Value, digit("", 1 + letters_after(first, 'A'))),
+        'a'..='i' => (Kind::Value, digit("-", 1 + letters_after(first, 'a'))),
         '%' => (Kind::Difference, digit("", 0)),
-        'J'..='R' => (Kind::Difference, digit("", 1 + after('J'))),
-        'j'..='r' => (Kind::Difference, digit("-", 1 + after('j'))),
-        'S'..='Z' => (Kind::Times, digit("", 1 + after('S'))),
+        'J'..='R' => (Kind::Difference, digit("", 1 + letters_after(first, 'J'))),
+        'j'..='r' => (Kind::Difference, digit("-", 1 + letters_after(first, 'j'))),
+        'S'..='Z' => (Kind::Times, digit("", 1 + letters_after(first, 'S'))),
         's' => (Kind::Times, digit("", 9)),
         _ => (Kind::Value, None),
     }
+}
+
+fn digit(sign: &str, digit: u32) -> Option<String> {
+    Some(format!("{sign}{digit}"))
+}
+
+fn letters_after(first: char, zero: char) -> u32 {
+    (first as u32).wrapping_sub(zero as u32)
 }
 
 /// One page of a file.
@@ -334,18 +340,17 @@ pub(super) fn pages(file: &str, fields: &[Field<'_>]) -> Result<Vec<Page>, Instr
 /// the first is given once for each row only.
 fn variables(symbols: &[&str], form: &str) -> Option<(usize, usize, bool)> {
     let pairs = (0..symbols.len()).flat_map(|x| (0..symbols.len()).map(move |y| (x, y)));
-    let of = |form: String, x: usize, y: usize| {
-        let upper = |place: usize| symbols[place].to_ascii_uppercase();
-        form.replace('X', "\0").replace('Y', &upper(y)).replace('\0', &upper(x))
-    };
-    let named = |&(x, y): &(usize, usize)| {
-        let is_run = of("(X++(Y..Y))".to_owned(), x, y) == form;
-        let is_pairs = of("(XY..XY)".to_owned(), x, y) == form;
+    pairs.filter(|(x, y)| !symbols[*x].is_empty() && !symbols[*y].is_empty()).find_map(|(x, y)| {
+        let is_run = form_of(symbols, "(X++(Y..Y))".to_owned(), x, y) == form;
+        let is_pairs = form_of(symbols, "(XY..XY)".to_owned(), x, y) == form;
         (x != y && (is_run || is_pairs)).then_some((x, y, is_run))
-    };
-    pairs
-        .filter(|(x, y)| !symbols[*x].is_empty() && !symbols[*y].is_empty())
-        .find_map(|pair| named(&pair))
+    })
+}
+
+fn form_of(symbols: &[&str], form: String, x: usize, y: usize) -> String {
+    let x = symbols[x].to_ascii_uppercase();
+    let y = symbols[y].to_ascii_uppercase();
+    form.replace('X', "\0").replace('Y', &y).replace('\0', &x)
 }
 
 /// The lists that describe the variables.

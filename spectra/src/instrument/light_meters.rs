@@ -66,7 +66,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
     for column in 0..first.len().max(1) {
         let points = finest
             .iter()
-            .map(|(line, nm, cells): &(usize, f64, Vec<&str>)| {
+            .map(|(line, nm, cells)| {
                 let cell = cells.get(column).copied().unwrap_or_default();
                 let value =
                     required_number(file, *line, "a value for every reading", cell, decimal)?;
@@ -85,9 +85,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
             line: *first_line,
             details: details
                 .iter()
-                .filter_map(|(key, cells): &(String, Vec<&str>)| {
-                    Some((key.clone(), (*cells.get(column)?).to_owned()))
-                })
+                .filter_map(|(key, cells)| Some((key.clone(), (*cells.get(column)?).to_owned())))
                 .collect(),
             remarks: ordered.remarks,
         });
@@ -161,10 +159,12 @@ fn spectrum(
         points.push(Point { line, nm, value });
     }
     let ordered = ordered(file, points, Duplicates::Refuse)?;
-    let detail = |(key, values): &(String, Vec<String>)| {
-        Some((key.clone(), values.get(column).filter(|value| !value.is_empty())?.clone()))
-    };
-    let details: Vec<(String, String)> = details.iter().filter_map(detail).collect();
+    let details: Vec<(String, String)> = details
+        .iter()
+        .filter_map(|(key, values)| {
+            Some((key.clone(), values.get(column).filter(|value| !value.is_empty())?.clone()))
+        })
+        .collect();
     let title = details.iter().find(|(key, _)| key == "Title").map(|(_, title)| title.clone());
     Ok(MeasuredSpectrum {
         name: title.unwrap_or_else(|| stem(file)),

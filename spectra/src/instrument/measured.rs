@@ -32,21 +32,24 @@ impl MeasuredQuantity {
     /// The quantity named in `words`, such as the heading of a column.
     pub(super) fn of_words(words: &str) -> Self {
         let lower = words.to_ascii_lowercase();
-        let has = |stems: &[&str]| stems.iter().any(|stem| lower.contains(stem));
-        if has(&["reflect"]) {
+        if contains_any(&lower, &["reflect"]) {
             Self::Reflectance
-        } else if has(&["transmi"]) {
+        } else if contains_any(&lower, &["transmi"]) {
             Self::Transmittance
-        } else if has(&["absorb", "absorpt"]) {
+        } else if contains_any(&lower, &["absorb", "absorpt"]) {
             Self::Absorbance
-        } else if has(&["count", "scope", "raw"]) {
+        } else if contains_any(&lower, &["count", "scope", "raw"]) {
             Self::Counts
-        } else if has(&["radian", "power", "emission", "w/m", "w/nm", "watt"]) {
+        } else if contains_any(&lower, &["radian", "power", "emission", "w/m", "w/nm", "watt"]) {
             Self::Power
         } else {
             Self::Unstated
         }
     }
+}
+
+pub(super) fn contains_any(text: &str, stems: &[&str]) -> bool {
+    stems.iter().any(|stem| text.contains(stem))
 }
 
 impl std::fmt::Display for MeasuredQuantity {
@@ -140,18 +143,20 @@ impl MeasuredSpectrum {
     /// 0 to 2.
     pub fn reflectance(&self) -> Result<Spectrum<Reflectance>, ReflectanceError> {
         use MeasuredQuantity::{Reflectance, Unstated};
-        let name = || self.name.clone();
         if !matches!(self.quantity, Reflectance | Unstated) {
-            return Err(ReflectanceError::Quantity { name: name(), found: self.quantity });
+            return Err(ReflectanceError::Quantity {
+                name: self.name.clone(),
+                found: self.quantity,
+            });
         }
         let scale = if self.is_percent() { 0.01 } else { 1.0 };
         let values = self.values.iter().map(|value| value * scale).collect();
         let irregular = IrregularSpectrum::new(self.wavelengths_nm.clone(), values)
-            .map_err(|reason| ReflectanceError::Wavelengths { name: name(), reason })?;
+            .map_err(|reason| ReflectanceError::Wavelengths { name: self.name.clone(), reason })?;
         let grid = Grid::suited_to(&self.wavelengths_nm)
             .expect("an irregular spectrum has rising wavelengths");
         Spectrum::new(grid, irregular.on_grid(grid))
-            .map_err(|reason| ReflectanceError::Values { name: name(), reason })
+            .map_err(|reason| ReflectanceError::Values { name: self.name.clone(), reason })
     }
 }
 
@@ -233,11 +238,13 @@ pub fn choose_spectrum<'a>(
     name: Option<&str>,
 ) -> Result<&'a MeasuredSpectrum, ChoiceError> {
     let has_main = spectra.iter().any(|spectrum| spectrum.role == Role::Main);
-    let qualifies = |spectrum: &&MeasuredSpectrum| match name {
-        Some(name) => spectrum.name == name,
-        None => spectrum.role == Role::Main || !has_main,
-    };
-    let found: Vec<&MeasuredSpectrum> = spectra.iter().filter(qualifies).collect();
+    let found: Vec<&MeasuredSpectrum> = spectra
+        .iter()
+        .filter(|spectrum| match name {
+            Some(name) => spectrum.name == name,
+            None => spectrum.role == Role::Main || !has_main,
+        })
+        .collect();
     let file = file.to_owned();
     match (found.as_slice(), name) {
         ([one], _) => Ok(one),
@@ -432,7 +439,7 @@ impl InstrumentError {
         if short.len() < text.len() {
             short.push_str(" ..");
         }
-        let text = short.chars().map(|c: char| if c.is_control() { ' ' } else { c }).collect();
+        let text = short.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         Self::Line { file: file.to_owned(), line, expected, text }
     }
 

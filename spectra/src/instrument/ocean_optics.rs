@@ -137,25 +137,22 @@ pub(super) fn procspec_read(
     let text: String = archive
         .read(&name)?
         .into_iter()
-        .filter(|byte: &u8| byte.is_ascii_graphic() || b" \n\r\t".contains(byte))
+        .filter(|byte| byte.is_ascii_graphic() || b" \n\r\t".contains(byte))
         .map(char::from)
         .collect();
     let root = parse(file, &text)?;
     let white_element = find(&root, "referenceSpectrum", &[]);
     let dark_element = find(&root, "darkSpectrum", &[]);
     let apart = ["referenceSpectrum", "darkSpectrum"];
-    let numbers = |element: Option<&Element>| {
-        element.map_or_else(|| Ok(Vec::new()), |element| doubles(file, element))
-    };
-    let list = |name: &str| numbers(find(&root, name, &apart));
+    let list = |name: &str| numbers(file, find(&root, name, &apart));
     let nm = list("channelWavelengths")?;
     let processed = list("processedPixels")?;
     let sample = list("pixelValues")?;
-    let counts = |element: Option<&Element>| {
-        numbers(element.and_then(|element| find(element, "pixelValues", &[])))
-    };
-    let white = counts(white_element)?;
-    let dark = counts(dark_element)?;
+    let [white, dark] = [white_element, dark_element].map(|element| {
+        numbers(file, element.and_then(|element| find(element, "pixelValues", &[])))
+    });
+    let white = white?;
+    let dark = dark?;
     let quantity = if has_irradiance(&root) {
         MeasuredQuantity::Power
     } else if processed.is_empty() {
@@ -206,6 +203,10 @@ pub(super) fn procspec_read(
         });
     }
     Ok(records)
+}
+
+fn numbers(file: &str, element: Option<&Element>) -> Result<Vec<(usize, f64)>, InstrumentError> {
+    element.map_or_else(|| Ok(Vec::new()), |element| doubles(file, element))
 }
 
 /// The first descendant called `name` that is in none of the elements `apart`.
@@ -271,24 +272,6 @@ pub(super) mod tests {
     fn jaz_files_give_the_processed_column_and_the_counts() {
         let text = "Jaz Data File\nProcessed Spectrum Present: Yes\n>>>>>Begin Processed\n\
             W\tD\tR\tS\tP\n400.0\t1\t100\t50\t49.5\n401.0\t1\t100\t20\t19.2\n>>>>>End\n";
-        let summary = |text: &str| -> Vec<_> {
-            read("a.jaz", text)
-                .unwrap()
-                .into_iter()
-                .map(|r: MeasuredSpectrum| (r.name, r.quantity, r.role, r.values))
-                .collect()
-        };
-        let counts_of = |number: &str| {
-            let counts = |letter: &str, role, values: [f64; 2]| {
-                let name = format!("a{number} ({letter})");
-                (name, MeasuredQuantity::Counts, role, values.to_vec())
-            };
-            let sample = counts("S", Role::Sample, [50.0, 20.0]);
-            let white = counts("R", Role::White, [100.0, 100.0]);
-            let dark = counts("D", Role::Dark, [1.0, 1.0]);
-            let main = (format!("a{number}"), MeasuredQuantity::Unstated, Role::Main);
-            vec![(main.0, main.1, main.2, vec![49.5, 19.2]), sample, white, dark]
-        };
         assert_eq!(summary(text), counts_of(""));
         assert_eq!(summary(&text.repeat(2)), [counts_of(" 1"), counts_of(" 2")].concat());
         let raw = text.replace("Yes", "No\nReference Spectrum Present: No");
@@ -304,7 +287,6 @@ pub(super) mod tests {
     fn absolute_irradiance_is_the_power_of_a_light() {
         let text = "Jaz Absolute Irradiance File\nReference Spectrum Present: Yes\n\
             >>>>>Begin Processed\nW\tD\tS\tP\n400.0\t1\t50\t0.5\n700.0\t1\t20\t0.7\n>>>>>End\n";
-        let quantity = |file: &str, text: &str| read(file, text).unwrap()[0].quantity;
         assert_eq!(quantity("a.txt", text), MeasuredQuantity::Power);
         let data = text.replace("Absolute Irradiance", "Data");
         assert_eq!(quantity("a.jaz", &data), MeasuredQuantity::Unstated);
@@ -322,15 +304,14 @@ pub(super) mod tests {
 
     /// The XML of a spectrum, with the class of its processor.
     fn xml(class: &str) -> String {
-        let counts = |values| list("pixelValues", values);
         format!(
             "<?xml version=\"1.0\"?>\n<com.Processed>\n<source>\n<userName>A\u{1}nna</userName>\n\
              <darkSpectrum>{}</darkSpectrum><referenceSpectrum>{}</referenceSpectrum>{}{}\n\
              <processor class=\"{class}\"/></source>{}</com.Processed>\n",
-            counts(&[1.0, 1.0]),
-            counts(&[101.0, 201.0]),
+            list("pixelValues", &[1.0, 1.0]),
+            list("pixelValues", &[101.0, 201.0]),
             list("channelWavelengths", &[400.0, 401.5]),
-            counts(&[11.0, 101.0]),
+            list("pixelValues", &[11.0, 101.0]),
             list("processedPixels", &[10.0, 50.0])
         )
     }
@@ -358,17 +339,11 @@ pub(super) mod tests {
 
     #[test]
     fn faults_are_told_with_file_and_line() {
-        let with = |old: &str, new: &str| {
-            let text = xml("").replacen(old, new, 1);
-            procspec_read("some.ProcSpec", &archive(&[("ps_0.xml", text.as_bytes())]))
-                .unwrap_err()
-                .to_string()
-        };
-        let error = with("<double>10<", "<double>1O<");
+        let error = fault_with("<double>10<", "<double>1O<");
         assert!(error.starts_with("some.ProcSpec, line") && error.contains("`1O`"), "{error}");
-        let error = with("<double>10</double>", "");
+        let error = fault_with("<double>10</double>", "");
         assert!(error.contains("2 wavelengths for the 1 values of some"), "{error}");
-        assert!(with("</com.Processed>", "").contains("never closed"));
+        assert!(fault_with("</com.Processed>", "").contains("never closed"));
     }
 
     #[test]
@@ -378,5 +353,36 @@ pub(super) mod tests {
             let error = procspec_read("some.ProcSpec", &bytes[..length]).unwrap_err().to_string();
             assert!(error.starts_with("some.ProcSpec"), "{error}");
         }
+    }
+
+    fn fault_with(old: &str, new: &str) -> String {
+        let text = xml("").replacen(old, new, 1);
+        procspec_read("some.ProcSpec", &archive(&[("ps_0.xml", text.as_bytes())]))
+            .unwrap_err()
+            .to_string()
+    }
+
+    fn quantity(file: &str, text: &str) -> MeasuredQuantity {
+        read(file, text).unwrap()[0].quantity
+    }
+
+    fn counts_of(number: &str) -> Vec<(String, MeasuredQuantity, Role, Vec<f64>)> {
+        let counts = |letter: &str, role, values: [f64; 2]| {
+            let name = format!("a{number} ({letter})");
+            (name, MeasuredQuantity::Counts, role, values.to_vec())
+        };
+        let sample = counts("S", Role::Sample, [50.0, 20.0]);
+        let white = counts("R", Role::White, [100.0, 100.0]);
+        let dark = counts("D", Role::Dark, [1.0, 1.0]);
+        let main = (format!("a{number}"), MeasuredQuantity::Unstated, Role::Main);
+        vec![(main.0, main.1, main.2, vec![49.5, 19.2]), sample, white, dark]
+    }
+
+    fn summary(text: &str) -> Vec<(String, MeasuredQuantity, Role, Vec<f64>)> {
+        read("a.jaz", text)
+            .unwrap()
+            .into_iter()
+            .map(|r| (r.name, r.quantity, r.role, r.values))
+            .collect()
     }
 }

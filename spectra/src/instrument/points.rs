@@ -50,8 +50,9 @@ pub(super) fn ordered(
     }
     let direction = points.windows(2).map(|pair| pair[1].nm - pair[0].nm).find(|d| *d != 0.0);
     let falls = direction.is_some_and(|d| d < 0.0);
-    let back = |pair: &&[Point]| (pair[1].nm - pair[0].nm) * direction.unwrap_or(1.0) < 0.0;
-    if let Some(pair) = points.windows(2).find(back) {
+    if let Some(pair) =
+        points.windows(2).find(|pair| (pair[1].nm - pair[0].nm) * direction.unwrap_or(1.0) < 0.0)
+    {
         let file = file.to_owned();
         let line = pair[1].line;
         let nm = pair[1].nm;

@@ -93,7 +93,7 @@ impl Section {
         let ordered = ordered(file, points, Duplicates::Refuse)?;
         let pairs = self.values.iter();
         let name = pairs.clone().rev().find(|(_, key, value)| key == "NAME" && !value.is_empty());
-        let is_detail = |key: &str| key != "NAME" && !key.starts_with("REFL");
+
         Ok(MeasuredSpectrum {
             name: name.map_or(unnamed, |(_, _, name)| name.clone()),
             quantity: MeasuredQuantity::Reflectance,
@@ -103,7 +103,7 @@ impl Section {
             values: ordered.values,
             line: name.map_or(at, |(line, _, _)| *line),
             details: pairs
-                .filter(|(_, key, _)| is_detail(key))
+                .filter(|(_, key, _)| key != "NAME" && !key.starts_with("REFL"))
                 .map(|(_, key, value)| (key.clone(), value.clone()))
                 .collect(),
             remarks: ordered.remarks,

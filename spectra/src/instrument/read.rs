@@ -218,13 +218,7 @@ mod tests {
 
     #[test]
     fn columns_in_a_workbook_are_read() {
-        let cell = |name: &str, value: &str| format!("<c r=\"{name}\"><v>{value}</v></c>");
         let heading = "<row r=\"1\"><c r=\"A1\" t=\"str\"><v>nm</v></c><c r=\"B1\" t=\"str\"><v>Reflectance</v></c></row>";
-        let row = |row: usize, nm: &str, value: &str| {
-            let nm = cell(&format!("A{row}"), nm);
-            let value = cell(&format!("B{row}"), value);
-            format!("<row r=\"{row}\">{nm}{value}</row>")
-        };
         let rows = format!(
             "{heading}{}{}{}",
             row(2, "400", "0.25"),
@@ -244,6 +238,16 @@ mod tests {
         )]);
         let error = read("a/red.xlsx", &bad, None).unwrap_err().to_string();
         assert!(error.starts_with("a/red.xlsx, sheet `Data`, line 4: "), "{error}");
+    }
+
+    fn row(row: usize, nm: &str, value: &str) -> String {
+        let nm = cell(&format!("A{row}"), nm);
+        let value = cell(&format!("B{row}"), value);
+        format!("<row r=\"{row}\">{nm}{value}</row>")
+    }
+
+    fn cell(name: &str, value: &str) -> String {
+        format!("<c r=\"{name}\"><v>{value}</v></c>")
     }
 
     #[test]

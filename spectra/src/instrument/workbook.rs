@@ -82,15 +82,11 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
             sheets.push((name, cells));
         }
     }
-    let numbers = |(_, cells): &(String, Vec<Cell>)| {
-        cells.iter().filter(|cell| matches!(cell.content, Content::Number(_))).count()
-    };
-    let most = sheets.iter().map(numbers).max().unwrap_or(0);
-    let is_chosen = |sheet: &(String, Vec<Cell>)| match wanted {
+    let most = sheets.iter().map(count_numbers).max().unwrap_or(0);
+    let Some(chosen) = sheets.iter().position(|sheet| match wanted {
         Some(wanted) => sheet.0 == wanted,
-        None => numbers(sheet) == most,
-    };
-    let Some(chosen) = sheets.iter().position(is_chosen) else {
+        None => count_numbers(sheet) == most,
+    }) else {
         let names: Vec<String> = sheets.into_iter().map(|(name, _)| name).collect();
         return Err(match wanted.filter(|_| !names.is_empty()) {
             Some(sheet) => InstrumentError::NoSheet {
@@ -107,24 +103,29 @@ pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> 
     Ok(Sheet { name, text, others: sheets.into_iter().map(|(name, _)| name).collect() })
 }
 
+fn count_numbers((_, cells): &(String, Vec<Cell>)) -> usize {
+    cells.iter().filter(|cell| matches!(cell.content, Content::Number(_))).count()
+}
+
 /// Content of a cell; `None` if it is empty.
 fn content(cell: &DataRef<'_>) -> Option<Content> {
-    let text = |text: &str| {
-        let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let plain = plain.trim().to_owned();
-        (!plain.is_empty()).then_some(Content::Text(plain))
-    };
     match cell {
         DataRef::Empty => None,
         DataRef::Int(_) | DataRef::Float(_) | DataRef::DateTime(_) => {
             cell.as_f64().map(Content::Number)
         }
-        DataRef::String(found) => text(found),
-        DataRef::SharedString(found) => text(found),
-        DataRef::Bool(found) => text(if *found { "TRUE" } else { "FALSE" }),
-        DataRef::DateTimeIso(found) | DataRef::DurationIso(found) => text(found),
-        DataRef::Error(found) => text(&found.to_string()),
+        DataRef::String(found) => text_content(found),
+        DataRef::SharedString(found) => text_content(found),
+        DataRef::Bool(found) => text_content(if *found { "TRUE" } else { "FALSE" }),
+        DataRef::DateTimeIso(found) | DataRef::DurationIso(found) => text_content(found),
+        DataRef::Error(found) => text_content(&found.to_string()),
     }
+}
+
+fn text_content(text: &str) -> Option<Content> {
+    let plain: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let plain = plain.trim().to_owned();
+    (!plain.is_empty()).then_some(Content::Text(plain))
 }
 
 /// The text of a sheet; `None` if it is too long. Numbers get a decimal comma where texts have one, as in

@@ -136,10 +136,11 @@ fn append(open: &mut [Element], text: &str) {
 
 /// Number of line ends: LF, CR LF, or CR alone.
 fn newlines(bytes: &[u8]) -> usize {
-    let ends = |(i, &byte): (usize, &u8)| {
-        byte == b'\n' || (byte == b'\r' && bytes.get(i + 1) != Some(&b'\n'))
-    };
-    bytes.iter().enumerate().filter(|&at| ends(at)).count()
+    bytes
+        .iter()
+        .enumerate()
+        .filter(|&(i, &byte)| byte == b'\n' || (byte == b'\r' && bytes.get(i + 1) != Some(&b'\n')))
+        .count()
 }
 
 #[cfg(test)]

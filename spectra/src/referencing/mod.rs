@@ -83,10 +83,12 @@ impl Referencing {
                 || self.darks().is_some_and(|darks| darks.contains(spectrum))
         };
         let has_counts = spectra.iter().any(|spectrum| spectrum.role == Role::Sample);
-        let is_sample = |spectrum: &&MeasuredSpectrum| {
-            if has_counts { spectrum.role == Role::Sample } else { !is_reference(spectrum) }
-        };
-        let samples: Vec<&MeasuredSpectrum> = spectra.iter().filter(is_sample).collect();
+        let samples: Vec<&MeasuredSpectrum> = spectra
+            .iter()
+            .filter(|spectrum| {
+                if has_counts { spectrum.role == Role::Sample } else { !is_reference(spectrum) }
+            })
+            .collect();
         if samples.is_empty() { spectra.iter().collect() } else { samples }
     }
 
@@ -178,12 +180,15 @@ impl Referencing {
         reading: &'a MeasuredSpectrum,
     ) -> Result<Reading<'a>, ReferencingError> {
         let dark = self.dark_of(role, reading)?;
-        let of = |spectrum: &MeasuredSpectrum| {
-            irregular(spectrum.wavelengths_nm.clone(), spectrum.values.clone())
-        };
         let counted = reading.quantity != MeasuredQuantity::Power || self.full_scale.is_some();
         let ceiling = if counted { ceiling(&reading.values, self.full_scale) } else { None };
-        Ok(Reading { role, spectrum: reading, signal: of(reading), dark: dark.map(of), ceiling })
+        Ok(Reading {
+            role,
+            spectrum: reading,
+            signal: irregular_of(reading),
+            dark: dark.map(irregular_of),
+            ceiling,
+        })
     }
 
     /// The dark reading for `reading`: the one of its integration time.
@@ -192,11 +197,10 @@ impl Referencing {
         role: &'static str,
         reading: &MeasuredSpectrum,
     ) -> Result<Option<&MeasuredSpectrum>, ReferencingError> {
-        let name = || reading.name.clone();
         let darks = match self.darks() {
             None => return Ok(None),
             Some([]) if reading.quantity == MeasuredQuantity::Counts => {
-                return Err(ReferencingError::NoDark { role, name: name() });
+                return Err(ReferencingError::NoDark { role, name: reading.name.clone() });
             }
             Some(darks) => darks,
         };
@@ -204,17 +208,26 @@ impl Referencing {
         match (integration_time_ms(reading), darks) {
             (_, []) => Ok(None),
             (None, [one]) => Ok(Some(one)),
-            (None, _) => {
-                Err(ReferencingError::UnknownTime { role, name: name(), darks: darks.len() })
-            }
+            (None, _) => Err(ReferencingError::UnknownTime {
+                role,
+                name: reading.name.clone(),
+                darks: darks.len(),
+            }),
             (Some(_), [one]) if times[0].is_none() => Ok(Some(one)),
             (Some(time_ms), _) => {
-                let fits = |time: &Option<f64>| time.is_some_and(|time| is_equal(time, time_ms));
                 let found = times.iter().flatten().map(|time| format!("{time} ms"));
-                let index = times.iter().position(fits).ok_or_else(|| {
-                    let found = found.collect::<Vec<_>>().join(", ");
-                    ReferencingError::DarkTime { role, name: name(), time_ms, found }
-                })?;
+                let index = times
+                    .iter()
+                    .position(|time| time.is_some_and(|time| is_equal(time, time_ms)))
+                    .ok_or_else(|| {
+                        let found = found.collect::<Vec<_>>().join(", ");
+                        ReferencingError::DarkTime {
+                            role,
+                            name: reading.name.clone(),
+                            time_ms,
+                            found,
+                        }
+                    })?;
                 Ok(Some(&darks[index]))
             }
         }
@@ -251,6 +264,10 @@ impl Referencing {
         let noise = white.dark.as_ref().map_or(0.0, |dark| dark_noise(dark.values()));
         (self.least_light * peak).max(NOISE_MULTIPLE * noise)
     }
+}
+
+fn irregular_of(spectrum: &MeasuredSpectrum) -> IrregularSpectrum {
+    irregular(spectrum.wavelengths_nm.clone(), spectrum.values.clone())
 }
 
 /// The reflectance of a sample at the wavelengths where it can be computed.
@@ -308,17 +325,13 @@ impl Reading<'_> {
     /// [`ReferencingError`] where the detector is saturated, or outside the band of the
     /// reading or of its dark.
     fn at(&self, nm: f64) -> Result<f64, ReferencingError> {
-        let value = |spectrum: &IrregularSpectrum, role| {
-            let value = spectrum.at_linear(nm, Extrapolation::Refuse);
-            value.map_err(|_| ReferencingError::Uncovered { role, nm })
-        };
         if let Some(ceiling) = self.ceiling.filter(|&ceiling| self.max_neighbour(nm) >= ceiling) {
             let role = self.role;
             let name = self.spectrum.name.clone();
             return Err(ReferencingError::Saturated { role, name, nm, value: ceiling });
         }
-        let signal = value(&self.signal, self.role)?;
-        Ok(signal - self.dark.as_ref().map_or(Ok(0.0), |dark| value(dark, "dark"))?)
+        let signal = value_at(nm, &self.signal, self.role)?;
+        Ok(signal - self.dark.as_ref().map_or(Ok(0.0), |dark| value_at(nm, dark, "dark"))?)
     }
 
     /// The larger value of the two pixels around `nm`, or the value of the pixel at `nm`.
@@ -329,6 +342,15 @@ impl Reading<'_> {
         let before = if exact { after } else { after.saturating_sub(1) };
         values[before].max(values[after.min(values.len() - 1)])
     }
+}
+
+fn value_at(
+    nm: f64,
+    spectrum: &IrregularSpectrum,
+    role: &'static str,
+) -> Result<f64, ReferencingError> {
+    let value = spectrum.at_linear(nm, Extrapolation::Refuse);
+    value.map_err(|_| ReferencingError::Uncovered { role, nm })
 }
 
 /// Standard deviation of the noise in a dark reading, from the median difference between

@@ -81,8 +81,10 @@ pub fn subset(
     };
     let kept = found(keep)?;
     let dropped = found(without)?;
-    let stays = |id: &PigmentId| (keep.is_empty() || kept.contains(id)) && !dropped.contains(id);
-    let ids: Vec<PigmentId> = library.ids().filter(stays).collect();
+    let ids: Vec<PigmentId> = library
+        .ids()
+        .filter(|id| (keep.is_empty() || kept.contains(id)) && !dropped.contains(id))
+        .collect();
     if ids.is_empty() {
         return Err(CurationError::Empty { file: file.to_owned() });
     }
@@ -163,7 +165,7 @@ pub fn with_reference(
         pigments: library
             .pigments
             .iter()
-            .map(|pigment: &Pigment| {
+            .map(|pigment| {
                 if !pigment.identified && !absolute {
                     return pigment.clone();
                 }
@@ -212,7 +214,7 @@ pub fn on_grid(
     let pigments = library
         .pigments
         .iter()
-        .map(|pigment: &Pigment| -> Result<Pigment, InterpolateError> {
+        .map(|pigment| -> Result<Pigment, InterpolateError> {
             let sd =
                 |values: &[f64]| curve(library.grid, values, grid, Interpolation::Linear, ends);
             Ok(Pigment {

@@ -232,7 +232,7 @@ fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: 
             let masstone = Recipe::single(id);
             let tint =
                 white.map_or(masstone.clone(), |white| Recipe::from([(id, 1.0), (white, 9.0)]));
-            [masstone, tint].map(|recipe: Recipe| lab(weights, &hiding(library, &recipe)))
+            [masstone, tint].map(|recipe| lab(weights, &hiding(library, &recipe)))
         })
         .collect();
     for (second, pigment) in library.pigments.iter().enumerate() {

@@ -423,7 +423,7 @@ impl Swatches {
         let swatches = self
             .swatches
             .iter()
-            .map(|swatch: &Swatch| SwatchEntry {
+            .map(|swatch| SwatchEntry {
                 group: if self.grouped { swatch.pigment.clone() } else { String::new() },
                 name: swatch.name.clone(),
                 color: match space {

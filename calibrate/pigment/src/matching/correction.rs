@@ -362,7 +362,7 @@ fn correction(
     Correction {
         out_of_stock: amounts
             .iter()
-            .filter(|(pigment, amount): &&(PigmentId, f64)| {
+            .filter(|(pigment, amount)| {
                 *amount >= additions.stock[pigment.index()] * (1.0 - AT_LIMIT)
             })
             .map(|(pigment, _)| *pigment)
@@ -548,7 +548,7 @@ impl Additions<'_> {
             pigments: set.to_vec(),
             shares: set
                 .iter()
-                .map(|&pigment: &PigmentId| {
+                .map(|&pigment| {
                     let known =
                         near.map(|near| near.share(pigment) / (1.0 - near.share(self.pot())));
                     let part = known.unwrap_or(1.0 / others);

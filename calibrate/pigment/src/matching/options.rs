@@ -167,7 +167,7 @@ impl MatchOptions {
         let names: Vec<String> = self
             .conditions
             .iter()
-            .map(|condition: &ViewingCondition| condition.viewing.illuminant.name().to_owned())
+            .map(|condition| condition.viewing.illuminant.name().to_owned())
             .collect();
         let repeated = (1..names.len()).find(|&at| names[..at].contains(&names[at]));
         repeated.map_or(Ok(()), |at| Err(MatchError::RepeatedLight { name: names[at].clone() }))

@@ -222,7 +222,7 @@ fn metamerism(forward: &Forward<'_>, target: &Target, found: &[Lab]) -> Vec<Opti
     let whites: Vec<Xyz> = forward.weights.iter().map(TristimulusWeights::white).collect();
     let pair = |labs: &[Lab], at: usize| [0, at].map(|at| labs[at].to_xyz(whites[at]));
     (1..whites.len())
-        .map(|at: usize| metamerism_index(pair(&target.lab, at), pair(found, at), whites[at]).ok())
+        .map(|at| metamerism_index(pair(&target.lab, at), pair(found, at), whites[at]).ok())
         .collect()
 }
 

@@ -145,10 +145,8 @@ impl MatchRequest {
         if self.conditions.is_empty() {
             return Err(MatchError::NoLight);
         }
-        if let Some(condition) = self
-            .conditions
-            .iter()
-            .find(|c: &&ViewingCondition| !(c.weight > 0.0 && c.weight < LARGEST_WEIGHT))
+        if let Some(condition) =
+            self.conditions.iter().find(|c| !(c.weight > 0.0 && c.weight < LARGEST_WEIGHT))
         {
             return invalid(
                 "a light's weight must be above 0",

@@ -83,7 +83,7 @@ fn expected(request: &MatchRequest) -> usize {
     let free = request.allowed.len() - fixed.min(request.allowed.len());
     let sizes = usize::from(fixed == 0)..=request.at_most.saturating_sub(fixed);
     sizes
-        .map(|added: usize| {
+        .map(|added| {
             let sets = (0..added)
                 .fold(1_usize, |sets, i| sets.saturating_mul(free.saturating_sub(i)) / (i + 1));
             sets.min(MOST_SETS)
@@ -140,7 +140,7 @@ fn strengths(forward: &Forward<'_>) -> Vec<f64> {
         .library
         .pigments
         .iter()
-        .map(|pigment: &crate::library::Pigment| {
+        .map(|pigment| {
             let sum: f64 = pigment.absorption.iter().chain(&pigment.scattering).sum();
             (sum / pigment.absorption.len() as f64).max(LEAST_STRENGTH)
         })
@@ -171,7 +171,7 @@ fn starts(
 fn corners(request: &MatchRequest, set: &[PigmentId]) -> Vec<Candidate> {
     let (thinnest, thickest) = request.thickness();
     set.iter()
-        .filter_map(|main: &PigmentId| {
+        .filter_map(|main| {
             let wished: Vec<f64> = set.iter().map(|p| f64::from(u8::from(p == main))).collect();
             candidate(request, set, &wished, (thinnest * thickest).sqrt())
         })

@@ -74,7 +74,7 @@ pub fn hiding_powers(palette: &Palette<'_>) -> Vec<HidingPower> {
     palette
         .paints()
         .iter()
-        .map(|&paint: &PigmentId| HidingPower { paint, hides: hides(palette, paint) })
+        .map(|&paint| HidingPower { paint, hides: hides(palette, paint) })
         .collect()
 }
 
@@ -264,7 +264,7 @@ pub struct TintLadder {
 pub fn tint_ladders(palette: &Palette<'_>) -> Vec<TintLadder> {
     let paints = palette.paints().iter().filter(|&&p| Some(p) != palette.white());
     paints
-        .map(|&paint: &PigmentId| TintLadder {
+        .map(|&paint| TintLadder {
             paint,
             colors: TINTS.iter().map(|&parts| palette.color(&palette.tint(paint, parts))).collect(),
         })
@@ -302,7 +302,7 @@ pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
     palette
         .paints()
         .iter()
-        .map(|&paint: &PigmentId| {
+        .map(|&paint| {
             let mixture = palette.mixture(&Recipe::single(paint));
             let over = |thickness: f64, card: &[f64]| {
                 palette.appearance(&mixture.film(thickness, card, film))
@@ -311,7 +311,7 @@ pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
                 paint,
                 steps: thicknesses
                     .iter()
-                    .map(|&thickness: &f64| DrawdownStep {
+                    .map(|&thickness| DrawdownStep {
                         thickness,
                         over_black: over(thickness, &cards.black),
                         over_white: over(thickness, &cards.white),
@@ -433,7 +433,7 @@ pub fn graded(
         pair,
         steps: shares(pair, measured)
             .into_iter()
-            .map(|(share, sample): (f64, Option<&MeasuredSample>)| {
+            .map(|(share, sample)| {
                 let recipe = Recipe::from([(pair.0, 1.0 - share), (pair.1, share)]);
                 let mixture = palette.mixture(&recipe);
                 // Linear RGB is a linear map of XYZ, so XYZ can be interpolated instead.
@@ -447,7 +447,7 @@ pub fn graded(
                     Some(at_nodes(palette, &rules.three, &mixture)),
                     Some(Appearance::of(Xyz::from(straight), white)),
                 ];
-                let own = |row: MixingRow| colors[row as usize].map(|color: Appearance| color.lab);
+                let own = |row: MixingRow| colors[row as usize].map(|color| color.lab);
                 let (truth, row) = own(MixingRow::Measured).map_or_else(
                     || (own(MixingRow::Spectrum), MixingRow::Spectrum),
                     |lab| (Some(lab), MixingRow::Measured),
@@ -455,7 +455,7 @@ pub fn graded(
                 GradedStep {
                     share,
                     sample: sample.map(|sample| sample.sample.clone()),
-                    errors: MixingRow::ALL.map(|other: MixingRow| {
+                    errors: MixingRow::ALL.map(|other| {
                         let lab: Lab = own(other).filter(|_| other != row)?;
                         Some(delta_e_ciede2000(truth?, lab))
                     }),
@@ -489,10 +489,8 @@ pub fn default_pairs(
         pairs.iter().take(2).map(|(_, p)| ordered(*p)).collect();
     let tinted = |paint: PigmentId, parts: f64| palette.color(&palette.tint(paint, parts)).lab.b;
     let extreme = |sign: f64| {
-        let most = palette
-            .paints()
-            .iter()
-            .map(|&p: &PigmentId| (p, [0.0, 3.0, 9.0].map(|n| sign * tinted(p, n))));
+        let most =
+            palette.paints().iter().map(|&p| (p, [0.0, 3.0, 9.0].map(|n| sign * tinted(p, n))));
         most.map(|(p, b)| (p, b.into_iter().fold(f64::NEG_INFINITY, f64::max)))
             .reduce(|a, b| if b.1 > a.1 { b } else { a })
             .map(|(p, _)| p)

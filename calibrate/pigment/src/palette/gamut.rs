@@ -78,15 +78,17 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
         let whites = WHITES.iter().filter(|&&parts| !(plain && parts == 0.0));
         recipes.extend(whites.map(|&parts| palette.thinned(&recipe, parts)));
         if palette.white().is_none() {
-            recipes.extend(STRONGER.iter().map(|&times: &f64| recipe.scaled(times)));
+            recipes.extend(STRONGER.iter().map(|&times| recipe.scaled(times)));
         }
         if recipe.pigments().all(|p| p != black) {
             recipes.extend(BLACKS.iter().map(|parts| with(&recipe, black, *parts)));
         }
     }
     recipes.extend(random_recipes(palette));
-    let sample = |recipe: Recipe| GamutSample { color: palette.color(&recipe), recipe };
-    let mut samples: Vec<GamutSample> = recipes.into_iter().map(sample).collect();
+    let mut samples: Vec<GamutSample> = recipes
+        .into_iter()
+        .map(|recipe| GamutSample { color: palette.color(&recipe), recipe })
+        .collect();
     let filled = between(palette, samples.iter().map(|s| (&s.recipe, &s.color)));
     samples.extend(filled.into_iter().map(|(recipe, color)| GamutSample { recipe, color }));
     Gamut { samples, white: palette.weights().white() }
@@ -303,13 +305,16 @@ pub struct NearestMixture<'a> {
 /// Computes masstones, tints, mixing lines and gamut of a palette by Kubelka-Munk.
 #[must_use]
 pub fn color_wheel(palette: &Palette<'_>) -> ColorWheel {
-    let masstone = |&paint: &PigmentId| (paint, palette.color(&Recipe::single(paint)));
     ColorWheel {
-        masstones: palette.paints().iter().map(masstone).collect(),
+        masstones: palette
+            .paints()
+            .iter()
+            .map(|&paint| (paint, palette.color(&Recipe::single(paint))))
+            .collect(),
         tints: tint_ladders(palette),
         lines: palette
             .pairs()
-            .map(|(first, second): (PigmentId, PigmentId)| {
+            .map(|(first, second)| {
                 let color = |share: f64| {
                     let parts = [(first, share), (second, 1.0 - share)];
                     let mixed: Recipe = parts.into_iter().filter(|(_, part)| *part > 0.0).collect();

@@ -106,7 +106,7 @@ fn index(first: &Candidate, second: &Candidate, lights: &[TestLight], light: usi
 
 fn described(first: &Candidate, second: &Candidate, lights: &[TestLight]) -> Metamers {
     let colors: Vec<[Appearance; 2]> = (0..lights.len())
-        .map(|light: usize| {
+        .map(|light| {
             let white = lights[light].weights.white();
             [first, second].map(|candidate| Appearance::of(candidate.xyz[light], white))
         })
@@ -204,7 +204,7 @@ pub fn color_shifts(
 ) -> Vec<ColorShift> {
     recipes
         .iter()
-        .map(|recipe: &Recipe| {
+        .map(|recipe| {
             let reflectance = palette.reflectance(recipe);
             let xyz: Vec<Xyz> =
                 lights.iter().map(|light| light.weights.xyz(&reflectance)).collect();

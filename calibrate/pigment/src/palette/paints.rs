@@ -227,7 +227,7 @@ impl<'a> Palette<'a> {
     pub(super) fn strongest(&self) -> f64 {
         self.paints
             .iter()
-            .map(|&p: &PigmentId| {
+            .map(|&p| {
                 let pigment = &self.library[p];
                 let pairs = pigment.absorption.iter().zip(&pigment.scattering);
                 pairs.map(|(k, s)| k + s).fold(0.0, f64::max)
@@ -242,8 +242,7 @@ impl<'a> Palette<'a> {
 
     /// First paint in the order `better` of the luminance of films.
     fn by_luminance(&self, better: impl Fn(f64, f64) -> bool) -> PigmentId {
-        let all =
-            self.paints.iter().map(|&p: &PigmentId| (p, self.color(&Recipe::single(p)).xyz.y));
+        let all = self.paints.iter().map(|&p| (p, self.color(&Recipe::single(p)).xyz.y));
         all.reduce(|a, b| if better(a.1, b.1) { b } else { a }).expect("a palette has a paint").0
     }
 

@@ -68,7 +68,7 @@ impl EffectiveQuadrature {
         films
             .films
             .par_iter()
-            .map(|film: &Film| {
+            .map(|film| {
                 let found = Lab::from_xyz(self.xyz(library, film), self.rule.white);
                 delta_e_ciede2000(found, Lab::from_xyz(film.xyz, films.white))
             })
@@ -308,7 +308,7 @@ fn internal(curves: &Curves) -> Vec<f64> {
 fn over_ground(curves: &Curves, thickness: f64, ground: &[f64], surface: Surface) -> Vec<f64> {
     let pairs = curves.absorption.iter().zip(&curves.scattering).zip(ground);
     pairs
-        .map(|((&k, &s), &below): ((&f64, &f64), &f64)| {
+        .map(|((&k, &s), &below)| {
             surface.measured_from_internal(Layer::new(k, s, thickness).over(below))
         })
         .collect()

@@ -273,7 +273,7 @@ impl Problem {
         let mut sorted = parts.clone();
         sorted.sort_by_key(|(pigment, _)| *pigment);
         let runs: Vec<Range<usize>> = std::iter::once(0..self.shared())
-            .chain(sorted.iter().map(|(pigment, _): &(PigmentId, f64)| {
+            .chain(sorted.iter().map(|(pigment, _)| {
                 let first = self.place(pigment.index(), 0);
                 first..first + 2 * n
             }))
@@ -428,7 +428,7 @@ mod tests {
         let mut problem = Problem::new(rule, &library, films.clone());
         problem.add_worst(candidates.clone(), &[0.1, 0.7, 0.2, 0.7, 0.3], 3);
         let added = &problem.films.films[films.len()..];
-        let wanted = [1, 3, 4].map(|number: usize| candidates.films[number].clone());
+        let wanted = [1, 3, 4].map(|number| candidates.films[number].clone());
         assert_eq!(added, wanted);
         assert_eq!(problem.targets.len(), problem.films.len());
         assert_eq!(problem.targets.last().unwrap().0, Lab::from_xyz(wanted[2].xyz, films.white));

@@ -82,7 +82,7 @@ impl<'a> Problem<'a> {
             targets: training
                 .xyz
                 .iter()
-                .map(|xyz: &Xyz| {
+                .map(|xyz| {
                     let lab = Lab::from_xyz(*xyz, training.white);
                     (lab, ciede2000_metric(lab))
                 })

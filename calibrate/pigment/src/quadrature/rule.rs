@@ -78,7 +78,7 @@ impl Quadrature {
     pub fn moments(viewing: &Viewing, count: usize) -> Result<Self, QuadratureFailure> {
         let light = Light::of(viewing);
         let rule = light.rule(count)?;
-        let [x, y, z] = [0, 1, 2].map(|channel: usize| {
+        let [x, y, z] = [0, 1, 2].map(|channel| {
             let weight: Vec<f64> = light.channels.iter().map(|c| c[channel]).collect();
             rule.weights_from_moments(&weight)
         });
@@ -407,7 +407,7 @@ impl GaussRule {
             .map(|k| {
                 order
                     .iter()
-                    .map(|&i: &usize| {
+                    .map(|&i| {
                         let first = eigen.eigenvectors[(0, i)];
                         eigen.eigenvectors[(k, i)] / (first * total.sqrt())
                     })
