@@ -532,20 +532,23 @@ mod tests {
 
     fn rosenbrock(upper: f64) -> Minimum {
         let bounds = (DVector::from_element(2, -2.0), DVector::from_element(2, upper));
-        let residuals = |p: &DVector<f64>| [10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]];
         minimise(
             DVector::from_vec(vec![-1.2, 0.4]),
             (&bounds.0, &bounds.1),
             Stop { iterations: 500, relative_decrease: 1e-15, cancellation: None },
             |p| {
-                let [r1, r2] = residuals(p);
+                let [r1, r2] = rosenbrock_residuals(p);
                 let mut equations = NormalEquations::zeros(2);
                 equations.add(r1, &[-20.0 * p[0], 10.0], 1.0);
                 equations.add(r2, &[-1.0, 0.0], 1.0);
                 equations
             },
-            |p| residuals(p).iter().map(|r| 0.5 * r * r).sum(),
+            |p| rosenbrock_residuals(p).iter().map(|r| 0.5 * r * r).sum(),
         )
+    }
+
+    fn rosenbrock_residuals(p: &DVector<f64>) -> [f64; 2] {
+        [10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]]
     }
 
     #[test]
@@ -555,15 +558,14 @@ mod tests {
         let mut wanted = NormalEquations::zeros(count);
         for number in 0..40_usize {
             let runs = [0..5, 7 + number % 4..12 + number % 3, 20 + number % 30..53 - number % 3];
-            let slopes = |place: usize| [1.0, 2.0, 3.0].map(|c| (c * place as f64 + c).sin());
             let places: Vec<usize> = runs.iter().cloned().flatten().collect();
-            let derivatives: Vec<[f64; 3]> = places.iter().map(|&place| slopes(place)).collect();
+            let derivatives: Vec<[f64; 3]> = places.iter().map(|&place| slopes_at(place)).collect();
             let residuals = [0.1, 0.2, 0.3].map(|c| (c * number as f64).cos());
             // Groups in the order of the parts.
             parts[number / 14].push(residuals, &runs, &derivatives);
             for (row, residual) in residuals.into_iter().enumerate() {
                 let mut full = vec![0.0; count];
-                places.iter().for_each(|&place| full[place] = slopes(place)[row]);
+                places.iter().for_each(|&place| full[place] = slopes_at(place)[row]);
                 wanted.add(residual, &full, 1.0);
             }
         }
@@ -574,6 +576,10 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().unwrap();
         let on_five = pool.install(|| NormalEquations::of_rows(count, &parts));
         assert_eq!(on_five.matrix, found.matrix, "bits do not depend on the number of threads");
+    }
+
+    fn slopes_at(place: usize) -> [f64; 3] {
+        [1.0, 2.0, 3.0].map(|c| (c * place as f64 + c).sin())
     }
 
     #[test]

@@ -619,35 +619,36 @@ pub fn to_text(value: &Value) -> String {
 }
 
 fn write(value: &Value, depth: usize, text: &mut String) {
-    let line = |text: &mut String, depth: usize| {
-        text.push('\n');
-        text.push_str(&"  ".repeat(depth));
-    };
     match value {
         Value::Array(items) if items.iter().any(|item| item.is_object() || item.is_string()) => {
             text.push('[');
             for (index, item) in items.iter().enumerate() {
                 text.push_str(if index == 0 { "" } else { "," });
-                line(text, depth + 1);
+                new_line(text, depth + 1);
                 write_inline_if_flat(item, depth + 1, text);
             }
-            line(text, depth);
+            new_line(text, depth);
             text.push(']');
         }
         Value::Object(map) if !map.is_empty() => {
             text.push('{');
             for (index, (key, item)) in map.iter().enumerate() {
                 text.push_str(if index == 0 { "" } else { "," });
-                line(text, depth + 1);
+                new_line(text, depth + 1);
                 text.push_str(&Value::from(key.as_str()).to_string());
                 text.push_str(": ");
                 write(item, depth + 1, text);
             }
-            line(text, depth);
+            new_line(text, depth);
             text.push('}');
         }
         _ => text.push_str(&value.to_string()),
     }
+}
+
+fn new_line(text: &mut String, depth: usize) {
+    text.push('\n');
+    text.push_str(&"  ".repeat(depth));
 }
 
 /// Writes a flat record, such as one sample's error, on one line.

@@ -42,8 +42,8 @@ pub fn smoothest_reflectance(
     let z = problem.exact(flat.clone()).unwrap_or_else(|| problem.nearest(flat));
     let internal: Vec<f64> = z.iter().map(|z| internal(*z)[0]).collect();
     let xyz = problem.xyz(&z);
-    let lab = |xyz| Lab::from_xyz(xyz, weights.white());
-    Recovered { internal, xyz, delta_e: delta_e_ciede2000(lab(wanted), lab(xyz)) }
+    let [wanted, found] = [wanted, xyz].map(|xyz| Lab::from_xyz(xyz, weights.white()));
+    Recovered { internal, xyz, delta_e: delta_e_ciede2000(wanted, found) }
 }
 
 /// Internal reflectance at z with its first and second derivative.
@@ -263,7 +263,6 @@ mod tests {
         let wanted = Xyz { x: 20.0, y: 25.0, z: 30.0 };
         let problem = Problem { weights: &weights, surface, wanted };
         let best = problem.exact(DVector::zeros(31)).unwrap();
-        let rough = |z: &DVector<f64>| -> f64 { (1..31).map(|i| (z[i] - z[i - 1]).powi(2)).sum() };
         let mut random = ChaCha8Rng::seed_from_u64(3);
         for _ in 0..20 {
             let nudge = DVector::from_fn(31, |_, _| random.random_range(-0.05..0.05));
@@ -279,7 +278,16 @@ mod tests {
                 other += jacobian.transpose() * across.lu().solve(&off).unwrap();
             }
             assert!((problem.xyz(&other).y - 25.0).abs() < 1e-9, "the same colour");
-            assert!(rough(&other) > rough(&best), "{} {}", rough(&other), rough(&best));
+            assert!(
+                roughness(&other) > roughness(&best),
+                "{} {}",
+                roughness(&other),
+                roughness(&best)
+            );
         }
+    }
+
+    fn roughness(z: &DVector<f64>) -> f64 {
+        (1..31).map(|i| (z[i] - z[i - 1]).powi(2)).sum()
     }
 }

@@ -154,9 +154,6 @@ pub fn with_reference(
         });
     }
     let absolute = library.amounts == AmountKind::Absolute;
-    let divided = |curve: &[f64]| -> Vec<f64> {
-        curve.iter().zip(&white.scattering).map(|(value, s)| rounded(value / s)).collect()
-    };
     Ok(PigmentLibrary {
         reference: Some(white.name.clone()),
         amounts: AmountKind::Relative,
@@ -169,7 +166,7 @@ pub fn with_reference(
                 if !pigment.identified && !absolute {
                     return pigment.clone();
                 }
-                let mut scattering_sd = divided(&pigment.scattering_sd);
+                let mut scattering_sd = divided_by_white(white, &pigment.scattering_sd);
                 if pigment.name == white.name {
                     scattering_sd.fill(0.0);
                 } else if library.reference.as_ref() == Some(&pigment.name) {
@@ -178,9 +175,9 @@ pub fn with_reference(
                     scattering_sd = pairs.map(|(sd, s)| rounded(sd / (s * s))).collect();
                 }
                 Pigment {
-                    absorption: divided(&pigment.absorption),
-                    scattering: divided(&pigment.scattering),
-                    absorption_sd: divided(&pigment.absorption_sd),
+                    absorption: divided_by_white(white, &pigment.absorption),
+                    scattering: divided_by_white(white, &pigment.scattering),
+                    absorption_sd: divided_by_white(white, &pigment.absorption_sd),
                     scattering_sd,
                     measured_amounts: None,
                     ..pigment.clone()
@@ -189,6 +186,10 @@ pub fn with_reference(
             .collect(),
         ..library.clone()
     })
+}
+
+fn divided_by_white(white: &Pigment, curve: &[f64]) -> Vec<f64> {
+    curve.iter().zip(&white.scattering).map(|(value, s)| rounded(value / s)).collect()
 }
 
 /// Resamples the library to `grid`: K and S by `method` (clipped at 0), standard deviations by straight

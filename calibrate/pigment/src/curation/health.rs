@@ -177,10 +177,9 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
         found(Severity::Fault, what);
     }
     let surface = library.saunderson;
-    let film = |(k, s): (&f64, &f64)| {
-        surface.measured_from_internal(spectra::optics::infinite_film(*k, *s))
-    };
-    let film: Vec<f64> = both().map(film).collect();
+    let film: Vec<f64> = both()
+        .map(|(k, s)| surface.measured_from_internal(spectra::optics::infinite_film(*k, *s)))
+        .collect();
     let dark = film.iter().filter(|r| **r < surface.floor() + BLACK).count();
     if dark > 0 {
         found(
@@ -237,13 +236,10 @@ fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: 
         .collect();
     for (second, pigment) in library.pigments.iter().enumerate() {
         for (first, other) in library.pigments[..second].iter().enumerate() {
-            let plain = |name: &str| {
-                name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
-            };
             let apart = (colors[first].iter().zip(&colors[second]))
                 .map(|(a, b)| delta_e_ciede2000(*a, *b))
                 .fold(0.0, f64::max);
-            let what = if plain(&pigment.name) == plain(&other.name) {
+            let what = if letters_and_digits(&pigment.name) == letters_and_digits(&other.name) {
                 format!("is spelled almost as {}", other.name)
             } else if pigment.absorption == other.absorption
                 && pigment.scattering == other.scattering
@@ -258,6 +254,10 @@ fn near_pairs(library: &PigmentLibrary, weights: &TristimulusWeights, findings: 
             findings.push(Finding { severity: Severity::Warning, pigment, what });
         }
     }
+}
+
+fn letters_and_digits(name: &str) -> String {
+    name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase()
 }
 
 fn hiding(library: &PigmentLibrary, recipe: &Recipe) -> Vec<f64> {
@@ -347,14 +347,8 @@ pub fn difference(
     seed: u64,
 ) -> Difference {
     let sides = [Side::new(first, viewing), Side::new(second, viewing)];
-    let names = |library: &PigmentLibrary| -> Vec<String> {
-        library.pigments.iter().map(|pigment| pigment.name.clone()).collect()
-    };
     let in_first = names(first);
     let in_second = names(second);
-    let without = |names: &[String], others: &[String]| -> Vec<String> {
-        names.iter().filter(|name| !others.contains(name)).cloned().collect()
-    };
     let white = first.reference.clone().filter(|name| in_second.contains(name));
     let apart = |recipe: &[(&str, f64)]| {
         let [a, b] = [&sides[0], &sides[1]].map(|side| side.lab(recipe));
@@ -392,10 +386,18 @@ pub fn difference(
     Difference {
         pairs: pairs.collect(),
         pigments,
-        only_first: without(&in_first, &in_second),
-        only_second: without(&in_second, &in_first),
+        only_first: names_without(&in_first, &in_second),
+        only_second: names_without(&in_second, &in_first),
         white,
     }
+}
+
+fn names_without(names: &[String], others: &[String]) -> Vec<String> {
+    names.iter().filter(|name| !others.contains(name)).cloned().collect()
+}
+
+fn names(library: &PigmentLibrary) -> Vec<String> {
+    library.pigments.iter().map(|pigment| pigment.name.clone()).collect()
 }
 
 /// One of the two libraries, with the weights for its grid.

@@ -128,9 +128,14 @@ impl Merged {
         if let Some(reference) = &base.reference {
             let lower = reference.to_lowercase();
             let same = library.pigments.iter().find(|p| p.name.to_lowercase() == lower);
-            let alias = || settings.aliases.iter().find_map(|alias| library.find(alias).ok());
             let name = same.map(|pigment| pigment.name.clone());
-            let name = name.or_else(|| alias().map(|id| library[id].name.clone()));
+            let name = name.or_else(|| {
+                settings
+                    .aliases
+                    .iter()
+                    .find_map(|alias| library.find(alias).ok())
+                    .map(|id| library[id].name.clone())
+            });
             let name = name.ok_or_else(|| CurationError::NoCommonPigment {
                 first: first.file.clone(),
                 file: file.clone(),
@@ -175,10 +180,10 @@ impl Merged {
                 continue;
             };
             let before = &mut self.library.pigments[index];
-            let hiding = |pigment: &Pigment| {
+            let [a, b] = [before, &pigment].map(|pigment| {
                 hiding_film(&pigment.absorption, &pigment.scattering, first.library.saunderson)
-            };
-            let delta_e = delta_e(&weights, &hiding(before), &hiding(&pigment));
+            });
+            let delta_e = delta_e(&weights, &a, &b);
             self.common.push((pigment.name.clone(), other.file.clone(), delta_e));
             if same_figures(before, &pigment) {
                 continue;
@@ -213,22 +218,25 @@ fn check_amounts(
     other: &Source,
     same_unit: bool,
 ) -> Result<(), CurationError> {
-    let word = |kind| match kind {
-        AmountKind::Relative => "relative",
-        AmountKind::Absolute => "absolute",
-    };
     if base.amounts != other.library.amounts {
         return Err(CurationError::Amounts {
             first: first.file.clone(),
-            wanted: word(base.amounts),
+            wanted: amount_word(base.amounts),
             file: other.file.clone(),
-            found: word(other.library.amounts),
+            found: amount_word(other.library.amounts),
         });
     }
     if base.amounts == AmountKind::Absolute && !same_unit {
         return Err(CurationError::Units { first: first.file.clone(), file: other.file.clone() });
     }
     Ok(())
+}
+
+fn amount_word(kind: AmountKind) -> &'static str {
+    match kind {
+        AmountKind::Relative => "relative",
+        AmountKind::Absolute => "absolute",
+    }
 }
 
 /// Returns a warning where another surface is accepted as the first's.
@@ -238,16 +246,10 @@ fn check_surface(
     other: &Source,
     any: bool,
 ) -> Result<Option<String>, CurationError> {
-    let surface = |library: &PigmentLibrary| {
-        let surface = library.saunderson;
-        let specular = serde_json::json!(surface.specular);
-        format!("k1 = {}, k2 = {}, specular {specular}", surface.k1, surface.k2).replace('"', "")
-    };
     let (what, wanted, found) = if base.saunderson != other.library.saunderson {
-        ("the surface", surface(base), surface(&other.library))
+        ("the surface", surface_text(base), surface_text(&other.library))
     } else if base.unevenness != other.library.unevenness {
-        let unevenness = |library: &PigmentLibrary| library.unevenness.to_string();
-        ("the unevenness", unevenness(base), unevenness(&other.library))
+        ("the unevenness", base.unevenness.to_string(), other.library.unevenness.to_string())
     } else {
         return Ok(None);
     };
@@ -262,12 +264,19 @@ fn check_surface(
     Err(CurationError::Surface { what, first, wanted, file, found })
 }
 
+fn surface_text(library: &PigmentLibrary) -> String {
+    let surface = library.saunderson;
+    let specular = serde_json::json!(surface.specular);
+    format!("k1 = {}, k2 = {}, specular {specular}", surface.k1, surface.k2).replace('"', "")
+}
+
 /// Whether K and S are equal to the rounding of a file.
 fn same_figures(a: &Pigment, b: &Pigment) -> bool {
-    let near = |a: &[f64], b: &[f64]| {
-        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 2e-5 * a.abs().max(b.abs()))
-    };
-    near(&a.absorption, &b.absorption) && near(&a.scattering, &b.scattering)
+    nearly_equal(&a.absorption, &b.absorption) && nearly_equal(&a.scattering, &b.scattering)
+}
+
+fn nearly_equal(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 2e-5 * a.abs().max(b.abs()))
 }
 
 fn origin(source: &Source) -> String {

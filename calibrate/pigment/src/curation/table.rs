@@ -48,13 +48,24 @@ pub fn to_csv(library: &PigmentLibrary) -> String {
     header.extend(library.grid.wavelengths_nm().map(|nm| nm.to_string()));
     writer.write_record(&header).expect("writing to memory does not fail");
     for pigment in &library.pigments {
-        let ratio = || pigment.absorption.iter().zip(&pigment.scattering).map(|(k, s)| k / s);
         let curves = if pigment.identified {
             let k = pigment.absorption.clone();
             let s = pigment.scattering.clone();
             [k, s, pigment.absorption_sd.clone(), pigment.scattering_sd.clone(), Vec::new()]
         } else {
-            [vec![], vec![], vec![], vec![], ratio().map(rounded).collect()]
+            [
+                vec![],
+                vec![],
+                vec![],
+                vec![],
+                pigment
+                    .absorption
+                    .iter()
+                    .zip(&pigment.scattering)
+                    .map(|(k, s)| k / s)
+                    .map(rounded)
+                    .collect(),
+            ]
         };
         for (quantity, curve) in QUANTITIES.iter().zip(curves).filter(|(_, c)| !c.is_empty()) {
             let mut record = vec![pigment.name.clone(), (*quantity).to_owned()];

@@ -14,6 +14,7 @@ use spectra::optics::absorption_over_scattering;
 use spectra::{Extrapolation, InterpolateError, Interpolation, Reflectance, Spectrum};
 
 use super::forward::{Forward, Scratch};
+use super::options::find_all;
 use super::recipe_search::spectrum_of;
 use super::request::{FilmKind, MatchError, MatchRequest, RequiredPigment};
 use super::search::{Candidate, SearchControl, descend, search, within_limits};
@@ -169,9 +170,6 @@ impl PigmentLibrary {
         let spectrum = spectrum_of(target, self.grid, (options.metric, conditions), &mut remarks)?;
         let target = Target { spectrum, ..target.under(conditions)? };
         let measured = Target::from_reflectance("batch", &batch.reflectance, conditions)?.lab;
-        let differences = |found: &[Lab], wanted: &[Lab]| -> Vec<f64> {
-            wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
-        };
         let weights: Vec<_> = conditions
             .iter()
             .map(|condition| condition.viewing.weights(self.grid))
@@ -254,6 +252,10 @@ impl PigmentLibrary {
     }
 }
 
+fn differences(found: &[Lab], wanted: &[Lab]) -> Vec<f64> {
+    wanted.iter().zip(found).map(|(w, f)| delta_e_ciede2000(*w, *f)).collect()
+}
+
 impl CorrectionOptions {
     fn check(&self, library: &PigmentLibrary, batch: &Batch) -> Result<(), MatchError> {
         if library.amounts == AmountKind::Absolute {
@@ -262,7 +264,7 @@ impl CorrectionOptions {
         if self.conditions.is_empty() {
             return Err(MatchError::NoLight);
         }
-        let grams = |value: f64| value > 0.0 && value < 1e9;
+
         let numbers = [
             ("the mass of a batch is above 0 g", Some(batch.grams), "try [grams=500]"),
             ("the least addition is above 0 g", self.least_grams, "try [least=0.1]"),
@@ -270,7 +272,7 @@ impl CorrectionOptions {
             ("the tolerance is above 0", Some(self.tolerance), "try [tolerance=0.5]"),
         ];
         for (what, value, hint) in numbers {
-            if let Some(value) = value.filter(|value| !grams(*value)) {
+            if let Some(value) = value.filter(|value| !(*value > 0.0 && *value < 1e9)) {
                 return Err(MatchError::Number { what, value, hint });
             }
         }
@@ -304,15 +306,12 @@ impl CorrectionOptions {
         library: &'a PigmentLibrary,
         grams: f64,
     ) -> Result<Additions<'a>, MatchError> {
-        let find = |names: &[String]| -> Result<Vec<PigmentId>, MatchError> {
-            names.iter().map(|name| Ok(known.find(name)?)).collect()
-        };
         let mut allowed = if self.only.is_empty() {
             known.ids().filter(|id| known[*id].identified).collect()
         } else {
-            find(&self.only)?
+            find_all(known, &self.only)?
         };
-        let without = find(&self.without)?;
+        let without = find_all(known, &self.without)?;
         let mut stock = vec![f64::INFINITY; known.pigments.len()];
         for (name, limit) in &self.stock {
             if !(*limit >= 0.0 && *limit < 1e9) {
@@ -457,9 +456,11 @@ impl Additions<'_> {
         let found = search(forward, &whole, target, &SearchControl::default());
         let mut sets: Vec<Candidate> = found.into_iter().filter(|c| c.pigments.len() > 1).collect();
         let near = sets.iter().filter(|set| set.distance <= self.tolerance).count();
-        let added = |set: &Candidate| 1.0 - set.share(self.pot());
+
         if near > 0 {
-            sets[..near].sort_by(|a, b| added(a).total_cmp(&added(b)));
+            sets[..near].sort_by(|a, b| {
+                (1.0 - a.share(self.pot())).total_cmp(&(1.0 - b.share(self.pot())))
+            });
         }
         sets.truncate(MOST_SETS);
         let mut additions: Vec<Addition> = sets
@@ -603,16 +604,16 @@ fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
     let effort = |addition: &Addition| {
         if reaches { addition.total() } else { addition.mixture.distance }
     };
-    let has = |addition: &Addition, pigment: PigmentId| {
-        addition.amounts.iter().any(|(known, _)| *known == pigment)
-    };
-    let is_needless = |addition: &Addition| {
-        additions.iter().any(|other| {
+
+    let needed = additions.iter().filter(|addition| {
+        !additions.iter().any(|other| {
             other.amounts.len() < addition.amounts.len()
-                && other.amounts.iter().all(|(pigment, _)| has(addition, *pigment))
+                && other
+                    .amounts
+                    .iter()
+                    .all(|(pigment, _)| addition.amounts.iter().any(|(known, _)| known == pigment))
                 && effort(other) <= effort(addition) * (1.0 + LEAST_GAIN)
         })
-    };
-    let needed: Vec<Addition> = additions.iter().filter(|a| !is_needless(a)).cloned().collect();
-    needed
+    });
+    needed.cloned().collect()
 }

@@ -41,8 +41,13 @@ impl<'a> Forward<'a> {
             FilmKind::Hiding => None,
             FilmKind::Over { ground, .. } => {
                 let surface = library.saunderson;
-                let below = |bare: &f64| surface.internal_from_measured(*bare).unwrap_or(0.0);
-                Some(ground.iter().map(|bare| below(bare).min(1.0)).collect())
+
+                Some(
+                    ground
+                        .iter()
+                        .map(|bare| surface.internal_from_measured(*bare).unwrap_or(0.0).min(1.0))
+                        .collect(),
+                )
             }
         };
         let total: f64 = conditions.iter().map(|condition| condition.weight).sum();
@@ -304,14 +309,7 @@ mod tests {
     #[test]
     fn slopes_of_the_cost_agree_with_difference_quotients() {
         let library = library();
-        let under = |name: &str, weight| ViewingCondition {
-            viewing: Viewing {
-                illuminant: Illuminant::named(name).unwrap(),
-                observer: Observer::default(),
-            },
-            weight,
-        };
-        let conditions = vec![under("D65", 1.0), under("A", 0.5)];
+        let conditions = vec![condition("D65", 1.0), condition("A", 0.5)];
         let wanted = Lab { lightness: 48.0, a: 22.0, b: -9.0 };
         let curve = library.grid.wavelengths_nm().map(|nm| 0.2 + 0.3 * ((nm - 400.0) / 300.0));
         let measured = Spectrum::<Reflectance>::new(library.grid, curve.collect()).unwrap();
@@ -341,16 +339,26 @@ mod tests {
                 };
                 let slopes = cost(&point).gradient;
                 for unknown in 0..count {
-                    let mut moved = |by: f64| {
+                    let [above, below] = [1e-5, -1e-5].map(|by| {
                         let mut near = point;
                         near[unknown] += by;
                         cost(&near).value
-                    };
-                    let quotient = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                    });
+                    let quotient = (above - below) / 2e-5;
                     let off = (slopes[unknown] - quotient).abs() / quotient.abs().max(1.0);
                     assert!(off < 1e-3, "{metric:?} {unknown}: {} for {quotient}", slopes[unknown]);
                 }
             }
+        }
+    }
+
+    fn condition(name: &str, weight: f64) -> ViewingCondition {
+        ViewingCondition {
+            viewing: Viewing {
+                illuminant: Illuminant::named(name).unwrap(),
+                observer: Observer::default(),
+            },
+            weight,
         }
     }
 }

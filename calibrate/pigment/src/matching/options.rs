@@ -201,11 +201,8 @@ impl MatchOptions {
         request: &mut MatchRequest,
         remarks: &mut Vec<Remark>,
     ) -> Result<(), MatchError> {
-        let find = |names: &[String]| -> Result<Vec<PigmentId>, MatchError> {
-            names.iter().map(|name| Ok(library.find(name)?)).collect()
-        };
         if !self.only.is_empty() {
-            request.allowed = find(&self.only)?;
+            request.allowed = find_all(library, &self.only)?;
         }
         for RequiredName { name, share } in &self.with {
             let pigment = library.find(name)?;
@@ -213,7 +210,7 @@ impl MatchOptions {
             request.required.push(RequiredPigment { pigment, share: *share });
             request.allowed.push(pigment);
         }
-        let without = find(&self.without)?;
+        let without = find_all(library, &self.without)?;
         let both = request.required.iter().find(|required| without.contains(&required.pigment));
         if let Some(RequiredPigment { pigment, .. }) = both {
             let name = library[*pigment].name.clone();
@@ -243,6 +240,14 @@ impl MatchOptions {
         }
         Ok(())
     }
+}
+
+/// Finds every pigment of `names`.
+pub(super) fn find_all(
+    library: &PigmentLibrary,
+    names: &[String],
+) -> Result<Vec<PigmentId>, MatchError> {
+    names.iter().map(|name| Ok(library.find(name)?)).collect()
 }
 
 /// Prices of one unit of amount (such as a gram) of pigments by name, in any currency.
@@ -308,9 +313,9 @@ impl PriceList {
             let record = record.map_err(broken)?;
             let row = numbers.at(record.position().map_or(0, csv::Position::byte));
             let place = format!("{file}, row {row}");
-            let cell = |column| record.get(column).unwrap_or_default();
-            let price = parse_price(cell(price), &place)?;
-            let pigment = cell(pigment).to_owned();
+
+            let price = parse_price(record.get(price).unwrap_or_default(), &place)?;
+            let pigment = record.get(pigment).unwrap_or_default().to_owned();
             self.entries.push(Entry { pigment, price, place: Some(place) });
         }
         Ok(())

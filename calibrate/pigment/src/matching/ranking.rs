@@ -143,22 +143,21 @@ fn ranked(
     request: &MatchRequest,
     cost: &dyn Fn(&Candidate) -> f64,
 ) -> Vec<Found> {
-    let equal = |c: &Candidate| c.distance <= nearest + request.tolerance;
-    let smallest = |c: &Candidate| c.shares.iter().copied().fold(1.0, f64::min);
+    let tolerated = nearest + request.tolerance;
     let steps = |c: &Candidate| ((c.distance - nearest) / USUAL_TOLERANCE).floor();
     found.sort_by(|(_, a), (_, b)| {
-        let by_distance = || a.distance.total_cmp(&b.distance);
-        let order = match (equal(a), equal(b)) {
+        let by_distance = a.distance.total_cmp(&b.distance);
+        let order = match (a.distance <= tolerated, b.distance <= tolerated) {
             (true, true) => cost(a)
                 .total_cmp(&cost(b))
                 .then(a.pigments.len().cmp(&b.pigments.len()))
                 .then(steps(a).total_cmp(&steps(b)))
-                .then(smallest(b).total_cmp(&smallest(a))),
+                .then(smallest_share(b).total_cmp(&smallest_share(a))),
             (true, false) => std::cmp::Ordering::Less,
             (false, true) => std::cmp::Ordering::Greater,
-            (false, false) => by_distance(),
+            (false, false) => by_distance,
         };
-        order.then_with(by_distance).then_with(|| a.pigments.cmp(&b.pigments))
+        order.then(by_distance).then_with(|| a.pigments.cmp(&b.pigments))
     });
     let mut shown: Vec<Found> = Vec::new();
     for (parts, candidate) in found {
@@ -174,6 +173,10 @@ fn ranked(
         }
     }
     shown
+}
+
+fn smallest_share(c: &Candidate) -> f64 {
+    c.shares.iter().copied().fold(1.0, f64::min)
 }
 
 /// Price of a candidate. Without prices it is 0 for all, which leaves their order unchanged.
@@ -411,13 +414,17 @@ pub fn few_parts(shares: &[f64], most: u32, tolerance: f64) -> Option<Vec<u32>> 
 fn rounded(shares: &[f64], total: u32) -> Vec<u32> {
     let wished: Vec<f64> = shares.iter().map(|share| share * f64::from(total)).collect();
     let mut parts: Vec<u32> = wished.iter().map(|w| (w.floor() as u32).max(1)).collect();
-    let lack = |parts: &[u32], i: usize| wished[i] - f64::from(parts[i]);
+
     while parts.iter().sum::<u32>() != total {
         let short = parts.iter().sum::<u32>() < total;
         let places = (0..parts.len()).filter(|&i| short || parts[i] > 1);
-        let by_lack = |a: &usize, b: &usize| lack(&parts, *a).total_cmp(&lack(&parts, *b));
-        let place = if short { places.max_by(by_lack) } else { places.min_by(by_lack) };
-        let Some(place) = place else { break };
+        let place = places.map(|i| (wished[i] - f64::from(parts[i]), i));
+        let place = if short {
+            place.max_by(|a, b| a.0.total_cmp(&b.0))
+        } else {
+            place.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let Some((_, place)) = place else { break };
         parts[place] = if short { parts[place] + 1 } else { parts[place] - 1 };
     }
     parts

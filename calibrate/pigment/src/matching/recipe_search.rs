@@ -196,10 +196,9 @@ pub(super) fn spectrum_of(
     remarks: &mut Vec<Remark>,
 ) -> Result<Option<SpectralTarget>, MatchError> {
     let asked = metric.spectrum_weights();
-    let name = || target.name.clone();
     let TargetColor::Reflectance(measured) = &target.color else {
         return if asked.is_some() {
-            Err(MatchError::NoSpectrum { name: name() })
+            Err(MatchError::NoSpectrum { name: target.name.clone() })
         } else {
             Ok(None)
         };
@@ -210,7 +209,7 @@ pub(super) fn spectrum_of(
         return Ok(spectrum);
     }
     let spectrum = spectrum.ok_or_else(|| MatchError::NoSharedBand {
-        name: name(),
+        name: target.name.clone(),
         target_nm: [own.start_nm(), own.end_nm()],
         library_nm: [grid.start_nm(), grid.end_nm()],
     })?;
@@ -218,7 +217,7 @@ pub(super) fn spectrum_of(
     if first > VISIBLE_NM[0] || last < VISIBLE_NM[1] {
         remarks.push(Remark::warning(format!(
             "{}: matched from {first} to {last} nm only, the band that target and library share",
-            name()
+            target.name.clone()
         )));
     }
     Ok(Some(spectrum))
@@ -230,9 +229,10 @@ impl RecipeSearch<'_> {
     /// [`Self::recipe_json`]. With `grams`, the mass of the mixture, recipes tell amounts.
     #[must_use]
     pub fn to_json(&self, matched: &RecipeMatches, grams: Option<f64>) -> Value {
-        let list = |recipes: &[RecipeMatch]| -> Vec<Value> {
-            recipes.iter().map(|recipe| self.recipe_json(recipe, grams)).collect()
-        };
+        let [recipes, by_cie1976] = [&matched.recipes, &matched.by_cie1976].map(|recipes| {
+            let recipes = recipes.iter().map(|recipe| self.recipe_json(recipe, grams));
+            recipes.collect::<Vec<Value>>()
+        });
         let target = &matched.target;
         json!({
             "target": target.name,
@@ -247,8 +247,8 @@ impl RecipeSearch<'_> {
             "band_nm": target.spectrum.as_ref().map(SpectralTarget::band_nm),
             "tolerance": self.request.tolerance,
             "tolerance_origin": self.tolerance_origin.name(),
-            "recipes": list(&matched.recipes),
-            "by_cie1976": list(&matched.by_cie1976),
+            "recipes": recipes,
+            "by_cie1976": by_cie1976,
         })
     }
 
@@ -387,17 +387,18 @@ mod tests {
     fn the_tolerance_follows_the_error_of_the_library() {
         let mut oils = PigmentLibrary::van_gogh_oils();
         let plain = MatchOptions::default();
-        let tolerance = |library: &PigmentLibrary, options: &MatchOptions| {
-            let search = library.recipe_search(options).unwrap();
-            (search.request.tolerance, search.tolerance_origin)
-        };
         let error = oils.mean_error().unwrap();
         assert!(error > 1.0, "{error}");
-        assert_eq!(tolerance(&oils, &plain), (error, ToleranceOrigin::Library));
+        assert_eq!(tolerance_of(&oils, &plain), (error, ToleranceOrigin::Library));
         let given = MatchOptions { tolerance: Some(0.2), ..plain.clone() };
-        assert_eq!(tolerance(&oils, &given), (0.2, ToleranceOrigin::Given));
+        assert_eq!(tolerance_of(&oils, &given), (0.2, ToleranceOrigin::Given));
         oils.evidence = None;
-        assert_eq!(tolerance(&oils, &plain), (USUAL_TOLERANCE, ToleranceOrigin::Usual));
+        assert_eq!(tolerance_of(&oils, &plain), (USUAL_TOLERANCE, ToleranceOrigin::Usual));
+    }
+
+    fn tolerance_of(library: &PigmentLibrary, options: &MatchOptions) -> (f64, ToleranceOrigin) {
+        let search = library.recipe_search(options).unwrap();
+        (search.request.tolerance, search.tolerance_origin)
     }
 
     #[test]
@@ -405,8 +406,16 @@ mod tests {
         let target = "61.2,0.3,-44.5";
         let fine = search(target, MatchOptions { tolerance: Some(0.0), ..MatchOptions::default() });
         let usual = search(target, MatchOptions::default());
-        let of = |found: &RecipeMatches| found.recipes[0].shares.len();
-        assert!(of(&fine) > 2 && of(&usual) == 2, "{} and {}", of(&fine), of(&usual));
+        assert!(
+            pigment_count(&fine) > 2 && pigment_count(&usual) == 2,
+            "{} and {}",
+            pigment_count(&fine),
+            pigment_count(&usual)
+        );
         assert!((usual.nearest() - fine.nearest()).abs() < 1e-9);
+    }
+
+    fn pigment_count(found: &RecipeMatches) -> usize {
+        found.recipes[0].shares.len()
     }
 }

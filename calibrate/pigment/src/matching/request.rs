@@ -136,9 +136,6 @@ impl MatchRequest {
     /// # Errors
     /// [`MatchError`] if no recipe can meet the request.
     pub(super) fn check(&self, library: &PigmentLibrary) -> Result<(), MatchError> {
-        let invalid = |what: &'static str, value: f64, hint: &'static str| {
-            Err(MatchError::Number { what, value, hint })
-        };
         if self.allowed.is_empty() {
             return Err(MatchError::NoPigments);
         }
@@ -219,6 +216,10 @@ impl MatchRequest {
         let [clear, hiding] = USUAL_WASH;
         FilmKind::Over { ground, thickness: Thickness::Between(clear / mean, hiding / mean) }
     }
+}
+
+fn invalid(what: &'static str, value: f64, hint: &'static str) -> Result<(), MatchError> {
+    Err(MatchError::Number { what, value, hint })
 }
 
 /// Measured amounts of each pigment of a library of absolute amounts; empty for others.

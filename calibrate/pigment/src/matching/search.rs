@@ -37,19 +37,18 @@ pub(super) fn search(
     let mut sets = first_sets(request);
     let mut size = sets.keys().next().map_or(0, Vec::len);
     loop {
-        let nearest = |(set, parent): (&Vec<PigmentId>, &Option<Candidate>),
-                       scratch: &mut Scratch| {
-            if control.cancelled() {
-                return None;
-            }
-            control.step();
-            let starts = starts(request, set, parent.as_ref(), &strength);
-            let ends = starts.iter().filter_map(|s| descend(forward, request, target, s, scratch));
-            ends.min_by(|a, b| a.distance.total_cmp(&b.distance))
-        };
         let tried: Vec<(Vec<PigmentId>, Option<Candidate>)> = sets
             .par_iter()
-            .map_init(Scratch::default, |scratch, set| (set.0.clone(), nearest(set, scratch)))
+            .map_init(Scratch::default, |scratch, (set, parent)| {
+                if control.cancelled() {
+                    return (set.clone(), None);
+                }
+                control.step();
+                let starts = starts(request, set, parent.as_ref(), &strength);
+                let ends =
+                    starts.iter().filter_map(|s| descend(forward, request, target, s, scratch));
+                (set.clone(), ends.min_by(|a, b| a.distance.total_cmp(&b.distance)))
+            })
             .collect();
         size += 1;
         let goes_on = size <= request.at_most && !control.cancelled();
@@ -108,9 +107,6 @@ fn first_sets(request: &MatchRequest) -> Sets {
 
 /// Every set with one pigment more, each with its nearest smaller recipe.
 fn grown(request: &MatchRequest, tried: &[(Vec<PigmentId>, Option<Candidate>)]) -> Sets {
-    let distance = |candidate: &Option<Candidate>| {
-        candidate.as_ref().map_or(f64::INFINITY, |candidate| candidate.distance)
-    };
     let mut parents: Vec<_> = tried.iter().collect();
     parents.sort_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)).then_with(|| a.0.cmp(&b.0)));
     let mut sets = BTreeMap::new();
@@ -125,6 +121,10 @@ fn grown(request: &MatchRequest, tried: &[(Vec<PigmentId>, Option<Candidate>)]) 
         }
     }
     sets
+}
+
+fn distance(candidate: &Option<Candidate>) -> f64 {
+    candidate.as_ref().map_or(f64::INFINITY, |candidate| candidate.distance)
 }
 
 /// Least mean of K + S that is assumed for a pigment, so that its start share is finite.

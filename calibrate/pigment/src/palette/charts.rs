@@ -94,12 +94,11 @@ fn hides(palette: &Palette<'_>, paint: PigmentId) -> Hides {
     let library = palette.library();
     let mixture = library.mix([(paint, 1.0)]).expect("one part is a mixture");
     let film = library.film();
-    let luminance = |thickness: f64, card: &[f64]| {
-        palette.weights().xyz(&mixture.film(thickness, card, film)).y
-    };
+
     let over_cards = |thickness: f64| {
         let cards = palette.cards();
-        [luminance(thickness, &cards.black), luminance(thickness, &cards.white)]
+        [&cards.black, &cards.white]
+            .map(|card| palette.weights().xyz(&mixture.film(thickness, card, film)).y)
     };
     let contrast = |thickness: f64| {
         let [black, white] = over_cards(thickness);
@@ -179,7 +178,6 @@ fn strength(palette: &Palette<'_>, paint: PigmentId) -> TintingStrength {
         (AmountKind::Relative, Some(white)) => {
             let tint = palette.mixture(&palette.tint(paint, TINT_PARTS));
             let white = palette.mixture(&Recipe::single(white));
-            let ratio = |k: f64, s: f64| if s > 0.0 { k / s } else { 0.0 };
             (0..library.grid.count())
                 .map(|i| {
                     ratio(tint.absorption[i], tint.scattering[i])
@@ -206,6 +204,10 @@ fn strength(palette: &Palette<'_>, paint: PigmentId) -> TintingStrength {
         percent: 0.0,
         white_parts,
     }
+}
+
+fn ratio(k: f64, s: f64) -> f64 {
+    if s > 0.0 { k / s } else { 0.0 }
 }
 
 /// Parts of white (or of water) to one of paint in a ladder of tints.
@@ -304,17 +306,23 @@ pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
         .iter()
         .map(|&paint| {
             let mixture = palette.mixture(&Recipe::single(paint));
-            let over = |thickness: f64, card: &[f64]| {
-                palette.appearance(&mixture.film(thickness, card, film))
-            };
+
             Drawdown {
                 paint,
                 steps: thicknesses
                     .iter()
                     .map(|&thickness| DrawdownStep {
                         thickness,
-                        over_black: over(thickness, &cards.black),
-                        over_white: over(thickness, &cards.white),
+                        over_black: palette.appearance(&mixture.film(
+                            thickness,
+                            &cards.black,
+                            film,
+                        )),
+                        over_white: palette.appearance(&mixture.film(
+                            thickness,
+                            &cards.white,
+                            film,
+                        )),
                     })
                     .collect(),
                 masstone: palette.appearance(&mixture.hiding(film.surface)),
@@ -342,8 +350,10 @@ impl PainterRules {
     /// # Errors
     /// None in practice: both numbers of wavelengths are valid.
     pub fn of(palette: &Palette<'_>) -> Result<Self, QuadratureFailure> {
-        let rule = |count| Quadrature::library(palette.viewing(), palette.library(), count);
-        let (eight, three) = rayon::join(|| rule(8), || rule(3));
+        let (eight, three) = rayon::join(
+            || Quadrature::library(palette.viewing(), palette.library(), 8),
+            || Quadrature::library(palette.viewing(), palette.library(), 3),
+        );
         Ok(Self { eight: eight?, three: three? })
     }
 }
@@ -487,10 +497,11 @@ pub fn default_pairs(
     let ordered = |(a, b)| if palette.white() == Some(a) { (b, a) } else { (a, b) };
     let mut chosen: Vec<(PigmentId, PigmentId)> =
         pairs.iter().take(2).map(|(_, p)| ordered(*p)).collect();
-    let tinted = |paint: PigmentId, parts: f64| palette.color(&palette.tint(paint, parts)).lab.b;
+
     let extreme = |sign: f64| {
-        let most =
-            palette.paints().iter().map(|&p| (p, [0.0, 3.0, 9.0].map(|n| sign * tinted(p, n))));
+        let most = palette.paints().iter().map(|&p| {
+            (p, [0.0, 3.0, 9.0].map(|n| sign * palette.color(&palette.tint(p, n)).lab.b))
+        });
         most.map(|(p, b)| (p, b.into_iter().fold(f64::NEG_INFINITY, f64::max)))
             .reduce(|a, b| if b.1 > a.1 { b } else { a })
             .map(|(p, _)| p)

@@ -391,9 +391,12 @@ pub(super) fn between<'a>(
 }
 
 fn cell(color: &Appearance) -> [i32; 3] {
-    let index = |value: f64, side: f64| (value / side).floor() as i32;
     let lab = color.lab;
-    [index(lab.lightness, BETWEEN_BAND), index(lab.a, CELL), index(lab.b, CELL)]
+    [cell_index(lab.lightness, BETWEEN_BAND), cell_index(lab.a, CELL), cell_index(lab.b, CELL)]
+}
+
+fn cell_index(value: f64, side: f64) -> i32 {
+    (value / side).floor() as i32
 }
 
 /// Mixture of one half of each recipe.
@@ -467,12 +470,13 @@ mod tests {
 
     #[test]
     fn greys_reach_a_thin_region_and_primaries_a_wide_one() {
-        let area = |names: &[&str]| {
-            with_palette(names, |palette| color_wheel(palette).region(None).area())
-        };
-        let greys = area(&["Zinc White", "Bone Black"]);
-        let primaries = area(&["Zinc White", "Chrome Yellow", "Vermilion", "Ultramarine"]);
+        let greys = area_of(&["Zinc White", "Bone Black"]);
+        let primaries = area_of(&["Zinc White", "Chrome Yellow", "Vermilion", "Ultramarine"]);
         assert!(greys < 60.0 && primaries > 2000.0, "{greys} and {primaries}");
+    }
+
+    fn area_of(names: &[&str]) -> f64 {
+        with_palette(names, |palette| color_wheel(palette).region(None).area())
     }
 
     #[test]

@@ -344,10 +344,9 @@ impl Cards {
     /// Cards at the limits of ISO 6504-3: 0.05 and 0.80 at every wavelength of `grid`.
     #[must_use]
     pub fn standard(grid: Grid) -> Self {
-        let even = |value| vec![value; grid.count()];
         Self {
-            black: even(BLACK),
-            white: even(WHITE),
+            black: vec![BLACK; grid.count()],
+            white: vec![WHITE; grid.count()],
             black_measured: false,
             white_measured: false,
         }

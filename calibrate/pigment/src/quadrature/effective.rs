@@ -34,9 +34,10 @@ impl EffectiveQuadrature {
     /// `rule` with the K and S of `library` interpolated at its wavelengths.
     #[must_use]
     pub fn interpolated(rule: Quadrature, library: &PigmentLibrary) -> Self {
-        let at = |values: &[f64]| rule.at_nodes(library.grid, values);
-        let absorption = library.pigments.iter().map(|p| at(&p.absorption)).collect();
-        let scattering = library.pigments.iter().map(|p| at(&p.scattering)).collect();
+        let absorption =
+            library.pigments.iter().map(|p| rule.at_nodes(library.grid, &p.absorption)).collect();
+        let scattering =
+            library.pigments.iter().map(|p| rule.at_nodes(library.grid, &p.scattering)).collect();
         Self { rule, absorption, scattering }
     }
 

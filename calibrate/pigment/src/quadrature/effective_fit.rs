@@ -15,7 +15,6 @@ use super::rule::{NODE_BAND_NM, Quadrature, QuadratureFailure, on_line};
 use crate::evaluate::Viewing;
 use crate::least_squares::{NormalEquations, SparseRows, Stop, minimise};
 use crate::library::PigmentLibrary;
-use crate::recipe::PigmentId;
 
 /// Films of the training set for each pigment, and at least.
 const FILMS_A_PIGMENT: usize = 120;
@@ -64,20 +63,21 @@ impl EffectiveQuadrature {
     ) -> Result<Self, QuadratureFailure> {
         let start = Quadrature::library(viewing, library, count)?;
         let weights = viewing.weights(library.grid).expect("the method fits the grid");
-        let until = |stop: Stop<'static>| Stop { cancellation: Some(cancellation), ..stop };
+        let stops =
+            [FIRST_STOP, SECOND_STOP].map(|stop| Stop { cancellation: Some(cancellation), ..stop });
         let pigments = library.pigments.len();
 
         let films = LEAST_FILMS.max(FILMS_A_PIGMENT * pigments);
         let films = FilmSet::for_fitting(library, &weights, films, SEED);
         let mut problem = Problem::new(start, library, films);
-        let first = problem.solve(problem.first_point(), Nodes::Fixed, until(FIRST_STOP));
+        let first = problem.solve(problem.first_point(), Nodes::Fixed, stops[0]);
         cancellation.check()?;
 
         let count = LEAST_CANDIDATES.max(CANDIDATES_A_PIGMENT * pigments);
         let candidates = FilmSet::candidates(library, &weights, count, SEED);
         let errors = problem.at(&first).errors(library, &candidates);
         problem.add_worst(candidates, &errors, (WORST * count as f64) as usize);
-        let second = problem.solve(first, Nodes::Free, until(SECOND_STOP));
+        let second = problem.solve(first, Nodes::Free, stops[1]);
         cancellation.check()?;
         Ok(problem.at(&second))
     }
