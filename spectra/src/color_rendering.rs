@@ -98,7 +98,7 @@ impl Explain for ColorRenderingError {
     }
 }
 
-/// Number of samples whose mean is the general index.
+/// The general index is the mean of this many samples.
 const GENERAL: usize = 8;
 /// Fall of an index for one unit of CIE 1964 U*V*W*.
 const FALL: f64 = 4.6;
@@ -108,7 +108,7 @@ const FARTHEST: f64 = 5.4e-3;
 /// Colour rendering indices of a light (CIE 13.3-1995).
 #[derive(Debug, Clone, PartialEq)]
 pub struct RenderingIndex {
-    /// General colour rendering index Ra, the mean of the first eight special indices; 100 at most.
+    /// General colour rendering index Ra, the mean of the first eight special indices, 100 at most.
     pub general: f64,
     /// Special indices R1 to R14: R9 is a strong red, R13 a light skin, R14 a leaf.
     pub special: Vec<f64>,
@@ -117,7 +117,7 @@ pub struct RenderingIndex {
 }
 
 impl RenderingIndex {
-    /// Indices of `light`, whose correlated colour temperature is `kelvin`.
+    /// Indices of `light` with the correlated colour temperature `kelvin`.
     fn of(light: &Illuminant, kelvin: f64) -> Result<Self, IlluminantError> {
         let reference = of_rendering(kelvin)?;
         let samples = samples_of_rendering();
@@ -187,18 +187,18 @@ const BAND_NM: [f64; 2] = [380.0, 780.0];
 /// Fidelity and gamut of a light by 99 samples (ANSI/IES TM-30-18).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColorFidelity {
-    /// Fidelity index Rf, 0 to 100; that of CIE 224:2017.
+    /// Fidelity index Rf, 0 to 100, as in CIE 224:2017.
     pub fidelity: f64,
     /// Gamut index Rg: 100 where the light shows as much chroma as its reference, more where it shows more.
     pub gamut: f64,
     /// Fidelity of each of the 99 samples, 0 to 100.
     pub samples: Vec<f64>,
-    /// Fidelity of the samples in each of 16 bins of hue, from red at 0 degrees on; `None` for an empty bin.
+    /// Fidelity of the samples in each of 16 bins of hue, from red at 0 degrees on. `None` for an empty bin.
     pub hue_bins: Vec<Option<f64>>,
 }
 
 impl ColorFidelity {
-    /// Indices of `light`, whose correlated colour temperature is `kelvin`.
+    /// Indices of `light` with the correlated colour temperature `kelvin`.
     fn of(light: &Illuminant, kelvin: f64) -> Result<Self, IlluminantError> {
         let reference = of_fidelity(kelvin)?;
         let colors = [colors(light)?, colors(&reference)?];
@@ -286,7 +286,7 @@ const CONES: Matrix3 =
 const ADAPTING: f64 = 100.0;
 /// Luminance factor of the background relative to the white.
 const BACKGROUND: f64 = 0.2;
-/// Constants of the average surround: impact c; the induction factor is 1.
+/// Constants of the average surround: impact c. The induction factor is 1.
 const IMPACT: f64 = 0.69;
 
 /// A light to which an observer is adapted.

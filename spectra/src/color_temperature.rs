@@ -26,9 +26,9 @@ const MIREDS: (f64, f64) = (20.0, 1000.0);
 const STEPS: usize = 49;
 
 impl ColorTemperature {
-    /// The correlated colour temperature of `light`: that of the nearest black body in CIE 1960
-    /// (u, v), for the observer of 1931 (CIE 15:2018, section 9.5). `None` if the nearest is
-    /// farther than 0.05, or outside 1000 to 50000 K.
+    /// The correlated colour temperature of `light`: the temperature of the nearest black body in CIE 1960
+    /// (u, v), for the observer of 1931 (CIE 15:2018, section 9.5). `None` if the nearest is farther than
+    /// 0.05, or outside 1000 to 50000 K.
     ///
     /// ```
     /// let light = spectra::Illuminant::named("A").unwrap();

@@ -153,8 +153,8 @@ pub(crate) fn columns(text: &str) -> Vec<(String, Vec<Option<f64>>)> {
     columns
 }
 
-/// The wavelengths and values of the filled cells in the column `name`; the first column holds
-/// the wavelengths.
+/// The wavelengths and values of the filled cells in the column `name`. The first column holds the
+/// wavelengths.
 pub(crate) fn filled(
     columns: &[(String, Vec<Option<f64>>)],
     name: &str,
@@ -199,7 +199,7 @@ impl Observer {
     /// The observer with the given name. `2` and `10` are the observers of 1931 and 1964.
     ///
     /// # Errors
-    /// [`ObserverError`], whose message lists the names.
+    /// [`ObserverError`] lists the names in its message.
     pub fn named(name: &str) -> Result<Self, ObserverError> {
         match name {
             "2" => Ok(Self::Cie1931Deg2),

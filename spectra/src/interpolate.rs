@@ -13,8 +13,8 @@ use crate::grid::Grid;
 pub enum Interpolation {
     /// Linear between neighbours. Never overshoots.
     Linear,
-    /// Sprague's fifth-order polynomial (Sprague 1880), which CIE 167:2005 recommends for
-    /// regular spectra. Requires six wavelengths; may overshoot near a sharp edge.
+    /// Sprague's fifth-order polynomial (Sprague 1880), which CIE 167:2005 recommends for regular spectra. It
+    /// requires six wavelengths and may overshoot near a sharp edge.
     #[default]
     Sprague,
 }
@@ -28,8 +28,8 @@ pub enum Extrapolation {
     Hold,
 }
 
-/// Weights of the values `first .. first + weights.len()` of a grid, whose sum is the
-/// interpolated value at one wavelength.
+/// Weights of the values `first .. first + weights.len()` of a grid. The weighted sum is the interpolated
+/// value at one wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct InterpolationRow {
     pub(crate) first: usize,
@@ -184,8 +184,8 @@ pub enum InterpolateError {
 
 impl Explain for InterpolateError {}
 
-/// A curve of cubic pieces whose slope and second derivative are continuous, and whose second
-/// derivative is 0 at both ends (de Boor 1978, chapter 4).
+/// A curve of cubic pieces with continuous slope and second derivative. The second derivative is 0 at both
+/// ends (de Boor 1978, chapter 4).
 #[derive(Debug)]
 pub(crate) struct Spline<'a> {
     places: &'a [f64],
@@ -219,9 +219,9 @@ impl<'a> Spline<'a> {
 
     /// The value at `place`, which lies between the first and the last.
     ///
-    /// It leaves the range of the four values around it by at most the width of that range. Smooth
-    /// values stay well within; two readings of a noisy spectrum at almost one place would otherwise
-    /// swing the curve beside them.
+    /// It leaves the range of the four values around it by at most the width of that range. Smooth values
+    /// stay well within. Two readings of a noisy spectrum at almost one place would otherwise make the curve
+    /// swing near them.
     pub(crate) fn at(&self, place: f64) -> f64 {
         let after = self.places.partition_point(|&p| p < place).clamp(1, self.places.len() - 1);
         let before = after - 1;

@@ -72,8 +72,8 @@ pub enum LightError {
     Illuminant(#[from] IlluminantError),
 }
 
-/// Names of lights that trade and older tables use, with those of the CIE or temperatures. TL84, TL83,
-/// CWF and the like are lamps of viewing booths; the lamp U35 has 3500 K, between FL12 and FL11.
+/// Names of lights in trade and older tables, each with its CIE name or temperature. TL84, TL83, CWF and the
+/// like are lamps of viewing booths. The lamp U35 has 3500 K, between FL12 and FL11.
 const OTHER_NAMES: [(&str, &str); 15] = [
     ("TL84", "FL11"),
     ("TL83", "FL12"),
@@ -103,7 +103,7 @@ fn did_you_mean(text: &str) -> String {
         return format!("did you mean {kelvin}K{daylight}{d65}? ");
     }
     let known = OTHER_NAMES.iter().find(|(other, _)| *other == letters);
-    // A path is no name.
+    // A path is not a name.
     let is_name = !text.contains(['/', '\\', '.', '#']);
     // F1 to F12 are FL1 to FL12 since CIE 15:2018.
     let fluorescent = letters.strip_prefix('F').map(|number| format!("FL{number}"));
@@ -149,7 +149,7 @@ const NEEDED_NM: [f64; 2] = [420.0, 680.0];
 /// A light from `bytes`, the content of `file`, in any format of [`Format`] or as two columns
 /// `nm, power`. The format is detected from the content.
 ///
-/// Power may be in any unit, at any wavelengths from 420 nm or less to 680 nm or more; outside them the
+/// Power may be in any unit, at any wavelengths from 420 nm or less to 680 nm or more. Outside them the
 /// end values are held. From
 /// 360 to 830 nm negative power down to -1 % of the peak is set to 0 as noise. `spectrum`
 /// selects one of several spectra by name. The light is called `file`, or `file#spectrum`.
@@ -167,7 +167,7 @@ pub fn lamp_from_bytes(
     spectrum: Option<&str>,
 ) -> Result<Illuminant, LampError> {
     let spectra = match read(file, bytes, None) {
-        // Very short files are not recognised as columns; reading them as such gives a better
+        // Very short files are not recognised as columns. Reading them as such gives a better
         // error.
         Err(InstrumentError::Unrecognised { .. }) => read(file, bytes, Some(Format::Columns)),
         known => known,
@@ -218,7 +218,7 @@ pub enum LampError {
     /// The file has several spectra and none is selected, or none of the selected name.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-    /// The spectrum is not that of a light.
+    /// The spectrum is not of a light.
     #[error("{file}: `{name}` must be the power of a lamp, found `{found}`")]
     Quantity {
         /// Path of the file.
@@ -248,7 +248,7 @@ pub enum LampError {
         /// Number of wavelengths.
         count: usize,
     },
-    /// Much of the visible band is not measured; the file may use another unit.
+    /// Much of the visible band is not measured. The file may use another unit.
     #[error(
         "{file}: a lamp must be measured from {} to {} nm or beyond, found `{start_nm}` to `{end_nm}` nm", NEEDED_NM[0], NEEDED_NM[1]
     )]

@@ -20,8 +20,8 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// A film of the given `thickness` whose paint has the `absorption` K and the `scattering`
-    /// S per unit of thickness. All arguments are 0 and up.
+    /// A film of the given `thickness`. Its paint has the `absorption` K and the `scattering` S per unit of
+    /// thickness. All arguments are 0 and up.
     ///
     /// Kubelka 1948 (hyperbolic solution), rewritten with decaying exponentials:
     /// ```text
@@ -138,7 +138,7 @@ pub fn absorption_over_scattering(reflectance: f64) -> f64 {
     (1.0 - reflectance).powi(2) / (2.0 * reflectance)
 }
 
-/// The derivative dR/d(K/S) at the reflectance R of an opaque film. Not positive; infinite at R
+/// The derivative dR/d(K/S) at the reflectance R of an opaque film. Not positive, infinite at R
 /// = 1.
 #[must_use]
 pub fn infinite_film_slope(reflectance: f64) -> f64 {
@@ -160,11 +160,11 @@ pub struct OverBacking {
 pub struct FilmOptics {
     /// K/S of the paint, 0 and up.
     pub ratio: f64,
-    /// Scattering power S d. Infinite for an opaque film; `None` if the readings contradict
+    /// Scattering power S d. Infinite for an opaque film. `None` if the readings contradict
     /// each other.
     pub scattering_power: Option<f64>,
-    /// Transparency: the difference of the film's two reflectances divided by that of the
-    /// backings. 0 for an opaque film, 1 for no film.
+    /// Transparency: the difference of the film's two reflectances divided by the difference of the backings.
+    /// 0 for an opaque film, 1 for no film.
     pub transparency: f64,
 }
 
@@ -197,7 +197,7 @@ pub fn film_over_two_backings(first: OverBacking, second: OverBacking) -> Option
     Some(FilmOptics { ratio, scattering_power, transparency: (r1 - r2) / (g1 - g2) })
 }
 
-/// S d from c = b coth(b S d); `None` if no S d gives this c.
+/// S d from c = b coth(b S d). `None` if no S d gives this c.
 fn scattering_power(b: f64, c: f64) -> Option<f64> {
     if !c.is_finite() || c <= 0.0 {
         None
@@ -274,7 +274,7 @@ impl Surface {
         Self { k1: 0.03, k2: 0.6, specular }
     }
 
-    /// The smallest possible measured reflectance: that of a perfectly black film.
+    /// The smallest possible measured reflectance, which a perfectly black film has.
     #[must_use]
     pub fn floor(&self) -> f64 {
         match self.specular {

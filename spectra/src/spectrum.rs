@@ -42,11 +42,11 @@ macro_rules! quantity {
 
 quantity!(
     /// Reflectance factor as a fraction. Values above 1 are valid (fluorescence, or a reading
-    /// relative to a darker white); values above 2 are taken for percent and refused.
+    /// relative to a darker white). Values above 2 are taken for percent and refused.
     Reflectance, "reflectance", 0.0, 2.0, "0 to 2"
 );
 quantity!(
-    /// Relative spectral power of a light, in any unit; not negative.
+    /// Relative spectral power of a light, in any unit, not negative.
     Power, "power", 0.0, f64::INFINITY, "0 and up"
 );
 quantity!(
@@ -244,11 +244,11 @@ impl IrregularSpectrum {
     }
 
     /// The spectrum on `grid`, interpolated by a natural cubic spline, linearly if there are fewer
-    /// than six values; outside the band the end values hold. Values at the wavelengths of `grid`
+    /// than six values. Outside the band the end values hold. Values at the wavelengths of `grid`
     /// itself are returned unchanged. If no value is negative, none becomes so.
     ///
     /// This suits reflectances, which are smooth. A lamp with lines is interpolated linearly
-    /// ([`IrregularSpectrum::at_linear`]), since a spline would swing beside each line.
+    /// ([`IrregularSpectrum::at_linear`]), since a spline would swing next to each line.
     #[must_use]
     pub fn on_grid(&self, grid: Grid) -> Vec<f64> {
         if Grid::through(&self.nm) == Some(grid) {
@@ -284,7 +284,7 @@ pub(crate) struct SmoothCurve<'a> {
 }
 
 impl SmoothCurve<'_> {
-    /// The value at `nm`; `None` outside the band.
+    /// The value at `nm`. `None` outside the band.
     pub(crate) fn at(&self, nm: f64) -> Option<f64> {
         let linear = self.spectrum.at_linear(nm, Extrapolation::Refuse).ok()?;
         Some(self.spline.as_ref().map_or(linear, |spline| spline.at(nm).max(self.least)))

@@ -26,7 +26,7 @@ use crate::viewing::TristimulusWeights;
 /// A colour in one of the models of swatch files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SwatchColor {
-    /// Encoded RGB, each channel 0 to 1. Swatch files do not name the RGB space; it is taken as
+    /// Encoded RGB, each channel 0 to 1. Swatch files do not name the RGB space. It is taken as
     /// sRGB.
     Rgb(Rgb),
     /// CIELAB under D50 ([`d50_white`]).
@@ -38,7 +38,7 @@ pub enum SwatchColor {
 }
 
 impl SwatchColor {
-    /// The colour in sRGB, not clipped to the gamut; `None` for inks.
+    /// The colour in sRGB, not clipped to the gamut. `None` for inks.
     #[must_use]
     pub fn srgb(self) -> Option<Rgb> {
         match self {
@@ -77,14 +77,14 @@ pub struct SwatchEntry {
 /// The content of a swatch file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SwatchFile {
-    /// Name of the whole palette; only `.gpl` files have one.
+    /// Name of the whole palette. Only `.gpl` files have one.
     pub name: String,
     /// The colours in the order of the file.
     pub swatches: Vec<SwatchEntry>,
 }
 
-/// Reads `bytes`, the content of `file`, if it is a swatch file: by its first bytes, and `.aco`, which has
-/// none of its own, by the name. `None` for other files.
+/// Reads `bytes`, the content of `file`, if it is a swatch file: by its first bytes, or for `.aco`, which has
+/// no fixed first bytes, by the name. `None` for other files.
 ///
 /// # Errors
 /// [`SwatchFileError`] with the line, or the offset in bytes.
@@ -184,7 +184,7 @@ const NORMAL: u16 = 2;
 /// The four letters of a colour model, and its values.
 type Model<'a> = (&'a [u8; 4], Vec<f64>);
 
-/// Writes an `.ase` file. Adjacent colours of one group are written as a group; RGB is clipped
+/// Writes an `.ase` file. Adjacent colours of one group are written as a group. RGB is clipped
 /// to the gamut.
 ///
 /// # Errors
@@ -355,8 +355,8 @@ fn word_of_share(v: f64) -> u16 {
     (v.clamp(0.0, 1.0) * 65535.0).round() as u16
 }
 
-/// Reads `bytes`, the content of `file`: its section of version 2 if there is one, otherwise
-/// that of version 1, which has no names.
+/// Reads `bytes`, the content of `file`: its section of version 2 if there is one, otherwise the section of
+/// version 1, which has no names.
 ///
 /// # Errors
 /// [`SwatchFileError`] with the offset in bytes.
@@ -398,7 +398,7 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<SwatchFile, SwatchFile
     Ok(palette)
 }
 
-/// The colour of a space and its words; `None` for other spaces, such as books of spot colours.
+/// The colour of a space and its words. `None` for other spaces, such as books of spot colours.
 fn aco_color(space: u16, words: [u16; 4]) -> Option<SwatchColor> {
     let shares = words.map(|word| f64::from(word) / 65535.0);
     Some(match space {

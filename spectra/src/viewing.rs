@@ -170,7 +170,7 @@ impl TristimulusWeights {
     /// XYZ of one reflectance, given by its values on the grid.
     ///
     /// # Panics
-    /// If the number of values differs from that of the wavelengths.
+    /// If there is not one value for each wavelength.
     #[must_use]
     pub fn xyz(&self, reflectance: &[f64]) -> Xyz {
         assert_eq!(reflectance.len(), self.weights.len(), "one reflectance for each wavelength");
@@ -215,7 +215,7 @@ impl TristimulusWeights {
     /// The colour of one reflectance in XYZ, CIELAB and sRGB.
     ///
     /// # Panics
-    /// If the number of values differs from that of the wavelengths.
+    /// If there is not one value for each wavelength.
     #[must_use]
     pub fn color(&self, reflectance: &[f64]) -> ColorValues {
         ColorValues::from_xyz(self.xyz(reflectance), self.white)

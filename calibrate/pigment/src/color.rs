@@ -47,11 +47,11 @@ pub struct MixtureColor {
     pub xyz: Xyz,
     /// CIELAB relative to the light's own white.
     pub lab: Lab,
-    /// Encoded sRGB, adapted from the light to the display (Bradford); outside 0..1 where sRGB cannot
+    /// Encoded sRGB, adapted from the light to the display (Bradford). Outside 0..1 where sRGB cannot
     /// show the colour.
     pub srgb: Rgb,
-    /// Warnings: pigments that were guessed or whose S is unknown, and a ground or a library that covers only
-    /// part of the visible band.
+    /// Warnings: guessed pigments, pigments with unknown S, and a ground or a library that covers only part
+    /// of the visible band.
     pub remarks: Vec<Remark>,
 }
 
@@ -146,7 +146,7 @@ impl PigmentLibrary {
     }
 }
 
-/// A mixture whose colour cannot be predicted.
+/// Reasons why the colour of a mixture cannot be predicted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ColorError {
     /// The recipe cannot be mixed.
@@ -198,13 +198,13 @@ pub struct Appearance {
     pub xyz: Xyz,
     /// CIELAB relative to the light's own white.
     pub lab: Lab,
-    /// Encoded sRGB, adapted from the light to the display (Bradford); outside 0..1 where sRGB cannot
+    /// Encoded sRGB, adapted from the light to the display (Bradford). Outside 0..1 where sRGB cannot
     /// show the colour.
     pub srgb: Rgb,
 }
 
 impl Appearance {
-    /// Computes the appearance of `xyz` under a light whose white is `white`.
+    /// Computes the appearance of `xyz` under a light with the white point `white`.
     #[must_use]
     pub fn of(xyz: Xyz, white: Xyz) -> Self {
         Self {
@@ -350,7 +350,7 @@ pub struct IlluminantChange<'a> {
 }
 
 impl IlluminantChange<'_> {
-    /// Meaning of a column of these indices, as a line beside its table.
+    /// Meaning of a column of these indices, as a line for its table.
     pub const LEGEND: &'static str = "metamerism: special metamerism index, change of illuminant, in CIEDE2000 (CIE 15:2018, 9.2)";
 
     /// Both lights, for the heading of a column.
@@ -359,7 +359,7 @@ impl IlluminantChange<'_> {
         format!("{} to {}", self.reference, self.test)
     }
 
-    /// The index with its name, lights and unit as JSON; null where it is not defined.
+    /// The index with its name, lights and unit as JSON. Null where it is not defined.
     #[must_use]
     pub fn to_json(self, index: Option<f64>) -> Value {
         json!({

@@ -37,7 +37,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Summarises `errors`; every number is 0 where there are none.
+    /// Summarises `errors`. Every number is 0 where there are none.
     #[must_use]
     pub fn of(errors: &[f64]) -> Self {
         Self {
@@ -58,7 +58,7 @@ impl Summary {
 }
 
 /// Value that `percent` of `values` do not exceed, interpolated linearly between order statistics
-/// (Hyndman and Fan 1996, definition 7, as numpy does); 0 for no values.
+/// (Hyndman and Fan 1996, definition 7, as numpy does), 0 for no values.
 #[must_use]
 pub fn percentile(values: &[f64], percent: f64) -> f64 {
     let Some(last) = values.len().checked_sub(1) else { return 0.0 };
@@ -104,7 +104,7 @@ impl Remark {
         Self { kind: RemarkKind::Warning, text: text.into(), hint: None }
     }
 
-    /// The remark with a hint, whose settings stand in square brackets.
+    /// The remark with a hint. The hint puts settings in square brackets.
     #[must_use]
     pub fn with_hint(self, hint: impl Into<String>) -> Self {
         Self { hint: Some(Hint::new(hint)), ..self }
@@ -139,7 +139,7 @@ const WANTED_NM: [f64; 2] = [420.0, 680.0];
 pub enum BandCoverage {
     /// 420 to 680 nm or more.
     Full,
-    /// Only a part; colours take the end values for the rest.
+    /// Only a part. Colours take the end values for the rest.
     Partial,
     /// Nothing from 400 to 700 nm.
     Missing,

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 /// First damping: Nielsen's choice for a start near the minimum.
 const FIRST_DAMPING: f64 = 1e-3;
-/// Damping stays above this, so that the matrix keeps a Cholesky factor; chosen by eye.
+/// Damping stays above this, so that the matrix keeps a Cholesky factor, chosen by eye.
 const LEAST_DAMPING: f64 = 1e-12;
 /// The search ends beyond this damping: steps are then below rounding.
 const MOST_DAMPING: f64 = 1e12;
@@ -45,7 +45,7 @@ impl NormalEquations {
             }
             let scaled = weight * d;
             self.gradient[j] += scaled * residual;
-            // Fills the lower triangle only; the solver reads no other entries.
+            // Fills the lower triangle only. The solver reads no other entries.
             for (target, other) in
                 columns[j * count + j..(j + 1) * count].iter_mut().zip(&derivatives[j..])
             {
@@ -68,7 +68,7 @@ pub(crate) struct SparseRows {
 struct Group {
     residuals: [f64; 3],
     runs: Range<usize>,
-    /// Where its derivatives begin.
+    /// Index of its first derivative.
     first: usize,
 }
 
@@ -298,9 +298,9 @@ const NEAR_ENOUGH: f64 = 0.5e-8;
 const BOUNDED_DESCENT_FIRST_DAMPING: f64 = 1e-3;
 /// The descent ends beyond this damping: steps are then below rounding.
 const BOUNDED_DESCENT_MOST_DAMPING: f64 = 1e9;
-/// The descent ends where a step is shorter than this in every unknown; chosen by eye.
+/// The descent ends where a step is shorter than this in every unknown, chosen by eye.
 const LEAST_STEP: f64 = 1e-9;
-/// The descent ends where a step lowers the cost by less than this fraction; chosen by eye.
+/// The descent ends where a step lowers the cost by less than this fraction, chosen by eye.
 const LEAST_DECREASE: f64 = 1e-6;
 
 /// Half a sum of squares at one point, with its gradient over the unknowns and the Gauss-Newton
@@ -311,7 +311,7 @@ pub struct Cost {
     pub value: f64,
     /// Derivative of `value` with respect to each unknown.
     pub gradient: [f64; UNKNOWNS],
-    /// Sums of products of the residuals' derivatives; symmetric.
+    /// Sums of products of the residuals' derivatives. Symmetric.
     pub matrix: [[f64; UNKNOWNS]; UNKNOWNS],
 }
 
@@ -377,7 +377,7 @@ fn damped(cost: &Cost, damping: f64, count: usize) -> [[f64; UNKNOWNS]; UNKNOWNS
     matrix
 }
 
-/// Most pigments of one recipe; it sets the size of the arrays below.
+/// Most pigments of one recipe. It sets the size of the arrays below.
 pub const MAX_PIGMENTS: usize = 8;
 /// Most unknowns of one descent: the shares of eight pigments, and the logarithm of the thickness.
 pub const UNKNOWNS: usize = MAX_PIGMENTS + 1;
@@ -411,7 +411,7 @@ pub(super) fn bounded_step(
         let (down, up) = room(i);
         *held = down >= 0.0 || up <= 0.0;
     }
-    // Each round fixes or frees one unknown; far more rounds than ever needed.
+    // Each round fixes or frees one unknown. Far more rounds than ever needed.
     for _ in 0..8 * UNKNOWNS {
         let slope: [f64; UNKNOWNS] = std::array::from_fn(|i| {
             gradient[i] + (0..count).map(|j| matrix[i][j] * step[j]).sum::<f64>()
@@ -504,7 +504,7 @@ fn wrongly_held(
     let slope =
         |i: usize| gradient[i] + (0..bounds.count).map(|j| matrix[i][j] * step[j]).sum::<f64>();
     // If no share is free, none can change alone, since their sum is fixed. The multiplier is then minus the
-    // mean slope of all shares, and the share whose slope differs most from that mean is freed.
+    // mean slope of all shares, and the share with the slope farthest from this mean is freed.
     let shared = multiplier.unwrap_or_else(|| {
         let shares = bounds.shares.max(1);
         -(0..bounds.shares).map(slope).sum::<f64>() / shares as f64

@@ -39,17 +39,17 @@ pub enum AmountKind {
 pub struct Pigment {
     /// Name of the pigment, unique in its library.
     pub name: String,
-    /// Colour Index name, such as `PB29`; `None` if unknown.
+    /// Colour Index name, such as `PB29`. `None` if unknown.
     #[serde(rename = "colour_index", default, skip_serializing_if = "Option::is_none")]
     pub color_index: Option<String>,
     /// K at each wavelength of the library's grid, 0 and up.
     pub absorption: Vec<f64>,
     /// S at each wavelength of the library's grid, 0 and up.
     pub scattering: Vec<f64>,
-    /// Standard deviation of K at each wavelength; empty if unknown.
+    /// Standard deviation of K at each wavelength, empty if unknown.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub absorption_sd: Vec<f64>,
-    /// Standard deviation of S at each wavelength; empty if unknown.
+    /// Standard deviation of S at each wavelength, empty if unknown.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scattering_sd: Vec<f64>,
     /// Whether S is known. If not, `scattering` is 1 at every wavelength, and `notes` say so.
@@ -178,24 +178,24 @@ pub struct PigmentLibrary {
     /// Meaning of the amounts in a recipe.
     #[serde(default)]
     pub amounts: AmountKind,
-    /// Name of the pigment whose S is 1 at every wavelength; `None` for absolute amounts.
+    /// Name of the pigment with S = 1 at every wavelength. `None` for absolute amounts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<String>,
     /// Surface of the measured films (Saunderson correction).
     pub saunderson: Surface,
-    /// Unevenness of the measured films, see [`UnevenFilm`]; 0 to 2. Only absolute amounts reveal
+    /// Unevenness of the measured films, see [`UnevenFilm`], 0 to 2. Only absolute amounts reveal
     /// it.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub unevenness: f64,
     /// Measurement files from which the library was made.
     #[serde(default)]
     pub inputs: Vec<Input>,
-    /// Settings of the fit; `None` for a library made otherwise.
+    /// Settings of the fit. `None` for a library made otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub settings: Option<FitSettings>,
-    /// The pigments; at least one, no two with the same name.
+    /// The pigments, at least one, no two with the same name.
     pub pigments: Vec<Pigment>,
-    /// Errors of the fit; `None` for a library made otherwise.
+    /// Errors of the fit. `None` for a library made otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub evidence: Option<Evidence>,
 }
@@ -255,7 +255,7 @@ impl PigmentLibrary {
         (0..self.pigments.len()).map(PigmentId)
     }
 
-    /// Place of the reference white; `None` if the library has none.
+    /// Place of the reference white. `None` if the library has none.
     #[must_use]
     pub fn reference_id(&self) -> Option<PigmentId> {
         let name = self.reference.as_ref()?;
@@ -348,7 +348,7 @@ impl IndexMut<PigmentId> for PigmentLibrary {
     }
 }
 
-/// Method by which K and S are found; the crate `calibrate` describes each.
+/// Method by which K and S are found. The crate `calibrate` describes each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
@@ -386,13 +386,13 @@ pub enum BelowSurface {
     Floor,
 }
 
-/// Every setting that changes the result of a fit; kept in the library's file.
+/// Every setting that changes the result of a fit. Kept in the library's file.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FitSettings {
-    /// Method of the fit; absolute amounts always take their own.
+    /// Method of the fit. Absolute amounts always take their own.
     pub method: Method,
-    /// Smoothing over wavelength; only `refined` and absolute amounts use it.
+    /// Smoothing over wavelength, only `refined` and absolute amounts use it.
     pub smoothness: Smoothness,
     /// Treatment of readings below the surface's own reflection.
     pub below_surface: BelowSurface,
@@ -423,7 +423,7 @@ impl PigmentLibrary {
         write_whole(path.as_ref(), self.to_json().as_bytes())
     }
 
-    /// Writes the library as JSON text; equal libraries give equal bytes.
+    /// Writes the library as JSON text. Equal libraries give equal bytes.
     ///
     /// # Panics
     /// Never: every value of a library has a JSON form.
@@ -551,7 +551,7 @@ pub enum LibraryError {
     /// The file could not be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is not JSON, or its keys are not those of a library.
+    /// The text is not JSON, or it lacks the keys of a library.
     #[error("{file}: {reason}")]
     Syntax {
         /// File name as the caller gave it.
@@ -582,7 +582,7 @@ pub enum LibraryError {
     Figures {
         /// File name as the caller gave it.
         file: String,
-        /// Name of the pigment; empty where the fault is the library's.
+        /// Name of the pigment, empty where the fault is the library's.
         pigment: String,
         /// Description of the fault.
         what: String,

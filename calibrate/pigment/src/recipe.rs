@@ -5,7 +5,7 @@ use spectra::optics::{Surface, UnevenFilm, infinite_film};
 
 /// Place of a pigment in a library, or in the list of pigments of a set of swatches, counted from 0.
 ///
-/// It is valid for the library or list that it came from; see
+/// It is valid for the library or list that it came from. See
 /// [`PigmentLibrary::find`](crate::library::PigmentLibrary::find).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PigmentId(pub usize);
@@ -180,8 +180,8 @@ impl Curves {
         hiding_film(&self.absorption, &self.scattering, surface)
     }
 
-    /// Measured reflectance of a film of `thickness` over a backing whose bare reflectance, measured
-    /// under the same surface, is `backing`.
+    /// Measured reflectance of a film of `thickness` over a backing. `backing` is its bare reflectance,
+    /// measured under the same surface.
     ///
     /// Thickness 1 is the thickness at which the reference white has S d = 1, or the amounts of the
     /// recipe where K and S are per unit of amount. A backing darker than the surface's own

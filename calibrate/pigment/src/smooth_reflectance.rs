@@ -29,8 +29,8 @@ pub struct Recovered {
     pub delta_e: f64,
 }
 
-/// Returns the smoothest reflectance under `surface` whose colour is `wanted`. Where no reflectance
-/// has that colour, returns one whose colour is near it.
+/// Returns the smoothest reflectance under `surface` with the colour `wanted`. If no reflectance has this
+/// colour, returns one with a colour near it.
 #[must_use]
 pub fn smoothest_reflectance(
     weights: &TristimulusWeights,
@@ -76,7 +76,7 @@ impl Problem<'_> {
         self.weights.xyz(&reflectance)
     }
 
-    /// Newton's method on Lagrange's conditions; each step is shortened until the residual falls.
+    /// Newton's method on Lagrange's conditions. Each step is shortened until the residual falls.
     /// Returns `None` if it does not converge, as for a colour that no reflectance has.
     fn exact(&self, mut z: DVector<f64>) -> Option<DVector<f64>> {
         let count = z.len();
@@ -145,10 +145,10 @@ impl Problem<'_> {
         (residual, matrix)
     }
 
-    /// Reflectance whose colour comes near the requested one, by least squares in the local metric of
-    /// CIEDE2000 at the requested colour. A small weight keeps it smooth.
+    /// Reflectance with a colour near the requested one, by least squares in the local metric of CIEDE2000 at
+    /// the requested colour. A small weight keeps it smooth.
     fn nearest(&self, start: DVector<f64>) -> DVector<f64> {
-        /// Weight of the squared steps of z; chosen by eye, small against one CIEDE2000.
+        /// Weight of the squared steps of z, chosen by eye, small against one CIEDE2000.
         const SMOOTH: f64 = 1e-5;
         let white = self.weights.white();
         let wanted = Lab::from_xyz(self.wanted, white);

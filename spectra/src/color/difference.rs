@@ -105,8 +105,8 @@ pub fn delta_e_cmc(standard: Lab, sample: Lab, weights: Cmc) -> f64 {
     (l * l + c * c + d_h_squared / (s_h * s_h)).sqrt()
 }
 
-/// CIEDE2000 colour difference with all parametric factors 1 (ISO/CIE 11664-6; mean hue by
-/// Sharma, Wu and Dalal 2005, equation 14).
+/// CIEDE2000 colour difference with all parametric factors 1 (ISO/CIE 11664-6, mean hue by Sharma, Wu and
+/// Dalal 2005, equation 14).
 ///
 /// Not taken from the crate `palette`: its version 0.7.7 leaves a mean hue above 360 degrees
 /// unreduced, an error of 2e-5 where two hues lie on either side of 0.
@@ -116,9 +116,9 @@ pub fn delta_e_ciede2000(first: Lab, second: Lab) -> f64 {
     (l * l + c * c + h * h + r_t * c * h).max(0.0).sqrt()
 }
 
-/// Three residuals whose squares sum to the squared CIEDE2000 difference, at any distance, for
-/// least squares. They are the weighted differences of lightness, chroma and hue, the last two
-/// rotated so that the cross term of the formula vanishes.
+/// Three residuals with squares that sum to the squared CIEDE2000 difference, at any distance, for least
+/// squares. They are the weighted differences of lightness, chroma and hue, the last two rotated so that the
+/// cross term of the formula vanishes.
 #[must_use]
 pub fn ciede2000_residuals(first: Lab, second: Lab) -> [f64; 3] {
     let [l, c, h, r_t] = ciede2000_terms(first, second);
@@ -173,7 +173,7 @@ pub fn ciede2000_metric(center: Lab) -> Matrix3 {
     let stretch = 1.0 + 0.5 * (1.0 - seventh_root_share(chroma));
     let a = center.a * stretch;
     let c = a.hypot(center.b);
-    // Unit vector of rising chroma; that of rising hue is at a right angle to it.
+    // Unit vector of rising chroma. Hue rises at a right angle to it.
     let (cos, sin) = if c > 1e-9 { (a / c, center.b / c) } else { (1.0, 0.0) };
     let hue = hue_degrees(a, center.b);
     let [s_l, s_c, s_h, r_t] = ciede2000_weights(center.lightness, c, hue);

@@ -1,8 +1,7 @@
 //! Colour: tristimulus values, CIELAB, display RGB, and colour differences.
 //!
-//! XYZ is scaled so that the white has Y = 100. White points are computed from an illuminant
-//! and an observer; only those of RGB standards are constants, because the standards define
-//! them.
+//! XYZ is scaled so that the white has Y = 100. White points are computed from an illuminant and an observer.
+//! Only the white points of RGB standards are constants, because the standards define them.
 
 mod xyz;
 mod rgb;

@@ -48,7 +48,7 @@ impl RgbSpace {
     }
 
     /// The matrix from linear RGB (white 1) to XYZ (white Y = 100). Computed from the primaries
-    /// at full precision; the standards list a rounded one.
+    /// at full precision. The standards list a rounded one.
     #[must_use]
     pub fn xyz_from_linear(self) -> Matrix3 {
         let columns = self.primaries().map(|(x, y)| [x / y, 1.0, (1.0 - x - y) / y]);
@@ -112,8 +112,8 @@ impl Rgb {
         self.0.map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8)
     }
 
-    /// Parses encoded RGB from `#rrggbb` or `#rgb`; the `#` may be missing. `None` for any
-    /// other text.
+    /// Parses encoded RGB from `#rrggbb` or `#rgb`. The `#` may be missing. This returns `None` for any other
+    /// text.
     #[must_use]
     pub fn from_hex(text: &str) -> Option<Self> {
         let digits = text.strip_prefix('#').unwrap_or(text);
@@ -139,8 +139,8 @@ impl Rgb {
         format!("#{r:02x}{g:02x}{b:02x}")
     }
 
-    /// The code of [`Rgb::to_hex`] for people: a colour outside of `space` is marked, since its code is that of
-    /// another colour.
+    /// The code of [`Rgb::to_hex`] for people: a colour outside of `space` is marked, since its code belongs
+    /// to another colour.
     #[must_use]
     pub fn to_hex_with_note(self, space: RgbSpace) -> String {
         let hex = self.to_hex();
@@ -155,7 +155,7 @@ fn hex_value(digits: &str, from: usize, to: usize) -> Option<u8> {
 /// The colour of an object under one light, in XYZ, CIELAB and sRGB.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColorValues {
-    /// Tristimulus values; Y = 100 for the perfect diffuser.
+    /// Tristimulus values. Y = 100 for the perfect diffuser.
     pub xyz: Xyz,
     /// CIELAB relative to the white of the light.
     pub lab: Lab,
@@ -165,7 +165,7 @@ pub struct ColorValues {
 }
 
 impl ColorValues {
-    /// The colour `xyz` under a light whose white point is `white`.
+    /// The colour `xyz` under a light with the white point `white`.
     #[must_use]
     pub fn from_xyz(xyz: Xyz, white: Xyz) -> Self {
         Self {

@@ -4,7 +4,7 @@ use super::xyz::Xyz;
 use crate::illuminant::{Illuminant, Observer};
 use documents::hint::{Explain, Fault, Hint};
 
-/// Least whiteness to which the formula applies; the greatest is 5 Y - 280.
+/// Least whiteness to which the formula applies. The greatest is 5 Y - 280.
 const LEAST_WHITENESS: f64 = 40.0;
 /// Range of tints to which the formula applies.
 const TINTS: [f64; 2] = [-4.0, 2.0];

@@ -209,7 +209,7 @@ impl Luv {
     }
 }
 
-/// CIE 1976 chromaticity u', v'; 0 for black.
+/// CIE 1976 chromaticity u', v', 0 for black.
 fn uniform_chromaticity(xyz: Xyz) -> [f64; 2] {
     let sum = xyz.x + 15.0 * xyz.y + 3.0 * xyz.z;
     if sum > 0.0 { [4.0 * xyz.x / sum, 9.0 * xyz.y / sum] } else { [0.0; 2] }

@@ -106,7 +106,7 @@ pub(super) fn avasoft7_read(
         let data = reader.f32s(3 * count)?;
         let column =
             |place: usize| -> Vec<f64> { data.chunks_exact(3).map(|pixel| pixel[place]).collect() };
-        // AvaSoft calls light over that of the white transmittance, though it may be reflected.
+        // AvaSoft calls the ratio of sample to white transmittance, even if the light is reflected.
         let quantity = MeasuredQuantity::Transmittance;
         of_counts(file, &stem, quantity, &nm, [&column(0), &column(1), &column(2)])?
     } else {
@@ -251,8 +251,7 @@ pub(super) fn of_pixels(
     })
 }
 
-/// The light of the sample relative to that of the white in percent, then the counts of sample, white and
-/// dark.
+/// The light of the sample in percent of the white, then the counts of sample, white and dark.
 pub(super) fn of_counts(
     file: &str,
     name: &str,
@@ -367,7 +366,7 @@ pub(super) mod tests {
         assert!(matches!(bad, Err(InstrumentError::Line { line: 5, .. })), "{bad:?}");
     }
 
-    /// A file of `version` whose pixels 2 to 4 lie at 400, 450 and 500 nm.
+    /// A file of `version` with pixels 2 to 4 at 400, 450 and 500 nm.
     pub(in super::super) fn avasoft7(version: f32, data: &[f32]) -> Vec<u8> {
         let mut numbers = vec![version];
         numbers.extend(vec![65.0; if version > 65.0 { NAMES } else { 0 }]);
@@ -380,7 +379,7 @@ pub(super) mod tests {
         numbers.into_iter().flat_map(f32::to_le_bytes).collect()
     }
 
-    /// Sample, white and dark of three pixels; the second has no light.
+    /// Sample, white and dark of three pixels. The second has no light.
     const PIXELS: [f32; 9] = [30.0, 110.0, 10.0, 10.0, 10.0, 10.0, 60.0, 110.0, 10.0];
 
     #[test]

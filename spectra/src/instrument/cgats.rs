@@ -92,7 +92,7 @@ impl Table {
         words: Vec<String>,
     ) -> Result<(), InstrumentError> {
         let width = self.names.len();
-        // Where tabs separate the cells, names may contain spaces without quotes.
+        // Names may contain spaces without quotes if tabs separate the cells.
         let tabs: Vec<&str> = line.trim_end().split('\t').collect();
         if self.open.is_empty() && tabs.len() == width && width > 1 {
             self.rows.push(
@@ -202,7 +202,7 @@ impl Table {
     }
 }
 
-/// Where the wavelength of a value is given.
+/// The place in the file that gives the wavelength of a value.
 #[derive(Clone, Copy, PartialEq)]
 enum WavelengthSource {
     /// In the name of the value's field, in nm.

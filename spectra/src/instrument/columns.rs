@@ -104,7 +104,7 @@ pub(super) struct NumberTable<'a> {
     pub(super) above: Vec<&'a str>,
     /// `None` if there are no rows.
     layout: Option<Layout>,
-    /// Rows with their line numbers; all have the same number of cells, at least 2.
+    /// Rows with their line numbers. All have the same number of cells, at least 2.
     pub(super) rows: Vec<(usize, Vec<f64>)>,
 }
 
@@ -190,7 +190,7 @@ pub(super) enum Axis {
 }
 
 impl Axis {
-    /// The unit named in `words`, such as a column heading; `None` if there is none.
+    /// The unit named in `words`, such as a column heading. `None` if there is none.
     pub(super) fn of_words(words: &str) -> Option<Self> {
         let lower = words.to_lowercase();
 
@@ -207,7 +207,7 @@ impl Axis {
         }
     }
 
-    /// Wavelength in nm at the abscissa `x`; not finite for a wavenumber of 0.
+    /// Wavelength in nm at the abscissa `x`, not finite for a wavenumber of 0.
     pub(super) fn nm(self, x: f64) -> f64 {
         match self {
             Self::Nanometres => x,
@@ -220,13 +220,13 @@ impl Axis {
 /// Separator and decimal sign of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Layout {
-    /// Character between cells; `None` for any run of blanks.
+    /// Character between cells. `None` for any run of blanks.
     pub(super) separator: Option<char>,
     pub(super) decimal: Decimal,
 }
 
 impl Layout {
-    /// The layout under which the most lines are rows of two or more numbers; `None` if no line
+    /// The layout under which the most lines are rows of two or more numbers. `None` if no line
     /// is. A comma counts as separator only if no other separator fits as well.
     pub(super) fn of<'a>(lines: impl Iterator<Item = &'a str> + Clone) -> Option<Self> {
         let mut best: (usize, Option<Self>) = (0, None);

@@ -268,7 +268,7 @@ pub struct CxfHead<'a> {
     pub description: &'a str,
     /// Origin of the reflectances: the geometry of the measurement, or `predicted`.
     pub geometry: &'a str,
-    /// Date and time as `2026-01-31T12:00:00Z`. The schema requires one for every object;
+    /// Date and time as `2026-01-31T12:00:00Z`. The schema requires one for every object.
     /// `None` writes 1970, so that equal spectra give equal files.
     pub creation_date: Option<&'a str>,
 }

@@ -44,7 +44,7 @@ fn guess_encoding(bytes: &[u8]) -> &'static Encoding {
     }
 }
 
-/// The lines of a text, numbered from 1. A line ends with LF, CR LF or CR; LF CR also counts as
+/// The lines of a text, numbered from 1. A line ends with LF, CR LF or CR. LF CR also counts as
 /// one end (OceanView writes it).
 pub(super) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut rest = Some(text);
@@ -82,7 +82,7 @@ impl Decimal {
     }
 }
 
-/// Parses a finite number; `None` if `text` is anything else.
+/// Parses a finite number. `None` if `text` is anything else.
 pub(super) fn number(text: &str, decimal: Decimal) -> Option<f64> {
     let text = text.trim();
     // `inf`, `nan` and the like count as words.
@@ -209,7 +209,7 @@ impl<'a> BinaryBytes<'a> {
     }
 }
 
-/// Most bytes that a file in an archive may unpack to; spectra have less by far.
+/// Most bytes that a file in an archive may unpack to. Spectra have less by far.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// An archive in memory.

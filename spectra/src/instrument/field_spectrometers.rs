@@ -178,7 +178,7 @@ pub(super) fn is_heading(before: &str, line: &str) -> bool {
     before.trim() == "Data:" && (line.starts_with("Wvl") || line.starts_with("Chan.#"))
 }
 
-/// The main spectrum of a file: reflectance if there is one, otherwise that of the sample.
+/// The main spectrum of a file: reflectance if there is one, otherwise the reading of the sample.
 pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let lines: Vec<(usize, &str)> = lines(text).collect();
     let found = lines.windows(2).find(|pair| is_heading(pair[0].1, pair[1].1.trim()));

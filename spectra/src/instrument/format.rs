@@ -189,7 +189,7 @@ const NOT_READ: [(&[u8], &str, &str); 13] = [
     (b"Rar!", "a packed file (RAR)", "unpack it"),
 ];
 
-/// Endings of binary formats without first bytes of their own, in lower case.
+/// Endings of binary formats that have no fixed first bytes, in lower case.
 const NOT_READ_ENDINGS: [(&str, &str, &str); 5] = [
     ("spc", "a binary file of GRAMS (.spc)", "save it as JCAMP-DX or CSV"),
     ("mes", "a file of Konica Minolta SpectraMagic NX", MINOLTA),
@@ -202,9 +202,9 @@ const TEXT: &str = "export text or CSV from the instrument's program";
 const SHEET: &str = "save it as .xlsx without a password, or as CSV";
 const MINOLTA: &str = "export text or CSV from SpectraMagic";
 
-/// Bytes that are looked at to tell a binary file from text.
+/// This many first bytes decide whether a file is binary or text.
 const LOOKED_AT: usize = 4096;
-/// Share of control characters, and of zeros, above which a file is no text; chosen by eye.
+/// Share of control characters, and of zeros, above which a file is not text, chosen by eye.
 const MOST_CONTROL: f64 = 0.02;
 const MOST_ZEROS: f64 = 0.1;
 
@@ -278,7 +278,7 @@ pub struct FileText {
 }
 
 impl FileText {
-    /// The text in `bytes`, the content of `file`; `None` if it is binary and of a format that
+    /// The text in `bytes`, the content of `file`. `None` if it is binary and of a format that
     /// [`read`](super::read) knows.
     ///
     /// # Errors

@@ -250,7 +250,7 @@ fn axis(file: &str, line: usize, units: &str) -> Result<Axis, InstrumentError> {
     Axis::of_words(units).ok_or_else(|| InstrumentError::line(file, line, expected, units))
 }
 
-/// Points whose abscissas have the unit `axis`, in order of wavelength.
+/// Points with abscissas in the unit `axis`, in order of wavelength.
 fn in_nm(file: &str, raw: Vec<Point>, axis: Axis) -> Result<Ordered, InstrumentError> {
     let in_nm = raw.into_iter().map(|point| Point { nm: axis.nm(point.nm), ..point });
     ordered(file, in_nm.collect(), Duplicates::Average)

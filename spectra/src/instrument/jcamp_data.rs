@@ -189,7 +189,7 @@ enum Token {
     Times(usize),
 }
 
-/// The tokens of a row; `None` if one is invalid.
+/// The tokens of a row. `None` if one is invalid.
 fn tokens(text: &str) -> Option<Vec<Token>> {
     let mut found = Vec::new();
     let mut rest = text.trim_start_matches(is_blank);
@@ -222,7 +222,7 @@ fn body_length(body: &str) -> usize {
     let bytes = body.as_bytes();
     let digits = bytes.iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
     let exponent = &bytes[digits..];
-    // `E` alone is the packed digit 5; only a sign makes it an exponent.
+    // `E` alone is the packed digit 5. Only a sign makes it an exponent.
     if let [b'E' | b'e', b'+' | b'-', digit, ..] = exponent
         && digit.is_ascii_digit()
     {
@@ -274,7 +274,7 @@ pub(super) struct Page {
     pub(super) x_units: String,
     /// Line on which the table begins.
     pub(super) line: usize,
-    /// Points whose `nm` is the independent variable in its unit.
+    /// Points. Their `nm` holds the independent variable in its unit.
     pub(super) points: Vec<Point>,
 }
 

@@ -24,7 +24,7 @@ fn wavelength(key: &str) -> Option<f64> {
     number(key.strip_suffix("nm")?, Decimal::Point).filter(|nm| (100.0..=5000.0).contains(nm))
 }
 
-/// Keys of figures that stand beside the spectrum of a light.
+/// Keys of the numbers that accompany the spectrum of a light.
 const OF_A_LIGHT: [&str; 6] = ["Model Name", "LUX", "CCT", "PPFD", "LambdaP", "IRR"];
 
 /// Whether a text has such rows, and figures of a light.
@@ -130,7 +130,7 @@ pub(super) fn sekonic_read(
             table.push(Row { line, nm, values });
         }
     }
-    // The table with the most rows; the first of several.
+    // The table with the most rows, the first of several.
     let finest = tables.into_iter().rev().max_by_key(Vec::len).unwrap_or_default();
     let Some(first) = finest.first() else { return Ok(Vec::new()) };
     (0..first.values.len()).map(|column| spectrum(file, column, &finest, &details)).collect()
@@ -224,7 +224,7 @@ pub(super) fn tm27_read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>,
     Ok(records)
 }
 
-/// The quantity for a term of the standard; `relative` is relative power.
+/// The quantity for a term of the standard. `relative` is relative power.
 fn quantity_of(word: &str) -> MeasuredQuantity {
     match word.to_ascii_lowercase().as_str() {
         "flux" | "intensity" | "irradiance" | "radiance" | "exitance" | "relative" => {

@@ -101,7 +101,7 @@ pub struct MeasuredSpectrum {
     pub role: Role,
     /// Unit of `values`.
     pub unit: Unit,
-    /// Wavelengths in nm, strictly rising; at least one.
+    /// Wavelengths in nm, strictly rising, at least one.
     pub wavelengths_nm: Vec<f64>,
     /// One finite value for each wavelength, as written in the file.
     pub values: Vec<f64>,
@@ -180,7 +180,7 @@ pub enum ReflectanceError {
         #[source]
         reason: SpectrumError,
     },
-    /// The wavelengths do not rise, or their number is not that of the values.
+    /// The wavelengths do not rise, or there is not one for each value.
     #[error("`{name}` is not a spectrum")]
     Wavelengths {
         /// Name of the spectrum.
@@ -216,7 +216,7 @@ pub(super) fn stem(file: &str) -> String {
 /// Maximum number of names listed in an error.
 const LISTED: usize = 8;
 
-/// Splits `FILE#NAME` into file and name; the name of a plain `FILE` is `None`. If the whole
+/// Splits `FILE#NAME` into file and name. The name of a plain `FILE` is `None`. If the whole
 /// text is the path of a file, it is not split.
 #[must_use]
 pub fn split_file_and_name(text: &str) -> (&str, Option<&str>) {

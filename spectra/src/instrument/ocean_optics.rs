@@ -120,7 +120,7 @@ fn spectra(
 
 const FORMAT: &str = "Ocean Optics ProcSpec";
 
-/// Whether the file of an archive is that of the spectrum.
+/// Whether the file of an archive holds the spectrum.
 pub(super) fn is_spectrum(name: &str) -> bool {
     let number = name.strip_prefix("ps_").and_then(|rest| rest.strip_suffix(".xml"));
     number.is_some_and(|number| number.bytes().all(|byte| byte.is_ascii_digit()))

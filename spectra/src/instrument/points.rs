@@ -10,7 +10,7 @@ pub(super) enum Duplicates {
     /// The mean, with a remark. Dense exports round the wavelengths of neighbouring pixels to
     /// the same number.
     Average,
-    /// The mean, with a remark, if the values differ by at most this; otherwise an error.
+    /// The mean, with a remark, if the values differ by at most this, otherwise an error.
     AverageWithin(f64),
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Ordered {
     pub(super) remarks: Vec<String>,
 }
 
-/// Brings points to rising order of wavelength; falling points are reversed.
+/// Brings points to rising order of wavelength. Falling points are reversed.
 ///
 /// # Errors
 /// [`InstrumentError`] for a wavelength that is not above 0, for wavelengths that neither rise
@@ -97,7 +97,7 @@ pub(super) fn ordered(
 }
 
 /// Sorts points, for formats that give every value its own wavelength. Repeated equal points
-/// are kept once; different values at one wavelength are kept. Returns the points and a remark
+/// are kept once. Different values at one wavelength are kept. Returns the points and a remark
 /// if their order changed.
 pub(super) fn sorted(mut points: Vec<Point>) -> (Vec<Point>, Option<String>) {
     let rising = points.is_sorted_by(|a, b| a.nm <= b.nm);

@@ -19,7 +19,7 @@ use super::{
 pub struct InstrumentFile {
     /// Format as which the file was read.
     pub format: Format,
-    /// The spectra in the order of the file; at least one.
+    /// The spectra in the order of the file, at least one.
     pub spectra: Vec<MeasuredSpectrum>,
 }
 
@@ -134,7 +134,8 @@ pub struct OpenedSpectrum {
     pub spectrum: MeasuredSpectrum,
 }
 
-/// Reads one spectrum, given as `FILE` or `FILE#NAME`; of a certain sheet as `FILE.xlsx#SHEET#NAME`.
+/// Reads one spectrum, given as `FILE` or `FILE#NAME`. For one sheet of a workbook write
+/// `FILE.xlsx#SHEET#NAME`.
 ///
 /// # Errors
 /// [`OpenError`] if the file cannot be read or is faulty, or if the spectrum is not

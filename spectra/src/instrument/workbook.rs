@@ -1,7 +1,7 @@
 //! Workbooks (`.xlsx`): the sheet with the most numbers, as text with tabs between the cells.
 //!
-//! A cell keeps its row and column, so that places in messages are those of the sheet. Formulas count
-//! with the values that the spreadsheet program stored.
+//! A cell keeps its row and column, so that messages name the places of the sheet. Formulas count with the
+//! values that the spreadsheet program stored.
 
 use std::io::Cursor;
 
@@ -23,7 +23,7 @@ const MOST_BYTES: usize = 512 << 20;
 #[derive(Debug, PartialEq)]
 pub(super) struct Sheet {
     pub(super) name: String,
-    /// Cells of a row between tabs; line number and row number agree.
+    /// Cells of a row between tabs. Line number and row number agree.
     pub(super) text: String,
     /// Names of the other sheets that are not empty.
     pub(super) others: Vec<String>,
@@ -53,7 +53,7 @@ pub fn split_file_and_sheet(text: &str) -> (&str, Option<&str>) {
     }
 }
 
-/// The sheet that `file` names as `FILE.xlsx#SHEET`; otherwise the sheet with the most numbers, the first of
+/// The sheet that `file` names as `FILE.xlsx#SHEET`, otherwise the sheet with the most numbers, the first of
 /// several.
 pub(super) fn sheet(file: &str, bytes: &[u8]) -> Result<Sheet, InstrumentError> {
     let (file, wanted) = split_file_and_sheet(file);
@@ -107,7 +107,7 @@ fn count_numbers((_, cells): &(String, Vec<Cell>)) -> usize {
     cells.iter().filter(|cell| matches!(cell.content, Content::Number(_))).count()
 }
 
-/// Content of a cell; `None` if it is empty.
+/// Content of a cell. `None` if it is empty.
 fn content(cell: &DataRef<'_>) -> Option<Content> {
     match cell {
         DataRef::Empty => None,
@@ -128,7 +128,7 @@ fn text_content(text: &str) -> Option<Content> {
     (!plain.is_empty()).then_some(Content::Text(plain))
 }
 
-/// The text of a sheet; `None` if it is too long. Numbers get a decimal comma where texts have one, as in
+/// The text of a sheet. `None` if it is too long. Numbers get a decimal comma where texts have one, as in
 /// a column that was pasted as text.
 fn text(mut cells: Vec<Cell>) -> Option<String> {
     cells.sort_by_key(|cell| (cell.row, cell.column));

@@ -19,7 +19,7 @@ pub(super) struct Element {
     /// Local name, without its prefix.
     pub(super) name: String,
     attributes: Vec<(String, String)>,
-    /// Text of the element itself, joined, without that of its children.
+    /// Text of the element itself, joined, without the text of its children.
     pub(super) text: String,
     /// Number of the line on which the element begins, from 1.
     pub(super) line: usize,

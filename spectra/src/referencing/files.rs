@@ -16,7 +16,7 @@ pub struct ReferenceFiles {
     pub dark: DarkFiles,
     /// Reflectance of the white itself.
     pub tile: TileSource,
-    /// Largest count of the detector, 0 and up; `None` to estimate it from the readings.
+    /// Largest count of the detector, 0 and up. `None` to estimate it from the readings.
     pub full_scale: Option<f64>,
     /// Least light of the white as a fraction of its peak, 0 and up (default 0.01).
     pub least_light: f64,
@@ -27,11 +27,11 @@ pub struct ReferenceFiles {
 pub enum DarkFiles {
     /// The dark is already subtracted.
     Subtracted,
-    /// One reading for each integration time; none for power, which needs no dark.
+    /// One reading for each integration time, none for power, which needs no dark.
     Files(Vec<String>),
 }
 
-/// Where the white's own reflectance comes from.
+/// The source of the white's own reflectance.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TileSource {
     /// A constant, above 0 and at most 1.2.
@@ -50,7 +50,7 @@ pub struct OpenedReferences {
 }
 
 impl ReferenceFiles {
-    /// A white without dark readings whose tile reflects everything.
+    /// A white without dark readings. Its tile reflects everything.
     #[must_use]
     pub fn new(white: impl Into<String>) -> Self {
         Self {

@@ -45,7 +45,7 @@ pub struct Referencing {
     pub dark: Dark,
     /// Reflectance of the white itself.
     pub tile: Tile,
-    /// Largest count of the detector; `None` to estimate it from the readings.
+    /// Largest count of the detector. `None` to estimate it from the readings.
     pub full_scale: Option<f64>,
     /// Least light of the white at every wavelength, as a fraction of its peak (default
     /// 0.01). A larger value turns noisy ends into an error instead of noisy reflectance.
@@ -306,8 +306,8 @@ fn sound_band(
     Ok(SoundBand { nm: all[start..end].to_vec(), reflectance, left_out })
 }
 
-/// A sample's or white's reading and its dark, each interpolated linearly: counts hold the lines of the
-/// lamp, beside which a spline would swing.
+/// A sample's or white's reading and its dark, each interpolated linearly: counts contain the lines of the
+/// lamp, and a spline would swing next to them.
 struct Reading<'a> {
     /// `sample` or `white`, for errors.
     role: &'static str,
@@ -439,7 +439,7 @@ enum TileCurve<'a> {
 }
 
 impl TileCurve<'_> {
-    /// Reflectance at `nm` as a fraction; `None` outside the measured band.
+    /// Reflectance at `nm` as a fraction. `None` outside the measured band.
     fn at(&self, nm: f64) -> Option<f64> {
         match self {
             Self::Even(value) => Some(*value),
@@ -495,9 +495,8 @@ const FULL_SCALES: [f64; 3] = [4095.0, 16383.0, 65535.0];
 /// a peak (chosen by eye).
 const PLATEAU: usize = 4;
 
-/// The count from which on the detector is saturated: the full scale if it is given and
-/// reached. Otherwise the maximum, if it is that of a converter or several neighbours have it.
-/// `None` if nothing is saturated.
+/// The count from which on the detector is saturated: the full scale if it is given and reached. Otherwise
+/// the maximum, if a converter ends there or several neighbours have it. `None` if nothing is saturated.
 fn ceiling(counts: &[f64], full_scale: Option<f64>) -> Option<f64> {
     let most = counts.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if let Some(full) = full_scale {

@@ -45,7 +45,7 @@ pub fn renamed(
     Ok(result)
 }
 
-/// Sets the Colour Index name of pigments by `(pigment, name)` pairs; an empty name removes it.
+/// Sets the Colour Index name of pigments by `(pigment, name)` pairs. An empty name removes it.
 ///
 /// # Errors
 /// [`CurationError`] for an unknown pigment.
@@ -120,13 +120,13 @@ fn find(file: &str, library: &PigmentLibrary, name: &str) -> Result<PigmentId, C
 ///
 /// Every K and S is divided by the reference's S at that wavelength, so every mixture keeps its K/S and every
 /// film that hides keeps its colour. Films that do not hide change, because thickness 1 now refers to another
-/// white. Standard deviations are divided too, except those of S for the two references: the new one gets 0,
-/// and the old one gets the relative deviation that S of the new one had. A pigment whose S was never known
-/// keeps its K/S with S = 1. The unevenness and the evidence of absolute amounts are dropped, since they do
-/// not apply to films that hide.
+/// white. Standard deviations are divided too, except for S of the two references: the new one gets 0, and
+/// the old one gets the relative deviation that S of the new one had. A pigment with unknown S keeps its K/S
+/// with S = 1. The unevenness and the evidence of absolute amounts are dropped, since they do not apply to
+/// films that hide.
 ///
 /// # Errors
-/// [`CurationError`] if there is no such pigment, or its S is unknown or 0.
+/// [`CurationError`] if the pigment is missing, or its S is unknown or 0.
 pub fn with_reference(
     file: &str,
     library: &PigmentLibrary,
@@ -170,7 +170,7 @@ pub fn with_reference(
                 if pigment.name == white.name {
                     scattering_sd.fill(0.0);
                 } else if library.reference.as_ref() == Some(&pigment.name) {
-                    // The relative deviation of 1 / S is that of S.
+                    // 1 / S and S have the same relative deviation.
                     let pairs = white.scattering_sd.iter().zip(&white.scattering);
                     scattering_sd = pairs.map(|(sd, s)| rounded(sd / (s * s))).collect();
                 }
@@ -240,7 +240,7 @@ pub fn on_grid(
     Ok(PigmentLibrary { grid, pigments, evidence, ..library.clone() })
 }
 
-/// Resamples one curve of values from 0 up; an empty curve stays empty.
+/// Resamples one curve of values from 0 up. An empty curve stays empty.
 fn curve(
     from: Grid,
     values: &[f64],
@@ -282,11 +282,11 @@ pub struct Guess {
     pub hex: String,
 }
 
-/// Makes a pigment for `library`'s grid and surface whose colour under D65 for the CIE 1931 observer is
-/// `wanted`: K and S follow from the smoothest reflectance of that colour
-/// ([`smoothest_reflectance`]). `color` describes the colour in the pigment's notes.
+/// Makes a pigment for `library`'s grid and surface with the colour `wanted` under D65 for the CIE 1931
+/// observer: K and S follow from the smoothest reflectance of that colour ([`smoothest_reflectance`]).
+/// `color` describes the colour in the pigment's notes.
 ///
-/// A colour does not determine how a paint mixes; only measurements do.
+/// A colour does not determine how a paint mixes. Only measurements do.
 ///
 /// # Errors
 /// [`CurationError`] for a library of absolute amounts, and where no paint under the library's surface
@@ -446,7 +446,7 @@ pub enum CurationError {
         /// Kind of amounts in the other library.
         found: &'static str,
     },
-    /// Both libraries hold absolute amounts, whose unit no file states.
+    /// Both libraries hold absolute amounts, and no file states their unit.
     #[error("{first} and {file}: K and S are per unit of amount, and no file states the unit")]
     Units {
         /// File of the first library.

@@ -25,7 +25,7 @@ pub enum Severity {
 pub struct Finding {
     /// Severity of the finding.
     pub severity: Severity,
-    /// Name of the pigment concerned; `None` where the whole library is.
+    /// Name of the pigment concerned. `None` where the whole library is.
     pub pigment: Option<String>,
     /// Description of the finding.
     pub what: String,
@@ -65,27 +65,27 @@ impl Health {
     }
 }
 
-/// Grid step in nm above which a library is too coarse for the absorption bands of most pigments; chosen by
+/// Grid step in nm above which a library is too coarse for the absorption bands of most pigments, chosen by
 /// eye.
 const COARSE_STEP_NM: f64 = 20.0;
-/// Mean CIEDE2000 of a fit above which it is poor; chosen by eye.
+/// Mean CIEDE2000 of a fit above which it is poor, chosen by eye.
 const POOR_FIT: f64 = 3.0;
 /// Greatest deviation of the reference's S from 1 that rounding to six digits in a file explains, with some
 /// margin.
 const UNIT_ROUNDING: f64 = 1e-5;
-/// A value above or below both its neighbours by more than this factor counts as a jump; chosen by
+/// A value above or below both its neighbours by more than this factor counts as a jump, chosen by
 /// eye.
 const JUMP: f64 = 1.5;
-/// Median relative standard deviation of K or S above which little more than its order of magnitude is known;
+/// Median relative standard deviation of K or S above which little more than its order of magnitude is known,
 /// chosen by eye.
 const UNCERTAIN: f64 = 0.5;
-/// Largest colour difference in CIEDE2000 that nobody can see; chosen by eye.
+/// Largest colour difference in CIEDE2000 that nobody can see, chosen by eye.
 const ALIKE: f64 = 0.3;
-/// A masstone whose reflectance exceeds the surface's own reflection by less than this counts as black;
+/// A masstone counts as black if its reflectance exceeds the surface's own reflection by less than this,
 /// chosen by eye.
 const BLACK: f64 = 0.0005;
 
-/// Checks `library`; colours are computed under `viewing`.
+/// Checks `library`. Colours are computed under `viewing`.
 #[must_use]
 pub fn health(library: &PigmentLibrary, viewing: &Viewing) -> Health {
     let weights = viewing.weights(library.grid).expect("a method for the grid");
@@ -268,7 +268,7 @@ fn range(curve: &[f64]) -> [f64; 2] {
     [curve.iter().copied().fold(f64::INFINITY, f64::min), curve.iter().copied().fold(0.0, f64::max)]
 }
 
-/// Median of standard deviation divided by value; `None` without deviations.
+/// Median of standard deviation divided by value. `None` without deviations.
 fn uncertainty(curve: &[f64], sd: &[f64]) -> Option<f64> {
     let pairs = curve.iter().zip(sd).filter(|(value, _)| **value > 0.0);
     let shares: Vec<f64> = pairs.map(|(value, sd)| sd / value).collect();
@@ -297,8 +297,8 @@ pub struct PigmentDifference {
     pub name: String,
     /// Difference of the masstones.
     pub masstone: f64,
-    /// Difference of the tints 1:9 in the common white; `None` where S is unknown or there is no
-    /// common white.
+    /// Difference of the tints 1:9 in the common white. `None` where S is unknown or the libraries share no
+    /// white.
     pub tint: Option<f64>,
 }
 
@@ -318,7 +318,7 @@ pub struct Difference {
     pub white: Option<String>,
     /// Differences by pigment, in the order of the first library.
     pub pigments: Vec<PigmentDifference>,
-    /// Differences of pairs of common pigments whose S is known.
+    /// Differences of pairs of common pigments with known S.
     pub pairs: Vec<PigmentPair>,
     /// Names of pigments that only the first library has.
     pub only_first: Vec<String>,
@@ -327,7 +327,7 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Largest of all differences; 0 if there is no common pigment.
+    /// Largest of all differences, 0 if the libraries share no pigment.
     #[must_use]
     pub fn largest(&self) -> f64 {
         let of_pigments = self.pigments.iter().flat_map(|p| [Some(p.masstone), p.tint]);

@@ -7,7 +7,7 @@ use crate::evaluate::{Viewing, delta_e};
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::recipe::hiding_film;
 
-/// Two batches of one white differ by less than this, in CIEDE2000; chosen by eye.
+/// Two batches of one white differ by less than this, in CIEDE2000, chosen by eye.
 const SAME_WHITE: f64 = 1.0;
 
 /// A library with the name of its file.
@@ -31,7 +31,7 @@ pub enum Prefer {
 /// Settings of a merge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MergeSettings {
-    /// Name of the white that all libraries share, as the first library spells it; by default the
+    /// Name of the white that all libraries share, as the first library spells it. By default the
     /// reference of the first.
     pub reference: Option<String>,
     /// Names of that white in other libraries.
@@ -39,7 +39,7 @@ pub struct MergeSettings {
     /// Choice between two different pigments of one name. Without a choice they are an error, except
     /// for the white, of which the first is kept.
     pub prefer: Option<Prefer>,
-    /// Interpolation from other grids to the first's; by default the best one for each grid.
+    /// Interpolation from other grids to the first's. By default the best one for each grid.
     pub interpolation: Option<Interpolation>,
     /// Treatment of wavelengths beyond another library's band.
     pub ends: Extrapolation,

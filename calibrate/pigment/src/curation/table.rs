@@ -15,8 +15,8 @@ use crate::evaluate::{Viewing, rounded};
 use crate::library::{AmountKind, LibraryError, Pigment, PigmentLibrary};
 use crate::recipe::PigmentId;
 
-/// Names of the curves in the order in which they are written. The last one is used for pigments whose
-/// S was not identified.
+/// Names of the curves in the order in which they are written. The last one is used for pigments with unknown
+/// S.
 const QUANTITIES: [&str; 5] =
     ["absorption", "scattering", "absorption_sd", "scattering_sd", "absorption_over_scattering"];
 
@@ -31,7 +31,7 @@ pub struct LibraryFrame {
     pub source: String,
     /// Whether K and S are relative to a white or per unit of amount.
     pub amounts: AmountKind,
-    /// Name of the reference white; by default the only pigment with S = 1 at every wavelength.
+    /// Name of the reference white. By default the only pigment with S = 1 at every wavelength.
     pub reference: Option<String>,
     /// Surface of the measured films.
     pub saunderson: Surface,
@@ -366,14 +366,14 @@ pub struct Swatch {
 pub enum SwatchSpace {
     /// sRGB, clipped to its gamut by the file.
     Srgb,
-    /// CIELAB under D50, as in graphic arts; adapted by Bradford's transform.
+    /// CIELAB under D50, as in graphic arts. Adapted by Bradford's transform.
     LabD50,
 }
 
 /// Swatches of a library under one light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Swatches {
-    /// Swatches in the order of the pigments; a masstone comes before its tints.
+    /// Swatches in the order of the pigments. A masstone comes before its tints.
     pub swatches: Vec<Swatch>,
     title: String,
     white: spectra::color::Xyz,

@@ -24,10 +24,10 @@ use crate::least_squares::MAX_PIGMENTS;
 use crate::library::{AmountKind, Pigment, PigmentLibrary};
 use crate::recipe::PigmentId;
 
-/// Least internal reflectance that is believed; below it a reading tells nothing of K / S.
+/// Least internal reflectance that is used. Smaller readings say nothing about K / S.
 const LEAST_INTERNAL: f64 = 1e-4;
 /// CIEDE2000 (by spectrum percent of reflectance) from the target that is near enough, unless options say
-/// otherwise: about what an eye can tell side by side.
+/// otherwise: about the smallest difference that an eye sees side by side.
 pub const USUAL_CORRECTION: f64 = 0.5;
 
 /// A pot of paint that was mixed and measured.
@@ -48,7 +48,7 @@ pub struct CorrectionOptions {
     pub metric: Metric,
     /// Lights under which the paint is judged. Default: D65 for the CIE 1931 observer.
     pub conditions: Vec<ViewingCondition>,
-    /// Names of the pigments that may be added. Empty: all whose S is known.
+    /// Names of the pigments that may be added. Empty: all pigments with known S.
     pub only: Vec<String>,
     /// Names of pigments that must not be added.
     pub without: Vec<String>,
@@ -92,8 +92,8 @@ pub struct Correction {
     pub grams: f64,
     /// CIEDE2000 of the corrected paint from the target under each light.
     pub delta_e: Vec<f64>,
-    /// Weighted root mean square of `delta_e` over the lights; by spectrum that of the differences of
-    /// reflectance, in percent.
+    /// Weighted root mean square of `delta_e` over the lights. When matching by spectrum, root mean square of
+    /// the differences of reflectance, in percent.
     pub distance: f64,
     /// Root mean square of the differences of reflectance from a measured target, in percent.
     pub rms_percent: Option<f64>,
@@ -122,7 +122,7 @@ pub struct Corrections {
     pub is_near: bool,
     /// Whether the corrections bring it within the tolerance.
     pub reaches: bool,
-    /// Corrections within the tolerance, the least addition first; if there are none, those that come
+    /// Corrections within the tolerance, the least addition first. If there are none, those that come
     /// nearest, the nearest first. Empty if the batch needs none.
     pub corrections: Vec<Correction>,
     /// Warnings about the spectra.
@@ -130,7 +130,8 @@ pub struct Corrections {
 }
 
 impl PigmentLibrary {
-    /// Searches what to add to `batch` so that its colour is that of `target`, the least addition first.
+    /// Searches what to add to `batch` so that it gets the colour of `target`. The least addition comes
+    /// first.
     ///
     /// ```
     /// use pigment::matching::{Batch, CorrectionOptions};
@@ -376,9 +377,9 @@ fn correction(
     }
 }
 
-/// Most sets of pigments whose least addition is searched.
+/// The least addition is searched for at most this many sets of pigments.
 const MOST_SETS: usize = 400;
-/// Amounts that are tried between the least and the greatest, in equal ratios; chosen by eye.
+/// Amounts that are tried between the least and the greatest, in equal ratios, chosen by eye.
 const AMOUNTS: usize = 24;
 /// Halvings of the last ratio of amounts, down to about 0.1 % of the amount.
 const HALVINGS: usize = 9;
@@ -392,7 +393,7 @@ pub(super) struct Additions<'a> {
     pub(super) allowed: Vec<PigmentId>,
     /// Most pigments to add, 1 to 7.
     pub(super) at_most: usize,
-    /// Greatest amount of each pigment of the library; infinite without a limit.
+    /// Greatest amount of each pigment of the library, infinite without a limit.
     pub(super) stock: Vec<f64>,
     /// Least amount of one pigment, above 0.
     pub(super) least: f64,
@@ -429,7 +430,7 @@ impl Additions<'_> {
         let pot = self.pot();
         let mut allowed = self.allowed.clone();
         allowed.push(pot);
-        // Of a mixture, an addition has at most the share that it has beside the pot alone.
+        // The share of an addition is largest if nothing else is added to the pot.
         let limit = |stock: &f64| match share {
             Some(share) => stock * share,
             None if stock.is_finite() => stock / (1.0 + stock),
@@ -532,7 +533,7 @@ impl Additions<'_> {
         self.addition(best)
     }
 
-    /// The nearest mixture in which the additions are `added` in all; `None` if the stock does not suffice.
+    /// The nearest mixture in which the additions are `added` in all. `None` if the stock does not suffice.
     fn of_amount(
         &self,
         forward: &Forward<'_>,
@@ -563,7 +564,7 @@ impl Additions<'_> {
         descend(forward, &request, target, &start, scratch)
     }
 
-    /// The addition in a mixture, without traces below the least amount; `None` if nothing is left.
+    /// The addition in a mixture, without traces below the least amount. `None` if nothing is left.
     fn addition(&self, mixture: Candidate) -> Option<Addition> {
         let pot = mixture.share(self.pot());
         let amounts: Vec<(PigmentId, f64)> = mixture
@@ -599,7 +600,7 @@ fn least_between(
 
 /// Additions without those that need further pigments to do no better than an earlier one.
 fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
-    /// Gain below which a further pigment is not worth weighing, as a fraction; chosen by eye.
+    /// Gain below which a further pigment is not worth weighing, as a fraction, chosen by eye.
     const LEAST_GAIN: f64 = 0.02;
     let effort = |addition: &Addition| {
         if reaches { addition.total() } else { addition.mixture.distance }

@@ -15,7 +15,7 @@ pub(super) struct Forward<'a> {
     pub(super) library: &'a PigmentLibrary,
     film: UnevenFilm,
     metric: Metric,
-    /// Internal reflectance of the ground; `None` for a film that hides.
+    /// Internal reflectance of the ground. `None` for a film that hides.
     ground: Option<Vec<f64>>,
     pub(super) weights: Vec<TristimulusWeights>,
     /// Square root of each condition's weight divided by the sum of weights.
@@ -211,7 +211,7 @@ fn spectrum_of(target: &Target) -> &SpectralTarget {
     target.spectrum.as_ref().expect("a search by spectrum was checked for one")
 }
 
-/// Three numbers whose squares sum to the square of a colour difference.
+/// Three numbers with squares that sum to the square of a colour difference.
 fn residuals(metric: Metric, wanted: Lab, found: Lab) -> [f64; 3] {
     match metric {
         Metric::Ciede2000 | Metric::Spectrum(_) => ciede2000_residuals(wanted, found),
@@ -221,8 +221,8 @@ fn residuals(metric: Metric, wanted: Lab, found: Lab) -> [f64; 3] {
     }
 }
 
-/// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). The
-/// slopes of CIELAB are exact, those of the difference formula are difference quotients.
+/// Residuals of a colour difference and their derivatives over X, Y and Z (rows by residual). The slopes of
+/// CIELAB are exact. The slopes of the difference formula are difference quotients.
 fn residuals_with_slopes(
     metric: Metric,
     wanted: Lab,
@@ -251,7 +251,7 @@ fn residuals_with_slopes(
 
 /// Reflectance of a film that hides, with its slopes over K and S.
 fn infinite_film_with_slopes(k: f64, s: f64) -> [f64; 3] {
-    // At K = 0 the slope over K is infinite; slightly above, it is finite and steep.
+    // At K = 0 the slope over K is infinite. Slightly above, it is finite and steep.
     let k = k.max(1e-9 * s).max(1e-300);
     let alpha = (k * (k + 2.0 * s)).sqrt();
     let rest = k + s + alpha;

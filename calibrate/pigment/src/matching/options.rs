@@ -22,7 +22,7 @@ use crate::recipe::PigmentId;
 pub struct RequiredName {
     /// Name of the pigment.
     pub name: String,
-    /// Fixed share of the whole, above 0 and up to 1; `None` if the search chooses it.
+    /// Fixed share of the whole, above 0 and up to 1. `None` if the search chooses it.
     pub share: Option<f64>,
 }
 
@@ -31,7 +31,7 @@ pub struct RequiredName {
 pub enum ToleranceOrigin {
     /// The options state it.
     Given,
-    /// It is the mean error of the library's fit: recipes that differ by less cannot be told apart.
+    /// It is the mean error of the library's fit: recipes that differ by less are equally good.
     Library,
     /// It is the usual one of the metric: the library records no error, or a smaller one.
     Usual,
@@ -61,15 +61,15 @@ impl ToleranceOrigin {
 pub struct MatchOptions {
     /// Measure of the difference from the target. Default: CIEDE2000.
     pub metric: Metric,
-    /// Lights under which recipes are judged, each once; by spectrum, lights under which the differences are
-    /// told. Default: D65 for the CIE 1931 observer.
+    /// Lights under which recipes are judged, each once. When matching by spectrum, lights under which
+    /// differences are reported. Default: D65 for the CIE 1931 observer.
     pub conditions: Vec<ViewingCondition>,
-    /// Thickness of the film. By default it hides; for absolute amounts the search chooses a thickness
+    /// Thickness of the film. By default it hides. For absolute amounts the search chooses a thickness
     /// from nearly clear to nearly hiding.
     pub thickness: Option<Thickness>,
     /// Bare ground under a film that does not hide. Default: a perfect white.
     pub over: Option<Backing>,
-    /// Names of the pigments that may take part. Empty: all whose S is known.
+    /// Names of the pigments that may take part. Empty: all pigments with known S.
     pub only: Vec<String>,
     /// Pigments that must take part.
     pub with: Vec<RequiredName>,
@@ -81,11 +81,11 @@ pub struct MatchOptions {
     pub least_share: f64,
     /// Most parts of a recipe in whole parts, 1 to 1000. Default: shares of any size.
     pub whole_parts: Option<u32>,
-    /// Prices of pigments; if there are any, each pigment that may take part needs one.
+    /// Prices of pigments. If there are any, each pigment that may take part needs one.
     pub prices: PriceList,
     /// Difference within which recipes count as equally near, 0 to 1000, in the unit of the metric. Default:
     /// the mean error of the library's fit ([`PigmentLibrary::mean_error`]) in CIEDE2000, or 0.05 if it
-    /// records none; by spectrum 0.2 % of reflectance.
+    /// records none. By spectrum 0.2 % of reflectance.
     pub tolerance: Option<f64>,
     /// Whether absolute amounts may lie outside the range that was measured of each pigment. Default: no.
     pub beyond_measured: bool,
@@ -194,7 +194,7 @@ impl MatchOptions {
         })
     }
 
-    /// Sets allowed and required pigments, and remarks on those of unknown S.
+    /// Sets allowed and required pigments, and remarks on pigments with unknown S.
     fn choose_pigments(
         &self,
         library: &PigmentLibrary,
@@ -260,7 +260,7 @@ pub struct PriceList {
 struct Entry {
     pigment: String,
     price: f64,
-    /// File and row, for errors; `None` for a price that was set by a call.
+    /// File and row, for errors. `None` for a price that was set by a call.
     place: Option<String>,
 }
 

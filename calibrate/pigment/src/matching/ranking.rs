@@ -19,7 +19,7 @@ pub struct RecipeMatch {
     pub shares: Recipe,
     /// The shares as whole parts, in the same order, if the request asks for these.
     pub parts: Option<Vec<u32>>,
-    /// Thickness of the film; `None` for a film that hides.
+    /// Thickness of the film. `None` for a film that hides.
     pub thickness: Option<f64>,
     /// CIEDE2000 from the target under each viewing condition.
     pub delta_e: Vec<f64>,
@@ -31,17 +31,16 @@ pub struct RecipeMatch {
     /// was not measured.
     pub rms_percent: Option<f64>,
     /// Special metamerism index (CIE 15:2018, section 9.2, in CIEDE2000) for the change from the first light
-    /// to each later one. Empty for a target that was not measured; `None` for a recipe that is black under
+    /// to each later one. Empty for a target that was not measured. `None` for a recipe that is black under
     /// the first light.
     pub metamerism: Vec<Option<f64>>,
     /// Colour of the recipe under each viewing condition.
     pub lab: Vec<Lab>,
     /// Measured reflectance of the recipe on the library's grid.
     pub reflectance: Vec<f64>,
-    /// Pigments whose absolute amount is the least or the greatest that was measured, because the search
-    /// keeps to that range.
+    /// Pigments at the least or greatest absolute amount that was measured. The search keeps to this range.
     pub at_limit: Vec<(PigmentId, AmountLimit)>,
-    /// Price of one unit of the mixture, or of all absolute amounts together; `None` if prices are
+    /// Price of one unit of the mixture, or of all absolute amounts together. `None` if prices are
     /// unknown.
     pub cost: Option<f64>,
 }
@@ -396,7 +395,7 @@ fn shares(parts: &[u32]) -> Vec<f64> {
 }
 
 /// Returns the fewest whole parts, together at most `most`, in proportion to `shares` (above 0, any
-/// sum) for which no share is off by more than `tolerance` of the whole; `None` if there are none.
+/// sum) for which no share is off by more than `tolerance` of the whole. `None` if there are none.
 #[must_use]
 pub fn few_parts(shares: &[f64], most: u32, tolerance: f64) -> Option<Vec<u32>> {
     let sum: f64 = shares.iter().sum();

@@ -38,14 +38,14 @@ pub struct RecipeSearch<'a> {
     pub remarks: Vec<Remark>,
 }
 
-/// Recipes found for one target; at least one.
+/// Recipes found for one target, at least one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecipeMatches {
     /// Colours that the recipes should have.
     pub target: Target,
     /// Recipes in the order of [`recipes`](super::recipes).
     pub recipes: Vec<RecipeMatch>,
-    /// Nearest recipe by CIE 1976, for a target from which all recipes differ by more than 5 CIEDE2000;
+    /// Nearest recipe by CIE 1976, for a target from which all recipes differ by more than 5 CIEDE2000,
     /// empty otherwise, and by spectrum.
     pub by_cie1976: Vec<RecipeMatch>,
     /// Choices made in the search, and warnings.
@@ -63,13 +63,13 @@ impl RecipeMatches {
     }
 
     /// Least distance of any recipe, in the unit of the metric, if amounts could lie outside the range that was measured
-    /// of each pigment; `None` if that would bring no recipe visibly nearer.
+    /// of each pigment. `None` if that would bring no recipe visibly nearer.
     #[must_use]
     pub fn beyond_measured(&self) -> Option<f64> {
         self.beyond_measured
     }
 
-    /// Advice for a target from which all recipes differ visibly; `None` if one is nearer than 1
+    /// Advice for a target from which all recipes differ visibly. `None` if one is nearer than 1
     /// CIEDE2000, or 1 % of reflectance.
     #[must_use]
     pub fn hint(&self) -> Option<Hint> {
@@ -133,8 +133,8 @@ impl RecipeSearch<'_> {
         found.ok_or(MatchError::NoRecipe)
     }
 
-    /// Searches recipes like [`Self::recipes_for`], under the control of another thread. Returns `None` if the
-    /// search was cancelled. The progress is that of one of the searches that a target may take.
+    /// Searches recipes like [`Self::recipes_for`], under the control of another thread. Returns `None` if
+    /// the search was cancelled. The progress counts one of the searches that a target may take.
     ///
     /// # Errors
     /// [`MatchError`] if no recipe fits the options, or a spectrum has no visible wavelength.
@@ -224,9 +224,9 @@ pub(super) fn spectrum_of(
 }
 
 impl RecipeSearch<'_> {
-    /// The result for one target as JSON: the target's name, Lab by light, `hex` and `in_gamut`; `reached`,
-    /// `nearest`, `beyond_measured`, measure and tolerance; `recipes` and `by_cie1976`, each as
-    /// [`Self::recipe_json`]. With `grams`, the mass of the mixture, recipes tell amounts.
+    /// The result for one target as JSON. It holds the target's name, Lab by light, `hex` and `in_gamut`,
+    /// then `reached`, `nearest`, `beyond_measured`, measure and tolerance, then `recipes` and `by_cie1976`,
+    /// each as [`Self::recipe_json`]. With `grams`, the mass of the mixture, recipes contain amounts.
     #[must_use]
     pub fn to_json(&self, matched: &RecipeMatches, grams: Option<f64>) -> Value {
         let [recipes, by_cie1976] = [&matched.recipes, &matched.by_cie1976].map(|recipes| {

@@ -32,7 +32,7 @@ pub const USUAL_SPECTRUM_TOLERANCE: f64 = 0.2;
 pub struct RequiredPigment {
     /// Pigment of the library.
     pub pigment: PigmentId,
-    /// Fixed share of the whole, above 0 and up to 1; `None` if the search chooses it.
+    /// Fixed share of the whole, above 0 and up to 1. `None` if the search chooses it.
     pub share: Option<f64>,
 }
 
@@ -41,7 +41,7 @@ pub struct RequiredPigment {
 /// [`MatchOptions`](super::MatchOptions) states the same by name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MatchRequest {
-    /// Lights under which recipes are judged; at least one.
+    /// Lights under which recipes are judged, at least one.
     pub conditions: Vec<ViewingCondition>,
     /// Measure of the difference from the target.
     pub metric: Metric,
@@ -49,22 +49,22 @@ pub struct MatchRequest {
     pub film: FilmKind,
     /// Pigments that may take part.
     pub allowed: Vec<PigmentId>,
-    /// Pigments that must take part; each must also be allowed.
+    /// Pigments that must take part. Each must also be allowed.
     pub required: Vec<RequiredPigment>,
     /// Most pigments of one recipe, 1 to 8.
     pub at_most: usize,
     /// Least share of a pigment that takes part, 0 to below 1: what can be weighed or cut off with a
     /// knife.
     pub least_share: f64,
-    /// Most parts of a recipe in whole parts, 1 to 1000; `None` for shares of any size.
+    /// Most parts of a recipe in whole parts, 1 to 1000. `None` for shares of any size.
     pub whole_parts: Option<u32>,
-    /// Least and greatest absolute amount of each pigment of the library, above 0; `None` for any amount.
+    /// Least and greatest absolute amount of each pigment of the library, above 0. `None` for any amount.
     /// Empty for no limits. A fixed share has no limit.
     pub amounts: Vec<Option<[f64; 2]>>,
-    /// Price of one unit of amount by pigment of the library, 0 and up; empty if unknown.
+    /// Price of one unit of amount by pigment of the library, 0 and up, empty if unknown.
     pub costs: Vec<f64>,
-    /// Recipes whose distance exceeds the nearest one's by no more than this count as equally near; 0
-    /// to 1000, in the unit of the metric.
+    /// Recipes count as equally near if their distance exceeds the nearest one's by no more than this. 0 to
+    /// 1000, in the unit of the metric.
     pub tolerance: f64,
     /// Number of recipes to return.
     pub count: usize,
@@ -95,7 +95,7 @@ impl MatchRequest {
         }
     }
 
-    /// Least and greatest thickness; 1 for a film that hides.
+    /// Least and greatest thickness. 1 for a film that hides.
     pub(super) fn thickness(&self) -> (f64, f64) {
         match &self.film {
             FilmKind::Hiding => (1.0, 1.0),
@@ -103,7 +103,7 @@ impl MatchRequest {
         }
     }
 
-    /// Fixed share of a pigment; `None` if the search chooses it.
+    /// Fixed share of a pigment. `None` if the search chooses it.
     fn fixed_share(&self, pigment: PigmentId) -> Option<f64> {
         self.required.iter().find(|required| required.pigment == pigment)?.share
     }
@@ -114,7 +114,7 @@ impl MatchRequest {
         fixed.map_or((self.least_share, 1.0), |share| (share, share))
     }
 
-    /// Least and greatest absolute amount of a pigment; `None` for any.
+    /// Least and greatest absolute amount of a pigment. `None` for any.
     pub(super) fn amount_bounds(&self, pigment: PigmentId) -> Option<[f64; 2]> {
         let limits = self.amounts.get(pigment.index()).copied().flatten();
         limits.filter(|_| self.fixed_share(pigment).is_none())
@@ -222,7 +222,7 @@ fn invalid(what: &'static str, value: f64, hint: &'static str) -> Result<(), Mat
     Err(MatchError::Number { what, value, hint })
 }
 
-/// Measured amounts of each pigment of a library of absolute amounts; empty for others.
+/// Measured amounts of each pigment of a library of absolute amounts, empty for others.
 fn measured_amounts(library: &PigmentLibrary) -> Vec<Option<[f64; 2]>> {
     match library.amounts {
         AmountKind::Relative => Vec::new(),
@@ -245,7 +245,7 @@ pub enum FilmKind {
 }
 
 /// Thickness of a film in the library's unit: 1 is the thickness at which the reference white has
-/// S d = 1; for absolute amounts, the sum of all amounts.
+/// S d = 1. For absolute amounts, the sum of all amounts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Thickness {
     /// This thickness, above 0.

@@ -129,9 +129,9 @@ fn distance(candidate: &Option<Candidate>) -> f64 {
 
 /// Least mean of K + S that is assumed for a pigment, so that its start share is finite.
 const LEAST_STRENGTH: f64 = 1e-6;
-/// Share at which a new pigment enters the recipe that it extends; chosen by eye.
+/// Share at which a new pigment enters the recipe that it extends, chosen by eye.
 const ENTRY_SHARE: f64 = 0.01;
-/// Least share above its lower bound with which a pigment starts; chosen by eye.
+/// Least share above its lower bound with which a pigment starts, chosen by eye.
 const LEAST_START: f64 = 1e-3;
 
 /// Mean of K + S over wavelength, by pigment: a measure of how much a share of it changes the colour.
@@ -282,16 +282,16 @@ impl SearchControl {
 
 /// Most steps of a descent. Measured: one set in a hundred needs more than 20.
 const STEPS: usize = 40;
-/// Colour difference that counts as much as an amount beyond its limit by a factor of e; chosen by eye.
+/// Colour difference that counts as much as an amount beyond its limit by a factor of e, chosen by eye.
 const PENALTY: f64 = 30.0;
 
-/// First and last step of the thickness where amounts are at their limits, as a fraction; chosen by eye.
+/// First and last step of the thickness where amounts are at their limits, as a fraction, chosen by eye.
 const FIRST_STEP: f64 = 0.25;
 const LAST_STEP: f64 = 1e-3;
-/// The step is halved where the distance stays above this fraction of the one before; chosen by eye.
+/// The step is halved where the distance stays above this fraction of the one before, chosen by eye.
 const LEAST_GAIN: f64 = 0.999;
 
-/// Returns the recipe found from `start` within the bounds; `None` if no film of the request holds
+/// Returns the recipe found from `start` within the bounds. `None` if no film of the request holds
 /// amounts within their limits.
 pub(super) fn descend(
     forward: &Forward<'_>,
@@ -436,7 +436,7 @@ fn totals(request: &MatchRequest, pigments: &[PigmentId]) -> (f64, f64) {
     (if pigments.len() == 1 { least } else { thinnest }, most.sum())
 }
 
-/// The recipe with its shares moved within the limits at its thickness; `None` if there are none.
+/// The recipe with its shares moved within the limits at its thickness. `None` if there are none.
 pub(super) fn within_limits(request: &MatchRequest, recipe: &Candidate) -> Option<Candidate> {
     let bounds: Vec<(f64, f64)> =
         recipe.pigments.iter().map(|&p| request.share_bounds_at(p, recipe.thickness)).collect();
@@ -447,7 +447,7 @@ pub(super) fn within_limits(request: &MatchRequest, recipe: &Candidate) -> Optio
     }
     let mut shares: Vec<f64> =
         recipe.shares.iter().zip(&bounds).map(|(share, b)| share.clamp(b.0, b.1)).collect();
-    // What is missing is shared out by the room that each share has.
+    // The missing amount is divided in proportion to the room that each share has.
     let missing = 1.0 - shares.iter().sum::<f64>();
     let room =
         |(share, b): (&f64, &(f64, f64))| if missing > 0.0 { b.1 - share } else { share - b.0 };

@@ -31,10 +31,10 @@ pub struct ColorTarget {
 /// The ways in which a [`ColorTarget`] states its colour.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TargetColor {
-    /// CIELAB, to be matched under every light. An sRGB colour is adapted (Bradford) from the display's
-    /// white to that of the light, which leaves its CIELAB unchanged.
+    /// CIELAB, to be matched under every light. An sRGB colour is adapted (Bradford) from the white of the
+    /// display to the white of the light, which leaves its CIELAB unchanged.
     Lab(Lab),
-    /// A measured reflectance, which has a colour of its own under each light.
+    /// A measured reflectance. Its colour depends on the light.
     Reflectance(Spectrum<Reflectance>),
 }
 
@@ -97,7 +97,7 @@ impl Target {
         Self { name: name.to_owned(), lab: vec![lab; conditions.len()], spectrum: None }
     }
 
-    /// Target with the colours of a measured reflectance; its spectrum is left out, since that needs the grid
+    /// Target with the colours of a measured reflectance. Its spectrum is left out, since that needs the grid
     /// of a library ([`SpectralTarget::new`]).
     ///
     /// # Errors
@@ -115,14 +115,14 @@ impl Target {
     }
 }
 
-/// Percent of reflectance in 1: differences of spectra are told in percent.
+/// Percent of reflectance in 1: differences of spectra are reported in percent.
 const PERCENT: f64 = 100.0;
 
 /// A measured reflectance on the grid of a library, with a weight for each wavelength.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpectralTarget {
     reflectance: Vec<f64>,
-    /// Weights with sum 1; 0 where the target was not measured.
+    /// Weights with sum 1, 0 where the target was not measured.
     weights: Vec<f64>,
     band_nm: [f64; 2],
 }
@@ -249,7 +249,7 @@ pub enum Metric {
     /// magenta than a dull magenta is.
     Cie1976,
     /// Root mean square of the differences of reflectance in percent, over the wavelengths that target and
-    /// library share. The lights only tell colours. The target must be a measured spectrum.
+    /// library share. The lights only serve to report colours. The target must be a measured spectrum.
     Spectrum(SpectrumWeights),
 }
 
@@ -284,7 +284,7 @@ impl Metric {
         }
     }
 
-    /// Unit in which differences are told.
+    /// Unit of the reported differences.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {

@@ -20,14 +20,14 @@ pub const HIDING_CONTRAST: f64 = 0.98;
 /// ratio is meaningless, and a difference of 0.02 (Y = 100 for white) is 0.2 of L*, which is invisible.
 const UNSEEN: f64 = 0.02;
 
-/// Value of K d + S d of the strongest paint at the greatest thickness that is tried; chosen by eye.
+/// Value of K d + S d of the strongest paint at the greatest thickness that is tried, chosen by eye.
 const THICKEST: f64 = 1e5;
 /// Number of thicknesses tried per decade.
 const STEPS: usize = 8;
 /// Number of decades tried.
 const DECADES: usize = 9;
 
-/// Thickness in mm from which on a film of white oil paint hides; a brush lays 0.05 mm at least.
+/// Thickness in mm from which on a film of white oil paint hides. A brush lays 0.05 mm at least.
 const WHITE_HIDES_MM: f64 = 0.05;
 
 /// Whether a film can hide its ground.
@@ -135,15 +135,15 @@ pub const TINT_DEPTH: f64 = 1.0;
 pub struct TintingStrength {
     /// Pigment of the library.
     pub paint: PigmentId,
-    /// Wavelength in nm at which K/S of the tint exceeds that of the white most; for absolute amounts, at
-    /// which K is greatest.
+    /// Wavelength in nm at which K/S of the tint exceeds K/S of the white most. For absolute amounts, the
+    /// wavelength of the greatest K.
     pub wavelength_nm: f64,
-    /// Increase of K/S over that of the white at that wavelength; for absolute amounts, K per unit of amount.
-    /// 0 if K/S rises at no wavelength.
+    /// Increase of K/S over the white at this wavelength. For absolute amounts, K per unit of amount. 0 if
+    /// K/S rises at no wavelength.
     pub strength: f64,
-    /// `strength` in percent of that of the standard paint.
+    /// `strength` in percent of the strength of the standard paint.
     pub percent: f64,
-    /// Parts of white to one of paint that make a tint of K/S = 1 at that wavelength; `None` for a
+    /// Parts of white to one of paint that make a tint of K/S = 1 at that wavelength. `None` for a
     /// paint that is lighter than that by itself, or for absolute amounts.
     pub white_parts: Option<f64>,
 }
@@ -153,7 +153,7 @@ pub struct TintingStrength {
 ///
 /// ISO 787-24 compares tints by K/S where the tint of one part in nine parts of the reference white
 /// absorbs most. The white's own K/S is subtracted, so that a paint of twice the absorption has
-/// twice the strength. A library of absolute amounts has no white paint; there K of one unit of
+/// twice the strength. A library of absolute amounts has no white paint. There K of one unit of
 /// amount is the strength.
 #[must_use]
 pub fn tinting_strengths(
@@ -222,7 +222,7 @@ pub const CHART_TINT: f64 = 3.0;
 pub struct MixingChart {
     /// The paints, in the library's order.
     pub paints: Vec<PigmentId>,
-    /// Colours by row and column of `paints`; symmetric, with the masstones on the diagonal.
+    /// Colours by row and column of `paints`. Symmetric, with the masstones on the diagonal.
     pub colors: Vec<Vec<Appearance>>,
     /// Colours of the same mixtures with [`CHART_TINT`] parts of white to one.
     pub tinted: Vec<Vec<Appearance>>,
@@ -276,7 +276,7 @@ pub fn tint_ladders(palette: &Palette<'_>) -> Vec<TintLadder> {
 /// A film of one thickness over both cards.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawdownStep {
-    /// Thickness in the library's unit; for absolute amounts, in washes of the paint.
+    /// Thickness in the library's unit. For absolute amounts, in washes of the paint.
     pub thickness: f64,
     /// Colour over the black card.
     pub over_black: Appearance,
@@ -295,8 +295,8 @@ pub struct Drawdown {
     pub masstone: Appearance,
 }
 
-/// Computes drawdowns of every paint at each of `thicknesses` (0 and up, in the library's unit; for
-/// absolute amounts, in washes of the paint).
+/// Computes drawdowns of every paint at each of `thicknesses` (0 and up, in the library's unit, for absolute
+/// amounts, in washes of the paint).
 #[must_use]
 pub fn drawdowns(palette: &Palette<'_>, thicknesses: &[f64]) -> Vec<Drawdown> {
     let film = palette.library().film();
@@ -394,11 +394,11 @@ impl MixingRow {
 /// One mixing ratio, computed in every way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GradedStep {
-    /// Share of the second paint, 0 to 1; the measured share where there is a measured sample.
+    /// Share of the second paint, 0 to 1. The measured share where there is a measured sample.
     pub share: f64,
     /// Name of the measured sample with this share.
     pub sample: Option<String>,
-    /// Colours in the order of [`MixingRow::ALL`]; `None` where nothing was measured.
+    /// Colours in the order of [`MixingRow::ALL`]. `None` where nothing was measured.
     pub colors: [Option<Appearance>; 5],
     /// CIEDE2000 of each row against the measured colour or, where there is none, against the full
     /// spectrum.
@@ -415,8 +415,8 @@ pub struct GradedMixture {
 }
 
 impl GradedMixture {
-    /// Mean error of a row over the mixed steps, with their number: over the measured steps if
-    /// `measured`, else over those that were not measured. `None` if there is no such step.
+    /// Mean error of a row over the mixed steps, with their number: over the measured steps if `measured`,
+    /// else over those that were not measured. `None` without such steps.
     #[must_use]
     pub fn mean_error(&self, row: MixingRow, measured: bool) -> Option<(f64, usize)> {
         let mixed = self.steps.iter().filter(|step| step.share > 0.0 && step.share < 1.0);
@@ -476,9 +476,9 @@ pub fn graded(
     }
 }
 
-/// Chooses up to three pairs of paints: the two pairs with the most measured steps, and the paint of the
-/// highest b* with that of the lowest (each as masstone or tint), whose mixtures linear interpolation
-/// predicts poorly.
+/// Chooses up to three pairs of paints: the two pairs with the most measured steps, and the paints of the
+/// highest and the lowest b* (each as masstone or tint). Linear interpolation predicts mixtures of this last
+/// pair poorly.
 #[must_use]
 pub fn default_pairs(
     palette: &Palette<'_>,
@@ -552,7 +552,7 @@ fn shares(
         (0..=10).map(|tenth| (f64::from(tenth) / 10.0, None)).collect();
     for (share, sample) in steps_of(pair, measured) {
         let free = |(place, kept): &(f64, Option<&MeasuredSample>)| {
-            // The ends are masstones; a mixture must not replace them.
+            // The ends are masstones. A mixture must not replace them.
             let end = *place == 0.0 || *place == 1.0;
             kept.is_none() && if end { share == *place } else { (place - share).abs() <= NEAR }
         };

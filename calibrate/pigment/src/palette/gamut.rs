@@ -18,15 +18,15 @@ use crate::recipe::{PigmentId, Recipe};
 /// Number of mixing ratios of a pair, even in the logarithm of the ratio, since a little of a strong
 /// paint changes a weak one quickly.
 const RATIOS: i32 = 21;
-/// Largest ratio of a pair; chosen by eye.
+/// Largest ratio of a pair, chosen by eye.
 const FURTHEST: f64 = 150.0;
-/// Parts of white to one of a pair; chosen by eye.
+/// Parts of white to one of a pair, chosen by eye.
 const WHITES: [f64; 7] = [0.0, 0.4, 1.2, 3.0, 7.0, 16.0, 45.0];
-/// Parts of black to one of a pair; chosen by eye.
+/// Parts of black to one of a pair, chosen by eye.
 const BLACKS: [f64; 2] = [0.03, 0.2];
-/// Factors by which a wash is made stronger in a library of absolute amounts; chosen by eye.
+/// Factors by which a wash is made stronger in a library of absolute amounts, chosen by eye.
 const STRONGER: [f64; 7] = [1.3, 1.7, 2.2, 3.0, 4.0, 5.5, 8.0];
-/// Number of random mixtures of three or four paints; every other one has white.
+/// Number of random mixtures of three or four paints. Every other one has white.
 const RANDOM: usize = 6000;
 /// Seed of the random mixtures.
 const SEED: u64 = 2004;
@@ -63,8 +63,8 @@ pub struct Boundary {
 }
 
 /// Samples the colours that a palette can mix: every paint and pair, alone and with parts of white or of the
-/// darkest paint (for washes, also in larger amounts); 6000 seeded mixtures of three or four paints, half of
-/// them with white; and mixtures of two samples where a cell of CIELAB between them is empty.
+/// darkest paint (for washes, also in larger amounts). 6000 seeded mixtures of three or four paints, half of
+/// them with white, and mixtures of two samples where a cell of CIELAB between them is empty.
 #[must_use]
 pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
     let mut recipes: Vec<Recipe> = palette.paints().iter().map(|&p| Recipe::single(p)).collect();
@@ -95,8 +95,7 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
 }
 
 impl Gamut {
-    /// Outline in a* and b* around grey, of samples whose L* lies in `lightness` (both ends
-    /// included).
+    /// Outline in a* and b* around grey, of samples with L* in `lightness` (both ends included).
     #[must_use]
     pub fn in_lab(&self, lightness: [f64; 2], sectors: usize) -> Boundary {
         let [low, high] = lightness;
@@ -109,8 +108,8 @@ impl Gamut {
         Boundary::around([0.0, 0.0], sectors, places)
     }
 
-    /// Outline in chromaticity x, y around the light's white. Samples of Y below 0.5, whose
-    /// chromaticity is meaningless, are left out.
+    /// Outline in chromaticity x, y around the light's white. Samples of Y below 0.5 are left out, since
+    /// their chromaticity is meaningless.
     #[must_use]
     pub fn in_xy(&self, sectors: usize) -> Boundary {
         let white = chromaticity(self.white);
@@ -267,8 +266,8 @@ fn random_recipes(palette: &Palette<'_>) -> Vec<Recipe> {
 /// Number of sectors of an outline.
 const SECTORS: usize = 72;
 
-/// Half of the range of L* whose mixtures count as of one lightness: mixtures are sampled, so a
-/// narrower range would leave gaps.
+/// Mixtures within this difference of L* count as equally light. Mixtures are sampled, so a narrower range
+/// would leave gaps.
 const BAND: f64 = 5.0;
 
 /// Colours of two paints mixed in all ratios.
@@ -330,7 +329,7 @@ pub fn color_wheel(palette: &Palette<'_>) -> ColorWheel {
 }
 
 impl ColorWheel {
-    /// Outline of the mixtures whose L* is within 5 of `lightness`, or of all mixtures.
+    /// Outline of the mixtures with L* within 5 of `lightness`, or of all mixtures.
     #[must_use]
     pub fn region(&self, lightness: Option<f64>) -> Boundary {
         let range =
@@ -338,7 +337,7 @@ impl ColorWheel {
         self.gamut.in_lab(range, SECTORS)
     }
 
-    /// The sampled mixture nearest to `color`; `None` if there are no samples.
+    /// The sampled mixture nearest to `color`. `None` if there are no samples.
     #[must_use]
     pub fn nearest(&self, color: Lab) -> Option<NearestMixture<'_>> {
         let measured = self.gamut.samples.iter().map(|sample| NearestMixture {
@@ -349,9 +348,9 @@ impl ColorWheel {
     }
 }
 
-/// Side of a cell in a* and b*; chosen by eye.
+/// Side of a cell in a* and b*, chosen by eye.
 const CELL: f64 = 3.0;
-/// Height of a cell in L*; chosen by eye.
+/// Height of a cell in L*, chosen by eye.
 const BETWEEN_BAND: f64 = 10.0;
 /// Number of passes. A gap of two or three cells is filled by mixtures of several passes.
 const PASSES: usize = 4;
@@ -370,7 +369,7 @@ pub(super) fn between<'a>(
     for _ in 0..PASSES {
         let mut added: BTreeMap<[i32; 3], Recipe> = BTreeMap::new();
         for (&[band, a, b], recipe) in &cells {
-            // Four of the eight directions; the cell on the other side of the gap covers the opposite ones.
+            // Four of the eight directions. The cell on the other side of the gap covers the opposite ones.
             for (da, db) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
                 let gap = [band, a + da, b + db];
                 let Some(other) = cells.get(&[band, a + 2 * da, b + 2 * db]) else { continue };

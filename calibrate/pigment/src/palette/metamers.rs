@@ -11,9 +11,9 @@ use crate::color::Appearance;
 use crate::evaluate::Viewing;
 use crate::recipe::{PigmentId, Recipe};
 
-/// Shares of the first paint at which each pair is tried; chosen by eye.
+/// Shares of the first paint at which each pair is tried, chosen by eye.
 const SHARES: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
-/// Parts of white with which each mixture is tried; chosen by eye.
+/// Parts of white with which each mixture is tried, chosen by eye.
 const WHITES: [f64; 3] = [0.0, 1.5, 6.0];
 
 /// Two colours that nearly match under the first light.
@@ -28,7 +28,7 @@ pub struct Metamers {
     /// By light: CIEDE2000 between the two, uncorrected.
     pub differences: Vec<f64>,
     /// By light: the special metamerism index (CIE 15:2018, section 9.2), in which the second colour
-    /// is corrected for the difference under the first light; 0 for the first light.
+    /// is corrected for the difference under the first light, 0 for the first light.
     pub indices: Vec<f64>,
 }
 
@@ -41,7 +41,7 @@ struct Candidate {
 }
 
 /// Finds pairs that differ by less than `alike` CIEDE2000 under the first of `lights` and differ most
-/// under another one by the metamerism index. Returns at most `count` pairs, the worst first; no
+/// under another one by the metamerism index. Returns at most `count` pairs, the worst first. No
 /// colour occurs twice.
 ///
 /// Candidates are the measured samples, every paint, and every two paints at five ratios, with and
@@ -175,11 +175,11 @@ pub struct ColorShift {
     /// Colour under each light, relative to that light's white.
     pub colors: Vec<Appearance>,
     /// By light: CIEDE2000 between the colour under the first light and the colour under this one,
-    /// adapted to the first light (Bradford); 0 for the first.
+    /// adapted to the first light (Bradford), 0 for the first.
     pub shifts: Vec<f64>,
 }
 
-/// The palette's own light, followed by those of D65, A and FL11 that differ from it.
+/// The palette's own light, followed by D65, A and FL11, each if it differs from the first.
 #[must_use]
 pub fn test_lights(palette: &Palette<'_>) -> Vec<TestLight> {
     let own = palette.viewing();

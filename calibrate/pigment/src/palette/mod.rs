@@ -1,10 +1,10 @@
 //! Properties of a palette: how its paints hide, tint, mix, and change with the light.
 //!
 //! In a library of relative amounts a recipe stands for a film that hides. In one of absolute amounts the
-//! paper is the white: a share of 1 is one wash of the pigment (see [`Palette::wash`]), and a recipe whose
-//! shares sum to less than 1 is thinned with water.
+//! paper is the white: a share of 1 is one wash of the pigment (see [`Palette::wash`]), and a recipe is
+//! thinned with water if its shares sum to less than 1.
 //!
-//! Pigments whose scattering is not identified take no part in any mixture.
+//! Pigments with unknown scattering take no part in any mixture.
 
 mod paints;
 mod charts;

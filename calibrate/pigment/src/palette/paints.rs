@@ -26,11 +26,11 @@ pub struct Palette<'a> {
 }
 
 impl<'a> Palette<'a> {
-    /// Palette of the pigments of `library` whose scattering is identified, in its order.
+    /// Palette of the pigments of `library` with known scattering, in its order.
     ///
     /// # Errors
-    /// [`PaletteError::NothingToMix`] if there is no such pigment, [`PaletteError::Cards`] if a card does not
-    /// have one reflectance for each wavelength of the library.
+    /// [`PaletteError::NothingToMix`] if there are none, [`PaletteError::Cards`] if a card does not have one
+    /// reflectance for each wavelength of the library.
     pub fn new(
         library: &'a PigmentLibrary,
         viewing: &'a Viewing,
@@ -145,7 +145,7 @@ impl<'a> Palette<'a> {
         self.by_luminance(|a, b| b < a)
     }
 
-    /// Amount of a pigment in its own wash; 1 for relative amounts.
+    /// Amount of a pigment in its own wash. 1 for relative amounts.
     ///
     /// For absolute amounts a wash has the amount at which the reflectance over the white card, at the
     /// wavelength of greatest absorption, is nine tenths of the way from the bare card to a film that
@@ -161,7 +161,8 @@ impl<'a> Palette<'a> {
         self.thinned(&Recipe::single(paint), parts)
     }
 
-    /// Recipe with `parts` parts of white (or water) to one part of `recipe`, whose shares sum to 1.
+    /// Recipe with `parts` parts of white (or water) to one part of `recipe`. The shares of `recipe` sum to
+    /// 1.
     #[must_use]
     pub fn thinned(&self, recipe: &Recipe, parts: f64) -> Recipe {
         let own = 1.0 / (1.0 + parts);
@@ -193,7 +194,7 @@ impl<'a> Palette<'a> {
         self.film_reflectance(curves.as_slices(), &self.cards.white)
     }
 
-    /// Measured reflectance of a film from its K and S at any wavelengths; `card` is the reflectance
+    /// Measured reflectance of a film from its K and S at any wavelengths. `card` is the reflectance
     /// of the white card at these.
     pub(super) fn film_reflectance(&self, (k, s): (&[f64], &[f64]), card: &[f64]) -> Vec<f64> {
         match self.library.amounts {
@@ -325,9 +326,9 @@ pub struct Cards {
     pub black: Vec<f64>,
     /// Reflectance of the white card, as a fraction at each wavelength.
     pub white: Vec<f64>,
-    /// Whether the black card was measured; if not, it is the standard's.
+    /// Whether the black card was measured. If not, it is the standard's.
     pub black_measured: bool,
-    /// Whether the white card was measured; if not, it is the standard's.
+    /// Whether the white card was measured. If not, it is the standard's.
     pub white_measured: bool,
 }
 
@@ -335,9 +336,9 @@ pub struct Cards {
 const BLACK: f64 = 0.05;
 /// Reflectance of the standard white card: ISO 6504-3 asks for Y = 80 within 2.
 const WHITE: f64 = 0.80;
-/// Greatest Y of a measured backing that counts as a black card; chosen by eye.
+/// Greatest Y of a measured backing that counts as a black card, chosen by eye.
 const DARKEST_CARD: f64 = 10.0;
-/// Least Y of a measured backing that counts as a white card; chosen by eye.
+/// Least Y of a measured backing that counts as a white card, chosen by eye.
 const LIGHTEST_CARD: f64 = 60.0;
 
 impl Cards {
@@ -371,7 +372,7 @@ impl Cards {
     }
 }
 
-/// A measured swatch whose pigments are all in the palette.
+/// A measured swatch. All of its pigments are in the palette.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredSample {
     /// Name of the sample.

@@ -149,8 +149,8 @@ impl FilmSet {
         Self::of(library, weights, films)
     }
 
-    /// Draws `count` films like those of [`FilmSet::hiding`], of optical thicknesses (K + S) d from 0.03
-    /// to 10, each over the colour of another such mixture, in half of them lightened.
+    /// Draws `count` films like [`FilmSet::hiding`] does, of optical thicknesses (K + S) d from 0.03 to 10,
+    /// each over the colour of another such mixture, in half of them lightened.
     #[must_use]
     pub fn over_grounds(
         library: &PigmentLibrary,
@@ -191,8 +191,7 @@ impl FilmSet {
         Self::of(library, weights, films)
     }
 
-    /// Films like those of the public draws, from other random streams: half of them hide, half lie over a
-    /// ground.
+    /// Films like the public draws, from other random streams. Half of them hide, half lie over a ground.
     pub(super) fn candidates(
         library: &PigmentLibrary,
         weights: &TristimulusWeights,
@@ -264,7 +263,7 @@ impl<'a> Draw<'a> {
         drawn.into_iter().map(|(pigment, part)| (PigmentId(pigment), part / total)).collect()
     }
 
-    /// Two pigments, of which one has a small share; each order of magnitude is equally likely.
+    /// Two pigments, of which one has a small share. Each order of magnitude is equally likely.
     fn tint(&mut self) -> Parts {
         let pigments = self.library.pigments.len();
         if pigments < 2 {
@@ -438,7 +437,7 @@ mod tests {
         let effective = EffectiveQuadrature::of(&viewing("D65"), &library, 3).unwrap();
         let [hiding, over] = unseen("D65", &effective, &library);
         assert!(hiding.max < 0.20 && over.max < 4.0, "{hiding:?} {over:?}");
-        // Eight wavelengths have more unknowns than one masstone can tell apart.
+        // Eight wavelengths have more unknowns than one masstone determines.
         let eight = EffectiveQuadrature::of(&viewing("D65"), &library, 8).unwrap();
         let [hiding, over] = unseen("D65", &eight, &library);
         assert!(hiding.max < 0.01 && over.max < 0.2, "{hiding:?} {over:?}");

@@ -19,7 +19,8 @@ use crate::library::PigmentLibrary;
 /// Films of the training set for each pigment, and at least.
 const FILMS_A_PIGMENT: usize = 120;
 const LEAST_FILMS: usize = 2000;
-/// Further films drawn for each pigment. Those whose colours the first fit keeps worst join the training.
+/// Further films drawn for each pigment. The ones with the largest errors after the first fit join the
+/// training.
 const CANDIDATES_A_PIGMENT: usize = 400;
 const LEAST_CANDIDATES: usize = 8000;
 /// Share of the further films that joins the training. Any from 1.5 to 3 % does as well.
@@ -36,10 +37,10 @@ impl EffectiveQuadrature {
     /// colours: least squares in CIEDE2000 over films that hide, tints, and thin films over black and
     /// white.
     ///
-    /// There are two fits. The first keeps the wavelengths of [`Quadrature::library`]. The second begins where
-    /// it ends, moves the wavelengths too, and takes in those of many further films whose colours the
-    /// first keeps worst: few films show the edge of a pigment's absorption beside the light of a lamp,
-    /// and a random set that is small enough misses them.
+    /// There are two fits. The first keeps the wavelengths of [`Quadrature::library`]. The second begins
+    /// where it ends, moves the wavelengths too, and adds the worst of many further films, judged by their
+    /// colour error after the first fit. Few films show the edge of a pigment's absorption next to a line of
+    /// a lamp, and a small random set misses them.
     ///
     /// # Errors
     /// [`QuadratureFailure::Count`] for 0 nodes, or more than 32.
@@ -92,7 +93,7 @@ const LARGEST_CHANGE: f64 = 6.0;
 const PRIOR: f64 = 1e-3;
 /// Least K or S that can change, relative to the sum of both at the wavelength.
 const LEAST: f64 = 1e-5;
-/// Films that one task adds up; fixed, so that sums do not depend on the number of threads.
+/// Films that one task adds up. Fixed, so that sums do not depend on the number of threads.
 const CHUNK: usize = 128;
 
 /// Whether the wavelengths may move.
@@ -104,9 +105,9 @@ pub(super) enum Nodes {
     Free,
 }
 
-/// Films whose colours a quadrature is to keep. Places of the unknowns: three weights for each wavelength
-/// but the last, whose weights follow from the white; the wavelengths; then the changes of log K and
-/// log S by pigment and wavelength.
+/// Films that a quadrature should give the right colours. The unknowns are, in this order, three weights for
+/// each wavelength but the last (its weights follow from the white), the wavelengths, and the changes of log
+/// K and log S by pigment and wavelength.
 #[derive(Debug)]
 pub(super) struct Problem {
     start: EffectiveQuadrature,
@@ -129,7 +130,7 @@ impl Problem {
         Self { start, grid: library.grid, films, targets }
     }
 
-    /// Adds those `count` of `candidates` whose colours `found` keeps worst.
+    /// Adds the `count` films of `candidates` with the largest errors.
     pub(super) fn add_worst(&mut self, candidates: FilmSet, errors: &[f64], count: usize) {
         let mut worst: Vec<(Film, f64)> =
             candidates.films.into_iter().zip(errors.iter().copied()).collect();
@@ -146,7 +147,7 @@ impl Problem {
         self.start.rule.nodes_nm.len()
     }
 
-    /// Place of the change of log K of a pigment at a wavelength; that of log S follows it.
+    /// Index of the change of log K of a pigment at a wavelength. The change of log S follows it.
     fn place(&self, pigment: usize, node: usize) -> usize {
         self.shared() + 2 * (pigment * self.nodes() + node)
     }

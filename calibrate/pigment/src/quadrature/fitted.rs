@@ -15,7 +15,7 @@ use crate::evaluate::Viewing;
 use crate::least_squares::{NormalEquations, Stop, minimise};
 use crate::library::PigmentLibrary;
 
-/// Number of random mixtures in the training set, besides all masstones; chosen by eye.
+/// Number of random mixtures in the training set, besides all masstones, chosen by eye.
 const TRAINING: usize = 700;
 /// Seed of the training set.
 const TRAINING_SEED: u64 = 2004;
@@ -46,10 +46,10 @@ impl Quadrature {
 
 /// Returns the best of several fits.
 ///
-/// The unknowns are the n nodes and, in each channel, all weights but the last, which follows from the sum,
-/// that of the white. The residuals are differences from the exact colours in the local metric of CIEDE2000.
-/// The starts are the nodes of `start`, the same nodes moved towards or away from their mean, and evenly
-/// spaced nodes.
+/// The unknowns are the n nodes and, in each channel, all weights but the last, which follows from the sum
+/// for the white. The residuals are differences from the exact colours in the local metric of CIEDE2000. The
+/// starts are the nodes of `start`, the same nodes moved towards or away from their mean, and evenly spaced
+/// nodes.
 fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
     let problem = Problem::new(start, training);
     let count = start.nodes_nm.len();
@@ -258,7 +258,7 @@ fn sum(at_nodes: &[(f64, f64)], weights: &[[f64; 3]]) -> Xyz {
     xyz.into()
 }
 
-/// Method of choosing wavelengths and weights; the module's table describes each.
+/// Method of choosing wavelengths and weights. The module's table describes each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum QuadratureMethod {
     /// The method of [`Quadrature::gauss`].

@@ -24,7 +24,7 @@ use crate::recipe::{Curves, PigmentId, Recipe, hiding_film};
 pub struct Quadrature {
     /// Wavelengths in nm, in rising order.
     pub nodes_nm: Vec<f64>,
-    /// Weights of X, Y and Z at each wavelength; each channel sums to that of the white.
+    /// Weights of X, Y and Z at each wavelength. Each channel sums to the white.
     pub weights: Vec<[f64; 3]>,
     /// White of the light for the observer, Y = 100.
     pub white: Xyz,
@@ -102,7 +102,7 @@ impl Quadrature {
         xyz.into()
     }
 
-    /// Interpolates values on `grid`, such as K or S, linearly at the nodes; end values are held
+    /// Interpolates values on `grid`, such as K or S, linearly at the nodes. End values are held
     /// beyond the grid.
     #[must_use]
     pub fn at_nodes(&self, grid: Grid, values: &[f64]) -> Vec<f64> {
@@ -141,7 +141,7 @@ impl QuadratureError {
     }
 }
 
-/// Value and slope at `nm` of the piecewise linear curve through values on a grid; end values are held
+/// Value and slope at `nm` of the piecewise linear curve through values on a grid. End values are held
 /// beyond the grid.
 pub(super) fn on_line(grid: Grid, values: &[f64], nm: f64) -> (f64, f64) {
     let last = values.len() - 1;
@@ -337,14 +337,14 @@ impl MixtureSet {
 /// Nodes and weights of the Gaussian rule for a discrete weight function.
 ///
 /// The discretised Stieltjes procedure finds the three-term recurrence of the orthogonal polynomials
-/// (Gautschi 1982; 2004, section 2.2.3.1). The nodes are the eigenvalues of the Jacobi matrix, and
-/// the weights follow from its eigenvectors (Golub and Welsch 1969). Exact for polynomials up to
-/// degree 2 n - 1 summed over the points of the weight function.
+/// (Gautschi 1982, 2004, section 2.2.3.1). The nodes are the eigenvalues of the Jacobi matrix, and the
+/// weights follow from its eigenvectors (Golub and Welsch 1969). Exact for polynomials up to degree 2 n - 1
+/// summed over the points of the weight function.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GaussRule {
     /// Nodes in rising order, in the unit of the points.
     pub nodes: Vec<f64>,
-    /// Weight of each node, above 0; they sum to the sum of the weight function.
+    /// Weight of each node, above 0. They sum to the sum of the weight function.
     pub weights: Vec<f64>,
     /// By degree k below n: values of the orthonormal polynomial of degree k at the nodes.
     at_nodes: Vec<Vec<f64>>,
@@ -401,7 +401,7 @@ impl GaussRule {
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
         let weights: Vec<f64> =
             order.iter().map(|&i| total * eigen.eigenvectors[(0, i)].powi(2)).collect();
-        // Column i of the eigenvectors holds the polynomials at node i, scaled to length 1; that
+        // Column i of the eigenvectors holds the polynomials at node i, scaled to length 1. That
         // length is the root of the weight.
         let at_nodes = (0..count)
             .map(|k| {
