@@ -89,14 +89,14 @@ pub struct SwatchFile {
 /// # Errors
 /// [`SwatchFileError`] with the line, or the offset in bytes.
 pub fn read_swatch_file(file: &str, bytes: &[u8]) -> Result<Option<SwatchFile>, SwatchFileError> {
-    let ends_in = |ending: &str| file.to_ascii_lowercase().ends_with(ending);
-    if bytes.starts_with(b"ASEF") || ends_in(".ase") {
+    let name = file.to_ascii_lowercase();
+    if bytes.starts_with(b"ASEF") || name.ends_with(".ase") {
         return read_ase(file, bytes).map(Some);
     }
-    if bytes.starts_with(b"GIMP Palette") || ends_in(".gpl") {
+    if bytes.starts_with(b"GIMP Palette") || name.ends_with(".gpl") {
         return read_gpl(file, bytes).map(Some);
     }
-    if ends_in(".aco") {
+    if name.ends_with(".aco") {
         return read_aco(file, bytes).map(Some);
     }
     Ok(None)

@@ -100,11 +100,10 @@ impl NormalEquations {
     /// Equations of `count` parameters. Each column of the matrix is added up in the order of the rows,
     /// so that its bits do not depend on the number of threads.
     pub(crate) fn of_rows(count: usize, parts: &[SparseRows]) -> Self {
-        let groups = || parts.iter().flat_map(SparseRows::groups);
         let mut equations = Self::zeros(count);
         // Products that each column takes.
         let mut work = vec![0; count];
-        for (residuals, runs, derivatives) in groups() {
+        for (residuals, runs, derivatives) in parts.iter().flat_map(SparseRows::groups) {
             equations.cost += 0.5 * dot(residuals, residuals);
             let mut left: usize = runs.iter().map(|run| run.len()).sum();
             for (place, &slopes) in runs.iter().cloned().flatten().zip(derivatives) {
@@ -121,7 +120,7 @@ impl NormalEquations {
             tasks.push((range, part));
         }
         tasks.into_par_iter().for_each(|(range, columns)| {
-            for (_, runs, derivatives) in groups() {
+            for (_, runs, derivatives) in parts.iter().flat_map(SparseRows::groups) {
                 add_columns(&range, columns, count, runs, derivatives);
             }
         });
@@ -620,8 +619,8 @@ mod tests {
         for i in 0..=steps {
             for j in 0..=steps - i {
                 let k = steps - i - j;
-                let share = |n: usize| least + (1.0 - 3.0 * least) * n as f64 / steps as f64;
-                let shares = [share(i), share(j), share(k)];
+                let shares =
+                    [i, j, k].map(|n| least + (1.0 - 3.0 * least) * n as f64 / steps as f64);
                 best = best.min(value(std::array::from_fn(|c| shares[c] - point[c])));
             }
         }

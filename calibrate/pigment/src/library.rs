@@ -732,7 +732,7 @@ mod tests {
     }
 
     #[test]
-    fn a_misspelt_pigment_is_told_with_the_one_that_is_meant() {
+    fn a_misspelt_pigment_is_reported_with_the_one_that_is_meant() {
         let known = ["Zinc White", "Viridian"].map(str::to_owned).to_vec();
         let hint = |name: &str| {
             let error = RecipeError::UnknownPigment { name: name.to_owned(), known: known.clone() };

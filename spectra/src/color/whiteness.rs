@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_white_is_told_with_its_reason() {
+    fn what_is_not_white_is_reported_with_its_reason() {
         let deg2 = Observer::Cie1931Deg2;
         let dark = message([30.0, 31.0, 33.0], "D65", deg2);
         assert!(dark.contains("not white: W ") && dark.contains("5 Y - 280 = -125.0"), "{dark}");

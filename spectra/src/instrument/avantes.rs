@@ -20,7 +20,7 @@ use super::decode::{BinaryBytes, lines};
 use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role, Unit, stem};
 use super::points::{Duplicates, Point, ordered};
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let lines: Vec<(usize, &str)> = lines(text).collect();
     let heading = lines.windows(2).find(|pair| {
         pair[0].1.trim_start().starts_with("Wave") && pair[1].1.trim_start().starts_with("[nm]")
@@ -71,11 +71,11 @@ const NAMES: usize = SERIAL + 64;
 /// Numbers between the pixels and the data in either version.
 const SETTINGS: [usize; 2] = [2, 19];
 
-pub(super) fn is_binary(bytes: &[u8]) -> bool {
+pub(super) fn is_avasoft7(bytes: &[u8]) -> bool {
     [60_f32, 70.0].iter().any(|version| bytes.starts_with(&version.to_le_bytes()))
 }
 
-pub(super) fn avasoft7_read(
+pub(super) fn read_avasoft7(
     file: &str,
     bytes: &[u8],
 ) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -134,11 +134,11 @@ const AVASOFT8_SETTINGS: usize = 25 + 8 + 20 + 40;
 const COMMENT: usize = 130;
 const GROUP: usize = 10;
 
-pub(super) fn avasoft8_is_binary(bytes: &[u8]) -> bool {
+pub(super) fn is_avasoft8(bytes: &[u8]) -> bool {
     bytes.starts_with(b"AVS8")
 }
 
-pub(super) fn avasoft8_read(
+pub(super) fn read_avasoft8(
     file: &str,
     bytes: &[u8],
 ) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -308,11 +308,11 @@ pub(super) mod avasoft8_tests {
             (3, MeasuredQuantity::Transmittance, &[20.0, 50.0]),
             (4, MeasuredQuantity::Reflectance, &[20.0, 50.0]),
         ] {
-            let found = avasoft8_read("a/red.RFL8", &avasoft8(b"AVS82", 1, mode)).unwrap();
+            let found = read_avasoft8("a/red.RFL8", &avasoft8(b"AVS82", 1, mode)).unwrap();
             assert_eq!((found[0].quantity, &found[0].values[..]), (quantity, values), "{mode}");
             assert_eq!(found[0].name, "red");
         }
-        let found = avasoft8_read("red.RFL8", &avasoft8(b"AVS82", 2, 4)).unwrap();
+        let found = read_avasoft8("red.RFL8", &avasoft8(b"AVS82", 2, 4)).unwrap();
         assert_eq!((found[0].name.as_str(), found[4].name.as_str()), ("red 1", "red 2"));
         assert_eq!((found[6].role, &found[6].values), (Role::White, &vec![110.0, 10.0, 110.0]));
         assert_eq!(found[0].details[0].1, "1405123U1");
@@ -324,17 +324,17 @@ pub(super) mod avasoft8_tests {
         for (bytes, words) in
             [(avasoft8(b"AVS82", 1, 5), "irradiance"), (avasoft8(b"AVS84", 2, 4), "AvaSoft 8.4")]
         {
-            let error = avasoft8_read("f.IRR8", &bytes).unwrap_err().to_string();
+            let error = read_avasoft8("f.IRR8", &bytes).unwrap_err().to_string();
             assert!(error.contains(words) && error.starts_with("f.IRR8: "), "{error}");
         }
-        assert!(avasoft8_read("f.RFL8", &avasoft8(b"AVS84", 1, 4)).is_ok());
+        assert!(read_avasoft8("f.RFL8", &avasoft8(b"AVS84", 1, 4)).is_ok());
     }
 
     #[test]
     fn a_file_that_is_cut_anywhere_is_refused_by_name() {
         let bytes = avasoft8(b"AVS82", 2, 4);
         for length in 5..bytes.len() {
-            let error = avasoft8_read("some.rfl8", &bytes[..length]).unwrap_err().to_string();
+            let error = read_avasoft8("some.rfl8", &bytes[..length]).unwrap_err().to_string();
             assert!(error.starts_with("some.rfl8: faulty Avantes"), "{error}");
         }
     }
@@ -349,20 +349,20 @@ pub(super) mod tests {
     fn the_processed_column_and_its_unit_are_found() {
         let text = "0804016U1-\r\nIntegration time: 100.00 ms\r\nWave   ;Transmittance\r\n\
             [nm]   ;[% transmittance]\r\n300.00;3.5\r\n301.00;4.5\r\n";
-        let found = &read("x.ttt", text).unwrap()[0];
+        let found = &read_text("x.ttt", text).unwrap()[0];
         assert_eq!((found.quantity, found.unit), (MeasuredQuantity::Transmittance, Unit::Percent));
         assert_eq!((&found.wavelengths_nm, &found.values), (&vec![300.0, 301.0], &vec![3.5, 4.5]));
         assert_eq!(found.details, [("Integration time".to_owned(), "100.00 ms".to_owned())]);
         let text = "Wave;Sample;Dark;Reference;Reflectance\n[nm];[counts];[counts];[counts];[%]\n\n\
             400,5;10;1;20;47,4\n401,5;11;1;20;52,6\n";
-        let found = &read("x.txt", text).unwrap()[0];
+        let found = &read_text("x.txt", text).unwrap()[0];
         assert_eq!((found.line, &found.values), (4, &vec![47.4, 52.6]));
         assert_eq!((found.quantity, found.unit), (MeasuredQuantity::Reflectance, Unit::Percent));
         // Columns of counts may follow the processed one.
         let behind = "Wave;Reflectance;Sample;Dark\n[nm];[%];[counts];[counts]\n\
             400;47;10;1\n401;52;11;1\n";
-        assert_eq!(read("x.txt", behind).unwrap()[0].values, [47.0, 52.0]);
-        let bad = read("x.txt", &text.replace("52,6", "?"));
+        assert_eq!(read_text("x.txt", behind).unwrap()[0].values, [47.0, 52.0]);
+        let bad = read_text("x.txt", &text.replace("52,6", "?"));
         assert!(matches!(bad, Err(InstrumentError::Line { line: 5, .. })), "{bad:?}");
     }
 
@@ -386,8 +386,8 @@ pub(super) mod tests {
     fn both_versions_are_read() {
         for version in [60.0, 70.0] {
             let bytes = avasoft7(version, &PIXELS);
-            assert!(is_binary(&bytes));
-            let found = avasoft7_read("a/red.TRM", &bytes).unwrap();
+            assert!(is_avasoft7(&bytes));
+            let found = read_avasoft7("a/red.TRM", &bytes).unwrap();
             let names: Vec<&str> = found.iter().map(|record| record.name.as_str()).collect();
             assert_eq!(names, ["red", "red (S)", "red (R)", "red (D)"]);
             assert_eq!(
@@ -400,7 +400,7 @@ pub(super) mod tests {
             );
             assert_eq!(found[2].values, [110.0, 10.0, 110.0]);
             assert_eq!(found[0].details[0].1, "20 ms");
-            let scope = &avasoft7_read("red.ROH", &avasoft7(version, &PIXELS[..3])).unwrap()[0];
+            let scope = &read_avasoft7("red.ROH", &avasoft7(version, &PIXELS[..3])).unwrap()[0];
             assert_eq!(
                 (scope.quantity, &scope.values),
                 (MeasuredQuantity::Counts, &vec![30.0, 110.0, 10.0])
@@ -412,10 +412,10 @@ pub(super) mod tests {
     fn a_file_that_is_cut_anywhere_is_refused_by_name() {
         let bytes = avasoft7(70.0, &PIXELS);
         for length in 4..bytes.len() - 4 {
-            let error = avasoft7_read("some.trm", &bytes[..length]).unwrap_err().to_string();
+            let error = read_avasoft7("some.trm", &bytes[..length]).unwrap_err().to_string();
             assert!(error.starts_with("some.trm: faulty Avantes"), "{error}");
         }
-        let far = avasoft7_read("f.roh", &avasoft7(70.0, &[]).repeat(2)).unwrap();
+        let far = read_avasoft7("f.roh", &avasoft7(70.0, &[]).repeat(2)).unwrap();
         assert_eq!(far[0].values.len(), 3);
     }
 }

@@ -257,7 +257,6 @@ impl Fields {
                 unit = Unit::Fraction;
             }
         }
-        let found = |names: &[&str]| upper.iter().position(|name| names.contains(&name.as_str()));
         let keyword_number = |name: &str| {
             let keyword = keywords.iter().find(|(_, key, _)| key.eq_ignore_ascii_case(name))?;
             number(&keyword.2, Decimal::Point)
@@ -266,8 +265,8 @@ impl Fields {
             values,
             unit,
             norm: keyword_number("SPECTRAL_NORM").filter(|norm| *norm > 0.0),
-            name: found(&["SAMPLE_NAME", "SAMPLENAME"]),
-            id: found(&["SAMPLE_ID", "SAMPLEID", "SAMPLE_LOC"]),
+            name: position_of(&upper, &["SAMPLE_NAME", "SAMPLENAME"]),
+            id: position_of(&upper, &["SAMPLE_ID", "SAMPLEID", "SAMPLE_LOC"]),
             remarks: Vec::new(),
         };
         if let (Some(bands), Some(start), Some(end)) = (
@@ -357,6 +356,10 @@ impl Fields {
         }
         Ok((ordered, unit))
     }
+}
+
+fn position_of(upper: &[String], names: &[&str]) -> Option<usize> {
+    upper.iter().position(|name| names.contains(&name.as_str()))
 }
 
 /// The wavelength in nm in the name of a field: `SPECTRAL_NM_400`, `SPECTRAL_NM400`,

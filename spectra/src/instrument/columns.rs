@@ -308,7 +308,7 @@ fn is_row(cells: &[&str]) -> bool {
 /// wavelengths.
 const LONGEST_NM: f64 = 3300.0;
 
-pub(super) fn bruker_read(
+pub(super) fn read_bruker(
     file: &str,
     text: &str,
 ) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -416,10 +416,10 @@ mod tests {
 
     #[test]
     fn the_first_column_is_nm_or_wavenumbers_by_its_size() {
-        let found = &bruker_read("x/a.0.dpt", "25000.0,0.2\n20000.0,0.1\n").unwrap()[0];
+        let found = &read_bruker("x/a.0.dpt", "25000.0,0.2\n20000.0,0.1\n").unwrap()[0];
         assert_eq!((found.name.as_str(), &found.wavelengths_nm), ("a.0", &vec![400.0, 500.0]));
         assert_eq!(found.values, [0.2, 0.1]);
-        let found = &bruker_read("a.dpt", "400.0,0.2\n500.0,0.1\n").unwrap()[0];
+        let found = &read_bruker("a.dpt", "400.0,0.2\n500.0,0.1\n").unwrap()[0];
         assert_eq!(found.wavelengths_nm, [400.0, 500.0]);
         assert!(found.remarks[0].contains("nm"), "{:?}", found.remarks);
     }

@@ -297,7 +297,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn numbers_and_text_are_read_and_the_end_is_told() {
+    fn numbers_and_text_are_read_and_the_end_is_reported() {
         let bytes = [1, 2, 0, 0, 0, 128, 63, b'A', b'S', 0, 7];
         let mut reader = BinaryBytes::new("f", "test", &bytes);
         assert_eq!((reader.u8().unwrap(), reader.u16().unwrap()), (1, 2));

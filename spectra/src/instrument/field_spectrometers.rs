@@ -29,19 +29,19 @@ const SPECTRUM: usize = 484;
 const MOST_RATIO: f64 = 2.5;
 
 /// Whether a binary file is of this format: its first bytes name the version.
-pub(super) fn is_binary(bytes: &[u8]) -> bool {
+pub(super) fn is_asd_binary(bytes: &[u8]) -> bool {
     let versions = [b"ASD", b"as2", b"as3", b"as4", b"as5", b"as6", b"as7", b"as8"];
     versions.iter().any(|version| bytes.starts_with(*version))
         && bytes[3..bytes.len().min(SPECTRUM)].contains(&0)
 }
 
 /// Whether a text is the conversion of such a file.
-pub(super) fn is_text(text: &str) -> bool {
+pub(super) fn is_asd_text(text: &str) -> bool {
     lines(text).take(60).any(|(_, line)| line.contains("ASD spectrum file"))
 }
 
 /// The spectrum of a binary file.
-pub(super) fn read_binary(
+pub(super) fn read_asd_binary(
     file: &str,
     bytes: &[u8],
 ) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -118,7 +118,10 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// The spectra of a converted text: one column each below the heading `Wavelength`.
-pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+pub(super) fn read_asd_text(
+    file: &str,
+    text: &str,
+) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let Some((at, heading)) = lines(text)
         .find(|(_, line)| line.trim_start().to_ascii_lowercase().starts_with("wavelength"))
     else {
@@ -159,14 +162,15 @@ fn unit(quantity: MeasuredQuantity) -> Unit {
 
 /// The quantity that the lines above a converted spectrum state.
 fn quantity(head: &str) -> MeasuredQuantity {
-    let has = |words: &str| head.contains(words);
     let kind = lines(head).find_map(|(_, line)| line.trim().strip_prefix("Spectrum file is "));
     let stated = kind.map_or(MeasuredQuantity::Unstated, MeasuredQuantity::of_words);
-    if has("Data is compared to a white reference") {
+    if head.contains("Data is compared to a white reference") {
         MeasuredQuantity::Reflectance
-    } else if has("cosine receptor attached") {
+    } else if head.contains("cosine receptor attached") {
         MeasuredQuantity::Power
-    } else if stated == MeasuredQuantity::Unstated && has("Data is not compared to a white") {
+    } else if stated == MeasuredQuantity::Unstated
+        && head.contains("Data is not compared to a white")
+    {
         MeasuredQuantity::Counts
     } else {
         stated
@@ -179,7 +183,7 @@ pub(super) fn is_heading(before: &str, line: &str) -> bool {
 }
 
 /// The main spectrum of a file: reflectance if there is one, otherwise the reading of the sample.
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+pub(super) fn read_sed(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let lines: Vec<(usize, &str)> = lines(text).collect();
     let found = lines.windows(2).find(|pair| is_heading(pair[0].1, pair[1].1.trim()));
     let Some([_, (at, headings)]) = found else { return Ok(Vec::new()) };
@@ -240,12 +244,12 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
 /// Start of the first line.
 const FIRST: &str = "/*** Spectra Vista";
 
-pub(super) fn svc_is_text(text: &str) -> bool {
+pub(super) fn is_sig(text: &str) -> bool {
     text.trim_start().starts_with(FIRST)
 }
 
 /// Reflectance, or sample and white, in the band of the first detector.
-pub(super) fn svc_read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+pub(super) fn read_sig(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let Some((at, _)) = lines(text).find(|(_, line)| line.trim_start().starts_with("data=")) else {
         return Ok(Vec::new());
     };
@@ -306,8 +310,8 @@ mod svc_tests {
 
     #[test]
     fn reflectance_in_percent_is_read_up_to_the_overlap() {
-        let found = &svc_read("a/leaf.sig", FILE).unwrap()[0];
-        assert!(svc_is_text(FILE));
+        let found = &read_sig("a/leaf.sig", FILE).unwrap()[0];
+        assert!(is_sig(FILE));
         assert_eq!((found.name.as_str(), found.line), ("leaf", 5));
         assert_eq!(found.wavelengths_nm, [400.0, 500.0, 980.0]);
         assert_eq!(found.values, [10.0, 20.0, 50.0]);
@@ -319,10 +323,10 @@ mod svc_tests {
     fn files_without_reflectance_hold_power_or_counts() {
         let text =
             FILE.replace("  10.00\n", "\n").replace("  20.00\n", "\n").replace("  50\n", "\n");
-        let found = svc_read("f", &text).unwrap();
+        let found = read_sig("f", &text).unwrap();
         assert_eq!((found[0].quantity, found[1].role), (MeasuredQuantity::Power, Role::White));
         assert_eq!(found[0].values, [10.0, 20.0, 0.5]);
-        let found = svc_read("f", &text.replace("Radiance", "Counts")).unwrap();
+        let found = read_sig("f", &text.replace("Radiance", "Counts")).unwrap();
         assert_eq!(found[0].quantity, MeasuredQuantity::Counts);
     }
 
@@ -334,7 +338,7 @@ mod svc_tests {
             ("980.0", "450.0", 7),
             ("400.0  100.00  10.00", "400", 6),
         ] {
-            let found = svc_read("f", &FILE.replacen(old, new, 1));
+            let found = read_sig("f", &FILE.replacen(old, new, 1));
             let Err(InstrumentError::Line { line, .. } | InstrumentError::Order { line, .. }) =
                 found
             else {
@@ -376,14 +380,14 @@ pub(super) mod tests {
     #[test]
     fn counts_are_divided_by_those_of_the_white() {
         let bytes = asd(0, &SAMPLE, Some(&WHITE));
-        assert!(is_binary(&bytes));
-        let found = &read_binary("a/Red.asd", &bytes).unwrap()[0];
+        assert!(is_asd_binary(&bytes));
+        let found = &read_asd_binary("a/Red.asd", &bytes).unwrap()[0];
         assert_eq!(found.wavelengths_nm, [400.0, 500.0, 600.0, 700.0]);
         assert_eq!(found.values, [0.1, 0.2, 0.6, 0.35]);
         assert_eq!((found.quantity, found.unit), (MeasuredQuantity::Reflectance, Unit::Fraction));
         assert_eq!((found.name.as_str(), found.details[1].1.as_str()), ("Red", "paint"));
         let dark =
-            read_binary("f", &asd(0, &SAMPLE, Some(&[0.0, 1000.0, 1000.0, 1000.0]))).unwrap();
+            read_asd_binary("f", &asd(0, &SAMPLE, Some(&[0.0, 1000.0, 1000.0, 1000.0]))).unwrap();
         assert_eq!((dark[0].wavelengths_nm[0], dark[0].remarks.len()), (500.0, 1));
     }
 
@@ -399,7 +403,7 @@ pub(super) mod tests {
             (6, &ratio, None, MeasuredQuantity::Transmittance),
             (8, &ratio, None, MeasuredQuantity::Absorbance),
         ] {
-            let found = read_binary("f", &asd(kind, sample, white.map(|w| &w[..]))).unwrap();
+            let found = read_asd_binary("f", &asd(kind, sample, white.map(|w| &w[..]))).unwrap();
             assert_eq!(found[0].quantity, quantity, "{kind}");
             assert_eq!(found[0].values, sample, "{kind}");
         }
@@ -410,7 +414,7 @@ pub(super) mod tests {
         let bytes = asd(0, &SAMPLE, Some(&WHITE));
         let without_white = SPECTRUM + 8 * SAMPLE.len();
         for length in 3..bytes.len() {
-            match read_binary("some.asd", &bytes[..length]) {
+            match read_asd_binary("some.asd", &bytes[..length]) {
                 Err(error) => {
                     assert!(error.to_string().starts_with("some.asd: faulty ASD"), "{error}");
                 }
@@ -429,16 +433,16 @@ pub(super) mod tests {
 
     #[test]
     fn a_converted_text_states_what_it_holds() {
-        assert!(is_text(TEXT));
-        let found = &read_text("f", TEXT).unwrap()[0];
+        assert!(is_asd_text(TEXT));
+        let found = &read_asd_text("f", TEXT).unwrap()[0];
         assert_eq!((found.name.as_str(), found.line), ("red.asd", 9));
         assert_eq!(found.values, [0.01, 0.02]);
         assert_eq!((found.quantity, found.unit), (MeasuredQuantity::Reflectance, Unit::Fraction));
         let bare = TEXT.replace("is compared", "is not compared");
-        assert_eq!(read_text("f", &bare).unwrap()[0].quantity, MeasuredQuantity::Counts);
+        assert_eq!(read_asd_text("f", &bare).unwrap()[0].quantity, MeasuredQuantity::Counts);
         let sky = bare.replace("Spectrum file", "There was a remote cosine receptor attached\nx");
-        assert_eq!(read_text("f", &sky).unwrap()[0].quantity, MeasuredQuantity::Power);
-        let cut = read_text("f", &TEXT.replace("0,02", "0,0x"));
+        assert_eq!(read_asd_text("f", &sky).unwrap()[0].quantity, MeasuredQuantity::Power);
+        let cut = read_asd_text("f", &TEXT.replace("0,02", "0,0x"));
         assert!(matches!(cut, Err(InstrumentError::Line { line: 10, .. })), "{cut:?}");
     }
 
@@ -448,7 +452,7 @@ pub(super) mod tests {
 
     #[test]
     fn reflectance_is_found_by_its_heading_with_its_unit() {
-        let found = &read("a/leaf.sed", FILE).unwrap()[0];
+        let found = &read_sed("a/leaf.sed", FILE).unwrap()[0];
         assert_eq!((found.name.as_str(), found.line), ("leaf", 7));
         assert_eq!(
             (&found.wavelengths_nm, &found.values),
@@ -456,10 +460,10 @@ pub(super) mod tests {
         );
         assert_eq!((found.quantity, found.unit), (MeasuredQuantity::Reflectance, Unit::Percent));
         assert!(found.details.contains(&("Version".to_owned(), "2.4".to_owned())));
-        let fraction = &read("f", &FILE.replace("Reflect. %", "Reflect. [1.0]")).unwrap()[0];
+        let fraction = &read_sed("f", &FILE.replace("Reflect. %", "Reflect. [1.0]")).unwrap()[0];
         assert_eq!(fraction.unit, Unit::Fraction);
         let numbered = FILE.replace("Wvl\t", "Chan.#\tWvl\t").replace("\n40", "\n7\t40");
-        assert_eq!(read("f", &numbered).unwrap()[0].wavelengths_nm, [400.0, 401.0]);
+        assert_eq!(read_sed("f", &numbered).unwrap()[0].wavelengths_nm, [400.0, 401.0]);
     }
 
     #[test]
@@ -469,10 +473,10 @@ pub(super) mod tests {
             ("Norm. DN (Target)", MeasuredQuantity::Counts),
         ] {
             let text = FILE.replace("Rad. (Target)\tReflect. %", &format!("x\t{heading}"));
-            assert_eq!(read("f", &text).unwrap()[0].quantity, quantity, "{heading}");
+            assert_eq!(read_sed("f", &text).unwrap()[0].quantity, quantity, "{heading}");
         }
         let counts = FILE.replace("Rad. (Ref.)", "Norm. DN (Ref.)");
-        assert_eq!(read("f", &counts).unwrap()[1].role, Role::White);
+        assert_eq!(read_sed("f", &counts).unwrap()[1].role, Role::White);
     }
 
     #[test]
@@ -483,7 +487,7 @@ pub(super) mod tests {
             ("Reflect. %", "Reflect. %\tmore", 7),
             ("Rad. (Target)\tReflect. %", "x\ty", 6),
         ] {
-            let found = read("f", &FILE.replace(old, new));
+            let found = read_sed("f", &FILE.replace(old, new));
             let Err(InstrumentError::Line { line, .. }) = found else { panic!("{found:?}") };
             assert_eq!(line, at, "{new}");
         }

@@ -119,18 +119,19 @@ impl Format {
         let start = text.trim_start();
         if start.starts_with('<') {
             let head: String = text.chars().take(4000).collect::<String>().to_lowercase();
-            let is = |word: &str| head.contains(word);
-            return if is("cxf") {
+
+            return if head.contains("cxf") {
                 Some(Self::Cxf)
             } else {
-                (is("iestm27") || is("spectraldistribution")).then_some(Self::Tm27)
+                (head.contains("iestm27") || head.contains("spectraldistribution"))
+                    .then_some(Self::Tm27)
             };
         }
         if start.starts_with("##") {
             return Some(Self::Jcamp);
-        } else if field_spectrometers::svc_is_text(text) {
+        } else if field_spectrometers::is_sig(text) {
             return Some(Self::Svc);
-        } else if field_spectrometers::is_text(text) {
+        } else if field_spectrometers::is_asd_text(text) {
             return Some(Self::Asd);
         }
         let mut before = "";
@@ -154,7 +155,7 @@ impl Format {
         if file.to_ascii_lowercase().ends_with(".dpt") {
             return Some(Self::Bruker);
         }
-        if light_meters::is_text(text) {
+        if light_meters::is_uprtek(text) {
             return Some(Self::Uprtek);
         }
         columns::is_column_text(text).then_some(Self::Columns)
@@ -215,11 +216,11 @@ impl ContentKind {
     /// [`InstrumentError::NotRead`] for a binary format that is not read, [`InstrumentError::Faulty`] for an
     /// archive that cannot be opened.
     pub(super) fn of(file: &str, bytes: &[u8]) -> Result<Self, InstrumentError> {
-        if field_spectrometers::is_binary(bytes) {
+        if field_spectrometers::is_asd_binary(bytes) {
             return Ok(Self::Asd);
-        } else if avantes::is_binary(bytes) {
+        } else if avantes::is_avasoft7(bytes) {
             return Ok(Self::AvaSoft7);
-        } else if avantes::avasoft8_is_binary(bytes) {
+        } else if avantes::is_avasoft8(bytes) {
             return Ok(Self::AvaSoft8);
         }
         let not_read = |kind, way| InstrumentError::NotRead { file: file.to_owned(), kind, way };

@@ -28,14 +28,23 @@ fn wavelength(key: &str) -> Option<f64> {
 const OF_A_LIGHT: [&str; 6] = ["Model Name", "LUX", "CCT", "PPFD", "LambdaP", "IRR"];
 
 /// Whether a text has such rows, and figures of a light.
-pub(super) fn is_text(text: &str) -> bool {
-    let rows = || lines(text).filter_map(|(_, line)| key_and_value(line));
-    let wavelengths = rows().filter(|(key, _)| wavelength(key).is_some()).take(2).count();
-    wavelengths == 2 && rows().any(|(key, _)| OF_A_LIGHT.contains(&key))
+pub(super) fn is_uprtek(text: &str) -> bool {
+    let wavelengths = lines(text)
+        .filter_map(|(_, line)| key_and_value(line))
+        .filter(|(key, _)| wavelength(key).is_some())
+        .take(2)
+        .count();
+    wavelengths == 2
+        && lines(text)
+            .filter_map(|(_, line)| key_and_value(line))
+            .any(|(key, _)| OF_A_LIGHT.contains(&key))
 }
 
 /// The readings of a file, each in a column: the power of a light.
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+pub(super) fn read_uprtek(
+    file: &str,
+    text: &str,
+) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut details: Vec<(String, Vec<&str>)> = Vec::new();
     let mut tables: Vec<Vec<(usize, f64, Vec<&str>)>> = Vec::new();
     let mut last_nm = f64::INFINITY;
@@ -97,7 +106,7 @@ pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, Inst
 const SPECTRAL: &str = "Spectral Data";
 
 /// The readings of a Sekonic file, each at the finest step of the file.
-pub(super) fn sekonic_read(
+pub(super) fn read_sekonic(
     file: &str,
     text: &str,
 ) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -180,7 +189,7 @@ fn spectrum(
 }
 
 /// The spectral distributions of a TM-27 file.
-pub(super) fn tm27_read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+pub(super) fn read_tm27(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let root = parse(file, text)?;
     if !root.name.starts_with("IESTM27") {
         return Err(InstrumentError::line(file, root.line, "an IESTM2714 element", &root.name));
@@ -247,7 +256,7 @@ mod sekonic_tests {
 
     #[test]
     fn the_finest_table_is_taken_for_every_reading() {
-        let records = sekonic_read("f", FILE).unwrap();
+        let records = read_sekonic("f", FILE).unwrap();
         let names: Vec<_> = records.iter().map(|record| record.name.as_str()).collect();
         assert_eq!(names, ["lamp one", "lamp two"]);
         assert_eq!(records[0].wavelengths_nm, [380.0, 381.0, 385.0]);
@@ -260,7 +269,7 @@ mod sekonic_tests {
     #[test]
     fn decimal_commas_are_read_between_semicolons() {
         let records =
-            sekonic_read("a/lamp.csv", "Spectral Data 380[nm];0,5\nSpectral Data 385[nm];1\n");
+            read_sekonic("a/lamp.csv", "Spectral Data 380[nm];0,5\nSpectral Data 385[nm];1\n");
         let records = records.unwrap();
         assert_eq!(
             (records[0].values.as_slice(), records[0].name.as_str()),
@@ -279,10 +288,10 @@ mod sekonic_tests {
             ),
             ("Spectral Data 380[nm],1\nSpectral Data 380[nm],2\n", "f, line 2: the wavelength 380"),
         ] {
-            let error = sekonic_read("f", text).unwrap_err().to_string();
+            let error = read_sekonic("f", text).unwrap_err().to_string();
             assert!(error.starts_with(fault), "{error}");
         }
-        assert_eq!(sekonic_read("f", "Title,x\n").unwrap(), []);
+        assert_eq!(read_sekonic("f", "Title,x\n").unwrap(), []);
     }
 }
 
@@ -295,9 +304,9 @@ mod tests {
 
     #[test]
     fn rows_of_wavelengths_are_the_power_of_a_light() {
-        assert!(is_text(FILE) && !is_text("Model Name\tLI-180\n380nm\t1\n"));
-        assert!(!is_text("nm,reflectance\n380nm,1\n381nm,1\n"), "no light");
-        let found = &read("a/sky.txt", FILE).unwrap()[0];
+        assert!(is_uprtek(FILE) && !is_uprtek("Model Name\tLI-180\n380nm\t1\n"));
+        assert!(!is_uprtek("nm,reflectance\n380nm,1\n381nm,1\n"), "no light");
+        let found = &read_uprtek("a/sky.txt", FILE).unwrap()[0];
         assert_eq!((found.name.as_str(), found.line), ("sky", 5));
         assert_eq!(
             (&found.wavelengths_nm, &found.values),
@@ -306,10 +315,10 @@ mod tests {
         assert_eq!(found.quantity, MeasuredQuantity::Power);
         assert_eq!(found.details[0], ("Model Name".to_owned(), "LI-180".to_owned()));
         let commas = FILE.replace(".5", ",5");
-        assert_eq!(read("f", &commas).unwrap()[0].values, [27.5, 28.5, 29.0]);
+        assert_eq!(read_uprtek("f", &commas).unwrap()[0].values, [27.5, 28.5, 29.0]);
         let csv = FILE.replace('\t', ",");
-        assert_eq!(read("f", &csv).unwrap()[0].values, [27.5, 28.5, 29.0]);
-        let two = read(
+        assert_eq!(read_uprtek("f", &csv).unwrap()[0].values, [27.5, 28.5, 29.0]);
+        let two = read_uprtek(
             "f",
             &FILE.replace("7.5", "7.5\t1").replace("8.5", "8.5\t2").replace("\t29", "\t29\t3"),
         );
@@ -319,7 +328,7 @@ mod tests {
     #[test]
     fn faults_name_their_line() {
         for (old, new, at) in [("28.5", "x", 6), ("\t28.5", "\t", 6), ("381nm", "380nm", 6)] {
-            let found = read("f", &FILE.replace(old, new));
+            let found = read_uprtek("f", &FILE.replace(old, new));
             let Err(InstrumentError::Line { line, .. } | InstrumentError::Duplicate { line, .. }) =
                 found
             else {
@@ -343,7 +352,7 @@ mod tests {
 
     #[test]
     fn a_lamp_has_its_name_its_quantity_and_its_wavelengths() {
-        let records = tm27_read("f.spdx", &file("Rare earth", "relative", DATA)).unwrap();
+        let records = read_tm27("f.spdx", &file("Rare earth", "relative", DATA)).unwrap();
         assert_eq!(records.len(), 1);
         assert_eq!(records[0].name, "Rare earth");
         assert_eq!(records[0].quantity, MeasuredQuantity::Power);
@@ -352,10 +361,10 @@ mod tests {
         let (first, second) = DATA.split_at(DATA.find("\n").unwrap() + 1);
         let third = first.replace("400.0", "402").replace("0.034", "1");
         let mixed =
-            tm27_read("f.spdx", &file("d", "flux", &[first, second, &third].concat())).unwrap();
+            read_tm27("f.spdx", &file("d", "flux", &[first, second, &third].concat())).unwrap();
         assert_eq!(mixed[0].values, [0.034, 1.0, 0.015]);
         assert!(mixed[0].remarks[0].contains("sorted"), "{:?}", mixed[0].remarks);
-        let unnamed = tm27_read("a/lamp.spdx", &file("N/A", "reflectance", DATA)).unwrap();
+        let unnamed = read_tm27("a/lamp.spdx", &file("N/A", "reflectance", DATA)).unwrap();
         assert_eq!(unnamed[0].name, "lamp");
         assert_eq!(unnamed[0].quantity, MeasuredQuantity::Reflectance);
     }
@@ -373,11 +382,11 @@ mod tests {
                 "f, line 3: expected a wavelength above 0",
             ),
         ] {
-            let error = tm27_read("f", &file("d", "flux", data)).unwrap_err().to_string();
+            let error = read_tm27("f", &file("d", "flux", data)).unwrap_err().to_string();
             assert!(error.starts_with(fault), "{error}");
         }
-        let error = tm27_read("f", "<a/>").unwrap_err().to_string();
+        let error = read_tm27("f", "<a/>").unwrap_err().to_string();
         assert!(error.starts_with("f, line 1: expected an IESTM2714 element"), "{error}");
-        assert_eq!(tm27_read("f", &file("d", "flux", "")).unwrap(), []);
+        assert_eq!(read_tm27("f", &file("d", "flux", "")).unwrap(), []);
     }
 }

@@ -16,7 +16,7 @@ use super::measured::{InstrumentError, MeasuredQuantity, MeasuredSpectrum, Role,
 use super::points::{Duplicates, Point, ordered};
 use super::xml::{Element, parse};
 
-pub(super) fn read(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
+pub(super) fn read_text(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let mut blocks: Vec<Vec<MeasuredSpectrum>> = Vec::new();
     let mut details: Vec<(String, String)> = Vec::new();
     // Lines outside the data are left empty, so that the others keep their line numbers.
@@ -126,7 +126,7 @@ pub(super) fn is_spectrum(name: &str) -> bool {
     number.is_some_and(|number| number.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-pub(super) fn procspec_read(
+pub(super) fn read_procspec(
     file: &str,
     bytes: &[u8],
 ) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
@@ -253,18 +253,18 @@ pub(super) mod tests {
         let text = "SpectraSuite Data File\r\nUser: A\r\nReference Spectrum Present: Yes\r\n\
             Number of Pixels in Processed Spectrum: 2\r\n>>>>>Begin Processed Spectral Data<<<<<\r\n\
             400,25\t12,5\r\n401,5\t1,2E1\r\n>>>>>End Processed Spectral Data<<<<<\r\n";
-        let found = &read("d/Red.txt", text).unwrap()[0];
+        let found = &read_text("d/Red.txt", text).unwrap()[0];
         assert_eq!((found.name.as_str(), found.line), ("Red", 6));
         assert_eq!(found.quantity, MeasuredQuantity::Unstated);
         assert_eq!(
             (&found.wavelengths_nm, &found.values),
             (&vec![400.25, 401.5], &vec![12.5, 12.0])
         );
-        let raw = &read("d/Red.txt", &text.replace("Yes", "No")).unwrap()[0];
+        let raw = &read_text("d/Red.txt", &text.replace("Yes", "No")).unwrap()[0];
         assert_eq!(raw.quantity, MeasuredQuantity::Counts);
-        let cut = read("d/Red.txt", &text.replace("401,5\t1,2E1\r\n", ""));
+        let cut = read_text("d/Red.txt", &text.replace("401,5\t1,2E1\r\n", ""));
         assert!(matches!(cut, Err(InstrumentError::Count { line: 7, found: 1, .. })), "{cut:?}");
-        let bad = read("d/Red.txt", &text.replace("1,2E1", "1,2Z1"));
+        let bad = read_text("d/Red.txt", &text.replace("1,2E1", "1,2Z1"));
         assert!(matches!(bad, Err(InstrumentError::Line { line: 7, .. })), "{bad:?}");
     }
 
@@ -278,7 +278,7 @@ pub(super) mod tests {
         let sample = ("a".to_owned(), MeasuredQuantity::Counts, Role::Main, vec![50.0, 20.0]);
         assert_eq!(summary(&raw), [sample, counts_of("").remove(3)]);
         // Without a name the main spectrum is selected.
-        let records = read("a.jaz", text).unwrap();
+        let records = read_text("a.jaz", text).unwrap();
         assert_eq!(choose_spectrum("a.jaz", &records, None).unwrap().name, "a");
         assert_eq!(choose_spectrum("a.jaz", &records[3..], None).unwrap().name, "a (D)");
     }
@@ -322,7 +322,7 @@ pub(super) mod tests {
 
     #[test]
     fn the_processed_spectrum_and_its_counts_are_read() {
-        let found = procspec_read("a/red.ProcSpec", &procspec("Reflection")).unwrap();
+        let found = read_procspec("a/red.ProcSpec", &procspec("Reflection")).unwrap();
         let names: Vec<&str> = found.iter().map(|record| record.name.as_str()).collect();
         assert_eq!(names, ["red", "red (S)", "red (R)", "red (D)"]);
         assert_eq!(
@@ -333,12 +333,12 @@ pub(super) mod tests {
         assert_eq!((found[0].quantity, found[2].role), (MeasuredQuantity::Unstated, Role::White));
         assert!(found[0].is_relative_to_white(), "its white makes it no lamp");
         assert_eq!(found[0].details[0].1, "Anna");
-        let lamp = procspec_read("f", &procspec("com.AbsoluteIrradianceProcessor")).unwrap();
+        let lamp = read_procspec("f", &procspec("com.AbsoluteIrradianceProcessor")).unwrap();
         assert_eq!(lamp[0].quantity, MeasuredQuantity::Power);
     }
 
     #[test]
-    fn faults_are_told_with_file_and_line() {
+    fn faults_are_reported_with_file_and_line() {
         let error = fault_with("<double>10<", "<double>1O<");
         assert!(error.starts_with("some.ProcSpec, line") && error.contains("`1O`"), "{error}");
         let error = fault_with("<double>10</double>", "");
@@ -350,20 +350,20 @@ pub(super) mod tests {
     fn an_archive_that_is_cut_anywhere_is_refused_by_name() {
         let bytes = procspec("");
         for length in 4..bytes.len() {
-            let error = procspec_read("some.ProcSpec", &bytes[..length]).unwrap_err().to_string();
+            let error = read_procspec("some.ProcSpec", &bytes[..length]).unwrap_err().to_string();
             assert!(error.starts_with("some.ProcSpec"), "{error}");
         }
     }
 
     fn fault_with(old: &str, new: &str) -> String {
         let text = xml("").replacen(old, new, 1);
-        procspec_read("some.ProcSpec", &archive(&[("ps_0.xml", text.as_bytes())]))
+        read_procspec("some.ProcSpec", &archive(&[("ps_0.xml", text.as_bytes())]))
             .unwrap_err()
             .to_string()
     }
 
     fn quantity(file: &str, text: &str) -> MeasuredQuantity {
-        read(file, text).unwrap()[0].quantity
+        read_text(file, text).unwrap()[0].quantity
     }
 
     fn counts_of(number: &str) -> Vec<(String, MeasuredQuantity, Role, Vec<f64>)> {
@@ -379,7 +379,7 @@ pub(super) mod tests {
     }
 
     fn summary(text: &str) -> Vec<(String, MeasuredQuantity, Role, Vec<f64>)> {
-        read("a.jaz", text)
+        read_text("a.jaz", text)
             .unwrap()
             .into_iter()
             .map(|r| (r.name, r.quantity, r.role, r.values))

@@ -34,8 +34,8 @@ pub fn read(
     format: Option<Format>,
 ) -> Result<InstrumentFile, InstrumentError> {
     let Some(text) = FileText::of(file, bytes)? else { return read_binary(file, bytes, format) };
-    let told = format.filter(|format| *format != Format::Workbook);
-    let found = told
+    let stated = format.filter(|format| *format != Format::Workbook);
+    let found = stated
         .or_else(|| Format::detect(&text.file, &text.text))
         .ok_or_else(|| InstrumentError::Unrecognised { file: text.file.clone() })?;
     let file = text.file.as_str();
@@ -43,19 +43,19 @@ pub fn read(
         Format::Cgats => cgats::read(file, &text.text),
         Format::Jcamp => jcamp::read(file, &text.text),
         Format::Qtx => qtx::read(file, &text.text),
-        Format::OceanOptics => ocean_optics::read(file, &text.text),
-        Format::Avantes => avantes::read(file, &text.text),
-        Format::Bruker => columns::bruker_read(file, &text.text),
+        Format::OceanOptics => ocean_optics::read_text(file, &text.text),
+        Format::Avantes => avantes::read_text(file, &text.text),
+        Format::Bruker => columns::read_bruker(file, &text.text),
         Format::Columns | Format::Workbook => columns::read(file, &text.text),
         Format::Cxf => cxf::read(file, &text.text),
-        Format::Tm27 => light_meters::tm27_read(file, &text.text),
-        Format::Sekonic => light_meters::sekonic_read(file, &text.text),
-        Format::Asd => field_spectrometers::read_text(file, &text.text),
-        Format::SpectralEvolution => field_spectrometers::read(file, &text.text),
-        Format::Svc => field_spectrometers::svc_read(file, &text.text),
-        Format::Uprtek => light_meters::read(file, &text.text),
+        Format::Tm27 => light_meters::read_tm27(file, &text.text),
+        Format::Sekonic => light_meters::read_sekonic(file, &text.text),
+        Format::Asd => field_spectrometers::read_asd_text(file, &text.text),
+        Format::SpectralEvolution => field_spectrometers::read_sed(file, &text.text),
+        Format::Svc => field_spectrometers::read_sig(file, &text.text),
+        Format::Uprtek => light_meters::read_uprtek(file, &text.text),
     }?;
-    let format = if text.is_sheet && told.is_none() { Format::Workbook } else { found };
+    let format = if text.is_sheet && stated.is_none() { Format::Workbook } else { found };
     let mut found = checked(file, format, spectra)?;
     for spectrum in &mut found.spectra {
         spectrum.remarks.extend(text.remark.clone());
@@ -83,10 +83,10 @@ fn read_binary(
         });
     }
     let spectra = match ContentKind::of(file, bytes)? {
-        ContentKind::Asd => field_spectrometers::read_binary(file, bytes),
-        ContentKind::ProcSpec => ocean_optics::procspec_read(file, bytes),
-        ContentKind::AvaSoft7 => avantes::avasoft7_read(file, bytes),
-        ContentKind::AvaSoft8 => avantes::avasoft8_read(file, bytes),
+        ContentKind::Asd => field_spectrometers::read_asd_binary(file, bytes),
+        ContentKind::ProcSpec => ocean_optics::read_procspec(file, bytes),
+        ContentKind::AvaSoft7 => avantes::read_avasoft7(file, bytes),
+        ContentKind::AvaSoft8 => avantes::read_avasoft8(file, bytes),
         ContentKind::Text | ContentKind::Workbook => Ok(Vec::new()),
     }?;
     checked(file, own, spectra)
@@ -212,8 +212,8 @@ mod tests {
             let found = read(file, &bytes, None).unwrap();
             assert_eq!(found.format, format, "{file}");
             assert_eq!(read("other.txt", &bytes, Some(format)).unwrap().format, format, "{file}");
-            let told = read(file, &bytes, Some(Format::Cgats)).unwrap_err();
-            assert!(matches!(told, InstrumentError::NotRead { .. }), "{told}");
+            let stated = read(file, &bytes, Some(Format::Cgats)).unwrap_err();
+            assert!(matches!(stated, InstrumentError::NotRead { .. }), "{stated}");
         }
     }
 
@@ -275,9 +275,9 @@ mod tests {
             }
             for copy in damaged {
                 if let Err(error) = read(file, &copy, None) {
-                    let told = error.to_string();
-                    assert!(told.contains(file), "{told}");
-                    assert!(told.chars().all(|c: char| !c.is_control()), "{told:?}");
+                    let stated = error.to_string();
+                    assert!(stated.contains(file), "{stated}");
+                    assert!(stated.chars().all(|c: char| !c.is_control()), "{stated:?}");
                 }
             }
         }

@@ -181,13 +181,14 @@ pub(super) mod tests {
 
     /// A workbook with sheets of this name and XML of rows.
     pub(in super::super) fn workbook(sheets: &[(&str, &str)]) -> Vec<u8> {
-        let numbered = || sheets.iter().zip(1..);
-        let list: String = numbered()
+        let list: String = sheets
+            .iter()
+            .zip(1..)
             .map(|((name, _), id)| {
                 format!("<sheet name=\"{name}\" sheetId=\"{id}\" r:id=\"rId{id}\"/>")
             })
             .collect();
-        let relations: String = numbered()
+        let relations: String = sheets.iter().zip(1..)
             .map(|(_, id)| {
                 format!(
                     "<Relationship Id=\"rId{id}\" Type=\"http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet\" Target=\"worksheets/sheet{id}.xml\"/>"
@@ -209,7 +210,7 @@ pub(super) mod tests {
             ("xl/_rels/workbook.xml.rels".to_owned(), relations),
             ("xl/sharedStrings.xml".to_owned(), strings),
         ];
-        for ((_, rows), id) in numbered() {
+        for ((_, rows), id) in sheets.iter().zip(1..) {
             let sheet =
                 format!("<worksheet xmlns=\"{main}\"><sheetData>{rows}</sheetData></worksheet>");
             files.push((format!("xl/worksheets/sheet{id}.xml"), sheet));

@@ -171,13 +171,17 @@ fn of_pigment(library: &PigmentLibrary, pigment: &Pigment, findings: &mut Vec<Fi
     if !pigment.identified {
         found(Severity::Warning, "S is not known, so its mixtures are a guess".into());
     }
-    let both = || pigment.absorption.iter().zip(&pigment.scattering);
-    if let Some(at) = both().position(|(k, s)| *k == 0.0 && *s == 0.0) {
+    if let Some(at) =
+        pigment.absorption.iter().zip(&pigment.scattering).position(|(k, s)| *k == 0.0 && *s == 0.0)
+    {
         let what = format!("K and S are both 0 at {} nm, which is no paint", grid.nm(at));
         found(Severity::Fault, what);
     }
     let surface = library.saunderson;
-    let film: Vec<f64> = both()
+    let film: Vec<f64> = pigment
+        .absorption
+        .iter()
+        .zip(&pigment.scattering)
         .map(|(k, s)| surface.measured_from_internal(spectra::optics::infinite_film(*k, *s)))
         .collect();
     let dark = film.iter().filter(|r| **r < surface.floor() + BLACK).count();
@@ -279,10 +283,10 @@ fn uncertainty(curve: &[f64], sd: &[f64]) -> Option<f64> {
 fn jump(curve: &[f64]) -> Option<usize> {
     // Near 0 a factor is meaningless.
     let least = 1e-3 * range(curve)[1];
-    let log = |index: usize| curve[index].max(least).ln();
+    let log: Vec<f64> = curve.iter().map(|value| value.max(least).ln()).collect();
     (1..curve.len().saturating_sub(1)).find(|&at| {
-        let left = log(at) - log(at - 1);
-        let right = log(at) - log(at + 1);
+        let left = log[at] - log[at - 1];
+        let right = log[at] - log[at + 1];
         left * right > 0.0 && left.abs().min(right.abs()) > JUMP.ln()
     })
 }

@@ -153,16 +153,7 @@ pub fn from_csv(file: &str, text: &str, frame: LibraryFrame) -> Result<PigmentLi
 
 /// Grid of the wavelength columns, and the columns of pigment and quantity.
 fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize)), TableError> {
-    let column = |wanted: &'static str| {
-        let found = header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
-        found.ok_or_else(|| {
-            TableError::Sheet(CsvTableError::MissingColumn {
-                file: file.to_owned(),
-                column: wanted,
-            })
-        })
-    };
-    let columns = (column("pigment")?, column("quantity")?);
+    let columns = (column(file, header, "pigment")?, column(file, header, "quantity")?);
     let mut wavelengths = Vec::new();
     for (index, name) in header.iter().enumerate() {
         if index == columns.0 || index == columns.1 {
@@ -179,6 +170,17 @@ fn grid(file: &str, header: &csv::StringRecord) -> Result<(Grid, (usize, usize))
     }
     let grid = Grid::through(&wavelengths);
     Ok((grid.ok_or_else(|| TableError::Irregular { file: file.to_owned() })?, columns))
+}
+
+fn column(
+    file: &str,
+    header: &csv::StringRecord,
+    wanted: &'static str,
+) -> Result<usize, TableError> {
+    let found = header.iter().position(|name| name.eq_ignore_ascii_case(wanted));
+    found.ok_or_else(|| {
+        TableError::Sheet(CsvTableError::MissingColumn { file: file.to_owned(), column: wanted })
+    })
 }
 
 fn pigment(file: &str, name: String, curves: [Vec<f64>; 5]) -> Result<Pigment, TableError> {

@@ -602,9 +602,6 @@ fn least_between(
 fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
     /// Gain below which a further pigment is not worth weighing, as a fraction, chosen by eye.
     const LEAST_GAIN: f64 = 0.02;
-    let effort = |addition: &Addition| {
-        if reaches { addition.total() } else { addition.mixture.distance }
-    };
 
     let needed = additions.iter().filter(|addition| {
         !additions.iter().any(|other| {
@@ -613,8 +610,12 @@ fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
                     .amounts
                     .iter()
                     .all(|(pigment, _)| addition.amounts.iter().any(|(known, _)| known == pigment))
-                && effort(other) <= effort(addition) * (1.0 + LEAST_GAIN)
+                && effort(reaches, other) <= effort(reaches, addition) * (1.0 + LEAST_GAIN)
         })
     });
     needed.cloned().collect()
+}
+
+fn effort(reaches: bool, addition: &Addition) -> f64 {
+    if reaches { addition.total() } else { addition.mixture.distance }
 }

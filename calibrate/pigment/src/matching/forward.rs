@@ -267,9 +267,8 @@ mod tests {
     use crate::matching::target::{SpectrumWeights, ViewingCondition};
     use spectra::{Grid, Illuminant, Observer, Reflectance, Spectrum};
 
-    fn library() -> PigmentLibrary {
-        let grid = Grid::from_nm(400.0, 20.0, 16).unwrap();
-        let pigment = |name: &str, k: &dyn Fn(f64) -> f64, s: f64| Pigment {
+    fn pigment(grid: Grid, name: &str, k: &dyn Fn(f64) -> f64, s: f64) -> Pigment {
+        Pigment {
             name: name.to_owned(),
             color_index: None,
             absorption: grid.wavelengths_nm().map(k).collect(),
@@ -280,7 +279,11 @@ mod tests {
             guessed: false,
             measured_amounts: None,
             notes: Vec::new(),
-        };
+        }
+    }
+
+    fn library() -> PigmentLibrary {
+        let grid = Grid::from_nm(400.0, 20.0, 16).unwrap();
         PigmentLibrary {
             title: String::new(),
             licence: String::new(),
@@ -298,9 +301,9 @@ mod tests {
             inputs: Vec::new(),
             settings: None,
             pigments: vec![
-                pigment("white", &|_| 0.002, 1.0),
-                pigment("red", &|nm| if nm < 580.0 { 2.0 } else { 0.02 }, 0.3),
-                pigment("blue", &|nm| (nm / 500.0).powi(8), 0.1),
+                pigment(grid, "white", &|_| 0.002, 1.0),
+                pigment(grid, "red", &|nm| if nm < 580.0 { 2.0 } else { 0.02 }, 0.3),
+                pigment(grid, "blue", &|nm| (nm / 500.0).powi(8), 0.1),
             ],
             evidence: None,
         }

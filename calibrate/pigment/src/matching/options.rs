@@ -302,12 +302,8 @@ impl PriceList {
         let broken = |reason: csv::Error| PriceError::Table { file: file.to_owned(), reason };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(bytes);
         let headers = reader.headers().map_err(broken)?.clone();
-        let column = |column: &'static str| {
-            let found = headers.iter().position(|header| header.eq_ignore_ascii_case(column));
-            found.ok_or_else(|| PriceError::MissingColumn { file: file.to_owned(), column })
-        };
-        let pigment = column("pigment")?;
-        let price = column("price")?;
+        let pigment = header_column(file, &headers, "pigment")?;
+        let price = header_column(file, &headers, "price")?;
         let mut numbers = RowNumbers::of(bytes);
         for record in reader.records() {
             let record = record.map_err(broken)?;
@@ -349,6 +345,15 @@ impl PriceList {
         }
         Ok(found.into_iter().map(|price| price.unwrap_or(0.0)).collect())
     }
+}
+
+fn header_column(
+    file: &str,
+    headers: &csv::StringRecord,
+    column: &'static str,
+) -> Result<usize, PriceError> {
+    let found = headers.iter().position(|header| header.eq_ignore_ascii_case(column));
+    found.ok_or_else(|| PriceError::MissingColumn { file: file.to_owned(), column })
 }
 
 /// Reads a price from `text`, which stands at `place`.

@@ -143,14 +143,13 @@ fn ranked(
     cost: &dyn Fn(&Candidate) -> f64,
 ) -> Vec<Found> {
     let tolerated = nearest + request.tolerance;
-    let steps = |c: &Candidate| ((c.distance - nearest) / USUAL_TOLERANCE).floor();
     found.sort_by(|(_, a), (_, b)| {
         let by_distance = a.distance.total_cmp(&b.distance);
         let order = match (a.distance <= tolerated, b.distance <= tolerated) {
             (true, true) => cost(a)
                 .total_cmp(&cost(b))
                 .then(a.pigments.len().cmp(&b.pigments.len()))
-                .then(steps(a).total_cmp(&steps(b)))
+                .then(steps_beyond(nearest, a).total_cmp(&steps_beyond(nearest, b)))
                 .then(smallest_share(b).total_cmp(&smallest_share(a))),
             (true, false) => std::cmp::Ordering::Less,
             (false, true) => std::cmp::Ordering::Greater,
@@ -172,6 +171,10 @@ fn ranked(
         }
     }
     shown
+}
+
+fn steps_beyond(nearest: f64, c: &Candidate) -> f64 {
+    ((c.distance - nearest) / USUAL_TOLERANCE).floor()
 }
 
 fn smallest_share(c: &Candidate) -> f64 {
@@ -222,10 +225,20 @@ fn recipe(
 /// Metamerism index for the change from the first light to each later one.
 fn metamerism(forward: &Forward<'_>, target: &Target, found: &[Lab]) -> Vec<Option<f64>> {
     let whites: Vec<Xyz> = forward.weights.iter().map(TristimulusWeights::white).collect();
-    let pair = |labs: &[Lab], at: usize| [0, at].map(|at| labs[at].to_xyz(whites[at]));
     (1..whites.len())
-        .map(|at| metamerism_index(pair(&target.lab, at), pair(found, at), whites[at]).ok())
+        .map(|at| {
+            metamerism_index(
+                xyz_pair(&whites, &target.lab, at),
+                xyz_pair(&whites, found, at),
+                whites[at],
+            )
+            .ok()
+        })
         .collect()
+}
+
+fn xyz_pair(whites: &[Xyz], labs: &[Lab], at: usize) -> [Xyz; 2] {
+    [0, at].map(|at| labs[at].to_xyz(whites[at]))
 }
 
 /// The limit of amounts at which the pigment at one place of a recipe lies.

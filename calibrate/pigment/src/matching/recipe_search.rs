@@ -371,7 +371,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_is_told_though_the_list_stops_within_the_tolerance() {
+    fn the_nearest_is_reported_though_the_list_stops_within_the_tolerance() {
         let of = |tolerance: f64| {
             let tolerance = Some(tolerance);
             search("45,10,20", MatchOptions { tolerance, count: 1, ..MatchOptions::default() })

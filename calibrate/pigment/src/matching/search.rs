@@ -440,9 +440,10 @@ fn totals(request: &MatchRequest, pigments: &[PigmentId]) -> (f64, f64) {
 pub(super) fn within_limits(request: &MatchRequest, recipe: &Candidate) -> Option<Candidate> {
     let bounds: Vec<(f64, f64)> =
         recipe.pigments.iter().map(|&p| request.share_bounds_at(p, recipe.thickness)).collect();
-    let sum = |of: fn(&(f64, f64)) -> f64| bounds.iter().map(of).sum::<f64>();
+    let least: f64 = bounds.iter().map(|b| b.0).sum();
+    let most: f64 = bounds.iter().map(|b| b.1).sum();
     let crossed = bounds.iter().any(|(least, most)| least > most);
-    if crossed || sum(|b| b.0) > 1.0 + 1e-12 || sum(|b| b.1) < 1.0 - 1e-12 {
+    if crossed || least > 1.0 + 1e-12 || most < 1.0 - 1e-12 {
         return None;
     }
     let mut shares: Vec<f64> =

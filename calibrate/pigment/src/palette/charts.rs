@@ -100,13 +100,10 @@ fn hides(palette: &Palette<'_>, paint: PigmentId) -> Hides {
         [&cards.black, &cards.white]
             .map(|card| palette.weights().xyz(&mixture.film(thickness, card, film)).y)
     };
-    let contrast = |thickness: f64| {
-        let [black, white] = over_cards(thickness);
-        if white > 0.0 { black / white } else { 1.0 }
-    };
+
     let strongest = palette.strongest();
     if strongest <= 0.0 {
-        return Hides::Never { contrast: contrast(0.0) };
+        return Hides::Never { contrast: contrast(over_cards(0.0)) };
     }
     let thickest = THICKEST / strongest;
     let step = |index: usize| thickest * 10f64.powf(-(index as f64) / STEPS as f64);
@@ -115,11 +112,16 @@ fn hides(palette: &Palette<'_>, paint: PigmentId) -> Hides {
         black >= HIDING_CONTRAST * white || white - black <= UNSEEN
     };
     match (0..=STEPS * DECADES).find(|&index| !hiding(step(index))) {
-        Some(0) => Hides::Never { contrast: contrast(thickest) },
+        Some(0) => Hides::Never { contrast: contrast(over_cards(thickest)) },
         Some(index) => Hides::From(crossing(step(index), step(index - 1), hiding)),
         // The film hides at every thickness: the two cards themselves are alike.
         None => Hides::From(0.0),
     }
+}
+
+/// Y over the black card divided by Y over the white one.
+fn contrast([black, white]: [f64; 2]) -> f64 {
+    if white > 0.0 { black / white } else { 1.0 }
 }
 
 /// Parts of white to one of paint in the tints that are compared: 10 % of paint, which most sets of
@@ -494,9 +496,8 @@ pub fn default_pairs(
     // The sort is stable: pairs with equal counts stay in the library's order.
     pairs.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
     // If one of the two paints is the white, it comes second.
-    let ordered = |(a, b)| if palette.white() == Some(a) { (b, a) } else { (a, b) };
     let mut chosen: Vec<(PigmentId, PigmentId)> =
-        pairs.iter().take(2).map(|(_, p)| ordered(*p)).collect();
+        pairs.iter().take(2).map(|(_, p)| white_second(palette, *p)).collect();
 
     let extreme = |sign: f64| {
         let most = palette.paints().iter().map(|&p| {
@@ -514,6 +515,10 @@ pub fn default_pairs(
         chosen.push((yellow, blue));
     }
     chosen
+}
+
+fn white_second(palette: &Palette<'_>, (a, b): (PigmentId, PigmentId)) -> (PigmentId, PigmentId) {
+    if palette.white() == Some(a) { (b, a) } else { (a, b) }
 }
 
 /// Colour of a mixture from its K and S at a few wavelengths.

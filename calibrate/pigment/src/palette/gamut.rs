@@ -81,7 +81,7 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
             recipes.extend(STRONGER.iter().map(|&times| recipe.scaled(times)));
         }
         if recipe.pigments().all(|p| p != black) {
-            recipes.extend(BLACKS.iter().map(|parts| with(&recipe, black, *parts)));
+            recipes.extend(BLACKS.iter().map(|parts| with_paint(&recipe, black, *parts)));
         }
     }
     recipes.extend(random_recipes(palette));
@@ -89,7 +89,7 @@ pub fn sampled_gamut(palette: &Palette<'_>) -> Gamut {
         .into_iter()
         .map(|recipe| GamutSample { color: palette.color(&recipe), recipe })
         .collect();
-    let filled = between(palette, samples.iter().map(|s| (&s.recipe, &s.color)));
+    let filled = mixtures_between(palette, samples.iter().map(|s| (&s.recipe, &s.color)));
     samples.extend(filled.into_iter().map(|(recipe, color)| GamutSample { recipe, color }));
     Gamut { samples, white: palette.weights().white() }
 }
@@ -232,7 +232,7 @@ pub(super) fn shares() -> impl Iterator<Item = f64> {
 }
 
 /// `recipe` with `parts` parts of `paint` to one part of it.
-fn with(recipe: &Recipe, paint: PigmentId, parts: f64) -> Recipe {
+fn with_paint(recipe: &Recipe, paint: PigmentId, parts: f64) -> Recipe {
     let own = 1.0 / (1.0 + parts);
     let mut mixed = recipe.scaled(own);
     mixed.add(paint, parts * own);
@@ -357,7 +357,7 @@ const PASSES: usize = 4;
 
 /// For each empty cell of CIELAB between two opposite neighbours that hold a sample, returns the mixture of
 /// these two in equal parts. Mixtures found in one pass are samples for the next.
-pub(super) fn between<'a>(
+pub(super) fn mixtures_between<'a>(
     palette: &Palette<'_>,
     samples: impl Iterator<Item = (&'a Recipe, &'a Appearance)>,
 ) -> Vec<(Recipe, Appearance)> {

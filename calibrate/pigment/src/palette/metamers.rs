@@ -126,13 +126,6 @@ fn candidates(
     lights: &[TestLight],
     measured: &[MeasuredSample],
 ) -> Vec<Candidate> {
-    let candidate = |name: String, recipe: Recipe, reflectance: &[f64]| {
-        let mut paints: Vec<PigmentId> = recipe.pigments().collect();
-        paints.sort_unstable();
-        let xyz: Vec<Xyz> = lights.iter().map(|light| light.weights.xyz(reflectance)).collect();
-        let lab = Lab::from_xyz(xyz[0], lights[0].weights.white());
-        Candidate { name, recipe, paints, xyz, lab }
-    };
     let mut recipes: Vec<Recipe> = Vec::new();
     for &paint in palette.paints() {
         recipes.extend(WHITES.iter().map(|&parts| palette.tint(paint, parts)));
@@ -146,13 +139,21 @@ fn candidates(
     let read = measured.iter().map(|sample| {
         let name =
             format!("{} ({}, measured)", palette.recipe_label(&sample.recipe), sample.sample);
-        candidate(name, sample.recipe.clone(), &sample.reflectance)
+        candidate(lights, name, sample.recipe.clone(), &sample.reflectance)
     });
     let mixed = recipes.into_iter().map(|recipe| {
         let reflectance = palette.reflectance(&recipe);
-        candidate(palette.recipe_label(&recipe), recipe, &reflectance)
+        candidate(lights, palette.recipe_label(&recipe), recipe, &reflectance)
     });
     read.chain(mixed).collect()
+}
+
+fn candidate(lights: &[TestLight], name: String, recipe: Recipe, reflectance: &[f64]) -> Candidate {
+    let mut paints: Vec<PigmentId> = recipe.pigments().collect();
+    paints.sort_unstable();
+    let xyz: Vec<Xyz> = lights.iter().map(|light| light.weights.xyz(reflectance)).collect();
+    let lab = Lab::from_xyz(xyz[0], lights[0].weights.white());
+    Candidate { name, recipe, paints, xyz, lab }
 }
 
 /// Lights that a palette is shown under, besides its own.

@@ -387,9 +387,9 @@ mod tests {
         for light in ["A", "D50", "D65", "E", "FL2", "FL11", "HP1", "LED-B3"] {
             let effective = EffectiveQuadrature::of(&viewing(light), &oils, 8).unwrap();
             let [hiding, over] = unseen(light, &effective, &oils);
-            let told = format!("{light}: {hiding:?}, over grounds {over:?}");
-            assert!(hiding.mean < 0.05 && hiding.p95 < 0.17 && hiding.max < 0.70, "{told}");
-            assert!(over.mean < 0.10 && over.p95 < 0.28 && over.max < 1.35, "{told}");
+            let summary = format!("{light}: {hiding:?}, over grounds {over:?}");
+            assert!(hiding.mean < 0.05 && hiding.p95 < 0.17 && hiding.max < 0.70, "{summary}");
+            assert!(over.mean < 0.10 && over.p95 < 0.28 && over.max < 1.35, "{summary}");
         }
     }
 

@@ -57,15 +57,21 @@ fn fitted(start: &Quadrature, training: &MixtureSet) -> Quadrature {
     let scaled = |factor: f64| -> Vec<f64> {
         start.nodes_nm.iter().map(|nm| middle + factor * (nm - middle)).collect()
     };
-    let even = |low: f64, high: f64| -> Vec<f64> {
-        (0..count).map(|i| low + (high - low) * (i as f64 + 0.5) / count as f64).collect()
-    };
-    let starts =
-        [start.nodes_nm.clone(), scaled(0.85), scaled(1.1), even(410.0, 680.0), even(425.0, 650.0)];
+    let starts = [
+        start.nodes_nm.clone(),
+        scaled(0.85),
+        scaled(1.1),
+        even_nodes(count, 410.0, 680.0),
+        even_nodes(count, 425.0, 650.0),
+    ];
     let fits: Vec<(f64, Quadrature)> =
         starts.into_par_iter().map(|nodes| problem.solve(nodes)).collect();
     let best = fits.into_iter().reduce(|a, b| if b.0 < a.0 { b } else { a });
     best.expect("there is a start").1
+}
+
+fn even_nodes(count: usize, low: f64, high: f64) -> Vec<f64> {
+    (0..count).map(|i| low + (high - low) * (i as f64 + 0.5) / count as f64).collect()
 }
 
 struct Problem<'a> {

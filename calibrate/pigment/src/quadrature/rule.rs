@@ -451,9 +451,14 @@ mod tests {
         for count in 1..=12 {
             let rule = GaussRule::new(&points, &weight, count).unwrap();
             let error = |degree: i32| {
-                let f = |nm: f64| ((nm - 550.0) / 150.0).powi(degree);
-                let exact: f64 = points.iter().zip(&weight).map(|(p, w)| w * f(*p)).sum();
-                let found: f64 = rule.nodes.iter().zip(&rule.weights).map(|(n, w)| w * f(*n)).sum();
+                let exact: f64 =
+                    points.iter().zip(&weight).map(|(p, w)| w * scaled_power(degree, *p)).sum();
+                let found: f64 = rule
+                    .nodes
+                    .iter()
+                    .zip(&rule.weights)
+                    .map(|(n, w)| w * scaled_power(degree, *n))
+                    .sum();
                 (found - exact).abs() / total
             };
             let last = 2 * count as i32 - 1;
@@ -464,6 +469,10 @@ mod tests {
         }
     }
 
+    fn scaled_power(degree: i32, nm: f64) -> f64 {
+        ((nm - 550.0) / 150.0).powi(degree)
+    }
+
     #[test]
     fn moment_weights_are_exact_up_to_degree_n_minus_1() {
         let (points, weight) = uneven_weight();
@@ -472,9 +481,14 @@ mod tests {
             let rule = GaussRule::new(&points, &weight, count).unwrap();
             let weights = rule.weights_from_moments(&other);
             for degree in 0..count as i32 {
-                let f = |nm: f64| ((nm - 550.0) / 150.0).powi(degree);
-                let exact: f64 = points.iter().zip(&other).map(|(p, w)| w * f(*p)).sum();
-                let found: f64 = rule.nodes.iter().zip(&weights).map(|(n, w)| w * f(*n)).sum();
+                let exact: f64 =
+                    points.iter().zip(&other).map(|(p, w)| w * scaled_power(degree, *p)).sum();
+                let found: f64 = rule
+                    .nodes
+                    .iter()
+                    .zip(&weights)
+                    .map(|(n, w)| w * scaled_power(degree, *n))
+                    .sum();
                 assert!((found - exact).abs() < 1e-9 * exact.abs().max(1.0), "{count}, {degree}");
             }
         }
