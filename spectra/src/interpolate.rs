@@ -199,17 +199,21 @@ impl<'a> Spline<'a> {
     /// strictly.
     pub(crate) fn through(places: &'a [f64], values: &'a [f64]) -> Self {
         let count = places.len();
-        let width = |at: usize| places[at + 1] - places[at];
-        let slope = |at: usize| (values[at + 1] - values[at]) / width(at);
+        let width: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let slope: Vec<f64> = values
+            .windows(2)
+            .zip(&width)
+            .map(|(pair, width)| (pair[1] - pair[0]) / width)
+            .collect();
         // The tridiagonal system of the inner second derivatives, eliminated downwards, solved upwards.
         let mut bends = vec![0.0; count];
         let mut above = vec![0.0; count];
         for at in 1..count - 1 {
-            let left = width(at - 1);
-            let right = width(at);
+            let left = width[at - 1];
+            let right = width[at];
             let pivot = 2.0 * (left + right) - left * above[at - 1];
             above[at] = right / pivot;
-            bends[at] = (6.0 * (slope(at) - slope(at - 1)) - left * bends[at - 1]) / pivot;
+            bends[at] = (6.0 * (slope[at] - slope[at - 1]) - left * bends[at - 1]) / pivot;
         }
         for at in (1..count - 1).rev() {
             bends[at] -= above[at] * bends[at + 1];

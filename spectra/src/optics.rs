@@ -415,9 +415,9 @@ impl UnevenFilm {
     /// Thicknesses relative to the mean, with their quadrature weights.
     fn thicknesses(&self) -> [(f64, f64); 3] {
         let sd = self.unevenness;
-        let at = |z: f64| (sd * z - 0.5 * sd * sd).exp();
         let z = 3f64.sqrt();
-        [(at(-z), 1.0 / 6.0), (at(0.0), 2.0 / 3.0), (at(z), 1.0 / 6.0)]
+        [(-z, 1.0 / 6.0), (0.0, 2.0 / 3.0), (z, 1.0 / 6.0)]
+            .map(|(z, weight)| ((sd * z - 0.5 * sd * sd).exp(), weight))
     }
 }
 

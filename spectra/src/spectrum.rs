@@ -125,8 +125,8 @@ impl<Q: Quantity> Spectrum<Q> {
         Ok(method.row(self.grid, nm, ends)?.apply(&self.values))
     }
 
-    /// Resamples the spectrum to another grid. Interpolated values outside the valid range
-    /// (such as a reflectance below 0, where the polynomial overshoots) are clipped.
+    /// Resamples the spectrum to another grid. Interpolated values outside the valid range (for example a
+    /// reflectance below 0, where the polynomial overshoots) are clipped.
     ///
     /// # Errors
     /// [`InterpolateError`] in the cases of [`Spectrum::at`].

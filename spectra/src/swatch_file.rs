@@ -330,7 +330,6 @@ pub fn write_aco(palette: &SwatchFile) -> Result<Vec<u8>, SwatchFileError> {
 
 /// The colour space and the four 16-bit words of a colour.
 fn words(color: SwatchColor) -> (u16, [u16; 4]) {
-    // Hundredths in two's complement.
     match color {
         SwatchColor::Rgb(Rgb([r, g, b])) => {
             (RGB, [word_of_share(r), word_of_share(g), word_of_share(b), 0])
@@ -347,6 +346,7 @@ fn words(color: SwatchColor) -> (u16, [u16; 4]) {
     }
 }
 
+/// Hundredths in two's complement.
 fn word_of_hundredths(v: f64) -> u16 {
     ((v * 100.0).round().clamp(-12800.0, 12700.0) as i16) as u16
 }
@@ -398,7 +398,7 @@ fn section(bytes: &mut Bytes<'_>, version: u16) -> Result<SwatchFile, SwatchFile
     Ok(palette)
 }
 
-/// The colour of a space and its words. `None` for other spaces, such as books of spot colours.
+/// The colour of a space and its words. `None` for other spaces, for example books of spot colours.
 fn aco_color(space: u16, words: [u16; 4]) -> Option<SwatchColor> {
     let shares = words.map(|word| f64::from(word) / 65535.0);
     Some(match space {

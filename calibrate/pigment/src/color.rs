@@ -17,7 +17,7 @@ use crate::library::{AmountKind, PigmentLibrary, RecipeError};
 use crate::recipe::Recipe;
 
 /// Greatest thickness of a film. A film of this thickness hides its ground if K and S exceed 1e-7.
-const THICKEST: f64 = 1e9;
+pub(crate) const THICKEST: f64 = 1e9;
 
 /// A film of given thickness over a ground.
 #[derive(Debug, Clone, PartialEq)]

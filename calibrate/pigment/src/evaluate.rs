@@ -87,7 +87,7 @@ pub struct Remark {
     pub kind: RemarkKind,
     /// The sentence, in lower case and without a full stop.
     pub text: String,
-    /// How to choose otherwise, where a setting allows it.
+    /// Advice on another choice, if a setting allows one.
     pub hint: Option<Hint>,
 }
 
@@ -132,7 +132,7 @@ pub fn rounded(value: f64) -> f64 {
 /// Band in nm that a grid must touch to have a colour at all.
 const NEEDED_NM: [f64; 2] = [400.0, 700.0];
 /// Band in nm that a grid should cover: it holds nearly all of the luminance and chroma.
-const WANTED_NM: [f64; 2] = [420.0, 680.0];
+pub(crate) const WANTED_NM: [f64; 2] = [420.0, 680.0];
 
 /// Part of the visible band that a grid covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -293,10 +293,8 @@ fn lower_product(matrix: &DMatrix<f64>, vector: &DVector<f64>) -> f64 {
 
 /// A cost below this is good enough: it is half the square of a colour difference of 1e-4.
 const NEAR_ENOUGH: f64 = 0.5e-8;
-/// First damping: Nielsen's choice for a start near the minimum.
-const BOUNDED_DESCENT_FIRST_DAMPING: f64 = 1e-3;
 /// The descent ends beyond this damping: steps are then below rounding.
-const BOUNDED_DESCENT_MOST_DAMPING: f64 = 1e9;
+const MOST_DAMPING_OF_SHARES: f64 = 1e9;
 /// The descent ends where a step is shorter than this in every unknown, chosen by eye.
 const LEAST_STEP: f64 = 1e-9;
 /// The descent ends where a step lowers the cost by less than this fraction, chosen by eye.
@@ -327,7 +325,7 @@ pub fn descend_within_bounds(
 ) -> Cost {
     let count = bounds.count;
     let mut cost = cost_at(point);
-    let mut damping = BOUNDED_DESCENT_FIRST_DAMPING;
+    let mut damping = FIRST_DAMPING;
     let mut growth = 2.0;
     for _ in 0..steps {
         if cost.value < NEAR_ENOUGH {
@@ -358,7 +356,7 @@ pub fn descend_within_bounds(
         } else {
             damping *= growth;
             growth *= 2.0;
-            if damping > BOUNDED_DESCENT_MOST_DAMPING {
+            if damping > MOST_DAMPING_OF_SHARES {
                 break;
             }
         }

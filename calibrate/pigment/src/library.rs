@@ -21,138 +21,8 @@ const PARTS: std::ops::RangeInclusive<f64> = 0.0..=1e12;
 /// Least sum of parts that can be normalised.
 const LEAST_TOTAL: f64 = 1e-12;
 
-/// Meaning of the amounts in a recipe.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum AmountKind {
-    /// Shares of a mixture, of which only the ratios count. K and S are relative to the S of the
-    /// reference white.
-    #[default]
-    Relative,
-    /// Amounts on a fixed area. K and S are per unit of amount.
-    Absolute,
-}
-
-/// One calibrated pigment of a library.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Pigment {
-    /// Name of the pigment, unique in its library.
-    pub name: String,
-    /// Colour Index name, such as `PB29`. `None` if unknown.
-    #[serde(rename = "colour_index", default, skip_serializing_if = "Option::is_none")]
-    pub color_index: Option<String>,
-    /// K at each wavelength of the library's grid, 0 and up.
-    pub absorption: Vec<f64>,
-    /// S at each wavelength of the library's grid, 0 and up.
-    pub scattering: Vec<f64>,
-    /// Standard deviation of K at each wavelength, empty if unknown.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub absorption_sd: Vec<f64>,
-    /// Standard deviation of S at each wavelength, empty if unknown.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub scattering_sd: Vec<f64>,
-    /// Whether S is known. If not, `scattering` is 1 at every wavelength, and `notes` say so.
-    #[serde(default = "yes", skip_serializing_if = "is_yes")]
-    pub identified: bool,
-    /// Whether K and S were guessed from a colour rather than measured.
-    #[serde(default, skip_serializing_if = "is_no")]
-    pub guessed: bool,
-    /// Least and greatest amount above 0 of the measured films. Only absolute amounts have such limits,
-    /// and files of older versions do not state them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub measured_amounts: Option<[f64; 2]>,
-    /// Warnings about the pigment, in words for the user.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub notes: Vec<String>,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
-fn yes() -> bool {
-    true
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-fn is_yes(value: &bool) -> bool {
-    *value
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
-fn is_no(value: &bool) -> bool {
-    !*value
-}
-
-/// A file from which the library was made.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Input {
-    /// Path of the file, as the user named it.
-    pub path: String,
-    /// SHA-256 of the bytes, in hexadecimal.
-    pub sha256: String,
-}
-
-impl Input {
-    /// Record of the file `path` with the content of `reader`, which is never in memory as a whole.
-    ///
-    /// # Errors
-    /// The error of `reader`.
-    pub fn of_reader(path: impl Into<String>, mut reader: impl Read) -> io::Result<Self> {
-        let mut hasher = Sha256::new();
-        let mut buffer = vec![0; 1 << 16];
-        loop {
-            let length = match reader.read(&mut buffer) {
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
-                other => other?,
-            };
-            if length == 0 {
-                break;
-            }
-            hasher.update(&buffer[..length]);
-        }
-        let sha256 = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
-        Ok(Self { path: path.into(), sha256 })
-    }
-
-    /// Record of the file `path` with the given content.
-    #[must_use]
-    pub fn new(path: impl Into<String>, content: &[u8]) -> Self {
-        let sha256 = Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect();
-        Self { path: path.into(), sha256 }
-    }
-}
-
-/// Error of a fit for one sample.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SampleEvidence {
-    /// Name of the sample.
-    pub sample: String,
-    /// CIEDE2000 between measured and fitted colour.
-    pub delta_e: f64,
-}
-
-/// Errors of a fit over all its samples.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Evidence {
-    /// Name of the light under which colour errors are computed.
-    pub illuminant: String,
-    /// Name of the observer for which colour errors are computed.
-    pub observer: String,
-    /// Root mean square error of measured reflectance.
-    pub rms: f64,
-    /// Summary of the colour errors in CIEDE2000.
-    pub delta_e: crate::evaluate::Summary,
-    /// Colour error of each sample, in order of the file.
-    pub per_sample: Vec<SampleEvidence>,
-    /// Quantities that the data do not identify, and inconsistent data, in words.
-    pub warnings: Vec<String>,
-}
+/// Output of `impasto fit` for `measurements/van-gogh-oils.csv`.
+const VAN_GOGH_OILS: &str = include_str!("../../../measurements/van-gogh-oils.pigments.json");
 
 /// Calibrated pigments that can be mixed, with their sources.
 ///
@@ -220,8 +90,8 @@ impl PigmentLibrary {
         }
     }
 
-    /// Finds a pigment by `name`. Tries, in this order, the exact name, the name in any letter case, and the
-    /// start of a name in any letter case if only one pigment has it.
+    /// Finds a pigment by `name`, for example `zinc` for `Zinc White`. Tries, in this order, the exact name,
+    /// the name in any letter case, and the start of a name in any letter case if only one pigment has it.
     ///
     /// # Errors
     /// [`RecipeError`] if no pigment or several match.
@@ -332,6 +202,17 @@ impl PigmentLibrary {
         let scale = if self.amounts == AmountKind::Relative { 1.0 / total } else { 1.0 };
         Ok(parts.iter().map(|&(id, part)| (id, part * scale)).collect())
     }
+
+    /// The library that ships: 20 oil paints of Van Gogh's palette, calibrated from the readings of
+    /// Geldof and others (2018, CC0).
+    ///
+    /// # Panics
+    /// Never: a test reads the library that is compiled in.
+    #[must_use]
+    pub fn van_gogh_oils() -> Self {
+        Self::from_json("van-gogh-oils.pigments.json", VAN_GOGH_OILS)
+            .expect("the shipped library is valid")
+    }
 }
 
 impl Index<PigmentId> for PigmentLibrary {
@@ -346,6 +227,154 @@ impl IndexMut<PigmentId> for PigmentLibrary {
     fn index_mut(&mut self, pigment: PigmentId) -> &mut Pigment {
         &mut self.pigments[pigment.0]
     }
+}
+
+/// Meaning of the amounts in a recipe.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum AmountKind {
+    /// Shares of a mixture, of which only the ratios count. K and S are relative to the S of the
+    /// reference white.
+    #[default]
+    Relative,
+    /// Amounts on a fixed area. K and S are per unit of amount.
+    Absolute,
+}
+
+/// One calibrated pigment of a library.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pigment {
+    /// Name of the pigment, unique in its library.
+    pub name: String,
+    /// Colour Index name, for example `PB29`. `None` if unknown.
+    #[serde(rename = "colour_index", default, skip_serializing_if = "Option::is_none")]
+    pub color_index: Option<String>,
+    /// K at each wavelength of the library's grid, 0 and up.
+    pub absorption: Vec<f64>,
+    /// S at each wavelength of the library's grid, 0 and up.
+    pub scattering: Vec<f64>,
+    /// Standard deviation of K at each wavelength, empty if unknown.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub absorption_sd: Vec<f64>,
+    /// Standard deviation of S at each wavelength, empty if unknown.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub scattering_sd: Vec<f64>,
+    /// Whether S is known. If not, `scattering` is 1 at every wavelength, and `notes` say so.
+    #[serde(default = "yes", skip_serializing_if = "is_yes")]
+    pub identified: bool,
+    /// Whether K and S were guessed from a colour rather than measured.
+    #[serde(default, skip_serializing_if = "is_no")]
+    pub guessed: bool,
+    /// Least and greatest amount above 0 of the measured films. Only absolute amounts have such limits,
+    /// and files of older versions do not state them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured_amounts: Option<[f64; 2]>,
+    /// Warnings about the pigment, in words for the user.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+fn yes() -> bool {
+    true
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_yes(value: &bool) -> bool {
+    *value
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
+fn is_no(value: &bool) -> bool {
+    !*value
+}
+
+/// Errors of a fit over all its samples.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Evidence {
+    /// Name of the light under which colour errors are computed.
+    pub illuminant: String,
+    /// Name of the observer for which colour errors are computed.
+    pub observer: String,
+    /// Root mean square error of measured reflectance.
+    pub rms: f64,
+    /// Summary of the colour errors in CIEDE2000.
+    pub delta_e: crate::evaluate::Summary,
+    /// Colour error of each sample, in order of the file.
+    pub per_sample: Vec<SampleEvidence>,
+    /// Quantities that the data do not identify, and inconsistent data, in words.
+    pub warnings: Vec<String>,
+}
+
+/// Error of a fit for one sample.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SampleEvidence {
+    /// Name of the sample.
+    pub sample: String,
+    /// CIEDE2000 between measured and fitted colour.
+    pub delta_e: f64,
+}
+
+/// A file from which the library was made.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Input {
+    /// Path of the file, as the user named it.
+    pub path: String,
+    /// SHA-256 of the bytes, in hexadecimal.
+    pub sha256: String,
+}
+
+impl Input {
+    /// Record of the file `path` with the content of `reader`, which is never in memory as a whole.
+    ///
+    /// # Errors
+    /// The error of `reader`.
+    pub fn of_reader(path: impl Into<String>, mut reader: impl Read) -> io::Result<Self> {
+        let mut hasher = Sha256::new();
+        let mut buffer = vec![0; 1 << 16];
+        loop {
+            let length = match reader.read(&mut buffer) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                other => other?,
+            };
+            if length == 0 {
+                break;
+            }
+            hasher.update(&buffer[..length]);
+        }
+        let sha256 = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(Self { path: path.into(), sha256 })
+    }
+
+    /// Record of the file `path` with the given content.
+    #[must_use]
+    pub fn new(path: impl Into<String>, content: &[u8]) -> Self {
+        let sha256 = Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect();
+        Self { path: path.into(), sha256 }
+    }
+}
+
+/// Every setting that changes the result of a fit. Kept in the library's file.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FitSettings {
+    /// Method of the fit. Absolute amounts always take their own.
+    pub method: Method,
+    /// Smoothing over wavelength, only `refined` and absolute amounts use it.
+    pub smoothness: Smoothness,
+    /// Treatment of readings below the surface's own reflection.
+    pub below_surface: BelowSurface,
+    /// Names of the samples that were left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub excluded: Vec<String>,
 }
 
 /// Method by which K and S are found. The crate `calibrate` describes each.
@@ -384,21 +413,6 @@ pub enum BelowSurface {
     Refuse,
     /// Replace it with an internal reflectance of 0.001, which stands for black.
     Floor,
-}
-
-/// Every setting that changes the result of a fit. Kept in the library's file.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FitSettings {
-    /// Method of the fit. Absolute amounts always take their own.
-    pub method: Method,
-    /// Smoothing over wavelength, only `refined` and absolute amounts use it.
-    pub smoothness: Smoothness,
-    /// Treatment of readings below the surface's own reflection.
-    pub below_surface: BelowSurface,
-    /// Names of the samples that were left out.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub excluded: Vec<String>,
 }
 
 const FORMAT: &str = "impasto-pigment-library";
@@ -545,6 +559,58 @@ impl PigmentLibrary {
     }
 }
 
+/// Writes `value` as text, indented by two spaces and ending in a new line.
+#[must_use]
+pub fn to_text(value: &Value) -> String {
+    let mut text = String::new();
+    write(value, 0, &mut text);
+    text.push('\n');
+    text
+}
+
+fn write(value: &Value, depth: usize, text: &mut String) {
+    match value {
+        Value::Array(items) if items.iter().any(|item| item.is_object() || item.is_string()) => {
+            text.push('[');
+            for (index, item) in items.iter().enumerate() {
+                text.push_str(if index == 0 { "" } else { "," });
+                new_line(text, depth + 1);
+                write_inline_if_flat(item, depth + 1, text);
+            }
+            new_line(text, depth);
+            text.push(']');
+        }
+        Value::Object(map) if !map.is_empty() => {
+            text.push('{');
+            for (index, (key, item)) in map.iter().enumerate() {
+                text.push_str(if index == 0 { "" } else { "," });
+                new_line(text, depth + 1);
+                text.push_str(&Value::from(key.as_str()).to_string());
+                text.push_str(": ");
+                write(item, depth + 1, text);
+            }
+            new_line(text, depth);
+            text.push('}');
+        }
+        _ => text.push_str(&value.to_string()),
+    }
+}
+
+fn new_line(text: &mut String, depth: usize) {
+    text.push('\n');
+    text.push_str(&"  ".repeat(depth));
+}
+
+/// Writes a flat record, for example the error of one sample, on one line.
+fn write_inline_if_flat(value: &Value, depth: usize, text: &mut String) {
+    match value {
+        Value::Object(map) if map.values().all(|v| !v.is_object() && !v.is_array()) => {
+            text.push_str(&value.to_string());
+        }
+        _ => write(value, depth, text),
+    }
+}
+
 /// Why a file is not a valid pigment library.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LibraryError {
@@ -606,74 +672,6 @@ impl Explain for LibraryError {
             Self::File(error) => error.fault(),
             _ => Fault::Input,
         }
-    }
-}
-
-/// Writes `value` as text, indented by two spaces and ending in a new line.
-#[must_use]
-pub fn to_text(value: &Value) -> String {
-    let mut text = String::new();
-    write(value, 0, &mut text);
-    text.push('\n');
-    text
-}
-
-fn write(value: &Value, depth: usize, text: &mut String) {
-    match value {
-        Value::Array(items) if items.iter().any(|item| item.is_object() || item.is_string()) => {
-            text.push('[');
-            for (index, item) in items.iter().enumerate() {
-                text.push_str(if index == 0 { "" } else { "," });
-                new_line(text, depth + 1);
-                write_inline_if_flat(item, depth + 1, text);
-            }
-            new_line(text, depth);
-            text.push(']');
-        }
-        Value::Object(map) if !map.is_empty() => {
-            text.push('{');
-            for (index, (key, item)) in map.iter().enumerate() {
-                text.push_str(if index == 0 { "" } else { "," });
-                new_line(text, depth + 1);
-                text.push_str(&Value::from(key.as_str()).to_string());
-                text.push_str(": ");
-                write(item, depth + 1, text);
-            }
-            new_line(text, depth);
-            text.push('}');
-        }
-        _ => text.push_str(&value.to_string()),
-    }
-}
-
-fn new_line(text: &mut String, depth: usize) {
-    text.push('\n');
-    text.push_str(&"  ".repeat(depth));
-}
-
-/// Writes a flat record, such as one sample's error, on one line.
-fn write_inline_if_flat(value: &Value, depth: usize, text: &mut String) {
-    match value {
-        Value::Object(map) if map.values().all(|v| !v.is_object() && !v.is_array()) => {
-            text.push_str(&value.to_string());
-        }
-        _ => write(value, depth, text),
-    }
-}
-
-/// Output of `impasto fit` for `measurements/van-gogh-oils.csv`.
-const VAN_GOGH_OILS: &str = include_str!("../../../measurements/van-gogh-oils.pigments.json");
-
-impl PigmentLibrary {
-    /// The library that ships: 20 oil paints of Van Gogh's palette, calibrated from the readings of
-    /// Geldof and others (2018, CC0).
-    ///
-    /// # Panics
-    /// Never: a test reads the library that is compiled in.
-    #[must_use]
-    pub fn van_gogh_oils() -> Self {
-        Self::from_json("van-gogh-oils.pigments.json", VAN_GOGH_OILS)
-            .expect("the shipped library is valid")
     }
 }
 

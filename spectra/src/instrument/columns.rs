@@ -190,7 +190,7 @@ pub(super) enum Axis {
 }
 
 impl Axis {
-    /// The unit named in `words`, such as a column heading. `None` if there is none.
+    /// The unit named in `words`, for example in the heading of a column. `None` if they name no unit.
     pub(super) fn of_words(words: &str) -> Option<Self> {
         let lower = words.to_lowercase();
 

@@ -28,14 +28,14 @@ const SPECTRUM: usize = 484;
 /// A stored ratio is below this, and counts of a detector are above.
 const MOST_RATIO: f64 = 2.5;
 
-/// Whether a binary file is of this format: its first bytes name the version.
+/// Whether a binary file is of ASD: its first bytes name the version.
 pub(super) fn is_asd_binary(bytes: &[u8]) -> bool {
     let versions = [b"ASD", b"as2", b"as3", b"as4", b"as5", b"as6", b"as7", b"as8"];
     versions.iter().any(|version| bytes.starts_with(*version))
         && bytes[3..bytes.len().min(SPECTRUM)].contains(&0)
 }
 
-/// Whether a text is the conversion of such a file.
+/// Whether a text was converted from an `.asd` file.
 pub(super) fn is_asd_text(text: &str) -> bool {
     lines(text).take(60).any(|(_, line)| line.contains("ASD spectrum file"))
 }
@@ -117,7 +117,7 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 
-/// The spectra of a converted text: one column each below the heading `Wavelength`.
+/// The spectra of text converted from an `.asd` file: one column each below the heading `Wavelength`.
 pub(super) fn read_asd_text(
     file: &str,
     text: &str,
@@ -182,7 +182,7 @@ pub(super) fn is_heading(before: &str, line: &str) -> bool {
     before.trim() == "Data:" && (line.starts_with("Wvl") || line.starts_with("Chan.#"))
 }
 
-/// The main spectrum of a file: reflectance if there is one, otherwise the reading of the sample.
+/// The main spectrum of a `.sed` file: reflectance if there is one, otherwise the reading of the sample.
 pub(super) fn read_sed(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let lines: Vec<(usize, &str)> = lines(text).collect();
     let found = lines.windows(2).find(|pair| is_heading(pair[0].1, pair[1].1.trim()));
@@ -248,7 +248,7 @@ pub(super) fn is_sig(text: &str) -> bool {
     text.trim_start().starts_with(FIRST)
 }
 
-/// Reflectance, or sample and white, in the band of the first detector.
+/// Reads a `.sig` file: reflectance, or sample and white, in the band of the first detector.
 pub(super) fn read_sig(file: &str, text: &str) -> Result<Vec<MeasuredSpectrum>, InstrumentError> {
     let Some((at, _)) = lines(text).find(|(_, line)| line.trim_start().starts_with("data=")) else {
         return Ok(Vec::new());

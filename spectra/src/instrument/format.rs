@@ -18,7 +18,7 @@ pub enum Format {
     OceanOptics,
     /// JCAMP-DX, a labelled text format of spectroscopy.
     Jcamp,
-    /// Avantes AvaSoft: text, or binary files such as `.ROH`, `.TRM` and `.RFL8`.
+    /// Avantes AvaSoft: text, or binary files, for example `.ROH`, `.TRM` and `.RFL8`.
     Avantes,
     /// Bruker OPUS data point table.
     Bruker,
@@ -251,7 +251,7 @@ impl ContentKind {
     }
 }
 
-/// Whether bytes are no text in any encoding.
+/// Whether bytes are not text in any encoding.
 fn is_noise(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(LOOKED_AT)];
     if is_utf16(start) {

@@ -264,7 +264,7 @@ fn letters_after(first: char, zero: char) -> u32 {
 
 /// One page of a file.
 pub(super) struct Page {
-    /// The value of the page variable, such as `N=1`.
+    /// The value of the page variable, for example `N=1`.
     pub(super) name: String,
     /// Name of the dependent variable.
     pub(super) variable: String,

@@ -19,7 +19,7 @@ fn key_and_value(line: &str) -> Option<(&str, &str)> {
     Some((key.trim().trim_matches('"'), value))
 }
 
-/// The wavelength in the key of a row, such as `380nm`.
+/// The wavelength in the key of a row, for example 380 in `380nm`.
 fn wavelength(key: &str) -> Option<f64> {
     number(key.strip_suffix("nm")?, Decimal::Point).filter(|nm| (100.0..=5000.0).contains(nm))
 }
@@ -27,7 +27,7 @@ fn wavelength(key: &str) -> Option<f64> {
 /// Keys of the numbers that accompany the spectrum of a light.
 const OF_A_LIGHT: [&str; 6] = ["Model Name", "LUX", "CCT", "PPFD", "LambdaP", "IRR"];
 
-/// Whether a text has such rows, and figures of a light.
+/// Whether a text has rows of a UPRtek spectrum and the usual keys of a light meter.
 pub(super) fn is_uprtek(text: &str) -> bool {
     let wavelengths = lines(text)
         .filter_map(|(_, line)| key_and_value(line))
@@ -40,7 +40,7 @@ pub(super) fn is_uprtek(text: &str) -> bool {
             .any(|(key, _)| OF_A_LIGHT.contains(&key))
 }
 
-/// The readings of a file, each in a column: the power of a light.
+/// The readings of a UPRtek or LI-180 file, one per column: the power of a light.
 pub(super) fn read_uprtek(
     file: &str,
     text: &str,

@@ -29,7 +29,7 @@ pub enum MeasuredQuantity {
 }
 
 impl MeasuredQuantity {
-    /// The quantity named in `words`, such as the heading of a column.
+    /// The quantity named in `words`, for example in the heading of a column.
     pub(super) fn of_words(words: &str) -> Self {
         let lower = words.to_ascii_lowercase();
         if contains_any(&lower, &["reflect"]) {

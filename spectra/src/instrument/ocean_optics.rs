@@ -144,10 +144,11 @@ pub(super) fn read_procspec(
     let white_element = find(&root, "referenceSpectrum", &[]);
     let dark_element = find(&root, "darkSpectrum", &[]);
     let apart = ["referenceSpectrum", "darkSpectrum"];
-    let list = |name: &str| numbers(file, find(&root, name, &apart));
-    let nm = list("channelWavelengths")?;
-    let processed = list("processedPixels")?;
-    let sample = list("pixelValues")?;
+    let [nm, processed, sample] = ["channelWavelengths", "processedPixels", "pixelValues"]
+        .map(|name| numbers(file, find(&root, name, &apart)));
+    let nm = nm?;
+    let processed = processed?;
+    let sample = sample?;
     let [white, dark] = [white_element, dark_element].map(|element| {
         numbers(file, element.and_then(|element| find(element, "pixelValues", &[])))
     });

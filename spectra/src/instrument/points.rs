@@ -71,9 +71,8 @@ pub(super) fn ordered(
             let file = file.to_owned();
             return Err(InstrumentError::Duplicate { file, line, nm: first.nm, first: before });
         }
-        let values = || group.iter().map(|point| point.value);
-        let least = values().fold(first.value, f64::min);
-        let most = values().fold(first.value, f64::max);
+        let least = group.iter().map(|point| point.value).fold(first.value, f64::min);
+        let most = group.iter().map(|point| point.value).fold(first.value, f64::max);
         if let Duplicates::AverageWithin(apart) = duplicates
             && most - least > apart
         {
@@ -86,7 +85,7 @@ pub(super) fn ordered(
         ordered.wavelengths_nm.push(first.nm);
         // Each value is scaled before summing, because a sum of finite values may overflow.
         let share = 1.0 / group.len() as f64;
-        ordered.values.push(values().map(|value| value * share).sum());
+        ordered.values.push(group.iter().map(|point| point.value).map(|value| value * share).sum());
     }
     if repeated > 0 {
         let repeated = documents::counted_as(repeated, "wavelength occurs", "wavelengths occur");

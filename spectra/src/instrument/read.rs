@@ -17,7 +17,7 @@ use super::{
 /// The content of an instrument's file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InstrumentFile {
-    /// Format as which the file was read.
+    /// Format in which the file was read.
     pub format: Format,
     /// The spectra in the order of the file, at least one.
     pub spectra: Vec<MeasuredSpectrum>,

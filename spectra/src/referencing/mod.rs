@@ -454,8 +454,8 @@ fn irregular(wavelengths_nm: Vec<f64>, values: Vec<f64>) -> IrregularSpectrum {
         .expect("a measured spectrum has rising wavelengths with one value each")
 }
 
-/// The integration time in ms, from a detail such as `Integration Time (usec): 24000
-/// (JAZA1479)` or `Integration time: 100.00 ms`. `None` if there is none, or none with a unit.
+/// The integration time in ms, from a detail, for example `Integration Time (usec): 24000 (JAZA1479)` or
+/// `Integration time: 100.00 ms`. `None` if there is none, or none with a unit.
 #[must_use]
 pub fn integration_time_ms(record: &MeasuredSpectrum) -> Option<f64> {
     record.details.iter().find_map(|(key, value)| {

@@ -431,13 +431,18 @@ impl Additions<'_> {
         let mut allowed = self.allowed.clone();
         allowed.push(pot);
         // The share of an addition is largest if nothing else is added to the pot.
-        let limit = |stock: &f64| match share {
-            Some(share) => stock * share,
-            None if stock.is_finite() => stock / (1.0 + stock),
-            None => 1.0,
-        };
-        let mut amounts: Vec<Option<[f64; 2]>> =
-            self.stock.iter().map(|stock| Some([0.0, limit(stock).min(1.0)])).collect();
+        let mut amounts: Vec<Option<[f64; 2]>> = self
+            .stock
+            .iter()
+            .map(|stock| {
+                let limit = match share {
+                    Some(share) => stock * share,
+                    None if stock.is_finite() => stock / (1.0 + stock),
+                    None => 1.0,
+                };
+                Some([0.0, limit.min(1.0)])
+            })
+            .collect();
         amounts.push(None);
         MatchRequest {
             allowed,
@@ -471,10 +476,10 @@ impl Additions<'_> {
             })
             .flatten()
             .collect();
-        let is_near = |addition: &Addition| addition.mixture.distance <= self.tolerance;
-        let reaches = additions.iter().any(is_near);
+
+        let reaches = additions.iter().any(|addition| addition.mixture.distance <= self.tolerance);
         if reaches {
-            additions.retain(is_near);
+            additions.retain(|addition| addition.mixture.distance <= self.tolerance);
             additions.sort_by(|a, b| a.total().total_cmp(&b.total()));
         } else {
             additions.sort_by(|a, b| a.mixture.distance.total_cmp(&b.mixture.distance));
@@ -598,7 +603,7 @@ fn least_between(
     mixture
 }
 
-/// Additions without those that need further pigments to do no better than an earlier one.
+/// Drops additions that need further pigments and are hardly better than another one.
 fn without_needless(additions: Vec<Addition>, reaches: bool) -> Vec<Addition> {
     /// Gain below which a further pigment is not worth weighing, as a fraction, chosen by eye.
     const LEAST_GAIN: f64 = 0.02;

@@ -250,7 +250,7 @@ pub(super) fn find_all(
     names.iter().map(|name| Ok(library.find(name)?)).collect()
 }
 
-/// Prices of one unit of amount (such as a gram) of pigments by name, in any currency.
+/// Prices of one unit of amount (for example a gram) of pigments by name, in any currency.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PriceList {
     entries: Vec<Entry>,

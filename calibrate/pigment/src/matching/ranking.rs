@@ -241,7 +241,7 @@ fn xyz_pair(whites: &[Xyz], labs: &[Lab], at: usize) -> [Xyz; 2] {
     [0, at].map(|at| labs[at].to_xyz(whites[at]))
 }
 
-/// The limit of amounts at which the pigment at one place of a recipe lies.
+/// The limit of amounts that one pigment of a recipe has reached, if any.
 fn at_limit(
     request: &MatchRequest,
     candidate: &Candidate,

@@ -12,15 +12,12 @@ use super::request::{FilmKind, MatchError, MatchRequest, USUAL_TOLERANCE};
 use super::search::SearchControl;
 use super::target::{ColorTarget, Metric, SpectralTarget, Target, TargetColor, ViewingCondition};
 use crate::color::IlluminantChange;
-use crate::evaluate::{Remark, check_visible_band};
+use crate::evaluate::{Remark, WANTED_NM, check_visible_band};
 use crate::library::{AmountKind, PigmentLibrary};
 
 /// Largest distance at which a target counts as reached, in CIEDE2000 or percent of reflectance. Larger
 /// differences are clearly visible side by side. Chosen by eye.
 const REACHED: f64 = 1.0;
-
-/// Band in nm that a match by spectrum should cover: it holds nearly all of the luminance and chroma.
-const VISIBLE_NM: [f64; 2] = [420.0, 680.0];
 
 /// CIEDE2000 of the nearest recipe above which recipes are also searched by CIE 1976: CIEDE2000 was made for
 /// differences up to about 5 units (CIE 142:2001).
@@ -188,7 +185,7 @@ impl RecipeSearch<'_> {
     }
 }
 
-/// The spectrum of a measured target on the grid of a library. By spectrum it is an error if there is none.
+/// The spectrum of a measured target on the grid of a library. A search by spectrum fails if there is none.
 pub(super) fn spectrum_of(
     target: &ColorTarget,
     grid: Grid,
@@ -214,7 +211,7 @@ pub(super) fn spectrum_of(
         library_nm: [grid.start_nm(), grid.end_nm()],
     })?;
     let [first, last] = spectrum.band_nm();
-    if first > VISIBLE_NM[0] || last < VISIBLE_NM[1] {
+    if first > WANTED_NM[0] || last < WANTED_NM[1] {
         remarks.push(Remark::warning(format!(
             "{}: matched from {first} to {last} nm only, the band that target and library share",
             target.name.clone()

@@ -5,7 +5,7 @@ use documents::hint::{Explain, Fault, Hint};
 use spectra::InterpolateError;
 
 use super::target::{Metric, ViewingCondition};
-use crate::color::BackingError;
+use crate::color::{BackingError, THICKEST};
 use crate::evaluate::BandError;
 use crate::least_squares::MAX_PIGMENTS;
 use crate::library::{AmountKind, PigmentLibrary, RecipeError};
@@ -13,8 +13,6 @@ use crate::recipe::PigmentId;
 
 /// Greatest weight of a viewing condition.
 const LARGEST_WEIGHT: f64 = 1e9;
-/// Greatest thickness of a film, in the library's unit.
-const THICKEST: f64 = 1e9;
 /// Range of whole parts of one recipe.
 const WHOLE_PARTS: std::ops::RangeInclusive<u32> = 1..=1000;
 /// Range of K d + S d, averaged over pigments and wavelengths, of the usual wash: from nearly clear to
@@ -53,8 +51,8 @@ pub struct MatchRequest {
     pub required: Vec<RequiredPigment>,
     /// Most pigments of one recipe, 1 to 8.
     pub at_most: usize,
-    /// Least share of a pigment that takes part, 0 to below 1: what can be weighed or cut off with a
-    /// knife.
+    /// Least share of a pigment that takes part, 0 to below 1: the smallest share that a painter can weigh or
+    /// cut off with a knife.
     pub least_share: f64,
     /// Most parts of a recipe in whole parts, 1 to 1000. `None` for shares of any size.
     pub whole_parts: Option<u32>,

@@ -241,7 +241,7 @@ pub struct SearchControl {
 }
 
 impl SearchControl {
-    /// The control of a search that `cancellation` may end.
+    /// Control of a search that ends early when `cancellation` asks for it.
     #[must_use]
     pub fn until(cancellation: Cancellation) -> Self {
         Self { cancellation, ..Self::default() }
@@ -429,7 +429,7 @@ fn add_penalty(
 fn totals(request: &MatchRequest, pigments: &[PigmentId]) -> (f64, f64) {
     let bounds = || pigments.iter().map(|&pigment| (pigment, request.amount_bounds(pigment)));
     let least: f64 = bounds().filter_map(|(_, limits)| Some(limits?[0])).sum();
-    // Shares of a pigment without limits may be as large as they like, fixed ones are what they are.
+    // Shares of a pigment without limits may have any size, and fixed shares stay fixed.
     let taken: f64 = bounds().map(|(pigment, _)| request.share_bounds(pigment).0).sum();
     let thinnest = if least > 0.0 { least / (1.0 - taken).max(f64::MIN_POSITIVE) } else { 0.0 };
     let most = bounds().map(|(_, limits)| limits.map_or(f64::INFINITY, |[_, most]| most));

@@ -495,7 +495,6 @@ pub fn default_pairs(
         .collect();
     // The sort is stable: pairs with equal counts stay in the library's order.
     pairs.sort_by_key(|(count, _)| std::cmp::Reverse(*count));
-    // If one of the two paints is the white, it comes second.
     let mut chosen: Vec<(PigmentId, PigmentId)> =
         pairs.iter().take(2).map(|(_, p)| white_second(palette, *p)).collect();
 
@@ -517,6 +516,7 @@ pub fn default_pairs(
     chosen
 }
 
+/// The pair in an order in which the white, if it is one of the two, comes second.
 fn white_second(palette: &Palette<'_>, (a, b): (PigmentId, PigmentId)) -> (PigmentId, PigmentId) {
     if palette.white() == Some(a) { (b, a) } else { (a, b) }
 }

@@ -351,7 +351,7 @@ impl ColorWheel {
 /// Side of a cell in a* and b*, chosen by eye.
 const CELL: f64 = 3.0;
 /// Height of a cell in L*, chosen by eye.
-const BETWEEN_BAND: f64 = 10.0;
+const CELL_HEIGHT: f64 = 10.0;
 /// Number of passes. A gap of two or three cells is filled by mixtures of several passes.
 const PASSES: usize = 4;
 
@@ -391,7 +391,7 @@ pub(super) fn mixtures_between<'a>(
 
 fn cell(color: &Appearance) -> [i32; 3] {
     let lab = color.lab;
-    [cell_index(lab.lightness, BETWEEN_BAND), cell_index(lab.a, CELL), cell_index(lab.b, CELL)]
+    [cell_index(lab.lightness, CELL_HEIGHT), cell_index(lab.a, CELL), cell_index(lab.b, CELL)]
 }
 
 fn cell_index(value: f64, side: f64) -> i32 {

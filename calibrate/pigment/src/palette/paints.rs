@@ -58,8 +58,8 @@ impl<'a> Palette<'a> {
         Ok(palette)
     }
 
-    /// This palette with no more than these pigments, such as the tubes at hand. Without the
-    /// reference white the lightest of them lightens the others.
+    /// This palette with no more than these pigments, for example the tubes at hand. Without the reference
+    /// white the lightest of them lightens the others.
     ///
     /// # Errors
     /// [`PaletteError::NothingToMix`] if none of them can be mixed.

@@ -34,7 +34,7 @@ const SECOND_STOP: Stop<'static> = Stop { iterations: 20, ..FIRST_STOP };
 
 impl EffectiveQuadrature {
     /// Fits wavelengths, weights, and K and S of every pigment, so that films of `library` keep their
-    /// colours: least squares in CIEDE2000 over films that hide, tints, and thin films over black and
+    /// colours. This is least squares in CIEDE2000 over films that hide, tints, and thin films over black and
     /// white.
     ///
     /// There are two fits. The first keeps the wavelengths of [`Quadrature::library`]. The second begins

@@ -102,8 +102,8 @@ impl Quadrature {
         xyz.into()
     }
 
-    /// Interpolates values on `grid`, such as K or S, linearly at the nodes. End values are held
-    /// beyond the grid.
+    /// Interpolates values on `grid`, for example K or S, linearly at the nodes. End values are held beyond
+    /// the grid.
     #[must_use]
     pub fn at_nodes(&self, grid: Grid, values: &[f64]) -> Vec<f64> {
         self.nodes_nm.iter().map(|&nm| on_line(grid, values, nm).0).collect()
