@@ -7,7 +7,7 @@
 
 use std::sync::OnceLock;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 
 use crate::color::{Matrix3, Xyz};
 use crate::color_temperature::ColorTemperature;
@@ -64,18 +64,20 @@ impl ColorRendering {
 }
 
 /// A light that has no colour rendering.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ColorRenderingError {
     /// The light is coloured.
     #[error(
         "{name} is no white light: it is farther than 0.05 from every black body in CIE 1960 (u, v)"
     )]
+    #[hint("colour rendering compares a lamp with a white of its temperature")]
     NotWhite {
         /// Name of the light.
         name: String,
     },
     /// No daylight is so blue.
     #[error("{name} has a colour temperature of {kelvin:.0} K, and the reference ends at 25000 K")]
+    #[hint("colour rendering compares a lamp with a white of its temperature")]
     TooBlue {
         /// Name of the light.
         name: String,
@@ -85,17 +87,6 @@ pub enum ColorRenderingError {
     /// The light or its reference has no power where it is needed.
     #[error(transparent)]
     Light(#[from] IlluminantError),
-}
-
-impl Explain for ColorRenderingError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::NotWhite { .. } | Self::TooBlue { .. } => {
-                Some(Hint::new("colour rendering compares a lamp with a white of its temperature"))
-            }
-            Self::Light(error) => error.hint(),
-        }
-    }
 }
 
 /// The general index is the mean of this many samples.

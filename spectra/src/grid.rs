@@ -170,7 +170,7 @@ impl From<Grid> for GridParts {
 }
 
 /// Numbers that do not define a grid.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 pub enum GridError {
     /// The start is not a wavelength.
     #[error(transparent)]
@@ -195,8 +195,6 @@ pub enum GridError {
     #[error("a grid holds at least one wavelength, found `0`")]
     Empty,
 }
-
-impl Explain for GridError {}
 
 /// A finite, positive wavelength in nanometres.
 ///
@@ -246,11 +244,9 @@ impl std::fmt::Display for Wavelength {
 }
 
 /// A number that is not a wavelength.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 #[error("a wavelength is a finite number of nanometres above 0, found `{nm}`")]
 pub struct WavelengthError {
     /// The number that was given, in nm.
     pub nm: f64,
 }
-
-impl Explain for WavelengthError {}

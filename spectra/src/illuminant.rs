@@ -4,7 +4,7 @@
 
 use std::sync::OnceLock;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 use crate::grid::Grid;
 use crate::interpolate::Extrapolation;
@@ -91,10 +91,11 @@ fn tables() -> &'static [(String, Vec<Option<f64>>)] {
 }
 
 /// A light that cannot be made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum IlluminantError {
     /// The illuminant name is not in the table.
     #[error("no CIE illuminant is called `{name}`")]
+    #[hint("use a name such as D65, A, FL11 or LED-B3")]
     Unknown {
         /// The name that was given.
         name: String,
@@ -103,6 +104,7 @@ pub enum IlluminantError {
     #[error(
         "daylight is defined from 4000 to 25000 K, a black body here from 500 K, found `{kelvin}`"
     )]
+    #[hint("daylight is defined from D4000K to D25000K, a black body from 500K")]
     Temperature {
         /// The temperature in K.
         kelvin: f64,
@@ -119,21 +121,6 @@ pub enum IlluminantError {
     /// A power is negative or not finite.
     #[error(transparent)]
     Power(#[from] SpectrumError),
-}
-
-impl Explain for IlluminantError {
-    fn hint(&self) -> Option<Hint> {
-        let sentence = match self {
-            Self::Temperature { .. } => {
-                "daylight is defined from D4000K to D25000K, a black body from 500K"
-            }
-            Self::Unknown { .. } => "use a name such as D65, A, FL11 or LED-B3",
-            Self::IrregularSpectrum(error) => return error.hint(),
-            Self::Power(error) => return error.hint(),
-            Self::Dark { .. } => return None,
-        };
-        Some(Hint::new(sentence))
-    }
 }
 
 /// The columns of a CSV with their headings. Empty cells are `None`.
@@ -246,15 +233,10 @@ impl std::fmt::Display for Observer {
 }
 
 /// An unknown name of an observer.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
+#[fault(Setting)]
 #[error("observers are 1931-2 (or 2), 1964-10 (or 10), 2015-2 and 2015-10, found `{name}`")]
 pub struct ObserverError {
     /// The name that was given.
     pub name: String,
-}
-
-impl Explain for ObserverError {
-    fn fault(&self) -> Fault {
-        Fault::Setting
-    }
 }

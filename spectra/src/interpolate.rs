@@ -162,7 +162,7 @@ fn sprague_row(index: usize, fraction: f64, count: usize) -> InterpolationRow {
 }
 
 /// A spectrum that cannot be interpolated.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 pub enum InterpolateError {
     /// The wavelength is outside the band of the data.
     #[error("`{nm}` nm lies outside the measured band of {start_nm} to {end_nm} nm")]
@@ -181,8 +181,6 @@ pub enum InterpolateError {
         count: usize,
     },
 }
-
-impl Explain for InterpolateError {}
 
 /// A curve of cubic pieces with continuous slope and second derivative. The second derivative is 0 at both
 /// ends (de Boor 1978, chapter 4).

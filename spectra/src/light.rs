@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use documents::file::{self, FileError};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 use crate::grid::Grid;
 use crate::illuminant;
@@ -53,10 +53,16 @@ pub fn light_from_text(text: &str) -> Result<Illuminant, LightError> {
 }
 
 /// A text that does not name a light.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum LightError {
     /// The text is neither a name, a temperature nor the path of a file.
     #[error("neither a CIE illuminant, a temperature nor a file of a lamp: `{text}`")]
+    #[hint(
+        verbatim,
+        "{}use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)",
+        did_you_mean(text)
+    )]
+    #[fault(Setting)]
     Unknown {
         /// The text that was given.
         text: String,
@@ -69,6 +75,7 @@ pub enum LightError {
     Lamp(#[from] LampError),
     /// The temperature is outside the defined range.
     #[error(transparent)]
+    #[fault(Setting)]
     Illuminant(#[from] IlluminantError),
 }
 
@@ -115,28 +122,6 @@ fn did_you_mean(text: &str) -> String {
         None => None,
     };
     question.map_or_else(String::new, |question| question + " ")
-}
-
-impl Explain for LightError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Unknown { text } => Some(Hint::verbatim(
-                did_you_mean(text)
-                    + "use a name such as D65, A, FL11 or LED-B3, a black body as 5600K, daylight as D5600K (4000 to 25000), or the path of a lamp's file (an instrument's, or two columns `nm,power`)",
-            )),
-            Self::Illuminant(error) => error.hint(),
-            Self::Lamp(error) => error.hint(),
-            Self::File(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Lamp(error) => error.fault(),
-            Self::Unknown { .. } | Self::Illuminant(_) => Fault::Setting,
-        }
-    }
 }
 
 /// Negative power down to minus this fraction of the peak counts as noise of the spectrometer
@@ -210,16 +195,28 @@ fn power(file: &str, measured: &MeasuredSpectrum) -> Result<IrregularSpectrum, L
 }
 
 /// The file of a lamp that cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum LampError {
     /// The file cannot be read as any format.
     #[error(transparent)]
+    #[hint(
+        if matches!(_0, InstrumentError::Unrecognised { .. } | InstrumentError::Empty { .. }),
+        "a lamp is a file of an instrument, or two columns `nm,power`"
+    )]
+    #[hint(inner)]
     Instrument(#[from] InstrumentError),
     /// The file has several spectra and none is selected, or none of the selected name.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
     /// The spectrum is not of a light.
     #[error("{file}: `{name}` must be the power of a lamp, found `{found}`")]
+    #[hint(
+        if *found == MeasuredQuantity::Counts,
+        "counts hold the detector's own response: export irradiance, radiance or power"
+    )]
+    #[hint(
+        "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one"
+    )]
     Quantity {
         /// Path of the file.
         file: String,
@@ -230,6 +227,7 @@ pub enum LampError {
     },
     /// A power is negative by more than noise.
     #[error("{file}: power of `{name}` at {nm} nm must be 0 and up, found `{power}`")]
+    #[hint("only noise down to -1 % of the peak is taken as 0: measure again, or cut the file")]
     Power {
         /// Path of the file.
         file: String,
@@ -252,6 +250,7 @@ pub enum LampError {
     #[error(
         "{file}: a lamp must be measured from {} to {} nm or beyond, found `{start_nm}` to `{end_nm}` nm", NEEDED_NM[0], NEEDED_NM[1]
     )]
+    #[hint("wavelengths are in nm; only beyond this band are the end values of a file held")]
     Band {
         /// Path of the file.
         file: String,
@@ -263,33 +262,6 @@ pub enum LampError {
     /// The values do not form a light.
     #[error(transparent)]
     Light(#[from] IlluminantError),
-}
-
-impl Explain for LampError {
-    fn hint(&self) -> Option<Hint> {
-        let sentence = match self {
-            Self::Choice(error) => return error.hint(),
-            Self::Instrument(
-                InstrumentError::Unrecognised { .. } | InstrumentError::Empty { .. },
-            ) => "a lamp is a file of an instrument, or two columns `nm,power`",
-            Self::Instrument(error) => return error.hint(),
-            Self::Quantity { found: MeasuredQuantity::Counts, .. } => {
-                "counts hold the detector's own response: export irradiance, radiance or power"
-            }
-            Self::Quantity { .. } => {
-                "a lamp is a spectrum of power, irradiance or radiance; a reflectance is seen under one"
-            }
-            Self::Power { .. } => {
-                "only noise down to -1 % of the peak is taken as 0: measure again, or cut the file"
-            }
-            Self::Band { .. } => {
-                "wavelengths are in nm; only beyond this band are the end values of a file held"
-            }
-            Self::Light(error) => return error.hint(),
-            Self::TooShort { .. } => return None,
-        };
-        Some(Hint::new(sentence))
-    }
 }
 
 /// CIE daylight of the correlated colour temperature `kelvin`, 4000 to 25000.

@@ -7,7 +7,7 @@
 //! 1/sinh, according to the authors' erratum), and the textbook form fails at K = 0 and for
 //! thick films. The form used here has no special cases, see `Layer::new`.
 
-use documents::hint::{Explain, Fault};
+use documents::hint::Explain;
 use serde::{Deserialize, Serialize};
 
 /// Reflectance and transmittance of a film without a backing, each 0 to 1.
@@ -326,10 +326,11 @@ impl TryFrom<SurfaceParts> for Surface {
 }
 
 /// Coefficients or a reading that are physically impossible.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 pub enum SurfaceError {
     /// A coefficient is outside 0 to 1.
     #[error("{name} is a fraction from 0 to below 1, found `{value}`")]
+    #[fault(Setting)]
     Share {
         /// Name of the coefficient, `k1` or `k2`.
         name: &'static str,
@@ -344,15 +345,6 @@ pub enum SurfaceError {
         /// The reflectance of the surface alone.
         floor: f64,
     },
-}
-
-impl Explain for SurfaceError {
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Share { .. } => Fault::Setting,
-            Self::BelowFloor { .. } => Fault::Input,
-        }
-    }
 }
 
 /// A film over a backing and under a surface. Its thickness is lognormal with mean 1, and

@@ -145,7 +145,7 @@ impl<Q: Quantity> Spectrum<Q> {
 }
 
 /// Values that do not form a spectrum.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum SpectrumError {
     /// The number of values differs from the number of wavelengths.
     #[error("a grid of {} needs as many values, found `{found}`", counted(*expected, "wavelength"))]
@@ -168,8 +168,6 @@ pub enum SpectrumError {
         value: f64,
     },
 }
-
-impl Explain for SpectrumError {}
 
 /// Fewest values for a spline, as Sprague's polynomial needs on a regular grid.
 const LEAST_OF_SPLINE: usize = 6;
@@ -292,7 +290,7 @@ impl SmoothCurve<'_> {
 }
 
 /// Values that do not form a spectrum, or a spectrum that cannot be evaluated.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum IrregularSpectrumError {
     /// The numbers of wavelengths and values differ, or there are none.
     #[error(
@@ -327,5 +325,3 @@ pub enum IrregularSpectrumError {
         end_nm: f64,
     },
 }
-
-impl Explain for IrregularSpectrumError {}

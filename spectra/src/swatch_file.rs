@@ -514,7 +514,7 @@ fn put_units(bytes: &mut Vec<u8>, units: &[u16]) {
 }
 
 /// A swatch file that cannot be read or written.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum SwatchFileError {
     /// Bytes do not follow the format.
     #[error("{file}, byte {offset}: expected {expected}, found `{found}`")]
@@ -559,8 +559,6 @@ pub enum SwatchFileError {
         found: usize,
     },
 }
-
-impl Explain for SwatchFileError {}
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! The conditions under which colours are computed, and tristimulus values from spectra.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 use crate::color::{ColorValues, Xyz};
 use crate::grid::Grid;
@@ -71,7 +71,7 @@ impl Viewing {
 }
 
 /// An unknown light or observer.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ViewingError {
     /// The text does not name a light, or the file of a lamp is faulty.
     #[error(transparent)]
@@ -79,22 +79,6 @@ pub enum ViewingError {
     /// The text does not name an observer.
     #[error(transparent)]
     Observer(#[from] ObserverError),
-}
-
-impl Explain for ViewingError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Light(error) => error.hint(),
-            Self::Observer(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Light(error) => error.fault(),
-            Self::Observer(error) => error.fault(),
-        }
-    }
 }
 
 /// Weights that turn a reflectance on one grid into XYZ under one light and observer: three per

@@ -5,7 +5,7 @@
 
 use std::str::FromStr;
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use serde_json::{Value, json};
 use spectra::color::{Adaptation, Lab, Rgb, RgbSpace, Xyz};
 use spectra::{
@@ -147,13 +147,16 @@ impl PigmentLibrary {
 }
 
 /// Reasons why the colour of a mixture cannot be predicted.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ColorError {
     /// The recipe cannot be mixed.
     #[error(transparent)]
+    #[fault(Input)]
     Recipe(#[from] RecipeError),
     /// The thickness of the film is impossible.
     #[error("a film's thickness is above 0 and up to 1e9, found `{thickness}`")]
+    #[hint("leave [thickness] out for a film that hides")]
+    #[fault(Setting)]
     Thickness {
         /// Thickness that was given.
         thickness: f64,
@@ -163,32 +166,11 @@ pub enum ColorError {
     Backing(#[from] BackingError),
     /// The library has no visible wavelength.
     #[error(transparent)]
+    #[fault(Input)]
     Band(#[from] BandError),
     /// K and S of the library make an impossible reflectance.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
-}
-
-impl Explain for ColorError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Recipe(error) => error.hint(),
-            Self::Thickness { .. } => {
-                Some(Hint::new("leave [thickness] out for a film that hides"))
-            }
-            Self::Backing(error) => error.hint(),
-            Self::Band(error) => error.hint(),
-            Self::Spectrum(_) => None,
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Thickness { .. } => Fault::Setting,
-            Self::Backing(error) => error.fault(),
-            Self::Recipe(_) | Self::Band(_) | Self::Spectrum(_) => Fault::Input,
-        }
-    }
 }
 
 /// A colour under one light.
@@ -298,16 +280,19 @@ impl FromStr for Backing {
 }
 
 /// A backing that cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum BackingError {
     /// The reflectance is not a number from 0 to 1.
     #[error("the ground's reflectance is 0 to 1, white or black, found `{text}`")]
+    #[hint("try [over=0.85] or [over=paper.csv#SAMPLE]")]
+    #[fault(Setting)]
     Reflectance {
         /// Text or number that was given.
         text: String,
     },
     /// The spectrum has no wavelength in common with the library.
     #[error("the ground is measured from {start_nm} to {end_nm} nm only")]
+    #[hint("the library stands on {wanted}")]
     Band {
         /// First wavelength of the spectrum in nm.
         start_nm: f64,
@@ -319,25 +304,6 @@ pub enum BackingError {
     /// The spectrum cannot be interpolated.
     #[error(transparent)]
     Interpolate(#[from] InterpolateError),
-}
-
-impl Explain for BackingError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Reflectance { .. } => {
-                Some(Hint::new("try [over=0.85] or [over=paper.csv#SAMPLE]"))
-            }
-            Self::Band { wanted, .. } => Some(Hint::new(format!("the library stands on {wanted}"))),
-            Self::Interpolate(_) => None,
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Reflectance { .. } => Fault::Setting,
-            Self::Band { .. } | Self::Interpolate(_) => Fault::Input,
-        }
-    }
 }
 
 /// The change of lights that a special metamerism index is for.

@@ -179,19 +179,14 @@ pub fn check_visible_band(grid: Grid) -> Result<Option<Remark>, BandError> {
 }
 
 /// Spectra without any visible wavelength have no colour.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
+#[hint("measure from 400 to 700 nm or more")]
 #[error("spectra from {start_nm} to {end_nm} nm have no colour")]
 pub struct BandError {
     /// First wavelength of the spectra in nm.
     pub start_nm: f64,
     /// Last wavelength of the spectra in nm.
     pub end_nm: f64,
-}
-
-impl Explain for BandError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("measure from 400 to 700 nm or more"))
-    }
 }
 
 #[cfg(test)]

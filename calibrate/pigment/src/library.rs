@@ -6,7 +6,7 @@ use std::ops::{Index, IndexMut};
 use std::path::Path;
 
 use documents::file::{FileError, read, write_whole};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use documents::{counted, did_you_mean};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -612,7 +612,7 @@ fn write_inline_if_flat(value: &Value, depth: usize, text: &mut String) {
 }
 
 /// Why a file is not a valid pigment library.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum LibraryError {
     /// The file could not be read.
     #[error(transparent)]
@@ -627,6 +627,7 @@ pub enum LibraryError {
     },
     /// The key `format` does not name a pigment library.
     #[error("{file}: `format` must be \"impasto-pigment-library\", found `{found}`")]
+    #[hint("`impasto fit READINGS.csv [output=LIBRARY.json]` makes a pigment library")]
     Format {
         /// File name as the caller gave it.
         file: String,
@@ -635,6 +636,7 @@ pub enum LibraryError {
     },
     /// The file's version is newer than this program.
     #[error("{file}: this program reads pigment libraries up to version {newest}, found `{found}`")]
+    #[hint("a newer impasto may read it")]
     Version {
         /// File name as the caller gave it.
         file: String,
@@ -655,31 +657,12 @@ pub enum LibraryError {
     },
 }
 
-impl Explain for LibraryError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Format { .. } => Some(Hint::new(
-                "`impasto fit READINGS.csv [output=LIBRARY.json]` makes a pigment library",
-            )),
-            Self::Version { .. } => Some(Hint::new("a newer impasto may read it")),
-            Self::Syntax { .. } | Self::Figures { .. } => None,
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
-}
-
 /// A recipe that cannot be mixed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum RecipeError {
     /// No pigment has this name.
     #[error("the library has no pigment called `{name}`")]
+    #[hint(verbatim, "{}pigments: {}", question(name, known), known.join(", "))]
     UnknownPigment {
         /// Name that was looked up.
         name: String,
@@ -688,6 +671,7 @@ pub enum RecipeError {
     },
     /// Several pigments start with this name.
     #[error("{first} and {second} both start with `{name}`")]
+    #[hint("write more of the name")]
     Ambiguous {
         /// Name that was looked up.
         name: String,
@@ -704,18 +688,10 @@ pub enum RecipeError {
     },
 }
 
-impl Explain for RecipeError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::UnknownPigment { name, known } => {
-                let question = did_you_mean(name, known.iter().map(String::as_str));
-                let question = question.map_or_else(String::new, |question| question + " ");
-                Some(Hint::verbatim(format!("{question}pigments: {}", known.join(", "))))
-            }
-            Self::Ambiguous { .. } => Some(Hint::new("write more of the name")),
-            Self::Parts { .. } => None,
-        }
-    }
+/// A question after the pigment that `name` may mean, with a space behind it, or nothing.
+fn question(name: &str, known: &[String]) -> String {
+    did_you_mean(name, known.iter().map(String::as_str))
+        .map_or_else(String::new, |question| question + " ")
 }
 
 #[cfg(test)]

@@ -273,7 +273,7 @@ pub fn metamerism_index(
 }
 
 /// A sample that is black under the reference light.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Explain)]
 #[error(
     "a sample that is black under the reference light has no metamerism index, found XYZ `{xyz:?}`"
 )]
@@ -281,8 +281,6 @@ pub struct MetamerismError {
     /// XYZ of the sample under the reference light.
     pub xyz: [f64; 3],
 }
-
-impl Explain for MetamerismError {}
 
 #[cfg(test)]
 mod tests {

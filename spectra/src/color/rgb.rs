@@ -4,7 +4,7 @@
 use std::str::FromStr;
 use std::sync::LazyLock;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use palette::encoding::{FromLinear, IntoLinear, Srgb};
 
 use super::xyz::{Adaptation, KAPPA, Lab, Matrix3, TOE, Xyy, Xyz, adapt};
@@ -235,17 +235,12 @@ impl FromStr for ColorCode {
 }
 
 /// A text that is not a colour.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
+#[hint("try \"#2a5caa\" or 40,5,-45")]
 #[error("a colour is #rrggbb or L,a,b, found `{text}`")]
 pub struct ColorCodeError {
     /// The text that was given.
     pub text: String,
-}
-
-impl Explain for ColorCodeError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new("try \"#2a5caa\" or 40,5,-45"))
-    }
 }
 
 /// Halvings of the range of chroma: to a 16,000th of it, below a step of 8 bits.

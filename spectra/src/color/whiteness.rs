@@ -2,7 +2,7 @@
 
 use super::xyz::Xyz;
 use crate::illuminant::{Illuminant, Observer};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 /// Least whiteness to which the formula applies. The greatest is 5 Y - 280.
 const LEAST_WHITENESS: f64 = 40.0;
@@ -72,16 +72,20 @@ impl Whiteness {
 }
 
 /// A colour that has no CIE whiteness.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum WhitenessError {
     /// The formula is made for daylight.
     #[error("whiteness is defined under D65 and C, not under {name}")]
+    #[hint("choose [illuminant=D65]")]
+    #[fault(Setting)]
     Light {
         /// Name of the light.
         name: String,
     },
     /// The formula is made for the observers of 1931 and 1964.
     #[error("whiteness is defined for the observers 1931-2 and 1964-10, not for {observer}")]
+    #[hint("choose [observer=10]")]
+    #[fault(Setting)]
     Observer {
         /// Observer that was asked for.
         observer: Observer,
@@ -102,23 +106,6 @@ pub enum WhitenessError {
         /// Result of the formula.
         tint: f64,
     },
-}
-
-impl Explain for WhitenessError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Light { .. } => "choose [illuminant=D65]",
-            Self::Observer { .. } => "choose [observer=10]",
-            Self::NotWhite { .. } | Self::Tinted { .. } => return None,
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Light { .. } | Self::Observer { .. } => Fault::Setting,
-            Self::NotWhite { .. } | Self::Tinted { .. } => Fault::Input,
-        }
-    }
 }
 
 #[cfg(test)]

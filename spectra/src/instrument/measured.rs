@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use documents::file::disk::is_file;
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 
 use crate::grid::Grid;
 use crate::spectrum::{
@@ -161,10 +161,16 @@ impl MeasuredSpectrum {
 }
 
 /// A measured spectrum that is not a reflectance.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ReflectanceError {
     /// The spectrum is another quantity.
     #[error("`{name}` must be a reflectance, found `{found}`")]
+    #[hint(if *found == MeasuredQuantity::Counts, "reference counts to a white and a dark reading first")]
+    #[hint(
+        if *found == MeasuredQuantity::Power,
+        "the light of a lamp is no reflectance; it can be the light under which colours are seen"
+    )]
+    #[hint("export the spectrum as reflectance")]
     Quantity {
         /// Name of the spectrum.
         name: String,
@@ -189,22 +195,6 @@ pub enum ReflectanceError {
         #[source]
         reason: IrregularSpectrumError,
     },
-}
-
-impl Explain for ReflectanceError {
-    fn hint(&self) -> Option<Hint> {
-        let sentence = match self {
-            Self::Quantity { found: MeasuredQuantity::Counts, .. } => {
-                "reference counts to a white and a dark reading first"
-            }
-            Self::Quantity { found: MeasuredQuantity::Power, .. } => {
-                "the light of a lamp is no reflectance; it can be the light under which colours are seen"
-            }
-            Self::Quantity { .. } => "export the spectrum as reflectance",
-            Self::Values { .. } | Self::Wavelengths { .. } => return None,
-        };
-        Some(Hint::new(sentence))
-    }
 }
 
 /// Name for a spectrum without one: the file name without folder and extension.
@@ -263,10 +253,11 @@ fn names<'a>(spectra: impl Iterator<Item = &'a MeasuredSpectrum>) -> Vec<String>
 }
 
 /// A selection that does not determine one spectrum.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ChoiceError {
     /// No spectrum has the name.
     #[error("{file}: no spectrum is called `{name}`")]
+    #[hint(verbatim, "spectra: {}", names.join(", "))]
     Unknown {
         /// Path of the file.
         file: String,
@@ -277,6 +268,7 @@ pub enum ChoiceError {
     },
     /// Several spectra qualify and no name was given, or they share the name.
     #[error("{file}: expected one spectrum, found `{count}`")]
+    #[hint(verbatim, "name one: \"{file}#{}\"", names.join("\" or \"#"))]
     Several {
         /// Path of the file.
         file: String,
@@ -287,30 +279,20 @@ pub enum ChoiceError {
     },
 }
 
-impl Explain for ChoiceError {
-    fn hint(&self) -> Option<Hint> {
-        // Names from a file may contain brackets.
-        Some(Hint::verbatim(match self {
-            Self::Unknown { names, .. } => format!("spectra: {}", names.join(", ")),
-            Self::Several { file, names, .. } => {
-                format!("name one: \"{file}#{}\"", names.join("\" or \"#"))
-            }
-        }))
-    }
-}
-
 /// An instrument's file that cannot be read. Every variant names the file, and the line where
 /// possible.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum InstrumentError {
     /// The content matches none of the formats in `Format`.
     #[error("{file}: no known format of an instrument")]
+    #[hint("name the format with [format], or save as CSV: a column `sample`, then wavelengths")]
     Unrecognised {
         /// Path of the file.
         file: String,
     },
     /// The file is of a format that is known and not read.
     #[error("{file}: this is {kind}, which is not read")]
+    #[hint("{way}")]
     NotRead {
         /// Path of the file.
         file: String,
@@ -321,6 +303,7 @@ pub enum InstrumentError {
     },
     /// A binary file, or a part of it, does not follow its format.
     #[error("{file}: faulty {format} file: {fault}")]
+    #[hint("the file may be cut off: copy it again, or export text from the instrument's program")]
     Faulty {
         /// Path of the file.
         file: String,
@@ -331,6 +314,7 @@ pub enum InstrumentError {
     },
     /// The file contains no spectrum.
     #[error("{file}: no spectrum in this {format} file")]
+    #[hint("check that the export holds spectra, or name the format with [format]")]
     Empty {
         /// Path of the file.
         file: String,
@@ -339,6 +323,7 @@ pub enum InstrumentError {
     },
     /// A workbook has no sheet of the wanted name.
     #[error("{file}: no sheet is called `{sheet}`; its sheets are {sheets}")]
+    #[hint("name the sheet as the workbook does: FILE.xlsx#SHEET")]
     NoSheet {
         /// Path of the workbook.
         file: String,
@@ -361,6 +346,7 @@ pub enum InstrumentError {
     },
     /// A wavelength occurs twice in one spectrum.
     #[error("{file}, line {line}: the wavelength {nm} nm occurs twice, first in line {first}")]
+    #[hint("remove one of the two")]
     Duplicate {
         /// Path of the file.
         file: String,
@@ -375,6 +361,7 @@ pub enum InstrumentError {
     #[error(
         "{file}, line {line}: {nm} nm occurs more than once, with different values from {least} to `{most}`"
     )]
+    #[hint("remove the wrong one; nearly equal values would be averaged")]
     Unlike {
         /// Path of the file.
         file: String,
@@ -401,6 +388,9 @@ pub enum InstrumentError {
     #[error(
         "{file}, line {line}: {element} has no {missing}, and neither has the specification `{specification}`"
     )]
+    #[hint(
+        "export the file with its colour specifications, or save as CSV: a column `sample`, then wavelengths"
+    )]
     Incomplete {
         /// Path of the file.
         file: String,
@@ -415,6 +405,7 @@ pub enum InstrumentError {
     },
     /// The number of values differs from the number stated in the file.
     #[error("{file}, line {line}: the file states {expected} {what}, found `{found}`")]
+    #[hint("the file may be cut off; export it again")]
     Count {
         /// Path of the file.
         file: String,
@@ -446,30 +437,5 @@ impl InstrumentError {
     /// An error for a binary file that does not follow its format.
     pub(super) fn faulty(file: &str, format: &'static str, fault: impl Into<String>) -> Self {
         Self::Faulty { file: file.to_owned(), format, fault: fault.into() }
-    }
-}
-
-impl Explain for InstrumentError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Unrecognised { .. } => {
-                "name the format with [format], or save as CSV: a column `sample`, then wavelengths"
-            }
-            Self::Empty { .. } => {
-                "check that the export holds spectra, or name the format with [format]"
-            }
-            Self::NotRead { way, .. } => way,
-            Self::Faulty { .. } => {
-                "the file may be cut off: copy it again, or export text from the instrument's program"
-            }
-            Self::NoSheet { .. } => "name the sheet as the workbook does: FILE.xlsx#SHEET",
-            Self::Duplicate { .. } => "remove one of the two",
-            Self::Unlike { .. } => "remove the wrong one; nearly equal values would be averaged",
-            Self::Incomplete { .. } => {
-                "export the file with its colour specifications, or save as CSV: a column `sample`, then wavelengths"
-            }
-            Self::Count { .. } => "the file may be cut off; export it again",
-            Self::Line { .. } | Self::Order { .. } => return None,
-        }))
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use documents::file::{self, FileError};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 use super::format::{ContentKind, FileText, Format};
 use super::measured::{
@@ -149,7 +149,7 @@ pub fn open_spectrum(file_and_name: &str) -> Result<OpenedSpectrum, OpenError> {
 }
 
 /// A file of an instrument that cannot be opened.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum OpenError {
     /// The file cannot be read from the disk.
     #[error(transparent)]
@@ -160,24 +160,6 @@ pub enum OpenError {
     /// The requested spectrum is not determined.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
-}
-
-impl Explain for OpenError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::File(error) => error.hint(),
-            Self::Instrument(error) => error.hint(),
-            Self::Choice(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            Self::Instrument(error) => error.fault(),
-            Self::Choice(error) => error.fault(),
-        }
-    }
 }
 
 #[cfg(test)]

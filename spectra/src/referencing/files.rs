@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Dark, LEAST_LIGHT, Referencing, ReferencingError, Tile};
 use crate::instrument::{MeasuredSpectrum, OpenError, open_spectrum, split_file_and_name};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 
 /// The files of a reference measurement. Each spectrum is given as `FILE`, or as
 /// `FILE#NAME` where the file holds several.
@@ -115,13 +115,14 @@ impl ReferenceFiles {
 }
 
 /// Reference files that cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ReferenceFilesError {
     /// A file cannot be opened.
     #[error(transparent)]
     Open(#[from] OpenError),
     /// The file does not hold the reflectance of a tile.
     #[error("{file}: cannot be used as the reflectance of the white tile")]
+    #[hint(inner = reason)]
     Tile {
         /// The tile's `FILE` or `FILE#NAME`.
         file: String,
@@ -134,30 +135,12 @@ pub enum ReferenceFilesError {
     Constant(#[from] ReferencingError),
     /// A setting is negative or not finite.
     #[error("{} must be a number from 0 up, found `{value}`", setting.replace('_', " "))]
+    #[hint("leave [{setting}] out for the default")]
+    #[fault(Setting)]
     Setting {
         /// Name of the setting, `full_scale` or `least_light`.
         setting: &'static str,
         /// The value that was given.
         value: f64,
     },
-}
-
-impl Explain for ReferenceFilesError {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Open(error) => error.hint(),
-            Self::Tile { reason, .. } | Self::Constant(reason) => reason.hint(),
-            Self::Setting { setting, .. } => {
-                Some(Hint::new(format!("leave [{setting}] out for the default")))
-            }
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Open(error) => error.fault(),
-            Self::Setting { .. } => Fault::Setting,
-            Self::Tile { .. } | Self::Constant(_) => Fault::Input,
-        }
-    }
 }

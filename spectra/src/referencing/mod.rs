@@ -17,7 +17,7 @@ mod files;
 
 use std::ops::RangeInclusive;
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 
 use crate::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 use crate::interpolate::Extrapolation;
@@ -508,10 +508,13 @@ fn ceiling(counts: &[f64], full_scale: Option<f64>) -> Option<f64> {
 }
 
 /// Readings of sample, white and dark that do not give a reflectance.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum ReferencingError {
     /// A reading is neither counts nor power.
     #[error("the {role} `{name}` must be counts or power to be referenced, found `{found}`")]
+    #[hint(
+        "export the raw counts, or leave [white_reading] and [dark_reading] out: reflectance needs neither"
+    )]
     Quantity {
         /// `sample`, `white` or `dark`.
         role: &'static str,
@@ -522,6 +525,7 @@ pub enum ReferencingError {
     },
     /// The white's own reflectance is given as another quantity.
     #[error("the tile `{name}` must be a reflectance, found `{found}`")]
+    #[hint("give a fraction, such as [tile=0.99], or a file of its reflectance")]
     TileQuantity {
         /// Name of the tile's spectrum.
         name: String,
@@ -530,6 +534,7 @@ pub enum ReferencingError {
     },
     /// Counts and power are mixed.
     #[error("the {role} `{name}` must be {expected} like the sample, found `{found}`")]
+    #[hint("export sample, white and dark the same way")]
     Mixed {
         /// `white` or `dark`.
         role: &'static str,
@@ -542,6 +547,9 @@ pub enum ReferencingError {
     },
     /// Counts contain the signal of the detector without light, so they need a dark.
     #[error("counts of the {role} `{name}` need a dark reading")]
+    #[hint(
+        "add [dark_reading=FILE] (the same integration time, light shut off), or [dark_reading=0] if the dark is subtracted already"
+    )]
     NoDark {
         /// `sample` or `white`.
         role: &'static str,
@@ -551,6 +559,9 @@ pub enum ReferencingError {
     /// No dark was taken at the integration time of the reading.
     #[error(
         "the {role} `{name}` was integrated for {time_ms} ms, but no dark was; found `{found}`"
+    )]
+    #[hint(
+        "a dark does not scale with time: take one at each integration time and give [dark_reading] for each"
     )]
     DarkTime {
         /// `sample` or `white`.
@@ -564,6 +575,9 @@ pub enum ReferencingError {
     },
     /// There are several darks, and the reading does not state its integration time.
     #[error("cannot select one of {darks} darks for the {role}: no integration time in `{name}`")]
+    #[hint(
+        "a dark does not scale with time: take one at each integration time and give [dark_reading] for each"
+    )]
     UnknownTime {
         /// `sample` or `white`.
         role: &'static str,
@@ -574,6 +588,9 @@ pub enum ReferencingError {
     },
     /// The detector is saturated.
     #[error("the {role} `{name}` is saturated at {nm} nm, at `{value}`")]
+    #[hint(
+        "measure again with a shorter integration time; if the detector was not saturated, give its largest count with [full_scale]"
+    )]
     Saturated {
         /// `sample` or `white`.
         role: &'static str,
@@ -588,6 +605,7 @@ pub enum ReferencingError {
     #[error(
         "the white `{name}` has too little light at {nm} nm: expected {least:.4} above its dark, found `{light:.4}`"
     )]
+    #[hint("measure with more light there or a longer integration time, or lower [least_light]")]
     Dim {
         /// Name of the white.
         name: String,
@@ -600,6 +618,7 @@ pub enum ReferencingError {
     },
     /// A reading does not cover a wavelength of the sample.
     #[error("the {role} has no value at `{nm}` nm, where the sample has one")]
+    #[hint("measure over all wavelengths of the sample")]
     Uncovered {
         /// `white`, `dark` or `tile`.
         role: &'static str,
@@ -608,6 +627,7 @@ pub enum ReferencingError {
     },
     /// The sample is darker than its dark by more than noise.
     #[error("the sample `{name}` reads below its dark at {nm} nm: reflectance `{reflectance}`")]
+    #[hint("check that sample and dark were not interchanged")]
     BelowDark {
         /// Name of the sample.
         name: String,
@@ -624,39 +644,11 @@ pub enum ReferencingError {
     },
     /// The white's own reflectance is out of range.
     #[error("the tile's reflectance must be above 0 and at most 1.2, found `{value}`")]
+    #[hint("give a fraction, such as [tile=0.99], or a file of its reflectance")]
     Tile {
         /// Reflectance of the tile, as a fraction.
         value: f64,
     },
-}
-
-impl Explain for ReferencingError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Quantity { .. } => {
-                "export the raw counts, or leave [white_reading] and [dark_reading] out: reflectance needs neither"
-            }
-            Self::Mixed { .. } => "export sample, white and dark the same way",
-            Self::NoDark { .. } => {
-                "add [dark_reading=FILE] (the same integration time, light shut off), or [dark_reading=0] if the dark is subtracted already"
-            }
-            Self::DarkTime { .. } | Self::UnknownTime { .. } => {
-                "a dark does not scale with time: take one at each integration time and give [dark_reading] for each"
-            }
-            Self::Saturated { .. } => {
-                "measure again with a shorter integration time; if the detector was not saturated, give its largest count with [full_scale]"
-            }
-            Self::Dim { .. } => {
-                "measure with more light there or a longer integration time, or lower [least_light]"
-            }
-            Self::Uncovered { .. } => "measure over all wavelengths of the sample",
-            Self::BelowDark { .. } => "check that sample and dark were not interchanged",
-            Self::Tile { .. } | Self::TileQuantity { .. } => {
-                "give a fraction, such as [tile=0.99], or a file of its reflectance"
-            }
-            Self::Invisible { .. } => return None,
-        }))
-    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Changes of one library: other names, a subset, another reference white, another wavelength grid, and
 //! pigments guessed from a colour.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use spectra::color::{
     Adaptation, ColorCode, ColorCodeError, Lab, RgbSpace, Xyz, delta_e_ciede2000,
 };
@@ -396,10 +396,11 @@ fn glaze_absorption(internal: f64, scattering: f64) -> f64 {
 }
 
 /// A change of libraries that the data do not allow.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum CurationError {
     /// A name does not denote one pigment.
     #[error("{file}: {error}")]
+    #[hint(inner)]
     Pigment {
         /// File of the library.
         file: String,
@@ -408,6 +409,7 @@ pub enum CurationError {
     },
     /// The new reference white has an unknown S.
     #[error("{file}: the scattering of `{pigment}` is not known, so it cannot be the reference")]
+    #[hint("name a pigment that was measured in mixtures and scatters, such as a white")]
     UnknownScattering {
         /// File of the library.
         file: String,
@@ -416,6 +418,7 @@ pub enum CurationError {
     },
     /// The new reference white has S = 0 at a wavelength.
     #[error("{file}: the reference needs S above 0, and S of {pigment} at {nm} nm is `{value}`")]
+    #[hint("name a pigment that was measured in mixtures and scatters, such as a white")]
     NoScattering {
         /// File of the library.
         file: String,
@@ -428,6 +431,11 @@ pub enum CurationError {
     },
     /// The new grid cannot be reached from the library's.
     #[error("{file}: {error}")]
+    #[hint(
+        if matches!(error, InterpolateError::TooFew { .. }),
+        "straight lines need only two wavelengths: [interpolation=linear]"
+    )]
+    #[hint("choose wavelengths within the library's, or hold its end values: [hold_ends]")]
     Grid {
         /// File of the library.
         file: String,
@@ -436,6 +444,9 @@ pub enum CurationError {
     },
     /// One library holds shares, the other amounts on an area.
     #[error("{file} holds {found} amounts and {first} {wanted} ones, which mean different things")]
+    #[hint(
+        "first convert the absolute library to shares: `impasto library convert` with [reference=WHITE]"
+    )]
     Amounts {
         /// File of the first library.
         first: String,
@@ -448,6 +459,7 @@ pub enum CurationError {
     },
     /// Both libraries hold absolute amounts, and no file states their unit.
     #[error("{first} and {file}: K and S are per unit of amount, and no file states the unit")]
+    #[hint("if both were measured in the same unit on the same area: [same_unit]")]
     Units {
         /// File of the first library.
         first: String,
@@ -456,6 +468,9 @@ pub enum CurationError {
     },
     /// K and S were found under different surfaces or film models.
     #[error("{file}: {what} differs, {wanted} in {first}, found `{found}`")]
+    #[hint(
+        "K and S hold under the surface they were found with; fit both with one [saunderson], or use the first's: [any_surface]"
+    )]
     Surface {
         /// Name of the property that differs.
         what: &'static str,
@@ -470,12 +485,14 @@ pub enum CurationError {
     },
     /// The first library has no reference white.
     #[error("{file}: the library has no reference white, so nothing can be scaled to it")]
+    #[hint("name one of its pigments: [reference=WHITE]")]
     NoReference {
         /// File of the library.
         file: String,
     },
     /// The other library lacks the reference white of the first.
     #[error("{file}: no pigment is called `{reference}`, the reference of {first}")]
+    #[hint("if it has {reference} under another name: [as=NAME]")]
     NoCommonPigment {
         /// File of the first library.
         first: String,
@@ -487,6 +504,9 @@ pub enum CurationError {
     /// One name stands for two different pigments.
     #[error(
         "{first} and {file} both have `{pigment}` with figures that differ, {delta_e:.2} CIEDE2000 between the masstones"
+    )]
+    #[hint(
+        "choose one: [prefer=first] or [prefer=last]; or rename one: impasto library rename {file} \"{pigment}={pigment} (2)\" [output=RENAMED.json]"
     )]
     Clash {
         /// File of the first pigment.
@@ -500,6 +520,7 @@ pub enum CurationError {
     },
     /// A new name is empty or already taken.
     #[error("{file}: a pigment needs a name of its own, found `{name}`")]
+    #[hint("choose another name")]
     Name {
         /// File of the library.
         file: String,
@@ -508,6 +529,7 @@ pub enum CurationError {
     },
     /// A subset would lose its reference white.
     #[error("{file}: the reference `{reference}` would be left out")]
+    #[hint("keep {reference}, or choose a new reference: [reference=WHITE]")]
     ReferenceLeftOut {
         /// File of the library.
         file: String,
@@ -516,6 +538,7 @@ pub enum CurationError {
     },
     /// A subset would be empty.
     #[error("{file}: no pigment would be left")]
+    #[hint("name a pigment to keep")]
     Empty {
         /// File of the library.
         file: String,
@@ -524,6 +547,7 @@ pub enum CurationError {
     #[error(
         "no paint under this surface (k1 = {k1}, k2 = {k2}) has this colour; the nearest is {delta_e:.2} CIEDE2000 off, found `{nearest}`"
     )]
+    #[hint("accept the nearest colour: [nearest]")]
     OutOfReach {
         /// Share of arriving light that the surface reflects.
         k1: f64,
@@ -536,80 +560,34 @@ pub enum CurationError {
     },
     /// Tints were requested of a library without a reference white.
     #[error("the library has no reference white to tint with")]
+    #[hint("leave out [tints]")]
     NoWhite,
     /// The ratio of a tint is out of range.
     #[error("a tint has more than 0 and up to 1e6 parts of white, found `{parts}`")]
+    #[hint("try [tints=1,4,9]")]
+    #[fault(Setting)]
     TintParts {
         /// Parts of white to one of the pigment.
         parts: f64,
     },
     /// A text is not a colour.
     #[error(transparent)]
+    #[fault(Setting)]
     Color(#[from] ColorCodeError),
     /// A pigment was to be guessed without a name.
     #[error("a pigment needs a name")]
+    #[hint("give [name=\"Sky Blue\"]")]
+    #[fault(Setting)]
     Unnamed,
     /// A pigment was to be guessed under the name of another.
     #[error("the library has a pigment called `{name}`")]
+    #[hint("choose another [name]")]
     NameTaken {
         /// The name.
         name: String,
     },
     /// A pigment was to be guessed for a library of absolute amounts.
     #[error("a guessed pigment has no unit of amount, and this library is of absolute amounts")]
+    #[hint("first convert the library to shares: `impasto library convert` with [reference=WHITE]")]
     GuessedAmount,
-}
-
-impl Explain for CurationError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Pigment { error, .. } => return error.hint(),
-            Self::UnknownScattering { .. } | Self::NoScattering { .. } => {
-                "name a pigment that was measured in mixtures and scatters, such as a white".into()
-            }
-            Self::Grid { error: InterpolateError::TooFew { .. }, .. } => {
-                "straight lines need only two wavelengths: [interpolation=linear]".into()
-            }
-            Self::Grid { .. } => {
-                "choose wavelengths within the library's, or hold its end values: [hold_ends]".into()
-            }
-            Self::Amounts { .. } => {
-                "first convert the absolute library to shares: `impasto library convert` with [reference=WHITE]".into()
-            }
-            Self::Units { .. } => {
-                "if both were measured in the same unit on the same area: [same_unit]".into()
-            }
-            Self::Surface { .. } => {
-                "K and S hold under the surface they were found with; fit both with one [saunderson], or use the first's: [any_surface]".into()
-            }
-            Self::NoReference { .. } => "name one of its pigments: [reference=WHITE]".into(),
-            Self::NoCommonPigment { reference, .. } => {
-                format!("if it has {reference} under another name: [as=NAME]")
-            }
-            Self::Clash { pigment, file, .. } => format!(
-                "choose one: [prefer=first] or [prefer=last]; or rename one: impasto library rename {file} \"{pigment}={pigment} (2)\" [output=RENAMED.json]"
-            ),
-            Self::Name { .. } => "choose another name".into(),
-            Self::ReferenceLeftOut { reference, .. } => {
-                format!("keep {reference}, or choose a new reference: [reference=WHITE]")
-            }
-            Self::Empty { .. } => "name a pigment to keep".into(),
-            Self::OutOfReach { .. } => "accept the nearest colour: [nearest]".into(),
-            Self::Color(error) => return error.hint(),
-            Self::NoWhite => "leave out [tints]".into(),
-            Self::TintParts { .. } => "try [tints=1,4,9]".into(),
-            Self::Unnamed => "give [name=\"Sky Blue\"]".into(),
-            Self::NameTaken { .. } => "choose another [name]".into(),
-            Self::GuessedAmount => {
-                "first convert the library to shares: `impasto library convert` with [reference=WHITE]".into()
-            }
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::TintParts { .. } | Self::Unnamed | Self::Color(_) => Fault::Setting,
-            _ => Fault::Input,
-        }
-    }
 }

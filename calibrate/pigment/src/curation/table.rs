@@ -3,7 +3,7 @@
 //! The CSV table of K and S has one row per curve, with the columns `pigment`, `quantity` and the wavelengths in
 //! nm. Swatches are the masstone of each pigment and its tints.
 
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use spectra::Grid;
 use spectra::color::{Adaptation, ColorValues, Lab, adapt};
 use spectra::csv_table::{CellPlace, CsvTableError, RowNumbers, wavelength_of_header};
@@ -267,10 +267,24 @@ fn framed(
 }
 
 /// Why a table of curves cannot be read.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Explain)]
 pub enum TableError {
     /// A cell, row or column of the table is faulty.
     #[error(transparent)]
+    #[hint(
+        if matches!(
+            _0,
+            CsvTableError::MissingColumn { .. }
+                | CsvTableError::Cell { place: CellPlace { row: 1, .. }, .. }
+        ),
+        "the columns are pigment, quantity, then wavelengths such as 400; `impasto library export` writes such a table with [to=csv]"
+    )]
+    #[hint(
+        if matches!(_0, CsvTableError::RowLength { .. }),
+        "numbers take a decimal point, not a comma"
+    )]
+    #[hint(none)]
+    #[fault(Input)]
     Sheet(CsvTableError),
     /// The text is not valid CSV.
     #[error("{file}: {reason}")]
@@ -282,6 +296,7 @@ pub enum TableError {
     },
     /// The wavelengths do not rise at a constant step.
     #[error("{file}, row 1: wavelengths must rise at a constant step")]
+    #[hint("resample the curves to a regular grid first")]
     Irregular {
         /// File name as the caller gave it.
         file: String,
@@ -304,6 +319,11 @@ pub enum TableError {
     },
     /// None or several pigments have S = 1 at every wavelength.
     #[error("{file}: expected one pigment with S = 1 at every wavelength, found `{}`", whites.len())]
+    #[hint(
+        if whites.is_empty(),
+        "name the white to scale by, [reference=WHITE], or set [amounts=absolute]"
+    )]
+    #[hint("name it, [reference=WHITE]: {}", whites.join(", "))]
     NoReference {
         /// File name as the caller gave it.
         file: String,
@@ -312,42 +332,11 @@ pub enum TableError {
     },
     /// The library cannot be scaled to the reference.
     #[error(transparent)]
+    #[fault(Input)]
     Curation(#[from] CurationError),
     /// The values do not make a valid library.
     #[error(transparent)]
     Library(#[from] LibraryError),
-}
-
-impl Explain for TableError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::Sheet(
-                CsvTableError::MissingColumn { .. }
-                | CsvTableError::Cell { place: CellPlace { row: 1, .. }, .. },
-            ) => "the columns are pigment, quantity, then wavelengths such as 400; `impasto library export` writes such a table with [to=csv]".into(),
-            Self::Irregular { .. } => "resample the curves to a regular grid first".into(),
-            Self::Sheet(CsvTableError::RowLength { .. }) => {
-                "numbers take a decimal point, not a comma".into()
-            }
-            Self::NoReference { whites, .. } if whites.is_empty() => {
-                "name the white to scale by, [reference=WHITE], or set [amounts=absolute]".into()
-            }
-            Self::NoReference { whites, .. } => {
-                format!("name it, [reference=WHITE]: {}", whites.join(", "))
-            }
-            Self::Curation(error) => return error.hint(),
-            Self::Library(error) => return error.hint(),
-            Self::Sheet(CsvTableError::Cell { .. }) | Self::Syntax { .. } => return None,
-            Self::MissingCurve { .. } | Self::Empty { .. } => return None,
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Library(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }
 
 /// Colour of an opaque film of one pigment, alone or with white.

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use documents::file::{FileError, read};
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use spectra::csv_table::RowNumbers;
 
 use super::request::{
@@ -366,7 +366,7 @@ pub fn parse_price(text: &str, place: &str) -> Result<f64, PriceError> {
 }
 
 /// Prices that cannot be used.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, thiserror::Error, Explain)]
 pub enum PriceError {
     /// The file cannot be read.
     #[error(transparent)]
@@ -382,6 +382,7 @@ pub enum PriceError {
     },
     /// A column is missing.
     #[error("{file}, row 1: no column `{column}`")]
+    #[hint("the first row is `pigment,price`; commas separate the columns")]
     MissingColumn {
         /// File name as the caller gave it.
         file: String,
@@ -390,30 +391,11 @@ pub enum PriceError {
     },
     /// A price is not a number of 0 and up.
     #[error("{place}: expected a price of 0 or more, found `{text}`")]
+    #[hint("numbers take a decimal point, without a currency")]
     Price {
         /// File and row, or the text that states the price.
         place: String,
         /// Text of the price.
         text: String,
     },
-}
-
-impl Explain for PriceError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::File(error) => return error.hint(),
-            Self::Table { .. } => return None,
-            Self::MissingColumn { .. } => {
-                "the first row is `pigment,price`; commas separate the columns"
-            }
-            Self::Price { .. } => "numbers take a decimal point, without a currency",
-        }))
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::File(error) => error.fault(),
-            _ => Fault::Input,
-        }
-    }
 }

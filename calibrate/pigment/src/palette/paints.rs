@@ -1,7 +1,7 @@
 //! The paints of a library that can be mixed, the colours of their mixtures, and the black and white cards that
 //! films are drawn down over.
 
-use documents::hint::{Explain, Hint};
+use documents::hint::Explain;
 use spectra::{Grid, TristimulusWeights};
 
 use crate::color::Appearance;
@@ -286,12 +286,13 @@ pub(super) fn crossing(thin: f64, thick: f64, reached: impl Fn(f64) -> bool) -> 
 }
 
 /// A library that makes no palette.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum PaletteError {
     /// No pigment has an identified scattering.
     #[error(
         "none of the library's pigments can be mixed: scattering is identified of `0` of {pigments}"
     )]
+    #[hint("measure mixtures of each pigment with the white, and fit again")]
     NothingToMix {
         /// Number of pigments in the library.
         pigments: usize,
@@ -300,23 +301,13 @@ pub enum PaletteError {
     #[error(
         "a card has one reflectance for each of the library's {wanted} wavelengths, found `{found}`"
     )]
+    #[hint("read the bare cards on the wavelengths of the films")]
     Cards {
         /// Wavelengths of the library.
         wanted: usize,
         /// Wavelengths of the card.
         found: usize,
     },
-}
-
-impl Explain for PaletteError {
-    fn hint(&self) -> Option<Hint> {
-        Some(Hint::new(match self {
-            Self::NothingToMix { .. } => {
-                "measure mixtures of each pigment with the white, and fit again"
-            }
-            Self::Cards { .. } => "read the bare cards on the wavelengths of the films",
-        }))
-    }
 }
 
 /// Measured reflectance of the two bare cards.

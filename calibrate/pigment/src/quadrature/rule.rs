@@ -4,7 +4,7 @@
 //! mixtures with their exact colours.
 
 use documents::Cancelled;
-use documents::hint::{Explain, Fault, Hint};
+use documents::hint::Explain;
 use nalgebra::{DMatrix, SymmetricEigen};
 use rand::seq::index;
 use rand::{RngExt, SeedableRng};
@@ -198,10 +198,12 @@ impl Light {
 }
 
 /// A quadrature that cannot be computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Explain)]
 pub enum QuadratureFailure {
     /// The number of nodes is 0 or above 32.
     #[error("a quadrature has 1 to 32 wavelengths, found `{count}`")]
+    #[hint("eight wavelengths are enough for most paints: [nodes=8]")]
+    #[fault(Setting)]
     Count {
         /// Number of nodes that was requested.
         count: usize,
@@ -209,24 +211,6 @@ pub enum QuadratureFailure {
     /// The fit was asked to end before its time.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-}
-
-impl Explain for QuadratureFailure {
-    fn hint(&self) -> Option<Hint> {
-        match self {
-            Self::Count { .. } => {
-                Some(Hint::new("eight wavelengths are enough for most paints: [nodes=8]"))
-            }
-            Self::Cancelled(error) => error.hint(),
-        }
-    }
-
-    fn fault(&self) -> Fault {
-        match self {
-            Self::Count { .. } => Fault::Setting,
-            Self::Cancelled(error) => error.fault(),
-        }
-    }
 }
 
 /// Mixtures of a library as films that hide their ground, with their exact colours.
