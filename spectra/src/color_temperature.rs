@@ -51,9 +51,9 @@ impl ColorTemperature {
             let left = high - golden * (high - low);
             let right = low + golden * (high - low);
             if distance_from_body(u, v, left).0 < distance_from_body(u, v, right).0 {
-                high = right
+                high = right;
             } else {
-                low = left
+                low = left;
             }
         }
         let mired = 0.5 * (low + high);
