@@ -9,9 +9,8 @@ use calibrate::validation::Validation;
 use calibrate::{PigmentId, Recipe};
 use spectra::{InterpolateError, TristimulusWeights};
 
-use crate::figure::{Drawing, Figure, Words};
+use crate::figure::{Drawing, Figure, Table, Words};
 use crate::style::Color;
-use crate::table::Table;
 
 /// The input of a report: a library, the viewing condition, and its comparison with
 /// measurements.

@@ -8,13 +8,13 @@ use spectra::TristimulusWeights;
 use spectra::optics::{Surface, UnevenFilm};
 
 use crate::calibration::{Calibration, CalibrationError, pigment};
-use crate::findings;
 use crate::fit::{
     FiniteProblem, FitError, FitSettings, FitStage, MeasuredFilm, Refined, Refinement, Smoothness,
     Watch, fit_finite, root_mean_square,
 };
 use crate::measurement::MeasurementError;
-use crate::scores::Scores;
+use crate::report;
+use crate::report::Scores;
 use crate::swatch::SwatchSet;
 use pigment::PigmentId;
 use pigment::evaluate::{Viewing, delta_e};
@@ -88,7 +88,7 @@ pub fn calibrate_absolute_watched(
     watch: Watch<'_>,
 ) -> Result<Calibration, CalibrationError> {
     let problem = films(set)?;
-    let dark = findings::below_surface(set, film.surface, settings.below_surface)?;
+    let dark = report::below_surface(set, film.surface, settings.below_surface)?;
     let own = Viewing::default().weights(set.grid).expect("the method fits the grid");
     let how = Refinement { watch, ..Refinement::whole(settings.smoothness) };
     let fit = fit_finite(&problem, film, &own, how)?;
@@ -105,7 +105,7 @@ pub fn calibrate_absolute_watched(
         observer: viewing.observer.name().to_owned(),
         rms,
         delta_e,
-        warnings: findings::absolute_warnings(set, &undetermined, dark, &per_sample),
+        warnings: report::absolute_warnings(set, &undetermined, dark, &per_sample),
         per_sample,
     };
     let deviations = fit.deviations.as_deref();

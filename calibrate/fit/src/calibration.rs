@@ -3,7 +3,6 @@
 use documents::hint::{Explain, Fault, Hint};
 use spectra::optics::Surface;
 
-use crate::findings;
 use crate::fit::{
     Condition, FitError, FitSettings, Method, Problem, Refined, RefinedState, Refinement,
     Unidentified, Unknown, Watch, condition, fit_qp_watched, fit_refined, fit_weighted_watched,
@@ -11,7 +10,8 @@ use crate::fit::{
 };
 use crate::measurement::MeasurementError;
 use crate::observation::{Observation, observations};
-use crate::scores::Scores;
+use crate::report;
+use crate::report::Scores;
 use crate::swatch::SwatchSet;
 use pigment::digits::rounded;
 use pigment::evaluate::Viewing;
@@ -98,7 +98,7 @@ pub fn calibrate_watched(
     library.evidence = Some(evidence(&library, set, &solvable, &identified, viewing));
     if let Some(evidence) = &mut library.evidence {
         evidence.warnings =
-            findings::warnings(set, &observations, &unknown, &condition, &evidence.per_sample);
+            report::warnings(set, &observations, &unknown, &condition, &evidence.per_sample);
     }
     Ok(Calibration { library, observations, condition: Some(condition), state: solution.state })
 }

@@ -12,7 +12,7 @@ use crate::calibration::{CalibrationError, calibrate_watched};
 use crate::fit::{FitSettings, MeasuredFilm, Watch};
 use crate::measurement::MeasurementError;
 use crate::observation::{BelowSurface, observations};
-use crate::scores::Scores;
+use crate::report::Scores;
 use crate::swatch::{Swatch, SwatchSet};
 use crate::validation::{DEFAULT_FOLDS, Validation, ValidationPlan, leave_out, leave_out_films};
 use pigment::evaluate::{Summary, Viewing};

@@ -1,9 +1,10 @@
-//! Swatches: all readings of one sample, averaged.
+//! Swatches: all readings of one sample, averaged, and the cards on which they were painted.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use spectra::Grid;
+use pigment::palette::Cards;
+use spectra::{Grid, TristimulusWeights};
 
 use crate::measurement::{CellPlace, Film, MeasurementError, MeasurementTable, Reading};
 
@@ -235,4 +236,34 @@ fn spread(readings: &[&Reading]) -> Option<f64> {
         .flat_map(|r| r.reflectance.iter().zip(&mean).map(|(v, m)| (v - m).powi(2)))
         .sum();
     Some((squares / freedom).sqrt())
+}
+
+impl SwatchSet {
+    /// Cards under the films of this set, chosen by [`Cards::among`]; the standard cards if the set is on
+    /// another grid than `weights`.
+    #[must_use]
+    pub fn cards(&self, weights: &TristimulusWeights) -> Cards {
+        if self.grid != weights.grid() {
+            return Cards::standard(weights.grid());
+        }
+        Cards::among(bare_backings(self), weights)
+    }
+}
+
+/// Mean bare reflectance of each backing over the films that lie on it.
+fn bare_backings(set: &SwatchSet) -> Vec<Vec<f64>> {
+    let films = || set.swatches.iter().flat_map(|swatch| &swatch.films);
+    let mut names: Vec<&str> = films().map(|film| film.backing.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    let mean = |name: &str| {
+        let bare: Vec<&[f64]> = films()
+            .filter(|film| film.backing == name)
+            .filter_map(|film| film.bare.as_deref())
+            .collect();
+        let sum = |at: usize| bare.iter().map(|card| card[at]).sum::<f64>();
+        let values = (0..set.grid.count()).map(|at| sum(at) / bare.len() as f64).collect();
+        (!bare.is_empty()).then_some(values)
+    };
+    names.into_iter().filter_map(mean).collect()
 }

@@ -3,9 +3,8 @@
 use spectra::optics::UnevenFilm;
 use spectra::{Grid, TristimulusWeights};
 
-use super::curves::{CurveTable, Layout};
 use super::forward::{Data, Finite};
-use super::problem::FitError;
+use super::problem::{CurveTable, FitError, Layout};
 use super::refined::{Refined, Refinement, refine};
 use pigment::{Curves, Recipe};
 /// Values of S that are tried as a start, evenly spaced in their logarithm; chosen by eye.

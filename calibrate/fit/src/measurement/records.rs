@@ -6,10 +6,8 @@ use spectra::Grid;
 use spectra::instrument::{MeasuredQuantity, MeasuredSpectrum, Role, Unit};
 
 use super::column::MEASURABLE_NM;
-use super::common_grid::{grid_of, on_grid};
 use super::error::MeasurementError;
-use super::scale::{Scale, ScaleChoice};
-use super::table::{Film, MeasurementTable, Reading};
+use super::table::{Film, MeasurementTable, Reading, Scale, ScaleChoice, grid_of, on_grid};
 use spectra::csv_table::CellPlace;
 
 /// Wavelengths in nm that a table of readings may have.
