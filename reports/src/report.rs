@@ -543,17 +543,16 @@ mod tests {
         let numbers = "href=\"data:text/csv;charset=utf-8,";
         assert_eq!(page.matches(numbers).count(), figures.len());
         assert!(!page.contains("href=\"figures/"), "a link to a file that is not there");
-        let decoded = |text: &str| {
-            let mut parts = text.split('%');
-            let mut bytes = parts.next().unwrap().as_bytes().to_vec();
-            for part in parts {
-                bytes.push(u8::from_str_radix(&part[..2], 16).unwrap());
-                bytes.extend_from_slice(&part.as_bytes()[2..]);
-            }
-            String::from_utf8(bytes).unwrap()
-        };
         for (figure, link) in figures.iter().zip(page.split(numbers).skip(1)) {
-            let told = decoded(link.split('"').next().unwrap());
+            let told = {
+                let mut parts = (link.split('"').next().unwrap()).split('%');
+                let mut bytes = parts.next().unwrap().as_bytes().to_vec();
+                for part in parts {
+                    bytes.push(u8::from_str_radix(&part[..2], 16).unwrap());
+                    bytes.extend_from_slice(&part.as_bytes()[2..]);
+                }
+                String::from_utf8(bytes).unwrap()
+            };
             assert_eq!(told, figure.data.csv(), "{}", figure.name);
         }
     }

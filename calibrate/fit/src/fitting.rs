@@ -292,8 +292,9 @@ fn reference(set: &SwatchSet, name: Option<&str>) -> Result<PigmentId, FittingEr
         return index_of(&set.pigments, name, "pigment").map(PigmentId);
     }
     let samples = |index: usize| set.swatches.iter().filter(|s| s.amounts[index] > 0.0).count();
-    let called_white = |&index: &usize| set.pigments[index].to_lowercase().contains("white");
-    let whites: Vec<usize> = (0..set.pigments.len()).filter(called_white).collect();
+    let whites: Vec<usize> = (0..set.pigments.len())
+        .filter(|&index: &usize| set.pigments[index].to_lowercase().contains("white"))
+        .collect();
     // Of several in equally many samples, the first column is chosen.
     let commonest = whites.into_iter().rev().max_by_key(|&index| samples(index));
     commonest.map(PigmentId).ok_or_else(|| FittingError::NoWhite {

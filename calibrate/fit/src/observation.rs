@@ -159,9 +159,6 @@ impl SurfaceConversion<'_> {
     }
 
     fn observation(&self, swatch: &Swatch) -> Result<Observation, MeasurementError> {
-        let external = |&q: &f64| {
-            self.surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(q))
-        };
         let pair = two_backings(&swatch.films);
         let (ratio, hiding) = match pair {
             Some((light, dark)) => self.over_two_backings(swatch, light, dark)?,
@@ -171,7 +168,12 @@ impl SurfaceConversion<'_> {
                 (ratio, Hiding::Assumed(largest_difference(&swatch.films)))
             }
         };
-        let reflectance: Vec<f64> = ratio.iter().map(external).collect();
+        let reflectance: Vec<f64> = ratio
+            .iter()
+            .map(|&q: &f64| {
+                self.surface.measured_from_internal(spectra::optics::infinite_film_from_ratio(q))
+            })
+            .collect();
         let as_read = match pair {
             Some(((light, _), (dark, _))) => {
                 let readings = light.iter().zip(dark);

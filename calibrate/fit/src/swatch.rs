@@ -112,8 +112,11 @@ impl SwatchSet {
     #[must_use]
     pub fn uneven_recipes(&self) -> Vec<(&str, f64)> {
         // A masstone may be written as 1 where mixtures are counted in parts.
-        let is_mixture = |s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1;
-        let mixtures: Vec<&Swatch> = self.swatches.iter().filter(is_mixture).collect();
+        let mixtures: Vec<&Swatch> = self
+            .swatches
+            .iter()
+            .filter(|s: &&Swatch| s.amounts.iter().filter(|a| **a > 0.0).count() > 1)
+            .collect();
         let totals: Vec<f64> = mixtures.iter().map(|s| s.amounts.iter().sum()).collect();
         for whole in [100.0, 1.0] {
             let even = |total: f64| (total / whole - 1.0).abs() < 1e-3;
@@ -256,14 +259,16 @@ fn bare_backings(set: &SwatchSet) -> Vec<Vec<f64>> {
     let mut names: Vec<&str> = films().map(|film| film.backing.as_str()).collect();
     names.sort_unstable();
     names.dedup();
-    let mean = |name: &str| {
-        let bare: Vec<&[f64]> = films()
-            .filter(|film| film.backing == name)
-            .filter_map(|film| film.bare.as_deref())
-            .collect();
-        let sum = |at: usize| bare.iter().map(|card| card[at]).sum::<f64>();
-        let values = (0..set.grid.count()).map(|at| sum(at) / bare.len() as f64).collect();
-        (!bare.is_empty()).then_some(values)
-    };
-    names.into_iter().filter_map(mean).collect()
+    names
+        .into_iter()
+        .filter_map(|name: &str| {
+            let bare: Vec<&[f64]> = films()
+                .filter(|film| film.backing == name)
+                .filter_map(|film| film.bare.as_deref())
+                .collect();
+            let sum = |at: usize| bare.iter().map(|card| card[at]).sum::<f64>();
+            let values = (0..set.grid.count()).map(|at| sum(at) / bare.len() as f64).collect();
+            (!bare.is_empty()).then_some(values)
+        })
+        .collect()
 }

@@ -315,10 +315,10 @@ impl Refits<'_> {
     pub(crate) fn mixtures(&self) -> impl Iterator<Item = usize> {
         let shares = self.observations.iter().map(|o| o.shares.as_slice());
         let unknown = unidentified(shares, self.reference);
-        let is_mixture = |o: &Observation| o.shares.iter().filter(|s| **s > 0.0).count() > 1;
         (0..self.observations.len()).filter(move |&i| {
             let target = &self.observations[i];
-            is_mixture(target) && unknown.iter().all(|u| target.shares[u.pigment.index()] == 0.0)
+            (target.shares.iter().filter(|s| **s > 0.0).count() > 1)
+                && unknown.iter().all(|u| target.shares[u.pigment.index()] == 0.0)
         })
     }
 

@@ -92,10 +92,12 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
     let [a, b] = axes(&whole);
     let mut data = Table::new(columns(outline_columns("lightness", "a*", "b*")));
     let lightness = |sample: &GamutSample| sample.color.lab.lightness;
-    let held = |[low, high]: &[f64; 2]| {
-        gamut.samples.iter().any(|sample| (*low..=*high).contains(&lightness(sample)))
-    };
-    let bands: Vec<[f64; 2]> = BANDS.into_iter().filter(held).collect();
+    let bands: Vec<[f64; 2]> = BANDS
+        .into_iter()
+        .filter(|[low, high]: &[f64; 2]| {
+            gamut.samples.iter().any(|sample| (*low..=*high).contains(&lightness(sample)))
+        })
+        .collect();
     let count = bands.len();
     let panels = bands.into_iter().map(|band| {
         let [low, high] = band;

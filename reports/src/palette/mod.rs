@@ -253,9 +253,12 @@ fn figure(
 }
 
 fn rows(mixture: &GradedMixture, ends: [&str; 2]) -> Canvas {
-    let shown =
-        |way: &MixingRow| mixture.steps.iter().any(|step| step.colors[*way as usize].is_some());
-    let ways: Vec<MixingRow> = MixingRow::ALL.into_iter().filter(shown).collect();
+    let ways: Vec<MixingRow> = MixingRow::ALL
+        .into_iter()
+        .filter(|way: &MixingRow| {
+            mixture.steps.iter().any(|step| step.colors[*way as usize].is_some())
+        })
+        .collect();
     let step_width = (f64::from(WIDTH) - GRADED_NAME - MEAN) / mixture.steps.len() as f64;
     let mut canvas = Canvas::new(WIDTH, (HEAD + ROW * ways.len() as f64).ceil() as u32);
     let right = f64::from(WIDTH) - MEAN;

@@ -89,16 +89,26 @@ pub fn fit_finite(
     // Bounds and starts suit amounts near 1, so amounts are divided by their median total.
     let totals: Vec<f64> = problem.films.iter().map(|film| film.recipe.total()).collect();
     let unit = pigment::evaluate::percentile(&totals, 50.0);
-    let in_unit = |film: &MeasuredFilm| -> Vec<(usize, f64)> {
-        film.recipe.iter().map(|&(p, amount)| (p.index(), amount / unit)).collect()
-    };
-    let recipes: Vec<Vec<(usize, f64)>> = problem.films.iter().map(in_unit).collect();
+    let recipes: Vec<Vec<(usize, f64)>> = problem
+        .films
+        .iter()
+        .map(|film: &MeasuredFilm| -> Vec<(usize, f64)> {
+            film.recipe.iter().map(|&(p, amount)| (p.index(), amount / unit)).collect()
+        })
+        .collect();
     let reflectance: Vec<Vec<f64>> = problem.films.iter().map(|f| f.reflectance.clone()).collect();
-    let below = |measured: &f64| {
-        film.surface.internal_from_measured(*measured).unwrap_or(0.0).clamp(0.0, 1.0)
-    };
-    let backing: Vec<Vec<f64>> =
-        problem.films.iter().map(|f| f.bare.iter().map(below).collect()).collect();
+    let backing: Vec<Vec<f64>> = problem
+        .films
+        .iter()
+        .map(|f| {
+            f.bare
+                .iter()
+                .map(|measured: &f64| {
+                    film.surface.internal_from_measured(*measured).unwrap_or(0.0).clamp(0.0, 1.0)
+                })
+                .collect()
+        })
+        .collect();
     let layout =
         Layout { pigments: problem.pigments, reference: None, wavelengths: problem.grid.count() };
     let start = Start { film, recipes: &recipes, target: &reflectance, backing: &backing };

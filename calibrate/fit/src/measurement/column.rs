@@ -44,11 +44,11 @@ pub(super) fn columns(
 ) -> Result<Vec<Column>, MeasurementError> {
     let file = || headers.first().map_or_else(String::new, |_| place(0).file);
     // A header such as R254 may be a pigment (Pigment Red 254) or a wavelength.
-    let plain = |header: &String| {
-        let lower = header.trim().to_ascii_lowercase();
-        !is_letter_and_number(&lower) && wavelength_of_header(&lower).is_some()
-    };
-    let letters = kind == TableKind::Readings && !headers.iter().any(plain);
+    let letters = kind == TableKind::Readings
+        && !headers.iter().any(|header: &String| {
+            let lower = header.trim().to_ascii_lowercase();
+            !is_letter_and_number(&lower) && wavelength_of_header(&lower).is_some()
+        });
     let names: Vec<&str> = headers.iter().map(|header| header.trim()).collect();
     let sample = name_column(&names, is_wavelength_heading);
     let has_included = names.iter().any(|name| has_word(name, "sci"));

@@ -113,14 +113,15 @@ fn reflectances<'a>(
     choice: RecordChoice,
     remarks: &mut Vec<String>,
 ) -> Result<Vec<Spectrum<'a>>, MeasurementError> {
-    let is_reading = |record: &&MeasuredSpectrum| match record.quantity {
-        _ if record.role != Role::Main => false,
-        MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
-        MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
-        MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => false,
-    };
     let (kept, others): (Vec<&MeasuredSpectrum>, Vec<&MeasuredSpectrum>) =
-        records.iter().partition(is_reading);
+        records.iter().partition(|record: &&MeasuredSpectrum| match record.quantity {
+            _ if record.role != Role::Main => false,
+            MeasuredQuantity::Reflectance | MeasuredQuantity::Unstated => true,
+            MeasuredQuantity::Transmittance => choice.transmittance_is_reflectance,
+            MeasuredQuantity::Absorbance | MeasuredQuantity::Power | MeasuredQuantity::Counts => {
+                false
+            }
+        });
     if kept.is_empty() {
         let Some(record) = others.first() else {
             return Err(MeasurementError::Empty { file: file.to_owned() });

@@ -142,12 +142,15 @@ pub fn plan_until<N: AsRef<str>>(
     let recipes: Vec<SwatchRecipe> = design.iter().map(|&index| pool[index].clone()).collect();
     check_identified(&paints, &recipes)?;
     let width = recipes.len().to_string().len().max(2);
-    let swatch = |(index, recipe): (usize, SwatchRecipe)| PlannedSwatch {
-        name: format!("{:0width$} {}", index + 1, recipe.name(&paints)),
-        grams: weighing.grams(&recipe),
-        recipe,
-    };
-    let swatches = recipes.into_iter().enumerate().map(swatch).collect();
+    let swatches = recipes
+        .into_iter()
+        .enumerate()
+        .map(|(index, recipe): (usize, SwatchRecipe)| PlannedSwatch {
+            name: format!("{:0width$} {}", index + 1, recipe.name(&paints)),
+            grams: weighing.grams(&recipe),
+            recipe,
+        })
+        .collect();
     Ok(Plan { paints, swatches, forecast, remarks })
 }
 

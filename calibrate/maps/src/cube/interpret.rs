@@ -161,8 +161,13 @@ fn terms_of_values(
         Values::Divided(factor) => Ok(Terms::One((1.0 / factor) as f32)),
         Values::Gains(pairs) => {
             let gain = pairs.iter().map(|(gain, _)| *gain as f32).collect();
-            let dark = |(gain, offset): &(f64, f64)| (-offset / gain) as f32;
-            Ok(Terms::Columns { dark: pairs.iter().map(dark).collect(), gain })
+            Ok(Terms::Columns {
+                dark: pairs
+                    .iter()
+                    .map(|(gain, offset): &(f64, f64)| (-offset / gain) as f32)
+                    .collect(),
+                gain,
+            })
         }
         Values::Counts | Values::Unknown { are_whole: true } => Err(refused()),
         Values::Unknown { are_whole: false } if most <= MOST_FRACTION => Ok(Terms::One(1.0)),

@@ -176,11 +176,11 @@ fn is_specim(folder: &Path) -> bool {
 fn headers(folder: &Path) -> Vec<(String, PathBuf)> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let paths = entries.filter_map(Result::ok).map(|entry| entry.path());
-    let is_header = |path: &PathBuf| {
-        path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("hdr")) && path.is_file()
-    };
     let mut found: Vec<_> = paths
-        .filter(is_header)
+        .filter(|path: &PathBuf| {
+            path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("hdr"))
+                && path.is_file()
+        })
         .filter_map(|path: PathBuf| {
             let name = path.file_stem()?.to_str()?.to_uppercase();
             Some((name, path))

@@ -325,8 +325,11 @@ pub(crate) fn strength_sd(prepared: &Prepared, residuals: &Residuals) -> f64 {
 /// Variance of the logarithm of strengths that explains the error of each share of a mixture; `None` for a
 /// mixture of one pigment, of more than four, and of pigments that take no part.
 fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
-    let place = |(name, share): (&String, &f64)| Some((prepared.paints.place(name)?, *share));
-    let parts: Vec<(usize, f64)> = mixture.shares.iter().map(place).collect::<Option<_>>()?;
+    let parts: Vec<(usize, f64)> = mixture
+        .shares
+        .iter()
+        .map(|(name, share): (&String, &f64)| Some((prepared.paints.place(name)?, *share)))
+        .collect::<Option<_>>()?;
     let start: Vec<(usize, f32)> = parts.iter().map(|&(p, share)| (p, share as f32)).collect();
     let mut set = SetFit::of_parts(&start).filter(|set| set.len() > 1)?;
     let fold = |values: &[f64]| prepared.bands.fold_library(values);

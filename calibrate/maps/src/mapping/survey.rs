@@ -148,8 +148,10 @@ pub(crate) fn palette(
         return vec![0.5; pigments];
     }
     let survey = Survey::new(found, paints, excess);
-    let bits = |entry: &Vec<usize>| entry.iter().fold(0, |bits, pigment| bits | 1u64 << pigment);
-    let of_entry: Vec<u64> = entries.iter().map(bits).collect();
+    let of_entry: Vec<u64> = entries
+        .iter()
+        .map(|entry: &Vec<usize>| entry.iter().fold(0, |bits, pigment| bits | 1u64 << pigment))
+        .collect();
     let mut palette = of_entry.iter().fold(0, |all, entry| all | entry);
     // What is needed least goes first: others may take its place.
     loop {
