@@ -323,14 +323,7 @@ pub(crate) fn residuals_section(subject: &Subject<'_>) -> Section {
 
 fn residuals_figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
     let grid = subject.library.grid;
-    let residual = |film: &ComparedFilm| -> Vec<f64> {
-        film.predicted.iter().zip(&film.measured).map(|(p, m)| p - m).collect()
-    };
     let residuals: Vec<Vec<f64>> = films.iter().map(residual).collect();
-    let bounds = |values: &mut dyn Iterator<Item = f64>| {
-        let largest = values.map(f64::abs).fold(1e-3, f64::max);
-        Axis::around("Fitted - measured", "white = 1", -largest, largest, 6)
-    };
 
     let x = Axis::wavelength(grid, 50);
     let zero = Mark::Line { points: vec![(x.low, 0.0), (x.high, 0.0)], color: FAINT, width: HAIR };
@@ -381,6 +374,15 @@ fn residuals_figure(subject: &Subject<'_>, films: &[ComparedFilm]) -> Figure {
     };
     let chart = Chart::stacked(vec![(curves, 210.0), (spread, 170.0)]);
     subject.figure(words, Drawing::Chart(chart), data)
+}
+
+fn bounds(values: &mut dyn Iterator<Item = f64>) -> Axis {
+    let largest = values.map(f64::abs).fold(1e-3, f64::max);
+    Axis::around("Fitted - measured", "white = 1", -largest, largest, 6)
+}
+
+fn residual(film: &ComparedFilm) -> Vec<f64> {
+    film.predicted.iter().zip(&film.measured).map(|(p, m)| p - m).collect()
 }
 
 /// Number of the largest errors that are labelled with sample and recipe.

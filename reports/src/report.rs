@@ -53,7 +53,6 @@ pub struct Report {
 /// The head of a report on `subject`: title, facts and warnings.
 fn head(subject: &Subject<'_>) -> Head {
     let library = subject.library;
-    let fact = |name: &str, fact: String| (name.to_owned(), fact);
     let mut facts = vec![
         fact("Pigments", library.pigments.len().to_string()),
         fact("Wavelengths", library.grid.to_string()),
@@ -96,6 +95,10 @@ fn head(subject: &Subject<'_>) -> Head {
     let title = title.to_owned();
     let command = subject.command.clone();
     Head { title, facts, warnings: warnings.collect(), command }
+}
+
+fn fact(name: &str, fact: String) -> (String, String) {
+    (name.to_owned(), fact)
 }
 
 fn errors(count: usize, item: &str, errors: &Summary) -> String {
@@ -381,7 +384,6 @@ fn table_html(title: &str, table: &Table) -> String {
         "<div class=\"table\" tabindex=\"0\"><table>\n<caption>{}</caption>\n<thead><tr>",
         escaped(title)
     );
-    let class = |column: &Column| if column.unit.is_some() { " class=\"n\"" } else { "" };
     for column in &table.columns {
         // The unit `1` of a ratio is not written.
         let unit = column.unit.as_deref().filter(|unit| *unit != "1");
@@ -411,6 +413,10 @@ fn table_html(title: &str, table: &Table) -> String {
     out + "</tbody>\n</table></div>\n"
 }
 
+fn class(column: &Column) -> &str {
+    if column.unit.is_some() { " class=\"n\"" } else { "" }
+}
+
 /// The style sheet. On a dark screen, lines and text of figures get lighter colours.
 fn style(sections: &[Section]) -> String {
     let mut colors: Vec<Color> =
@@ -437,10 +443,6 @@ fn style(sections: &[Section]) -> String {
             "svg :not(rect)[fill=\"{from}\"]{{fill:{to}}}svg :not(rect)[stroke=\"{from}\"]{{stroke:{to}}}\n"
         );
     }
-    let root = |of: fn(&(Color, Color)) -> Color, link: &str| {
-        let [ink, faint, grid, paper] = RESERVED.each_ref().map(|pair| of(pair).hex());
-        format!(":root{{--ink:{ink};--faint:{faint};--grid:{grid};--paper:{paper};--link:{link}}}")
-    };
     let light = root(|pair| pair.0, "#0057A0");
     let night = root(|pair| pair.1, "#7FB8F0");
     let paper = PAPER.hex();
@@ -452,6 +454,11 @@ fn style(sections: &[Section]) -> String {
          @media screen and (prefers-color-scheme:dark){{\n\
          {night}\nsvg text{{stroke:var(--paper)}}\n{dark}}}\n"
     )
+}
+
+fn root(of: fn(&(Color, Color)) -> Color, link: &str) -> String {
+    let [ink, faint, grid, paper] = RESERVED.each_ref().map(|pair| of(pair).hex());
+    format!(":root{{--ink:{ink};--faint:{faint};--grid:{grid};--paper:{paper};--link:{link}}}")
 }
 
 const STYLE: &str = "\

@@ -225,11 +225,14 @@ impl Subject<'_> {
 
 /// Where `text` has `word` as a whole word.
 fn word_at(text: &str, word: &str) -> Option<usize> {
-    let ends = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
     let mut places = text.match_indices(word).map(|(at, _)| at);
     places.find(|at| {
         ends(text[..*at].chars().next_back()) && ends(text[at + word.len()..].chars().next())
     })
+}
+
+fn ends(c: Option<char>) -> bool {
+    c.is_none_or(|c| !c.is_alphanumeric())
 }
 
 /// `value` rounded to three significant digits.

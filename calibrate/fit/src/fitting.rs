@@ -215,7 +215,6 @@ impl PreparedFit {
             }
         };
         let first = readings.inputs.first().map_or("", |input| input.path.as_str());
-        let stated = |text: &Option<String>| text.clone().unwrap_or_else(|| "not stated".into());
         Ok(Self {
             set,
             settings: FitSettings {
@@ -269,6 +268,10 @@ impl PreparedFit {
         let remarks = remarks(&observations, condition.as_ref());
         Ok(Fit { library, remarks, observations, condition, state })
     }
+}
+
+fn stated(text: &Option<String>) -> String {
+    text.clone().unwrap_or_else(|| "not stated".into())
 }
 
 fn without_excluded(set: SwatchSet, exclude: &[String]) -> Result<SwatchSet, FittingError> {

@@ -234,7 +234,6 @@ type Pair<'a> = ((&'a [f64], &'a [f64]), (&'a [f64], &'a [f64]));
 fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
     let known: Vec<(&SwatchFilm, &[f64])> =
         films.iter().filter_map(|film| Some((film, film.bare.as_deref()?))).collect();
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let mut best: Option<(f64, f64, Pair<'_>)> = None;
     for (index, (first, first_bare)) in known.iter().enumerate() {
         for (second, second_bare) in &known[index + 1..] {
@@ -256,6 +255,10 @@ fn two_backings(films: &[SwatchFilm]) -> Option<Pair<'_>> {
     best.map(|(_, _, pair)| pair)
 }
 
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
 /// Whether two thicknesses cannot be told apart by a gauge, or both are unknown.
 pub(crate) fn alike(first: Option<f64>, second: Option<f64>) -> bool {
     match (first, second) {
@@ -267,11 +270,14 @@ pub(crate) fn alike(first: Option<f64>, second: Option<f64>) -> bool {
 
 /// First of the thickest films; films of unknown thickness count as thin.
 fn thickest(films: &[SwatchFilm]) -> &SwatchFilm {
-    let thickness = |film: &SwatchFilm| film.thickness_mm.unwrap_or(0.0);
     films
         .iter()
         .reduce(|a, b| if thickness(b) > thickness(a) { b } else { a })
         .expect("a swatch has films")
+}
+
+fn thickness(film: &SwatchFilm) -> f64 {
+    film.thickness_mm.unwrap_or(0.0)
 }
 
 /// Largest difference of readings over different backings; `None` if there is only one backing.

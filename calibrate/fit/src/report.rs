@@ -91,7 +91,6 @@ impl fmt::Display for ErrorReport<'_> {
         write!(f, "(CIEDE2000 under {illuminant}, observer {observer}; rms of reflectance)")?;
         let shares = shares_of_squares(self.samples);
         if shares.len() > NAMED {
-            let percent = |share: f64| format!("{:.0} %", 100.0 * share);
             let named = &shares[..NAMED];
             let each: Vec<String> = named
                 .iter()
@@ -124,6 +123,10 @@ impl fmt::Display for ErrorReport<'_> {
             rest => write!(f, "\n  and {} with less", documents::counted(rest, "sample")),
         }
     }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
 }
 
 /// All warnings of a fit of shares, the most important first.
@@ -241,10 +244,6 @@ fn listed(what: &str, samples: Vec<String>) -> Option<String> {
 
 /// Warnings about films that are assumed to hide; those whose readings contradict this come first.
 fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
-    let difference = |o: &Observation| match o.hiding {
-        Hiding::Assumed(difference) => Some(difference.unwrap_or(0.0)),
-        Hiding::Difference(_) => None,
-    };
     let assumed: Vec<(&Observation, f64)> =
         observations.iter().filter_map(|o| Some((o, difference(o)?))).collect();
     let (denied, plain): (Vec<_>, Vec<_>) =
@@ -263,6 +262,13 @@ fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
     ]
     .into_iter()
     .flatten()
+}
+
+fn difference(o: &Observation) -> Option<f64> {
+    match o.hiding {
+        Hiding::Assumed(difference) => Some(difference.unwrap_or(0.0)),
+        Hiding::Difference(_) => None,
+    }
 }
 
 /// Spreads above the median from which an error is outlying; chosen by eye.

@@ -186,16 +186,19 @@ const HALVINGS: usize = 12;
 fn least_error(error: impl Fn(f64) -> f64) -> f64 {
     let range = 4f64.ln();
     let at = |log: f64| (error(log.exp()), log);
-    let nearer = |a: (f64, f64), b: (f64, f64)| if b.0 < a.0 { b } else { a };
     let last = f64::from(STRENGTHS - 1);
     let coarse = (0..STRENGTHS).map(|i| at(range * (2.0 * f64::from(i) / last - 1.0)));
-    let mut best = coarse.reduce(nearer).expect("there are strengths");
+    let mut best = coarse.reduce(lower_error).expect("there are strengths");
     let mut step = range / last;
     for _ in 0..HALVINGS {
-        best = [best.1 - step, best.1 + step].map(at).into_iter().fold(best, nearer);
+        best = [best.1 - step, best.1 + step].map(at).into_iter().fold(best, lower_error);
         step /= 2.0;
     }
     best.0
+}
+
+fn lower_error(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    if b.0 < a.0 { b } else { a }
 }
 
 /// Part of the errors in mixtures with each pigment.
@@ -204,7 +207,6 @@ fn by_pigment(
     mixtures: &[&Observation],
     errors: &[SampleEvidence],
 ) -> Vec<PigmentError> {
-    let square = |error: &SampleEvidence| error.delta_e * error.delta_e;
     let total: f64 = errors.iter().map(square).sum();
     let all = set.pigments.iter().enumerate().map(|(index, name): (usize, &String)| {
         let pairs = mixtures.iter().zip(errors).filter(|(mixture, _)| mixture.shares[index] > 0.0);
@@ -216,6 +218,10 @@ fn by_pigment(
     let mut found: Vec<PigmentError> = all.filter(|pigment| pigment.mixtures > 0).collect();
     found.sort_by(|a, b| b.share.total_cmp(&a.share));
     found
+}
+
+fn square(error: &SampleEvidence) -> f64 {
+    error.delta_e * error.delta_e
 }
 
 /// Refits without each film of two pigments or more, for absolute amounts, and predicts it.
@@ -501,7 +507,6 @@ impl PreparedFit {
     /// [`FittingError`] if a name of `options` is unknown, or options exclude each other.
     pub fn mixtures(&self, options: &ValidationOptions) -> Result<usize, FittingError> {
         let chosen = self.chosen(options)?;
-        let is_mixture = |amounts: &[f64]| amounts.iter().filter(|a| **a > 0.0).count() > 1;
         let amounts = self.set.swatches.iter().map(|swatch| swatch.amounts.as_slice());
         Ok(amounts.filter(|amounts| is_mixture(amounts) && chosen.selects(amounts)).count())
     }
@@ -624,6 +629,10 @@ impl PreparedFit {
         let with = options.with.iter().map(|name| index_of(&self.set.pigments, name, "pigment"));
         with.collect::<Result<_, _>>().map(ChosenPigments)
     }
+}
+
+fn is_mixture(amounts: &[f64]) -> bool {
+    amounts.iter().filter(|a| **a > 0.0).count() > 1
 }
 
 /// Pigments of which a mixture must contain one; none for every mixture.

@@ -92,7 +92,6 @@ pub fn map_cube<E: Error + 'static>(
     map: impl Fn(&Block) -> Result<BlockMaps, E>,
     mut progress: impl FnMut(MapProgress) -> ControlFlow<()>,
 ) -> Result<MapOutcome, RunError<E>> {
-    let pixels = |shard: &Shard| shard.rows.len() as u64 * shard.columns.len() as u64;
     let shards = store.shards();
     let mut state = MapProgress {
         done: 0,
@@ -124,6 +123,10 @@ pub fn map_cube<E: Error + 'static>(
         state.done = before + pixels(shard);
     }
     Ok(outcome)
+}
+
+fn pixels(shard: &Shard) -> u64 {
+    shard.rows.len() as u64 * shard.columns.len() as u64
 }
 
 /// Maps one shard and writes it, whether it is finished or not. `progress` is called after each block

@@ -652,7 +652,6 @@ mod tests {
     fn the_mean_of_each_number_stays_also_in_pictures_smaller_than_the_blur() {
         let blur = Blur::new(1.5);
         for (lines, samples) in [(9, 13), (2, 3), (1, 1)] {
-            let value = |line: usize, at: usize| ((line * 31 + at * 17) % 23) as f64;
             let picture: Vec<Vec<f64>> = (0..lines)
                 .map(|line| (0..samples * 2).map(|at| value(line, at)).collect())
                 .collect();
@@ -666,6 +665,10 @@ mod tests {
                 assert!((before - after).abs() < 1e-9 * before.max(1.0), "{before} {after}");
             }
         }
+    }
+
+    fn value(line: usize, at: usize) -> f64 {
+        ((line * 31 + at * 17) % 23) as f64
     }
 
     #[test]

@@ -126,11 +126,11 @@ impl Spot {
     /// Place of the spot.
     #[must_use]
     pub fn place_words(&self) -> String {
-        let part = |name: &str, range: &Range<usize>| match range.len() {
-            1 => format!("{name} {}", range.start),
-            _ => format!("{name}s {}..{}", range.start, range.end),
-        };
-        format!("{}, {}", part("row", &self.region.rows), part("column", &self.region.columns))
+        format!(
+            "{}, {}",
+            range_words("row", &self.region.rows),
+            range_words("column", &self.region.columns)
+        )
     }
 
     /// Place, pigments and residual.
@@ -147,5 +147,12 @@ impl Spot {
             self.rms,
             self.chi2
         )
+    }
+}
+
+fn range_words(name: &str, range: &Range<usize>) -> String {
+    match range.len() {
+        1 => format!("{name} {}", range.start),
+        _ => format!("{name}s {}..{}", range.start, range.end),
     }
 }

@@ -114,11 +114,6 @@ impl OverviewSums {
     #[must_use]
     pub fn finish(self) -> Overview {
         let mapped = self.pixels.of(Mask::Mapped);
-        let means_of = |field: Vec<f64>, counts: &[u32]| -> Vec<f32> {
-            let pairs = field.iter().zip(counts);
-            // No pixel gives 0 / 0, which is NaN.
-            pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
-        };
         let part = |pixels: u64| pixels as f64 / mapped.max(1) as f64;
         Overview {
             step: self.step,
@@ -139,6 +134,12 @@ impl OverviewSums {
             pixels: self.pixels,
         }
     }
+}
+
+fn means_of(field: Vec<f64>, counts: &[u32]) -> Vec<f32> {
+    let pairs = field.iter().zip(counts);
+    // No pixel gives 0 / 0, which is NaN.
+    pairs.map(|(sum, count)| (sum / f64::from(*count)) as f32).collect()
 }
 
 /// Darkest lightness of the ink of a pigment's picture, so that pale pigments are seen.
@@ -331,13 +332,16 @@ impl Overview {
             for left in columns.clone().step_by(COLUMNS) {
                 let right = (left + COLUMNS).min(columns.end);
                 let block = maps.read(start..end, left..right)?;
-                let inside = |from: usize, to: usize, first: usize| from - first..to - first;
                 let across = inside(left, right, columns.start);
                 sums.add(inside(start, end, rows.start), across, &block);
             }
         }
         Ok(sums.finish())
     }
+}
+
+fn inside(from: usize, to: usize, first: usize) -> Range<usize> {
+    from - first..to - first
 }
 
 #[cfg(test)]

@@ -226,11 +226,14 @@ fn within(cube: Cube, library: &PigmentLibrary) -> Result<Cube, CubeError> {
 fn inside(cube: &Cube, region: Option<Region>) -> Result<Region, SurveyError> {
     let whole = Region { rows: 0..cube.lines(), columns: 0..cube.samples() };
     let Some(region) = region else { return Ok(whole) };
-    let fits = |part: &Range<usize>, all: &Range<usize>| !part.is_empty() && part.end <= all.end;
     if fits(&region.rows, &whole.rows) && fits(&region.columns, &whole.columns) {
         return Ok(region);
     }
     Err(SurveyError::Region { region, lines: whole.rows.end, samples: whole.columns.end })
+}
+
+fn fits(part: &Range<usize>, all: &Range<usize>) -> bool {
+    !part.is_empty() && part.end <= all.end
 }
 
 /// Settings as the maps tell them.

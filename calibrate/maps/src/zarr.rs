@@ -161,8 +161,11 @@ pub(crate) fn places(index: Vec<u8>) -> Result<Vec<Option<(u64, u64)>>, ZarrFaul
     let (numbers, _) = index.as_chunks::<8>();
     let numbers: Vec<u64> = numbers.iter().map(|&bytes| u64::from_le_bytes(bytes)).collect();
     let (pairs, _) = numbers.as_chunks::<2>();
-    let is_there = |pair: &[u64; 2]| *pair != [u64::MAX; 2];
     Ok(pairs.iter().map(|pair| is_there(pair).then_some((pair[0], pair[1]))).collect())
+}
+
+fn is_there(pair: &[u64; 2]) -> bool {
+    *pair != [u64::MAX; 2]
 }
 
 /// A shard that is put together in memory. Chunks stand in the order in which they are added, the

@@ -53,7 +53,6 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
         let xyy = sample.color.xyz.to_xyy(white);
         [xyy.x, xyy.y]
     };
-    let lit = |sample: &GamutSample| sample.color.xyz.y >= 0.5;
     let mut marks = field(gamut, CELLS[1], |sample| lit(sample).then(|| chromaticity(sample)));
     let locus = spectral_locus(palette.viewing());
     let mut horseshoe: Vec<(f64, f64)> = locus.iter().map(|(_, [x, y])| (*x, *y)).collect();
@@ -66,7 +65,6 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
     let tens = locus.iter().filter(|(nm, _)| *nm >= 460.0 && *nm <= 620.0 && nm % 20.0 == 0.0);
     let names = tens.map(|(nm, [x, y])| ((*x, *y), format!("{nm}"))).collect();
     marks.push(Mark::Names { names, around: Vec::new(), color: FAINT });
-    let axis = |name: &str| Axis { name: name.to_owned(), ..Axis::linear("", "", 0.0, 0.9, 5) };
     let chart = Panel::new(axis("Chromaticity x"), axis("Chromaticity y"), marks)
         .with_key(KeySymbol::Line, FAINT, "spectrum (nm)")
         .with_key(KeySymbol::Dashes, SERIES[0], "sRGB");
@@ -87,11 +85,18 @@ fn planes(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure
     subject.figure(words, Drawing::Chart(Chart::row(vec![plane, chart], 400.0)), data)
 }
 
+fn axis(name: &str) -> Axis {
+    Axis { name: name.to_owned(), ..Axis::linear("", "", 0.0, 0.9, 5) }
+}
+
+fn lit(sample: &GamutSample) -> bool {
+    sample.color.xyz.y >= 0.5
+}
+
 fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure {
     let whole = gamut.in_lab([0.0, 100.0], SECTORS);
     let [a, b] = axes(&whole);
     let mut data = Table::new(columns(outline_columns("lightness", "a*", "b*")));
-    let lightness = |sample: &GamutSample| sample.color.lab.lightness;
     let bands: Vec<[f64; 2]> = BANDS
         .into_iter()
         .filter(|[low, high]: &[f64; 2]| {
@@ -109,8 +114,6 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
         });
         marks.push(Mark::Line { points: closed(&whole), color: FAINT, width: HAIR });
         marks.push(outline(&edge, 1.0));
-        let few = |axis: &Axis| Axis::linear("", "", axis.low, axis.high, 3).ticks;
-        let with = |axis: &Axis| Axis { ticks: few(axis), ..axis.clone() };
         Panel::new(with(&a), with(&b), marks).with_title(title)
     });
     let caption = "The mixtures of the last figure by lightness, their outline dark, that of all of them thin.";
@@ -123,6 +126,18 @@ fn bands(subject: &Subject<'_>, palette: &Palette<'_>, gamut: &Gamut) -> Figure 
     let chart =
         Chart::small_multiples(panels.collect(), count, (870.0 / count as f64 - 10.0).min(400.0));
     subject.figure(words, Drawing::Chart(chart), data)
+}
+
+fn with(axis: &Axis) -> Axis {
+    Axis { ticks: few(axis), ..axis.clone() }
+}
+
+fn few(axis: &Axis) -> Vec<(f64, String)> {
+    Axis::linear("", "", axis.low, axis.high, 3).ticks
+}
+
+fn lightness(sample: &GamutSample) -> f64 {
+    sample.color.lab.lightness
 }
 
 fn lab_place(sample: &GamutSample) -> [f64; 2] {
@@ -184,11 +199,14 @@ fn masstones(
     let mut names: Vec<((f64, f64), String)> = named.collect();
     let points: Vec<(f64, f64)> = names.iter().map(|(at, _)| *at).collect();
     let around = points.clone();
-    // Labels of greys would overlap; chromatic pigments come first.
-    let far = |((x, y), _): &((f64, f64), String)| x.hypot(*y);
     names.retain(|name| far(name) >= NAMED);
     names.sort_by(|a, b| far(b).total_cmp(&far(a)));
     [Mark::Dots { points, color: INK, radius: 2.2 }, Mark::Names { names, around, color: INK }]
+}
+
+/// Labels of greys would overlap; chromatic pigments come first.
+fn far(((x, y), _): &((f64, f64), String)) -> f64 {
+    x.hypot(*y)
 }
 
 fn outline_columns(group: &str, first: &str, second: &str) -> [Column; 5] {

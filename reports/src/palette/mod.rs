@@ -236,10 +236,6 @@ fn figure(
     }
     let name = format!("graded-mixture-{number}");
     let title = format!("{first} to {second}");
-    let nodes = |nodes: &[f64]| {
-        let whole: Vec<String> = nodes.iter().map(|nm| format!("{nm:.0}")).collect();
-        whole.join(", ")
-    };
     let caption = format!(
         "After Baxter, Wendt and Lin 2004, figure 10: measured swatches where there are any, Kubelka-Munk mixing at every wavelength, at 8 ({} nm) and at 3 ({} nm) fitted to the library, and straight lines in linear RGB between the two ends. Below each: CIEDE2000 from the measured swatch; grey, where there is none, from the full spectrum. On the right the means over the mixtures, ends left out. {} {}. {NOTCH}",
         nodes(&rules.eight.nodes_nm),
@@ -250,6 +246,11 @@ fn figure(
     let alt = format!("Rows of patches from {first} to {second}, one row for each way to mix.");
     let words = Words { name: &name, title: &title, caption: &caption, alt: &alt };
     subject.figure(words, Drawing::Canvas(rows(&mixture, [&first, &second])), data)
+}
+
+fn nodes(nodes: &[f64]) -> String {
+    let whole: Vec<String> = nodes.iter().map(|nm| format!("{nm:.0}")).collect();
+    whole.join(", ")
 }
 
 fn rows(mixture: &GradedMixture, ends: [&str; 2]) -> Canvas {
@@ -318,7 +319,6 @@ fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
         ("Thickness that hides", thickness_unit(palette))
     };
     let mut powers = hiding_powers(palette);
-    let sort = |hides: Hides| hides.thickness().unwrap_or(f64::INFINITY);
     powers.sort_by(|a, b| sort(a.hides).total_cmp(&sort(b.hides)));
     let known = || powers.iter().filter_map(|power| power.hides.thickness());
     let low = known().filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
@@ -356,6 +356,10 @@ fn hiding(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {
         alt: "A bar for each pigment, as long as the film must be thick to hide its ground; logarithmic.",
     };
     subject.figure(words, Drawing::Canvas(bars(&axis, &all)), data)
+}
+
+fn sort(hides: Hides) -> f64 {
+    hides.thickness().unwrap_or(f64::INFINITY)
 }
 
 fn tinting(subject: &Subject<'_>, palette: &Palette<'_>) -> Figure {

@@ -372,7 +372,6 @@ fn conjugate_gradients(
     factor: &BandedCholesky,
     product: impl Fn(&[f64]) -> Vec<f64>,
 ) -> Vec<f64> {
-    let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
     let mut solution = vec![0.0; right.len()];
     let mut residual = right.to_vec();
     let mut preconditioned = factor.solve(&residual);
@@ -399,6 +398,10 @@ fn conjugate_gradients(
         length = next;
     }
     solution
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Least standard deviation of a residual, as a cube root of reflectance; chosen by eye.
@@ -449,7 +452,6 @@ pub(super) struct Noise {
 
 impl Noise {
     pub(super) fn new(term: &ColorTerm<'_>, target: &[Vec<f64>], reading_sd: f64) -> Self {
-        let root_slope = |reflectance: f64| reflectance.cbrt().powi(-2) / 3.0;
         let mut even = term.sensitivity(target);
         for (row, reflectances) in even.iter_mut().zip(target) {
             for (value, &r) in row.iter_mut().zip(reflectances) {
@@ -533,14 +535,21 @@ impl Noise {
             }
             count * (sum / count).max(f64::MIN_POSITIVE).ln() + logs
         };
-        let candidate = |i: i32| match i {
-            0 => 0.0,
-            _ => LEAST_RATIO * 10f64.powf(RATIO_DECADES * f64::from(i - 1) / f64::from(RATIOS - 1)),
-        };
         let scores = (0..=RATIOS).into_par_iter().map(|i| (score(candidate(i)), candidate(i)));
         let scores: Vec<(f64, f64)> = scores.collect();
         let best =
             scores.into_iter().reduce(|best, next| if next.0 < best.0 { next } else { best });
         best.map_or(0.0, |(_, ratio)| ratio)
     }
+}
+
+fn candidate(i: i32) -> f64 {
+    match i {
+        0 => 0.0,
+        _ => LEAST_RATIO * 10f64.powf(RATIO_DECADES * f64::from(i - 1) / f64::from(RATIOS - 1)),
+    }
+}
+
+fn root_slope(reflectance: f64) -> f64 {
+    reflectance.cbrt().powi(-2) / 3.0
 }

@@ -60,9 +60,6 @@ impl Problem {
         if !observations.iter().any(|o| o.shares.get(reference.index()).is_some_and(|&s| s > 0.0)) {
             return Err(FitError::Reference);
         }
-        let recipe = |o: &Observation| {
-            o.shares.iter().copied().enumerate().filter(|(_, share)| *share > 0.0).collect()
-        };
         Ok(Self {
             grid,
             surface,
@@ -92,6 +89,10 @@ impl Problem {
             .map(|index| (0..self.grid.count()).map(|at| film(index, at)).collect())
             .collect()
     }
+}
+
+fn recipe(o: &Observation) -> Vec<(usize, f64)> {
+    o.shares.iter().copied().enumerate().filter(|(_, share)| *share > 0.0).collect()
 }
 
 /// Root mean square of `values`; 0 for no values.
@@ -165,7 +166,6 @@ impl CurveTable {
     /// Table of `curves`, with K of at least `least[0]` and S of at least `least[1]`, since the logarithm
     /// of 0 has no slope.
     pub(crate) fn off_zero(curves: &[Curves], least: [f64; 2]) -> Self {
-        let clamped = |curve: &[f64], least: f64| curve.iter().map(|v| v.max(least)).collect();
         Self {
             absorption: curves.iter().map(|c| clamped(&c.absorption, least[0])).collect(),
             scattering: curves.iter().map(|c| clamped(&c.scattering, least[1])).collect(),
@@ -177,6 +177,10 @@ impl CurveTable {
         let pairs = self.absorption.into_iter().zip(self.scattering);
         pairs.map(|(absorption, scattering)| Curves { grid, absorption, scattering }).collect()
     }
+}
+
+fn clamped(curve: &[f64], least: f64) -> Vec<f64> {
+    curve.iter().map(|v| v.max(least)).collect()
 }
 
 /// Lower limits of K and S, applied to a solution that may contain 0 before logarithms are taken.
@@ -217,7 +221,6 @@ impl Layout {
 
     /// Unknowns of `curves`, clamped to the bounds.
     pub(super) fn unknowns(self, curves: &CurveTable) -> Vec<f64> {
-        let log = |value: f64| value.max(f64::MIN_POSITIVE).ln().clamp(LOWER, UPPER);
         let mut unknowns = Vec::with_capacity(self.len());
         for at in 0..self.wavelengths {
             unknowns.extend((0..self.pigments).map(|p| log(curves.absorption[p][at])));
@@ -240,6 +243,10 @@ impl Layout {
                 .collect(),
         }
     }
+}
+
+fn log(value: f64) -> f64 {
+    value.max(f64::MIN_POSITIVE).ln().clamp(LOWER, UPPER)
 }
 
 /// A stage of a fit that has begun or come further.

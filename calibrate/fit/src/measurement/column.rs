@@ -532,7 +532,6 @@ mod tests {
 
     #[test]
     fn lines_above_the_headings_are_passed_over() {
-        let readings = |text: &str| heading_row(text, TableKind::Readings);
         assert_eq!(readings("sample,400\n"), Some((',', 0)));
         assert_eq!(readings("My paints\n\nName;400;410\n"), Some((';', 11)));
         assert_eq!(readings("sep=;\r\nName,Anna\r\nName;400,5;410,5\r\n"), Some((';', 18)));
@@ -540,6 +539,10 @@ mod tests {
         assert_eq!(readings("Name,Anna\nwavelength,Red,Blue\n400,1,2\n"), None);
         assert_eq!(readings("400,1\n410,2\n"), None);
         assert_eq!(readings("Name,500\nwavelength,Red\n400,1\n"), None, "a name that is a number");
+    }
+
+    fn readings(text: &str) -> Option<(char, usize)> {
+        heading_row(text, TableKind::Readings)
     }
 
     #[test]

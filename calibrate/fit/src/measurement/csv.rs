@@ -262,7 +262,6 @@ impl LargeCsv {
 
     /// Refuses readings that look like fractions in a file of percent, as a whole file is checked.
     fn check_percent(&self, part: &MeasurementTable) -> Result<(), MeasurementError> {
-        let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let mixed = part.readings.iter().find(|r| largest(&r.reflectance) <= 0.01);
         mixed.map_or(Ok(()), |reading| {
             Err(MeasurementError::MixedScale {
@@ -279,7 +278,6 @@ impl LargeCsv {
         &self,
         mut read: impl FnMut(&[u8]) -> Result<(), MeasurementError>,
     ) -> Result<(), LargeCsvError> {
-        let lines = |bytes: &[u8]| RowNumbers::of(bytes).at(bytes.len() as u64) - 1;
         let mut reader = BufReader::new(File::open(&self.path)?);
         reader.seek(SeekFrom::Start(self.head.len() as u64))?;
         let mut skipped = 0;
@@ -304,6 +302,14 @@ impl LargeCsv {
             skipped += lines(&bytes[start..]) as usize;
         }
     }
+}
+
+fn lines(bytes: &[u8]) -> u64 {
+    RowNumbers::of(bytes).at(bytes.len() as u64) - 1
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
 }
 
 fn quotes(bytes: &[u8]) -> usize {
@@ -360,7 +366,6 @@ mod tests {
 
     #[test]
     fn faults_in_pieces_name_the_row_of_the_file() {
-        let row = |name: usize, value: &str| format!("s{name},1,{value},30\n");
         for (place, value) in [(25, "x"), (33, "0.5"), (2, "-40")] {
             let mut text = "sample,White,400,500\n".to_owned();
             (0..40).for_each(|at| text += &row(at, if at == place { value } else { "40" }));
@@ -371,5 +376,9 @@ mod tests {
             assert_eq!(pieces, whole);
             assert!(whole.to_string().contains(&format!("row {}", place + 2)), "{whole}");
         }
+    }
+
+    fn row(name: usize, value: &str) -> String {
+        format!("s{name},1,{value},30\n")
     }
 }

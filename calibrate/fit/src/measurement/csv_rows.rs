@@ -290,7 +290,6 @@ impl CsvRows {
         readings: &mut [Reading],
         choice: ScaleChoice,
     ) -> Result<Scale, MeasurementError> {
-        let largest = |reading: &Reading| reading.reflectance.iter().copied().fold(0.0, f64::max);
         let scale = match choice {
             ScaleChoice::Known(scale) => scale,
             ScaleChoice::ByFile => {
@@ -325,6 +324,10 @@ impl CsvRows {
         }
         Ok(scale)
     }
+}
+
+fn largest(reading: &Reading) -> f64 {
+    reading.reflectance.iter().copied().fold(0.0, f64::max)
 }
 
 /// Headings and rows of a table, of whose meaning nothing is known yet.
@@ -365,7 +368,6 @@ impl RawRows {
         // Spreadsheets often leave empty columns at the right.
         let width = headings.iter().rposition(|name| !name.is_empty()).map_or(0, |last| last + 1);
         headings.truncate(width);
-        let byte = |cells: &csv::StringRecord| cells.position().map_or(0, csv::Position::byte);
         let rows = records.filter(|cells| cells.iter().any(|cell| !cell.is_empty())).map(|cells| {
             CsvRow { number: numbers.at(heading.offset as u64 + byte(&cells)), cells }
         });
@@ -388,7 +390,6 @@ impl RawRows {
             return None;
         }
         let Self { separator, heading_row, headings: names, rows, .. } = Self::below(text, first);
-        let label = |row: &CsvRow| plain_heading(row.cells.get(0).unwrap_or_default());
         let wavelengths = rows.iter().filter(|row| is_wavelength_heading(&label(row))).count();
         if names.len() < 2
             || wavelengths < 2
@@ -418,6 +419,14 @@ impl RawRows {
     }
 }
 
+fn label(row: &CsvRow) -> String {
+    plain_heading(row.cells.get(0).unwrap_or_default())
+}
+
+fn byte(cells: &csv::StringRecord) -> u64 {
+    cells.position().map_or(0, csv::Position::byte)
+}
+
 /// Fewest rows of paint from which a column is judged by its amounts; chosen by eye.
 const LEAST_ROWS: usize = 3;
 /// Share by which sums of amounts may differ and still be one whole.
@@ -430,7 +439,6 @@ pub(super) fn without_amounts(
     rows: &[CsvRow],
     number: impl Fn(&str) -> Option<f64>,
 ) -> Vec<usize> {
-    let cell = |row: &CsvRow, place: usize| row.cells.get(place).unwrap_or_default().to_owned();
     let film = columns.iter().position(|column| *column == Column::Film);
     let is_bare =
         |row: &CsvRow| film.is_some_and(|place| Film::named(&cell(row, place)) == Some(Film::None));
@@ -462,6 +470,10 @@ pub(super) fn without_amounts(
     }
     found.sort_unstable();
     found
+}
+
+fn cell(row: &CsvRow, place: usize) -> String {
+    row.cells.get(place).unwrap_or_default().to_owned()
 }
 
 #[cfg(test)]

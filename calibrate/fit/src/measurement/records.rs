@@ -258,7 +258,6 @@ impl Spectrum<'_> {
             }
         }
         if bad > 0 {
-            let tenths = |nm: f64| (10.0 * nm).round() / 10.0;
             remarks.push(format!(
                 "{}: cut to {} to {} nm; beyond, readings are not {}",
                 name(&self.record.name),
@@ -280,14 +279,15 @@ impl Spectrum<'_> {
     }
 }
 
+fn tenths(nm: f64) -> f64 {
+    (10.0 * nm).round() / 10.0
+}
+
 /// Grid of the coarsest spectrum where all spectra overlap, and its number of wavelengths there.
 fn overlap(file: &str, spectra: &[Spectrum<'_>]) -> Result<(Grid, usize), MeasurementError> {
-    let first_nm = |s: &Spectrum<'_>| s.wavelengths_nm[0];
-    let last_nm = |s: &Spectrum<'_>| s.wavelengths_nm[s.wavelengths_nm.len() - 1];
     let mut latest = &spectra[0];
     let mut earliest = &spectra[0];
     let mut coarsest = &spectra[0];
-    let step = |s: &Spectrum<'_>| (last_nm(s) - first_nm(s)) / s.wavelengths_nm.len() as f64;
     for spectrum in spectra {
         latest = if first_nm(spectrum) > first_nm(latest) { spectrum } else { latest };
         earliest = if last_nm(spectrum) < last_nm(earliest) { spectrum } else { earliest };
@@ -307,4 +307,16 @@ fn overlap(file: &str, spectra: &[Spectrum<'_>]) -> Result<(Grid, usize), Measur
         });
     }
     Ok((grid_of(&shared), shared.len()))
+}
+
+fn step(s: &Spectrum<'_>) -> f64 {
+    (last_nm(s) - first_nm(s)) / s.wavelengths_nm.len() as f64
+}
+
+fn last_nm(s: &Spectrum<'_>) -> f64 {
+    s.wavelengths_nm[s.wavelengths_nm.len() - 1]
+}
+
+fn first_nm(s: &Spectrum<'_>) -> f64 {
+    s.wavelengths_nm[0]
 }

@@ -187,13 +187,9 @@ impl MeasurementTable {
     /// Averages repeated readings: those of one sample on one backing with one thickness.
     #[must_use]
     pub fn averaged(&self) -> AveragedSpectra {
-        let same = |a: &Reading, b: &Reading| {
-            (&a.sample, a.film, &a.backing, a.thickness_mm)
-                == (&b.sample, b.film, &b.backing, b.thickness_mm)
-        };
         let mut groups: Vec<Vec<&Reading>> = Vec::new();
         for reading in &self.readings {
-            match groups.iter_mut().find(|group| same(group[0], reading)) {
+            match groups.iter_mut().find(|group| is_same_film(group[0], reading)) {
                 Some(group) => group.push(reading),
                 None => groups.push(vec![reading]),
             }
@@ -217,6 +213,11 @@ impl MeasurementTable {
         };
         AveragedSpectra { grid: self.grid, spectra: groups.iter().map(averaged).collect() }
     }
+}
+
+fn is_same_film(a: &Reading, b: &Reading) -> bool {
+    (&a.sample, a.film, &a.backing, a.thickness_mm)
+        == (&b.sample, b.film, &b.backing, b.thickness_mm)
 }
 
 impl AveragedSpectra {

@@ -322,7 +322,6 @@ fn rounds(paints: &PaintSet, pool: &[SwatchRecipe]) -> Vec<usize> {
         .map(SwatchRecipe::total)
         .max();
     let weakest = weakest.unwrap_or(FIRST_TINT);
-    let shade = |recipe: &SwatchRecipe| recipe.parts[0].1;
     let shades = pool.iter().filter(|r| r.purpose == Purpose::Shade && shade(r) <= SHADE);
     let strongest_shade = shades.map(shade).max();
     let colors: Vec<PigmentId> = paints.colors().collect();
@@ -335,9 +334,6 @@ fn rounds(paints: &PaintSet, pool: &[SwatchRecipe]) -> Vec<usize> {
             pair
         })
         .collect();
-    let tint = |recipe: &SwatchRecipe, total: u32| {
-        recipe.purpose == Purpose::Tint && recipe.parts[0].1 == 1 && recipe.total() == total
-    };
     let linked = |recipe: &SwatchRecipe| {
         recipe.purpose == Purpose::Cross
             && recipe.total() == 2
@@ -356,6 +352,14 @@ fn rounds(paints: &PaintSet, pool: &[SwatchRecipe]) -> Vec<usize> {
             (0..pool.len()).filter(|&index| selects(&pool[index])).collect()
         })
         .collect()
+}
+
+fn tint(recipe: &SwatchRecipe, total: u32) -> bool {
+    recipe.purpose == Purpose::Tint && recipe.parts[0].1 == 1 && recipe.total() == total
+}
+
+fn shade(recipe: &SwatchRecipe) -> u32 {
+    recipe.parts[0].1
 }
 
 /// Parts of the paint and of the white in tints.

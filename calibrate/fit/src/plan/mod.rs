@@ -297,8 +297,6 @@ impl Plan {
     #[must_use]
     pub fn to_json(&self) -> Value {
         let swatches: Vec<Value> = self.swatches.iter().map(|s| self.swatch_json(s)).collect();
-        // Removes the floating-point error of a sum of balance steps.
-        let rounded = |total: f64| (1e6 * total).round() / 1e6;
         let totals = self.paints.ids().zip(self.totals_g());
         let totals = totals.map(|(paint, total)| (self.name(paint), json!(rounded(total))));
         json!({
@@ -346,6 +344,11 @@ impl Plan {
             "usual_relative_deviations": of(&forecast.usual_deviations),
         })
     }
+}
+
+/// Removes the floating-point error of a sum of balance steps.
+fn rounded(total: f64) -> f64 {
+    (1e6 * total).round() / 1e6
 }
 
 #[cfg(test)]

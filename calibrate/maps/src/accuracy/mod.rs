@@ -406,15 +406,16 @@ pub fn missing_pigment(
         }
     }
     chi2.iter_mut().for_each(|values| values.sort_by(f64::total_cmp));
-    let at = |values: &[f64], part: f64| {
-        let place = (part * values.len() as f64) as usize;
-        values.get(place.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
-    };
-    let usual = at(&chi2[0], 0.95);
+    let usual = at_share(&chi2[0], 0.95);
     let count = |with: usize| chi2[with].len().max(1) as f64;
     Ok(Missing {
-        chi2: [at(&chi2[0], 0.5), at(&chi2[1], 0.5)],
+        chi2: [at_share(&chi2[0], 0.5), at_share(&chi2[1], 0.5)],
         noticed: chi2[1].iter().filter(|value| **value > usual).count() as f64 / count(1),
         false_presences: [wrong[0] / count(0), wrong[1] / count(1)],
     })
+}
+
+fn at_share(values: &[f64], part: f64) -> f64 {
+    let place = (part * values.len() as f64) as usize;
+    values.get(place.min(values.len().saturating_sub(1))).copied().unwrap_or(f64::NAN)
 }

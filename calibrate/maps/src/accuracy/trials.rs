@@ -89,9 +89,6 @@ impl Painting {
     #[must_use]
     pub fn simulate(real: &PigmentLibrary, known: &PigmentLibrary, plan: &PaintingPlan) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(plan.seed);
-        let usable = |library: &PigmentLibrary, name: &str| {
-            library.pigments.iter().any(|p| p.name == name && p.identified && !p.guessed)
-        };
         let mut ids: Vec<PigmentId> = (real.ids())
             .filter(|&id| usable(real, &real[id].name) && usable(known, &real[id].name))
             .filter(|&id| plan.palette.is_empty() || plan.palette.contains(&real[id].name))
@@ -182,6 +179,10 @@ impl Painting {
             })
             .collect())
     }
+}
+
+fn usable(library: &PigmentLibrary, name: &str) -> bool {
+    library.pigments.iter().any(|p| p.name == name && p.identified && !p.guessed)
 }
 
 fn recipe(random: &mut ChaCha8Rng, pigments: usize, plan: &PaintingPlan) -> Vec<(usize, f64)> {
@@ -362,13 +363,16 @@ impl ScoreSums {
     /// Figures of all trials so far.
     #[must_use]
     pub fn scores(&self) -> Scores {
-        let part = |value: f64, of: f64| if of > 0.0 { value / of } else { 0.0 };
         Scores {
-            precision: part(self.right, self.told),
-            recall: part(self.right, self.there),
-            share_error: part(self.error, self.count),
+            precision: ratio(self.right, self.told),
+            recall: ratio(self.right, self.there),
+            share_error: ratio(self.error, self.count),
         }
     }
+}
+
+fn ratio(value: f64, of: f64) -> f64 {
+    if of > 0.0 { value / of } else { 0.0 }
 }
 
 /// Told probabilities of one range, with the part of them that is true.

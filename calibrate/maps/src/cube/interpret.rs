@@ -182,8 +182,11 @@ fn terms_of_values(
 /// Full scale by a maximum that several values share.
 fn guessed_full_scale(most: f32, white: f32, largest: &[f32]) -> Option<f32> {
     let shared = largest.iter().filter(|value| **value == most).count() > 1;
-    let full = |value: f32| FULL_SCALES.contains(&value).then_some(value);
     full(white).or_else(|| full(most).filter(|_| shared && white <= most))
+}
+
+fn full(value: f32) -> Option<f32> {
+    FULL_SCALES.contains(&value).then_some(value)
 }
 
 fn check_white(scan: &Opened, readings: &Readings, full: f32) -> Result<(), CubeError> {

@@ -205,9 +205,6 @@ fn specim_scan(folder: &Path) -> Result<SpecimScan, CubeError> {
         return Ok(SpecimScan { scan, white: None, dark: None, white_dark: None, remark });
     }
     let captured = inside("capture");
-    let is_scan = |name: &str| {
-        !READINGS.iter().any(|start| name.starts_with(start)) && !name.starts_with(REFLECTANCE)
-    };
     let scans: Vec<_> = captured.iter().filter(|(name, _)| is_scan(name)).collect();
     let [(name, scan)] = scans[..] else {
         let problem = match computed.len().max(scans.len()) {
@@ -222,6 +219,10 @@ fn specim_scan(folder: &Path) -> Result<SpecimScan, CubeError> {
     });
     let remark = format!("counts are read with the camera's white and dark: {}", scan.display());
     Ok(SpecimScan { scan: scan.clone(), white, dark, white_dark, remark })
+}
+
+fn is_scan(name: &str) -> bool {
+    !READINGS.iter().any(|start| name.starts_with(start)) && !name.starts_with(REFLECTANCE)
 }
 
 /// Whether a file begins as OpenEXR.

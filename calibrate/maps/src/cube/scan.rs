@@ -352,11 +352,14 @@ mod tests {
             (36_000, 44_000, 20_000),
         ] {
             let (down, across) = steps(rows, columns, about);
-            let count = |length: usize, step: usize| (step / 2..length).step_by(step).count();
             let met = count(rows, down) * count(columns, across);
             let wanted = about.min(rows * columns);
             let near = met >= wanted / 2 && met <= 2 * wanted;
             assert!(near, "{rows} x {columns}: {met} of {wanted}");
         }
+    }
+
+    fn count(length: usize, step: usize) -> usize {
+        (step / 2..length).step_by(step).count()
     }
 }

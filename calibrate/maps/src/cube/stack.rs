@@ -146,9 +146,6 @@ pub(crate) fn open_folder(folder: &Path, options: &CubeOptions) -> Result<Opened
             unpack_tiff(&mut pages, picture, plane, band, &mut spool)?;
         }
     }
-    let name = |path: &Path| {
-        path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-    };
     let ends = [first, &pictures[pictures.len() - 1]].map(|path| name(path));
     let remark = format!(
         "{} pictures from {} ({} nm) to {} ({} nm), in the order of their names",
@@ -172,6 +169,10 @@ pub(crate) fn open_folder(folder: &Path, options: &CubeOptions) -> Result<Opened
         remarks: vec![remark],
         source: Box::new(spool.finish(folder)?),
     })
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 fn png_fault(path: &Path, error: DecodingError) -> CubeError {

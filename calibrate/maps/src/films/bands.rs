@@ -134,9 +134,12 @@ impl Bands {
     /// deviation `sensor`.
     #[must_use]
     pub fn noise(&self, sensor: f64) -> Vec<f64> {
-        let of_row = |row: &Row| row.terms.iter().map(|(_, w)| w * w).sum::<f64>().sqrt();
-        self.from_scan.iter().map(|row| sensor * of_row(row)).collect()
+        self.from_scan.iter().map(|row| sensor * row_noise(row)).collect()
     }
+}
+
+fn row_noise(row: &Row) -> f64 {
+    row.terms.iter().map(|(_, w)| w * w).sum::<f64>().sqrt()
 }
 
 fn median_step(nm: &[f64]) -> f64 {
@@ -210,23 +213,21 @@ impl Ground {
     /// [`MapError::Ground`] for two lists of different lengths, for wavelengths that do not rise, and for numbers
     /// that are no reflectances.
     pub fn new(nm: Vec<f64>, reflectance: Vec<f64>) -> Result<Self, MapError> {
-        let fault = |problem: String| MapError::Ground { problem };
         if nm.len() != reflectance.len() || nm.len() < 2 {
             let nm = nm.len();
             let values = reflectance.len();
-            return Err(fault(format!("has {nm} wavelengths and {values} reflectances")));
+            return Err(ground_error(format!("has {nm} wavelengths and {values} reflectances")));
         }
-        let rises = |pair: &[f64]| pair[0] < pair[1];
         if let Some(place) = nm.windows(2).position(|pair| !rises(pair)) {
             let before = nm[place];
             let after = nm[place + 1];
-            return Err(fault(format!("has {after} nm after {before} nm")));
+            return Err(ground_error(format!("has {after} nm after {before} nm")));
         }
         let is_reflectance = |value: &f64| (0.0..=1.5).contains(value);
         if let Some(place) = reflectance.iter().position(|value| !is_reflectance(value)) {
             let value = reflectance[place];
             let nm = nm[place];
-            return Err(fault(format!("reflects {value} at {nm} nm")));
+            return Err(ground_error(format!("reflects {value} at {nm} nm")));
         }
         Ok(Self { nm, reflectance })
     }
@@ -241,6 +242,14 @@ impl Ground {
         let part = (nm - self.nm[before]) / (self.nm[after] - self.nm[before]);
         Some(self.reflectance[before] * (1.0 - part) + self.reflectance[after] * part)
     }
+}
+
+fn rises(pair: &[f64]) -> bool {
+    pair[0] < pair[1]
+}
+
+fn ground_error(problem: String) -> MapError {
+    MapError::Ground { problem }
 }
 
 /// The ground on the bands of a map, with the covariance of its differences from place to place: that of the bands
@@ -342,7 +351,6 @@ mod tests {
         let nm = even(397.3, 2.92, 204);
         let bands = Bands::new(&nm, oils()).unwrap();
         assert_eq!(bands.count(), 31, "{:?}", bands.nm);
-        let line = |nm: f64| 0.2 + 0.001 * (nm - 400.0);
         let scan: Vec<f64> = nm.iter().map(|&nm| line(nm)).collect();
         let library: Vec<f64> = oils().wavelengths_nm().map(line).collect();
         for (nm, (a, b)) in
@@ -351,6 +359,10 @@ mod tests {
             assert!((a - line(*nm)).abs() < 1e-12 && (b - line(*nm)).abs() < 1e-12, "{nm} nm");
         }
         assert!(bands.noise(0.003).iter().all(|&sd| sd < 0.0025), "{:?}", bands.noise(0.003));
+    }
+
+    fn line(nm: f64) -> f64 {
+        0.2 + 0.001 * (nm - 400.0)
     }
 
     #[test]
@@ -423,17 +435,16 @@ mod tests {
         assert!(bare.explains(&of(&|_, r| 0.95 * r)), "darker");
         assert!(bare.explains(&of(&|_, r| r + 0.008)), "glossier");
         assert!(!bare.explains(&of(&|_, r| 0.6 * r)), "much darker");
-        let bent = |i: usize, r: f64| r + 0.03 * (i as f64 / 10.0).sin();
         assert!(!bare.explains(&of(&bent)), "of another colour");
+    }
+
+    fn bent(i: usize, r: f64) -> f64 {
+        r + 0.03 * (i as f64 / 10.0).sin()
     }
 
     #[test]
     fn ground_that_cannot_be_used_is_refused() {
         let (nm, reflectance) = linen();
-        let refused = |nm: Vec<f64>, reflectance: Vec<f64>, words: &str| {
-            let error = Ground::new(nm, reflectance).unwrap_err();
-            assert!(error.to_string().contains(words), "{error}");
-        };
         refused(nm.clone(), vec![0.2; 30], "31 wavelengths and 30 reflectances");
         refused(vec![500.0, 400.0], vec![0.2; 2], "400 nm after 500 nm");
         refused(vec![500.0, f64::NAN], vec![0.2; 2], "NaN nm after 500 nm");
@@ -449,6 +460,11 @@ mod tests {
         let late = Ground::new(nm[1..].to_vec(), reflectance[1..].to_vec()).unwrap();
         let error = BareGround::new(&late, &nm, &bands, &[9e-6; 31]).unwrap_err();
         assert!(error.to_string().contains("400 nm"), "{error}");
+    }
+
+    fn refused(nm: Vec<f64>, reflectance: Vec<f64>, words: &str) {
+        let error = Ground::new(nm, reflectance).unwrap_err();
+        assert!(error.to_string().contains(words), "{error}");
     }
 
     #[test]

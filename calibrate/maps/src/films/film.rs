@@ -454,9 +454,12 @@ impl Paints {
     /// Optical strength of a pigment: the mean of K + S over the bands.
     #[must_use]
     pub fn strength(&self, pigment: usize) -> f64 {
-        let sum = |curve: &[f64]| curve.iter().sum::<f64>();
         (sum(&self.absorption[pigment]) + sum(&self.scattering[pigment])) / self.bands() as f64
     }
+}
+
+fn sum(curve: &[f64]) -> f64 {
+    curve.iter().sum::<f64>()
 }
 
 #[cfg(test)]
@@ -551,21 +554,23 @@ mod tests {
 
     /// Errors of invented mixtures.
     fn residuals() -> Residuals {
-        let curve = |number: usize, scale: f64| -> Vec<f64> {
-            let wave = |i: usize| (0.3 * (i * (1 + number % 5)) as f64 + number as f64).sin();
-            (0..31).map(|i| scale * (1.1 + wave(i))).collect()
-        };
-        let mixture = |number: usize| {
-            let measured = curve(number, 0.3);
-            let error = curve(number + 3, 0.01);
-            LeftOutMixture {
-                sample: number.to_string(),
-                shares: BTreeMap::new(),
-                predicted: measured.iter().zip(&error).map(|(m, e)| m - e).collect(),
-                measured,
-            }
-        };
         Residuals { mixtures: (0..12).map(mixture).collect(), ..Residuals::van_gogh_oils() }
+    }
+
+    fn mixture(number: usize) -> LeftOutMixture {
+        let measured = curve(number, 0.3);
+        let error = curve(number + 3, 0.01);
+        LeftOutMixture {
+            sample: number.to_string(),
+            shares: BTreeMap::new(),
+            predicted: measured.iter().zip(&error).map(|(m, e)| m - e).collect(),
+            measured,
+        }
+    }
+
+    fn curve(number: usize, scale: f64) -> Vec<f64> {
+        let wave = |i: usize| (0.3 * (i * (1 + number % 5)) as f64 + number as f64).sin();
+        (0..31).map(|i| scale * (1.1 + wave(i))).collect()
     }
 
     #[test]

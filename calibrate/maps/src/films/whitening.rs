@@ -78,10 +78,6 @@ pub(crate) struct Whitening {
 
 impl WhiteningNoise {
     pub(crate) fn new(noise: &Noise) -> Self {
-        let list = |values: &[f64]| {
-            let values: Vec<f32> = values.iter().map(|value| *value as f32).collect();
-            spectrum(&values, 1.0)
-        };
         let curves = noise.curves.iter().map(|curves| f32x8::new(curves.map(|value| value as f32)));
         Self {
             bands: noise.sensor.len(),
@@ -142,6 +138,11 @@ impl WhiteningNoise {
         white.removed = removed.map(|values| spectrum(&values, 0.0));
         white
     }
+}
+
+fn list(values: &[f64]) -> Spectrum {
+    let values: Vec<f32> = values.iter().map(|value| *value as f32).collect();
+    spectrum(&values, 1.0)
 }
 
 struct Near<'a> {

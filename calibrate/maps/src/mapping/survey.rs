@@ -65,9 +65,6 @@ pub(crate) fn survey(
         sets.truncate(near.min(KEPT_SETS));
     }
     book.usual_chi2 = usual(&found);
-    let members = |key: u32| -> Vec<u8> {
-        key.to_be_bytes().into_iter().filter(|member| *member != u8::MAX).collect()
-    };
     book.sets = frequencies(&found)
         .into_iter()
         .map(|(key, part)| SetFrequency { pigments: members(key), part: part as f32 })
@@ -81,6 +78,10 @@ pub(crate) fn survey(
         })
         .collect();
     Ok(book)
+}
+
+fn members(key: u32) -> Vec<u8> {
+    key.to_be_bytes().into_iter().filter(|member| *member != u8::MAX).collect()
 }
 
 fn of_fit(set: &SetFit) -> BookSet {
@@ -163,7 +164,6 @@ pub(crate) fn palette(
             None => break,
         }
     }
-    let likely = |need: f32| 1.0 / (1.0 + (0.5 * (NEEDED - need)).exp());
     let mut probabilities = vec![0.0; pigments];
     for (entry, &of_entry) in entries.iter().zip(&of_entry) {
         let palette = palette | of_entry;
@@ -180,6 +180,10 @@ pub(crate) fn palette(
         }
     }
     probabilities
+}
+
+fn likely(need: f32) -> f32 {
+    1.0 / (1.0 + (0.5 * (NEEDED - need)).exp())
 }
 
 /// Sets of all surveyed pixels as bits of their pigments, with their scores.
@@ -208,7 +212,6 @@ impl Survey {
                 place
             })
             .collect();
-        let bits = |set: &SetFit| set.parts().fold(0, |bits, (member, _)| bits | 1 << member);
         Self {
             sets: found
                 .iter()
@@ -243,6 +246,10 @@ impl Survey {
             })
             .collect()
     }
+}
+
+fn bits(set: &SetFit) -> u64 {
+    set.parts().fold(0, |bits, (member, _)| bits | 1 << member)
 }
 
 #[cfg(test)]
@@ -305,14 +312,15 @@ mod tests {
 
     #[test]
     fn of_two_that_do_alike_the_one_that_is_needed_more_stays() {
-        let alike = |first: f32, second: f32| {
-            let mut sets = pixel(&[(&[1], first), (&[2], second), (&[0], 50.0)]);
-            sets.sort_by(|a, b| a.score.total_cmp(&b.score));
-            sets
-        };
         let found = [alike(5.0, 7.0), alike(6.0, 5.0), alike(5.0, 8.0)];
         let palette = palette(&found, &[1, 2, 3], &apart(3), 1.0);
         assert!(palette[1] > 0.9 && palette[2] < 0.01, "{palette:?}");
+    }
+
+    fn alike(first: f32, second: f32) -> Vec<SetFit> {
+        let mut sets = pixel(&[(&[1], first), (&[2], second), (&[0], 50.0)]);
+        sets.sort_by(|a, b| a.score.total_cmp(&b.score));
+        sets
     }
 
     #[test]

@@ -115,8 +115,6 @@ impl Engine {
 
     /// Sorts sets by their scores, after the best one is refined further.
     pub(crate) fn sort(&self, pixel: &Pixel, found: &mut [SetFit]) {
-        let order =
-            |a: &SetFit, b: &SetFit| a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()));
         found.sort_unstable_by(order);
         let Some(best) = found.first_mut() else { return };
         let difference = best.refine(&self.films, pixel, STEPS[2]);
@@ -202,6 +200,10 @@ impl Engine {
             a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()))
         });
     }
+}
+
+fn order(a: &SetFit, b: &SetFit) -> std::cmp::Ordering {
+    a.score.total_cmp(&b.score).then(a.key().cmp(&b.key()))
 }
 
 fn is_kept(list: &[SetFit], most: usize, chi2: f32) -> bool {

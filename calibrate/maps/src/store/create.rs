@@ -62,9 +62,6 @@ impl MapStore {
         for (name, document) in &documents {
             write(&path.join(name).join(GROUP), &text(document))?;
         }
-        let numbers = |range: &Range<usize>| -> Vec<u8> {
-            range.clone().flat_map(|at| (at as i64).to_le_bytes()).collect()
-        };
         write(&path.join("y/c/0"), &numbers(&about.rows))?;
         write(&path.join("x/c/0"), &numbers(&about.columns))?;
         write(&path.join("pigment/c/0"), &names(&about.pigments))?;
@@ -176,6 +173,10 @@ impl MapStore {
     }
 }
 
+fn numbers(range: &Range<usize>) -> Vec<u8> {
+    range.clone().flat_map(|at| (at as i64).to_le_bytes()).collect()
+}
+
 /// File of a shard of an array of the store at `path`.
 pub(crate) fn shard_file(path: &Path, array: MapArray, shard: &Shard) -> PathBuf {
     let (row, column) = shard.at;
@@ -238,13 +239,16 @@ pub(crate) fn text(document: &Value) -> Vec<u8> {
 
 /// Texts as the codec `vlen-utf8` stores them.
 pub(crate) fn names(names: &[String]) -> Vec<u8> {
-    let length = |length: usize| u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes();
     let mut bytes = length(names.len()).to_vec();
     for name in names {
         bytes.extend(length(name.len()));
         bytes.extend(name.as_bytes());
     }
     bytes
+}
+
+fn length(length: usize) -> [u8; 4] {
+    u32::try_from(length).unwrap_or(u32::MAX).to_le_bytes()
 }
 
 /// Descriptions of all arrays, with their names.

@@ -143,9 +143,6 @@ impl StoredMaps {
     /// # Errors
     /// [`StoreError`] if the rectangle is not mapped, or a shard cannot be read.
     pub fn read(&self, rows: Range<usize>, columns: Range<usize>) -> Result<BlockMaps, StoreError> {
-        let inside = |part: &Range<usize>, whole: &Range<usize>| {
-            part.start <= part.end && part.start >= whole.start && part.end <= whole.end
-        };
         if !inside(&rows, &self.rows) || !inside(&columns, &self.columns) {
             let problem = format!(
                 "rows {} to {} and columns {} to {} are not mapped, only rows {} to {} and columns {} to {}",
@@ -196,6 +193,10 @@ impl StoredMaps {
         }
         Ok(maps)
     }
+}
+
+fn inside(part: &Range<usize>, whole: &Range<usize>) -> bool {
+    part.start <= part.end && part.start >= whole.start && part.end <= whole.end
 }
 
 /// Bytes of the numbers of a rectangle of an array.

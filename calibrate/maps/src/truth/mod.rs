@@ -73,7 +73,6 @@ struct Sums {
 
 impl Sums {
     fn row(&self, kind: &str) -> ComparisonRow {
-        let part = |value: f64, of: f64| if of > 0.0 { value / of } else { 0.0 };
         ComparisonRow {
             kind: kind.to_owned(),
             pixels: self.pixels,
@@ -83,6 +82,10 @@ impl Sums {
             chi2_risen: part(self.risen as f64, self.scores.count),
         }
     }
+}
+
+fn part(value: f64, of: f64) -> f64 {
+    if of > 0.0 { value / of } else { 0.0 }
 }
 
 /// Rows of the table: names, and which pixels they hold.
@@ -463,7 +466,6 @@ impl TruthWriter {
             });
         }
         for array in TruthArray::ALL {
-            let singles = |values: &[f32]| values.iter().flat_map(|v| v.to_le_bytes()).collect();
             let mut bytes: Vec<u8> = match array {
                 TruthArray::Share => singles(&rows.share),
                 TruthArray::Ground => singles(&rows.ground),
@@ -550,6 +552,10 @@ impl TruthWriter {
         }
         documents
     }
+}
+
+fn singles(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|v| v.to_le_bytes()).collect()
 }
 
 /// Refuses a folder that holds anything else than truth.

@@ -102,7 +102,6 @@ fn keys_are_read_whatever_their_case_with_comments_between() {
 #[test]
 fn scale_factor_percent_and_gains_give_reflectance() {
     let folder = tempfile::tempdir().unwrap();
-    let numbers = || in_order("bip").into_iter();
     let counts: Vec<u8> =
         numbers().flat_map(|value| (i16::from(value) * 50).to_le_bytes()).collect();
     let more = "Reflectance Scale Factor = 10000.0\n";
@@ -126,6 +125,10 @@ fn scale_factor_percent_and_gains_give_reflectance() {
     for (found, expected) in block.values.iter().zip(expected) {
         assert!((found - expected).abs() < 1e-6, "gains: {:?}", block.values);
     }
+}
+
+fn numbers() -> std::vec::IntoIter<u8> {
+    in_order("bip").into_iter()
 }
 
 #[test]
@@ -171,7 +174,6 @@ fn pixels_that_cannot_be_mapped_are_told_with_their_reason() {
     let block = cube.read_rows(0..LINES).unwrap();
     let mut found: Vec<_> = block.mask.iter().enumerate().collect();
     found.retain(|(_, mask)| **mask != Mask::Mapped);
-    let at = |line: usize, sample: usize| line * SAMPLES + sample;
     let expected = [
         (at(0, 0), &Mask::Ignored),
         (at(1, 2), &Mask::NotFinite),
@@ -182,6 +184,10 @@ fn pixels_that_cannot_be_mapped_are_told_with_their_reason() {
     // A band that is not used does not decide.
     let block = cube.between(450.0..=800.0).unwrap().read_rows(1..2).unwrap();
     assert!(block.mask.iter().all(|mask| *mask == Mask::Mapped), "{:?}", block.mask);
+}
+
+fn at(line: usize, sample: usize) -> usize {
+    line * SAMPLES + sample
 }
 
 #[test]

@@ -52,7 +52,6 @@ fn reflectance(line: usize, sample: usize, band: usize) -> f64 {
 fn write_folder(folder: &Path) -> PathBuf {
     let capture = folder.join("capture");
     std::fs::create_dir_all(&capture).unwrap();
-    let swing = |line: usize| if line.is_multiple_of(2) { 10.0 } else { -10.0 };
     write_counts(&capture, "WHITEREF_042", 4, "", |line, sample, band| {
         dark(sample, band) + light(sample, band) + swing(line)
     });
@@ -60,6 +59,10 @@ fn write_folder(folder: &Path) -> PathBuf {
     write_counts(&capture, "042", LINES, "", |line, sample, band| {
         dark(sample, band) + light(sample, band) * reflectance(line, sample, band)
     })
+}
+
+fn swing(line: usize) -> f64 {
+    if line.is_multiple_of(2) { 10.0 } else { -10.0 }
 }
 
 /// Checks reflectances from counts, which are rounded to whole numbers.
@@ -296,8 +299,6 @@ fn header_and_data_are_read_wherever_they_lie() {
 
 #[test]
 fn readings_are_among_the_files() {
-    let reading =
-        |value: u8| -> Vec<u8> { (0..BANDS).flat_map(|_| bytes(12, value, false)).collect() };
     let small = header("bip", 12, "")
         .replace("samples = 7", "samples = 1")
         .replace("lines = 5", "lines = 1");
@@ -320,10 +321,13 @@ fn readings_are_among_the_files() {
     assert_eq!(message, "lost.hdr: is not among the files");
 }
 
+fn reading(value: u8) -> Vec<u8> {
+    (0..BANDS).flat_map(|_| bytes(12, value, false)).collect()
+}
+
 #[test]
 fn files_that_are_no_scan_are_refused() {
     let refused = |files: &[ScanFile]| told(&Cube::of_files(files, &by_200()).unwrap_err());
-    let head = || file("scan.hdr", header("bil", 12, ""));
     let both = "give the header (.hdr) and its data file together";
     let (message, hint) = refused(&[head()]);
     assert_eq!(message, "scan.hdr: the data of this header are not beside it");
@@ -343,6 +347,10 @@ fn files_that_are_no_scan_are_refused() {
     let short = data("bil");
     let error = Cube::of_files(&[head(), file("scan.raw", &short[2..])], &by_200()).unwrap_err();
     assert!(matches!(error, CubeError::Size { .. }), "{error}");
+}
+
+fn head() -> ScanFile {
+    file("scan.hdr", header("bil", 12, ""))
 }
 
 fn write(path: &Path, bytes: &[u8]) {
@@ -515,14 +523,16 @@ fn a_group_of_several_cubes_needs_a_choice() {
     std::fs::copy(document, second.join("zarr.json")).unwrap();
     let (found, _) = refused(folder.path(), &CubeOptions::default());
     assert!(found.ends_with("holds several cubes: raw, reflectance"), "{found}");
-    let named =
-        |name: &str| CubeOptions { variable: Some(name.to_owned()), ..CubeOptions::default() };
     check(&Cube::open_with(folder.path(), &named("reflectance")).unwrap(), 1.0 / 200.0, "named");
     let (found, _) = refused(folder.path(), &named("counts"));
     assert!(
         found.contains("has no array `counts` of three axes, only raw, reflectance"),
         "{found}"
     );
+}
+
+fn named(name: &str) -> CubeOptions {
+    CubeOptions { variable: Some(name.to_owned()), ..CubeOptions::default() }
 }
 
 #[test]

@@ -48,7 +48,6 @@ pub(crate) fn places(path: &Path) -> Vec<PathBuf> {
 #[cfg(feature = "files")]
 pub(crate) fn data_of(path: &Path, header: &EnviHeader) -> Result<PathBuf, CubeError> {
     let found: Vec<_> = places(path).into_iter().filter(|place| place.is_file()).collect();
-    let bytes = |place: &PathBuf| std::fs::metadata(place).map(|about| about.len()).ok();
     let expected = header.layout.file_bytes();
     match found
         .iter()
@@ -69,6 +68,10 @@ pub(crate) fn data_of(path: &Path, header: &EnviHeader) -> Result<PathBuf, CubeE
             Ok(place.clone())
         }
     }
+}
+
+fn bytes(place: &PathBuf) -> Option<u64> {
+    std::fs::metadata(place).map(|about| about.len()).ok()
 }
 
 /// Checks that the file `data` of `found` bytes has the size that the header `path` describes.
