@@ -253,7 +253,7 @@ impl Drawing<'_, '_> {
                 }
             }
             KeySymbol::Bands(count) => {
-                // No rectangle, so that a dark page exchanges its colour with that of the bands.
+                // This is not a rectangle, so that a dark page swaps its colour with the bands.
                 let style = rgb(color).mix(BAND).filled();
                 let corners = [(4.0, -5.0), (16.0, -5.0), (16.0, 5.0), (4.0, 5.0)];
                 let corners = corners.map(|(dx, dy)| point(dx, dy));

@@ -35,7 +35,7 @@ pub enum Drawing {
     Canvas(Canvas),
 }
 
-/// The texts of a figure; see the fields of [`Figure`].
+/// The texts of a figure. See the fields of [`Figure`].
 #[derive(Debug, Clone, Copy)]
 pub struct Words<'a> {
     /// File stem and anchor ([`Figure::name`]).
@@ -49,8 +49,8 @@ pub struct Words<'a> {
 }
 
 impl Figure {
-    /// Renders `drawing` and joins it with its texts and data. `command` is the command line
-    /// that made the figure; the SVG names it in its description.
+    /// Renders `drawing` and joins it with its texts and data. `command` is the command line that made
+    /// the figure. The SVG names it in its description.
     ///
     /// # Panics
     /// If the name is empty or has other characters than lower-case letters, digits and hyphens.
@@ -114,7 +114,7 @@ impl Figure {
 pub struct Column {
     /// Name of the column.
     pub name: String,
-    /// Unit of a quantity, `1` for a ratio; `None` for text.
+    /// Unit of a quantity, `1` for a ratio, or `None` for text.
     pub unit: Option<String>,
     /// Number of decimals on the page.
     pub digits: usize,

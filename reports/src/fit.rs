@@ -310,7 +310,7 @@ fn samples_figure(
     subject.figure(words, Drawing::Chart(chart), data)
 }
 
-/// Percentiles of the residuals; bands join the outer and the inner pair.
+/// Percentiles of the residuals. Bands join the outer and the inner pair.
 const PERCENTS: [f64; 5] = [5.0, 25.0, 50.0, 75.0, 95.0];
 
 pub(crate) fn residuals_section(subject: &Subject<'_>) -> Section {
@@ -421,7 +421,7 @@ pub(crate) fn left_out_section(subject: &Subject<'_>) -> Section {
     section.with_figure(left_out_figure(subject, &pairs))
 }
 
-/// Draws films with their error when left out; `pairs` is sorted by that error, largest first.
+/// Draws films with their error when left out. `pairs` is sorted by that error, largest first.
 fn left_out_figure(subject: &Subject<'_>, pairs: &[(&ComparedFilm, f64)]) -> Figure {
     let errors = || pairs.iter().flat_map(|(film, left_out)| [film.delta_e, *left_out]);
     let low = errors().fold(f64::INFINITY, f64::min);

@@ -37,7 +37,7 @@ pub enum Mark {
     },
     /// A translucent polygon.
     Area {
-        /// Corners in order; the last joins the first.
+        /// Corners in order. The last joins the first.
         points: Vec<Point>,
         /// Fill colour of the shape.
         color: Color,
@@ -101,7 +101,7 @@ pub enum AxisLabels {
     All,
 }
 
-/// A rectangle in px; y points down.
+/// A rectangle in px. Y points down.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Frame {
     /// Left edge in px.
@@ -117,13 +117,13 @@ pub struct Frame {
 /// A pair of axes and the marks drawn in them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// The rectangle between the axes; set by the arrangement ([`Chart::stacked`] and others).
+    /// The rectangle between the axes. It is set by the arrangement ([`Chart::stacked`] and others).
     pub frame: Frame,
-    /// Title above the frame, on the left; empty for none.
+    /// Title above the frame, on the left, or empty for none.
     pub title: String,
-    /// Small text between title and frame; empty for none.
+    /// Small text between title and frame, or empty for none.
     pub subtitle: String,
-    /// Note above the frame, left of the patches; empty for none.
+    /// Note above the frame, left of the patches, or empty for none.
     pub note: String,
     /// Patches of colour above the frame, on its right.
     pub patches: Vec<Color>,
@@ -131,7 +131,7 @@ pub struct Panel {
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// Labels of the horizontal and vertical axis; set by the arrangement.
+    /// Labels of the horizontal and vertical axis. They are set by the arrangement.
     pub labels: (AxisLabels, AxisLabels),
     /// Marks in the order of drawing, back to front.
     pub marks: Vec<Mark>,
@@ -202,8 +202,8 @@ pub struct Chart {
     pub height: u32,
     /// The panels, each with its frame in the chart.
     pub panels: Vec<Panel>,
-    /// Names of a horizontal and a vertical axis that hold for all panels; `None` where each
-    /// panel names its own.
+    /// Names of a horizontal and a vertical axis that hold for all panels, or `None` where each panel
+    /// names its own.
     pub names: Option<(String, String)>,
 }
 
@@ -215,7 +215,7 @@ const BOTTOM: f64 = 44.0;
 pub(crate) const SUBTITLE: f64 = 23.0;
 
 impl Chart {
-    /// A chart with one panel, whose frame is `height` px high.
+    /// A chart with one panel. Its frame is `height` px high.
     #[must_use]
     pub fn single(panel: Panel, height: f64) -> Self {
         Self::stacked(vec![(panel, height)])
@@ -235,7 +235,7 @@ impl Chart {
         Self { width: WIDTH, height: y.ceil() as u32, panels, names: None }
     }
 
-    /// Panels of equal width side by side, each with its own axes; frames are `height` px high.
+    /// Panels of equal width side by side, each with its own axes. Frames are `height` px high.
     #[must_use]
     pub fn row(panels: Vec<Panel>, height: f64) -> Self {
         let count = panels.len().max(1) as f64;

@@ -134,8 +134,8 @@ pub fn absences(comparison: &Comparison) -> Vec<String> {
     resampled.into_iter().chain(absent).collect()
 }
 
-/// Draws all sections of `subject` as one HTML page, whose figures carry their numbers within: for a
-/// program without files. `step` is called [`STEPS`] times, after each section.
+/// Draws all sections of `subject` as one HTML page with the numbers inside its figures: for a program
+/// without files. `step` is called [`STEPS`] times, after each section.
 ///
 /// # Panics
 /// If a drawing thread panics.

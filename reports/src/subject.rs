@@ -24,15 +24,15 @@ pub struct Subject<'a> {
     pub weights: TristimulusWeights,
     /// The command line that makes the report, printed with each figure.
     pub command: String,
-    /// Measured and predicted films; `None` without measurements.
+    /// Measured and predicted films, or `None` without measurements.
     pub comparison: Option<Comparison>,
-    /// Leave-one-out validation of mixtures; `None` if not requested or not possible.
+    /// Leave-one-out validation of mixtures, or `None` if not requested or not possible.
     pub validation: Option<Validation>,
     /// Black and white card under the films.
     pub cards: Cards,
     /// Quadratures of a few wavelengths for `viewing`, by method and number of wavelengths.
     pub quadratures: Vec<QuadratureTrial>,
-    /// The pigments of the graded mixture; `None` to choose pairs from the library.
+    /// The pigments of the graded mixture, or `None` to choose pairs from the library.
     pub pair: Option<(PigmentId, PigmentId)>,
 }
 
@@ -168,7 +168,7 @@ impl Subject<'_> {
         }
     }
 
-    /// A sample's name, with a star if its recipe has a pigment whose K and S are not measured.
+    /// A sample's name, with a star if its recipe has a pigment without measured K and S.
     #[must_use]
     pub fn sample(&self, film: &ComparedFilm) -> String {
         format!("{}{}", film.sample, if film.unsure { "*" } else { "" })

@@ -70,7 +70,7 @@ impl Canvas {
         ));
     }
 
-    /// Draws a line of text, vertically centred at `at`; `size` is the font size in px.
+    /// Draws a line of text, vertically centred at `at`. `size` is the font size in px.
     pub fn text(&mut self, at: (f64, f64), size: f64, anchor: Anchor, color: Color, text: &str) {
         let x = at.0;
         let y = at.1 + 0.35 * size;
@@ -103,7 +103,7 @@ impl Canvas {
         }
     }
 
-    /// Draws a name that reads upwards and starts at `at`, in the middle of its lines; `space` is its
+    /// Draws a name that reads upwards and starts at `at`, in the middle of its lines. `space` is its
     /// length and its width in px.
     pub fn name_upwards(
         &mut self,
@@ -143,8 +143,8 @@ impl Canvas {
     }
 }
 
-/// The opening tag of a document of `width` x `height` px, whose view box has `fine` units per
-/// px. A rim of paper around letters keeps them readable over colours.
+/// The opening tag of a document of `width` x `height` px, with a view box of `fine` units per px. A rim
+/// of paper around letters keeps them readable over colours.
 #[must_use]
 pub fn opening(width: u32, height: u32, fine: u32) -> String {
     let w = width * fine;

@@ -34,9 +34,9 @@ pub struct FitOptions {
     /// Meaning of the amounts in recipes: shares of a mixture, or amounts on a fixed area of a known
     /// backing.
     pub amounts: AmountKind,
-    /// Method of the fit; absolute amounts always take `refined`.
+    /// Method of the fit. Absolute amounts always take `refined`.
     pub method: Method,
-    /// Name of the white whose S is 1. Default: the pigment called white that occurs in most samples.
+    /// Name of the white with S = 1. Default: the pigment called white that occurs in most samples.
     pub reference: Option<String>,
     /// Surface of the films. Default: k2 = 0.6 and k1 = 0.03, or less where a reading is lower; for
     /// absolute amounts k1 = 0 and the k2 that predicts unseen films best.
@@ -93,9 +93,9 @@ pub struct Fit {
     pub library: PigmentLibrary,
     /// Choices that were made, and what the films and equations show.
     pub remarks: Vec<Remark>,
-    /// Swatches as the fit used them; empty for absolute amounts.
+    /// Swatches as the fit used them, or empty for absolute amounts.
     pub observations: Vec<Observation>,
-    /// Rank and condition of the equations; `None` for absolute amounts.
+    /// Rank and condition of the equations, or `None` for absolute amounts.
     pub condition: Option<Condition>,
     /// Estimates that a validation reuses.
     pub(crate) state: Option<RefinedState>,
@@ -153,7 +153,7 @@ pub struct PreparedFit {
 pub enum FilmModel {
     /// Shares of a mixture.
     Relative {
-        /// White whose S is 1.
+        /// White with S = 1.
         reference: PigmentId,
         /// Surface of the films.
         surface: Surface,
@@ -163,12 +163,13 @@ pub enum FilmModel {
 }
 
 impl PreparedFit {
-    /// Number of times that [`Self::new`] tells [`FitStage::FilmModel`](crate::fit::FitStage::FilmModel)
-    /// if it chooses the film model of absolute amounts.
+    /// Number of times that [`Self::new`] reports
+    /// [`FitStage::FilmModel`](crate::fit::FitStage::FilmModel) if it chooses the film model of absolute
+    /// amounts.
     pub const MODEL_FITS: usize = CHOICE_FITS;
 
-    /// Resolves the options: selects samples, finds the reference white and the surface. `watch` is
-    /// told each fit made to choose the film model of absolute amounts, and may end them.
+    /// Resolves the options: selects samples, finds the reference white and the surface. `watch` receives
+    /// each fit made to choose the film model of absolute amounts, and may end them.
     ///
     /// # Errors
     /// [`FittingError`] if options exclude each other, a name is unknown, or readings cannot be used.
@@ -239,7 +240,7 @@ impl PreparedFit {
         &self.viewing
     }
 
-    /// Fits the library. The remarks are those of the fit itself.
+    /// Fits the library. The remarks are the fit's own.
     ///
     /// # Errors
     /// [`FittingError::Calibration`] if readings cannot be used or the fit fails.
@@ -247,7 +248,7 @@ impl PreparedFit {
         self.fit_watched(Watch::default())
     }
 
-    /// Fits like [`Self::fit`], tells `watch` the stages of the fit, and ends when it asks for that.
+    /// Fits like [`Self::fit`], reports the stages of the fit to `watch`, and ends when it asks for that.
     ///
     /// # Errors
     /// [`FittingError::Calibration`] if readings cannot be used, the fit fails or `watch` ends it.
@@ -375,7 +376,8 @@ fn stem(path: &str) -> String {
     stem.map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// The surface of most paints, its k1 lowered below every reading of `set`; the remark tells of that.
+/// The surface of most paints, with k1 lowered below every reading of `set`, and the remark about this
+/// change.
 pub(crate) fn usual_below_readings(
     set: &SwatchSet,
     specular: Specular,
@@ -412,7 +414,8 @@ fn darkest(set: &SwatchSet, least: f64) -> String {
     "a film".to_owned()
 }
 
-/// Refuses a set of films most of whose readings lie below `k1`: such a set is read in a wrong unit.
+/// Refuses a set of films with most readings below `k1`. We assume that such a set was read in a wrong
+/// unit.
 pub(crate) fn check_above_surface(
     set: &SwatchSet,
     k1: f64,

@@ -11,18 +11,18 @@ use crate::swatch::{Swatch, SwatchFilm, SwatchSet};
 
 pub use pigment::fit_settings::BelowSurface;
 
-/// Internal reflectance that stands for black; K/S is about 500 there. A reading nearer to the surface's
+/// Internal reflectance that stands for black. K/S is about 500 there. A reading nearer to the surface's
 /// own reflection contains no more information, and K/S would rise without bound.
 pub const BLACK: f64 = 1e-3;
-/// Two readings over different backings that differ by at most this show a film that hides; chosen by
-/// eye.
+/// Two readings over different backings that differ by at most this show a film that hides (chosen by
+/// eye).
 pub const HIDING_DIFFERENCE: f64 = 0.05;
-/// Least difference of the mean reflectances of two backings from which K/S can be computed; chosen by
-/// eye.
+/// Least difference of the mean reflectances of two backings from which K/S can be computed (chosen by
+/// eye).
 pub(crate) const LEAST_CONTRAST: f64 = 0.05;
-/// Relative difference of two thicknesses that a gauge cannot tell apart; chosen by eye.
+/// Relative difference of two thicknesses that a gauge cannot tell apart (chosen by eye).
 const SAME_THICKNESS: f64 = 0.05;
-/// Internal reflectance above which a reading is refused rather than read as white; chosen by eye.
+/// Internal reflectance above which a reading is refused rather than read as white (chosen by eye).
 const ABOVE_WHITE: f64 = 1.05;
 
 /// Whether K/S of a swatch was computed from two backings, or the film was assumed to hide.
@@ -31,9 +31,9 @@ pub enum Hiding {
     /// K/S was computed from readings over two backings. The value is the largest difference of the two over
     /// wavelength, in measured reflectance.
     Difference(f64),
-    /// The film was assumed to hide, because there are no two films of one thickness on backings of different
-    /// reflectance that were also read bare. The value is the largest difference of readings over different
-    /// backings; `None` if there is only one.
+    /// The film was assumed to hide, because there are no two films of one thickness on backings of
+    /// different reflectance that were also read bare. The value is the largest difference of readings
+    /// over different backings, or `None` if there is only one.
     Assumed(Option<f64>),
 }
 
@@ -54,7 +54,7 @@ pub struct Observation {
     pub as_read: Vec<f64>,
     /// How K/S was computed, and how far readings over different backings differ.
     pub hiding: Hiding,
-    /// Standard deviation of repeated readings; `None` if none were repeated.
+    /// Standard deviation of repeated readings, or `None` if none were repeated.
     pub spread: Option<f64>,
     /// Number of readings that were below the surface's own reflection and were read as black.
     pub below_surface: usize,
@@ -63,7 +63,8 @@ pub struct Observation {
 }
 
 impl Hiding {
-    /// Whether the two readings differ by at most 0.05 at every wavelength; `None` if hiding is assumed.
+    /// Whether the two readings differ by at most 0.05 at every wavelength, or `None` if hiding is
+    /// assumed.
     #[must_use]
     pub fn hides(self) -> Option<bool> {
         match self {
@@ -268,7 +269,7 @@ pub(crate) fn alike(first: Option<f64>, second: Option<f64>) -> bool {
     }
 }
 
-/// First of the thickest films; films of unknown thickness count as thin.
+/// First of the thickest films. Films of unknown thickness count as thin.
 fn thickest(films: &[SwatchFilm]) -> &SwatchFilm {
     films
         .iter()
@@ -280,7 +281,7 @@ fn thickness(film: &SwatchFilm) -> f64 {
     film.thickness_mm.unwrap_or(0.0)
 }
 
-/// Largest difference of readings over different backings; `None` if there is only one backing.
+/// Largest difference of readings over different backings, or `None` if there is only one backing.
 fn largest_difference(films: &[SwatchFilm]) -> Option<f64> {
     let mut largest: Option<f64> = None;
     for (index, first) in films.iter().enumerate() {
@@ -298,8 +299,8 @@ fn count(swatch: &Swatch, condition: impl Fn(f64) -> bool) -> usize {
     readings.filter(|&&reading| condition(reading)).count()
 }
 
-/// Reflectance by which a film may be darker over the brighter card, for the error of two readings: that
-/// of the Van Gogh oils is 0.013 at most.
+/// Reflectance by which a film may be darker over the brighter card, to allow for the error of two
+/// readings. For the Van Gogh oils we found 0.013 at most.
 const READING_ERROR: f64 = 0.02;
 /// Standard deviations of repeated readings that are taken for chance.
 const CHANCE: f64 = 3.0;
@@ -360,7 +361,7 @@ mod tests {
     use crate::readings::Readings;
     use documents::hint::Explain;
 
-    /// Thin films of a white and a red over two cards; those of sample b are named as `b` says.
+    /// Thin films of a white and a red over two cards. The films of sample b have the names in `b`.
     fn thin(b: [&str; 2]) -> Readings {
         let text = format!(
             "sample,film,backing,White,Red,400,500,600,700\n\

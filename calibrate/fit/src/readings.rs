@@ -58,7 +58,7 @@ impl Readings {
         Self::open_files(paths, options, false)
     }
 
-    /// Reads the spectra of files whose other columns do not matter, such as recipes.
+    /// Reads the spectra of files and ignores their other columns, for example recipes.
     ///
     /// # Errors
     /// [`ReadingsError`] with file, row and column.
@@ -115,7 +115,7 @@ impl Readings {
     }
 
     /// Adds the recipes of a CSV file (columns `sample`, one for each pigment, optionally `film`,
-    /// `backing`, `thickness_mm` and `reading`) to readings whose own files state none.
+    /// `backing`, `thickness_mm` and `reading`) to readings without recipes in their own files.
     ///
     /// # Errors
     /// [`ReadingsError::Recipes`] with the row.
@@ -169,7 +169,7 @@ impl Readings {
     /// Groups the readings by sample.
     ///
     /// # Errors
-    /// [`MeasurementError`] for rows that contradict each other, or if there is no film of paint.
+    /// [`MeasurementError`] for rows that contradict each other, or if `set` has no films of paint.
     pub fn swatches(&self) -> Result<SwatchSet, MeasurementError> {
         SwatchSet::from_table(&self.table)
     }
@@ -342,7 +342,7 @@ fn csv_table(
     Ok((table, remarks))
 }
 
-/// The table of a large measurement CSV, which is read in pieces; `None` for any other file.
+/// The table of a large measurement CSV, which is read in pieces, or `None` for any other file.
 fn large_csv(
     path: &Path,
     options: &ReadingOptions,
@@ -405,7 +405,7 @@ impl ReadingFormat {
         std::iter::once(Self::CSV_NAME).chain(Format::ALL.into_iter().map(Format::name))
     }
 
-    /// The format with this name; `None` for an unknown name.
+    /// The format with this name, or `None` for an unknown name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         if name == Self::CSV_NAME {

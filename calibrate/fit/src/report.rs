@@ -242,7 +242,7 @@ fn listed(what: &str, samples: Vec<String>) -> Option<String> {
     (!samples.is_empty()).then(|| format!("{what}: {}", name_list(&samples, 8, ", ")))
 }
 
-/// Warnings about films that are assumed to hide; those whose readings contradict this come first.
+/// Warnings about films that are assumed to hide. Films with readings that contradict this come first.
 fn taken_to_hide(observations: &[Observation]) -> impl Iterator<Item = String> {
     let assumed: Vec<(&Observation, f64)> =
         observations.iter().filter_map(|o| Some((o, difference(o)?))).collect();
@@ -271,11 +271,11 @@ fn difference(o: &Observation) -> Option<f64> {
     }
 }
 
-/// Spreads above the median from which an error is outlying; chosen by eye.
+/// Spreads above the median from which an error is outlying (chosen by eye).
 const OUTLYING: f64 = 5.0;
 /// Standard deviation over median absolute deviation for normal errors.
 const SD_OVER_MEDIAN: f64 = 1.4826;
-/// Least CIEDE2000 of an outlying error, just above what is plainly visible; chosen by eye.
+/// Least CIEDE2000 of an outlying error, just above what is plainly visible (chosen by eye).
 const LEAST_OUTLIER: f64 = 2.0;
 /// Samples with an outlying error: above the median by five times the spread (1.4826 x the median absolute
 /// deviation), and above 2.
@@ -340,7 +340,7 @@ fn summary(per_sample: &[SampleEvidence]) -> Summary {
     Summary::of(&errors)
 }
 
-/// Share of each sample in the sum of all squared colour errors, 0 to 1, the greatest first; samples of
+/// Share of each sample in the sum of all squared colour errors, 0 to 1, the greatest first. Samples of
 /// equal shares in their order. Empty if all errors are 0.
 #[must_use]
 pub fn shares_of_squares(per_sample: &[SampleEvidence]) -> Vec<(&str, f64)> {

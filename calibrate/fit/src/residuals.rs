@@ -43,7 +43,7 @@ pub struct Residuals {
     pub saunderson: Surface,
     /// Settings of the fits.
     pub settings: FitSettings,
-    /// Number of groups that were left out in turn; `None` for each mixture by itself.
+    /// Number of groups that were left out in turn, or `None` for each mixture by itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub folds: Option<usize>,
     /// Files of the measurements.
@@ -75,7 +75,7 @@ impl Residuals {
         self
     }
 
-    /// The residuals as JSON text; equal residuals give equal bytes.
+    /// The residuals as JSON text. Equal residuals give equal bytes.
     ///
     /// # Panics
     /// Never: every value has a JSON form.
@@ -215,7 +215,7 @@ pub enum ResidualsError {
     /// The file could not be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is not JSON, or its keys are not those of residuals.
+    /// The text is not JSON, or its keys are not the keys of residuals.
     #[error("{file}: {reason}")]
     Syntax {
         /// File name as the caller gave it.

@@ -28,17 +28,17 @@ pub struct Swatch {
 /// Averaged readings of one film on one backing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwatchFilm {
-    /// Name of the backing; empty if the file does not state it.
+    /// Name of the backing, or empty if the file does not state it.
     pub backing: String,
     /// Thickness of the film in mm, if known.
     pub thickness_mm: Option<f64>,
     /// Mean measured reflectance, as a fraction, on the set's grid.
     pub reflectance: Vec<f64>,
-    /// Standard deviation of repeated readings, root mean square over wavelengths; `None` for a single
+    /// Standard deviation of repeated readings, root mean square over wavelengths, or `None` for a single
     /// reading.
     pub spread: Option<f64>,
-    /// Measured reflectance of the bare backing, if it was read: that of the sample's own card, else the
-    /// mean over the file.
+    /// Measured reflectance of the bare backing, if it was read: the sample's own card, else the mean
+    /// over the file.
     pub bare: Option<Vec<f64>>,
 }
 
@@ -49,7 +49,7 @@ pub struct SwatchSet {
     pub grid: Grid,
     /// Names of the pigments, in order of their columns.
     pub pigments: Vec<String>,
-    /// Swatches; empty if the files hold bare cards only.
+    /// Swatches, or empty if the files hold bare cards only.
     pub swatches: Vec<Swatch>,
 }
 
@@ -84,7 +84,7 @@ impl SwatchSet {
         Ok(all.retaining(|_| true))
     }
 
-    /// Copy with the swatches that `keep` selects; pigments that none of them contains are dropped.
+    /// Copy with the swatches that `keep` selects. Pigments that none of them contains are dropped.
     #[must_use]
     pub fn retaining(&self, keep: impl Fn(&Swatch) -> bool) -> Self {
         let swatches: Vec<Swatch> = self.swatches.iter().filter(|s| keep(s)).cloned().collect();
@@ -107,8 +107,8 @@ impl SwatchSet {
         Self { grid: self.grid, pigments: pigments.collect(), swatches }
     }
 
-    /// Mixtures whose amounts do not sum to 100 % (or 1), with their sum in percent. Empty if most mixtures
-    /// have other sums: the file then states parts.
+    /// Mixtures with amounts that do not sum to 100 % (or 1), with their sum in percent. The list is
+    /// empty if most mixtures have other sums: the file then states parts.
     #[must_use]
     pub fn uneven_recipes(&self) -> Vec<(&str, f64)> {
         // A masstone may be written as 1 where mixtures are counted in parts.
@@ -242,8 +242,8 @@ fn spread(readings: &[&Reading]) -> Option<f64> {
 }
 
 impl SwatchSet {
-    /// Cards under the films of this set, chosen by [`Cards::among`]; the standard cards if the set is on
-    /// another grid than `weights`.
+    /// Cards under the films of this set, chosen by [`Cards::among`]. These are the standard cards if the
+    /// set is on another grid than `weights`.
     #[must_use]
     pub fn cards(&self, weights: &TristimulusWeights) -> Cards {
         if self.grid != weights.grid() {

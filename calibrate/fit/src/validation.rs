@@ -24,8 +24,8 @@ use pigment::evaluate::{Summary, Viewing, delta_e};
 use pigment::library::{AmountKind, Evidence, PigmentLibrary, SampleEvidence};
 use pigment::{Curves, PigmentId};
 
-/// Groups that are left out in turn for absolute amounts, where each film by itself would take too long;
-/// chosen by eye.
+/// Groups that are left out in turn for absolute amounts, where each film by itself would take too long
+/// (chosen by eye).
 pub const DEFAULT_FOLDS: usize = 10;
 
 /// Errors of mixtures that were predicted without their own measurement.
@@ -43,9 +43,10 @@ pub struct Validation {
     /// its main one were free by one common factor: the part of the errors that is not strength. `None`
     /// for absolute amounts.
     pub strength_free: Option<Summary>,
-    /// Pigments by their part of the error, the greatest first; empty for absolute amounts.
+    /// Pigments by their part of the error, the greatest first, or empty for absolute amounts.
     pub by_pigment: Vec<PigmentError>,
-    /// Measured and predicted films of the mixtures; empty for absolute amounts, whose films do not hide.
+    /// Measured and predicted films of the mixtures, or empty for absolute amounts, because their films
+    /// do not hide.
     #[serde(skip)]
     pub mixtures: Vec<LeftOutMixture>,
 }
@@ -72,9 +73,9 @@ pub struct ValidationPlan<'a> {
     /// Estimates from the fit of all samples, which are reused rather than estimated in each fit. On the
     /// Van Gogh oils this moves the mean error by 0.004.
     pub state: Option<RefinedState>,
-    /// Number of seeded groups that are left out in turn; `None` for each mixture by itself.
+    /// Number of seeded groups that are left out in turn, or `None` for each mixture by itself.
     pub folds: Option<usize>,
-    /// Told [`FitStage::LeftOut`] after each mixture, from any thread; may end the work.
+    /// Receives [`FitStage::LeftOut`] after each mixture, from any thread, and may end the work.
     pub watch: Watch<'a>,
 }
 
@@ -255,7 +256,7 @@ pub fn leave_out_films(
     }))
 }
 
-/// Prediction of a left-out sample; `None` if a pigment would not be identified without it.
+/// Prediction of a left-out sample, or `None` if a pigment would not be identified without it.
 struct Prediction {
     index: usize,
     /// Predicted reflectance, and the colour error that remains if the strength is free.
@@ -317,7 +318,8 @@ pub(crate) struct Refit {
 }
 
 impl Refits<'_> {
-    /// Mixtures that can be left out: those of two pigments or more, all of which the whole identifies.
+    /// Mixtures that can be left out. They have two pigments or more, and the full fit identifies all of
+    /// these.
     pub(crate) fn mixtures(&self) -> impl Iterator<Item = usize> {
         let shares = self.observations.iter().map(|o| o.shares.as_slice());
         let unknown = unidentified(shares, self.reference);
@@ -328,7 +330,7 @@ impl Refits<'_> {
         })
     }
 
-    /// Fits all samples but those of `group`.
+    /// Fits all samples except the samples of `group`.
     pub(crate) fn without(&self, group: &[usize]) -> Result<Refit, CalibrationError> {
         let rest: Vec<Observation> = all_but(self.observations.len(), group)
             .iter()
@@ -411,7 +413,7 @@ pub struct FitValidation {
     pub errors: Validation,
     /// Fit of all samples.
     pub fit: Fit,
-    /// Number of groups that were left out in turn; `None` for each mixture by itself.
+    /// Number of groups that were left out in turn, or `None` for each mixture by itself.
     pub folds: Option<usize>,
     viewing: Viewing,
 }
@@ -435,7 +437,7 @@ impl FitValidation {
     /// these, pigment maps know how far the library's predictions err.
     ///
     /// # Errors
-    /// [`FittingError::AbsoluteResiduals`] for absolute amounts, whose films do not hide.
+    /// [`FittingError::AbsoluteResiduals`] for absolute amounts, because their films do not hide.
     pub fn residuals(&self) -> Result<Residuals, FittingError> {
         let library = &self.fit.library;
         if library.amounts == AmountKind::Absolute {
@@ -564,10 +566,10 @@ impl PreparedFit {
         Ok(FitValidation { errors, fit, folds, viewing })
     }
 
-    /// Leaves out each mixture of two pigments or more in turn, on all cores, like [`Self::validate`], and
-    /// returns the library of each fit. Mixtures without which the rest cannot be fitted, or a pigment would
-    /// not be identified, are passed over, as are films of absolute amounts, which do not hide. `watch` is told
-    /// [`FitStage::LeftOut`] after each, from any thread.
+    /// Leaves out each mixture of two pigments or more in turn, on all cores, like [`Self::validate`],
+    /// and returns the library of each fit. Mixtures without which the rest cannot be fitted, or a
+    /// pigment would not be identified, are passed over, as are films of absolute amounts, which do not
+    /// hide. `watch` receives [`FitStage::LeftOut`] after each, from any thread.
     ///
     /// # Errors
     /// [`FittingError`] if readings cannot be used, the fit of all samples fails, or the work was cancelled.
@@ -635,7 +637,7 @@ fn is_mixture(amounts: &[f64]) -> bool {
     amounts.iter().filter(|a| **a > 0.0).count() > 1
 }
 
-/// Pigments of which a mixture must contain one; none for every mixture.
+/// Pigments of which a mixture must contain one, or none for every mixture.
 struct ChosenPigments(Vec<usize>);
 
 impl ChosenPigments {

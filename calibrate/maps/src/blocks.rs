@@ -22,7 +22,7 @@ const MOST_PIXELS: usize = 256 * 2048;
 /// State of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MapProgress {
-    /// Pixels that are done, those of finished shards included.
+    /// Pixels that are done, including finished shards.
     pub done: u64,
     /// Pixels of the run.
     pub all: u64,
@@ -77,12 +77,11 @@ impl<E: Explain + 'static> Explain for RunError<E> {
     }
 }
 
-/// Maps every shard of `store` that is not finished. `map` maps a block; it is called for one block
-/// at a time and may use all threads. Its result must depend on each pixel alone, so that the bytes
-/// of the store do not depend on the blocks.
+/// Maps every shard of `store` that is not finished. `map` maps a block. It is called for one block at a
+/// time and may use all threads. Its result must depend on each pixel alone, so that the bytes of the
+/// store do not depend on the blocks.
 ///
-/// `progress` is called after each block. If it breaks, the run ends; the shard under way is not
-/// written.
+/// `progress` is called after each block. If it breaks, the run ends. The shard under way is not written.
 ///
 /// # Errors
 /// [`RunError`] if the cube cannot be read, a block not mapped or a shard not written.

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use spectra::optics::Surface;
 use spectra::{Extrapolation, Grid, Interpolation, Response, Spectrum};
 
-/// A scene whose exact spectra are known.
+/// A scene with exactly known spectra.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scene {
     /// Number of rows.
@@ -34,7 +34,7 @@ pub struct Scene {
 /// Rows of a simulated scan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SimulatedRows {
-    /// Reflectances as the camera tells them, those of all bands of one pixel after another.
+    /// Reflectances as the camera reports them, pixel by pixel with all bands of each.
     pub told: Vec<f32>,
     /// Mean over the bands of the reflectance of each pixel, blurred, without drift and noise.
     pub mean: Vec<f32>,
@@ -96,9 +96,9 @@ impl Camera {
         &self.bands.nm
     }
 
-    /// Rows as the camera tells them. `exact(line)` gives the measured reflectances of a row of the scene, those of
-    /// all its wavelengths of one pixel after another; it is called for the rows and for those that the blur
-    /// brings in.
+    /// Rows as the camera reports them. `exact(line)` gives the measured reflectances of a row of the
+    /// scene, pixel by pixel with all wavelengths of each. It is called for the rows and for those that
+    /// the blur brings in.
     #[must_use]
     pub fn rows(
         &self,
@@ -136,8 +136,8 @@ impl Camera {
         SimulatedRows { told, mean }
     }
 
-    /// Rows of any numbers of the scene, blurred as the camera blurs light. `of(line)` gives the numbers of a
-    /// row, those of one pixel after another.
+    /// Rows of any numbers of the scene, blurred as the camera blurs light. `of(line)` gives the numbers
+    /// of a row, pixel by pixel.
     #[must_use]
     pub fn blurred(
         &self,
@@ -313,17 +313,17 @@ impl Explain for CameraError {
 
 /// Distance in pixels over which the reflection changes.
 const PATCH_PX: usize = 16;
-/// Beginning of the streams of random numbers of the surface; the noise of a line has its own stream.
+/// Beginning of the streams of random numbers of the surface. The noise of a line has its own stream.
 const STREAMS: u64 = 1 << 63;
 /// Greatest k1 of a varied surface.
 const MOST_K1: f64 = 0.9;
 
-/// A surface whose k1 varies smoothly over a scene.
+/// A surface with a k1 that varies smoothly over a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceVariation {
     /// Surface under which the spectra of the scene were computed.
     pub surface: Surface,
-    /// Standard deviation of k1, relative to that of the surface.
+    /// Standard deviation of k1, relative to the surface's k1.
     pub relative: f64,
     /// Seed of the random numbers.
     pub seed: u64,
@@ -383,7 +383,7 @@ const REACH: f64 = 3.5;
 /// A Gaussian blur. Beyond the edges the picture is mirrored, so that its mean stays.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blur {
-    /// Weights from the middle on, whose sum over both sides is 1.
+    /// Weights from the middle outwards. The sum over both sides is 1.
     weights: Vec<f64>,
 }
 
@@ -421,7 +421,7 @@ impl Blur {
     }
 
     /// The blurred line `line` of a picture of `lines` lines and `samples` columns. `of(line)` gives the
-    /// numbers of a line, those of one pixel after another.
+    /// numbers of a line, pixel by pixel.
     pub fn line<'l>(
         &self,
         line: usize,

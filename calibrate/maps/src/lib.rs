@@ -7,8 +7,8 @@
 //!                                            StoredMaps <-- MapStore <----+
 //! ```
 //!
-//! Without the feature `files` (default) there are no stores and no scans but those of ENVI, whose bytes the caller
-//! reads. Pages in browsers use it like this.
+//! Without the feature `files` (default) there are no stores, and ENVI is the only kind of scan. The
+//! caller reads its bytes. Pages in browsers use this crate without it.
 //!
 //! Modules are ordered by dependence: each uses only modules declared above it.
 

@@ -177,7 +177,7 @@ impl MapPictures {
     /// Name of the file of the residual.
     pub const RESIDUAL_FILE: &str = "residual.png";
 
-    /// Draws the maps `overview` of `scan`; `library` is that of the survey.
+    /// Draws the maps `overview` of `scan`. `library` must be the library of the survey.
     ///
     /// # Errors
     /// [`PictureError`] if a picture cannot be encoded.
@@ -235,7 +235,7 @@ fn file_name(name: &str) -> String {
 /// A field that is no picture.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// The number of values is not that of the pixels, or there are none.
+    /// The number of values differs from the number of pixels, or there are none.
     #[error("{values} values for a picture of {width} x {height} pixels")]
     Size {
         /// Number of values.
@@ -252,10 +252,10 @@ pub enum PictureError {
 
 impl documents::hint::Explain for PictureError {}
 
-/// Encodes `width` x `height` values as a PNG file, with the colours of `ramp`; NaN is transparent.
+/// Encodes `width` x `height` values as a PNG file, with the colours of `ramp`. NaN is transparent.
 ///
 /// # Errors
-/// [`PictureError`] if the number of values is not that of the pixels.
+/// [`PictureError`] if the number of values differs from the number of pixels.
 pub fn picture_png(
     values: &[f32],
     (width, height): (usize, usize),

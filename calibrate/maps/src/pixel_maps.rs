@@ -135,7 +135,7 @@ pub struct BlockMaps {
     pub chi2: Vec<f32>,
     /// Root mean square of the residual in reflectance over the bands.
     pub rms: Vec<f32>,
-    /// Second-best set of each pixel: bit `i` is pigment `i`; 0 where there is none.
+    /// Second-best set of each pixel: bit `i` is pigment `i`, or 0 where there is none.
     pub second: Vec<u64>,
     /// Whether each pixel is mapped, or why not.
     pub mask: Vec<Mask>,

@@ -176,8 +176,8 @@ impl SurveyedScan {
         self.mapper.map(&self.opened, spectra, &[])
     }
 
-    /// Pigments of the best set of one pixel with their shares, the greatest first; `None` if it cannot be
-    /// mapped.
+    /// Pigments of the best set of one pixel with their shares, the greatest first, or `None` if it
+    /// cannot be mapped.
     ///
     /// # Errors
     /// [`MapError`] unless `spectrum` has one reflectance a band.
@@ -327,7 +327,7 @@ pub struct SpotPigment {
 pub struct Spot {
     /// Rows and columns.
     pub region: Region,
-    /// Number of pixels that could be mapped, whose mean was taken.
+    /// Number of pixels in the mean. Each could be mapped.
     pub pixels: usize,
     /// Wavelengths of the scan's bands in nm.
     pub measured_nm: Vec<f64>,
@@ -337,7 +337,7 @@ pub struct Spot {
     pub mapped_nm: Vec<f64>,
     /// Reflectance of the mapped mixture, of its single pigments.
     pub mapped: Vec<f64>,
-    /// Pigments and groups with a share, the greatest first; none where the spectrum is out of gamut.
+    /// Pigments and groups with a share, the greatest first, or none where the spectrum is out of gamut.
     pub pigments: Vec<SpotPigment>,
     /// Chi-square per degree of freedom.
     pub chi2: f64,
@@ -346,7 +346,7 @@ pub struct Spot {
 }
 
 impl SurveyedScan {
-    /// Maps the mean spectrum of `region`. `library` is that of the survey.
+    /// Maps the mean spectrum of `region`. `library` must be the library of the survey.
     ///
     /// # Errors
     /// [`SpotError`] if the region is not within the scan, or none of its pixels can be mapped.

@@ -1,7 +1,7 @@
 //! Arrays of Zarr, format 3: the part of the format that scans and maps need.
 //!
 //! This file holds the description `zarr.json`, the codecs, arrays read chunk by chunk, and shards, which
-//! hold many chunks and an index of their places. Its faults have no path; the caller adds it.
+//! hold many chunks and an index of their places. Its faults have no path. The caller adds it.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -63,7 +63,7 @@ impl ZarrArray {
         self.folder.join(key)
     }
 
-    /// Numbers of the chunk `at` as bytes; `None` if it holds the fill value.
+    /// Numbers of the chunk `at` as bytes, or `None` if it holds the fill value.
     pub(crate) fn chunk(&self, at: &[usize]) -> Result<Option<Vec<u8>>, ChunkError> {
         let Some((counts, at_end)) = &self.about.shard else {
             let file = self.file(at);
@@ -200,7 +200,7 @@ impl ShardBuilder {
 /// Most bytes of an unpacked chunk: a chunk is held in memory as a whole.
 const MOST_CHUNK_BYTES: usize = 1 << 29;
 
-/// Most chunks of a shard, whose index is read as a whole.
+/// Most chunks of a shard. Its index is read at once.
 const MOST_CHUNKS: usize = 1 << 24;
 
 /// Description of an array of numbers.
@@ -211,7 +211,7 @@ pub(crate) struct ArrayMetadata {
     /// Size of the chunks that are unpacked one by one.
     pub(crate) chunk: Vec<usize>,
     pub(crate) chain: Chain,
-    /// Chunks of a shard along each axis, and whether the index stands at the end; `None` where each
+    /// Chunks of a shard along each axis, and whether the index stands at the end, or `None` where each
     /// chunk is a file.
     pub(crate) shard: Option<(Vec<usize>, bool)>,
     /// Text between the numbers of a chunk's key, and whether keys begin with `c`.
@@ -334,8 +334,8 @@ impl ArrayMetadata {
     }
 }
 
-/// Checks that the index of shards is one of plain numbers with a checksum; tells whether it stands
-/// at the end.
+/// Checks that the index of shards is one of plain numbers with a checksum. Returns whether it stands at
+/// the end.
 fn check_index(settings: &Value) -> Result<bool, ZarrFault> {
     let none = Vec::new();
     let codecs = settings["index_codecs"].as_array().unwrap_or(&none);
@@ -355,7 +355,7 @@ pub(crate) struct ArrayDocument<'d> {
     pub(crate) data_type: &'d str,
     /// Size of a shard, or of the chunk where there are no shards.
     pub(crate) outer: &'d [usize],
-    /// Size of the chunks of a shard; `None` where each chunk is a file.
+    /// Size of the chunks of a shard, or `None` where each chunk is a file.
     pub(crate) inner: Option<&'d [usize]>,
     pub(crate) fill: Value,
     pub(crate) dimensions: &'d [&'d str],
@@ -512,8 +512,8 @@ impl Chain {
     pub(crate) fn unpack(&self, stored: Vec<u8>, expected: usize) -> Result<Vec<u8>, ZarrFault> {
         let mut bytes = stored;
         for (index, step) in self.steps.iter().enumerate().rev() {
-            // Only the last step is known to give `expected` bytes; others are larger by a checksum
-            // or by what packing adds to noise.
+            // Only the last step is known to give `expected` bytes. Others are larger by a checksum or by
+            // what packing adds to noise.
             let most = if index == 0 { expected } else { expected + expected / 8 + 4096 };
             bytes = match step {
                 Step::Crc32c => without_checksum(bytes)?,

@@ -204,7 +204,7 @@ fn masstones(
     [Mark::Dots { points, color: INK, radius: 2.2 }, Mark::Names { names, around, color: INK }]
 }
 
-/// Labels of greys would overlap; chromatic pigments come first.
+/// Labels of greys would overlap. Chromatic pigments come first.
 fn far(((x, y), _): &((f64, f64), String)) -> f64 {
     x.hypot(*y)
 }
@@ -219,7 +219,7 @@ fn outline_columns(group: &str, first: &str, second: &str) -> [Column; 5] {
     ]
 }
 
-/// Appends the outermost sample of each sector to `data`; `group` goes into the first column.
+/// Appends the outermost sample of each sector to `data`. `group` goes into the first column.
 fn push_outline(
     data: &mut Table,
     palette: &Palette<'_>,
@@ -244,7 +244,7 @@ fn push_outline(
 
 /// Parts of white to one part of pigment in the tint next to the masstone.
 const TINT: f64 = 3.0;
-/// Maximum CIEDE2000 difference of a metameric pair under the first light; chosen by eye.
+/// Maximum CIEDE2000 difference of a metameric pair under the first light (chosen by eye).
 const ALIKE: f64 = 2.0;
 /// Maximum number of metameric pairs shown.
 const PAIRS: usize = 8;

@@ -181,8 +181,7 @@ pub(crate) fn graded_section(subject: &Subject<'_>) -> Section {
     })
 }
 
-/// Quadratures of three and eight wavelengths: those of the report if it has both, else newly
-/// computed ones.
+/// Quadratures of three and eight wavelengths: from the report if it has both, else newly computed.
 fn rules(subject: &Subject<'_>, palette: &Palette<'_>) -> PainterRules {
     let tried = |count: usize| {
         let mut trials = subject.quadratures.iter();

@@ -51,7 +51,7 @@ pub(super) fn rimmed(
     patch(canvas, at, size, appearance);
 }
 
-/// Draws the rim of a patch; the patch is then drawn over it.
+/// Draws the rim of a patch. The patch is then drawn over it.
 pub(super) fn rim(canvas: &mut Canvas, at: (f64, f64), size: (f64, f64)) {
     canvas.rectangle((at.0 - 1.0, at.1 - 1.0), (size.0 + 2.0, size.1 + 2.0), GRID);
 }
@@ -74,14 +74,14 @@ pub(super) fn color_cells(appearance: &Appearance) -> [Cell; 5] {
     [l.into(), a.into(), b.into(), Color::from_rgb(appearance.srgb).into(), outside.into()]
 }
 
-/// The figure's own columns followed by those of a colour.
+/// The figure's own columns followed by the columns of a colour.
 pub(super) fn columns(own: impl Into<Vec<Column>>) -> Vec<Column> {
     let mut all: Vec<Column> = own.into();
     all.extend(color_columns());
     all
 }
 
-/// A row for [`columns`]: the figure's own cells followed by those of a colour.
+/// A row for [`columns`]: the figure's own cells followed by the cells of a colour.
 pub(super) fn row(own: impl Into<Vec<Cell>>, appearance: &Appearance) -> Vec<Cell> {
     let mut all: Vec<Cell> = own.into();
     all.extend(color_cells(appearance));
@@ -91,12 +91,12 @@ pub(super) fn row(own: impl Into<Vec<Cell>>, appearance: &Appearance) -> Vec<Cel
 /// Explanation of the notch in a patch.
 pub(super) const NOTCH: &str = "A notched corner: outside sRGB, shown clipped.";
 
-/// The paints that can be mixed; `None` if there are none.
+/// The paints that can be mixed, or `None` if there are none.
 pub(super) fn palette<'a>(subject: &'a Subject<'_>) -> Option<Palette<'a>> {
     Palette::new(subject.library, subject.viewing, subject.cards.clone()).ok()
 }
 
-/// The measured samples that the palette can mix; empty without measurements.
+/// The measured samples that the palette can mix, or empty without measurements.
 pub(super) fn measured(subject: &Subject<'_>, palette: &Palette<'_>) -> Vec<MeasuredSample> {
     let comparison = subject.comparison.as_ref();
     comparison.map_or_else(Vec::new, |comparison| comparison.measured_samples(palette))
@@ -140,7 +140,7 @@ const FOOT: f64 = 48.0;
 pub(super) struct Bar {
     /// Name, written on the left.
     pub(super) name: String,
-    /// Value on the axis; `None` for no bar.
+    /// Value on the axis, or `None` for no bar.
     pub(super) value: Option<f64>,
     /// Value as text, written on the right.
     pub(super) label: String,
@@ -174,7 +174,7 @@ pub(super) fn bars(axis: &Axis, bars: &[Bar]) -> Canvas {
     canvas
 }
 
-/// Thicknesses of the stripes, in the unit of [`thickness_unit`]; chosen by eye.
+/// Thicknesses of the stripes, in the unit of [`thickness_unit`] (chosen by eye).
 const THICKNESSES: [f64; 5] = [0.3, 1.0, 3.0, 10.0, 30.0];
 /// Cards in a row.
 const COLUMNS: usize = 6;

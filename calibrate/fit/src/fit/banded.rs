@@ -45,7 +45,7 @@ impl Banded {
         self.columns[column * (self.reach + 1) + row - column] += value;
     }
 
-    /// Replaces a row and a column by those of the identity, which fixes the unknown `i`.
+    /// Replaces row and column `i` by the identity's, which fixes this unknown.
     pub(crate) fn hold(&mut self, i: usize) {
         let width = self.reach + 1;
         self.columns[i * width..(i + 1) * width].fill(0.0);
@@ -146,7 +146,7 @@ impl Spare {
     }
 }
 
-/// Columns that are eliminated together; they fit the nearest cache.
+/// Columns that are eliminated together. They fit the nearest cache.
 const PANEL: usize = 32;
 /// Least reach for which the columns of one panel are worth several threads.
 const LEAST_PARALLEL: usize = 100;
@@ -167,9 +167,9 @@ impl BandedCholesky {
 }
 
 impl Banded {
-    /// Cholesky factor; `None` if the matrix is not positive definite.
+    /// Cholesky factor, or `None` if the matrix is not positive definite.
     ///
-    /// Columns are eliminated in panels, whose updates of the columns to the right run on all cores. Each
+    /// Columns are eliminated in panels. The updates of the columns to the right run on all cores. Each
     /// entry takes its updates in the order of columns, so that the factor is the same for any number of
     /// threads and any width of the machine's vectors.
     pub(crate) fn cholesky(mut self) -> Option<BandedCholesky> {
@@ -200,7 +200,7 @@ impl Banded {
     }
 }
 
-/// Eliminates the columns of a panel among themselves; `None` if a pivot is not positive.
+/// Eliminates the columns of a panel among themselves, or `None` if a pivot is not positive.
 struct Elimination<'a> {
     panel: &'a mut [f64],
     width: usize,
@@ -238,7 +238,7 @@ fn subtract(target: &mut [f64], own: &[f64], offset: usize) {
 }
 
 /// Subtracts from one column or two neighbours the outer products of all columns of a panel in their
-/// order; the first is `offset` to the left of the first target.
+/// order. The first is `offset` to the left of the first target.
 struct Update<'a> {
     targets: &'a mut [f64],
     panel: &'a [f64],
@@ -332,7 +332,7 @@ impl BandedCholesky {
     }
 
     /// Solves A x = b for [`TOGETHER`] right sides at once, which stand side by side in each row. Each
-    /// solution is that of [`Self::solve`].
+    /// solution equals the result of [`Self::solve`].
     pub(crate) fn solve_together(&self, x: &mut [[f64; TOGETHER]]) {
         pulp::Arch::new().dispatch(Together { factor: &self.factor, x });
     }
@@ -370,7 +370,7 @@ impl WithSimd for Together<'_> {
     }
 }
 
-/// Columns whose entries of the inverse are computed together.
+/// Columns of the inverse that are computed together.
 const INVERSE_PANEL: usize = 16;
 /// Least number of rows of one task.
 const ROWS_OF_TASK: usize = 16;
@@ -406,7 +406,7 @@ impl BandedCholesky {
 struct Panel {
     first: usize,
     end: usize,
-    /// Rows of the panel's own columns; those past the end of the matrix are of the identity.
+    /// Rows of the panel's own columns. Past the end of the matrix they belong to the identity.
     own: [[f64; INVERSE_PANEL]; INVERSE_PANEL],
     /// Rows below the panel, 0 beyond the band.
     below: Vec<[f64; INVERSE_PANEL]>,
@@ -483,7 +483,7 @@ impl WithSimd for Row<'_> {
     }
 }
 
-/// The inverse at a panel's own rows and columns, from that of the rows below.
+/// The inverse at a panel's own rows and columns, computed from the rows below.
 struct Square<'a> {
     panel: &'a Panel,
     below: &'a [[f64; INVERSE_PANEL]],

@@ -71,7 +71,7 @@ pub(super) struct Data<'a, F> {
     pub(super) target: &'a [Vec<f64>],
     /// Cube roots of the measured reflectance.
     pub(super) roots: Vec<Vec<f64>>,
-    /// Standard deviation of repeated readings in measured reflectance; 0 if unknown.
+    /// Standard deviation of repeated readings in measured reflectance, or 0 if unknown.
     pub(super) reading_sd: f64,
     /// Places of each sample's unknowns within a wavelength.
     places: Vec<Vec<usize>>,
@@ -197,7 +197,7 @@ pub(super) struct ColorTerm<'a> {
 
 /// Colour residual of one sample, with its slopes over reflectance.
 pub(super) struct ColorResidual {
-    /// Three components; their length is the colour difference.
+    /// Three components. Their length is the colour difference.
     pub(super) residual: [f64; 3],
     /// By wavelength: derivatives of the components over reflectance.
     pub(super) slopes: Vec<[f64; 3]>,
@@ -295,7 +295,7 @@ pub fn condition(problem: &Problem, curves: &[Curves]) -> Condition {
 /// Quantity of a pigment that the data do not identify.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unknown {
-    /// Its S; its K/S is known from a masstone.
+    /// Its S. We know its K/S from a masstone.
     Scattering,
     /// Both K and S.
     Everything,
@@ -312,10 +312,10 @@ pub struct Unidentified {
     pub samples: Vec<usize>,
 }
 
-/// Two recipes whose shares differ by less than this, summed over pigments, are equal.
+/// Two recipes are equal if their shares, summed over pigments, differ by less than this.
 const SAME_RECIPE: f64 = 1e-9;
 
-/// Finds the pigments that the mixtures do not identify, given the `reference` whose S is 1. `shares` are
+/// Finds the pigments that the mixtures do not identify, given the `reference` with S = 1. `shares` are
 /// the shares of all pigments, by sample.
 ///
 /// A pigment is identified if it occurs in two or more samples of different recipe, at least one of them

@@ -13,23 +13,24 @@ use super::problem::{LOWER, UPPER, Watch};
 /// Strength of the pull of every unknown towards its start, in 1 / (log unit)^2: a standard deviation of 10.
 /// It only keeps unknowns that no sample determines from diverging.
 pub(super) const RIDGE: f64 = 0.01;
-/// First damping of a descent; chosen by eye.
+/// First damping of a descent (chosen by eye).
 const FIRST_DAMPING: f64 = 1e-2;
 /// Damping stays above this, so that the matrix keeps a Cholesky factor.
 const LEAST_DAMPING: f64 = 1e-8;
-/// Factor by which damping falls after a step that lowers the cost; chosen by eye.
+/// Factor by which damping falls after a step that lowers the cost (chosen by eye).
 const DAMPING_FALL: f64 = 5.0;
-/// Factor by which damping rises after a step that does not; chosen by eye.
+/// Factor by which damping rises after a step that does not (chosen by eye).
 const DAMPING_RISE: f64 = 6.0;
 /// Most dampings tried for one step.
 const TRIALS: usize = 8;
-/// Longest step of one unknown, in log units; chosen by eye.
+/// Longest step of one unknown, in log units (chosen by eye).
 const LONGEST_STEP: f64 = 2.0;
 /// Added to the diagonal, so that unknowns without data have a finite step.
 const DIAGONAL_FLOOR: f64 = 1e-9;
 /// Squared relative residual at which conjugate gradients stop: a thousandth of the start.
 const GRADIENT_TOLERANCE: f64 = 1e-6;
-/// Most steps of conjugate gradients; the preconditioner needs about ten. Chosen by eye.
+/// Most steps of conjugate gradients. The preconditioner needs about ten, so this limit is generous
+/// (chosen by eye).
 const GRADIENT_STEPS: usize = 60;
 
 /// Cost of a fit, in units of the residual's variance. It is the sum of
@@ -47,7 +48,7 @@ pub(super) struct Objective<'a, F> {
     pub(super) knee: f64,
     pub(super) smoothness: f64,
     pub(super) start: &'a [f64],
-    /// Strength of the pull of log S towards its start; that of log K is [`RIDGE`].
+    /// Strength of the pull of log S towards its start. For log K it is [`RIDGE`].
     pub(super) scattering_ridge: f64,
     pub(super) color: Option<ColorPart<'a>>,
     pub(super) spare: Spare,
@@ -404,15 +405,15 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Least standard deviation of a residual, as a cube root of reflectance; chosen by eye.
+/// Least standard deviation of a residual, as a cube root of reflectance (chosen by eye).
 const LEAST_SD: f64 = 1e-4;
 /// Standard deviation over median absolute value for normal noise.
 const SD_OVER_MEDIAN: f64 = 1.4826;
 /// Ratios of the two kinds of noise that are tried besides 0, evenly spaced in their logarithm.
 const RATIOS: i32 = 25;
-/// Least of these ratios; chosen by eye.
+/// Least of these ratios (chosen by eye).
 const LEAST_RATIO: f64 = 0.02;
-/// Decades that these ratios span; chosen by eye.
+/// Decades that these ratios span (chosen by eye).
 const RATIO_DECADES: f64 = 4.0;
 
 /// Expected errors of a swatch's reflectance, as standard deviations in measured reflectance.

@@ -21,9 +21,10 @@ pub struct Problem {
     pub surface: Surface,
     /// Number of pigments.
     pub pigments: usize,
-    /// Pigment whose S is 1.
+    /// Pigment with S = 1.
     pub reference: PigmentId,
-    /// Standard deviation of repeated readings, root mean square over samples; 0 if none were repeated.
+    /// Standard deviation of repeated readings, root mean square over samples, or 0 if none were
+    /// repeated.
     pub(crate) reading_sd: f64,
     /// Pigments of each mixture with their shares.
     pub(crate) recipes: Vec<Vec<(usize, f64)>>,
@@ -95,7 +96,7 @@ fn recipe(o: &Observation) -> Vec<(usize, f64)> {
     o.shares.iter().copied().enumerate().filter(|(_, share)| *share > 0.0).collect()
 }
 
-/// Root mean square of `values`; 0 for no values.
+/// Root mean square of `values`, or 0 for no values.
 pub(crate) fn root_mean_square(values: impl Iterator<Item = f64>) -> f64 {
     let (squares, count) = values.fold((0.0, 0.0), |(sum, n), v| (sum + v * v, n + 1.0));
     f64::sqrt(squares / f64::max(count, 1.0))
@@ -191,7 +192,7 @@ pub(super) const LOWER: f64 = -11.512_925_464_970_229;
 pub(super) const UPPER: f64 = 9.210_340_371_976_184;
 
 /// Places of the unknowns: by wavelength, log K of every pigment, then log S of every pigment except the
-/// reference, whose S is 1. Absolute amounts have no reference.
+/// reference, with S = 1. Absolute amounts have no reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Layout {
     pub(super) pigments: usize,
@@ -210,7 +211,7 @@ impl Layout {
         self.per_wavelength() * self.wavelengths
     }
 
-    /// Place of log S of `pigment` within its wavelength; `None` for the reference.
+    /// Place of log S of `pigment` within its wavelength, or `None` for the reference.
     pub(super) fn scattering(self, pigment: usize) -> Option<usize> {
         match self.reference {
             Some(reference) if pigment == reference => None,
@@ -268,7 +269,7 @@ pub enum FitStage {
     },
     /// Refinement by colour differences.
     Colors,
-    /// Standard deviations of K and S: samples whose part is computed.
+    /// Standard deviations of K and S: samples computed so far.
     Deviations {
         /// Number of these samples.
         done: usize,
@@ -298,7 +299,7 @@ impl fmt::Display for FitStage {
     }
 }
 
-/// A watch on a fit or a validation: a function that is told each stage, and a request to end it.
+/// Follows a fit or a validation: a function that receives each stage, and a request to end it.
 ///
 /// ```
 /// use calibrate::fit::Watch;
@@ -335,7 +336,7 @@ impl<'a> Watch<'a> {
         Self { cancellation: Some(cancellation), ..self }
     }
 
-    /// The watch of a part of the work whose own stages are not told.
+    /// The watch for a part of the work that does not report its stages.
     #[must_use]
     pub(crate) fn quiet(self) -> Self {
         Self { told: None, ..self }

@@ -17,8 +17,8 @@ const MANY: usize = 64;
 const LEAST_PIVOT: f64 = 1e-4;
 
 /// Fits K and S by the method `qp`: per wavelength, minimises the sum over mixtures of (C K - Q C S)^2
-/// with K and S 0 and up and S = 1 for the reference (Baxter, Wendt and Lin 2004, section 5.2). Rows
-/// are not weighted, so dark mixtures, whose Q is in the hundreds, outweigh all others.
+/// with K and S 0 and up and S = 1 for the reference (Baxter, Wendt and Lin 2004, section 5.2). Rows are
+/// not weighted, so dark mixtures with Q in the hundreds outweigh all others.
 ///
 /// Returns K and S by pigment.
 ///
@@ -75,7 +75,7 @@ impl Program {
     fn new(problem: &Problem, at: usize, weights: &[f64]) -> Self {
         let n = problem.pigments;
         let reference = n + problem.reference.index();
-        // Half the quadratic form over K and all of S; the S of the reference is eliminated below. A row
+        // Half the quadratic form over K and all of S. The S of the reference is eliminated below. A row
         // has twice as many entries as its mixture has pigments.
         let mut form = vec![0.0; 4 * n * n];
         let mut row: Vec<(usize, f64)> = Vec::new();
@@ -163,7 +163,7 @@ impl Program {
     }
 }
 
-/// Number of times that the weights are computed; on the Van Gogh oils more than six gain nothing.
+/// Number of times that the weights are computed. On the Van Gogh oils more than six gain nothing.
 const ROUNDS: usize = 6;
 /// Least scattering of a mixture in its weight, so that weights stay finite.
 const LEAST_SCATTERING: f64 = 1e-3;
@@ -182,7 +182,7 @@ pub fn fit_weighted(problem: &Problem) -> Result<Vec<Curves>, FitError> {
     fit_weighted_watched(problem, Watch::default())
 }
 
-/// Fits like [`fit_weighted`], and tells `watch` the rounds.
+/// Fits like [`fit_weighted`], and reports the rounds to `watch`.
 pub(crate) fn fit_weighted_watched(
     problem: &Problem,
     watch: Watch<'_>,

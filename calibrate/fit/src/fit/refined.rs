@@ -15,41 +15,41 @@ use super::objective::{ColorPart, ExpectedNoise, Noise, Objective, RIDGE};
 use super::problem::{CurveTable, FitError, FitStage, Layout, OFF_ZERO, Problem, Watch};
 use super::program::weighted;
 
-/// Knee of the spectral loss, in standard deviations; chosen by eye.
+/// Knee of the spectral loss, in standard deviations (chosen by eye).
 const KNEE: f64 = 3.0;
 /// One over the variance of each sample's colour difference: a standard deviation of 0.32 CIEDE2000, the
 /// repeatability of a good instrument.
 const COLOR_STRENGTH: f64 = 10.0;
-/// Knee of the colour loss, in medians of all colour differences; chosen by eye.
+/// Knee of the colour loss, in medians of all colour differences (chosen by eye).
 const COLOR_KNEE: f64 = 5.0;
 /// Least median of the colour differences for that knee, in CIEDE2000: about the repeatability of a good
 /// instrument.
 const LEAST_MEDIAN_COLOR: f64 = 0.3;
-/// Most steps of the colour stage, which starts near its minimum; chosen by eye.
+/// Most steps of the colour stage, which starts near its minimum (chosen by eye).
 const COLOR_STEPS: usize = 12;
-/// Relative decrease of the cost at which the colour stage ends; chosen by eye.
+/// Relative decrease of the cost at which the colour stage ends (chosen by eye).
 const COLOR_DECREASE: f64 = 1e-5;
 /// Strength of the pull of log S towards a pigment's start where amounts are absolute: a standard
 /// deviation of 0.32. Chosen by eye.
 const SCATTERING_RIDGE: f64 = 10.0;
-/// Smoothness with which its estimation starts, for a wavelength step of 10 nm; chosen by eye.
+/// Smoothness with which its estimation starts, for a wavelength step of 10 nm (chosen by eye).
 const FIRST_SMOOTHNESS: f64 = 10.0;
-/// Most rounds in which noise and smoothness are estimated alternately; chosen by eye.
+/// Most rounds in which noise and smoothness are estimated alternately (chosen by eye).
 const ESTIMATION_ROUNDS: usize = 5;
-/// Change of log smoothness below which its estimate has settled; chosen by eye.
+/// Change of log smoothness below which its estimate has settled (chosen by eye).
 const SETTLED_SMOOTHNESS: f64 = 0.15;
-/// Most rounds in which the residuals' scale is set anew; chosen by eye.
+/// Most rounds in which the residuals' scale is set anew (chosen by eye).
 const SCALE_ROUNDS: usize = 20;
-/// Rounds after which the scale may count as settled; chosen by eye.
+/// Rounds after which the scale may count as settled (chosen by eye).
 const LEAST_SCALE_ROUNDS: usize = 3;
-/// Relative change of the scale below which it has settled; chosen by eye.
+/// Relative change of the scale below which it has settled (chosen by eye).
 const SETTLED_SCALE: f64 = 0.1;
 /// Largest factor by which the scale may fall in one round. If it fell faster, samples that are still fitted
 /// badly in early rounds would be treated as outliers for good. Chosen by eye.
 const SCALE_FALL: f64 = 3.0;
-/// Steps of a round before and after the scale has settled; chosen by eye.
+/// Steps of a round before and after the scale has settled (chosen by eye).
 const SCALE_STEPS: [usize; 2] = [5, 60];
-/// Relative decrease of the cost at which the descent of a round ends; chosen by eye.
+/// Relative decrease of the cost at which the descent of a round ends (chosen by eye).
 const SCALE_DECREASE: f64 = 1e-6;
 
 /// Result of a refinement, with what it estimated about the noise.
@@ -57,11 +57,11 @@ const SCALE_DECREASE: f64 = 1e-6;
 pub struct Refined {
     /// K and S by pigment.
     pub curves: Vec<Curves>,
-    /// Standard deviations of K and S by pigment, 0 for the S of the reference; `None` if they were not
-    /// requested.
+    /// Standard deviations of K and S by pigment, 0 for the S of the reference, or `None` if they were
+    /// not requested.
     pub deviations: Option<Vec<Curves>>,
     /// By pigment, the fraction (0 to 1) of the information on S that comes from the data rather than
-    /// from the prior; empty if standard deviations were not requested.
+    /// from the prior, or empty if standard deviations were not requested.
     pub scattering_known: Vec<f64>,
     /// Estimates of noise and smoothness.
     pub state: RefinedState,
@@ -81,11 +81,11 @@ pub struct RefinedState {
 pub struct Refinement<'a> {
     /// Smoothing of K and S over wavelength.
     pub smoothness: Smoothness,
-    /// Estimates of another fit of nearly the same data, to be reused; `None` to estimate them.
+    /// Estimates of another fit of nearly the same data, to be reused, or `None` to estimate them.
     pub state: Option<RefinedState>,
-    /// Whether standard deviations are computed; predictions do without them.
+    /// Whether standard deviations are computed. Predictions do without them.
     pub deviations: bool,
-    /// Who is told the stages of the fit, and may end it.
+    /// Receives the stages of the fit, and may end it.
     pub watch: Watch<'a>,
 }
 
@@ -353,8 +353,8 @@ fn spread_of_gradients<F: Forward>(
     spread
 }
 
-/// By pigment, the fraction (0 to 1) of the information on its log S that comes from the data rather
-/// than from the prior; the median over wavelength.
+/// By pigment, the fraction (0 to 1) of the information on its log S that comes from the data rather than
+/// from the prior (median over wavelength).
 ///
 /// Compares the data's information on log S, with the pigment's own K unknown, with the ridge.
 /// `objective` must have no smoothness, which would count the prior of one wavelength as data of its
@@ -384,9 +384,9 @@ pub(super) fn share_of_scattering_known<F: Forward>(
 
 /// Standard deviations of K and S for a fit that has none of its own, by pigment and wavelength.
 ///
-/// Each wavelength is treated by itself: the variance of its residuals of measured reflectance times
-/// the inverse of the normal matrix of their derivatives over K and S. A value that no mixture
-/// determines gets a deviation of its own size or more; the S of the reference gets 0.
+/// Each wavelength is treated by itself: the variance of its residuals of measured reflectance times the
+/// inverse of the normal matrix of their derivatives over K and S. A value that no mixture determines
+/// gets a deviation of its own size or more. The S of the reference gets 0.
 #[must_use]
 pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
     // The program may set a pigment to 0, where the slopes are not finite.
@@ -426,7 +426,7 @@ pub fn linear_deviations(problem: &Problem, curves: &[Curves]) -> Vec<Curves> {
 #[derive(Debug, Clone)]
 pub(crate) struct AssumedPaints {
     pub(crate) surface: Surface,
-    /// Paint whose S is 1.
+    /// Paint with S = 1.
     pub(crate) reference: PigmentId,
     /// K and S by paint; at least one.
     pub(crate) curves: Vec<Curves>,
@@ -488,8 +488,8 @@ impl Slopes {
         self.layout.wavelengths
     }
 
-    /// Place of log S of `paint` within a wavelength; `None` for the reference. The place of log K is the
-    /// paint's own number.
+    /// Place of log S of `paint` within a wavelength, or `None` for the reference. The place of log K is
+    /// the paint's own number.
     pub(crate) fn scattering(&self, paint: usize) -> Option<usize> {
         self.layout.scattering(paint)
     }
@@ -501,5 +501,5 @@ impl Slopes {
     }
 }
 
-/// Information that a fit has on each log K and log S before any data: that of its prior.
+/// Information that a fit has on each log K and log S before any data, from its prior.
 pub(crate) const PRIOR_INFORMATION: f64 = RIDGE;

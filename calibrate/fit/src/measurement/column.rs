@@ -33,9 +33,9 @@ pub(super) enum TableKind {
     Recipes,
 }
 
-/// Reads a header row whose cells stand at `place`: one meaning per column. `pigments` are the headings
-/// that name pigments; without them, every other heading does. Checks that there is a column of names,
-/// that no name occurs twice and that wavelengths rise or fall throughout.
+/// Reads a header row with its cells at `place`: one meaning per column. `pigments` are the headings that
+/// name pigments; without them, every other heading does. Checks that there is a column of names, that no
+/// name occurs twice and that wavelengths rise or fall throughout.
 pub(super) fn columns(
     place: &dyn Fn(usize) -> CellPlace,
     headers: &[String],
@@ -134,13 +134,13 @@ pub(super) fn columns(
     Ok(columns)
 }
 
-/// Whether `heading` is that of a wavelength at which paint is measured.
+/// Whether `heading` names a wavelength at which paint is measured.
 pub(super) fn is_wavelength_heading(heading: &str) -> bool {
     let nm = wavelength_of_header(&heading.trim().to_ascii_lowercase());
     nm.is_some_and(|nm| MEASURABLE_NM.contains(&nm))
 }
 
-/// Whether `heading` is that of readings without the specular component, such as `SCE 400nm`.
+/// Whether `heading` names readings without the specular component, for example `SCE 400nm`.
 pub(super) fn excludes_specular(heading: &str) -> bool {
     has_word(heading, "sce") && is_wavelength_heading(heading)
 }
@@ -158,8 +158,8 @@ fn has_word(heading: &str, word: &str) -> bool {
     words.into_iter().any(|found| found.eq_ignore_ascii_case(word))
 }
 
-/// Meaning of the header `name`; `None` for a number outside the wavelengths at which paint is measured.
-/// `letters` says whether `R400` is a wavelength: beside plain numbers it is a pigment.
+/// Meaning of the header `name`, or `None` for a number outside the wavelengths at which paint is
+/// measured. `letters` says whether `R400` is a wavelength: beside plain numbers it is a pigment.
 fn column(name: &str, letters: bool) -> Option<Column> {
     let lower = name.to_ascii_lowercase();
     let pigment = || Some(Column::Pigment(name.to_owned()));
@@ -186,7 +186,7 @@ fn column(name: &str, letters: bool) -> Option<Column> {
     }
 }
 
-/// Whether a column headed `name` is read as a pigment, in a file whose wavelengths are plain numbers.
+/// Whether a column headed `name` is read as a pigment, in a file with plain numbers as wavelengths.
 #[must_use]
 pub fn names_a_pigment(name: &str) -> bool {
     let plain = !name.is_empty() && name.trim() == name && !name.contains(char::is_control);
@@ -247,9 +247,9 @@ const NO_PIGMENTS: [&str; 47] = [
     "filter",
 ];
 
-/// Headings of names in lower case without spaces and signs, the most telling first. Later ones
-/// name samples only in tables without the earlier: running numbers, and the word that stands above
-/// the names where wavelengths are the headings of all other columns.
+/// Headings of names in lower case without spaces and signs, the most specific first. Later ones name
+/// samples only in tables without the earlier: running numbers, and the word that stands above the names
+/// where wavelengths are the headings of all other columns.
 const NAMES: [&str; 19] = [
     "sample",
     "samplename",
@@ -275,7 +275,8 @@ const NAMES: [&str; 19] = [
 /// First of [`NAMES`] that names samples only where all other columns are wavelengths.
 const OVER_NAMES: &str = "wavelength";
 
-/// Place of a heading among those that name samples, 0 for the most telling; `None` for any other.
+/// Place of a heading among those that name samples, 0 for the most specific, or `None` for any other
+/// heading.
 pub(super) fn name_rank(heading: &str) -> Option<usize> {
     let letters = heading.chars().filter(|c| c.is_alphanumeric());
     let plain: String = letters.flat_map(char::to_lowercase).collect();
@@ -301,7 +302,7 @@ pub(super) fn name_column(
     }
 }
 
-/// The first of the columns `places` in which every row has a name; the first one if none has.
+/// The first of the columns `places` in which every row has a name, or the first one if none has.
 pub(super) fn filled_column(places: &[usize], rows: &[CsvRow]) -> Option<usize> {
     places
         .iter()
@@ -312,7 +313,7 @@ pub(super) fn filled_column(places: &[usize], rows: &[CsvRow]) -> Option<usize> 
         .copied()
 }
 
-/// Most lines above the headings of a table; chosen by eye.
+/// Most lines above the headings of a table (chosen by eye).
 const MOST_ABOVE: usize = 200;
 
 /// Separators of cells, in the order in which they are tried.
@@ -328,9 +329,9 @@ pub(super) struct HeadingRow {
 }
 
 impl HeadingRow {
-    /// The headings of a table in `text`. The first line is that row if a cell of it is `sample`; otherwise
-    /// the row is the one with the most wavelengths (of a file of recipes, the most cells) among those
-    /// with a column for names.
+    /// The headings of a table in `text`. The first line is that row if a cell of it is `sample`.
+    /// Otherwise the row is the one with the most wavelengths (of a file of recipes, the most cells)
+    /// among those with a column for names.
     pub(super) fn of(text: &str, kind: TableKind) -> Option<Self> {
         let mut best: Option<(usize, Self)> = None;
         let mut offset = 0;
@@ -369,7 +370,7 @@ impl HeadingRow {
     }
 }
 
-/// How much a row looks like headings; `None` if it has no column for names, or only that.
+/// How much a row looks like headings, or `None` if it has no column for names, or only that.
 fn score(cells: &[String], kind: TableKind) -> Option<usize> {
     let names: Vec<&str> = cells.iter().map(String::as_str).collect();
     let wavelengths = names.iter().filter(|cell| is_wavelength_heading(cell)).count();
@@ -401,7 +402,7 @@ fn cells(line: &str, separator: u8) -> Vec<String> {
     cells
 }
 
-/// A heading; `400,5` is a wavelength where commas do not separate cells.
+/// A heading. `400,5` is a wavelength where commas do not separate cells.
 pub(super) fn plain_heading(heading: &str) -> String {
     let pointed = heading.replace(',', ".");
     if pointed.parse::<f64>().is_ok() { pointed } else { heading.to_owned() }

@@ -130,8 +130,8 @@ pub(crate) struct LargeCsvChoice<'a> {
 }
 
 impl LargeCsv {
-    /// Opens `path` if it is a measurement CSV of more than 32 MB whose lines end with a line feed; `None`
-    /// for all other files.
+    /// Opens `path` if it is a measurement CSV of more than 32 MB with line feeds. This gives `None` for
+    /// all other files.
     ///
     /// # Errors
     /// The system's error if the file cannot be read.
@@ -179,7 +179,7 @@ impl LargeCsv {
             if part.scale == Scale::Percent {
                 scale = Scale::Percent;
             }
-            // Fewer rows do not tell what is a pigment.
+            // Fewer rows do not show which columns are pigments.
             if pigments.is_empty() || part.readings.len() >= LEAST_ROWS {
                 let new = part.pigments.into_iter().filter(|name| !pigments.contains(name));
                 let new: Vec<String> = new.collect();

@@ -16,7 +16,7 @@ use super::column::{
 use super::error::MeasurementError;
 use super::table::{Film, Reading, Scale, ScaleChoice};
 
-/// Greatest reflectance of a reading, as a fraction; a value above is a mistaken unit.
+/// Greatest reflectance of a reading, as a fraction. A value above is a mistaken unit.
 const LARGEST_REFLECTANCE: f64 = 2.0;
 
 /// The finite number in a cell. With decimal commas, a point may separate thousands.
@@ -55,8 +55,9 @@ fn take_filled_names(headers: &[String], columns: &mut [Column], rows: &[CsvRow]
     }
 }
 
-/// Whether commas in the cells of numbers are decimal signs. Where commas separate the cells as well, those
-/// of quoted readings are, since no reflectance has thousands; amounts alone could have them.
+/// Whether commas in the cells of numbers are decimal signs. Where commas separate the cells as well, the
+/// commas in quoted readings are decimal signs, since no reflectance has thousands. Only amounts could
+/// have them.
 fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> bool {
     let decides = |column: &Column| match column {
         Column::Wavelength(_) => true,
@@ -68,7 +69,7 @@ fn has_decimal_commas(separator: u8, columns: &[Column], rows: &[CsvRow]) -> boo
     })
 }
 
-/// Largest amount of a pigment; beyond it sums lose their small terms.
+/// Largest amount of a pigment. Beyond it sums lose their small terms.
 const LARGEST_AMOUNT: f64 = 1e12;
 
 /// A CSV table: its header row, the meaning of each column, and the rows below.
@@ -81,9 +82,9 @@ pub(super) struct CsvRows {
     pub(super) headers: Vec<String>,
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<CsvRow>,
-    /// Whether numbers have a decimal comma; between commas such cells are quoted.
+    /// Whether numbers have a decimal comma. Between commas such cells are quoted.
     decimal_comma: bool,
-    /// Whether the rows are those of a workbook's sheet.
+    /// Whether the rows come from a sheet of a workbook.
     is_sheet: bool,
     pub(super) spectra_only: bool,
     /// Messages about readings that are not taken: of other sheets, without the specular component.
@@ -330,7 +331,7 @@ fn largest(reading: &Reading) -> f64 {
     reading.reflectance.iter().copied().fold(0.0, f64::max)
 }
 
-/// Headings and rows of a table, of whose meaning nothing is known yet.
+/// Headings and rows of a table, before their meaning is known.
 pub(super) struct RawRows {
     /// The character between cells.
     pub(super) separator: u8,
@@ -427,7 +428,7 @@ fn byte(cells: &csv::StringRecord) -> u64 {
     cells.position().map_or(0, csv::Position::byte)
 }
 
-/// Fewest rows of paint from which a column is judged by its amounts; chosen by eye.
+/// Fewest rows of paint from which a column is judged by its amounts (chosen by eye).
 const LEAST_ROWS: usize = 3;
 /// Share by which sums of amounts may differ and still be one whole.
 const WHOLE: f64 = 1e-3;
@@ -509,7 +510,7 @@ mod tests {
         }
     }
 
-    /// Pigments and remarks of a table whose rows end in a column headed `heading` with `cells`.
+    /// Pigments and remarks of a table with a last column headed `heading` with `cells`.
     fn read(heading: &str, cells: [&str; 4]) -> (Vec<String>, String) {
         let [card, white, red, mixture] = cells;
         let text = format!(

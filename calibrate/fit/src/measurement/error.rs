@@ -74,7 +74,7 @@ pub enum MeasurementError {
     /// A reading is negative or far above white.
     #[error("{place}: expected a reflectance {range}, found `{value}`")]
     Reflectance {
-        /// File and row; the column is the wavelength.
+        /// File and row. The column is the wavelength.
         place: CellPlace,
         /// Allowed range in the file's unit.
         range: &'static str,
@@ -215,7 +215,7 @@ pub enum MeasurementError {
         row: u64,
         /// Name of the sample.
         sample: String,
-        /// Name of the backing; empty if the files name none.
+        /// Name of the backing, or empty if the files name none.
         backing: String,
     },
     /// Two files have different wavelengths.
@@ -404,9 +404,9 @@ pub struct DarkerFilm {
     pub row: u64,
     /// Name of the sample.
     pub sample: String,
-    /// Backing whose bare card is the brighter.
+    /// Backing with the brighter bare card.
     pub bright: String,
-    /// Backing whose bare card is the darker.
+    /// Backing with the darker bare card.
     pub dark: String,
     /// Largest difference of reflectance.
     pub by: f64,

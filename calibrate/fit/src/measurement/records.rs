@@ -21,7 +21,7 @@ const SOUND: RangeInclusive<f64> = 400.0..=700.0;
 /// or a dark reading a little too high. Chosen by eye.
 const NOISE_BELOW_ZERO: f64 = 0.02;
 
-/// Greatest reflectance that a surface can have, as a fraction; a reading above is a mistaken unit.
+/// Greatest reflectance that a surface can have, as a fraction. A reading above is a mistaken unit.
 const LARGEST_REFLECTANCE: f64 = 2.0;
 /// Treatment of an instrument's spectra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,8 +35,8 @@ pub struct RecordChoice {
 
 impl MeasurementTable {
     /// Reads `records`, the spectra of `file`, as readings of paint. Only spectra of reflectance, or of a
-    /// quantity that the file does not state, are used. The name of a record is the sample; records of one
-    /// name are repeated readings. The table has no pigments and no backings.
+    /// quantity that the file does not state, are used. The name of a record is the sample. Records of
+    /// one name are repeated readings. The table has no pigments and no backings.
     ///
     /// Wavelengths outside 200 to 2500 nm are cut off. Outside 400 to 700 nm the ends of a spectrum are
     /// cut off up to their last impossible value. Values down to -2 % count as 0, with a remark. A
@@ -102,7 +102,7 @@ struct Spectrum<'a> {
     record: &'a MeasuredSpectrum,
     wavelengths_nm: Vec<f64>,
     values: Vec<f64>,
-    /// Unit of the record's values; `values` have this unit until they are made fractions.
+    /// Unit of the record's values. `values` have this unit until they are made fractions.
     scale: Scale,
 }
 
@@ -157,7 +157,7 @@ fn reflectances<'a>(
         .collect())
 }
 
-/// Determines the unit of every spectrum; returns that of the first.
+/// Determines the unit of every spectrum, and returns the unit of the first.
 fn scale(
     file: &str,
     spectra: &mut [Spectrum<'_>],

@@ -19,7 +19,7 @@ pub enum Film {
 }
 
 impl Film {
-    /// The kind of surface that a cell of the column `film` names; an empty cell is paint.
+    /// The kind of surface that a cell of the column `film` names. An empty cell is paint.
     pub(super) fn named(cell: &str) -> Option<Self> {
         match cell.to_ascii_lowercase().as_str() {
             "paint" | "" => Some(Self::Paint),
@@ -40,7 +40,7 @@ pub struct Reading {
     pub sample: String,
     /// Whether paint or a bare backing was read.
     pub film: Film,
-    /// Name of the backing; empty if the file does not state it.
+    /// Name of the backing, or empty if the file does not state it.
     pub backing: Arc<str>,
     /// Thickness of the film in mm, if known.
     pub thickness_mm: Option<f64>,
@@ -68,7 +68,7 @@ pub struct MeasurementTable {
 }
 
 impl MeasurementTable {
-    /// Joins the readings of several files in one table. Pigments are identified by name; a sample that
+    /// Joins the readings of several files in one table. Pigments are identified by name. A sample that
     /// occurs in two files is one sample with repeated readings.
     ///
     /// # Errors
@@ -158,7 +158,7 @@ impl Scale {
     }
 }
 
-/// Maximum number of names that a hint lists; chosen by eye.
+/// Maximum number of names that a hint lists (chosen by eye).
 const LISTED: usize = 8;
 
 /// Mean of the repeated readings of one film or card.
@@ -184,7 +184,7 @@ pub struct AveragedSpectra {
 }
 
 impl MeasurementTable {
-    /// Averages repeated readings: those of one sample on one backing with one thickness.
+    /// Averages repeated readings of one sample on one backing with one thickness.
     #[must_use]
     pub fn averaged(&self) -> AveragedSpectra {
         let mut groups: Vec<Vec<&Reading>> = Vec::new();

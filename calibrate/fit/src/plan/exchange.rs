@@ -1,8 +1,8 @@
 //! Designs of a plan: the pool of recipes, the design for unknown paint, and the design of greatest
 //! information.
 //!
-//! The information on K and S is estimated from a library of similar paint; Fedorov's exchange then improves
-//! the design one recipe at a time.
+//! The information on K and S is estimated from a library of similar paint. Fedorov's exchange then
+//! improves the design one recipe at a time.
 
 use documents::{Cancellation, Cancelled};
 use nalgebra::DMatrix;
@@ -15,13 +15,13 @@ use spectra::Grid;
 use super::paints::{PaintSet, PlanError, Purpose, SwatchRecipe};
 use crate::fit::{AssumedPaints, ExpectedNoise, PRIOR_INFORMATION, Slopes};
 
-/// Most sweeps over the design; fewer are needed in practice.
+/// Most sweeps over the design. Fewer are needed in practice.
 const SWEEPS: usize = 30;
 /// Least gain of log det, summed over wavelengths, for which a recipe is exchanged; above rounding.
 const LEAST_GAIN: f64 = 1e-9;
 
 /// Improves a design, a list of indices into the pool, until no exchange of one recipe for another gains
-/// information. The result has as many recipes as `start`, each once; the first `kept` recipes of `start`
+/// information. The result has as many recipes as `start`, each once. The first `kept` recipes of `start`
 /// stay. The others are in order of the pool.
 ///
 /// Fedorov's exchange (1972): each recipe in turn is replaced by the one that adds most to log det of the
@@ -155,12 +155,12 @@ pub struct Information {
 }
 
 /// Predicted standard deviations of one paint's K and S, relative to K and S (that is, of their
-/// logarithms); the median over wavelength.
+/// logarithms), as the median over wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativeDeviation {
     /// Relative standard deviation of K.
     pub absorption: f64,
-    /// Relative standard deviation of S; `None` for the white, whose S is 1.
+    /// Relative standard deviation of S, or `None` for the white, with S = 1.
     pub scattering: Option<f64>,
 }
 
@@ -220,7 +220,7 @@ impl Information {
         (self.log_determinant(design) - self.log_determinant(other)).exp()
     }
 
-    /// Standard deviations of log K and log S that `design` should give, by paint; 0 for the S of the
+    /// Standard deviations of log K and log S that `design` should give, by paint, or 0 for the S of the
     /// white.
     #[must_use]
     pub fn log_deviations(&self, design: &[usize]) -> Vec<Curves> {
@@ -280,14 +280,14 @@ const SECOND_TINT: u32 = 20;
 const SHADE: u32 = 9;
 
 /// Selects `swatches` recipes of `pool`, which comes from [`super::candidates`], as indices into it. The
-/// order is: masstones; a tint of every paint at 1:4; one at 1:19 (or the weakest that can be weighed); a
-/// shade of every colour with black at 9:1; each colour mixed 1:1 with the next; then the rest of the pool in
-/// its order, the strongest tints first.
+/// order is: masstones, a tint of every paint at 1:4, one at 1:19 (or the weakest that you can weigh), a
+/// shade of every colour with black at 9:1, each colour mixed 1:1 with the next, then the rest of the
+/// pool in its order, the strongest tints first.
 ///
-/// The ratios were measured on the Van Gogh oils. Of two tints of one pigment with zinc white, the optimal
-/// design most often contained 4:1, 1:4 and 1:19, and of shades with bone black 4:1 and 9:1. With masstones
-/// and the two tints, 11 of 17 pigments had a D-efficiency above 0.9; weak ones, for which 4:1 is better,
-/// had 0.56 to 0.72.
+/// The ratios were measured on the Van Gogh oils. Of two tints of one pigment with zinc white, the
+/// optimal design most often contained 4:1, 1:4 and 1:19, and of shades with bone black 4:1 and 9:1. With
+/// masstones and the two tints, 11 of 17 pigments had a D-efficiency above 0.9. Weak ones, for which 4:1
+/// is better, had 0.56 to 0.72.
 ///
 /// # Errors
 /// [`PlanError::Swatches`] for fewer swatches than unknowns per wavelength, or more than the pool holds.
@@ -372,7 +372,7 @@ const CROSSES: [(u32, u32); 3] = [(1, 1), (1, 4), (4, 1)];
 /// Parts of two colours and of the white.
 const CROSS_TINTS: [(u32, u32, u32); 2] = [(1, 1, 2), (1, 1, 8)];
 
-/// Lists every recipe whose smallest share is `least_share` or more: masstones, tints and shades at a
+/// Lists every recipe with a smallest share of `least_share` or more: masstones, tints and shades at a
 /// ladder of parts, two colours at three ratios, and two colours with white.
 #[must_use]
 pub fn candidates(paints: &PaintSet, least_share: f64) -> Vec<SwatchRecipe> {

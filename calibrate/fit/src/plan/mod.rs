@@ -20,9 +20,9 @@ pub use paints::{MeasurementForm, PaintSet, PlanError, Purpose, SwatchRecipe};
 
 /// Expected error of an instrument, as a standard deviation of reflectance.
 const INSTRUMENT_ERROR: f64 = 0.002;
-/// Expected error of weighing, mixing and film for a prior without evidence; chosen by eye.
+/// Expected error of weighing, mixing and film for a prior without evidence (chosen by eye).
 const MIXING_ERROR: f64 = 0.01;
-/// Lower limit of that error, for a prior whose fit reproduces its samples almost exactly; chosen by eye.
+/// Lower limit of that error, for a prior that reproduces its samples almost exactly (chosen by eye).
 const LEAST_MIXING_ERROR: f64 = 1e-4;
 
 /// Options of [`plan`].
@@ -38,7 +38,7 @@ pub struct PlanOptions {
     pub swatches: Option<usize>,
     /// Mass of paint in one swatch, in grams. Default: 10.
     pub grams: f64,
-    /// Step of the balance in grams; no part is smaller than fifty steps. Default: 0.01.
+    /// Step of the balance in grams. No part is smaller than fifty steps. Default: 0.01.
     pub balance: f64,
     /// Expected noise of a swatch's reflectance, used with a prior. Default: 0.002 for the instrument; for
     /// weighing and mixing, the rms error of the prior's own fit, or 0.01 if the prior has no evidence.
@@ -82,7 +82,7 @@ pub struct Plan {
     pub paints: PaintSet,
     /// Swatches in the order in which they are prepared.
     pub swatches: Vec<PlannedSwatch>,
-    /// Predictions of the prior library; `None` without one.
+    /// Predictions of the prior library, or `None` without one.
     pub forecast: Option<Forecast>,
     /// Warnings about the prior library.
     pub remarks: Vec<Remark>,

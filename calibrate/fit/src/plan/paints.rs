@@ -18,7 +18,7 @@ pub struct PaintSet {
 }
 
 impl PaintSet {
-    /// Place of the white, whose S is 1.
+    /// Place of the white, with S = 1.
     pub const WHITE: PigmentId = PigmentId(0);
 
     /// Collects the paints. White and black may be named among the colours too.

@@ -23,7 +23,7 @@ pub use trials::{
     Unmixed, coverage, covered, reliability,
 };
 
-/// Groups by name; every other pigment is by itself.
+/// Groups by name. Every other pigment is by itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NamedGroups {
     /// Names of all pigments of the trials.
@@ -110,7 +110,7 @@ fn true_shares(sample: &LeftOut) -> impl Iterator<Item = (&str, f64)> {
     sample.mixture.shares.iter().map(|(name, share)| (name.as_str(), *share))
 }
 
-/// Errors of the predictions for `samples`; `None` if there are none.
+/// Errors of the predictions for `samples`, or `None` if there are none.
 #[must_use]
 pub fn residuals_of<'a>(samples: impl IntoIterator<Item = &'a LeftOut>) -> Option<Residuals> {
     let mut samples = samples.into_iter().peekable();
@@ -207,9 +207,9 @@ pub struct Choice {
     pub penalties: Vec<f64>,
 }
 
-/// Puts together trials of several penalties, so that no swatch takes part in the choice of its own: swatch
-/// `i` is in fold `i` modulo `folds`, and takes the penalty whose mean of precision and recall (harmonic), of
-/// pigments and groups alike, is greatest in the other folds.
+/// Puts together trials of several penalties, so that no swatch takes part in the choice of its own:
+/// swatch `i` is in fold `i` modulo `folds`, and takes the penalty with the best harmonic mean of
+/// precision and recall, of pigments and groups alike, is greatest in the other folds.
 #[must_use]
 pub fn choose_penalty(of_penalty: &[(f64, SwatchTrials)], folds: usize) -> Choice {
     let count = of_penalty.first().map_or(0, |(_, trials)| trials.groups.len());
@@ -253,8 +253,8 @@ pub fn oil_groups() -> Vec<PigmentGroup> {
         .collect()
 }
 
-/// Eight of the Van Gogh oils that a painter sets out, without black and Prussian blue, in whose mixtures
-/// other pigments hardly show.
+/// Eight of the Van Gogh oils that a painter sets out, without black and Prussian blue, because other
+/// pigments hardly show in mixtures with them.
 #[must_use]
 pub fn light_palette() -> Vec<String> {
     let names = [
@@ -297,7 +297,7 @@ pub struct PaintingTrials {
 }
 
 impl PaintingTrials {
-    /// Part of the pixels in which the search ended at a worse score than the true pigments have.
+    /// Share of the pixels in which the search ended at a worse score than the true pigments have.
     #[must_use]
     pub fn worse(&self) -> f64 {
         let worse = self.beside.iter().filter(|beside| beside.is_worse).count();
@@ -365,7 +365,8 @@ pub fn painting_trials(
 pub struct Missing {
     /// Median chi-square per degree of freedom of pixels without the pigment, and of those with it.
     pub chi2: [f64; 2],
-    /// Part of the pixels with it whose chi-square exceeds that of nineteen of twenty without it.
+    /// Share of the pixels containing the pigment that have a chi-square above the 95th percentile of
+    /// pixels without it.
     pub noticed: f64,
     /// Mean number of pigments that are told to be present but are not, in pixels without the missing one,
     /// and with it.

@@ -29,7 +29,7 @@ pub struct PaintingPlan {
     pub seed: u64,
     /// Pigments of the painting, drawn from the library, or from `palette` if it names some.
     pub pigments: usize,
-    /// Names of the pigments that may be drawn; empty for all of the library.
+    /// Names of the pigments that may be drawn, or empty for all of the library.
     pub palette: Vec<String>,
     /// Recipes of the painting, each of one to `at_most` of its pigments.
     pub recipes: usize,
@@ -65,11 +65,12 @@ impl Default for PaintingPlan {
 /// Best set of a whole search beside the true pigments of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BesideTruth {
-    /// Whether its score is worse than that of the true pigments, which a wider search would have found.
+    /// Whether its score is worse than the score of the true pigments, which a wider search would have
+    /// found.
     pub is_worse: bool,
     /// Whether it has the pigments or groups of the truth.
     pub is_right: bool,
-    /// Its chi-square less that of the true pigments: the evidence for them in the spectrum.
+    /// Its chi-square minus the chi-square of the true pigments: the evidence for them in the spectrum.
     pub chi2: f64,
 }
 
@@ -159,7 +160,8 @@ impl Painting {
             .collect()
     }
 
-    /// Compares the best set of a whole search of each pixel with its true pigments, whose shares are refined.
+    /// Compares the best set of a whole search of each pixel with its true pigments. The shares are
+    /// refined.
     ///
     /// # Errors
     /// [`MapError::Length`] if the library of `mapper` is on other wavelengths.
@@ -215,7 +217,7 @@ fn smooth_factor(nm: &[f64]) -> DMatrix<f64> {
     Cholesky::new(covariance).map_or(identity, |cholesky| cholesky.l())
 }
 
-/// A pixel whose pigments are known, with what a method told of it. All lists are by pigment or group.
+/// A pixel with known pigments, and the answer of a method. All lists are by pigment or group.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial {
     /// True shares, sum 1.
@@ -224,19 +226,19 @@ pub struct Trial {
     pub told: Vec<f64>,
     /// Whether each is told to be present.
     pub present: Vec<bool>,
-    /// Probability that each is present; empty if the method tells none.
+    /// Probability that each is present, or empty if the method tells none.
     pub probability: Vec<f64>,
-    /// Standard deviation of each share; empty if the method tells none.
+    /// Standard deviation of each share, or empty if the method tells none.
     pub sd: Vec<f64>,
-    /// Chi-square per degree of freedom; NaN if the method tells none.
+    /// Chi-square per degree of freedom, or NaN if the method tells none.
     pub chi2: f64,
     /// Least true share that counts as present. A trace, smaller than that, is neither right nor wrong to
-    /// tell; 0 if there are no traces.
+    /// tell, or 0 if there are no traces.
     pub least: f64,
 }
 
 impl Trial {
-    /// Trial of pixel `index` of a map, whose true shares by column are `truth`. A column counts as
+    /// Trial of pixel `index` of a map, with the true shares `truth` by column. A column counts as
     /// present where its probability is one half or more.
     #[must_use]
     pub fn of_map(maps: &BlockMaps, index: usize, truth: &[f64]) -> Self {
@@ -257,7 +259,7 @@ impl Trial {
         }
     }
 
-    /// Whether pigment `index` is present; `None` for a trace.
+    /// Whether pigment `index` is present, or `None` for a trace.
     #[must_use]
     pub fn is_there(&self, index: usize) -> Option<bool> {
         match self.truth[index] {

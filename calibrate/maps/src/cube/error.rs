@@ -27,7 +27,7 @@ pub enum CubeError {
     Key {
         /// Path of the header.
         path: PathBuf,
-        /// Line from 1; 0 if the key is not there.
+        /// Line from 1, or 0 if the key is not there.
         line: usize,
         /// Name of the key.
         key: String,
@@ -247,14 +247,14 @@ pub struct CubeOptions {
     pub tile: f64,
     /// Scale of the values.
     pub scale: CubeScale,
-    /// Largest count of the detector; guessed where it is not given.
+    /// Largest count of the detector. We guess it where it is not given.
     pub full_scale: Option<f64>,
     /// File with the wavelengths of the bands, for cubes that name none.
     pub wavelengths: Option<PathBuf>,
     /// Name of the array, for Zarr groups that hold several.
     pub variable: Option<String>,
-    /// Folder for the unpacked values of packed images; the system's folder for temporary files where
-    /// none is given.
+    /// Folder for the unpacked values of packed images. It is the system's folder for temporary files
+    /// where none is given.
     pub scratch: Option<PathBuf>,
 }
 
@@ -274,7 +274,7 @@ impl Default for CubeOptions {
 }
 
 impl CubeOptions {
-    /// Checks the range of every number; `path` is the scan's name in messages.
+    /// Checks the range of every number. `path` is the scan's name in messages.
     pub(crate) fn check(&self, path: &Path) -> Result<(), CubeError> {
         let fault = |name: &str, found: f64| {
             let problem =

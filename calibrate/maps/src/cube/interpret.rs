@@ -14,7 +14,7 @@ const COLUMNS: usize = 256;
 const MOST_FRACTION: f32 = 2.0;
 /// Largest value of most pixels up to which values are percent.
 const MOST_PERCENT: f32 = 200.0;
-/// Full scales of detectors whose numbers have more bits than they use.
+/// Full scales of detectors with numbers that have unused bits.
 const FULL_SCALES: [f32; 4] = [1023.0, 4095.0, 16383.0, 65535.0];
 
 /// How values become reflectance, and sentences about it.
@@ -75,7 +75,7 @@ fn rising(nm: &[f64], good: &[bool]) -> Vec<usize> {
     bands
 }
 
-/// Finds how the values of `scan` become reflectance; `nm` are its wavelengths.
+/// Finds how the values of `scan` become reflectance. `nm` are its wavelengths.
 pub(crate) fn interpret(
     scan: &Opened,
     nm: &[f64],
@@ -251,7 +251,7 @@ const BLOCK_BYTES: usize = 16 << 20;
 pub(crate) struct Reading {
     /// Mean of each band of each column, column after column.
     mean: Vec<f64>,
-    /// Standard deviation of each band over lines, all columns together; 0 for one line.
+    /// Standard deviation of each band over lines, all columns together, or 0 for one line.
     sd: Vec<f64>,
     /// Largest single value.
     pub(crate) largest: f32,
@@ -259,7 +259,7 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
-    /// Averages `opened` over its lines; it must fit to `scan`.
+    /// Averages `opened` over its lines. It must fit to `scan`.
     pub(crate) fn of(
         opened: &Opened,
         scan: &Opened,
@@ -337,13 +337,13 @@ impl Reading {
 #[derive(Debug)]
 pub(crate) struct Readings {
     pub(crate) white: Reading,
-    /// Dark of the scan; `None` if it is subtracted already.
+    /// Dark of the scan, or `None` if it is subtracted already.
     pub(crate) dark: Option<Reading>,
     /// Dark of the white, where it has one of its own.
     pub(crate) white_dark: Option<Reading>,
     /// Reflectance of the white.
     pub(crate) tile: f64,
-    /// Integration time of the scan divided by that of the white.
+    /// Integration time of the scan divided by the white's.
     pub(crate) time_ratio: f64,
 }
 
@@ -361,7 +361,7 @@ pub(crate) struct Referenced {
 }
 
 impl Readings {
-    /// Terms for the counts of `scan`; `nm` are its wavelengths.
+    /// Terms for the counts of `scan`. `nm` are its wavelengths.
     pub(crate) fn terms(&self, scan: &Opened, nm: &[f64]) -> Result<Referenced, CubeError> {
         let fault = |problem: String, way_out: &str| CubeError::Reading {
             path: scan.path.clone(),

@@ -97,7 +97,7 @@ fn open(files: &[ScanFile], path: &Path) -> Result<Opened, CubeError> {
     Ok(envi::opened(path, header, data))
 }
 
-/// The data of a header: by name, and of several the one whose size fits; else the only file beside the header.
+/// The data of a header: by name, and among several by size. Otherwise it is the only other file.
 fn data_of<'f>(
     files: &'f [ScanFile],
     path: &Path,
@@ -133,7 +133,7 @@ pub(crate) struct OwnReadings {
     pub(crate) white_dark: Option<PathBuf>,
 }
 
-/// White and dark readings of a scan: those of the settings, else those of its folder. `open` opens a reading.
+/// White and dark readings of a scan: from the settings, or else from its folder. `open` opens a reading.
 pub(crate) fn readings(
     scan: &Opened,
     own: Option<&OwnReadings>,

@@ -1,8 +1,9 @@
 //! Spectral scans, read in blocks of rows.
 //!
-//! A reader opens a scan as raw values with a layout; [`Cube`] turns them into reflectance and tells
-//! for each pixel whether it can be mapped. Memory is that of one block, whatever the size of the
-//! scan: plain files are read by position, on a disk or by the caller ([`ReadAt`]), packed images are unpacked into a temporary file first.
+//! A reader opens a scan as raw values with a layout. [`Cube`] turns them into reflectance and says for
+//! each pixel whether it can be mapped. You need memory for one block only, whatever the size of the
+//! scan: plain files are read by position, on a disk or by the caller ([`ReadAt`]), packed images are
+//! unpacked into a temporary file first.
 
 mod error;
 mod wavelengths;

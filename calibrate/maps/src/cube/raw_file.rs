@@ -38,7 +38,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// Bytes of the file; `None` if the number does not exist.
+    /// Bytes of the file, or `None` if the number does not exist.
     pub(crate) fn file_bytes(&self) -> Option<u64> {
         let sizes = [self.lines, self.samples, self.bands, self.number_type.bytes()];
         let sizes = sizes.into_iter().map(|size| size as u64);

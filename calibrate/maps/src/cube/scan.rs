@@ -21,7 +21,7 @@ pub enum CubeValues {
     ByBands,
 }
 
-/// A spectral scan, read in blocks of rows. Bands lie in the order of rising wavelength; those that
+/// A spectral scan, read in blocks of rows. Bands lie in the order of rising wavelength. The ones that
 /// the file marks as bad are left out.
 #[derive(Debug)]
 pub struct Cube {
@@ -102,21 +102,21 @@ impl Cube {
         self.fwhm_nm.as_deref()
     }
 
-    /// Standard deviation of the reflectance of a white in each band, by the scatter of the white
-    /// reading over its lines; `None` for cubes of reflectance.
+    /// Standard deviation of the reflectance of a white in each band, by the scatter of the white reading
+    /// over its lines, or `None` for cubes of reflectance.
     #[must_use]
     pub fn white_sd(&self) -> Option<&[f64]> {
         self.white_sd.as_deref()
     }
 
-    /// Standard deviation of the reflectance of a black in each band, by the scatter of the dark
-    /// reading over its lines; `None` for cubes of reflectance.
+    /// Standard deviation of the reflectance of a black in each band, by the scatter of the dark reading
+    /// over its lines, or `None` for cubes of reflectance.
     #[must_use]
     pub fn black_sd(&self) -> Option<&[f64]> {
         self.black_sd.as_deref()
     }
 
-    /// Root mean square over the bands of [`Cube::white_sd`]; `None` for cubes of reflectance.
+    /// Root mean square over the bands of [`Cube::white_sd`], or `None` for cubes of reflectance.
     #[must_use]
     pub fn noise_of_white(&self) -> Option<f64> {
         let sd = self.white_sd().filter(|sd| !sd.is_empty())?;
@@ -197,7 +197,7 @@ impl Cube {
         Ok(block)
     }
 
-    /// Reads the pixels of a rectangle into `block`, whose memory is used again.
+    /// Reads the pixels of a rectangle into `block` and reuses its memory.
     ///
     /// # Errors
     /// [`CubeError`] if the cube has no such pixels or cannot be read.

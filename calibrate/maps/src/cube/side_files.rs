@@ -15,9 +15,9 @@ use crate::numbers::{ByteOrder, NumberType};
 /// Advice for a list that cannot be read.
 const WAY_OUT: &str = "write one wavelength in nm in each line";
 
-/// Reads wavelengths in nm (or micrometres, told by a heading or by their range): one in each line,
-/// or all in one line. Of several columns the one whose heading names wavelengths counts, else the
-/// last number of each line. Text after `#` is a comment.
+/// Reads wavelengths in nm (or micrometres, told by a heading or by their range): one in each line, or
+/// all in one line. Of several columns the one with a heading of wavelengths counts, else the last number
+/// of each line. Text after `#` is a comment.
 pub(crate) fn wavelengths_of(path: &Path) -> Result<Vec<f64>, CubeError> {
     let bytes = documents::file::read(path)?;
     let text = String::from_utf8_lossy(&bytes);

@@ -92,7 +92,7 @@ fn pictures(folder: &Path) -> Vec<PathBuf> {
     files_ending_in(folder, &["png", "tif", "tiff"])
 }
 
-/// Whether `folder` holds pictures whose wavelengths are known.
+/// Whether `folder` holds pictures with known wavelengths.
 pub(crate) fn is_stack(folder: &Path, options: &CubeOptions) -> bool {
     let known = options.wavelengths.is_some() || list_inside(folder).is_some();
     known && !pictures(folder).is_empty()
@@ -231,7 +231,7 @@ pub(crate) fn unpack_png(
     Ok(())
 }
 
-/// Most bands of a file, so that a file whose pages form a circle ends.
+/// Most bands of a file. With this limit, a file with pages in a circle ends.
 const MOST_BANDS: usize = 65_536;
 
 /// Whether a file begins as TIFF or BigTIFF.
@@ -281,7 +281,7 @@ pub(crate) fn tiff_plane(pages: &mut Pages, path: &Path, place: &str) -> Result<
     Ok(Plane { samples: width as usize, lines: height as usize, bands, number_type })
 }
 
-/// Whether each band of the page has parts of its own, those of the first band first.
+/// Whether the page is stored plane by plane (PlanarConfiguration 2).
 fn has_parts_of_bands(pages: &mut Pages, path: &Path) -> Result<bool, CubeError> {
     let order = pages.find_tag_unsigned::<u16>(Tag::PlanarConfiguration);
     let order = order.map_err(|error| tiff_fault(path, error))?;
@@ -369,8 +369,8 @@ fn list_beside(path: &Path) -> Option<PathBuf> {
     named.into_iter().chain(common).find(|place| place.is_file())
 }
 
-/// Opens a TIFF file with a page a wavelength, or with several values a pixel in its pages: those of the first page
-/// come first. The wavelengths are those of the settings or of a list beside the file.
+/// Opens a TIFF file with a page a wavelength, or with several values a pixel in its pages, first page
+/// first. The wavelengths come from the settings or from a list beside the file.
 pub(crate) fn open_pages(path: &Path, options: &CubeOptions) -> Result<Opened, CubeError> {
     let mut decoder = tiff_pages(path)?;
     let first = tiff_plane(&mut decoder, path, "page 1")?;

@@ -107,7 +107,7 @@ pub(crate) enum Terms {
 /// How raw values become reflectance.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Conversion {
-    /// Raw value that marks a pixel without data; NaN marks none but itself.
+    /// Raw value that marks a pixel without data. NaN marks none but itself.
     pub(crate) ignore: Option<f32>,
     /// Raw value from which the detector is saturated.
     pub(crate) saturated: Option<f32>,
@@ -128,7 +128,7 @@ impl Conversion {
         Self { ignore: None, saturated: None, terms: Terms::One(1.0) }
     }
 
-    /// Converts a row of raw values, whose first pixel lies in `column`.
+    /// Converts a row of raw values that starts at `column`.
     pub(crate) fn row(&self, column: usize, values: &mut [f32], mask: &mut [Mask]) {
         let bands = (values.len() / mask.len().max(1)).max(1);
         for (at, (pixel, mask)) in values.chunks_exact_mut(bands).zip(mask).enumerate() {
@@ -253,7 +253,7 @@ pub(crate) struct Opened {
     pub(crate) samples: usize,
     /// Bands of the file.
     pub(crate) bands: usize,
-    /// One wavelength a band; `None` if the file has none.
+    /// One wavelength a band, or `None` if the file has none.
     pub(crate) wavelengths_nm: Option<Vec<f64>>,
     /// Full width at half maximum of each band, if known.
     pub(crate) fwhm_nm: Option<Vec<f64>>,

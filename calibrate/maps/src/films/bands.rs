@@ -16,13 +16,13 @@ use crate::pixel_maps::MapError;
 pub const MOST_BANDS: usize = 64;
 /// Least number of bands of a scan within the library's wavelengths.
 pub const LEAST_BANDS: usize = 4;
-/// A step of the scan that is smaller than this part of the wanted step is folded; chosen by eye.
+/// A step of the scan that is smaller than this part of the wanted step is folded (chosen by eye).
 const FINER: f64 = 0.8;
 
 /// A value of a folded band as a weighted sum of other values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Places of the values, with their weights, whose sum is 1.
+    /// Places of the values, with their weights, which sum to 1.
     pub terms: Vec<(usize, f64)>,
 }
 
@@ -161,7 +161,7 @@ fn centers(grid: Grid, first: f64, last: f64, wanted: f64) -> Vec<f64> {
     (0..count).map(|index| start + wanted * index as f64).collect()
 }
 
-/// Rows of triangular weights of half width `reach` around each centre, made exact for straight lines;
+/// Rows of triangular weights of half width `reach` around each centre, made exact for straight lines, or
 /// `None` where no value is within reach. With a reach of 0 each centre is one of the values.
 fn rows(nm: &[f64], centers: &[f64], reach: f64) -> Vec<Option<Row>> {
     let row = |&center: &f64| {
@@ -232,7 +232,7 @@ impl Ground {
         Ok(Self { nm, reflectance })
     }
 
-    /// Reflectance at a wavelength, between its neighbours; `None` outside.
+    /// Reflectance at a wavelength, between its neighbours, or `None` outside.
     fn at(&self, nm: f64) -> Option<f64> {
         let after = self.nm.iter().position(|own| *own >= nm)?;
         if self.nm[after] == nm {
@@ -252,19 +252,20 @@ fn ground_error(problem: String) -> MapError {
     MapError::Ground { problem }
 }
 
-/// The ground on the bands of a map, with the covariance of its differences from place to place: that of the bands
-/// by themselves, of a common lightness and of a common gloss.
+/// The ground on the bands of a map, with the covariance of its differences from place to place: of the
+/// bands by themselves, of a common lightness and of a common gloss.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BareGround {
     reflectance: Vec<f64>,
     /// 1 / variance of each band.
     weights: Vec<f64>,
-    /// Weights of two sums whose squares the common differences take from chi-square.
+    /// Weights of two sums. The common differences subtract the squares of these sums from chi-square.
     common: [Vec<f64>; 2],
 }
 
 impl BareGround {
-    /// `ground` on `bands` of a scan at the wavelengths `wavelengths`, whose bands have the variances `sensor`.
+    /// `ground` on `bands` of a scan at the wavelengths `wavelengths`, with the variances `sensor` of the
+    /// bands.
     pub(crate) fn new(
         ground: &Ground,
         wavelengths: &[f64],
@@ -287,7 +288,7 @@ impl BareGround {
             reflectance.iter().map(|r| LIGHTNESS * r).collect::<Vec<f64>>(),
             vec![GLOSS; reflectance.len()],
         ];
-        // Woodbury: V^-1 = W - W C (I + C^T W C)^-1 C^T W, whose middle is L^-T L^-1.
+        // Woodbury: V^-1 = W - W C (I + C^T W C)^-1 C^T W, where the middle factor is L^-T L^-1.
         let product = |a: &[f64], b: &[f64]| -> f64 {
             a.iter().zip(b).zip(&weights).map(|((a, b), w)| a * b * w).sum()
         };

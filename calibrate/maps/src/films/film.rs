@@ -99,7 +99,7 @@ impl Films {
         }
     }
 
-    /// A pixel of these measured reflectances, one for each band, whose errors are like `noise`.
+    /// A pixel of these measured reflectances, one for each band, with errors like `noise`.
     pub(crate) fn pixel(&self, noise: &WhiteningNoise, reflectance: &[f32]) -> Pixel {
         let measured = spectrum(&reflectance[..self.bands], 0.3);
         let mut internal = measured;
@@ -317,12 +317,12 @@ impl Task for Products<'_> {
 #[derive(Debug, Clone)]
 pub(crate) struct Work {
     white: Vec<f32x8>,
-    /// Mean S of each pigment relative to that of the film about which the rows are linearised, by which each
-    /// row is divided. Else pigments of little S would seem to explain every pixel.
+    /// Mean S of each pigment relative to the film about which the rows are linearised, by which each row
+    /// is divided. Else pigments of little S would seem to explain every pixel.
     sizes: Vec<f32x8>,
     inverse: Vec<f32x8>,
-    /// Products of the rows of all pairs of pigments; the upper half is valid. Row and lane of a pigment are
-    /// `before` its place.
+    /// Products of the rows of all pairs of pigments. The upper half is valid. Row and lane of a pigment
+    /// are `before` its place.
     pub(crate) products: Vec<f32x8>,
     before: usize,
 }
@@ -370,8 +370,8 @@ pub struct Paints {
 }
 
 impl Paints {
-    /// Pigments of `library` that are called one of `palette`; of an empty palette all whose K and S are
-    /// measured.
+    /// Pigments of `library` that are called one of `palette`; or, for an empty palette, all pigments
+    /// with measured K and S.
     ///
     /// # Errors
     /// [`MapError::Name`] for a name that matches no pigment or several, [`MapError::Pigments`] unless 1 to
@@ -421,7 +421,7 @@ impl Paints {
         self.absorption.first().map_or(0, Vec::len)
     }
 
-    /// Place of the pigment called `name`; `None` if none is.
+    /// Place of the pigment called `name`, or `None` if none is.
     #[must_use]
     pub fn place(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)

@@ -26,7 +26,7 @@ pub struct PigmentGroup {
 pub struct MapSettings {
     /// Most pigments of a mixture, 1 to 4. Default: 3.
     pub at_most: usize,
-    /// Names of the pigments that take part. Default: all of the library whose K and S are measured.
+    /// Names of the pigments that take part. Default: all pigments of the library with measured K and S.
     pub palette: Vec<String>,
     /// Groups of pigments that are mapped as one. Default: none.
     pub groups: Vec<PigmentGroup>,
@@ -41,7 +41,8 @@ pub struct MapSettings {
     /// Chi-square that a pigment must save beyond the prior, by which mixtures of any number of pigments are alike,
     /// unless the survey finds it in the palette; 0 to 100. Default: 2.
     pub penalty: f64,
-    /// The bare ground, whose pixels are told and not mapped. Default: none, and bare ground is mapped as paint.
+    /// The bare ground. Its pixels are reported and not mapped. Default: none, and bare ground is mapped
+    /// as paint.
     pub ground: Option<Ground>,
 }
 
@@ -105,23 +106,24 @@ impl MapSettings {
     }
 }
 
-/// Part of the covariance of left-out residuals that is moved to its diagonal. A few dozen mixtures do not
-/// tell a covariance of 31 bands; chosen on the Van Gogh oils, where 0.3 to 0.6 do alike.
+/// Part of the covariance of left-out residuals that is moved to its diagonal. A few dozen mixtures do
+/// not determine a covariance of 31 bands. We chose it on the Van Gogh oils, where 0.3 to 0.6 give the
+/// same.
 const SHRINKAGE: f64 = 0.5;
 /// Degrees of freedom of the residuals' distribution. Some mixtures err ten times as much as others, so
-/// that their tails are heavier than normal ones; chosen on the Van Gogh oils.
+/// that their tails are heavier than normal ones. We chose it on the Van Gogh oils.
 const TAIL: f64 = 10.0;
 /// Lengths in nm over which stated errors of K and S are alike, with their parts of the variance. The
-/// rest is independent from band to band. Chosen on simulated paintings of other seeds than those of the
-/// tests: longer ones tell deviations that are too small.
+/// rest is independent from band to band. We chose it on simulated paintings with other seeds than the
+/// tests use: longer ones give deviations that are too small.
 const SMOOTH: [(f64, f64); 2] = [(60.0, 0.5), (30.0, 0.45)];
 /// Relative error of K and S where the settings state none.
 pub const USUAL_MODEL_ERROR: f64 = 0.1;
 /// Sum of the squares of a mixture's parts in K and in S, by which stated errors of its pigments partly
-/// cancel: 2 for one pigment, 1 for two alike in strength; a mean.
+/// cancel: 2 for one pigment, 1 for two alike in strength. This is a mean.
 const CANCELLED: f64 = 1.8;
-/// Least number of left-out mixtures that tell how a library errs; fewer, and their mean product depends on a
-/// few contradictory swatches.
+/// Least number of left-out mixtures that show how a library errs. With fewer, their mean product depends
+/// on a few contradictory swatches.
 pub const LEAST_MIXTURES: usize = 10;
 /// Least standard deviation of a band, in reflectance.
 const LEAST_SD: f64 = 1e-4;
@@ -157,8 +159,8 @@ impl ModelError {
 
 /// Covariance of the differences between measured and predicted spectra near a measured one.
 ///
-/// It is that of a few common curves and of each band by itself, both multiplied by a scale that depends
-/// on the measured reflectance, plus the sensor's noise.
+/// It combines a few common curves and each band by itself, both multiplied by a scale that depends on
+/// the measured reflectance, plus the sensor's noise.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Noise {
     /// Variance of the sensor's noise in each band.
@@ -168,7 +170,7 @@ pub(crate) struct Noise {
     /// Variance of each band that the curves do not describe.
     pub(crate) own: Vec<f64>,
     pub(crate) scale: Scale,
-    /// Degrees of freedom of Student's distribution; infinite for a normal one.
+    /// Degrees of freedom of Student's distribution, infinite for a normal one.
     pub(crate) tail: f64,
     /// How many independent bands tell as much of the library's error.
     pub(crate) effective_bands: f64,
@@ -185,7 +187,7 @@ pub(crate) enum Scale {
 }
 
 impl Noise {
-    /// Noise on `bands` of a sensor whose bands have the standard deviation `sensor`, and of predictions
+    /// Noise on `bands` of a sensor with the standard deviation `sensor` in each band, and of predictions
     /// with the error `model`.
     pub(crate) fn new(bands: &Bands, sensor: f64, model: &ModelError) -> Self {
         let sensor: Vec<f64> =
@@ -251,7 +253,7 @@ fn root_covariance(bands: &Bands, residuals: &Residuals) -> DMatrix<f64> {
         let residual = bands.fold_library(&residual);
         let roots = reflectance.iter().zip(&residual);
         let roots: Vec<f64> = roots.map(|(r, e)| e / (4.0 * r.max(1e-4).powf(0.75))).collect();
-        // The mean square of some is a hundred times that of others, which would not count.
+        // Some have a mean square a hundred times larger than others, which would not count.
         let size = (roots.iter().map(|root| root * root).sum::<f64>() / count as f64).sqrt();
         sizes.push(size);
         for i in 0..count {

@@ -21,7 +21,7 @@ pub(crate) const LANES: usize = 8;
 /// Most blocks of bands that are computed at once.
 pub(crate) const MOST_BLOCKS: usize = MOST_BANDS / LANES;
 
-/// A number for each band, in blocks; bands beyond those of the map hold what does not matter.
+/// A number for each band, in blocks. Lanes beyond the last band are undefined.
 pub(crate) type Spectrum = [f32x8; MOST_BLOCKS];
 
 /// Values in blocks, with `beyond` after the last.
@@ -88,8 +88,8 @@ impl WhiteningNoise {
         }
     }
 
-    /// Whitening near a pixel of these measured reflectances, whose slopes by the logarithm of K/S are
-    /// `slope`.
+    /// Whitening near a pixel of these measured reflectances, with the slopes `slope` by the logarithm of
+    /// K/S.
     pub(crate) fn near(&self, measured: &Spectrum, slope: &Spectrum) -> Whitening {
         by_vectors(Near { noise: self, measured, slope })
     }
@@ -281,7 +281,7 @@ impl Whitening {
 pub(crate) trait Task {
     type Result;
 
-    /// Does it; always inlined.
+    /// Runs the task. Implementations must be inlined.
     fn run<V: Vectors>(self, vectors: V) -> Self::Result;
 }
 
@@ -302,10 +302,11 @@ pub(crate) trait Eight:
 {
     fn sqrt(self) -> Self;
 
-    /// The greater of each two numbers; the result for NaN depends on the processor.
+    /// The greater of each two numbers. The result for NaN depends on the processor.
     fn greater(self, other: Self) -> Self;
 
-    /// Bits of the numbers that are greater than those of `other`; the lowest bit is the first number.
+    /// Bits of the numbers that are greater than their counterparts in `other`. The lowest bit is the
+    /// first number.
     fn is_above(self, other: Self) -> u32;
 
     /// The numbers for memory.

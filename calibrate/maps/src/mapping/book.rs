@@ -99,7 +99,8 @@ impl Book {
     /// Reads a book that [`Book::to_json`] wrote.
     ///
     /// # Errors
-    /// [`MapError::Book`] for text that is no book of this version, or whose numbers contradict each other.
+    /// [`MapError::Book`] for text that is not a book of this version, or with numbers that contradict
+    /// each other.
     pub fn from_json(text: &str) -> Result<Self, MapError> {
         let book: Self = serde_json::from_str(text)
             .map_err(|error| MapError::Book { reason: error.to_string() })?;
@@ -152,7 +153,7 @@ const NEIGHBOURS: usize = 4;
 const PROPOSED: usize = 8;
 /// Gauss-Newton steps of a proposed set.
 const STEPS: usize = 1;
-/// Chi-square relative to that of the nearest entry up to which a pixel counts as explained.
+/// A pixel counts as explained up to this chi-square, relative to the nearest entry's.
 const WORSE: f32 = 1.2;
 
 /// A book that is ready for use.
@@ -251,7 +252,7 @@ impl OpenBook {
     }
 }
 
-/// Reflectances of a band that a scan can have; others show raw counts, percent or a wrong white.
+/// Reflectances of a band that a scan can have. Others show raw counts, percent or a wrong white.
 const REFLECTANCES: std::ops::RangeInclusive<f32> = -0.2..=1.5;
 
 /// All that does not change from pixel to pixel.
@@ -279,7 +280,7 @@ pub(crate) struct Folded {
 }
 
 impl Prepared {
-    /// Prepares `library`, whose predictions err by `model`.
+    /// Prepares `library` with the errors `model` of its predictions.
     pub(crate) fn new(
         library: &PigmentLibrary,
         wavelengths: &[f64],

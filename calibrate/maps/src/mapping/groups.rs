@@ -136,12 +136,12 @@ fn normal_above(z: f64) -> f64 {
 pub struct Column {
     /// Name of the pigment or group.
     pub name: String,
-    /// Names of its pigments; one for a pigment by itself.
+    /// Names of its pigments. A pigment by itself has one.
     pub pigments: Vec<String>,
 }
 
-/// Columns of a map of `paints`: the groups that the user named, those of `alike` pigments that are in none,
-/// and each other pigment by itself, in the order of their first pigments.
+/// Columns of a map of `paints`: the groups that the user named, groups of `alike` pigments that are in
+/// none, and each other pigment by itself, in the order of their first pigments.
 ///
 /// # Errors
 /// [`MapError::Name`] for an unknown pigment, [`MapError::TwoGroups`] for one in two groups.
@@ -219,7 +219,7 @@ impl Told {
         }
     }
 
-    /// Adds the numbers to `maps` as those of the next pixel.
+    /// Adds the numbers to `maps` for the next pixel.
     pub(crate) fn push_to(&self, maps: &mut BlockMaps) {
         maps.share.extend(self.share.iter().map(|value| *value as f32));
         maps.share_sd.extend(self.share_sd.iter().map(|value| *value as f32));
@@ -232,8 +232,9 @@ impl Told {
 
     /// Sums up the sets `found`, the best first. `column_of` is the column of each pigment.
     ///
-    /// Sets count by [`Scores::weight`]. The shares are those of the best set; their variance is the curvature's,
-    /// that of the paints' strengths, and the mean square by which other sets differ, each with its weight.
+    /// Sets count by [`Scores::weight`]. The shares come from the best set. Their variance adds the
+    /// curvature's, the paints' strengths, and the mean square by which other sets differ, each with its
+    /// weight.
     pub(crate) fn sum(
         &mut self,
         engine: &Engine,
@@ -310,10 +311,11 @@ const WITHIN: f64 = 0.6827;
 /// Least predicted reflectance by which a measured one is divided.
 const LEAST: f64 = 1e-3;
 
-/// Standard deviation of the logarithm of a paint's strength with which one deviation covers 68 % of the shares
-/// of the mixtures in `residuals`, when their own pigments are fitted to them; 0 without such mixtures.
+/// Standard deviation of the logarithm of a paint's strength with which one deviation covers 68 % of the
+/// shares of the mixtures in `residuals`, when their own pigments are fitted to them, or 0 without such
+/// mixtures.
 ///
-/// A paint whose strength is off looks like a paint with another share: the spectrum does not tell.
+/// A paint with a wrong strength looks like a paint with another share: the spectrum does not tell.
 pub(crate) fn strength_sd(prepared: &Prepared, residuals: &Residuals) -> f64 {
     let of_mixture = |mixture| needed(prepared, mixture).unwrap_or_default();
     let mut needed: Vec<f64> = residuals.mixtures.iter().flat_map(of_mixture).collect();
@@ -322,8 +324,8 @@ pub(crate) fn strength_sd(prepared: &Prepared, residuals: &Residuals) -> f64 {
     needed.get(place).map_or(0.0, |variance| variance.sqrt())
 }
 
-/// Variance of the logarithm of strengths that explains the error of each share of a mixture; `None` for a
-/// mixture of one pigment, of more than four, and of pigments that take no part.
+/// Variance of the logarithm of strengths that explains the error of each share of a mixture, or `None`
+/// for a mixture of one pigment, of more than four, and of pigments that take no part.
 fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
     let parts: Vec<(usize, f64)> = mixture
         .shares
@@ -335,7 +337,7 @@ fn needed(prepared: &Prepared, mixture: &LeftOutMixture) -> Option<Vec<f64>> {
     let fold = |values: &[f64]| prepared.bands.fold_library(values);
     let measured = fold(&mixture.measured);
     let predicted = fold(&mixture.predicted);
-    // This library's film, off as that of the fit without the mixture was.
+    // This library's film, with the error that the fit without the mixture had.
     let film = prepared.paints.reflectance(&parts);
     let ratios = measured.iter().zip(&predicted).map(|(m, p)| m / p.max(LEAST));
     let off: Vec<f32> =
@@ -365,7 +367,7 @@ mod tests {
     use crate::films::settings::{MapSettings, ModelError};
     use pigment::PigmentLibrary;
 
-    /// Error that is told of mixtures whose second paint is `factor` times as strong as the library has it.
+    /// Error found for mixtures with a second paint `factor` times as strong as the library has it.
     fn told(factor: f64) -> f64 {
         let oils = PigmentLibrary::van_gogh_oils();
         let nm: Vec<f64> = oils.grid.wavelengths_nm().collect();

@@ -20,9 +20,9 @@ use survey::{survey, survey_step};
 
 /// Gauss-Newton steps of the true pigments in a trial.
 const TRUTH_STEPS: usize = 12;
-/// Chi-square per degree of freedom above which no mixture explains a pixel: three standard
-/// deviations of sensor and library in all bands. The 65 measured oils reach 6.4, each without itself in the
-/// library; spectra that no paint has 17 and more.
+/// Chi-square per degree of freedom above which no mixture explains a pixel: three standard deviations of
+/// sensor and library in all bands. The 65 measured oils reach 6.4, each without itself in the library.
+/// Spectra that no paint has 17 and more.
 const OUT_OF_GAMUT: f64 = 9.0;
 /// Pixels that a thread maps at a time.
 const TOGETHER: usize = 256;
@@ -58,7 +58,7 @@ pub struct Mapper {
 }
 
 impl Mapper {
-    /// Prepares `library` for scans whose bands have the wavelengths `wavelengths` in nm, rising.
+    /// Prepares `library` for scans with bands at the wavelengths `wavelengths` in nm, rising.
     ///
     /// # Errors
     /// [`MapError`] if wavelengths, library and residuals do not fit together, a name is unknown, or a setting
@@ -181,9 +181,9 @@ impl Mapper {
         self.map(&self.open_book(book)?, spectra, &[])
     }
 
-    /// Maps pixels on all cores: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands of
-    /// each. Pixels whose mask in `masks` is not [`Mask::Mapped`] are passed over; no masks mean none. Each
-    /// pixel's numbers depend on itself and the book only.
+    /// Maps pixels on all cores: `spectra` holds the reflectances of pixel after pixel, 0 to 1, all bands
+    /// of each. Pixels with a mask in `masks` other than [`Mask::Mapped`] are passed over. No masks mean
+    /// none. Each pixel's numbers depend on itself and the book only.
     ///
     /// # Errors
     /// [`MapError::Length`] for a broken pixel, [`MapError::Masks`] unless there is a mask for each pixel or
@@ -330,9 +330,10 @@ impl Mapper {
 /// Best set of a search beside the true pigments of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
-    /// Score of the search less that of the true pigments; 0 or below where the search found what is as good.
+    /// Score of the search minus the score of the true pigments. It is 0 or below where the search found
+    /// what is as good.
     pub(crate) score: f32,
-    /// Chi-square of the search less that of the true pigments.
+    /// Chi-square of the search minus the chi-square of the true pigments.
     pub(crate) chi2: f32,
     /// Whether the search found the true columns.
     pub(crate) is_right: bool,

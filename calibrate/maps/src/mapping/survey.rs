@@ -126,18 +126,18 @@ fn frequencies(found: &[Vec<SetFit>]) -> BTreeMap<u32, f64> {
 /// Mean rise of the score without a pigment, in the paints that need it most, from which it is more likely than
 /// not in the palette. Chosen of 4 to 18 on simulated paintings.
 const NEEDED: f32 = 14.0;
-/// Number of paints whose mean tells how much a pigment is needed, where a scan has many: one of many may be off
-/// by chance.
+/// Number of paints in the mean that shows how much a pigment is needed, where a scan has many: one of
+/// many may be off by chance.
 const PAINTS: usize = 2;
 /// Number of paints from which a scan has many.
 const MANY: usize = 16;
 
-/// Probability of each pigment to be in the palette. `found` holds the sets of each surveyed pixel, the best first,
-/// and `paints` a number for each pixel: pixels of one number are one paint, because they share the errors of the
-/// library. `entries` are the pigments by place, those that look alike together: they are one entry of the palette,
-/// whose probability they share as far as the paints do not tell them apart. `excess` is the factor, 1 or more, by
-/// which the errors of the survey exceed those that scores reckon with; where it is so great that no pigment could be
-/// needed, each is as likely as not.
+/// Probability of each pigment to be in the palette. `found` holds the sets of each surveyed pixel, the
+/// best first, and `paints` a number for each pixel: pixels of one number are one paint, because they
+/// share the errors of the library. `entries` are the pigments by place, pigments that look alike
+/// together: they are one entry of the palette and share its probability as far as the paints do not tell
+/// them apart. `excess` is the factor, 1 or more, by which the errors of the survey exceed those that
+/// scores reckon with; where it is so great that no pigment could be needed, each is as likely as not.
 pub(crate) fn palette(
     found: &[Vec<SetFit>],
     paints: &[usize],

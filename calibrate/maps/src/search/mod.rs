@@ -29,7 +29,7 @@ const HOPELESS: f32 = 12.0;
 const SHORTLIST_PENALTY: f32 = 6.0;
 /// Score above the best from which a linearised set is not refined.
 const FAR: f32 = 30.0;
-/// Chi-square of three pigments relative to that of the best pair from which they are passed over.
+/// Three pigments are passed over from this chi-square on, relative to the best pair.
 const WORSE: f64 = 1.5;
 /// All that a search needs, but the pixel.
 #[derive(Debug, Clone)]
@@ -71,7 +71,7 @@ impl Scratch {
 }
 
 impl Engine {
-    /// The engine for a scan whose palette holds each pigment with these probabilities.
+    /// The engine for a scan with these probabilities of the pigments in its palette.
     pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
         Self { scores: self.scores.with_palette(palette), ..self.clone() }
     }
@@ -386,10 +386,10 @@ pub(crate) struct Nearest {
 struct Node {
     first: u32,
     last: u32,
-    /// Dimension of the split; `DIMENSIONS` for a leaf.
+    /// Dimension of the split, or `DIMENSIONS` for a leaf.
     dimension: u32,
     value: f32,
-    /// Node of the points above the split; those below follow the node itself.
+    /// Node of the points above the split. Those below follow the node itself.
     above: u32,
 }
 
@@ -402,8 +402,8 @@ impl Nearest {
         Self { points, places: order, nodes }
     }
 
-    /// Places and squared distances of the `K` nearest points, the nearest first; ties by place. Fewer
-    /// points leave places of `u32::MAX`.
+    /// Places and squared distances of the `K` nearest points, the nearest first. Ties are broken by
+    /// place. Fewer points leave places of `u32::MAX`.
     pub(crate) fn find<const K: usize>(&self, point: &Point) -> [(f32, u32); K] {
         let mut best = [(f32::INFINITY, u32::MAX); K];
         if !self.nodes.is_empty() {

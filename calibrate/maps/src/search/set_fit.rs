@@ -12,7 +12,7 @@ use crate::films::film::{Difference, Films, MOST_IN_SET, Pixel};
 /// A set of one to four pigments with shares that fit a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SetFit {
-    /// Places of the pigments, rising; `u8::MAX` beyond the last.
+    /// Places of the pigments, rising, with `u8::MAX` beyond the last.
     pub(crate) members: [u8; MOST_IN_SET],
     pub(crate) count: u8,
     /// Shares of the members, sum 1.
@@ -40,7 +40,7 @@ impl SetFit {
         fit
     }
 
-    /// A set of one to four pigments with their shares; `None` for any other number.
+    /// A set of one to four pigments with their shares, or `None` for any other number.
     pub(crate) fn of_parts(parts: &[(usize, f32)]) -> Option<Self> {
         let unknown = f32::INFINITY;
         Some(match *parts {
@@ -164,7 +164,7 @@ const FREE_SHARE: f64 = 1.0 / 12.0;
 
 impl Difference {
     /// -2 ln of the part of all shares of `count` pigments that agree with the pixel, where variances are
-    /// `excess` times those of the curvature: what a set pays for shares that had to be found exactly.
+    /// `excess` times the curvature's: the price that a set pays for shares that had to be found exactly.
     pub(crate) fn exactness(&self, count: usize, excess: f64) -> f64 {
         let last = count - 1;
         let mut left = [[0.0; MOST_IN_SET]; MOST_IN_SET];
@@ -234,7 +234,8 @@ fn inverse_of<const N: usize>(difference: &Difference) -> Option<(Square, f64)> 
     Some((inverted::<N>(left)?, weight))
 }
 
-/// Inverse of a positive definite matrix by Gauss-Jordan elimination; `None` if a pivot is not positive.
+/// Inverse of a positive definite matrix by Gauss-Jordan elimination, or `None` if a pivot is not
+/// positive.
 #[inline(always)]
 fn inverted<const N: usize>(mut left: Square) -> Option<Square> {
     let mut right = [[0.0; MOST_IN_SET]; MOST_IN_SET];
@@ -266,7 +267,7 @@ fn inverted<const N: usize>(mut left: Square) -> Option<Square> {
 
 /// Scores above the best beyond which a set does not matter: its weight is below 2e-3.
 pub(crate) const NEGLIGIBLE: f32 = 20.0;
-/// Factor by which differences of scores count less than those of exact likelihoods: the errors of a library are
+/// Factor by which differences of scores count less than exact likelihoods: the errors of a library are
 /// known roughly, so that probabilities would promise too much. Chosen of 1 to 3 on simulated paintings.
 const TEMPERATURE: f64 = 1.5;
 /// Probability of a pigment that a survey needs nowhere.
@@ -285,13 +286,14 @@ pub(crate) struct Scores {
     of_pigment: Vec<f32>,
     /// Chi-square that a pigment must save of which no survey says that it is in the palette.
     penalty: f64,
-    /// Degrees of freedom of the residuals' distribution; infinite for a normal one.
+    /// Degrees of freedom of the residuals' distribution, infinite for a normal one.
     tail: f64,
 }
 
 impl Scores {
-    /// Scores of pixels of `bands` before a survey, for sets of `pigments` each of which must save the chi-square
-    /// `penalty`. `tail` are the degrees of freedom of the residuals' distribution; infinite for a normal one.
+    /// Scores of pixels of `bands` before a survey, for sets of `pigments` each of which must save the
+    /// chi-square `penalty`. `tail` are the degrees of freedom of the residuals' distribution, infinite
+    /// for a normal one.
     pub(crate) fn new((pigments, bands): (usize, usize), penalty: f64, tail: f64) -> Self {
         Self {
             bands,
@@ -322,13 +324,14 @@ impl Scores {
         set.parts().map(|(member, _)| self.of_pigment[member]).sum()
     }
 
-    /// Weight of a set whose score is `above` that of the best one.
+    /// Weight of a set with a score `above` the best one.
     pub(crate) fn weight(above: f32) -> f64 {
         (-0.5 / TEMPERATURE * f64::from(above)).exp()
     }
 
-    /// The scores of a scan whose palette holds each pigment with these probabilities. Pigments outside it pay
-    /// for that and the penalty, and those inside it no penalty: it guards against pigments that are not there.
+    /// The scores of a scan with these probabilities of the pigments in its palette. Pigments outside it
+    /// pay for that and the penalty, and those inside it no penalty: it guards against pigments that are
+    /// not there.
     pub(crate) fn with_palette(&self, palette: &[f32]) -> Self {
         let size: f64 = palette.iter().map(|p| f64::from(*p)).sum();
         Self {

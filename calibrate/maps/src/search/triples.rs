@@ -19,7 +19,7 @@ struct Line {
     /// Square of the difference of pigment `b`, and its inverse.
     square: f64,
     inverse: f64,
-    /// Product of this difference with that of the pixel.
+    /// Product of this difference with the pixel's.
     to_b: f64,
     /// Least sum of squares of the two pigments with shares of any sign.
     of_pair: f64,
@@ -58,8 +58,8 @@ impl<F: FnMut([usize; 3], [f64; 3], f64) -> f64> Task for Triples<'_, F> {
 }
 
 impl Quadratic {
-    /// Calls `found` with the places, the shares and the sum of squares of three pigments whose best shares
-    /// are all above 0, if the sum is below a limit: at first `limit`, then what `found` returned last.
+    /// Calls `found` with the places, the shares and the sum of squares of three pigments with best
+    /// shares above 0, if the sum is below a limit: at first `limit`, then what `found` returned last.
     pub(crate) fn triples(
         &self,
         limit: f64,
@@ -122,8 +122,8 @@ impl Quadratic {
         Line { square, to_b, inverse: 1.0 / square, of_pair: base - to_b * to_b / square }
     }
 
-    /// Marks the third pigments after `b` that may be in a set with `a` and `b` whose sum is below `limit`. A
-    /// little slack makes up for rounding.
+    /// Marks the third pigments after `b` that may be in a set with `a` and `b` and a sum below `limit`.
+    /// A little slack makes up for rounding.
     #[inline(always)]
     fn mark<V: Vectors>(&self, v: V, (a, b): (usize, usize), limit: f64, marks: &mut Marks) {
         let columns = self.own.len();
@@ -160,7 +160,7 @@ impl Quadratic {
 #[derive(Debug, Clone)]
 pub(crate) struct Quadratic {
     pub(super) count: usize,
-    /// Lanes before that of the first pigment.
+    /// Lanes before the first pigment.
     pub(super) before: usize,
     /// Products by pair.
     pub(super) products: Vec<f64>,
@@ -168,7 +168,7 @@ pub(crate) struct Quadratic {
     pub(super) rows: Vec<f32x8>,
     /// Products of each pigment with itself, in lanes.
     pub(super) own: Vec<f32x8>,
-    /// Sizes by which the rows are divided; the shares of a set are divided by them too.
+    /// Sizes by which the rows are divided. The shares of a set are divided by them too.
     sizes: Vec<f64>,
 }
 
@@ -211,7 +211,7 @@ impl Quadratic {
         self.products[a * self.count + b]
     }
 
-    /// A set whose parts of the divided rows are `parts`.
+    /// A set with the parts `parts` of the divided rows.
     pub(crate) fn fit<const N: usize>(
         &self,
         members: [usize; N],
@@ -232,7 +232,7 @@ impl Quadratic {
         SetFit::new([a], [1.0], self.at(a, a) as f32)
     }
 
-    /// Shares of two pigments where the sum of squares is least; `None` if one is 0 or less.
+    /// Shares of two pigments where the sum of squares is least, or `None` if one is 0 or less.
     #[inline(always)]
     pub(crate) fn pair(&self, a: usize, b: usize) -> Option<(f64, f64)> {
         let aa = self.at(a, a);
@@ -244,7 +244,7 @@ impl Quadratic {
         (to_a > 0.0 && to_b > 0.0).then_some((share, bb - share * to_a))
     }
 
-    /// Shares of a set where the sum of squares is least; `None` if one is 0 or less.
+    /// Shares of a set where the sum of squares is least, or `None` if one is 0 or less.
     pub(crate) fn set<const N: usize>(&self, members: [usize; N]) -> Option<SetFit> {
         // The last share is 1 less the others.
         let last = members[N - 1];

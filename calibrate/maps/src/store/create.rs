@@ -19,7 +19,7 @@ use documents::file::{FileAction, FileError, write_whole};
 pub enum StoreMode {
     /// The folder must not be there, or must be empty.
     New,
-    /// A store of the same run may be there; what it holds stays.
+    /// A store of the same run may be there. What it holds stays.
     Resume,
 }
 
@@ -70,7 +70,7 @@ impl MapStore {
         Ok(store)
     }
 
-    /// Whether the folder is a store of this run already; an error if it holds anything else.
+    /// Whether the folder is a store of this run already. It is an error if it holds anything else.
     fn is_there(&self, group: &Value, mode: StoreMode) -> Result<bool, StoreError> {
         if !self.path.exists() {
             return Ok(false);
@@ -293,7 +293,7 @@ struct Row {
     shard: ShardBuilder,
 }
 
-/// A shard that is being made. Memory is that of one row of chunks and of the packed chunks.
+/// A shard during its creation. You need memory for one row of chunks and for the packed chunks.
 #[derive(Debug)]
 pub struct ShardWriter<'s> {
     store: &'s MapStore,

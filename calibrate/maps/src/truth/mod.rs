@@ -35,20 +35,20 @@ pub struct ComparisonRow {
     /// Part of the shares told to be present that lie within one standard deviation of the truth. Pixels of one
     /// pigment alone are left out.
     pub within_sd: f64,
-    /// Part of the mapped pixels whose chi-square is [`CHI2_RISEN`] or more.
+    /// Share of the mapped pixels with a chi-square of [`CHI2_RISEN`] or more.
     pub chi2_risen: f64,
 }
 
 /// Figures of one pigment or group over all pixels but bare ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PigmentFigures {
-    /// Name of the pigment or group; the last row holds those that the maps do not know.
+    /// Name of the pigment or group. The last row holds those that the maps do not know.
     pub name: String,
-    /// Part of the pixels where it is present.
+    /// Share of the pixels where it is present.
     pub there: f64,
-    /// Part of the pixels where it is told, traces left out.
+    /// Share of the pixels where it is told, traces left out.
     pub told: f64,
-    /// Part of the pixels where it is present and told.
+    /// Share of the pixels where it is present and told.
     pub right: f64,
 }
 
@@ -104,8 +104,8 @@ const KINDS: [(&str, &[PaintClass], Option<usize>); 8] = [
     ("bare", &[PaintClass::Bare], None),
 ];
 
-/// Compares `maps` with `truth`, block by block. A pigment is present where its share of the paint that is seen is
-/// `least` or more; smaller shares are traces, which are neither right nor wrong to tell.
+/// Compares `maps` with `truth`, block by block. A pigment is present where its share of the paint that
+/// is seen is `least` or more. Smaller shares are traces, which count as neither right nor wrong.
 ///
 /// # Errors
 /// [`TruthError`] if one of both cannot be read, or they are of different scans.
@@ -174,7 +174,7 @@ pub fn compare(maps: &StoredMaps, truth: &Truth, least: f64) -> Result<Compariso
     })
 }
 
-/// Column of the maps of each pigment of the truth; the number of columns where the maps have none.
+/// Column of the maps of each pigment of the truth, or the number of columns where the maps have none.
 fn columns_of(maps: &StoredMaps, truth: &Truth) -> Vec<usize> {
     let groups = &maps.attributes().get("settings").unwrap_or(&Value::Null)["groups"];
     let holds = |column: &String, pigment: &String| match groups[column.as_str()].as_array() {

@@ -12,8 +12,8 @@ use serde_json::{Map, Value, json};
 use crate::camera::Camera;
 use crate::store::StoreError;
 
-/// Numbers of parts of which the truth of a pixel consists: those of pigments, then of layers, then that of the
-/// ground. Those of the pigments sum to 1 with that of the ground, and so do those of the layers.
+/// Numbers of parts in the truth of a pixel: pigments, then layers, then the ground. Pigments and ground
+/// sum to 1, and so do layers and ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TruthParts {
     /// Number of pigments.
@@ -35,7 +35,7 @@ impl TruthParts {
 pub struct TruthRows {
     /// Number of pigments.
     pub pigments: usize,
-    /// Share of each pigment in the paint that is seen, sum 1; all 0 where no paint is.
+    /// Share of each pigment in the paint that is seen, with sum 1. All are 0 where there is no paint.
     pub share: Vec<f32>,
     /// Part of the ground in what is seen, 0 to 1.
     pub ground: Vec<f32>,
@@ -45,8 +45,8 @@ pub struct TruthRows {
     pub class: Vec<PaintClass>,
 }
 
-/// Truth of `rows`, of which the camera told `mean_reflectance`. `of(line)` gives the parts of a row, those of one
-/// pixel after another in the order of [`TruthParts`].
+/// Truth of `rows`, of which the camera reported `mean_reflectance`. `of(line)` gives the parts of a row,
+/// pixel by pixel in the order of [`TruthParts`].
 #[must_use]
 pub fn truth_rows(
     camera: &Camera,

@@ -251,7 +251,7 @@ fn pixels_are_spread_over_the_scan_and_sign_it() {
     assert_ne!(damaged.sign().unwrap(), sign, "another pixel");
 }
 
-/// Headers that the suite tries; IMPASTO_FUZZ_HEADERS names another number.
+/// Headers that the suite tries. IMPASTO_FUZZ_HEADERS names another number.
 fn cases() -> u32 {
     let asked = std::env::var("IMPASTO_FUZZ_HEADERS").ok();
     asked.and_then(|number| number.parse().ok()).unwrap_or(4000)
@@ -379,7 +379,7 @@ fn any_header_gives_an_error_or_a_result() {
     assert!(read > cases() / 20, "only {read} of {} headers were read", cases());
 }
 
-/// Message and hint of opening a scan of type u8 whose header was changed.
+/// Message and hint of opening a scan of type u8 with a changed header.
 fn refused_header(from: &str, to: &str) -> (String, String) {
     let folder = tempfile::tempdir().unwrap();
     let text = header("bil", 1, "");

@@ -48,7 +48,7 @@ fn reflectance(line: usize, sample: usize, band: usize) -> f64 {
     f64::from(value(line, sample, band)) / 200.0
 }
 
-/// Writes a camera's folder with counts; the white alternates around its mean.
+/// Writes a camera's folder with counts. The white alternates around its mean.
 fn write_folder(folder: &Path) -> PathBuf {
     let capture = folder.join("capture");
     std::fs::create_dir_all(&capture).unwrap();
@@ -154,7 +154,7 @@ fn one_column_of_readings_serves_all_columns() {
     check_block(&cube.read_rows(0..LINES).unwrap(), 1.0 / 200.0, "one column");
 }
 
-/// Message of opening a folder whose files were changed.
+/// Message of opening a folder with changed files.
 fn refused_folder(change: impl Fn(&Path)) -> (String, String) {
     let folder = tempfile::tempdir().unwrap();
     write_folder(folder.path());
@@ -461,7 +461,7 @@ fn missing_chunks_hold_the_fill_value() {
     }
 }
 
-/// Message and hint of opening a group whose description of an array was changed.
+/// Message and hint of opening a group with a changed description of an array.
 fn refused_array(array: &str, key: &str, changed: Value) -> (String, String) {
     let folder = tempfile::tempdir().unwrap();
     write_group(folder.path(), [0, 1, 2], None);

@@ -29,7 +29,7 @@ pub(crate) fn about(rows: usize, columns: usize, pigments: usize) -> MapsAbout {
     }
 }
 
-/// Maps of a rectangle whose numbers depend on the pixel alone.
+/// Maps of a rectangle with numbers that depend on the pixel alone.
 pub(crate) fn maps_of(
     rows: std::ops::Range<usize>,
     columns: std::ops::Range<usize>,
@@ -264,7 +264,7 @@ fn the_description_holds_names_hashes_and_settings() {
 const LINES: usize = 2300;
 const SAMPLES: usize = 300;
 
-/// Writes a scan of two shards whose pixels differ.
+/// Writes a scan of two shards with different pixels.
 fn write_scan(folder: &Path) -> PathBuf {
     let mut data = Vec::with_capacity(LINES * SAMPLES * 4);
     for line in 0..LINES {

@@ -39,7 +39,7 @@ pub struct EnviHeader {
 }
 
 impl EnviHeader {
-    /// Reads the header in `bytes`; `path` is its name in messages.
+    /// Reads the header in `bytes`. `path` is its name in messages.
     ///
     /// # Errors
     /// [`CubeError`] with line and key, for anything that the data cannot be read with.
@@ -327,7 +327,7 @@ impl Fields {
         Ok(Self { path: path.to_owned(), fields })
     }
 
-    /// The value of a key and its line; an error if it is given twice with different values.
+    /// The value of a key and its line. It is an error if it is given twice with different values.
     fn find(&self, key: &str) -> Result<Option<&Field>, CubeError> {
         let mut found = self.fields.iter().filter(|field| field.key == key);
         let Some(first) = found.next() else { return Ok(None) };

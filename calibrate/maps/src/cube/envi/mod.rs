@@ -43,8 +43,7 @@ pub(crate) fn places(path: &Path) -> Vec<PathBuf> {
     places
 }
 
-/// Finds the data file of the header at `path`. If several files can be it, the one whose size fits
-/// is.
+/// Finds the data file of the header at `path`. If several files could be the data, the size decides.
 #[cfg(feature = "files")]
 pub(crate) fn data_of(path: &Path, header: &EnviHeader) -> Result<PathBuf, CubeError> {
     let found: Vec<_> = places(path).into_iter().filter(|place| place.is_file()).collect();
@@ -145,7 +144,7 @@ pub(crate) fn check_length(path: &Path, bytes: u64) -> Result<(), CubeError> {
     Err(CubeError::format(path, problem, "name the header, which is a short text"))
 }
 
-/// The scan of a header and its data, whose size fits.
+/// The scan of a header and of data with the matching size.
 pub(crate) fn opened(path: &Path, header: EnviHeader, file: PositionalFile) -> Opened {
     let layout = header.layout;
     let values = match (header.gains, header.scale_factor) {
