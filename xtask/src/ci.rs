@@ -64,7 +64,7 @@ fn stages() -> Outcome {
     clock.stage("lints", || checks::lint(&[]))?;
     let build = "test --workspace --locked --no-run --timings";
     clock.stage("build of the tests", || Run::cargo(build).go())?;
-    println!("{}", slowest_crates(12));
+    print!("{}", slowest_crates(15));
     let adapter = clock.stage("graphics adapter", adapter)?;
     clock.stage("packages, fetched beside", || {
         python.finish()?;
@@ -159,17 +159,13 @@ fn adapter() -> Outcome<Environment> {
 /// The crates that took cargo the longest in its last build with `--timings`, one a line.
 fn slowest_crates(most: usize) -> String {
     let page = target().join("cargo-timings/cargo-timing.html");
-    let page = fs::read_to_string(page).unwrap_or_default();
-    let mut units = timed_units(&page);
+    let mut units = timed_units(&fs::read_to_string(page).unwrap_or_default());
     units.sort_by(|(_, a), (_, b)| b.total_cmp(a));
-    let lines = units.iter().take(most).map(|(name, seconds)| format!("{seconds:7.1} s  {name}"));
-    let all: f64 = units.iter().map(|(_, seconds)| seconds).sum();
-    let lines: Vec<String> = lines.collect();
-    format!(
-        "{} crates and programs, {all:.0} s on one core; the slowest:\n{}",
-        units.len(),
-        lines.join("\n")
-    )
+    let mut lines = String::new();
+    for (name, seconds) in units.iter().take(most) {
+        let _ = writeln!(lines, "{seconds:9.1} s  {name}");
+    }
+    lines
 }
 
 /// Name and seconds of every unit in cargo's page of timings, which holds them as JSON.

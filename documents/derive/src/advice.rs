@@ -47,7 +47,7 @@ impl Advice {
     }
 }
 
-/// `#[hint(..)]`.
+/// The attribute `#[hint(..)]` of a variant.
 pub(crate) struct HintAttribute {
     /// The condition after `if`.
     pub(crate) condition: Option<Expr>,
@@ -62,7 +62,7 @@ pub(crate) enum HintSource {
     With(Expr),
     /// The error that this one wraps.
     Inner(Inner),
-    /// Nowhere.
+    /// The variant has no hint.
     None,
 }
 
@@ -127,7 +127,7 @@ impl Parse for HintSource {
     }
 }
 
-/// `#[fault(..)]`.
+/// The attribute `#[fault(..)]` of a variant.
 pub(crate) enum FaultAttribute {
     /// A variant of `Fault`.
     Kind(Ident),
