@@ -8,8 +8,7 @@
 
 use rayon::prelude::*;
 
-use crate::blur::blurred;
-use crate::field::Field;
+use crate::field::{Field, blurred};
 
 /// Weight of each Gaussian relative to the one half as wide (chosen by eye).
 const WIDER: f32 = 0.25;

@@ -4,8 +4,7 @@ use std::path::Path;
 
 use documents::hint::{Explain, Hint};
 
-use crate::jpeg_end::{CUT_OFF, is_cut_off_jpeg};
-use crate::picture_formats::NAMES;
+use crate::picture_formats::{CUT_OFF, NAMES, is_cut_off_jpeg};
 
 /// Number of samples of a [`ToneRamp`], joined by straight lines.
 pub const TONES: usize = 256;

@@ -10,7 +10,7 @@ use std::ops::Range;
 use pulp::Simd;
 use rayon::prelude::*;
 
-use super::depth_tiles::{DepthTiles, SIDE};
+use super::depths::{DepthTiles, SIDE};
 use crate::compute::{Compute, GpuCompute, GreyImage, Image, Plane};
 use crate::field::Field;
 use crate::gpu::{DeviceError, Kernel, Storage, layout};

@@ -6,7 +6,7 @@ use ply_rs_bw::ply::{
 };
 use ply_rs_bw::writer::Writer;
 
-use super::error::ExportError;
+use super::ExportError;
 
 /// Encodes triangles as a binary PLY file (Turk 1994): `x`, `y`, `z` of each vertex, its colour as
 /// `red`, `green`, `blue` (encoded sRGB, 0..1, written as bytes), and `vertex_indices` of each face.

@@ -2,10 +2,8 @@
 
 use std::sync::Arc;
 
-use super::bands::Sides;
-use super::packed::PackedMesh;
-use super::raster::{RASTER, RasterParams, Rasteriser};
-use super::visibility::{Fragment, VisibilityBuffer};
+use super::raster::{RASTER, RasterParams, Rasteriser, Sides};
+use super::{Fragment, PackedMesh, VisibilityBuffer};
 use crate::camera::Camera;
 use crate::compute::{Compute, GpuCompute, Image, Plane};
 use crate::field::Field;

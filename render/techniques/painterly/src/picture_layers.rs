@@ -1,9 +1,8 @@
 //! The colours of a picture at the size of the strokes of each layer, and where they are needed.
 
 use glam::Vec3;
-use graphics::blur::blurred;
 use graphics::encoding::lab_from_linear;
-use graphics::field::Field;
+use graphics::field::{Field, blurred};
 use graphics::mesh::Texture;
 use graphics::picture::{Photograph, Picture};
 use rayon::prelude::*;

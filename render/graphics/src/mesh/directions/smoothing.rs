@@ -4,14 +4,21 @@
 //! With squares z of unit lines, and links that carry them between tangent planes, it minimises
 //! spread * sum of stiffness |z_i - turn z_j|^2 over the links + sum of weight |z_i - wanted_i|^2
 //! over the places (Knoeppel, Crane, Pinkall and Schroeder, "Globally optimal direction fields",
-//! 2013, section 4, with the alignment as a quadratic term). That is one linear system, solved by
+//! 2013, section 4, with the alignment as a quadratic term). This is one linear system, solved by
 //! conjugate gradients with a diagonal preconditioner (Hestenes and Stiefel, 1952).
+//!
+//! The evidence is the direction and strength that curvature asks for at every place. A link joins
+//! two neighbouring places: it knows how squares of tangent vectors turn on the way, and how
+//! strongly it holds both together.
 
-use glam::DVec2;
+use std::ops::Range;
+
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::evidence::Evidence;
-use super::links::Links;
+use super::{Along, Line};
+use crate::mesh::curvature::{PlaceShape, Places, ShapeTensor, TangentPlane, carried};
+use crate::smoothstep;
 
 /// Residual, relative to that of no lines at all, at which the solver stops.
 const RESIDUAL: f64 = 1e-8;
@@ -149,4 +156,269 @@ fn dot(a: &[DVec2], b: &[DVec2]) -> f64 {
 fn add_scaled(field: &mut [DVec2], factor: f64, other: &[DVec2]) {
     let pairs = field.par_iter_mut().with_min_len(PORTION).zip(other);
     pairs.for_each(|(value, other)| *value += *other * factor);
+}
+
+/// Difference of both curvatures, relative to the greater one, from which a direction begins to
+/// count, and from which it counts fully: below, the shape of the triangles decides it.
+const ANISOTROPY: [f64; 2] = [0.03, 0.15];
+
+/// Mean reliability of a connected part above which no axis is added, and below which it is added
+/// fully.
+const SHAPELESS: [f64; 2] = [0.005, 0.03];
+
+/// An axis counts for a connected part if it lies along its surface at least half as well as the
+/// best axis.
+const AXIS_SHARE: f64 = 0.5;
+
+/// Directions asked for at all places: sums of squares of vectors in the tangent planes and of
+/// their weights (reliability in 0..1 times area).
+#[derive(Debug, Clone)]
+pub(super) struct Evidence {
+    /// Weight at every place.
+    pub(super) weights: Vec<f64>,
+    /// Weighted unit square at every place.
+    pub(super) squares: Vec<DVec2>,
+}
+
+impl Evidence {
+    /// Principal directions of a model of this radius.
+    pub(super) fn of_curvature(shapes: &[PlaceShape], radius: f64, along: Along) -> Self {
+        let weight = |shape: &PlaceShape| shape.area * reliability(&shape.tensor, radius);
+        let weights: Vec<f64> = shapes.iter().map(weight).collect();
+        let pairs = shapes.iter().zip(&weights);
+        let squares =
+            pairs.map(|(shape, weight)| principal_square(&shape.tensor, along) * *weight).collect();
+        Self { weights, squares }
+    }
+
+    /// Lines of the vertices, weighted by the area of their places.
+    pub(super) fn of_lines(
+        of_vertex: &[u32],
+        planes: &[TangentPlane],
+        shapes: &[PlaceShape],
+        lines: &[Line],
+    ) -> Self {
+        let mut own =
+            Self { weights: vec![0.0; planes.len()], squares: vec![DVec2::ZERO; planes.len()] };
+        for (&place, line) in of_vertex.iter().zip(lines) {
+            let place = place as usize;
+            let flat = planes[place].projected(DVec3::from(line.along.map(f64::from)));
+            let Some(unit) = flat.try_normalize() else { continue };
+            let weight = f64::from(line.weight.clamp(0.0, 1.0)) * shapes[place].area;
+            own.weights[place] += weight;
+            own.squares[place] += weight * unit.rotate(unit);
+        }
+        own
+    }
+
+    /// Adds an axis of the model to every connected part whose curvature tells no direction, for
+    /// example a sphere or a plane, unless it has a fixed place.
+    pub(super) fn add_axes(
+        &mut self,
+        links: &Links,
+        planes: &[TangentPlane],
+        shapes: &[PlaceShape],
+        fixed: &[bool],
+    ) {
+        let (order, parts) = links.parts();
+        for part in parts {
+            let places = || order[part.clone()].iter().map(|&place| place as usize);
+            if places().any(|place| fixed[place]) {
+                continue;
+            }
+            let area: f64 = places().map(|place| shapes[place].area).sum();
+            let weight: f64 = places().map(|place| self.weights[place]).sum();
+            let share = 1.0 - smoothstep(SHAPELESS, weight / area.max(f64::MIN_POSITIVE));
+            if share == 0.0 {
+                continue;
+            }
+            let axis = axis_along(&order, part.clone(), planes, shapes);
+            for place in places() {
+                let flat = planes[place].projected(axis);
+                let weight = share * shapes[place].area;
+                self.weights[place] += weight * flat.length_squared();
+                self.squares[place] += weight * flat.rotate(flat);
+            }
+        }
+    }
+}
+
+/// How far the principal directions of a tensor can be relied on, 0..1: grows with the difference
+/// between the absolute values of both curvatures times the model's radius, and is 0 where they are
+/// nearly equal. On a saddle with curvatures +k and -k neither is the least.
+fn reliability(tensor: &ShapeTensor, radius: f64) -> f64 {
+    let mean = tensor.mean.abs();
+    let half = tensor.difference.length();
+    let difference = 2.0 * mean.min(half);
+    if difference <= 0.0 {
+        return 0.0;
+    }
+    let scaled = difference * radius;
+    scaled / (1.0 + scaled) * smoothstep(ANISOTROPY, difference / (mean + half))
+}
+
+/// Unit square of the principal direction, or 0 if there is none.
+fn principal_square(tensor: &ShapeTensor, along: Along) -> DVec2 {
+    // The direction of the greater curvature by sign is that of the greater by size if convex.
+    let greatest = if tensor.mean >= 0.0 { tensor.difference } else { -tensor.difference };
+    let square = greatest.normalize_or_zero();
+    match along {
+        Along::Least => -square,
+        Along::Greatest => square,
+    }
+}
+
+/// The axis that lies along the surface of a part: y, or else x, or else z.
+fn axis_along(
+    order: &[u32],
+    part: Range<usize>,
+    planes: &[TangentPlane],
+    shapes: &[PlaceShape],
+) -> DVec3 {
+    let axes = [DVec3::Y, DVec3::X, DVec3::Z];
+    let lengths = axes.map(|axis| {
+        let places = order[part.clone()].iter().map(|&place| place as usize);
+        places
+            .map(|place| shapes[place].area * planes[place].projected(axis).length_squared())
+            .sum::<f64>()
+    });
+    let most = lengths.iter().fold(0.0_f64, |most, &length| most.max(length));
+    let found = lengths.iter().position(|&length| length >= AXIS_SHARE * most);
+    axes[found.unwrap_or(0)]
+}
+
+/// A link from one place to a neighbour.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Link {
+    /// Place at the other end.
+    pub(super) to: u32,
+    /// Above 0, and the same in both directions.
+    pub(super) stiffness: f64,
+    /// Factor that carries squares of vectors from the neighbour's tangent plane to this one.
+    pub(super) turn: DVec2,
+}
+
+/// The links of every place.
+#[derive(Debug, Clone)]
+pub(super) struct Links {
+    starts: Vec<u32>,
+    all: Vec<Link>,
+}
+
+impl Links {
+    /// The links along the edges of the triangles. The stiffness is that of the edge times (1 +
+    /// cosine of the angle between the normals) / 2; places of opposite normals have no link.
+    pub(super) fn new(places: &Places, planes: &[TangentPlane]) -> Self {
+        let mut starts = vec![0];
+        let mut all = Vec::with_capacity(places.stiffness.len());
+        for place in 0..places.neighbours.count() {
+            let stiffness = &places.stiffness[places.neighbours.slots(place)];
+            for (&to, stiffness) in places.neighbours.of(place).iter().zip(stiffness) {
+                let here = &planes[place];
+                let there = &planes[to as usize];
+                if let Some(turn) = there.turn_of_squares(here) {
+                    let folded = 0.5 * (1.0 + here.normal.dot(there.normal));
+                    all.push(Link { to, stiffness: stiffness * folded, turn });
+                }
+            }
+            starts.push(all.len() as u32);
+        }
+        Self { starts, all }
+    }
+
+    /// Number of places.
+    pub(super) fn count(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The links of a place.
+    pub(super) fn of(&self, place: usize) -> &[Link] {
+        &self.all[self.starts[place] as usize..self.starts[place + 1] as usize]
+    }
+
+    /// The places in connected groups: a list of all places, and the range of each group in it.
+    /// Groups are ordered by their first place.
+    pub(super) fn parts(&self) -> (Vec<u32>, Vec<Range<usize>>) {
+        let mut reached = vec![false; self.count()];
+        let mut order: Vec<u32> = Vec::with_capacity(self.count());
+        let mut parts = Vec::new();
+        for first in 0..self.count() {
+            if reached[first] {
+                continue;
+            }
+            reached[first] = true;
+            let start = order.len();
+            let mut next = start;
+            order.push(first as u32);
+            while next < order.len() {
+                for link in self.of(order[next] as usize) {
+                    if !std::mem::replace(&mut reached[link.to as usize], true) {
+                        order.push(link.to);
+                    }
+                }
+                next += 1;
+            }
+            parts.push(start..order.len());
+        }
+        (order, parts)
+    }
+}
+
+/// Unit line at a point of a triangle, from the normals and unit lines at its corners, whose
+/// weights are not negative and add up to 1. The lines are carried to the plane of the interpolated
+/// normal and averaged as squares, so their signs do not matter, and two triangles agree along the
+/// edge that they share.
+pub(super) fn line_within(normals: [DVec3; 3], lines: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    let plane = TangentPlane::of_normal(normal_within(normals, weights));
+    let mut sum = DVec2::ZERO;
+    for i in 0..3 {
+        if let Some(line) = carried(lines[i], normals[i], plane.normal) {
+            let flat = plane.projected(line);
+            sum += weights[i] * flat.rotate(flat);
+        }
+    }
+    plane.along(sum)
+}
+
+/// Tangent vector at a point of a triangle, from the normals and tangent vectors at its corners.
+pub(super) fn vector_within(normals: [DVec3; 3], vectors: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    let normal = normal_within(normals, weights);
+    let parts = (0..3).filter_map(|i| Some(weights[i] * carried(vectors[i], normals[i], normal)?));
+    parts.sum()
+}
+
+/// Interpolated unit normal; that of the heaviest corner if they cancel out.
+fn normal_within(normals: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    let sum: DVec3 = (0..3).map(|i| weights[i] * normals[i]).sum();
+    let heaviest = (1..3).fold(0, |most, i| if weights[i] > weights[most] { i } else { most });
+    sum.try_normalize().unwrap_or(normals[heaviest])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tensor(mean: f64, half: f64) -> ShapeTensor {
+        ShapeTensor { mean, difference: DVec2::new(half, 0.0) }
+    }
+
+    #[test]
+    fn the_evidence_is_continuous_where_a_saddle_is_symmetric() {
+        let pull = |mean| {
+            let tensor = tensor(mean, 1.0);
+            reliability(&tensor, 1.0) * principal_square(&tensor, Along::Least)
+        };
+        assert_eq!(pull(0.0), DVec2::ZERO);
+        assert!((pull(1e-3) - pull(-1e-3)).length() < 1e-3, "{} {}", pull(1e-3), pull(-1e-3));
+        assert!(pull(0.5).x < -0.3 && pull(-0.5).x > 0.3, "{} {}", pull(0.5), pull(-0.5));
+    }
+
+    #[test]
+    fn reliability_grows_with_the_difference_and_does_not_depend_on_scale() {
+        let ball = reliability(&tensor(1.0, 0.005), 1.0);
+        let egg = reliability(&tensor(1.0, 0.1), 1.0);
+        let branch = reliability(&tensor(1.0, 1.0), 1.0);
+        assert!(ball == 0.0 && egg > 0.05 && branch > 2.0 * egg, "{ball} {egg} {branch}");
+        assert!((reliability(&tensor(1e-6, 1e-6), 1e6) - branch).abs() < 1e-12);
+    }
 }

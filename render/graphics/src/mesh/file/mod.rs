@@ -1,11 +1,6 @@
 //! Models read from files.
-
-mod error;
 mod part;
-mod picture;
-mod obj_lines;
 mod obj;
-mod gltf_values;
 mod gltf;
 mod ply;
 
@@ -13,7 +8,7 @@ use std::path::Path;
 
 use documents::file::{is_standard_input, read};
 
-pub use error::MeshError;
+pub use part::MeshError;
 
 use super::model::Mesh;
 

@@ -8,8 +8,7 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult,
 };
 
-use super::error::MeshError;
-use super::part::{PAINTED, PLAIN, Part};
+use super::part::{MeshError, PAINTED, PLAIN, Part};
 use crate::mesh::model::Mesh;
 
 /// Reads a PLY file; elements other than vertices and faces are skipped.

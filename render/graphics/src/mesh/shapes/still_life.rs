@@ -4,9 +4,7 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec3};
 
-use super::grid::GridSize;
-use super::sphere::unit_sphere;
-use super::sweep::{lathe, mix_colors, tube};
+use super::{GridSize, lathe, mix_colors, tube, unit_sphere};
 use crate::mesh::model::{Material, Mesh, Texture};
 use crate::smoothstep;
 

@@ -6,9 +6,7 @@ use glam::{Quat, Vec2, Vec3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::grid::GridSize;
-use super::sphere::unit_sphere;
-use super::sweep::{lathe, mix_colors};
+use super::{GridSize, lathe, mix_colors, unit_sphere};
 use crate::mesh::model::{Material, Mesh};
 use crate::smoothstep;
 

@@ -9,8 +9,7 @@ use rayon::prelude::*;
 use crate::effects::edges_on_cpu;
 use crate::settings::WetSettings;
 use crate::textures::Quantiles;
-use graphics::blur::blurred;
-use graphics::field::Field;
+use graphics::field::{Field, blurred};
 use graphics::noise::{Hills, random};
 use graphics::smoothstep;
 

@@ -8,9 +8,7 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
-use super::random_scenes::random_scene;
-use super::scene::{Scene, camera, wall};
-use super::shapes::Surfaces;
+use super::scene::{Scene, Surfaces, camera, random_scene, wall};
 use crate::compute::{Compute, Image};
 use crate::field::Field;
 use crate::gpu::{BackendChoice, choose};
