@@ -15,10 +15,8 @@
 //! Modules are declared in order of dependence: each uses only those above it.
 
 pub mod text_file;
-mod texel;
 pub mod texel_file;
 pub mod sample;
-mod tiling;
 pub mod measures;
 pub mod passages;
 pub mod painted;

@@ -4,8 +4,7 @@ use graphics::field::Field;
 use graphics::picture::Picture;
 use rayon::prelude::*;
 
-use super::art_map::ArtMap;
-use super::between::Between;
+use super::{ArtMap, Between};
 use crate::relief::{raked, raking_tangent, slopes};
 
 /// Largest side of a tile on the sheet in pixels.
@@ -126,8 +125,7 @@ fn shrunk(tile: &Picture, side: usize, step: usize) -> Picture {
 
 #[cfg(test)]
 mod tests {
-    use super::super::art_map::KeyMap;
-    use super::super::tile::Tile;
+    use super::super::{KeyMap, Tile};
     use super::*;
     use crate::synthesis::SynthesisSettings;
 

@@ -1,9 +1,22 @@
 //! Regions of a picture: the label of each pixel, neighbours, and the joining of neighbours.
+//!
+//! Colours of a picture as they are compared: CIELUV, and intensity with its gradient.
+//!
+//! Over-segmentation of a picture by either method.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
 
+use graphics::blurred;
+use graphics::encoding::encoded_from_linear;
 use graphics::field::Field;
+use graphics::picture::Picture;
+use graphics::segmentation::{SegmentationSettings, segment};
+use rayon::prelude::*;
+use spectra::color::{Luv, Rgb, RgbSpace};
+
+use super::jseg::jseg;
+use super::settings::{OverSegmentation, PassageError, PassageSettings};
 
 /// Regions of a picture, from an over-segmentation.
 #[derive(Debug, Clone, PartialEq)]
@@ -185,6 +198,161 @@ fn relabelled<T>(
     (found, kept)
 }
 
+/// Smoothing before gradients are taken, as a standard deviation in pixels.
+const GRADIENT_SIGMA: f64 = 1.0;
+
+/// CIELUV of every pixel, relative to the white of sRGB.
+pub(super) fn luv_of(picture: &Picture) -> Field<[f32; 3]> {
+    let white = RgbSpace::Srgb.white();
+    let xyz = RgbSpace::Srgb.xyz_from_linear();
+    mapped(picture, |color| {
+        let xyz = xyz.apply(color.map(|value| f64::from(value.max(0.0))));
+        Luv::from_xyz(xyz.into(), white).to_array().map(|value| value as f32)
+    })
+}
+
+/// Intensity of every pixel: luminance encoded by the curve of sRGB, 0 to 1.
+pub(super) fn intensity_of(picture: &Picture) -> Field<f32> {
+    let weights = RgbSpace::Srgb.xyz_from_linear().0[1];
+    mapped(picture, |color| {
+        let parts = weights.iter().zip(color);
+        let luminance: f64 = parts.map(|(weight, value)| weight / 100.0 * f64::from(value)).sum();
+        Rgb([luminance.clamp(0.0, 1.0); 3]).encoded().0[0] as f32
+    })
+}
+
+/// Gradient of the intensity per pixel, to the right and down, of the slightly smoothed picture.
+pub(super) fn gradient_of(intensity: &Field<f32>) -> Field<[f32; 2]> {
+    let width = intensity.width();
+    let height = intensity.height();
+    let single = intensity.values().iter().map(|&value| [value]).collect();
+    let smooth = blurred(&Field::from_values(width, height, single), GRADIENT_SIGMA);
+    let mut gradient = Field::filled(width, height, [0.0; 2]);
+    gradient.values_mut().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+        let above = y.saturating_sub(1);
+        let below = (y + 1).min(height - 1);
+        for (x, found) in row.iter_mut().enumerate() {
+            let left = x.saturating_sub(1);
+            let right = (x + 1).min(width - 1);
+            // Scharr's weights have the least error in direction (Jaehne 1999).
+            let side = |[a, b, c]: [(usize, usize); 3]| {
+                3.0 * (smooth[a][0] + smooth[c][0]) + 10.0 * smooth[b][0]
+            };
+            let over_x = side([(right, above), (right, y), (right, below)])
+                - side([(left, above), (left, y), (left, below)]);
+            let over_y = side([(left, below), (x, below), (right, below)])
+                - side([(left, above), (x, above), (right, above)]);
+            *found = [over_x / 32.0, over_y / 32.0];
+        }
+    });
+    gradient
+}
+
+fn mapped<T: Send>(picture: &Picture, map: impl Fn([f32; 3]) -> T + Sync) -> Field<T> {
+    let values = picture.values().par_iter().with_min_len(4096).map(|&color| map(color)).collect();
+    Field::from_values(picture.width(), picture.height(), values)
+}
+
+/// Longer side above which a picture is divided at a smaller size: the windows of both methods
+/// suit pictures of 0.1 to 1 megapixel.
+const LONGEST_PX: usize = 1024;
+
+/// The small regions of a picture, of which passages are joined.
+///
+/// Pictures longer than 1024 px are divided at a whole fraction of their size.
+///
+/// # Errors
+/// [`PassageError::Setting`] if a setting is out of its range, [`PassageError::NoColor`] if a
+/// colour is not finite.
+pub fn over_segmented(
+    color: &Picture,
+    settings: &PassageSettings,
+) -> Result<Regions, PassageError> {
+    settings.check()?;
+    check_colors(color)?;
+    let width = color.width();
+    let height = color.height();
+    let factor = width.max(height).div_ceil(LONGEST_PX).max(1);
+    if factor == 1 {
+        return Ok(divided(color, settings));
+    }
+    let small = divided(&reduced(color, factor), settings);
+    let last = (small.labels.width() - 1, small.labels.height() - 1);
+    let place = |pixel: usize| (pixel % width / factor, pixel / width / factor);
+    let labels = (0..width * height).map(|pixel| {
+        let (x, y) = place(pixel);
+        small.labels[(x.min(last.0), y.min(last.1))]
+    });
+    Ok(Regions::numbered(Field::from_values(width, height, labels.collect()), small.count))
+}
+
+/// Checks that all colours are finite.
+///
+/// # Errors
+/// [`PassageError::NoColor`].
+pub(super) fn check_colors(color: &Picture) -> Result<(), PassageError> {
+    let odd = color.values().iter().position(|color| !color.iter().all(|value| value.is_finite()));
+    match odd.map(|pixel: usize| (pixel % color.width(), pixel / color.width())) {
+        Some((x, y)) => Err(PassageError::NoColor { x, y }),
+        None => Ok(()),
+    }
+}
+
+fn divided(color: &Picture, settings: &PassageSettings) -> Regions {
+    match settings.over {
+        OverSegmentation::Jseg => jseg(&luv_of(color), settings.color_classes),
+        OverSegmentation::MeanShift => {
+            let opaque = color.values().iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
+            let opaque = Field::from_values(color.width(), color.height(), opaque);
+            let settings = SegmentationSettings::default();
+            let found = segment(&encoded_from_linear(&opaque), &settings);
+            let found = found.expect("the default settings are within their ranges");
+            let below = found.colors.len();
+            Regions::numbered(found.labels, below)
+        }
+    }
+}
+
+/// Means of squares of `factor` x `factor` pixels, in linear light. Squares at the right and lower
+/// edge that are cut off are left out, unless they are the only ones.
+fn reduced(color: &Picture, factor: usize) -> Picture {
+    let size = |pixels: usize| (pixels / factor).max(1);
+    let width = size(color.width());
+    let height = size(color.height());
+    let mean = |cell: usize| {
+        let left = cell % width * factor;
+        let top = cell / width * factor;
+        let across = factor.min(color.width() - left);
+        let rows = top..(top + factor).min(color.height());
+        let mut sum = [0.0f64; 3];
+        for pixel in rows.clone().flat_map(|y| color.row(y, left, across)) {
+            sum.iter_mut().zip(pixel).for_each(|(sum, &value)| *sum += f64::from(value));
+        }
+        sum.map(|sum| (sum / (across * rows.len()) as f64) as f32)
+    };
+    Field::from_values(width, height, (0..width * height).map(mean).collect())
+}
+
+impl PassageSettings {
+    /// Checks that all settings are within their ranges.
+    ///
+    /// # Errors
+    /// [`PassageError::Setting`].
+    pub(super) fn check(&self) -> Result<(), PassageError> {
+        let figures = [
+            ("reach", self.reach, 0.0, 10.0),
+            ("color_classes", self.color_classes as f64, 10.0, 20.0),
+            ("spacing", self.spacing.unwrap_or(1.0), 1.0, 1000.0),
+        ];
+        match figures.into_iter().find(|(_, found, least, most)| !(least..=most).contains(&found)) {
+            Some((key, found, least, most)) => {
+                Err(PassageError::Setting { key, least, most, found })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -220,5 +388,64 @@ mod tests {
     fn depth_counts_from_the_border_of_the_region() {
         let regions = row(&[0, 0, 0, 1, 1]);
         assert_eq!(regions.depths().values(), [3, 2, 1, 1, 2]);
+    }
+
+    #[test]
+    fn white_and_a_middle_grey_have_their_lightness_and_intensity() {
+        // Luminance 0.2140 is encoded 0.5 and has L* 53.39.
+        let picture = Field::from_values(3, 1, vec![[1.0; 3], [0.214_041; 3], [0.0; 3]]);
+        let luv = luv_of(&picture);
+        for (x, lightness) in [100.0, 53.389, 0.0].into_iter().enumerate() {
+            let [l, u, v] = luv[(x, 0)];
+            assert!((l - lightness).abs() < 0.01, "{l}, wanted {lightness}");
+            assert!(u.abs() < 0.01 && v.abs() < 0.01, "{u} {v}");
+        }
+        let intensity = intensity_of(&picture);
+        assert!((intensity[(0, 0)] - 1.0).abs() < 1e-6, "{}", intensity[(0, 0)]);
+        assert!((intensity[(1, 0)] - 0.5).abs() < 1e-4, "{}", intensity[(1, 0)]);
+    }
+
+    #[test]
+    fn the_gradient_of_a_ramp_is_its_slope() {
+        let values = (0..20 * 20).map(|i| 0.02 * (i % 20) as f32 - 0.01 * (i / 20) as f32);
+        let gradient = gradient_of(&Field::from_values(20, 20, values.collect()));
+        let [x, y] = gradient[(10, 10)];
+        assert!((x - 0.02).abs() < 1e-5 && (y + 0.01).abs() < 1e-5, "{x} {y}");
+    }
+
+    #[test]
+    fn a_large_picture_is_divided_at_a_smaller_size() {
+        let color = |x: usize| if x < 1500 { [0.1, 0.1, 0.4] } else { [0.6, 0.3, 0.1] };
+        let values = (0..2400 * 60).map(|i| color(i % 2400)).collect();
+        let picture = Field::from_values(2400, 60, values);
+        for over in [OverSegmentation::Jseg, OverSegmentation::MeanShift] {
+            let settings = PassageSettings { over, ..PassageSettings::default() };
+            let regions = over_segmented(&picture, &settings).unwrap();
+            assert_eq!((regions.labels.width(), regions.labels.height()), (2400, 60));
+            let [left, right] = [700, 2000].map(|x| regions.labels[(x, 30)]);
+            assert_ne!(left, right, "{over:?}");
+            let strays = (0..2400).filter(|&x| {
+                let label = regions.labels[(x, 30)];
+                (x < 1480 && label == right) || (x > 1520 && label == left)
+            });
+            assert_eq!(strays.count(), 0, "{over:?}");
+        }
+    }
+
+    #[test]
+    fn settings_and_colors_out_of_range_are_refused() {
+        let picture = Field::filled(4, 4, [0.5; 3]);
+        for (reach, color_classes, message) in [
+            (f64::NAN, 16, "reach takes 0 to 10, found `NaN`"),
+            (1.0, 40, "color_classes takes 10 to 20, found `40`"),
+        ] {
+            let settings = PassageSettings { reach, color_classes, ..PassageSettings::default() };
+            let error = over_segmented(&picture, &settings).unwrap_err();
+            assert_eq!(error.to_string(), message);
+        }
+        let mut broken = picture;
+        broken[(2, 3)][1] = f32::NAN;
+        let error = over_segmented(&broken, &PassageSettings::default()).unwrap_err();
+        assert_eq!(error.to_string(), "the picture has no colour at [2, 3]");
     }
 }

@@ -1,10 +1,18 @@
 //! One level of a sample's Gaussian pyramid, with what patches are compared by.
+//!
+//! Settings and errors of the synthesis.
+//!
+//! Places of patches on a map that tiles.
+//!
+//! Samples whose strokes stand at the places of another's, as painted tones with the same strokes
+//! do.
 
+use documents::hint::{Explain, Fault, Hint};
 use graphics::blurred;
 use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
+use serde::{Deserialize, Serialize};
 
-use super::settings::Features;
 use crate::sample::Sample;
 
 /// Number of channels that patches of different samples are compared by.
@@ -239,4 +247,270 @@ pub(crate) fn difference(a: &[f32; LOOKS], b: &[f32; LOOKS]) -> f32 {
         sum += (a[channel] - b[channel]) * (a[channel] - b[channel]);
     }
     sum
+}
+
+/// Properties by which patches of two samples are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Features {
+    /// Strength of edges, lightness, height, a* and b*.
+    #[default]
+    Tone,
+    /// Strength of edges, a* and b*: equations 1 and 2 of Yan and others (2008), with a* and b*
+    /// instead of the angle of hue, which means nothing in greys.
+    Paper,
+}
+
+/// Settings of [`key_maps`](super::key_maps).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SynthesisSettings {
+    /// Width and height of the maps in texels, [`SynthesisSettings::SIZES`].
+    pub size: usize,
+    /// Name of the sample whose map is made first and which the others follow; without it the
+    /// sample with the strongest contrast of lightness.
+    pub first: Option<String>,
+    /// Properties by which patches are compared.
+    pub features: Features,
+    /// Number of links of a patch to each other sample, 1..=512.
+    pub links: usize,
+    /// Weight of the likeness of linked patches beside that of overlaps, 0..=16: higher keeps
+    /// maps closer to the first one, lower makes better seams.
+    pub follow: f32,
+    /// Penalty on places that were used before, 0..=16.
+    pub uniformity: f32,
+    /// Seed of the choices of the first map.
+    pub seed: u64,
+}
+
+impl SynthesisSettings {
+    /// Range of [`SynthesisSettings::size`].
+    pub const SIZES: std::ops::RangeInclusive<usize> = 64..=1024;
+
+    /// Least distance of neighbouring strokes in texels.
+    pub const LEAST_SPACING: f64 = 6.0;
+}
+
+impl Default for SynthesisSettings {
+    fn default() -> Self {
+        Self {
+            size: 256,
+            first: None,
+            features: Features::default(),
+            links: 32,
+            follow: 8.0,
+            uniformity: 1.0,
+            seed: 1,
+        }
+    }
+}
+
+/// Why maps could not be synthesised.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SynthesisError {
+    /// There are no samples.
+    #[error("there is no sample to synthesise from")]
+    NoSample,
+    /// A setting is out of its range.
+    #[error("`{name}` is {found}, it must lie within {range}")]
+    Setting {
+        /// Name of the setting.
+        name: &'static str,
+        /// Its value.
+        found: String,
+        /// The range.
+        range: String,
+    },
+    /// No sample has the name of the first map.
+    #[error("no sample is called `{name}`; there are {}", .known.join(", "))]
+    UnknownFirst {
+        /// The name that was asked for.
+        name: String,
+        /// Names of all samples.
+        known: Vec<String>,
+    },
+    /// Strokes stand too close, or too far apart for the size of the maps.
+    #[error(
+        "strokes of sample `{name}` are {spacing:.1} texels apart; maps of {size} texels take \
+         {least} to {most:.0}"
+    )]
+    Spacing {
+        /// Name of the sample.
+        name: String,
+        /// Its spacing in texels.
+        spacing: f64,
+        /// Size of the maps in texels.
+        size: usize,
+        /// Least spacing.
+        least: f64,
+        /// Most spacing.
+        most: f64,
+    },
+    /// The samples have different spacings.
+    #[error(
+        "strokes of sample `{name}` are {spacing:.1} texels apart, those of `{first}` {wanted:.1}"
+    )]
+    UnlikeSpacings {
+        /// Name of the sample.
+        name: String,
+        /// Its spacing in texels.
+        spacing: f64,
+        /// Name of the first sample.
+        first: String,
+        /// Its spacing in texels.
+        wanted: f64,
+    },
+    /// No patch lies wholly in the sample.
+    #[error(
+        "sample `{name}` of {width} x {height} texels has no room for a patch of {patch} x {patch}"
+    )]
+    TooSmall {
+        /// Name of the sample.
+        name: String,
+        /// Its width in texels.
+        width: usize,
+        /// Its height in texels.
+        height: usize,
+        /// Side of a patch in texels.
+        patch: usize,
+    },
+    /// A sample is of one colour, without any relief.
+    #[error("sample `{name}` is of one colour: it has no strokes")]
+    Flat {
+        /// Name of the sample.
+        name: String,
+    },
+}
+
+impl Explain for SynthesisError {
+    fn hint(&self) -> Option<Hint> {
+        Some(Hint::new(match self {
+            Self::NoSample => "mark at least one passage of the painting".to_owned(),
+            Self::Setting { name, .. } => format!("change [{name}]"),
+            Self::UnknownFirst { .. } => "name one of the samples as [first]".to_owned(),
+            Self::Spacing { .. } => "scale the picture, or make maps of another [size]".to_owned(),
+            Self::UnlikeSpacings { .. } => "scale the samples to one spacing".to_owned(),
+            Self::TooSmall { .. } => {
+                "mark a passage at least four times as wide and high as its strokes are apart"
+                    .to_owned()
+            }
+            Self::Flat { .. } => "mark a passage whose strokes show".to_owned(),
+        }))
+    }
+
+    fn fault(&self) -> Fault {
+        match self {
+            Self::Setting { .. } | Self::UnknownFirst { .. } => Fault::Setting,
+            _ => Fault::Input,
+        }
+    }
+}
+
+/// Patches of one size in equal distances on a torus, overlapping by a third or more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PatchGrid {
+    /// Width and height of the map in texels.
+    pub(crate) size: usize,
+    /// Width and height of a patch in texels.
+    pub(crate) patch: usize,
+    /// Number of patches in a row and in a column, at least 3.
+    pub(crate) count: usize,
+}
+
+impl PatchGrid {
+    pub(crate) fn new(size: usize, patch: usize) -> Self {
+        let step = patch - patch.div_ceil(3);
+        Self { size, patch, count: size.div_ceil(step).max(3) }
+    }
+
+    /// First texel of the patches of a row or column.
+    pub(crate) fn origin(&self, index: usize) -> usize {
+        index * self.size / self.count
+    }
+
+    /// Number of texels that a patch shares with the one before it and, for the last one, with the
+    /// first one behind the border.
+    pub(crate) fn overlaps(&self, index: usize) -> [usize; 2] {
+        let end = |index: usize| self.origin(index) + self.patch;
+        let before = if index > 0 { end(index - 1).saturating_sub(self.origin(index)) } else { 0 };
+        let last = index + 1 == self.count;
+        let after = if last { end(index).saturating_sub(self.size) } else { 0 };
+        [before, after]
+    }
+
+    /// All patches in rows from the top: column and row.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
+        let count = self.count;
+        (0..count * count).map(move |index| [index % count, index / count])
+    }
+}
+
+/// Correlation of lightness from which on two samples count as nested. Samples of different
+/// strokes have less than 0.2, painted tones of the same strokes more than 0.4.
+const NESTED: f64 = 0.3;
+
+/// Whether the strokes of `other` stand where those of `first` do. Both must be of one size and
+/// cover the same texels.
+pub(crate) fn is_nested(first: &Level, other: &Level) -> bool {
+    first.mask == other.mask && correlation(first, other) >= NESTED
+}
+
+/// Correlation of the smoothed L* of two samples, texel by texel.
+fn correlation(first: &Level, other: &Level) -> f64 {
+    let inside = first.mask.values();
+    let lightness = |level: &Level, at: usize| f64::from(level.features.values()[at][1]);
+    let mut sums = [0.0; 3];
+    for at in (0..inside.len()).filter(|at| inside[*at]) {
+        // Features have mean 0.
+        let a = lightness(first, at);
+        let b = lightness(other, at);
+        sums[0] += a * a;
+        sums[1] += b * b;
+        sums[2] += a * b;
+    }
+    let squares = sums[0] * sums[1];
+    if squares > 0.0 { sums[2] / squares.sqrt() } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::strokes;
+
+    #[test]
+    fn patches_cover_the_map_and_overlap_on_every_side() {
+        for (size, patch) in [(64, 16), (256, 20), (32, 8), (100, 33)] {
+            let grid = PatchGrid::new(size, patch);
+            let mut covered = vec![0; size];
+            for index in 0..grid.count {
+                (0..patch).for_each(|i| covered[(grid.origin(index) + i) % size] += 1);
+            }
+            assert!(covered.iter().all(|&count| count >= 1), "{size} {patch}: {covered:?}");
+            assert!(grid.overlaps(0)[0] == 0 && grid.overlaps(grid.count - 1)[1] >= patch / 3);
+            let shared = (1..grid.count).map(|index| grid.overlaps(index)[0]).min();
+            assert!(shared >= Some(patch / 3), "{size} {patch}: {shared:?}");
+        }
+    }
+
+    fn level(tone: f32, seed: u64) -> Level {
+        Level::new(&Channels::of(&strokes("a", 160, 8, tone, seed)), 8.0, Features::default())
+    }
+
+    #[test]
+    fn tones_of_the_same_strokes_are_nested_and_others_are_not() {
+        let first = level(0.1, 1);
+        assert!(is_nested(&first, &level(0.4, 1)));
+        for seed in 2..8 {
+            let found = correlation(&first, &level(0.4, seed));
+            assert!(found.abs() < 0.2, "seed {seed}: {found}");
+        }
+    }
+
+    #[test]
+    fn samples_of_other_masks_are_not_nested() {
+        let first = level(0.1, 1);
+        let mut other = level(0.4, 1);
+        other.mask[(3, 3)] = false;
+        assert!(!is_nested(&first, &other));
+    }
 }
