@@ -5,9 +5,9 @@
 //! writes the files. Only [`Sequence`] works on a folder.
 
 mod exr;
+mod picture_file;
 mod open_raster;
 mod ply;
-mod picture_file;
 mod frame;
 mod animation;
 mod sequence;

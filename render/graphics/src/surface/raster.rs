@@ -84,7 +84,7 @@ impl Rasteriser {
         bands.for_each(|(band, pixels)| {
             pixels.fill(Fragment::EMPTY);
             self.bands.for_each_shape(band, triangles, |shape: &Shape| {
-                fill(shape, band * BAND, width, pixels)
+                fill(shape, band * BAND, width, pixels);
             });
         });
     }

@@ -17,10 +17,10 @@
 pub mod text_file;
 pub mod texel_file;
 pub mod sample;
+mod relief;
 pub mod measures;
 pub mod passages;
 pub mod painted;
-mod relief;
 pub mod sheet;
 pub mod synthesis;
 pub mod map;

@@ -1,11 +1,6 @@
-//! Figures of how well a map has the brushwork of its sample, and how well maps agree.
-//!
-//! The lightness of a texture, as figures read it.
-//!
-//! Figures of the brushwork of one texture, to be compared with another's.
-//!
-//! Figures of how maps agree with each other, with themselves across their borders, and how often
-//! they repeat a place of their sample.
+//! Figures of how well a map has the brushwork of its sample: its contrast and strokes compared
+//! with the sample, how maps agree with each other and with themselves across their borders, and
+//! how often they repeat a place of their sample.
 
 use graphics::blurred;
 use graphics::encoding::lab_from_linear;

@@ -1,6 +1,4 @@
-//! Relief of paint under a raking light, without its colours.
-//!
-//! Blur of fields that tile.
+//! Relief of paint under a raking light, without its colours, and blur of fields that tile.
 
 use graphics::blurred;
 use graphics::field::Field;

@@ -1,8 +1,5 @@
-//! Sheets: pictures on which all samples of a set can be seen at once.
-//!
-//! All samples of a set side by side.
-//!
-//! Scale of a sheet: whole numbers of pixels a texel, or of texels a pixel.
+//! Sheets: all samples of a set side by side on one picture, at a scale of whole pixels per texel
+//! or whole texels per pixel.
 
 use graphics::field::Field;
 use graphics::picture::Picture;

@@ -252,7 +252,7 @@ fn moments(colors: &[(Vec3, f64)]) -> (Vec3, Vec3) {
 mod tests {
     use graphics::encoding::linear_from_lab;
 
-    use super::super::made_up::map;
+    use super::super::test_scenes::map;
     use super::*;
 
     fn settings(space: ColorSpace) -> ColorSettings {

@@ -1,8 +1,11 @@
-//! Strokes and pictures of a subject from any camera, layer by layer.
+//! The painter: strokes and pictures of a subject from any camera, layer by layer, one layer over
+//! the other. With the maps and regions of a subject, the ground of its paintings, and the reasons
+//! why it cannot be painted.
 
 use std::sync::Arc;
 
 use artmap::map::ArtMap;
+use documents::hint::{Explain, Fault, Hint};
 use glam::Vec3;
 use graphics::camera::Camera;
 use graphics::coherence::{Features, Hierarchy, Projection, depth_field};
@@ -10,28 +13,24 @@ use graphics::compute::{Compute, GreyImage};
 use graphics::distant_light::DistantLight;
 use graphics::field::Field;
 use graphics::gpu::DeviceError;
+use graphics::mesh::{DirectionFault, MeshFault};
 use graphics::surface::Model;
 use paint::document::Slots;
+use paint::ground::{Ground, GroundError, GroundSpec};
 use pigment::PigmentLibrary;
+use rayon::prelude::*;
 
-use super::built_ground::BuiltGround;
-use super::color_paint::FilmHeight;
-use super::composed::over;
-use super::device_tones::ToneMemory;
-use super::divided::{Divide, THIN};
-use super::error::PainterError;
-use super::flow::phase;
-use super::joined_paint::PaintOfMapsError;
-use super::offsets::Matching;
-use super::paint_tones::PaintTones;
+use super::color_paint::{ColorPaintError, FilmHeight};
+use super::gather::{Divide, THIN};
+use super::paint_tones::{PaintOfMapsError, PaintTones};
 use super::passes::{PaintedPicture, painted};
-use super::roots::Roots;
-use super::settings::{LightWith, Offsets, OverlapSettings, Settings};
-use super::silhouette::outlines;
-use super::splat::StrokeSplat;
-use super::strokes::{Sight, ranks, splats};
-use super::subject::Subject;
-use super::tones::Tones;
+use super::places::Subject;
+use super::regions::{Regions, RegionsError};
+use super::roots::{Matching, Roots};
+use super::settings::{LightWith, Offsets, OverlapSettings, Settings, SettingsError};
+use super::splats::StrokeSplat;
+use super::strokes::{Sight, outlines, phase, ranks, splats};
+use super::tones::{ToneMemory, Tones};
 
 /// Cover around which the strokes of upper layers end.
 const THIN_ABOVE: f32 = 0.7;
@@ -356,4 +355,331 @@ fn kept(
         Some(starts)
     });
     (roots, matched)
+}
+
+#[cfg(test)]
+mod exact_tests {
+    //! Pictures of paintings, made from eight wavelengths, against exact spectra of the same amounts.
+
+    use std::sync::Arc;
+
+    use artmap::map::ArtMap;
+    use artmap::sample::{PaintOfSamples, TexelPaint};
+    use graphics::camera::Framing;
+    use graphics::field::Field;
+    use graphics::mesh::Mesh;
+    use paint::document::{Document, Lighting};
+    use paint::ground::GroundKind;
+    use paint::layer::SLOTS;
+    use paint::light::Light;
+    use paint::palette::palette_slots;
+    use paint::scene::{SpectralDocument, picture, scene};
+    use pigment::PigmentLibrary;
+    use spectra::color::{Adaptation, Lab, RgbSpace, delta_e_ciede2000};
+
+    use crate::painter::Painter;
+    use crate::settings::Settings;
+    use crate::test_scenes::map;
+
+    /// The made-up map in paint: each tone another mixture of ochre, blue and white, in furrows with
+    /// more blue than on ridges.
+    fn painted_map() -> ArtMap {
+        let mut map = map(4);
+        let library = PigmentLibrary::van_gogh_oils();
+        let names = ["Lead White", "Chrome Yellow", "Ultramarine", "Vermilion", "Viridian"];
+        let slots = palette_slots(&names.map(str::to_owned), &library).unwrap();
+        for (tone, key) in map.keys.iter_mut().enumerate() {
+            let heights = key.tile.height_mm.as_ref().unwrap();
+            let texels = heights
+                .values()
+                .iter()
+                .map(|mm: &f32| {
+                    let share = (mm / 0.2).clamp(0.0, 1.0);
+                    let tone = tone as f32 / 3.0;
+                    let mut pigments_mm = [0.0; SLOTS];
+                    let parts =
+                        [0.1 + tone, share, 0.3 * (1.0 - share), 0.4 - 0.3 * tone, 0.2 * tone];
+                    pigments_mm
+                        .iter_mut()
+                        .zip(parts)
+                        .for_each(|(own, part)| *own = part * (0.01 + mm));
+                    TexelPaint { pigments_mm, vehicle_mm: 0.01 }
+                })
+                .collect();
+            key.tile.paint = Some(Field::from_values(heights.width(), heights.height(), texels));
+        }
+        map.paint = Some(PaintOfSamples { library: Arc::new(library), slots });
+        map.mm_per_texel = Some(0.25);
+        map
+    }
+
+    /// CIEDE2000 of the picture of a document without relief against its exact spectra, by cell.
+    fn differences(document: &Document) -> Vec<f64> {
+        let light = Light::named(&document.library, "D65", "1931-2").unwrap();
+        let seen = picture(document, &scene(document, &light));
+        let spectral = SpectralDocument::full(document);
+        let weights = light.viewing.weights(document.library.grid).unwrap();
+        let lab = |rgb: [f64; 3]| {
+            let xyz = RgbSpace::Srgb.xyz_from_linear().apply(rgb);
+            Lab::from_xyz(xyz.into(), RgbSpace::Srgb.white())
+        };
+        let cell = |index: usize| {
+            let x = index % seen.width();
+            let y = index / seen.width();
+            let xyz = weights.xyz(&spectral.measured_reflectance(x, y));
+            let white = light.quadrature.rule.white;
+            let exact = RgbSpace::Srgb.linear_from_xyz(xyz, white, Adaptation::Bradford).0;
+            let [r, g, b, _] = seen[(x, y)].map(f64::from);
+            delta_e_ciede2000(lab(exact), lab([r, g, b]))
+        };
+        (0..seen.values().len()).map(cell).collect()
+    }
+
+    #[test]
+    fn pictures_of_paintings_are_those_of_exact_spectra() {
+        let mesh = Mesh::torus_knot(4000);
+        let camera = Framing::default().fit(&mesh.positions);
+        let settings = Settings::default().changed("test", "colour.from = \"map\"").unwrap();
+        let mut painter = Painter::of_model(&mesh, &painted_map(), &settings).unwrap();
+        let ground = GroundKind::Panel.spec(1);
+        let document = painter.painting(&camera, (96, 72), 0.0, ("knot", &ground)).unwrap();
+        let level = Lighting { relief: 0.0, ..Lighting::default() };
+        let document = Document { lighting: level, ..document };
+        let differences = differences(&document);
+        let layer = &document.dry[0].paint;
+        let painted: Vec<f64> = differences
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| layer.cell(*index).volume() > 0)
+            .map(|(_, difference)| *difference)
+            .collect();
+        let mean = painted.iter().sum::<f64>() / painted.len() as f64;
+        let most = painted.iter().fold(0.0_f64, |most, off| most.max(*off));
+        assert!(painted.len() > 1000 && mean <= 0.3, "{mean} over {} cells", painted.len());
+        assert!(most > 0.0, "nothing was compared");
+    }
+}
+
+/// Paints one layer over another of the same size. Heights add up, as a dry layer lies on the one
+/// below.
+pub(super) fn over(mut lower: PaintedPicture, upper: &PaintedPicture) -> PaintedPicture {
+    let colors = lower.color.values_mut().par_iter_mut().zip(upper.color.values());
+    colors.for_each(|(lower, upper)| {
+        let share = upper[3];
+        let rest = lower[3] * (1.0 - upper[3]);
+        let cover = share + rest;
+        if share > 0.0 {
+            for channel in 0..3 {
+                lower[channel] = (upper[channel] * share + lower[channel] * rest) / cover;
+            }
+            lower[3] = cover;
+        }
+    });
+    add(&mut lower.height_mm, &upper.height_mm);
+    lower
+}
+
+fn add(lower: &mut Field<f32>, upper: &Field<f32>) {
+    lower.values_mut().iter_mut().zip(upper.values()).for_each(|(lower, upper)| *lower += upper);
+}
+
+/// A ground, and what it was built from but for the library.
+#[derive(Debug)]
+pub(super) struct BuiltGround {
+    spec: GroundSpec,
+    size: (usize, usize),
+    cell_mm: f64,
+    ground: Ground,
+}
+
+impl BuiltGround {
+    /// The ground of a painting of this size and width of cells. It is kept for the next one.
+    pub(super) fn kept(
+        kept: &mut Option<Self>,
+        spec: &GroundSpec,
+        (size, cell_mm): ((usize, usize), f64),
+        library: &PigmentLibrary,
+    ) -> Result<Ground, GroundError> {
+        let same = |own: &&Self| own.spec == *spec && own.size == size && own.cell_mm == cell_mm;
+        if let Some(own) = kept.as_ref().filter(same) {
+            return Ok(own.ground.clone());
+        }
+        let ground = spec.build(size.0, size.1, cell_mm, library)?;
+        *kept = Some(Self { spec: spec.clone(), size, cell_mm, ground: ground.clone() });
+        Ok(ground)
+    }
+}
+
+/// A model or a picture cannot be painted.
+#[derive(Debug, thiserror::Error)]
+pub enum PainterError {
+    /// A setting is out of its range.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// The mesh cannot be drawn.
+    #[error(transparent)]
+    Mesh(#[from] MeshFault),
+    /// Directions cannot be found.
+    #[error(transparent)]
+    Directions(#[from] DirectionFault),
+    /// The mesh cannot be held in memory.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// Regions do not fit the subject.
+    #[error(transparent)]
+    Regions(#[from] RegionsError),
+    /// The paint of several maps cannot be joined.
+    #[error(transparent)]
+    Maps(#[from] PaintOfMapsError),
+    /// No triangle of the mesh has an area.
+    #[error("no triangle of the mesh has an area")]
+    NoArea,
+    /// The map has no tile.
+    #[error("the art map has no tile")]
+    NoTile,
+    /// The map has no pigments, or the width of its texels is unknown.
+    #[error("the art map has colours only")]
+    NoPaint,
+    /// The colours of the subject cannot be painted.
+    #[error(transparent)]
+    Colors(#[from] ColorPaintError),
+    /// The ground cannot be made.
+    #[error(transparent)]
+    Ground(#[from] GroundError),
+    /// The picture has no pixel, or too many.
+    #[error("a picture of {width} x {height} pixels cannot be painted")]
+    Size {
+        /// Its width.
+        width: usize,
+        /// Its height.
+        height: usize,
+    },
+    /// The time is no number.
+    #[error("the time is `{seconds}` seconds")]
+    Time {
+        /// The time asked for.
+        seconds: f64,
+    },
+    /// The camera looks nowhere.
+    #[error("the camera at {eye} looks at {target}, with {up} upwards")]
+    Camera {
+        /// Its eye.
+        eye: Vec3,
+        /// Where it looks.
+        target: Vec3,
+        /// Its upwards direction.
+        up: Vec3,
+    },
+}
+
+impl PainterError {
+    fn cause(&self) -> Option<&dyn Explain> {
+        Some(match self {
+            Self::Settings(error) => error,
+            Self::Mesh(error) => error,
+            Self::Directions(error) => error,
+            Self::Device(error) => error,
+            Self::Ground(error) => error,
+            Self::Regions(error) => error,
+            Self::Maps(error) => error,
+            Self::Colors(error) => error,
+            _ => return None,
+        })
+    }
+}
+
+impl Explain for PainterError {
+    fn hint(&self) -> Option<Hint> {
+        let text = match self {
+            Self::NoArea => "the model is a line or a point: export it again",
+            Self::NoTile => "build the map again from at least one sample",
+            Self::NoPaint => "build a map of samples from an impasto painting or a painted style",
+            Self::Size { .. } => "pictures have 1 to 268435456 pixels",
+            Self::Time { .. } => "times are seconds from the start, for example 0.5",
+            Self::Camera { .. } => {
+                "place the eye away from its target, and let upwards point elsewhere than there"
+            }
+            _ => return self.cause()?.hint(),
+        };
+        Some(Hint::new(text))
+    }
+
+    fn fault(&self) -> Fault {
+        match (self.cause(), self) {
+            (Some(cause), _) => cause.fault(),
+            (None, Self::NoArea | Self::NoTile | Self::NoPaint) => Fault::Input,
+            _ => Fault::Setting,
+        }
+    }
+}
+
+/// Maps with their names, and the regions that are painted with one or another.
+#[derive(Debug, Clone)]
+pub struct Brushwork<'a> {
+    /// At least one; the first is that of everything that no region covers.
+    pub maps: Vec<(&'a str, &'a ArtMap)>,
+    /// Regions, which call maps by their names.
+    pub regions: Regions,
+}
+
+impl<'a> Brushwork<'a> {
+    /// One map everywhere.
+    #[must_use]
+    pub fn of(map: &'a ArtMap) -> Self {
+        Self { maps: vec![("", map)], regions: Regions::default() }
+    }
+
+    /// Checks that there is a map, and that each has a tile.
+    pub(super) fn check(&self) -> Result<(), PainterError> {
+        let bare = |map: &ArtMap| map.keys.is_empty() || map.size() == 0;
+        match self.maps.is_empty() || self.maps.iter().any(|(_, map)| bare(map)) {
+            true => Err(PainterError::NoTile),
+            false => Ok(()),
+        }
+    }
+
+    pub(super) fn names(&self) -> Vec<&'a str> {
+        self.maps.iter().map(|(name, _)| *name).collect()
+    }
+
+    pub(super) fn art_maps(&self) -> Vec<&'a ArtMap> {
+        self.maps.iter().map(|(_, map)| *map).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use paint::ground::GroundKind;
+
+    #[test]
+    fn a_layer_covers_what_lies_below_by_its_share() {
+        let one = |color: [f32; 4], height| PaintedPicture {
+            color: Field::filled(1, 1, color),
+            height_mm: Field::filled(1, 1, height),
+        };
+        let lower = one([0.2, 0.4, 0.6, 1.0], 0.1);
+        let half = over(lower.clone(), &one([1.0, 0.0, 0.0, 0.5], 0.2));
+        assert_eq!(half.color.values()[0], [0.6, 0.2, 0.3, 1.0]);
+        assert!((half.height_mm.values()[0] - 0.3).abs() < 1e-6);
+        assert_eq!(over(lower.clone(), &one([0.9; 4].map(|_| 0.0), 0.0)), lower);
+        let beyond = over(one([0.0; 4], 0.0), &one([0.3, 0.5, 0.7, 0.4], 0.2));
+        assert_eq!(beyond.color.values()[0], [0.3, 0.5, 0.7, 0.4]);
+    }
+
+    #[test]
+    fn another_ground_or_size_is_built_anew() {
+        let library = PigmentLibrary::van_gogh_oils();
+        let mut kept = None;
+        let mut built = |kind: GroundKind, size: (usize, usize), cell_mm: f64| {
+            let spec = kind.spec(1);
+            let found = BuiltGround::kept(&mut kept, &spec, (size, cell_mm), &library).unwrap();
+            assert_eq!(found, spec.build(size.0, size.1, cell_mm, &library).unwrap());
+        };
+        for size in [(12, 9), (12, 9), (9, 12)] {
+            built(GroundKind::Linen, size, 0.2);
+        }
+        built(GroundKind::Panel, (9, 12), 0.2);
+        built(GroundKind::Panel, (9, 12), 0.3);
+    }
 }

@@ -1,10 +1,13 @@
-//! The maps laid out for painting: a slice for each tone, packed, at several sizes.
+//! The maps laid out for painting: a packed slice for each tone, at several sizes, and the same in
+//! the memory of a graphics device.
 
 use std::ops::Range;
 
 use artmap::map::{ArtMap, Between, Tile};
 use glam::Vec3;
+use graphics::compute::{Compute, GpuCompute, Plane};
 use graphics::field::Field;
+use graphics::gpu::{Buffer, DeviceError};
 use graphics::picture::Picture;
 use rayon::prelude::*;
 
@@ -322,11 +325,92 @@ fn packed(size: usize, values: &Values, low: [f32; CHANNELS], step: [f32; CHANNE
     }
 }
 
+/// Tones in the memory of whatever computes. The processor reads [`Tones`] themselves.
+#[derive(Debug, Clone)]
+pub(super) enum ToneMemory {
+    /// The processor's memory.
+    Host,
+    /// That of a graphics device.
+    Device(DeviceTones),
+}
+
+/// Texels of all tones and the table of encoded light, copied once.
+#[derive(Debug, Clone)]
+pub(super) struct DeviceTones {
+    texels: Plane<u32>,
+    encoded: Plane<f32>,
+    /// First texel of each size of each slice, and its width.
+    tiles: Vec<Vec<[u32; 2]>>,
+}
+
+impl ToneMemory {
+    /// Copies the tones to where `compute` reads them.
+    ///
+    /// # Errors
+    /// [`DeviceError::TooLarge`] for tones beyond the device's buffer limit, and other errors of a
+    /// device; never on the processor.
+    pub(super) fn new(
+        compute: &mut Compute,
+        tones: &Tones,
+        coloring: &Coloring,
+    ) -> Result<Self, DeviceError> {
+        match compute {
+            Compute::Cpu => Ok(Self::Host),
+            Compute::Gpu(gpu) => DeviceTones::new(gpu, tones, coloring).map(Self::Device),
+        }
+    }
+
+    /// The tones on a device.
+    ///
+    /// # Panics
+    /// If they are in the processor's memory.
+    pub(super) fn device(&self) -> &DeviceTones {
+        match self {
+            Self::Device(tones) => tones,
+            Self::Host => panic!("a graphics device was handed tones in the processor's memory"),
+        }
+    }
+}
+
+impl DeviceTones {
+    fn new(gpu: &mut GpuCompute, tones: &Tones, coloring: &Coloring) -> Result<Self, DeviceError> {
+        let count: usize = tones.sizes().flatten().map(|texels| texels.packed().len()).sum();
+        gpu.device().check_size("the art map", (count * size_of::<u32>()) as u64)?;
+        let mut packed = Vec::with_capacity(count);
+        let mut tile = |texels: &Texels| {
+            let first = packed.len() as u32;
+            packed.extend_from_slice(texels.packed());
+            [first, texels.size as u32]
+        };
+        let tiles = tones.sizes().map(|sizes| sizes.iter().map(&mut tile).collect()).collect();
+        let texels = gpu.plane(packed.len(), 1)?;
+        gpu.write(&texels, &packed)?;
+        let encoded = gpu.plane(coloring.encoded.len(), 1)?;
+        gpu.write(&encoded, &coloring.encoded)?;
+        Ok(Self { texels, encoded, tiles })
+    }
+
+    /// First texel of a tone at a size, and the width of its tile.
+    pub(super) fn tile(&self, slice: usize, halvings: usize) -> [u32; 2] {
+        self.tiles[slice][halvings]
+    }
+
+    /// Bytes of all texels, as [`Texels::packed`] has them.
+    pub(super) fn texels(&self) -> &Buffer {
+        self.texels.buffer()
+    }
+
+    /// Encoded values of linear ones.
+    pub(super) fn encoded(&self) -> &Buffer {
+        self.encoded.buffer()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::coloring::SubjectKind;
-    use super::super::made_up::map;
     use super::super::settings::ColorSettings;
+    use super::super::test_scenes::map;
     use super::*;
 
     fn tones() -> (ArtMap, Tones) {

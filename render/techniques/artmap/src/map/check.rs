@@ -1,8 +1,4 @@
-//! Check of a map by figures that need its tiles alone, not the samples.
-//!
-//! Figures of a map.
-//!
-//! Faults that the figures of a map show.
+//! Checks of a map: figures that need its tiles alone, not the samples, and the faults they show.
 
 use std::cmp::Ordering;
 

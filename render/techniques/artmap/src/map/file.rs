@@ -1,14 +1,14 @@
 //! Files of art maps: OpenEXR, format `impasto-artmap`, version 1.
 //!
-//! One file has a part per key tile, `key.000`, `key.001` .. from dark to light, with scan lines
-//! of 32-bit float channels, so that any program that reads OpenEXR shows them. Tiles are squares
-//! of one size.
+//! One file has a part per key tile, `key.000`, `key.001` .. from dark to light, with scan lines of
+//! 32-bit float channels, so that any program that reads OpenEXR shows them. Tiles are squares of
+//! one size.
 //!
 //! | channels | content |
 //! | --- | --- |
 //! | `R`, `G`, `B` | colour of a level surface, linear sRGB |
-//! | `height` | height over the ground in mm; left out without relief |
-//! | one per pigment, `vehicle` | paint in mm; left out without pigments |
+//! | `height` | height over the ground in mm, left out without relief |
+//! | one per pigment, `vehicle` | paint in mm, left out without pigments |
 //! | `source.x`, `source.y` | column and row of the sample that the texel shows, 0 to 65534 |
 //!
 //! Attribute `impasto` of the first part is JSON in ASCII: format and version, provenance, size and
@@ -16,14 +16,6 @@
 //! pigment, and the pigment library. OpenEXR has no check sums, so the description has a SHA-256
 //! digest of every part and of itself (with the text of `digest` left empty): a damaged file is
 //! refused. Everything comes back bit for bit.
-//!
-//! The description of a map in its file.
-//!
-//! Tiles as parts of the file.
-//!
-//! Decoding of a file of an art map.
-//!
-//! Encoding of a file of an art map.
 
 use std::path::Path;
 
@@ -36,7 +28,7 @@ use serde_json::Value;
 use super::ArtMap;
 use crate::map::{KeyMap, Tile};
 use crate::synthesis::SynthesisSettings;
-use crate::texel_file::texels::PaintOfSamples;
+use crate::texel_file::PaintOfSamples;
 use crate::texel_file::{
     COLOR, HEIGHT, Opened, Origin, PartPlan, PartPlanes, TexelFileError, TexelFileKind, Texels,
     VEHICLE, decoded, encoded, encoded_library, of_planes, of_text, paint_of, proven,
@@ -379,8 +371,8 @@ mod tests {
     use super::*;
     use crate::map::{KeyMap, Tile};
     use crate::synthesis::{Features, SynthesisSettings};
-    use crate::texel_file::texels::{PaintOfSamples, TexelPaint};
     use crate::texel_file::{Opened, Origin, PartPlanes, encoded, of_planes, write as write_parts};
+    use crate::texel_file::{PaintOfSamples, TexelPaint};
     use documents::hint::Explain;
     use graphics::field::Field;
     use paint::layer::Slots;

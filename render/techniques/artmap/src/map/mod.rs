@@ -1,12 +1,5 @@
-//! Art maps: tiles of brushwork from dark to light, gathered from samples.
-//!
-//! A map with its key tiles, from dark to light.
-//!
-//! Tiles between two neighbouring key tiles.
-//!
-//! A tile of brushwork.
-//!
-//! Channels of a map, gathered from its sample by the places that its texels show.
+//! Art maps: key tiles of brushwork from dark to light, gathered from samples, and tiles between
+//! two neighbouring ones.
 
 pub mod file;
 mod check;
@@ -91,8 +84,8 @@ impl ArtMap {
 
     /// The map of synthesised places.
     fn gathered(set: &SampleSet, settings: &SynthesisSettings, maps: KeyMaps) -> Self {
-        let key = |(sample, sources): (&crate::sample::Sample, Field<[u16; 2]>)| {
-            let tile = self::tile(sample, &sources);
+        let key = |(sample, sources): (&Sample, Field<[u16; 2]>)| {
+            let tile = tile_of(sample, &sources);
             KeyMap { name: sample.name.clone(), tone: tile.tone(), tile, sources }
         };
         let pairs: Vec<_> = set.samples.iter().zip(maps.sources).collect();
@@ -349,7 +342,7 @@ const BLEND: isize = 1;
 /// The tile that shows, at every texel, the texel of `sample` in `sources`. Where neighbouring
 /// texels show places that are no neighbours in the sample, colour, paint and height are the means
 /// of what the texels within one texel continue to; elsewhere they are those of the source.
-pub(crate) fn tile(sample: &Sample, sources: &Field<[u16; 2]>) -> Tile {
+fn tile_of(sample: &Sample, sources: &Field<[u16; 2]>) -> Tile {
     let size = sources.width();
     let shown: Vec<Vec<(usize, usize)>> = (0..size * size)
         .map(|index| continued(sample, sources, (index % size, index / size)))

@@ -1,9 +1,9 @@
-//! Painting of one swatch: the strokes of a tone on a canvas of their own, without its margins.
+//! Painting of one swatch: the strokes of a tone, from a style and a seed, on a separate canvas
+//! without its margins.
 //!
-//! Strokes of a swatch, from a style and a seed.
-//!
-//! Strokes run along y, from top to bottom. Places are those of a jittered grid, so that strokes
-//! cover evenly; everything that differs from stroke to stroke is drawn from the seed alone.
+//! Strokes run along y, from top to bottom. They start at the points of a jittered grid, so that
+//! strokes cover evenly. Everything that differs from stroke to stroke is drawn from the seed
+//! alone.
 
 use std::sync::Arc;
 

@@ -1,11 +1,9 @@
 //! Joining of regions to passages, from the scribbles on.
 //!
-//! Traits of regions by which they are joined: tone, contrast, and direction of strokes.
-//!
-//! Yan, Chi, Lee and Lin (2008, section 4.1) average the directions of the strongest fifth of the
-//! gradients. Angles jump from 180 to 0 degrees, so the structure tensor is averaged instead.
-//!
-//! Gaps of passages: single strokes that are unlike the mean of the strokes around them.
+//! Regions are joined by their traits: tone, contrast, and direction of strokes. Yan, Chi, Lee and
+//! Lin (2008, section 4.1) average the directions of the strongest fifth of the gradients. Angles
+//! jump from 180 to 0 degrees, so the structure tensor is averaged instead. Gaps are single strokes
+//! that are unlike the mean of the strokes around them. They are added to the passage at the end.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::f64::consts::PI;

@@ -7,29 +7,19 @@
 //!                                      +------------- next window -------------+
 //! ```
 //!
-//! The scales of JSEG, from the largest window to the smallest.
+//! Classes: Deng and Manjunath quantise by peer groups and a generalised Lloyd algorithm. Here the
+//! colours are slightly smoothed instead of filtered by peer groups, and the start is
+//! deterministic: the class with the largest squared error is halved along its principal axis until
+//! there are enough (Wu 1991).
 //!
-//! Colour classes of a picture: splits along the principal axis, then the means of Lloyd.
+//! J = (S_T - S_W) / S_W, where S_T is the scatter of all places about their mean and S_W the
+//! scatter within the classes (equations 1 to 5). Inside a texture the classes are mixed and J is
+//! small. At a border of textures it is large.
 //!
-//! Deng and Manjunath quantise by peer groups and a generalised Lloyd algorithm. Here the colours
-//! are slightly smoothed instead of filtered by peer groups, and the start is deterministic: the
-//! class of the largest squared error is halved until there are enough (Wu 1991).
-//!
-//! J of each pixel: how far the classes in a window around it lie apart.
-//!
-//! J = (S_T - S_W) / S_W, where S_T is the scatter of all places about their mean and S_W that
-//! within the classes (Deng and Manjunath 2001, equations 1 to 5). Inside a texture the classes
-//! are mixed and J is small; at a border of textures it is large.
-//!
-//! Valleys of J: the connected pixels of a region with small J, from which regions grow.
-//!
-//! Growing of valleys until they fill their region.
-//!
-//! First parts of small J that touch one valley only go to it, at this scale and all finer ones;
-//! then single pixels follow, smallest J at the finest scale first (Deng and Manjunath 2001,
-//! section IV B).
-//!
-//! Merging of neighbours with alike histograms of colour.
+//! Valleys are the connected pixels of a region with small J. They grow until they fill their
+//! region: first, parts of small J that touch a single valley are added to it, at the current scale
+//! and all finer ones. Then single pixels follow, smallest J at the finest scale first (section IV
+//! B). At the end neighbours with alike histograms of colour are merged.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -39,7 +29,7 @@ use graphics::field::Field;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
-use crate::passages::regions::{Regions, beside, joined};
+use super::regions::{Regions, beside, joined};
 
 /// A size of the window.
 struct Scale {

@@ -6,14 +6,15 @@
 //!                        SampleSet <- upright <- spacing <- direction of each passage
 //! ```
 //!
-//! After Yan, Chi, Lee and Lin (2008, section 4.1): the painter draws one line over each passage;
-//! regions are joined to passages; each passage is turned until its strokes run along y, and
+//! After Yan, Chi, Lee and Lin (2008, section 4.1): the painter draws one line over each passage.
+//! Regions are joined to passages. Each passage is turned until its strokes run along y, and
 //! resized until all have one spacing of strokes.
 
+mod marks;
 mod settings;
 mod regions;
-mod marks;
 mod jseg;
+mod over_segmentation;
 mod joining;
 mod upright;
 mod report;
@@ -23,7 +24,8 @@ mod taking;
 mod made_up;
 
 pub use marks::{Mark, MarkFault, MarkedArea, Marks, MarksError};
-pub use regions::{Regions, over_segmented};
+pub use over_segmentation::over_segmented;
+pub use regions::Regions;
 pub use report::{
     PassageReport, SpacingSource, StrokesSeen, color_of_mark, drawn_in, marked_picture,
 };

@@ -1,6 +1,4 @@
-//! Report of a sample that was taken.
-//!
-//! A picture with its marks and passages drawn on it.
+//! Report of a sample that was taken, and a picture with its marks and passages drawn on it.
 
 use graphics::field::Field;
 use graphics::picture::Picture;

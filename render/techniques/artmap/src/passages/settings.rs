@@ -1,8 +1,4 @@
-//! Settings of how samples are taken from a picture.
-//!
-//! The whole picture from which samples are taken.
-//!
-//! Faults of taking samples.
+//! The picture from which samples are taken, the settings of that, and its faults.
 
 use documents::hint::{Explain, Fault, Hint};
 use documents::name_list;

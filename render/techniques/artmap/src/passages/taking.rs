@@ -1,13 +1,13 @@
-//! Taking samples: from a picture and its marks to upright samples of one spacing.
-//!
-//! Marks proposed for a picture: large, textured passages that differ most.
+//! Takes upright samples of one spacing from a picture and its marks, and proposes marks: large,
+//! textured passages that differ most.
 
 use graphics::field::Field;
 use graphics::picture::Picture;
 
 use super::joining::{RegionTraits, joined_alike, passages};
 use super::marks::{DrawnArea, Mark, MarkedArea, Marks};
-use super::regions::{Regions, check_colors, gradient_of, intensity_of, luv_of, over_segmented};
+use super::over_segmentation::{check_colors, over_segmented};
+use super::regions::{Regions, gradient_of, intensity_of, luv_of};
 use super::report::{PassageReport, SpacingSource, StrokesSeen};
 use super::settings::{Density, PassageError, PassageSettings, SourcePicture};
 use super::upright::{Estimate, Frame, StrokeDirection, estimated, upright};

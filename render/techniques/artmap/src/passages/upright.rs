@@ -1,10 +1,6 @@
-//! Upright samples: all channels of a passage through one resampling.
-//!
-//! Direction of the strokes of a passage.
-//!
-//! The frame of an upright sample: which place of the picture each of its texels shows.
-//!
-//! Distance of neighbouring strokes, estimated by autocorrelation.
+//! Upright samples: the direction of a passage's strokes, their distance estimated by
+//! autocorrelation, the frame that says which place of the picture each texel shows, and one
+//! resampling of all channels.
 
 use graphics::blurred;
 use graphics::field::Field;

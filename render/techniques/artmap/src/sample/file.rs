@@ -7,20 +7,12 @@
 //! | --- | --- |
 //! | `R`, `G`, `B` | colour of a level surface, linear sRGB |
 //! | `mask` | 1 where a texel belongs to the sample, else 0 |
-//! | `height` | height over the ground in mm; left out without relief |
-//! | one per pigment, `vehicle` | paint in mm; left out without pigments |
+//! | `height` | height over the ground in mm, left out without relief |
+//! | one per pigment, `vehicle` | paint in mm, left out without pigments |
 //!
 //! Attribute `impasto` of the first part is JSON in ASCII: format and version, provenance, names,
 //! sizes and spacing of the samples, the channel of each pigment, and the pigment library.
 //! Everything comes back bit for bit.
-//!
-//! The description of a set in its file.
-//!
-//! Samples as parts of the file.
-//!
-//! Decoding of a file of samples.
-//!
-//! Encoding of a file of samples.
 
 use std::path::Path;
 
@@ -31,7 +23,7 @@ use serde_json::Value;
 
 use super::SampleSet;
 use crate::sample::Sample;
-use crate::texel_file::texels::PaintOfSamples;
+use crate::texel_file::PaintOfSamples;
 use crate::texel_file::{
     COLOR, HEIGHT, Opened, Origin, PartPlan, PartPlanes, TexelFileError, TexelFileKind, Texels,
     VEHICLE, decoded, encoded, encoded_library, paint_of, proven, write as write_parts,
@@ -286,7 +278,7 @@ pub fn write(set: &SampleSet) -> Result<Vec<u8>, TexelFileError> {
 mod tests {
     use super::*;
     use crate::sample::Sample;
-    use crate::texel_file::texels::{PaintOfSamples, TexelPaint};
+    use crate::texel_file::{PaintOfSamples, TexelPaint};
     use documents::hint::Explain;
     use graphics::field::Field;
     use paint::layer::Slots;

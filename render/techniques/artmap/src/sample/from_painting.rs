@@ -16,7 +16,7 @@ use pigment::{PigmentId, PigmentLibrary, Recipe, Viewing};
 use rayon::prelude::*;
 use spectra::color::{Lab, delta_e_ciede2000};
 
-use crate::texel_file::texels::{PaintOfSamples, TexelPaint};
+use crate::texel_file::{PaintOfSamples, TexelPaint};
 
 /// Share of a painting's pigment below which a pigment counts as minor.
 pub const MINOR: f64 = 0.01;

@@ -1,17 +1,12 @@
-//! Samples: passages of a painting with the brushwork of one tone each.
-//!
-//! One passage, and a set of passages of one painting.
-//!
-//! Samples of several files as one set.
-//!
-//! Relief guessed from the lightness of a photograph.
+//! Samples: passages of a painting with the brushwork of one tone each, joined from several files
+//! and with relief guessed from the lightness of a photograph.
 //!
 //! Under light from all sides deep places see less of it: dark is deep (Langer and Zucker 1994,
 //! "Shape-from-shading on a cloudy day"; Khan, Reinhard, Fleming and Buelthoff 2006, "Image-based
-//! material editing", section 3). So the guess is the detail of lightness within a stroke. Strokes of
-//! a lighter paint come out higher, and light from one side is taken for relief; nothing can be
-//! measured from it. The strokes of the test below, each of its own shade, come out with a correlation
-//! of 0.45 to their true relief.
+//! material editing", section 3). So the guess is the detail of lightness within a stroke. Strokes
+//! of a lighter paint come out higher, and light from one side is taken for relief, so nothing can
+//! be measured from it. The strokes of the test below, each of another shade, come out with a
+//! correlation of 0.45 to their true relief.
 
 #[cfg(test)]
 mod made_up;
@@ -24,7 +19,7 @@ use graphics::encoding::lab_from_linear;
 use graphics::field::Field;
 use graphics::picture::Picture;
 
-pub use crate::texel_file::texels::{PaintOfSamples, TexelPaint};
+pub use crate::texel_file::{PaintOfSamples, TexelPaint};
 pub use from_painting::{FromPaintingError, WholePainting};
 #[cfg(test)]
 pub(crate) use made_up::strokes;

@@ -1,11 +1,9 @@
 //! A map while it is synthesised: for every texel the texel of the sample that it shows.
 //!
-//! The cheapest cut through an overlap, by dynamic programming (Efros and Freeman 2001).
-//!
-//! Re-synthesis of texels at the seams of patches, after Lee and Yan (2005) as far as Yan and
-//! others (2008, section 4.3) tell it: worst texels first, each once.
-//!
-//! How often the parts of a sample were used, so that none is repeated too often.
+//! Overlapping patches are joined along the cheapest cut, found by dynamic programming (Efros and
+//! Freeman 2001). Texels at the seams are then synthesised again, after Lee and Yan (2005) as far
+//! as Yan and others (2008, section 4.3) describe it: worst texels first, each once. The use of
+//! each part of the sample is counted, so that none is repeated too often.
 
 use graphics::field::Field;
 

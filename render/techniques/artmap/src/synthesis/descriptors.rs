@@ -1,11 +1,10 @@
-//! Patches described by few numbers, and the patches most like a given one: the coherence search
-//! space of Yan and others (2008, section 4.2), kept as nearest neighbours.
+//! Samples made ready for synthesis: pyramids, grids of patches, patches described by few numbers,
+//! and the patches most like a given one: the coherence search space of Yan and others (2008,
+//! section 4.2), kept as nearest neighbours.
 //!
 //! A patch is sampled at up to 7 x 7 places after smoothing, and projected onto the principal
 //! components of the patches of all samples. Neighbours are found by comparing all descriptors:
-//! with some 30 components that is exact and as fast as a tree.
-//!
-//! Samples made ready for synthesis: pyramids, grids of patches, descriptors.
+//! with some 30 components, comparing all is exact and as fast as a tree.
 
 use graphics::blurred;
 use graphics::field::Field;

@@ -1,11 +1,8 @@
-//! One level of a sample's Gaussian pyramid, with what patches are compared by.
+//! One level of a sample's Gaussian pyramid with the values that patches are compared by, the grid
+//! of patches on a map that tiles, and the settings and errors of the synthesis.
 //!
-//! Settings and errors of the synthesis.
-//!
-//! Places of patches on a map that tiles.
-//!
-//! Samples whose strokes stand at the places of another's, as painted tones with the same strokes
-//! do.
+//! Samples may be nested: their strokes stand at the places of another sample's strokes, as in
+//! painted tones with the same strokes.
 
 use documents::hint::{Explain, Fault, Hint};
 use graphics::blurred;

@@ -1,8 +1,5 @@
-//! Textures that tile, synthesised from samples: each texel is a place in its sample.
-//!
-//! Maps of all samples of a set.
-//!
-//! Pictures of how maps are made, step by step.
+//! Textures that tile, synthesised from samples: each texel is a place in its sample. Maps of all
+//! samples of a set, and pictures of how they are made, step by step.
 
 mod level;
 mod descriptors;

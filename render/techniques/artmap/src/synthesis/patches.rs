@@ -1,8 +1,8 @@
-//! Places that continue what the coarser level or neighbouring patches show.
+//! Patch by patch synthesis: places that continue what the coarser level or neighbouring patches
+//! show.
 //!
-//! The first map: multi-resolution synthesis after Wei and Levoy (2000), patch by patch.
-//!
-//! Maps that follow the first one: equations 4 to 6 of Yan and others (2008).
+//! The first map is made after Wei and Levoy (2000), at several resolutions. The others follow it
+//! by equations 4 to 6 of Yan and others (2008).
 
 use graphics::field::Field;
 use rand::RngExt;

@@ -1,8 +1,5 @@
-//! Kinds of files of texels, and the file that is read, for its errors.
-//!
-//! Errors of files of texels.
-//!
-//! The description of a file: JSON in attribute `impasto`, with the pigment library.
+//! Kinds of files of texels, their description (JSON in attribute `impasto`, with the pigment
+//! library), and the errors of reading them.
 
 use std::sync::Arc;
 
@@ -14,7 +11,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use crate::texel_file::texels::PaintOfSamples;
+use crate::texel_file::PaintOfSamples;
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,19 +1,13 @@
-//! OpenEXR files of texels: parts of scan lines with named channels of 32-bit floats, compressed
-//! by PIZ, which is lossless, and a description in JSON.
+//! OpenEXR files of texels: parts of scan lines with named channels of 32-bit floats, compressed by
+//! PIZ, which is lossless, and a description in JSON.
 //!
-//! Samples and art maps are stored in such files; they tell their parts and channels, and this
-//! module encodes, checks and decodes them. The description stands in attribute `impasto` of the
-//! first part, in ASCII, and begins with the keys `format` and `version`. Parts are in the order
-//! of the description. Memory is allocated after all parts were found to be as it says.
-//!
-//! Check of the parts of a file against its description, before memory is allocated.
-//!
-//! Decoding of a file of texels.
-//!
-//! Encoding of a file of texels.
+//! Samples and art maps are stored in such files. Their modules name the parts and channels, and
+//! this module encodes, checks and decodes them. The description stands in attribute `impasto` of
+//! the first part, in ASCII, and begins with the keys `format` and `version`. Parts are in the
+//! order of the description. Memory is allocated only after all parts were found to match it.
 
-mod kind;
 mod texels;
+mod kind;
 
 use std::io::Cursor;
 
@@ -33,6 +27,7 @@ use rayon::prelude::*;
 pub use kind::TexelFileError;
 pub(crate) use kind::{Origin, TexelFileKind, decoded, encoded, encoded_library, paint_of, proven};
 pub(crate) use texels::{COLOR, HEIGHT, PartPlan, PartPlanes, Texels, VEHICLE, of_planes, of_text};
+pub use texels::{PaintOfSamples, TexelPaint};
 
 /// A part of the file that passed the checks.
 #[derive(Debug)]

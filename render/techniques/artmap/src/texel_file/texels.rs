@@ -1,10 +1,5 @@
-//! Colour, paint and height of texels as the channels of a part.
-//!
-//! A part of a file: its size and its channels with their numbers.
-//!
-//! Digests that tell whether a file still holds what was written.
-//!
-//! Paint of texels, and the pigments that it is made of.
+//! Colour, paint and height of texels as the channels of a part, and digests that show whether a
+//! file still holds what was written.
 
 use std::sync::Arc;
 

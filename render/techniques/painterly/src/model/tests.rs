@@ -16,10 +16,10 @@ use graphics::distant_light::DistantLight;
 use graphics::field::Field;
 use graphics::surface::Model;
 
-use super::super::made_up::{SPACING, map};
 use super::super::passes::PaintedPicture;
 use super::super::settings::{ColorSource, LightWith, Offsets};
-use super::super::splat::StrokeSplat;
+use super::super::splats::StrokeSplat;
+use super::super::test_scenes::{SPACING, map};
 use super::*;
 
 /// A square of side 2 that faces +z, in many triangles.
